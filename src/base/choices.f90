@@ -1,0 +1,105 @@
+!> The named choices that a case makes
+!>
+!> Rooms compare with these names; what digit of the input format stands for a
+!> choice is known to the room `control` alone.
+module contact_base_choices
+   implicit none (type, external)
+   private
+
+   public :: time_link, pressure_model, motion, normal_control, force_control, friction_model
+   public :: kernel_model, material_model, solver_choice, estimate_choice, slip_source, heat_model
+   public :: variation, stress_choice
+
+   !> How a case is linked to the previous one (P)
+   type :: time_link_list
+      integer :: continue_all = 0, continue_normal = 1, initiate = 2, repeat_step = 3
+   end type time_link_list
+   type(time_link_list), parameter :: time_link = time_link_list()
+
+   !> Where the normal pressures come from (B)
+   type :: pressure_model_list
+      integer :: full = 0, thin_sheet = 1, elliptical = 2, parabolical = 3, sdec = 4, kpec = 5, analyn = 6
+   end type pressure_model_list
+   type(pressure_model_list), parameter :: pressure_model = pressure_model_list()
+
+   !> Relative motion of the bodies (T)
+   type :: motion_list
+      integer :: none = 0, shift = 1, transient_rolling = 2, steady_rolling = 3
+   end type motion_list
+   type(motion_list), parameter :: motion = motion_list()
+
+   !> What is prescribed in normal direction (N)
+   type :: normal_control_list
+      integer :: approach = 0, force = 1
+   end type normal_control_list
+   type(normal_control_list), parameter :: normal_control = normal_control_list()
+
+   !> What is prescribed in tangential direction (F)
+   type :: force_control_list
+      integer :: creepages = 0, fx_and_ceta = 1, fx_and_fy = 2
+   end type force_control_list
+   type(force_control_list), parameter :: force_control = force_control_list()
+
+   !> Friction law (L, the last one that was not "keep")
+   type :: friction_model_list
+      integer :: coulomb = 0, linear = 2, rational = 3, exponential = 4, temperature = 6
+   end type friction_model_list
+   type(friction_model_list), parameter :: friction_model = friction_model_list()
+
+   !> Variation of friction over the contact (V)
+   type :: variation_list
+      integer :: none = 0, by_angle = 1, by_position = 2, by_row = 3
+   end type variation_list
+   type(variation_list), parameter :: variation = variation_list()
+
+   !> Influence coefficients (C, the last one that was not "keep")
+   type :: kernel_model_list
+      integer :: piecewise_constant = 2, bilinear = 3, conformal = 4, tabulated = 9
+   end type kernel_model_list
+   type(kernel_model_list), parameter :: kernel_model = kernel_model_list()
+
+   !> Material behaviour (M)
+   type :: material_model_list
+      integer :: elastic = 0, viscoelastic = 1, fastsim_single = 2, fastsim = 3, interfacial_layer = 4, fastrip = 5
+   end type material_model_list
+   type(material_model_list), parameter :: material_model = material_model_list()
+
+   !> Tangential solver (G, the last one that was not "keep")
+   type :: solver_choice_list
+      !> Newton-Krylov with automatic fall-back
+      integer :: default = 0
+      !> ConvexGS always, relaxation from the input
+      integer :: convex_gs = 2
+      !> SteadyGS in steady rolling, TangCG otherwise, relaxation from the input
+      integer :: gauss_seidel = 3
+      !> As the default, with parameters of the friction iteration from the input
+      integer :: default_friction = 4
+      !> GDsteady with fall-back to SteadyGS
+      integer :: gd_steady = 5
+   end type solver_choice_list
+   type(solver_choice_list), parameter :: solver_choice = solver_choice_list()
+
+   !> Initial estimate (I)
+   type :: estimate_choice_list
+      integer :: fresh = 0, previous = 1, previous_normal = 2, unchanged = 3
+   end type estimate_choice_list
+   type(estimate_choice_list), parameter :: estimate_choice = estimate_choice_list()
+
+   !> Extra term of the rigid slip (E)
+   type :: slip_source_list
+      integer :: none = 0, keep = 1, no_spin_y = 2, no_spin_x = 3, given = 9
+   end type slip_source_list
+   type(slip_source_list), parameter :: slip_source = slip_source_list()
+
+   !> Surface temperature (H)
+   type :: heat_model_list
+      integer :: none = 0, keep = 1, given = 3
+   end type heat_model_list
+   type(heat_model_list), parameter :: heat_model = heat_model_list()
+
+   !> Subsurface points (S)
+   type :: stress_choice_list
+      integer :: none = 0, keep = 1, new_output = 2, new_points = 3
+   end type stress_choice_list
+   type(stress_choice_list), parameter :: stress_choice = stress_choice_list()
+end module contact_base_choices

@@ -1,0 +1,95 @@
+!> How a failure reads: one sentence, the place it came from, the trail it took
+!>
+!> An unallocated error means success. Rooms below the command line never stop
+!> and never print; they allocate an error and return.
+module contact_base_error
+   implicit none (type, external)
+   private
+
+   public :: error_type, error_kind, fatal_error, add_context, full_text
+
+   type :: error_kind_list
+      !> The text or the numbers of an input cannot be used
+      integer :: input = 1
+      !> A file cannot be opened, read or written
+      integer :: file = 2
+      !> Known to the format but not built in this version
+      integer :: unsupported = 3
+      !> Memory cannot be had
+      integer :: memory = 4
+      !> A program fault: NaN from finite input, broken invariants
+      integer :: internal = 5
+   end type error_kind_list
+   !> Names of the kinds of failure
+   type(error_kind_list), parameter :: error_kind = error_kind_list()
+
+   !> One failure; unallocated means success
+   type :: error_type
+      !> Member of error_kind
+      integer :: kind = 0
+      !> One sentence with the offending value and what would have been accepted
+      character(len=:), allocatable :: message
+      !> Where the input came from; unallocated when it was a call
+      character(len=:), allocatable :: file
+      !> Position in that file, 0 when unknown
+      integer :: line = 0, column = 0
+      !> Innermost first: "tangential solve, case 7"
+      character(len=:), allocatable :: trail
+   end type error_type
+
+contains
+
+   !> Allocate an error
+   subroutine fatal_error(error, message, kind, file, line, column)
+      type(error_type), allocatable, intent(out) :: error
+      character(len=*), intent(in) :: message
+      !> Member of error_kind; default input
+      integer, intent(in), optional :: kind
+      character(len=*), intent(in), optional :: file
+      integer, intent(in), optional :: line, column
+
+      allocate(error)
+      error%message = message
+      error%kind = error_kind%input
+      if (present(kind)) error%kind = kind
+      if (present(file)) error%file = file
+      if (present(line)) error%line = line
+      if (present(column)) error%column = column
+   end subroutine fatal_error
+
+   !> Add a station to the trail of an error; does nothing on success
+   subroutine add_context(error, station)
+      type(error_type), allocatable, intent(inout) :: error
+      character(len=*), intent(in) :: station
+
+      if (.not. allocated(error)) return
+      if (allocated(error%trail)) then
+         error%trail = error%trail // ", " // station
+      else
+         error%trail = station
+      end if
+   end subroutine add_context
+
+   !> "file:line:column: message (trail)", the form compilers print
+   pure function full_text(error) result(text)
+      type(error_type), intent(in) :: error
+      character(len=:), allocatable :: text
+      character(len=24) :: place
+
+      text = ""
+      if (allocated(error%file)) then
+         text = error%file
+         if (error%line > 0) then
+            write(place, '(i0)') error%line
+            text = text // ":" // trim(place)
+            if (error%column > 0) then
+               write(place, '(i0)') error%column
+               text = text // ":" // trim(place)
+            end if
+         end if
+         text = text // ": "
+      end if
+      if (allocated(error%message)) text = text // error%message
+      if (allocated(error%trail)) text = text // " (" // error%trail // ")"
+   end function full_text
+end module contact_base_error

@@ -1,0 +1,71 @@
+!> The two sinks of messages: the log (screen and .out file) and the result (.out file only)
+!>
+!> A log with both units zero swallows everything, which is what a library caller gets
+!> who did not ask for messages. Lines that solvers write carry the flow-trace level (W digit)
+!> from which on they appear.
+module contact_base_log
+   implicit none (type, external)
+   private
+
+   public :: log_type
+
+   !> Where messages go
+   type :: log_type
+      !> Unit of the screen, 0 for none
+      integer :: screen = 0
+      !> Unit of the .out file, 0 for none
+      integer :: out = 0
+      !> Flow-trace level W of the case, 0...9
+      integer :: level = 0
+      !> Number of warnings written since the log was made
+      integer :: warnings = 0
+   contains
+      !> Write a line to both sinks
+      procedure :: line => log_line
+      !> Write a line to the .out file only
+      procedure :: result => log_result
+      !> Write a line to both sinks when the flow-trace level is high enough
+      procedure :: trace => log_trace
+      !> Write a warning to both sinks and count it
+      procedure :: warning => log_warning
+      !> Is anything written at this flow-trace level?
+      procedure :: shows => log_shows
+   end type log_type
+
+contains
+
+   subroutine log_line(self, text)
+      class(log_type), intent(inout) :: self
+      character(len=*), intent(in) :: text
+      if (self%screen /= 0) write(self%screen, '(a)') text
+      if (self%out /= 0) write(self%out, '(a)') text
+   end subroutine log_line
+
+   subroutine log_result(self, text)
+      class(log_type), intent(inout) :: self
+      character(len=*), intent(in) :: text
+      if (self%out /= 0) write(self%out, '(a)') text
+   end subroutine log_result
+
+   subroutine log_trace(self, level, text)
+      class(log_type), intent(inout) :: self
+      !> Lowest flow-trace level at which the line appears
+      integer, intent(in) :: level
+      character(len=*), intent(in) :: text
+      if (self%level >= level) call self%line(text)
+   end subroutine log_trace
+
+   subroutine log_warning(self, text)
+      class(log_type), intent(inout) :: self
+      !> The sentence, without the leading word
+      character(len=*), intent(in) :: text
+      self%warnings = self%warnings + 1
+      call self%line(" Warning: " // text)
+   end subroutine log_warning
+
+   pure logical function log_shows(self, level) result(shows)
+      class(log_type), intent(in) :: self
+      integer, intent(in) :: level
+      shows = self%level >= level .and. (self%screen /= 0 .or. self%out /= 0)
+   end function log_shows
+end module contact_base_log

@@ -1,0 +1,56 @@
+!> How an iteration ended: data that callers test, not a printed warning
+module contact_base_solve_report
+   use contact_base_kinds, only : wp
+   implicit none (type, external)
+   private
+
+   public :: solve_report, ending
+
+   type :: ending_list
+      !> Nothing was iterated (empty contact, skipped problem)
+      integer :: not_started = 0
+      !> The tolerance was reached
+      integer :: converged = 1
+      !> The allowed number of iterations was used up
+      integer :: iteration_limit = 2
+      !> The residual no longer decreased
+      integer :: stagnated = 3
+      !> The iterates grew
+      integer :: diverged = 4
+   end type ending_list
+   !> Names of the ways in which an iteration ends
+   type(ending_list), parameter :: ending = ending_list()
+
+   !> Outcome of one iterative method
+   type :: solve_report
+      !> Name of the method that ended the iteration; unallocated when none ran
+      character(len=:), allocatable :: method
+      !> Name of the method that was tried first and given up; unallocated normally
+      character(len=:), allocatable :: gave_up
+      !> Member of ending
+      integer :: ended = 0
+      !> Iterations of the method (conjugate gradients, sweeps, Newton steps), last call
+      integer :: iterations = 0
+      !> Passes of the driver around it (INORM, ITANG), added up over outer iterations
+      integer :: passes = 0
+      !> Products with the full compliance operator, all calls
+      integer :: products = 0
+      !> Transforms, counted as pairs of one forward and one backward real transform of the
+      !> padded window in use, all calls, coarse levels weighted by their size
+      real(wp) :: fft_pairs = 0.0_wp
+      !> True residual of the contact conditions, relative (see the method's room); -1 if unknown
+      real(wp) :: residual = -1.0_wp
+      !> Tolerance that was asked for
+      real(wp) :: tolerance = 0.0_wp
+   contains
+      !> Did the iteration reach its tolerance (or had nothing to do)?
+      procedure :: succeeded => report_succeeded
+   end type solve_report
+
+contains
+
+   pure logical function report_succeeded(self) result(succeeded)
+      class(solve_report), intent(in) :: self
+      succeeded = self%ended == ending%converged .or. self%ended == ending%not_started
+   end function report_succeeded
+end module contact_base_solve_report

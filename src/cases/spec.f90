@@ -1,0 +1,178 @@
+!> What a case asks for: named choices and numbers in internal units (mm, N, s, rad, degC)
+!>
+!> The reader starts from the resolved specification of the previous case and overwrites
+!> the groups that are read; what a "keep" digit leaves alone is therefore already there,
+!> and no room below `input` knows that keeping exists.
+module contact_cases_spec
+   use contact_base_kinds, only : wp
+   implicit none (type, external)
+   private
+
+   public :: case_spec, case_digits, iteration_spec, kinematics_spec, friction_set, friction_spec
+   public :: rolling_spec, material_spec, damping_spec, heat_spec, grid_spec, geometry_spec
+   public :: subsurface_block, subsurface_spec
+
+   !> Control digits exactly as the case gave them; for the echo and for checks at the door only
+   type :: case_digits
+      integer :: p = 2, b = 0, t = 0, n = 0, f = 0, s = 0
+      integer :: v = 0, l = 0, d = 0, c = 0, m = 0, z = 0, e = 0, m2 = 1, gapwgt = 0
+      integer :: x = 0, h = 0, g = 0, i = 0, a = 0, o = 0, w = 0, r = 0
+   end type case_digits
+
+   !> Settings of the iterative solution
+   type :: iteration_spec
+      !> Largest numbers of: iterations of a solver, set changes, force iterations, outer iterations
+      integer :: maxgs = 999, maxin = 20, maxnr = 25, maxout = 1
+      !> Relative tolerance [-]
+      real(wp) :: eps = 1.0e-5_wp
+      !> Largest number of elements (wheel-rail contact)
+      integer :: npot_max = 20000
+      !> Relaxation in adhesion and slip areas, used by ConvexGS/SteadyGS when given by the input [-]
+      real(wp) :: omegah = 0.9_wp, omegas = 1.0_wp
+      !> Start and relaxation of the friction iteration
+      integer :: inislp = 0
+      real(wp) :: omgslp = 0.5_wp
+      !> Parameters of GDsteady: FDECAY BETATH KDOWFB D_IFC D_LIN D_CNS D_SLP POW_S
+      real(wp) :: fdecay = 0.9_wp, betath = 0.1_wp
+      integer :: kdowfb = 1
+      real(wp) :: d_ifc = 1.0_wp, d_lin = 1.0_wp, d_cns = 1.0_wp, d_slp = 1.0_wp, pow_s = 0.9_wp
+   end type iteration_spec
+
+   !> Prescribed approach or normal force, creepages or tangential forces
+   type :: kinematics_spec
+      !> Approach [mm] and normal force [N]; normal_control tells which one is prescribed
+      real(wp) :: pen = 0.0_wp, fn = 0.0_wp
+      !> Relative tangential forces Fx/(mu_scal Fn), Fy/(mu_scal Fn) [-]; force_control tells when prescribed
+      real(wp) :: fx = 0.0_wp, fy = 0.0_wp
+      !> Creepages [-] (rolling) or shifts [mm]; spin [rad/mm] or rotation [rad]
+      real(wp) :: cksi = 0.0_wp, ceta = 0.0_wp, cphi = 0.0_wp
+      !> Spin centre [mm]
+      real(wp) :: spinxo = 0.0_wp, spinyo = 0.0_wp
+   end type kinematics_spec
+
+   !> One set of friction parameters
+   type :: friction_set
+      !> Angle [rad] or position [mm] to which the set belongs (variation by angle or position)
+      real(wp) :: position = 0.0_wp
+      !> Static and kinetic coefficient [-]
+      real(wp) :: fstat = 0.3_wp, fkin = 0.3_wp
+      !> Coefficients [-] and half-value slip velocities [mm/s] of the two terms of laws 2, 3, 4
+      real(wp) :: coef1 = 0.0_wp, sabsh1 = 1.0_wp, coef2 = 0.0_wp, sabsh2 = 1.0_wp
+      !> Temperature dependence: FREF [-], TREF [degC], DFHEAT [-], DTHEAT [degC]
+      real(wp) :: fref = 0.3_wp, tref = 0.0_wp, dfheat = -0.1_wp, dtheat = 800.0_wp
+   end type friction_set
+
+   !> Friction law
+   type :: friction_spec
+      !> One set, or one per control point or grid row
+      type(friction_set), allocatable :: sets(:)
+      !> Friction memory: distance [mm] and lowest velocity [mm/s]
+      real(wp) :: memdst = 1.0e-3_wp, mem_s0 = 10.0_wp
+   end type friction_spec
+
+   !> Rolling direction, distance per step, velocity
+   type :: rolling_spec
+      !> Angle of the rolling direction [rad], step [mm], velocity [mm/s]
+      real(wp) :: chi = 0.0_wp, dq = 1.0_wp, veloc = 1.0_wp
+      !> Offset of the spin contribution in steps [-]
+      real(wp) :: facphi = 1.0_wp/6.0_wp
+   end type rolling_spec
+
+   !> Material constants of the bodies and what lies between them
+   type :: material_spec
+      !> Poisson ratios [-] and moduli of rigidity [N/mm2] of bodies 1 and 2
+      real(wp) :: poiss(2) = 0.28_wp, gg(2) = 1.0_wp
+      !> Vertical flexibility of a thin sheet [mm3/N]
+      real(wp) :: flxz = 0.0_wp
+      !> Viscoelastic: ratios [-] and relaxation times [s]
+      real(wp) :: fg(2) = 0.0_wp, tc(2) = 0.0_wp
+      !> Simplified theory: flexibility [mm3/N], slope reduction parameters [-]
+      real(wp) :: flx = 0.0_wp, k0_mf = 1.0_wp, alfamf = 1.0_wp, betamf = 1.0_wp
+      !> Interfacial layer: modulus [N/mm2], thickness [mm], yield limit [N/mm2], slope [N/mm3]
+      real(wp) :: gg3 = 1.0_wp, laythk = 0.0_wp, tau_c0 = 0.0_wp, k_tau = 0.0_wp
+      !> Conformal correction: method, variant, table of lateral positions [mm] and inclinations [rad]
+      integer :: if_meth = 0, variant = 4
+      real(wp), allocatable :: table_y(:), table_alpha(:)
+      !> File of numerical influence coefficients
+      character(len=:), allocatable :: cfname
+   end type material_spec
+
+   !> Force-based damping
+   type :: damping_spec
+      real(wp) :: cdampn = 0.0_wp, cdampt = 0.0_wp, dfnmax = 0.0_wp, dftmax = 0.0_wp
+   end type damping_spec
+
+   !> Thermal constants of bodies 1 and 2
+   type :: heat_spec
+      real(wp) :: bktemp(2) = 0.0_wp, heatcp(2) = 450.0_wp, lambda(2) = 0.05_wp, dens(2) = 7.85e-6_wp
+      real(wp) :: betapl = 1.0_wp
+   end type heat_spec
+
+   !> Potential contact area as the input describes it (IPOTCN and the values of its line)
+   type :: grid_spec
+      integer :: ipotcn = 0
+      integer :: mx = 0, my = 0
+      real(wp) :: a1 = 0.0_wp, b1 = 0.0_wp, aob = 1.0_wp, aa = 0.0_wp, bb = 0.0_wp
+      real(wp) :: bneg = 0.0_wp, bpos = 0.0_wp, scale = 1.0_wp
+      real(wp) :: xl = 0.0_wp, yl = 0.0_wp, dx = 0.0_wp, dy = 0.0_wp, xh = 0.0_wp, yh = 0.0_wp
+      real(wp) :: xc1 = 0.0_wp, yc1 = 0.0_wp, xcm = 0.0_wp, ycm = 0.0_wp
+   end type grid_spec
+
+   !> Undeformed distance and planform
+   type :: geometry_spec
+      integer :: ibase = 1, iplan = 1
+      !> IBASE 1: B1...B6; IBASE 3: B1...B8
+      real(wp) :: b(8) = 0.0_wp
+      !> IBASE 2: NN = size(profile), XM, RM, Y1, DY1 and the profile B(1...NN) [mm]
+      real(wp) :: xm = 0.0_wp, rm = 1.0_wp, y1 = 0.0_wp, dy1 = 1.0_wp
+      real(wp), allocatable :: profile(:)
+      !> IBASE 9: one value per element [mm], size npot
+      real(wp), allocatable :: h(:)
+      !> IPLAN 2: PL1...PL6; IPLAN 3: XL1 XH1 YL1 YH1 XL2 XH2 YL2 YH2
+      real(wp) :: pl(8) = 0.0_wp
+   end type geometry_spec
+
+   !> One block of subsurface points, as given
+   type :: subsurface_block
+      integer :: isubs = 1
+      integer :: ixl = 1, ixinc = 1, ixh = 0, iyl = 1, iyinc = 1, iyh = 0
+      !> Columns and rows (ISUBS 3, 7), depths (5, 6, 7 and 1, 2, 3 after expansion), coordinates (9) [mm]
+      integer, allocatable :: ix(:), iy(:)
+      real(wp), allocatable :: x(:), y(:), z(:)
+   end type subsurface_block
+
+   !> Subsurface request
+   type :: subsurface_spec
+      !> Output to .subs (0, 1, 2) and to .out (0...4)
+      integer :: matfil = 0, output = 0
+      type(subsurface_block), allocatable :: blocks(:)
+   end type subsurface_spec
+
+   !> One case of module 3, complete
+   type :: case_spec
+      type(case_digits) :: digits
+      !> Named choices, see contact_base_choices
+      integer :: link = 2, pressure = 0, motion = 0, normal = 0, force = 0, stress = 0
+      integer :: variation = 0, friction_law = 0, kernel = 2, material_model = 0
+      integer :: slip_source = 0, heat_model = 0, solver = 0, estimate = 0
+      logical :: has_damping = .false.
+      !> New grid and new undeformed distance given by this case?
+      logical :: new_grid = .false., new_geometry = .false., new_kernel = .false.
+      !> Output: .mat file 0, 1, 2; .out level 0...6; flow trace 0...9
+      integer :: mat_file = 0, output_level = 0, flow_level = 0
+      !> Solve the case, or only store its input?
+      logical :: solve = .true.
+      type(iteration_spec) :: iteration
+      type(kinematics_spec) :: kinematics
+      type(friction_spec) :: friction
+      type(rolling_spec) :: rolling
+      type(material_spec) :: material
+      type(damping_spec) :: damping
+      type(heat_spec) :: heat
+      type(grid_spec) :: grid
+      type(geometry_spec) :: geometry
+      !> Extra rigid slip, x and y per element, shape (2, npot); unallocated when never given
+      real(wp), allocatable :: extra_slip(:, :)
+      type(subsurface_spec) :: subsurface
+   end type case_spec
+end module contact_cases_spec

@@ -1,0 +1,39 @@
+!> States of the elements: the element division
+module contact_grid_element_division
+   implicit none (type, external)
+   private
+
+   public :: element, bounding_box, contact_box
+
+   type :: element_list
+      integer :: exterior = 0, adhesion = 1, slip = 2, plastic = 3
+   end type element_list
+   !> Names of the element states; every state above exterior is in contact
+   type(element_list), parameter :: element = element_list()
+
+   !> Index ranges of the smallest rectangle that holds the contact area; empty if ix0 > ix1
+   type :: bounding_box
+      integer :: ix0 = 1, ix1 = 0, iy0 = 1, iy1 = 0
+   end type bounding_box
+
+contains
+
+   !> Smallest rectangle that holds all elements in contact
+   pure function contact_box(division) result(box)
+      !> Element states, shape (mx, my)
+      integer, intent(in) :: division(:, :)
+      type(bounding_box) :: box
+      integer :: ix, iy
+
+      box = bounding_box(size(division, 1) + 1, 0, size(division, 2) + 1, 0)
+      do iy = 1, size(division, 2)
+         do ix = 1, size(division, 1)
+            if (division(ix, iy) == element%exterior) cycle
+            box%ix0 = min(box%ix0, ix)
+            box%ix1 = max(box%ix1, ix)
+            box%iy0 = min(box%iy0, iy)
+            box%iy1 = max(box%iy1, iy)
+         end do
+      end do
+   end function contact_box
+end module contact_grid_element_division

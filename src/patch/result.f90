@@ -1,0 +1,83 @@
+!> What is known of one contact patch after the solution
+module contact_patch_result
+   use contact_base_kinds, only : wp
+   use contact_base_solve_report, only : solve_report
+   use contact_grid_potential_contact, only : potential_contact
+   implicit none (type, external)
+   private
+
+   public :: patch_result, hertz_result, subsurface_result
+
+   !> Hertz solution that belongs to a Hertzian geometry
+   type :: hertz_result
+      !> Curvatures [1/mm], semi-axes [mm] and their ratio [-]
+      real(wp) :: a1 = 0.0_wp, b1 = 0.0_wp, aa = 0.0_wp, bb = 0.0_wp, aob = 1.0_wp
+      !> Effective radius of curvature [mm], effective semi-axis sqrt(aa bb) [mm]
+      real(wp) :: rho = 0.0_wp, cp = 0.0_wp
+      !> Normal force [N] and approach [mm] of the Hertz solution
+      real(wp) :: fn = 0.0_wp, pen = 0.0_wp
+   end type hertz_result
+
+   !> Displacements and stresses in one block of points, x fastest, then y, then z
+   type :: subsurface_result
+      integer :: nx = 0, ny = 0, nz = 0
+      !> Coordinates of the points [mm], shape (3, nx*ny*nz)
+      real(wp), allocatable :: position(:, :)
+      !> Displacements [mm], shape (3, n)
+      real(wp), allocatable :: displacement(:, :)
+      !> Stresses [N/mm2], tension positive: xx, xy, xz, yy, yz, zz, shape (6, n)
+      real(wp), allocatable :: stress(:, :)
+      !> Mean stress, von Mises, Tresca, largest and smallest principal stress [N/mm2], shape (n)
+      real(wp), allocatable :: sighyd(:), sigvm(:), sigtr(:), sigma1(:), sigma3(:)
+   end type subsurface_result
+
+   !> Totals, fields and reports of a solved patch
+   type :: patch_result
+      type(potential_contact) :: grid
+      !> Hertz data; unallocated for other geometries
+      type(hertz_result), allocatable :: hertz
+      !> Combined constants: modulus [N/mm2], Poisson ratio [-], difference parameter K [-]
+      real(wp) :: gg = 1.0_wp, nu = 0.0_wp, ak = 0.0_wp
+      !> Rolling direction [rad], step [mm], velocity [mm/s], time step [s] as used
+      real(wp) :: chi = 0.0_wp, dq = 1.0_wp, veloc = 1.0_wp, dt = 1.0_wp
+      !> Friction coefficient that scales tangential forces [-]
+      real(wp) :: mu_scal = 0.3_wp
+      !> Normal force [N], approach [mm], largest pressure [N/mm2]
+      real(wp) :: fn = 0.0_wp, pen = 0.0_wp, pmax = 0.0_wp
+      !> Relative tangential forces Fx/(mu_scal Fn) [-] and tangential forces on body 1 [N]
+      real(wp) :: fx_rel = 0.0_wp, fy_rel = 0.0_wp, fx = 0.0_wp, fy = 0.0_wp
+      !> Moments [N mm]
+      real(wp) :: mx = 0.0_wp, my = 0.0_wp, mz = 0.0_wp
+      !> Creepages [-] or shifts [mm] as used, prescribed or found; spin [rad/mm]
+      real(wp) :: cksi = 0.0_wp, ceta = 0.0_wp, cphi = 0.0_wp
+      !> Elastic energy [J], frictional power [W] or work [J], dissipation negative
+      real(wp) :: elastic_energy = 0.0_wp, friction_power = 0.0_wp
+      !> Sensitivities: rows FN FX FY, columns PEN KSI ETA PHI; 0 when not computed
+      real(wp) :: sensitivity(3, 4) = 0.0_wp
+      !> Numbers of elements: contact, adhesion, slip, plastic
+      integer :: ncon = 0, nadh = 0, nslip = 0, nplast = 0
+      !> Passes of NORM and TANG, added up over the outer iterations, -1 for failure
+      integer :: inorm = 0, itang = 0
+      !> Outer (Panagiotopoulos) iterations
+      integer :: outer_iterations = 0
+      type(solve_report) :: normal, tangential
+      !> True residual of the coupled contact conditions after the outer iteration, relative
+      real(wp) :: residual = 0.0_wp
+      !> Names of the effects that acted, separated by ", "
+      character(len=:), allocatable :: effects
+      !> Element states, shape (mx, my), see contact_grid_element_division
+      integer, allocatable :: division(:, :)
+      !> Undeformed distance [mm], friction coefficient [-], shape (mx, my)
+      real(wp), allocatable :: h(:, :), mu(:, :)
+      !> Tractions on body 1 [N/mm2], shape (mx, my)
+      real(wp), allocatable :: pn(:, :), px(:, :), py(:, :)
+      !> Displacement differences [mm], shape (mx, my)
+      real(wp), allocatable :: un(:, :), ux(:, :), uy(:, :)
+      !> Slip components per step [mm], zero outside the slip area, shape (mx, my)
+      real(wp), allocatable :: sx(:, :), sy(:, :)
+      !> Rigid slip per step [mm], computed creepages included, shape (mx, my)
+      real(wp), allocatable :: wx(:, :), wy(:, :)
+      !> Subsurface blocks; unallocated when not asked for
+      type(subsurface_result), allocatable :: subsurface(:)
+   end type patch_result
+end module contact_patch_result
