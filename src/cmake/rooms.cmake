@@ -2,18 +2,69 @@
 # no other, so an upward `use` ends in "cannot open module file".
 set(CONTACT_MODULE_ROOT ${CMAKE_BINARY_DIR}/modules)
 
-# contact_room(<room> USES <lower rooms> SOURCES <files>)
+# contact_room(<room> [USES <lower rooms>] SOURCES <files> [LIBRARIES <targets>] [PROGRAM <file>])
+#
+# LIBRARIES are outside libraries only this room knows (FFTW3::fftw3 in fft). PROGRAM is the file of
+# the main program; its room is linked into bin/contact and not into the libraries.
 function(contact_room room)
-  cmake_parse_arguments(arg "" "" "USES;SOURCES" ${ARGN})
+  cmake_parse_arguments(arg "" "PROGRAM" "USES;SOURCES;LIBRARIES" ${ARGN})
+  if(arg_UNPARSED_ARGUMENTS)
+    message(FATAL_ERROR "contact_room(${room}): unknown ${arg_UNPARSED_ARGUMENTS}")
+  endif()
   list(TRANSFORM arg_SOURCES PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/${room}/)
   add_library(contact_${room} OBJECT ${arg_SOURCES})
   set_target_properties(contact_${room} PROPERTIES
     Fortran_MODULE_DIRECTORY ${CONTACT_MODULE_ROOT}/${room}
     POSITION_INDEPENDENT_CODE ON)
-  target_link_libraries(contact_${room} PRIVATE contact_warnings OpenMP::OpenMP_Fortran)
+  target_link_libraries(contact_${room} PRIVATE contact_warnings OpenMP::OpenMP_Fortran
+    ${arg_LIBRARIES})
+
+  set(closure ${room})
+  set(libraries ${arg_LIBRARIES})
   foreach(lower IN LISTS arg_USES)
+    if(NOT TARGET contact_${lower})
+      message(FATAL_ERROR "contact_room(${room}): room ${lower} stands nowhere above it")
+    endif()
     target_include_directories(contact_${room} PRIVATE ${CONTACT_MODULE_ROOT}/${lower})
     add_dependencies(contact_${room} contact_${lower})
+    get_target_property(lower_closure contact_${lower} CONTACT_CLOSURE)
+    get_target_property(lower_libraries contact_${lower} CONTACT_LIBRARIES)
+    list(APPEND closure ${lower_closure})
+    list(APPEND libraries ${lower_libraries})
   endforeach()
+  list(REMOVE_DUPLICATES closure)
+  list(REMOVE_DUPLICATES libraries)
+  # What a program needs at its link that uses this room: rooms and outside libraries
+  set_target_properties(contact_${room} PROPERTIES
+    CONTACT_CLOSURE "${closure}"
+    CONTACT_LIBRARIES "${libraries}")
+
   set_property(GLOBAL APPEND PROPERTY contact_rooms ${room})
+  if(arg_PROGRAM)
+    set_property(GLOBAL PROPERTY contact_program_room ${room})
+    set_property(GLOBAL PROPERTY contact_program_file
+      ${CMAKE_CURRENT_SOURCE_DIR}/${room}/${arg_PROGRAM})
+  endif()
+endfunction()
+
+# Let a target see the modules of the named rooms, and link it with them and all below
+function(contact_link_rooms target)
+  set(closure)
+  set(libraries)
+  foreach(room IN LISTS ARGN)
+    if(NOT TARGET contact_${room})
+      message(FATAL_ERROR "${target}: there is no room ${room}")
+    endif()
+    target_include_directories(${target} PRIVATE ${CONTACT_MODULE_ROOT}/${room})
+    get_target_property(room_closure contact_${room} CONTACT_CLOSURE)
+    get_target_property(room_libraries contact_${room} CONTACT_LIBRARIES)
+    list(APPEND closure ${room_closure})
+    list(APPEND libraries ${room_libraries})
+  endforeach()
+  list(REMOVE_DUPLICATES closure)
+  list(REMOVE_DUPLICATES libraries)
+  foreach(room IN LISTS closure)
+    target_sources(${target} PRIVATE $<TARGET_OBJECTS:contact_${room}>)
+  endforeach()
+  target_link_libraries(${target} PRIVATE ${libraries})
 endfunction()

@@ -1,0 +1,45 @@
+# Tests as one-line entries. Names of labels are names of folders below tests/.
+set(CONTACT_REFERENCE ${PROJECT_SOURCE_DIR}/../shared/reference CACHE PATH
+  "Reference data; tests that need it are skipped when it is absent")
+
+# contact_test(<name> LABEL <labels> ROOMS <rooms> SOURCES <files> [TIMEOUT <seconds>])
+#
+# A Fortran test program. It sees the modules of the named rooms and of the harness, and is linked
+# with these rooms and all rooms below them, so that it builds whatever else is broken. It runs in
+# a scratch directory of its own. Exit status 77 means "skipped".
+# A second label `long` keeps a test out of the default run of tests/run.sh.
+function(contact_test name)
+  cmake_parse_arguments(arg "" "TIMEOUT" "LABEL;ROOMS;SOURCES" ${ARGN})
+  if(arg_UNPARSED_ARGUMENTS OR NOT arg_LABEL OR NOT arg_SOURCES)
+    message(FATAL_ERROR "contact_test(${name}): LABEL and SOURCES are needed, and nothing else than "
+      "ROOMS and TIMEOUT is known; got ${ARGN}")
+  endif()
+  set(target test_${name})
+  add_executable(${target} ${arg_SOURCES})
+  target_link_libraries(${target} PRIVATE contact_test_support contact_warnings
+    OpenMP::OpenMP_Fortran)
+  set_target_properties(${target} PROPERTIES
+    Fortran_MODULE_DIRECTORY ${CMAKE_BINARY_DIR}/modules/tests/${name}
+    RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
+  contact_link_rooms(${target} base ${arg_ROOMS})
+  contact_command_test(${name} LABEL ${arg_LABEL} TIMEOUT ${arg_TIMEOUT} COMMAND ${target})
+endfunction()
+
+# contact_command_test(<name> LABEL <labels> COMMAND <program> <arguments> [TIMEOUT <seconds>])
+#
+# Any other test: a script, or the program itself. The environment tells CONTACT_SOURCE (top of the
+# checkout), CONTACT_PROGRAM (bin/contact) and CONTACT_REFERENCE.
+function(contact_command_test name)
+  cmake_parse_arguments(arg "" "TIMEOUT" "LABEL;COMMAND" ${ARGN})
+  if(NOT arg_TIMEOUT)
+    set(arg_TIMEOUT 300)
+  endif()
+  set(scratch ${CMAKE_BINARY_DIR}/tests/scratch/${name})
+  file(MAKE_DIRECTORY ${scratch})
+  add_test(NAME ${name} COMMAND ${arg_COMMAND} WORKING_DIRECTORY ${scratch})
+  set_tests_properties(${name} PROPERTIES
+    LABELS "${arg_LABEL}"
+    TIMEOUT ${arg_TIMEOUT}
+    SKIP_RETURN_CODE 77
+    ENVIRONMENT "CONTACT_REFERENCE=${CONTACT_REFERENCE};CONTACT_SOURCE=${PROJECT_SOURCE_DIR};CONTACT_PROGRAM=${CMAKE_BINARY_DIR}/bin/contact")
+endfunction()
