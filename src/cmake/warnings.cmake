@@ -1,5 +1,9 @@
-# Warnings and language options shared by all rooms
+# Warnings, language options and configurations shared by all rooms and tests
 option(CONTACT_WERROR "Treat compiler warnings as errors" OFF)
+option(CONTACT_NATIVE "Use all instructions of this machine (-march=native); not portable" OFF)
+set(CONTACT_SANITIZE "" CACHE STRING "Sanitizers, for instance address,undefined")
+option(CONTACT_COVERAGE "Count executed lines (gcov)" OFF)
+
 add_library(contact_warnings INTERFACE)
 target_compile_options(contact_warnings INTERFACE
   $<$<COMPILE_LANGUAGE:Fortran>:-std=f2018 -Wall -Wextra -Wimplicit-interface -Wimplicit-procedure
@@ -8,3 +12,22 @@ target_compile_options(contact_warnings INTERFACE
 if(CONTACT_WERROR)
   target_compile_options(contact_warnings INTERFACE -Werror)
 endif()
+if(CONTACT_NATIVE)
+  target_compile_options(contact_warnings INTERFACE -march=native)
+endif()
+if(CONTACT_SANITIZE)
+  target_compile_options(contact_warnings INTERFACE
+    -fsanitize=${CONTACT_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=undefined)
+  add_link_options(-fsanitize=${CONTACT_SANITIZE})
+endif()
+if(CONTACT_COVERAGE)
+  target_compile_options(contact_warnings INTERFACE --coverage)
+  add_link_options(--coverage)
+endif()
+
+# Debug: everything the compiler can check at run time. Release: no -ffast-math, because checks for
+# NaN and reproducible sums matter.
+set(CMAKE_Fortran_FLAGS_DEBUG
+  "-O0 -g -fcheck=all -fbacktrace -finit-real=snan -ffpe-trap=invalid,zero,overflow")
+set(CMAKE_Fortran_FLAGS_RELEASE "-O3 -g1")
+set(CMAKE_C_FLAGS_DEBUG "-O0 -g")

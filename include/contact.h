@@ -1,0 +1,37 @@
+/* CONTACT: rolling and sliding contact with friction - the C interface of the library.
+ *
+ * Link with -lcontact (CMake: contact::contact, pkg-config: contact). The library never ends the
+ * process of its caller and never prints. Texts are null-terminated and copied during the call.
+ */
+#ifndef CONTACT_H
+#define CONTACT_H
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* What contact_run is to do */
+enum {
+  CONTACT_RUN = 2,  /* read <experiment>.inp, compute all cases, write the result files */
+  CONTACT_CHECK = 3 /* read <experiment>.inp and check all cases, compute nothing */
+};
+
+/* Run one experiment, as the program `contact <mode> <experiment>` does.
+ *
+ * experiment      path of the input file without ".inp"; needed
+ * mode            CONTACT_RUN or CONTACT_CHECK
+ * output_dir      folder for the result files; NULL or "" for the folder of the input file
+ * threads         number of threads; 0 for the default of the machine (OMP_NUM_THREADS)
+ * message         receives "" or the reason of the failure, cut to fit; NULL if not wanted
+ * message_length  size of message in bytes, the final null included
+ *
+ * Returns 0 on success, another number on failure. The caller's locale, signal handlers and
+ * standard streams are left alone. Not to be called from two threads at the same time.
+ */
+int contact_run(const char *experiment, int mode, const char *output_dir, int threads,
+                char *message, int message_length);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

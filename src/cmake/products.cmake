@@ -1,0 +1,88 @@
+# What is made from the rooms: libraries and program, and how they are installed
+get_property(rooms GLOBAL PROPERTY contact_rooms)
+get_property(program_room GLOBAL PROPERTY contact_program_room)
+get_property(program_file GLOBAL PROPERTY contact_program_file)
+list(REMOVE_ITEM rooms "" ${program_room})
+
+set(objects)
+set(libraries)
+foreach(room IN LISTS rooms)
+  list(APPEND objects $<TARGET_OBJECTS:contact_${room}>)
+  get_target_property(room_libraries contact_${room} CONTACT_LIBRARIES)
+  list(APPEND libraries ${room_libraries})
+endforeach()
+list(REMOVE_DUPLICATES libraries)
+list(APPEND libraries OpenMP::OpenMP_Fortran)
+
+# The shared library shows C functions only; the version of its interface is its soname
+add_library(contact SHARED ${objects})
+set(map ${PROJECT_SOURCE_DIR}/src/cmake/contact.map)
+set_target_properties(contact PROPERTIES
+  LINKER_LANGUAGE Fortran
+  VERSION ${PROJECT_VERSION}
+  SOVERSION ${PROJECT_VERSION_MAJOR}
+  LINK_DEPENDS ${map})
+if(NOT APPLE AND NOT WIN32)
+  target_link_options(contact PRIVATE LINKER:--version-script=${map} LINKER:--as-needed)
+  if(NOT CONTACT_SANITIZE)
+    target_link_options(contact PRIVATE LINKER:--no-undefined)
+  endif()
+endif()
+target_link_libraries(contact PRIVATE ${libraries})
+target_include_directories(contact INTERFACE
+  $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
+  $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+add_library(contact::contact ALIAS contact)
+
+add_library(contact_static STATIC ${objects})
+set_target_properties(contact_static PROPERTIES LINKER_LANGUAGE Fortran OUTPUT_NAME contact)
+
+# The program does not need the shared library, so it runs wherever it is copied to
+if(program_room)
+  add_executable(contact_cli ${program_file})
+  set_target_properties(contact_cli PROPERTIES
+    OUTPUT_NAME contact
+    Fortran_MODULE_DIRECTORY ${CONTACT_MODULE_ROOT}/program)
+  target_link_libraries(contact_cli PRIVATE contact_warnings OpenMP::OpenMP_Fortran)
+  contact_link_rooms(contact_cli base ${program_room})
+  install(TARGETS contact_cli RUNTIME)
+endif()
+
+set(headers ${PROJECT_SOURCE_DIR}/include/contact.h)
+install(FILES ${headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(TARGETS contact EXPORT contact LIBRARY ARCHIVE)
+install(TARGETS contact_static ARCHIVE)
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/licenses/${PROJECT_NAME})
+
+# CMake package: find_package(contact) gives contact::contact
+include(CMakePackageConfigHelpers)
+set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/contact)
+configure_package_config_file(${PROJECT_SOURCE_DIR}/src/cmake/contact-config.cmake.in
+  ${CMAKE_BINARY_DIR}/contact-config.cmake INSTALL_DESTINATION ${package_folder})
+write_basic_package_version_file(${CMAKE_BINARY_DIR}/contact-config-version.cmake
+  COMPATIBILITY SameMinorVersion)
+install(FILES ${CMAKE_BINARY_DIR}/contact-config.cmake
+  ${CMAKE_BINARY_DIR}/contact-config-version.cmake DESTINATION ${package_folder})
+install(EXPORT contact NAMESPACE contact:: FILE contact-targets.cmake
+  DESTINATION ${package_folder})
+
+# pkg-config: paths relative to the file, so that the tree may move; what the static library needs
+# is listed for `pkg-config --static`
+file(RELATIVE_PATH pc_prefix
+  ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
+set(pc_private "-lfftw3")
+foreach(file IN LISTS LAPACK_LIBRARIES)
+  if(file MATCHES "^-")
+    string(APPEND pc_private " ${file}")
+  elseif(TARGET ${file})
+    continue()
+  else()
+    get_filename_component(name ${file} NAME_WE)
+    string(REGEX REPLACE "^lib" "" name ${name})
+    string(APPEND pc_private " -l${name}")
+  endif()
+endforeach()
+string(APPEND pc_private " -lgfortran -lgomp -lm")
+configure_file(${PROJECT_SOURCE_DIR}/src/cmake/contact.pc.in ${CMAKE_BINARY_DIR}/contact.pc @ONLY)
+install(FILES ${CMAKE_BINARY_DIR}/contact.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
