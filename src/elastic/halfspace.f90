@@ -1,0 +1,173 @@
+!> Influence coefficients of homogeneous half-spaces, piecewise constant tractions
+!>
+!> Displacement differences at a point (x, y) by a unit traction on a rectangle around the
+!> origin, after Love (1929) and Kalker (1990): signed sums of corner functions over the four
+!> corners. Logarithms are written as asinh: ln(y + r) = asinh(y/|x|) + ln|x|, and the last
+!> term drops out of the difference over y; no cancellation for negative arguments is left.
+module contact_elastic_halfspace
+   use contact_base_constants, only : pi
+   use contact_base_kinds, only : wp
+   use contact_elastic_material, only : combined_material
+   implicit none (type, external)
+   private
+
+   public :: kernel_table, fill_table, fill_shifted_table
+
+   !> Influence coefficients over a range of offsets, divided by the modulus [mm/(N/mm2)]
+   !>
+   !> First indices are offsets "receiving minus loaded element" in x and y. The coupling
+   !> coefficients nx, ny are -xn, -yn; yx equals xy.
+   type :: kernel_table
+      !> Offsets run from -nx to nx and from -ny to ny
+      integer :: nx = -1, ny = -1
+      !> Sides of the elements [mm]
+      real(wp) :: dx = 0.0_wp, dy = 0.0_wp
+      !> Offset of the observation point from the element centre [mm]
+      real(wp) :: shift_x = 0.0_wp, shift_y = 0.0_wp
+      type(combined_material) :: material
+      real(wp), allocatable :: nn(:, :), xx(:, :), yy(:, :), xy(:, :)
+      !> Tangential displacements by pressures; unallocated when uncoupled
+      real(wp), allocatable :: xn(:, :), yn(:, :)
+   end type kernel_table
+
+contains
+
+   !> All coefficients without shift: one quadrant is computed, the rest follows by symmetry
+   subroutine fill_table(table, material, dx, dy, nx, ny)
+      type(kernel_table), intent(inout) :: table
+      type(combined_material), intent(in) :: material
+      !> Sides of the elements [mm]
+      real(wp), intent(in) :: dx, dy
+      !> Largest offsets in elements
+      integer, intent(in) :: nx, ny
+      integer :: k, l, i, j
+      real(wp) :: v(6)
+      real(wp), allocatable :: corner(:, :, :)
+
+      call shape_table(table, material, dx, dy, nx, ny)
+      table%shift_x = 0.0_wp
+      table%shift_y = 0.0_wp
+      allocate(corner(5, -1:nx, -1:ny))
+      !$omp parallel do private(k) if (nx*ny > 20000)
+      do l = -1, ny
+         do k = -1, nx
+            corner(:, k, l) = corner_functions((k + 0.5_wp)*dx, (l + 0.5_wp)*dy, material%coupled())
+         end do
+      end do
+      do l = 0, ny
+         do k = 0, nx
+            v = combine_corners(corner(:, k, l) - corner(:, k - 1, l) - corner(:, k, l - 1) + corner(:, k - 1, l - 1), material)
+            ! a coefficient that is odd in an offset vanishes exactly at offset 0
+            if (k == 0 .or. l == 0) v(4) = 0.0_wp
+            if (k == 0) v(5) = 0.0_wp
+            if (l == 0) v(6) = 0.0_wp
+            do j = -1, 1, 2
+               do i = -1, 1, 2
+                  table%nn(i*k, j*l) = v(1)
+                  table%xx(i*k, j*l) = v(2)
+                  table%yy(i*k, j*l) = v(3)
+                  table%xy(i*k, j*l) = i*j*v(4)
+                  if (material%coupled()) then
+                     table%xn(i*k, j*l) = i*v(5)
+                     table%yn(i*k, j*l) = j*v(6)
+                  end if
+               end do
+            end do
+         end do
+      end do
+   end subroutine fill_table
+
+   !> All coefficients with the observation point moved by (shift_x, shift_y)
+   subroutine fill_shifted_table(table, material, dx, dy, nx, ny, shift_x, shift_y)
+      type(kernel_table), intent(inout) :: table
+      type(combined_material), intent(in) :: material
+      real(wp), intent(in) :: dx, dy
+      integer, intent(in) :: nx, ny
+      !> Displacement of the observation points [mm]
+      real(wp), intent(in) :: shift_x, shift_y
+      integer :: k, l
+      real(wp) :: v(6)
+      real(wp), allocatable :: corner(:, :, :)
+
+      call shape_table(table, material, dx, dy, nx, ny)
+      table%shift_x = shift_x
+      table%shift_y = shift_y
+      allocate(corner(5, -nx - 1:nx, -ny - 1:ny))
+      !$omp parallel do private(k) if (nx*ny > 20000)
+      do l = -ny - 1, ny
+         do k = -nx - 1, nx
+            corner(:, k, l) = corner_functions((k + 0.5_wp)*dx + shift_x, (l + 0.5_wp)*dy + shift_y, material%coupled())
+         end do
+      end do
+      do l = -ny, ny
+         do k = -nx, nx
+            v = combine_corners(corner(:, k, l) - corner(:, k - 1, l) - corner(:, k, l - 1) + corner(:, k - 1, l - 1), material)
+            table%nn(k, l) = v(1)
+            table%xx(k, l) = v(2)
+            table%yy(k, l) = v(3)
+            table%xy(k, l) = v(4)
+            if (material%coupled()) then
+               table%xn(k, l) = v(5)
+               table%yn(k, l) = v(6)
+            end if
+         end do
+      end do
+   end subroutine fill_shifted_table
+
+   !> Allocate the arrays of a table for a range of offsets
+   subroutine shape_table(table, material, dx, dy, nx, ny)
+      type(kernel_table), intent(inout) :: table
+      type(combined_material), intent(in) :: material
+      real(wp), intent(in) :: dx, dy
+      integer, intent(in) :: nx, ny
+
+      if (table%nx /= nx .or. table%ny /= ny .or. (material%coupled() .neqv. allocated(table%xn))) then
+         if (allocated(table%nn)) deallocate(table%nn, table%xx, table%yy, table%xy)
+         if (allocated(table%xn)) deallocate(table%xn, table%yn)
+         allocate(table%nn(-nx:nx, -ny:ny), table%xx(-nx:nx, -ny:ny), table%yy(-nx:nx, -ny:ny), &
+            & table%xy(-nx:nx, -ny:ny))
+         if (material%coupled()) allocate(table%xn(-nx:nx, -ny:ny), table%yn(-nx:nx, -ny:ny))
+      end if
+      table%nx = nx
+      table%ny = ny
+      table%dx = dx
+      table%dy = dy
+      table%material = material
+   end subroutine shape_table
+
+   !> The functions whose mixed difference over the corners gives the coefficients
+   !>
+   !> x asinh(y/|x|), y asinh(x/|y|), r, and for coupled problems y ln r + x atan(y/x),
+   !> x ln r + y atan(x/y). The limits for x = 0 or y = 0 are taken.
+   pure function corner_functions(x, y, coupled) result(f)
+      real(wp), intent(in) :: x, y
+      logical, intent(in) :: coupled
+      real(wp) :: f(5), r
+
+      r = hypot(x, y)
+      f = 0.0_wp
+      if (abs(x) > 1.0e-14_wp*abs(y)) f(1) = x*asinh(y/abs(x))
+      if (abs(y) > 1.0e-14_wp*abs(x)) f(2) = y*asinh(x/abs(y))
+      f(3) = r
+      if (.not. coupled .or. r <= 0.0_wp) return
+      f(4) = y*log(r)
+      if (x /= 0.0_wp) f(4) = f(4) + x*atan(y/x)
+      f(5) = x*log(r)
+      if (y /= 0.0_wp) f(5) = f(5) + y*atan(x/y)
+   end function corner_functions
+
+   !> From differences of the corner functions to nn, xx, yy, xy, xn, yn
+   pure function combine_corners(d, material) result(v)
+      real(wp), intent(in) :: d(5)
+      type(combined_material), intent(in) :: material
+      real(wp) :: v(6), factor
+
+      factor = 1.0_wp/(pi*material%gg)
+      v(1) = factor*(1.0_wp - material%nu)*(d(1) + d(2))
+      v(2) = factor*((1.0_wp - material%nu)*d(1) + d(2))
+      v(3) = factor*(d(1) + (1.0_wp - material%nu)*d(2))
+      v(4) = -factor*material%nu*d(3)
+      v(5) = -factor*material%ak*d(4)
+      v(6) = -factor*material%ak*d(5)
+   end function combine_corners
+end module contact_elastic_halfspace

@@ -1,0 +1,38 @@
+!> Combined elastic constants of two bodies in contact
+module contact_elastic_material
+   use contact_base_kinds, only : wp
+   implicit none (type, external)
+   private
+
+   public :: combined_material, combine, coupling_threshold
+
+   !> |K| below this value means that normal and tangential problems do not interact [-]
+   real(wp), parameter :: coupling_threshold = 1.0e-6_wp
+
+   !> Constants of the equivalent pair of bodies
+   type :: combined_material
+      !> Combined modulus of rigidity [N/mm2], Poisson ratio [-], difference parameter K [-]
+      real(wp) :: gg = 1.0_wp, nu = 0.0_wp, ak = 0.0_wp
+   contains
+      !> Do normal and tangential tractions interact?
+      procedure :: coupled
+   end type combined_material
+
+contains
+
+   !> Kalker (1990): 1/G and nu/G are means over the bodies, K/G half their difference of (1 - 2 nu)/(2 G)
+   pure function combine(poiss, gg) result(material)
+      !> Poisson ratios [-] and moduli of rigidity [N/mm2] of bodies 1 and 2
+      real(wp), intent(in) :: poiss(2), gg(2)
+      type(combined_material) :: material
+
+      material%gg = 2.0_wp/(1.0_wp/gg(1) + 1.0_wp/gg(2))
+      material%nu = 0.5_wp*material%gg*(poiss(1)/gg(1) + poiss(2)/gg(2))
+      material%ak = 0.25_wp*material%gg*((1.0_wp - 2.0_wp*poiss(1))/gg(1) - (1.0_wp - 2.0_wp*poiss(2))/gg(2))
+   end function combine
+
+   elemental logical function coupled(self)
+      class(combined_material), intent(in) :: self
+      coupled = abs(self%ak) >= coupling_threshold
+   end function coupled
+end module contact_elastic_material

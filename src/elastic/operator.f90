@@ -1,0 +1,420 @@
+!> The compliance of two half-spaces on a window of elements: products by fast transforms
+!>
+!> The one operator that all iterative methods see. Kernels of half-spaces are even or odd in
+!> each coordinate, so their spectra are real (nn, xx, yy, xy) or imaginary (xn, yn) and one
+!> real array per kernel is kept. In steady rolling the displacement difference between two
+!> moments is the same kernel times 1 - exp(i kappa dx): a factor per column of the spectrum.
+module contact_elastic_operator
+   use contact_base_constants, only : pi
+   use contact_base_kinds, only : wp
+   use contact_elastic_halfspace, only : fill_table, kernel_table
+   use contact_elastic_material, only : combined_material
+   use contact_fft_plan, only : fft_plan, good_size
+   implicit none (type, external)
+   private
+
+   public :: elastic_operator
+
+   !> Compliance on a window of mx by my elements; holds plans, spectra and scratch
+   type :: elastic_operator
+      !> Size of the window
+      integer :: mx = 0, my = 0
+      !> Sides of the elements [mm]
+      real(wp) :: dx = 0.0_wp, dy = 0.0_wp
+      type(combined_material) :: material
+      !> Products with the full operator since it was made
+      integer :: products = 0
+      !> Real transforms of the padded window, forward and backward, since it was made
+      integer :: transforms = 0
+      !> Diagonal coefficients at zero offset: nn, xx, yy [mm/(N/mm2)]
+      real(wp) :: diagonal(3) = 0.0_wp
+      !> Coefficients in space; offsets up to half the padded window
+      type(kernel_table) :: table
+      type(fft_plan) :: plan
+      !> Spectra over padded size, real parts; xn, yn: imaginary parts [mm/(N/mm2)]
+      real(wp), allocatable, private :: nn(:, :), xx(:, :), yy(:, :), xy(:, :), xn(:, :), yn(:, :)
+      !> Inverse of the 2 by 2 tangential symbol and of the normal symbol, circulant
+      real(wp), allocatable, private :: ixx(:, :), iyy(:, :), ixy(:, :), inn(:, :)
+      !> 1 - exp(i direction kappa), shape (kx)
+      complex(wp), allocatable, private :: difference(:)
+      !> Inverse of the damped difference, shape (kx)
+      complex(wp), allocatable, private :: sum_up(:)
+      complex(wp), allocatable, private :: s1(:, :), s2(:, :)
+      integer, private :: direction = 0
+      logical, private :: has_normal = .false., has_tangential = .false., has_coupling = .false.
+   contains
+      !> Set window, material and rolling direction; everything is kept when nothing changed
+      procedure :: prepare
+      !> u_n = A_nn p_n
+      procedure :: normal
+      !> u_t = A_tt p_t
+      procedure :: tangential
+      !> u_t - u_t' = (A - A') p_t in steady rolling
+      procedure :: steady
+      !> z = approximate inverse of A_nn applied to r
+      procedure :: normal_inverse
+      !> z = approximate inverse of A_tt applied to r
+      procedure :: tangential_inverse
+      !> z = approximate inverse of A - A' applied to r
+      procedure :: steady_inverse
+      !> u_n by tangential tractions
+      procedure :: normal_by_tangential
+      !> u_t by pressures; difference between two moments in steady rolling
+      procedure :: tangential_by_normal
+      procedure :: steady_by_normal
+      !> Pairs of forward and backward transforms so far
+      procedure :: fft_pairs
+      procedure, private :: make_spectra
+      procedure, private :: pair_product
+   end type elastic_operator
+
+contains
+
+   subroutine prepare(self, material, dx, dy, mx, my, direction)
+      class(elastic_operator), intent(inout) :: self
+      type(combined_material), intent(in) :: material
+      !> Sides of the elements [mm]
+      real(wp), intent(in) :: dx, dy
+      !> Size of the window
+      integer, intent(in) :: mx, my
+      !> Rolling in direction of increasing (+1) or decreasing (-1) x
+      integer, intent(in) :: direction
+      integer :: px, py, k
+      complex(wp) :: turn
+      logical :: same
+      !> Decay of the preconditioner over the window [-]; 3 to 8 all work
+      real(wp), parameter :: decay = 6.0_wp
+
+      same = self%mx == mx .and. self%my == my .and. self%dx == dx .and. self%dy == dy &
+         & .and. self%material%gg == material%gg .and. self%material%nu == material%nu &
+         & .and. self%material%ak == material%ak
+      if (.not. same) then
+         ! one element more than a plain product needs: the shifted kernel of steady rolling
+         px = good_size(2*mx + 1)
+         py = merge(1, good_size(2*my), my == 1)
+         call fill_table(self%table, material, dx, dy, px/2, py/2)
+         self%diagonal = [self%table%nn(0, 0), self%table%xx(0, 0), self%table%yy(0, 0)]
+         call self%plan%prepare(mx, my, px, py)
+         self%has_normal = .false.
+         self%has_tangential = .false.
+         self%has_coupling = .false.
+         self%direction = 0
+         if (allocated(self%s1)) then
+            if (any(shape(self%s1) /= [px/2 + 1, py])) deallocate(self%s1, self%s2)
+         end if
+         if (.not. allocated(self%s1)) allocate(self%s1(px/2 + 1, py), self%s2(px/2 + 1, py))
+      end if
+      self%mx = mx
+      self%my = my
+      self%dx = dx
+      self%dy = dy
+      self%material = material
+      if (self%direction /= direction) then
+         self%direction = direction
+         if (allocated(self%difference)) deallocate(self%difference, self%sum_up)
+         allocate(self%difference(self%plan%kx), self%sum_up(self%plan%kx))
+         do k = 1, self%plan%kx
+            turn = exp(cmplx(0.0_wp, direction*2.0_wp*pi*(k - 1)/self%plan%px, wp))
+            self%difference(k) = 1.0_wp - turn
+            self%sum_up(k) = 1.0_wp/(1.0_wp - (1.0_wp - min(0.9_wp, decay/mx))*turn)
+         end do
+      end if
+   end subroutine prepare
+
+   !> Spectrum of one kernel, scaled for the back transform; even or odd in x and y
+   subroutine make_spectra(self, kernel, even, spectrum, inverse)
+      class(elastic_operator), intent(inout) :: self
+      !> Coefficients, offsets -nx:nx, -ny:ny
+      real(wp), intent(in) :: kernel(-self%table%nx:, -self%table%ny:)
+      !> Even-even or odd-odd (real spectrum), or else odd in one coordinate (imaginary spectrum)
+      logical, intent(in) :: even
+      real(wp), allocatable, intent(inout) :: spectrum(:, :)
+      !> 1/spectrum, scaled likewise, when asked for
+      real(wp), allocatable, intent(inout), optional :: inverse(:, :)
+      real(wp), allocatable :: period(:, :)
+      complex(wp), allocatable :: transform(:, :)
+      integer :: k, l, px, py
+      real(wp) :: scale, smallest
+
+      px = self%plan%px
+      py = self%plan%py
+      allocate(period(px, py), transform(self%plan%kx, py))
+      do l = 1, py
+         do k = 1, px
+            period(k, l) = kernel(wrapped(k, px), wrapped(l, py))
+         end do
+      end do
+      call self%plan%kernel_spectrum(period, transform)
+      scale = 1.0_wp/(real(px, wp)*real(py, wp))
+      if (allocated(spectrum)) then
+         if (any(shape(spectrum) /= shape(transform))) deallocate(spectrum)
+      end if
+      if (.not. allocated(spectrum)) allocate(spectrum(self%plan%kx, py))
+      if (even) then
+         spectrum = scale*real(transform)
+      else
+         spectrum = scale*aimag(transform)
+      end if
+      if (.not. present(inverse)) return
+      if (allocated(inverse)) then
+         if (any(shape(inverse) /= shape(transform))) deallocate(inverse)
+      end if
+      if (.not. allocated(inverse)) allocate(inverse(self%plan%kx, py))
+      ! a complete period has a positive spectrum; the floor guards extreme shapes only
+      smallest = 1.0e-10_wp*maxval(abs(spectrum))/scale
+      inverse = scale/max(spectrum/scale, smallest)
+   end subroutine make_spectra
+
+   !> Offset that belongs to position k of a period of length n
+   pure integer function wrapped(k, n) result(offset)
+      integer, intent(in) :: k, n
+      offset = k - 1
+      if (offset > n/2) offset = offset - n
+   end function wrapped
+
+   !> An odd kernel vanishes at half the period, where offsets +n and -n coincide
+   subroutine clear_half_period(self, kernel, in_x, in_y)
+      class(elastic_operator), intent(in) :: self
+      !> Coefficients, offsets -nx:nx, -ny:ny
+      real(wp), intent(inout) :: kernel(-self%table%nx:, -self%table%ny:)
+      !> Coordinates in which the kernel is odd
+      logical, intent(in) :: in_x, in_y
+      integer :: hx, hy
+
+      hx = self%plan%px/2
+      hy = self%plan%py/2
+      if (in_x .and. hx > 0) kernel([-hx, hx], :) = 0.0_wp
+      if (in_y .and. hy > 0) kernel(:, [-hy, hy]) = 0.0_wp
+   end subroutine clear_half_period
+
+   !> Spectra for the normal problem, on first use
+   subroutine need_normal(self)
+      class(elastic_operator), intent(inout) :: self
+      if (self%has_normal) return
+      call self%make_spectra(self%table%nn, .true., self%nn, self%inn)
+      self%has_normal = .true.
+   end subroutine need_normal
+
+   !> Spectra for the tangential problem, on first use
+   subroutine need_tangential(self)
+      class(elastic_operator), intent(inout) :: self
+      real(wp), allocatable :: odd(:, :)
+      real(wp) :: det, floor_, scale
+      integer :: k, l
+
+      if (self%has_tangential) return
+      call self%make_spectra(self%table%xx, .true., self%xx)
+      call self%make_spectra(self%table%yy, .true., self%yy)
+      odd = self%table%xy
+      call clear_half_period(self, odd, in_x=.true., in_y=.true.)
+      call self%make_spectra(odd, .true., self%xy)
+      if (allocated(self%ixx)) then
+         if (any(shape(self%ixx) /= shape(self%xx))) deallocate(self%ixx, self%iyy, self%ixy)
+      end if
+      if (.not. allocated(self%ixx)) allocate(self%ixx, self%iyy, self%ixy, mold=self%xx)
+      scale = 1.0_wp/(real(self%plan%px, wp)*real(self%plan%py, wp))
+      floor_ = 1.0e-10_wp*maxval(abs(self%xx))*maxval(abs(self%yy))
+      do l = 1, self%plan%py
+         do k = 1, self%plan%kx
+            det = max(self%xx(k, l)*self%yy(k, l) - self%xy(k, l)**2, floor_)
+            self%ixx(k, l) = scale**2*self%yy(k, l)/det
+            self%iyy(k, l) = scale**2*self%xx(k, l)/det
+            self%ixy(k, l) = -scale**2*self%xy(k, l)/det
+         end do
+      end do
+      self%has_tangential = .true.
+   end subroutine need_tangential
+
+   !> Spectra of the coupling between pressures and tangential displacements, on first use
+   subroutine need_coupling(self)
+      class(elastic_operator), intent(inout) :: self
+      real(wp), allocatable :: odd(:, :)
+
+      if (self%has_coupling) return
+      odd = self%table%xn
+      call clear_half_period(self, odd, in_x=.true., in_y=.false.)
+      call self%make_spectra(odd, .false., self%xn)
+      odd = self%table%yn
+      call clear_half_period(self, odd, in_x=.false., in_y=.true.)
+      call self%make_spectra(odd, .false., self%yn)
+      self%has_coupling = .true.
+   end subroutine need_coupling
+
+   subroutine normal(self, p, u)
+      class(elastic_operator), intent(inout) :: self
+      !> Pressures [N/mm2], shape (mx, my)
+      real(wp), contiguous, intent(in) :: p(:, :)
+      !> Normal displacement differences [mm]
+      real(wp), contiguous, intent(inout) :: u(:, :)
+
+      call need_normal(self)
+      call self%plan%forward(p, self%s1)
+      call scale_spectrum(self%nn, self%s1)
+      call self%plan%backward(self%s1, u)
+      self%products = self%products + 1
+      self%transforms = self%transforms + 2
+   end subroutine normal
+
+   subroutine normal_inverse(self, r, z)
+      class(elastic_operator), intent(inout) :: self
+      !> Displacements [mm], shape (mx, my)
+      real(wp), contiguous, intent(in) :: r(:, :)
+      !> Pressures [N/mm2]
+      real(wp), contiguous, intent(inout) :: z(:, :)
+
+      call need_normal(self)
+      call self%plan%forward(r, self%s1)
+      call scale_spectrum(self%inn, self%s1)
+      call self%plan%backward(self%s1, z)
+      self%transforms = self%transforms + 2
+   end subroutine normal_inverse
+
+   subroutine tangential(self, p, u)
+      class(elastic_operator), intent(inout) :: self
+      !> Tangential tractions [N/mm2], shape (mx, my, 2)
+      real(wp), contiguous, intent(in) :: p(:, :, :)
+      !> Tangential displacement differences [mm], shape (mx, my, 2)
+      real(wp), contiguous, intent(inout) :: u(:, :, :)
+
+      call need_tangential(self)
+      call self%pair_product(self%xx, self%yy, self%xy, p, u)
+      self%products = self%products + 1
+   end subroutine tangential
+
+   subroutine steady(self, p, u)
+      class(elastic_operator), intent(inout) :: self
+      real(wp), contiguous, intent(in) :: p(:, :, :)
+      real(wp), contiguous, intent(inout) :: u(:, :, :)
+
+      call need_tangential(self)
+      call self%pair_product(self%xx, self%yy, self%xy, p, u, self%difference)
+      self%products = self%products + 1
+   end subroutine steady
+
+   subroutine tangential_inverse(self, r, z)
+      class(elastic_operator), intent(inout) :: self
+      real(wp), contiguous, intent(in) :: r(:, :, :)
+      real(wp), contiguous, intent(inout) :: z(:, :, :)
+
+      call need_tangential(self)
+      call self%pair_product(self%ixx, self%iyy, self%ixy, r, z)
+   end subroutine tangential_inverse
+
+   subroutine steady_inverse(self, r, z)
+      class(elastic_operator), intent(inout) :: self
+      real(wp), contiguous, intent(in) :: r(:, :, :)
+      real(wp), contiguous, intent(inout) :: z(:, :, :)
+
+      call need_tangential(self)
+      call self%pair_product(self%ixx, self%iyy, self%ixy, r, z, self%sum_up)
+   end subroutine steady_inverse
+
+   !> Product with a symmetric 2 by 2 block of real spectra, times a factor per column
+   subroutine pair_product(self, axx, ayy, axy, p, u, factor)
+      class(elastic_operator), intent(inout) :: self
+      real(wp), contiguous, intent(in) :: axx(:, :), ayy(:, :), axy(:, :)
+      real(wp), contiguous, intent(in) :: p(:, :, :)
+      real(wp), contiguous, intent(inout) :: u(:, :, :)
+      complex(wp), contiguous, intent(in), optional :: factor(:)
+      integer :: k, l
+      complex(wp) :: a, b
+
+      call self%plan%forward(p(:, :, 1), self%s1)
+      call self%plan%forward(p(:, :, 2), self%s2)
+      if (present(factor)) then
+         !$omp parallel do private(k, a, b) if (size(axx) > 40000)
+         do l = 1, self%plan%py
+            do k = 1, self%plan%kx
+               a = factor(k)*self%s1(k, l)
+               b = factor(k)*self%s2(k, l)
+               self%s1(k, l) = axx(k, l)*a + axy(k, l)*b
+               self%s2(k, l) = axy(k, l)*a + ayy(k, l)*b
+            end do
+         end do
+      else
+         !$omp parallel do private(k, a, b) if (size(axx) > 40000)
+         do l = 1, self%plan%py
+            do k = 1, self%plan%kx
+               a = self%s1(k, l)
+               b = self%s2(k, l)
+               self%s1(k, l) = axx(k, l)*a + axy(k, l)*b
+               self%s2(k, l) = axy(k, l)*a + ayy(k, l)*b
+            end do
+         end do
+      end if
+      call self%plan%backward(self%s1, u(:, :, 1))
+      call self%plan%backward(self%s2, u(:, :, 2))
+      self%transforms = self%transforms + 4
+   end subroutine pair_product
+
+   subroutine normal_by_tangential(self, p, u)
+      class(elastic_operator), intent(inout) :: self
+      !> Tangential tractions [N/mm2], shape (mx, my, 2)
+      real(wp), contiguous, intent(in) :: p(:, :, :)
+      !> Normal displacement differences [mm], shape (mx, my)
+      real(wp), contiguous, intent(inout) :: u(:, :)
+      complex(wp), parameter :: i = (0.0_wp, 1.0_wp)
+
+      call need_coupling(self)
+      call self%plan%forward(p(:, :, 1), self%s1)
+      call self%plan%forward(p(:, :, 2), self%s2)
+      ! c_nx = -c_xn, c_ny = -c_yn
+      self%s1 = -i*(self%xn*self%s1 + self%yn*self%s2)
+      call self%plan%backward(self%s1, u)
+      self%products = self%products + 1
+      self%transforms = self%transforms + 3
+   end subroutine normal_by_tangential
+
+   subroutine tangential_by_normal(self, p, u)
+      class(elastic_operator), intent(inout) :: self
+      !> Pressures [N/mm2], shape (mx, my)
+      real(wp), contiguous, intent(in) :: p(:, :)
+      !> Tangential displacement differences [mm], shape (mx, my, 2)
+      real(wp), contiguous, intent(inout) :: u(:, :, :)
+      complex(wp), parameter :: i = (0.0_wp, 1.0_wp)
+
+      call need_coupling(self)
+      call self%plan%forward(p, self%s1)
+      self%s2 = i*self%yn*self%s1
+      self%s1 = i*self%xn*self%s1
+      call self%plan%backward(self%s1, u(:, :, 1))
+      call self%plan%backward(self%s2, u(:, :, 2))
+      self%products = self%products + 1
+      self%transforms = self%transforms + 3
+   end subroutine tangential_by_normal
+
+   subroutine steady_by_normal(self, p, u)
+      class(elastic_operator), intent(inout) :: self
+      real(wp), contiguous, intent(in) :: p(:, :)
+      real(wp), contiguous, intent(inout) :: u(:, :, :)
+      complex(wp), parameter :: i = (0.0_wp, 1.0_wp)
+      integer :: l
+
+      call need_coupling(self)
+      call self%plan%forward(p, self%s1)
+      do l = 1, self%plan%py
+         self%s2(:, l) = i*self%yn(:, l)*self%difference*self%s1(:, l)
+         self%s1(:, l) = i*self%xn(:, l)*self%difference*self%s1(:, l)
+      end do
+      call self%plan%backward(self%s1, u(:, :, 1))
+      call self%plan%backward(self%s2, u(:, :, 2))
+      self%products = self%products + 1
+      self%transforms = self%transforms + 3
+   end subroutine steady_by_normal
+
+   pure real(wp) function fft_pairs(self) result(pairs)
+      class(elastic_operator), intent(in) :: self
+      pairs = 0.5_wp*self%transforms
+   end function fft_pairs
+
+   subroutine scale_spectrum(factor, spectrum)
+      real(wp), contiguous, intent(in) :: factor(:, :)
+      complex(wp), contiguous, intent(inout) :: spectrum(:, :)
+      integer :: l
+
+      !$omp parallel do if (size(factor) > 40000)
+      do l = 1, size(factor, 2)
+         spectrum(:, l) = factor(:, l)*spectrum(:, l)
+      end do
+   end subroutine scale_spectrum
+end module contact_elastic_operator

@@ -1,0 +1,167 @@
+!> Zero-padded real transforms of a rectangular window
+!>
+!> Rows that are known to be zero are not transformed, and rows of the result that
+!> nobody asks for are not transformed back; that leaves about three quarters of the work of
+!> a plain two-dimensional transform of the padded window.
+module contact_fft_plan
+   use, intrinsic :: iso_c_binding, only : c_associated, c_loc, c_null_ptr, c_ptr
+   use contact_base_kinds, only : wp
+   use contact_fft_fftw, only : fftw_backward, fftw_destroy_plan, fftw_estimate, &
+      & fftw_execute_dft_c2r, fftw_execute_dft_r2c, fftw_forward, fftw_plan_dft_r2c_2d, &
+      & fftw_plan_many_dft_c2r, fftw_plan_many_dft_r2c, fftw_destroy_input
+   use contact_fft_in_place, only : execute_in_place, plan_in_place
+   implicit none (type, external)
+   private
+
+   public :: fft_plan, good_size
+
+   !> Plans and buffers for one window size; not to be copied, its plans know addresses' alignment
+   type :: fft_plan
+      !> Size of the window and of the padded window
+      integer :: mx = 0, my = 0, px = 0, py = 0
+      !> Number of frequencies kept in x: px/2 + 1
+      integer :: kx = 0
+      !> Rows of the window, padded in x, shape (px, my)
+      real(wp), allocatable :: rows(:, :)
+      type(c_ptr), private :: row_forward = c_null_ptr, row_backward = c_null_ptr
+      type(c_ptr), private :: column_forward = c_null_ptr, column_backward = c_null_ptr
+   contains
+      !> Make plans for a window; keeps them when the size is the same
+      procedure :: prepare => prepare_plan
+      !> Transform a window, zero-padded
+      procedure :: forward => transform_forward
+      !> Transform back, unscaled, and cut out the window; destroys the spectrum
+      procedure :: backward => transform_backward
+      !> Transform a full period (a kernel)
+      procedure :: kernel_spectrum
+      !> Free the plans
+      procedure :: release => release_plan
+      final :: finalise_plan
+   end type fft_plan
+
+contains
+
+   !> Smallest even number 2^a 3^b 5^c 7^d (a >= 1) that is at least n, or 1 for n <= 1
+   pure integer function good_size(n) result(size)
+      integer, intent(in) :: n
+      integer :: rest, factor
+      integer, parameter :: primes(4) = [2, 3, 5, 7]
+
+      size = max(1, n)
+      if (size == 1) return
+      if (mod(size, 2) == 1) size = size + 1
+      do
+         rest = size
+         do factor = 1, 4
+            do while (mod(rest, primes(factor)) == 0)
+               rest = rest/primes(factor)
+            end do
+         end do
+         if (rest == 1) return
+         size = size + 2
+      end do
+   end function good_size
+
+   subroutine prepare_plan(self, mx, my, px, py)
+      class(fft_plan), intent(inout) :: self
+      !> Window and padded window; px even or 1, px >= mx, py >= my
+      integer, intent(in) :: mx, my, px, py
+      complex(wp), allocatable, target :: spectrum(:, :)
+
+      if (self%mx == mx .and. self%my == my .and. self%px == px .and. self%py == py &
+         & .and. c_associated(self%row_forward)) return
+      call self%release()
+      self%mx = mx
+      self%my = my
+      self%px = px
+      self%py = py
+      self%kx = px/2 + 1
+      allocate(self%rows(px, my), source=0.0_wp)
+      allocate(spectrum(self%kx, py), source=(0.0_wp, 0.0_wp))
+      ! the planner of FFTW is not thread-safe; estimated plans make results reproducible
+      !$omp critical (contact_fft_planner)
+      self%row_forward = fftw_plan_many_dft_r2c(1, [px], my, self%rows, [px], 1, px, &
+         & spectrum, [self%kx], 1, self%kx, fftw_estimate)
+      self%row_backward = fftw_plan_many_dft_c2r(1, [px], my, spectrum, [self%kx], 1, self%kx, &
+         & self%rows, [px], 1, px, ior(fftw_estimate, fftw_destroy_input))
+      self%column_forward = plan_in_place(1, [py], self%kx, c_loc(spectrum), [py], self%kx, 1, &
+         & c_loc(spectrum), [py], self%kx, 1, fftw_forward, fftw_estimate)
+      self%column_backward = plan_in_place(1, [py], self%kx, c_loc(spectrum), [py], self%kx, 1, &
+         & c_loc(spectrum), [py], self%kx, 1, fftw_backward, fftw_estimate)
+      !$omp end critical (contact_fft_planner)
+   end subroutine prepare_plan
+
+   subroutine transform_forward(self, field, spectrum)
+      class(fft_plan), intent(inout) :: self
+      !> Window, shape (mx, my)
+      real(wp), contiguous, intent(in) :: field(:, :)
+      !> Spectrum, shape (kx, py)
+      complex(wp), contiguous, target, intent(inout) :: spectrum(:, :)
+      integer :: iy
+
+      do iy = 1, self%my
+         self%rows(1:self%mx, iy) = field(:, iy)
+         self%rows(self%mx + 1:, iy) = 0.0_wp
+      end do
+      call fftw_execute_dft_r2c(self%row_forward, self%rows, spectrum)
+      if (self%py > 1) then
+         spectrum(:, self%my + 1:) = (0.0_wp, 0.0_wp)
+         call execute_in_place(self%column_forward, c_loc(spectrum), c_loc(spectrum))
+      end if
+   end subroutine transform_forward
+
+   subroutine transform_backward(self, spectrum, field)
+      class(fft_plan), intent(inout) :: self
+      !> Spectrum, shape (kx, py); destroyed
+      complex(wp), contiguous, target, intent(inout) :: spectrum(:, :)
+      !> Window, shape (mx, my)
+      real(wp), contiguous, intent(inout) :: field(:, :)
+      integer :: iy
+
+      if (self%py > 1) call execute_in_place(self%column_backward, c_loc(spectrum), c_loc(spectrum))
+      call fftw_execute_dft_c2r(self%row_backward, spectrum, self%rows)
+      do iy = 1, self%my
+         field(:, iy) = self%rows(1:self%mx, iy)
+      end do
+   end subroutine transform_backward
+
+   !> Spectrum of a full period of real values
+   subroutine kernel_spectrum(self, period, spectrum)
+      class(fft_plan), intent(in) :: self
+      !> One period, shape (px, py); destroyed
+      real(wp), contiguous, intent(inout) :: period(:, :)
+      !> Spectrum, shape (kx, py)
+      complex(wp), contiguous, intent(inout) :: spectrum(:, :)
+      type(c_ptr) :: plan
+
+      !$omp critical (contact_fft_planner)
+      plan = fftw_plan_dft_r2c_2d(self%py, self%px, period, spectrum, fftw_estimate)
+      !$omp end critical (contact_fft_planner)
+      call fftw_execute_dft_r2c(plan, period, spectrum)
+      !$omp critical (contact_fft_planner)
+      call fftw_destroy_plan(plan)
+      !$omp end critical (contact_fft_planner)
+   end subroutine kernel_spectrum
+
+   subroutine release_plan(self)
+      class(fft_plan), intent(inout) :: self
+
+      !$omp critical (contact_fft_planner)
+      if (c_associated(self%row_forward)) call fftw_destroy_plan(self%row_forward)
+      if (c_associated(self%row_backward)) call fftw_destroy_plan(self%row_backward)
+      if (c_associated(self%column_forward)) call fftw_destroy_plan(self%column_forward)
+      if (c_associated(self%column_backward)) call fftw_destroy_plan(self%column_backward)
+      !$omp end critical (contact_fft_planner)
+      self%row_forward = c_null_ptr
+      self%row_backward = c_null_ptr
+      self%column_forward = c_null_ptr
+      self%column_backward = c_null_ptr
+      self%mx = 0
+      if (allocated(self%rows)) deallocate(self%rows)
+   end subroutine release_plan
+
+   subroutine finalise_plan(self)
+      type(fft_plan), intent(inout) :: self
+      call self%release()
+   end subroutine finalise_plan
+end module contact_fft_plan

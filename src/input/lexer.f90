@@ -1,0 +1,440 @@
+!> The lexer of input files: lines into words, words into groups of values
+!>
+!> The file is read into memory once. A group starts on a new line and takes lines until its
+!> mandatory values are there; optional values stand on the line of the last mandatory one, and
+!> the first word that cannot be read as the next optional value ends the group silently.
+module contact_input_lexer
+   use contact_base_error, only : error_kind, error_type, fatal_error
+   use contact_base_kinds, only : long, wp
+   use contact_input_words, only : integer_text, to_angle, to_integer, to_real, word_state
+   implicit none (type, external)
+   private
+
+   public :: input_lexer, input_value
+
+   !> One value of a group
+   type :: input_value
+      !> Name in messages
+      character(len=:), allocatable :: name
+      !> The word as it stands in the file; unallocated when it was not given
+      character(len=:), allocatable :: word
+      !> Was it given? Always so for mandatory values of a group that was read
+      logical :: given = .false.
+      !> The value, according to its type; angles are in rad
+      integer :: i = 0
+      real(wp) :: r = 0.0_wp
+      character(len=:), allocatable :: s
+      !> Position in the file
+      integer :: line = 0, column = 0
+   end type input_value
+
+   !> A text with a reading position
+   type :: input_lexer
+      !> Name of the file in messages
+      character(len=:), allocatable :: file
+      !> Number of the line that was read last, 0 before the first
+      integer :: line = 0
+      character(len=:), allocatable, private :: text
+      !> First and last character of each line in the text
+      integer, allocatable, private :: first(:), last(:)
+   contains
+      procedure :: open_file
+      procedure :: open_text
+      procedure :: read_group
+      procedure :: read_array
+      procedure :: at_end
+      procedure, private :: next_line
+      procedure, private :: parse
+      procedure, private :: refuse_word
+      procedure, private :: refuse_end
+   end type input_lexer
+
+   !> Place of a word
+   type :: word_place
+      !> First and last character in the text, without quotes; first = 0 when there is none
+      integer :: first = 0, last = 0
+      !> Position to go on from
+      integer :: next = 0
+      !> In quotes? And was the closing quote there?
+      logical :: quoted = .false., closed = .false.
+   end type word_place
+
+   character(len=*), parameter :: line_feed = achar(10), carriage_return = achar(13)
+   !> What separates words: blank, tab, comma, equals sign, and control characters
+   character(len=*), parameter :: separators = " ,=" // achar(9) // carriage_return // achar(11) // achar(12) // achar(0)
+   character(len=*), parameter :: quote = "'", comment = "%"
+   !> Longest part of a line that messages repeat
+   integer, parameter :: longest_echo = 80
+
+contains
+
+   !> Read a file into memory
+   subroutine open_file(self, file, error)
+      class(input_lexer), intent(out) :: self
+      character(len=*), intent(in) :: file
+      type(error_type), allocatable, intent(out) :: error
+      character(len=:), allocatable :: text
+      character(len=200) :: reason
+      integer :: unit, status
+      integer(long) :: length
+
+      reason = ""
+      open(newunit=unit, file=file, access="stream", form="unformatted", status="old", action="read", &
+         & iostat=status, iomsg=reason)
+      if (status /= 0) then
+         call fatal_error(error, "the file cannot be opened: " // trim(reason), error_kind%file, file)
+         return
+      end if
+      inquire(unit=unit, size=length)
+      if (length > 1000000000_long) then
+         call fatal_error(error, "the file is larger than 1 GB", error_kind%file, file)
+      else if (length >= 0) then
+         allocate(character(len=length) :: text, stat=status)
+         if (status /= 0) then
+            call fatal_error(error, "no memory for the text of the file", error_kind%memory, file)
+         else if (length > 0) then
+            read(unit, iostat=status, iomsg=reason) text
+         end if
+      else
+         status = 1
+         reason = "its length is not known"
+      end if
+      close(unit)
+      if (allocated(error)) return
+      if (status /= 0) then
+         call fatal_error(error, "the file cannot be read: " // trim(reason) // " (status " // &
+            & integer_text(status) // ")", error_kind%file, file)
+         return
+      end if
+      call self%open_text(text, file)
+   end subroutine open_file
+
+   !> Take a text that is in memory already
+   subroutine open_text(self, text, name)
+      class(input_lexer), intent(out) :: self
+      !> Lines end with LF or CR-LF
+      character(len=*), intent(in) :: text
+      !> Name of the file in messages
+      character(len=*), intent(in) :: name
+      character(len=*), parameter :: byte_order_mark = achar(239) // achar(187) // achar(191)
+      integer :: start, length, n
+
+      self%file = name
+      self%text = text
+      n = 1
+      do start = 1, len(text)
+         if (text(start:start) == line_feed) n = n + 1
+      end do
+      allocate(self%first(n), self%last(n))
+      start = 1
+      if (len(text) >= 3) then
+         if (text(1:3) == byte_order_mark) start = 4
+      end if
+      do n = 1, size(self%first)
+         length = index(text(start:), line_feed) - 1
+         if (length < 0) length = len(text) - start + 1
+         self%first(n) = start
+         self%last(n) = start + length - 1
+         start = start + length + 1
+         if (start > len(text) + 1) exit
+      end do
+   end subroutine open_text
+
+   !> Are there no more words?
+   logical function at_end(self)
+      class(input_lexer), intent(in) :: self
+      type(word_place) :: place
+      integer :: k
+
+      at_end = .false.
+      do k = self%line + 1, size(self%first)
+         place = find_word(self%text(:self%last(k)), self%first(k))
+         if (place%first > 0) return
+      end do
+      at_end = .true.
+   end function at_end
+
+   !> Read a group of values of given types
+   !>
+   !> On an error the values are of no use and reading cannot go on.
+   subroutine read_group(self, types, names, values, error)
+      class(input_lexer), intent(inout) :: self
+      !> One letter per value: i integer, r real, a angle, s string; capitals for optional values
+      character(len=*), intent(in) :: types
+      !> Names of the values, separated by single blanks; together they name the group
+      character(len=*), intent(in) :: names
+      !> The values, at least as many as types
+      type(input_value), intent(inout) :: values(:)
+      type(error_type), allocatable, intent(out) :: error
+      type(word_place) :: place
+      integer :: k, mandatory, state
+
+      call name_values(names, values(:len(types)))
+      mandatory = verify(types, "iras") - 1
+      if (mandatory < 0) mandatory = len(types)
+      k = 0
+      do while (k < mandatory)
+         if (.not. self%next_line()) then
+            call self%refuse_end(types(k + 1:k + 1), values(k + 1)%name, names, error)
+            return
+         end if
+         place%next = self%first(self%line)
+         do while (k < len(types))
+            place = find_word(self%text(:self%last(self%line)), place%next)
+            if (place%first == 0) exit
+            call self%parse(place, lower(types(k + 1:k + 1)), values(k + 1), state)
+            if (state /= word_state%good) then
+               if (k >= mandatory) return
+               call self%refuse_word(place, types(k + 1:k + 1), values(k + 1)%name, k + 1, names, state, error)
+               return
+            end if
+            k = k + 1
+         end do
+      end do
+   end subroutine read_group
+
+   !> Read exactly n numbers, from as many lines as they need
+   subroutine read_array(self, n, name, values, error, angles, line)
+      class(input_lexer), intent(inout) :: self
+      !> Number of values; nothing is read when it is not positive
+      integer, intent(in) :: n
+      !> Name of the array
+      character(len=*), intent(in) :: name
+      !> The values, [rad] for angles
+      real(wp), allocatable, intent(out) :: values(:)
+      type(error_type), allocatable, intent(out) :: error
+      !> Are the values angles? Default no
+      logical, intent(in), optional :: angles
+      !> Line of the first value
+      integer, intent(out), optional :: line
+      type(input_value) :: value
+      type(word_place) :: place
+      character :: letter
+      integer :: k, state
+
+      letter = "r"
+      if (present(angles)) letter = merge("a", "r", angles)
+      if (present(line)) line = self%line + 1
+      allocate(values(max(0, min(n, 1000))))
+      k = 0
+      do while (k < n)
+         if (.not. self%next_line()) then
+            call self%refuse_end(letter, element_name(name, k + 1), array_name(name, n), error)
+            return
+         end if
+         if (k == 0 .and. present(line)) line = self%line
+         place%next = self%first(self%line)
+         do while (k < n)
+            place = find_word(self%text(:self%last(self%line)), place%next)
+            if (place%first == 0) exit
+            call self%parse(place, letter, value, state)
+            if (state /= word_state%good) then
+               call self%refuse_word(place, letter, element_name(name, k + 1), k + 1, array_name(name, n), state, error)
+               return
+            end if
+            if (k == size(values)) call lengthen(values, min(n, 2*k))
+            k = k + 1
+            values(k) = value%r
+         end do
+      end do
+   end subroutine read_array
+
+   !> Go to the next line that has words; false at the end of the text
+   logical function next_line(self) result(found)
+      class(input_lexer), intent(inout) :: self
+      type(word_place) :: place
+
+      found = .false.
+      do while (self%line < size(self%first))
+         self%line = self%line + 1
+         place = find_word(self%text(:self%last(self%line)), self%first(self%line))
+         found = place%first > 0
+         if (found) return
+      end do
+   end function next_line
+
+   !> The next word of a line from a position on
+   pure type(word_place) function find_word(text, from) result(place)
+      !> The text up to the end of the line
+      character(len=*), intent(in) :: text
+      integer, intent(in) :: from
+      integer :: k
+
+      do k = from, len(text)
+         if (scan(text(k:k), separators) == 0) exit
+      end do
+      if (k > len(text)) return
+      if (text(k:k) == comment) return
+
+      if (text(k:k) == quote) then
+         place%quoted = .true.
+         place%first = k + 1
+         k = index(text(place%first:), quote)
+         place%closed = k > 0
+         place%last = merge(place%first + k - 2, len(text), place%closed)
+         place%next = place%last + 2
+         return
+      end if
+      place%first = k
+      do k = place%first, len(text)
+         if (scan(text(k:k), separators // comment) > 0) exit
+      end do
+      place%last = k - 1
+      place%next = k
+   end function find_word
+
+   !> Read one word as a value of the given type
+   subroutine parse(self, place, letter, value, state)
+      class(input_lexer), intent(in) :: self
+      type(word_place), intent(in) :: place
+      !> i, r, a or s
+      character, intent(in) :: letter
+      !> Only the name of it is left alone
+      type(input_value), intent(inout) :: value
+      !> Member of word_state
+      integer, intent(out) :: state
+
+      associate (word => self%text(place%first:place%last))
+         state = word_state%malformed
+         if (letter == "s") then
+            if (place%quoted .and. place%closed) state = word_state%good
+            if (state == word_state%good) value%s = word
+         else if (.not. place%quoted) then
+            select case (letter)
+            case ("i"); call to_integer(word, value%i, state)
+            case ("r"); call to_real(word, value%r, state)
+            case ("a"); call to_angle(word, value%r, state)
+            end select
+         end if
+         if (state /= word_state%good) return
+         value%given = .true.
+         value%word = word
+         value%line = self%line
+         value%column = place%first - self%first(self%line) + 1
+      end associate
+   end subroutine parse
+
+   !> Error for a word that is not what the group needs
+   subroutine refuse_word(self, place, letter, name, position, group, state, error)
+      class(input_lexer), intent(in) :: self
+      type(word_place), intent(in) :: place
+      character, intent(in) :: letter
+      !> Name, position and group of the value that was expected
+      character(len=*), intent(in) :: name, group
+      integer, intent(in) :: position
+      !> Member of word_state
+      integer, intent(in) :: state
+      type(error_type), allocatable, intent(out) :: error
+      character(len=:), allocatable :: complaint, word
+      integer :: first, last
+
+      first = self%first(self%line)
+      last = self%last(self%line)
+      word = self%text(place%first:place%last)
+      if (place%quoted) word = quote // word // merge(quote, " ", place%closed)
+      select case (state)
+      case (word_state%too_large)
+         complaint = "is too large for a number"
+      case (word_state%not_finite)
+         complaint = "is not a finite number"
+      case default
+         complaint = "is not " // type_text(letter)
+         if (letter == "s") complaint = "is not " // type_text(letter) // ", or its second quote is missing"
+      end select
+      call fatal_error(error, '"' // printable(word) // '" ' // complaint // "; expected " // name // ", " // &
+         & type_text(letter) // ", value " // integer_text(position) // " of the group " // group // &
+         & '; the line reads "' // printable(self%text(first:last)) // '"', error_kind%input, self%file, self%line, &
+         & merge(place%first - 1, place%first, place%quoted) - first + 1)
+   end subroutine refuse_word
+
+   !> Error for the end of the text inside a group
+   subroutine refuse_end(self, letter, name, group, error)
+      class(input_lexer), intent(in) :: self
+      character, intent(in) :: letter
+      character(len=*), intent(in) :: name, group
+      type(error_type), allocatable, intent(out) :: error
+
+      call fatal_error(error, "the end of the file is reached; expected " // name // ", " // type_text(letter) // &
+         & ", in the group " // group, error_kind%input, self%file, self%line)
+   end subroutine refuse_end
+
+   !> What a type is called
+   pure function type_text(letter) result(text)
+      character, intent(in) :: letter
+      character(len=:), allocatable :: text
+
+      select case (lower(letter))
+      case ("i"); text = "an integer"
+      case ("r"); text = "a number"
+      case ("a"); text = "an angle"
+      case default; text = "a text in single quotes"
+      end select
+   end function type_text
+
+   !> Small letter of a type
+   pure character function lower(letter)
+      character, intent(in) :: letter
+
+      lower = letter
+      if (letter >= "A" .and. letter <= "Z") lower = achar(iachar(letter) + 32)
+   end function lower
+
+   !> A piece of a line without control characters, not too long for a message
+   pure function printable(piece) result(text)
+      character(len=*), intent(in) :: piece
+      character(len=:), allocatable :: text
+      integer :: k
+
+      text = trim(adjustl(piece))
+      if (len(text) > longest_echo) text = text(:longest_echo) // "..."
+      do k = 1, len(text)
+         if (iachar(text(k:k)) < 32 .or. iachar(text(k:k)) == 127) text(k:k) = " "
+      end do
+      text = trim(text)
+   end function printable
+
+   !> Distribute the names of a group over its values and forget what they held
+   pure subroutine name_values(names, values)
+      character(len=*), intent(in) :: names
+      type(input_value), intent(inout) :: values(:)
+      type(input_value) :: empty
+      integer :: k, first, length
+
+      first = 1
+      do k = 1, size(values)
+         values(k) = empty
+         length = index(names(min(first, len(names) + 1):) // " ", " ") - 1
+         values(k)%name = names(first:first + length - 1)
+         first = min(first + length + 1, len(names) + 1)
+      end do
+   end subroutine name_values
+
+   !> "H(37)"
+   pure function element_name(name, k) result(text)
+      character(len=*), intent(in) :: name
+      integer, intent(in) :: k
+      character(len=:), allocatable :: text
+
+      text = name // "(" // integer_text(k) // ")"
+   end function element_name
+
+   !> "H(1..400)"
+   pure function array_name(name, n) result(text)
+      character(len=*), intent(in) :: name
+      integer, intent(in) :: n
+      character(len=:), allocatable :: text
+
+      text = name // "(1.." // integer_text(n) // ")"
+   end function array_name
+
+   !> Make an array longer
+   pure subroutine lengthen(values, n)
+      real(wp), allocatable, intent(inout) :: values(:)
+      integer, intent(in) :: n
+      real(wp), allocatable :: longer(:)
+
+      allocate(longer(n))
+      longer(:size(values)) = values
+      call move_alloc(longer, values)
+   end subroutine lengthen
+end module contact_input_lexer

@@ -1,0 +1,151 @@
+!> What is wrong with the values of a case, collected instead of stopping at the first
+module contact_input_problems
+   use contact_base_error, only : error_kind, error_type, full_text
+   use contact_base_kinds, only : wp
+   use contact_input_lexer, only : input_value
+   use contact_input_words, only : integer_text, real_text
+   implicit none (type, external)
+   private
+
+   public :: severity, input_problem, problem_list, problem_text
+
+   type :: severity_list
+      !> The case cannot be used
+      integer :: error = 1
+      !> Something was corrected or looks dubious
+      integer :: warning = 2
+      !> The case is right, but this version cannot compute it
+      integer :: unsupported = 3
+   end type severity_list
+   !> Kinds of problems
+   type(severity_list), parameter :: severity = severity_list()
+
+   !> One problem with its place in the file
+   type :: input_problem
+      !> Member of severity
+      integer :: severity = 0
+      !> The words and the place
+      type(error_type) :: what
+   end type input_problem
+
+   !> A list that grows; the items 1...count are in use
+   type :: problem_list
+      integer :: count = 0
+      type(input_problem), allocatable :: items(:)
+      !> Name of the input file
+      character(len=:), allocatable :: file
+   contains
+      procedure :: start
+      procedure :: add
+      procedure :: number_of
+      procedure :: is_usable
+      procedure :: check_integer
+      procedure :: check_real
+      procedure :: check_above
+   end type problem_list
+
+contains
+
+   !> Empty the list and remember the name of the file
+   subroutine start(self, file)
+      class(problem_list), intent(inout) :: self
+      character(len=*), intent(in) :: file
+
+      self%count = 0
+      self%file = file
+      if (allocated(self%items)) deallocate(self%items)
+      allocate(self%items(8))
+   end subroutine start
+
+   !> Add a problem
+   subroutine add(self, kind, message, line, column)
+      class(problem_list), intent(inout) :: self
+      !> Member of severity
+      integer, intent(in) :: kind
+      character(len=*), intent(in) :: message
+      !> Position in the file, column 0 when the line as a whole is meant
+      integer, intent(in) :: line
+      integer, intent(in), optional :: column
+      type(input_problem), allocatable :: longer(:)
+
+      if (self%count == size(self%items)) then
+         allocate(longer(2*self%count))
+         longer(:self%count) = self%items
+         call move_alloc(longer, self%items)
+      end if
+      self%count = self%count + 1
+      associate (item => self%items(self%count))
+         item%severity = kind
+         item%what%kind = error_kind%input
+         if (kind == severity%unsupported) item%what%kind = error_kind%unsupported
+         item%what%message = message
+         item%what%file = self%file
+         item%what%line = line
+         if (present(column)) item%what%column = column
+      end associate
+   end subroutine add
+
+   !> Number of problems of one severity
+   pure integer function number_of(self, kind) result(n)
+      class(problem_list), intent(in) :: self
+      !> Member of severity
+      integer, intent(in) :: kind
+
+      n = 0
+      if (self%count > 0) n = count(self%items(:self%count)%severity == kind)
+   end function number_of
+
+   !> Can the case be computed?
+   pure logical function is_usable(self)
+      class(problem_list), intent(in) :: self
+
+      is_usable = self%number_of(severity%error) == 0 .and. self%number_of(severity%unsupported) == 0
+   end function is_usable
+
+   !> An integer must lie within bounds, which are inclusive
+   subroutine check_integer(self, value, lowest, highest)
+      class(problem_list), intent(inout) :: self
+      type(input_value), intent(in) :: value
+      integer, intent(in) :: lowest, highest
+
+      if (value%i >= lowest .and. value%i <= highest) return
+      call self%add(severity%error, value%name // " = " // value%word // " is outside its range " // &
+         & integer_text(lowest) // " to " // integer_text(highest), value%line, value%column)
+   end subroutine check_integer
+
+   !> A number must not be smaller, and not larger, than bounds
+   subroutine check_real(self, value, lowest, highest)
+      class(problem_list), intent(inout) :: self
+      type(input_value), intent(in) :: value
+      real(wp), intent(in) :: lowest
+      real(wp), intent(in), optional :: highest
+
+      if (value%r < lowest) then
+         call self%add(severity%error, value%name // " = " // value%word // " is below its lower bound " // &
+            & real_text(lowest), value%line, value%column)
+      else if (present(highest)) then
+         if (value%r > highest) call self%add(severity%error, value%name // " = " // value%word // &
+            & " is above its upper bound " // real_text(highest), value%line, value%column)
+      end if
+   end subroutine check_real
+
+   !> A number must be larger than zero
+   subroutine check_above(self, value)
+      class(problem_list), intent(inout) :: self
+      type(input_value), intent(in) :: value
+
+      if (value%r > 0.0_wp) return
+      call self%add(severity%error, value%name // " = " // value%word // " must be larger than 0", &
+         & value%line, value%column)
+   end subroutine check_above
+
+   !> A problem as it is printed, " Input: ERROR. file:line:column: words"
+   pure function problem_text(problem) result(text)
+      type(input_problem), intent(in) :: problem
+      character(len=:), allocatable :: text
+
+      text = " Input: ERROR. "
+      if (problem%severity == severity%warning) text = " Input: WARNING. "
+      text = text // full_text(problem%what)
+   end function problem_text
+end module contact_input_problems

@@ -1,0 +1,232 @@
+!> One word of an input file as integer, real number or angle, and numbers as words for messages
+module contact_input_words
+   use contact_base_constants, only : pi
+   use contact_base_kinds, only : long, wp
+   implicit none (type, external)
+   private
+
+   public :: word_state, to_integer, to_real, to_angle, integer_text, real_text
+
+   type :: word_state_list
+      integer :: good = 0
+      !> The characters do not form a value of the type
+      integer :: malformed = 1
+      !> A number that the machine cannot hold
+      integer :: too_large = 2
+      !> NaN or infinity, spelled out
+      integer :: not_finite = 3
+   end type word_state_list
+   !> How the reading of a word ended
+   type(word_state_list), parameter :: word_state = word_state_list()
+
+   character(len=*), parameter :: figures = "0123456789"
+
+contains
+
+   !> Optional sign and figures
+   pure subroutine to_integer(word, value, state)
+      character(len=*), intent(in) :: word
+      !> 0 unless the state is good
+      integer, intent(out) :: value
+      !> Member of word_state
+      integer, intent(out) :: state
+      integer(long) :: sum
+      integer :: k, first
+
+      value = 0
+      state = word_state%malformed
+      first = 1
+      if (len(word) == 0) return
+      if (scan(word(1:1), "+-") == 1) first = 2
+      if (first > len(word)) return
+      if (verify(word(first:), figures) > 0) return
+
+      state = word_state%too_large
+      sum = 0
+      do k = first, len(word)
+         sum = 10*sum + iachar(word(k:k)) - iachar("0")
+         if (sum > huge(value)) return
+      end do
+      value = int(sum)
+      if (word(1:1) == "-") value = -value
+      state = word_state%good
+   end subroutine to_integer
+
+   !> All forms of real numbers that Fortran programs write, `1d-3` and `.1-07` included
+   !>
+   !> The form is checked by hand: list-directed and formatted reading accept more (`1,5`, `3*2`,
+   !> blanks as zeros, NaN), and numbers beyond the range would trap in a debug build.
+   pure subroutine to_real(word, value, state)
+      character(len=*), intent(in) :: word
+      !> 0 unless the state is good
+      real(wp), intent(out) :: value
+      !> Member of word_state
+      integer, intent(out) :: state
+      !> Decimal exponents that are certainly inside the range of real numbers
+      integer, parameter :: highest = 307, lowest = -307
+      character(len=:), allocatable :: number
+      character(len=12) :: form
+      integer :: mantissa, exponent, leading, exponent_value, first, status
+      logical :: is_zero
+
+      value = 0.0_wp
+      state = word_state%malformed
+      if (len(word) == 0) return
+      first = 1
+      if (scan(word(1:1), "+-") == 1) first = 2
+      if (spells_not_finite(word(first:))) then
+         state = word_state%not_finite
+         return
+      end if
+      call measure_mantissa(word(first:), mantissa, leading, is_zero)
+      if (mantissa == 0) return
+      mantissa = first + mantissa - 1
+
+      exponent_value = 0
+      if (mantissa < len(word)) then
+         exponent = mantissa + 1
+         if (scan(word(exponent:exponent), "eEdD") == 1) exponent = exponent + 1
+         if (exponent > len(word)) return
+         call read_exponent(word(exponent:), exponent_value, status)
+         if (status /= word_state%good) return
+      end if
+
+      if (is_zero .or. leading + exponent_value < lowest) then
+         state = word_state%good
+         return
+      end if
+      if (leading + exponent_value > highest) then
+         state = word_state%too_large
+         return
+      end if
+      number = word(1:mantissa) // "e" // integer_text(exponent_value)
+      form = "(f" // integer_text(len(number)) // ".0)"
+      read(number, form, iostat=status) value
+      if (status /= 0) then
+         value = 0.0_wp
+         return
+      end if
+      state = word_state%good
+   end subroutine to_real
+
+   !> A real number, with `d` or `D` behind it in degrees, with `r` or `R` in radians
+   pure subroutine to_angle(word, value, state)
+      character(len=*), intent(in) :: word
+      !> Angle [rad]
+      real(wp), intent(out) :: value
+      !> Member of word_state
+      integer, intent(out) :: state
+      integer :: last
+
+      last = len(word)
+      value = 0.0_wp
+      state = word_state%malformed
+      if (last == 0) return
+      select case (word(last:last))
+      case ("d", "D")
+         call to_real(word(:last - 1), value, state)
+         value = value*(pi/180.0_wp)
+      case ("r", "R")
+         call to_real(word(:last - 1), value, state)
+      case default
+         call to_real(word, value, state)
+      end select
+   end subroutine to_angle
+
+   !> Find the figures and the point at the start of a word
+   pure subroutine measure_mantissa(word, length, leading, is_zero)
+      character(len=*), intent(in) :: word
+      !> Number of characters, 0 when there is no figure
+      integer, intent(out) :: length
+      !> Decimal exponent of the first figure that is not zero
+      integer, intent(out) :: leading
+      !> Are all figures zero?
+      logical, intent(out) :: is_zero
+      integer :: k, point, count_figures, first_nonzero
+
+      point = 0
+      count_figures = 0
+      first_nonzero = 0
+      do k = 1, len(word)
+         if (word(k:k) == "." .and. point == 0) then
+            point = k
+         else if (index(figures, word(k:k)) > 0) then
+            count_figures = count_figures + 1
+            if (first_nonzero == 0 .and. word(k:k) /= "0") first_nonzero = k
+         else
+            exit
+         end if
+      end do
+      length = k - 1
+      if (count_figures == 0) length = 0
+      if (point == 0) point = length + 1
+      is_zero = first_nonzero == 0
+      if (first_nonzero < point) then
+         leading = point - first_nonzero - 1
+      else
+         leading = point - first_nonzero
+      end if
+   end subroutine measure_mantissa
+
+   !> Exponent with optional sign; far beyond the range it is cut
+   pure subroutine read_exponent(word, value, state)
+      character(len=*), intent(in) :: word
+      integer, intent(out) :: value
+      integer, intent(out) :: state
+      !> Larger than any length of a mantissa that fits into memory
+      integer, parameter :: limit = 1000000000
+
+      call to_integer(word, value, state)
+      if (state == word_state%too_large) then
+         value = limit
+         if (word(1:1) == "-") value = -limit
+         state = word_state%good
+      end if
+      value = max(-limit, min(limit, value))
+   end subroutine read_exponent
+
+   !> Is this nan, inf or infinity in any case?
+   pure logical function spells_not_finite(word) result(spells)
+      character(len=*), intent(in) :: word
+      character(len=8) :: lower
+      integer :: k
+
+      spells = .false.
+      if (len(word) < 3 .or. len(word) > 8) return
+      lower = word
+      do k = 1, len(word)
+         if (lower(k:k) >= "A" .and. lower(k:k) <= "Z") lower(k:k) = achar(iachar(lower(k:k)) + 32)
+      end do
+      spells = lower == "nan" .or. lower == "inf" .or. lower == "infinity"
+   end function spells_not_finite
+
+   !> An integer in as many characters as it needs
+   pure function integer_text(value) result(text)
+      integer, intent(in) :: value
+      character(len=:), allocatable :: text
+      character(len=12) :: buffer
+
+      write(buffer, '(i0)') value
+      text = trim(buffer)
+   end function integer_text
+
+   !> A real number in six figures without needless zeros
+   pure function real_text(value) result(text)
+      real(wp), intent(in) :: value
+      character(len=:), allocatable :: text
+      character(len=24) :: buffer
+      integer :: last
+
+      if (value == 0.0_wp) then
+         text = "0"
+      else if (abs(value) < 1.0e-4_wp .or. abs(value) >= 1.0e6_wp) then
+         write(buffer, '(es12.5)') value
+         text = trim(adjustl(buffer))
+      else
+         write(buffer, '(f14.6)') value
+         last = verify(buffer, " 0", back=.true.)
+         if (buffer(last:last) == ".") last = last - 1
+         text = trim(adjustl(buffer(:last)))
+      end if
+   end function real_text
+end module contact_input_words

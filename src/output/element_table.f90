@@ -1,0 +1,100 @@
+!> Table of tractions and slip per element in the .out file
+module contact_output_element_table
+   use contact_base_choices, only : motion
+   use contact_base_constants, only : pi
+   use contact_base_kinds, only : wp
+   use contact_base_log, only : log_type
+   use contact_cases_spec, only : case_spec
+   use contact_grid_element_division, only : element
+   use contact_output_formats, only : general, printable, whole
+   use contact_patch_result, only : patch_result
+   implicit none (type, external)
+   private
+
+   public :: write_element_table
+
+contains
+
+   !> Write the table for the elements in contact, at output level 6 for all elements
+   subroutine write_element_table(log, spec, result)
+      type(log_type), intent(inout) :: log
+      type(case_spec), intent(in) :: spec
+      type(patch_result), intent(in) :: result
+      logical :: all_elements, new_row
+      integer :: ix, iy
+
+      all_elements = spec%output_level >= 6
+      call write_table_head(log, spec%motion)
+      do iy = 1, result%grid%my
+         new_row = .true.
+         do ix = 1, result%grid%mx
+            if (result%division(ix, iy) == element%exterior .and. .not. all_elements) cycle
+            if (new_row) then
+               call log%result("")
+               call log%result(" Y = " // general(result%grid%y(iy), 12, 4) // " ROW" // whole(iy, 3) &
+                  & // " OF THE POTENTIAL CONTACT")
+               call log%result("")
+               new_row = .false.
+            end if
+            call log%result(element_line(spec%motion, result, ix, iy))
+         end do
+      end do
+   end subroutine write_element_table
+
+   !> Title, explanation and column heading
+   subroutine write_table_head(log, motion_kind)
+      type(log_type), intent(inout) :: log
+      !> Member of motion
+      integer, intent(in) :: motion_kind
+
+      call log%result("")
+      call log%result(" QUANTITIES DISTRIBUTED OVER THE CONTACT AREA:")
+      call log%result(" H-PEN: UNDEFORMED DISTANCE MINUS APPROACH [MM], X [MM], PN: NORMAL PRESSURE [N/MM2],")
+      if (motion_kind == motion%none) then
+         call log%result(" PT: TANGENTIAL TRACTION ON BODY 1 [N/MM2], ARG: ITS DIRECTION IN DEGREES.")
+         call log%result("")
+         call log%result("     X          H-PEN        PN       ABS(PT)        ARG(PT)")
+         return
+      end if
+      call log%result(" PT: TANGENTIAL TRACTION ON BODY 1 [N/MM2], ARG: ITS DIRECTION IN DEGREES, TRCBND: ITS BOUND,")
+      if (motion_kind == motion%shift) then
+         call log%result(" S: SLIP DISTANCE [MM], OPPOSITE TO PT, RIGID SHIFT: SHIFT WITHOUT DEFORMATION [MM].")
+         call log%result("")
+         call log%result("     X         H-PEN        PN      TRCBND    ABS(PT)     ARG(PT;-S)  ABS(S)      " &
+            & // "RIGID SHIFT(X, Y)")
+      else
+         call log%result(" S: RELATIVE SLIP VELOCITY [-], OPPOSITE TO PT, RIGID SLIP: THE SAME WITHOUT DEFORMATION.")
+         call log%result("")
+         call log%result("     X         H-PEN        PN      TRCBND    ABS(PT)     ARG(PT;-S)  ABS(S)      " &
+            & // "RIGID SLIP(X, Y)")
+      end if
+   end subroutine write_table_head
+
+   !> Values of one element; slip per step becomes relative slip
+   function element_line(motion_kind, result, ix, iy) result(line)
+      !> Member of motion
+      integer, intent(in) :: motion_kind
+      type(patch_result), intent(in) :: result
+      integer, intent(in) :: ix, iy
+      character(len=:), allocatable :: line
+      character(len=110) :: text
+      real(wp) :: px, py, traction, angle, gap
+
+      px = result%px(ix, iy)
+      py = result%py(ix, iy)
+      traction = hypot(px, py)
+      angle = 0.0_wp
+      if (traction > 0.0_wp) angle = atan2(printable(py), px)*180.0_wp/pi
+      gap = result%h(ix, iy) - result%pen
+      if (motion_kind == motion%none) then
+         write(text, '(1x, 4g12.4, f10.1)') printable(result%grid%x(ix)), printable(gap), &
+            & printable(result%pn(ix, iy)), printable(traction), angle
+      else
+         write(text, '(1x, g12.4, 4g11.3, f10.1, 2x, 3g11.3)') printable(result%grid%x(ix)), printable(gap), &
+            & printable(result%pn(ix, iy)), printable(result%mu(ix, iy)*result%pn(ix, iy)), printable(traction), angle, &
+            & printable(hypot(result%sx(ix, iy), result%sy(ix, iy))/result%dq), printable(result%wx(ix, iy)/result%dq), &
+            & printable(result%wy(ix, iy)/result%dq)
+      end if
+      line = trim(text)
+   end function element_line
+end module contact_output_element_table

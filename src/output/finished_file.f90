@@ -1,0 +1,117 @@
+!> Files that exist only when complete: written under a temporary name, renamed at the end
+module contact_output_finished_file
+   use, intrinsic :: iso_c_binding, only : c_char, c_int, c_null_char
+   use contact_base_error, only : error_kind, error_type, fatal_error
+   implicit none (type, external)
+   private
+
+   public :: case_file_name, finished_file
+
+   !> A text file in the making
+   type :: finished_file
+      !> Unit to write to, 0 when not open
+      integer :: unit = 0
+      !> Final and temporary name
+      character(len=:), allocatable :: name, temporary
+   contains
+      !> Start a file under a temporary name
+      procedure :: start => start_file
+      !> Close the file and give it its name, or remove it when writing went wrong
+      procedure :: finish => finish_file
+   end type finished_file
+
+   interface
+      !> rename of the C library: replaces an existing file in one step
+      function c_rename(from, to) result(status) bind(c, name="rename")
+         import :: c_char, c_int
+         character(kind=c_char), intent(in) :: from(*), to(*)
+         integer(c_int) :: status
+      end function c_rename
+   end interface
+
+contains
+
+   !> Name of a file that belongs to one case: <base>[_reNNN].<case>[<patch letter>].<extension>
+   pure function case_file_name(base, case_text, extension, result_element, patch) result(name)
+      !> Folder and name of the experiment
+      character(len=*), intent(in) :: base
+      !> Number of the case as it shall appear; empty to leave it out
+      character(len=*), intent(in) :: case_text
+      !> Extension without dot
+      character(len=*), intent(in) :: extension
+      !> Result element, absent or 0 for none; contact patch (1 = a), absent or 0 for none
+      integer, intent(in), optional :: result_element, patch
+      character(len=:), allocatable :: name
+      character(len=12) :: number
+
+      name = base
+      if (present(result_element)) then
+         if (result_element > 0) then
+            write(number, '(i0.3)') result_element
+            name = name // "_re" // trim(number)
+         end if
+      end if
+      if (len_trim(case_text) > 0) name = name // "." // trim(case_text)
+      if (present(patch)) then
+         if (patch > 0 .and. patch <= 26) then
+            if (len_trim(case_text) == 0) name = name // "."
+            name = name // achar(iachar("a") + patch - 1)
+         end if
+      end if
+      name = name // "." // extension
+   end function case_file_name
+
+   !> Open a temporary file in the folder of the final one
+   subroutine start_file(self, name, error)
+      class(finished_file), intent(inout) :: self
+      !> Final name
+      character(len=*), intent(in) :: name
+      type(error_type), allocatable, intent(out) :: error
+      integer :: status
+      character(len=200) :: message
+
+      self%name = name
+      self%temporary = name // ".tmp"
+      open(newunit=self%unit, file=self%temporary, status="replace", action="write", iostat=status, iomsg=message)
+      if (status == 0) return
+      self%unit = 0
+      call fatal_error(error, "cannot write the file: " // trim(message), error_kind%file, file=name)
+   end subroutine start_file
+
+   !> Close and rename; with a status other than 0 the temporary file is removed and the error says why
+   subroutine finish_file(self, status, error)
+      class(finished_file), intent(inout) :: self
+      !> I/O status of the write statements, 0 for success
+      integer, intent(in) :: status
+      type(error_type), allocatable, intent(out) :: error
+      integer :: closed, unit
+
+      if (self%unit == 0) return
+      closed = status
+      if (status == 0) then
+         close(self%unit, iostat=closed)
+         if (closed == 0) closed = move(self%temporary, self%name)
+      else
+         close(self%unit, status="delete", iostat=unit)
+      end if
+      self%unit = 0
+      if (closed == 0) return
+      if (status == 0) then
+         open(newunit=unit, file=self%temporary, iostat=closed)
+         if (closed == 0) close(unit, status="delete", iostat=closed)
+      end if
+      call fatal_error(error, "the file could not be completed, it was not written", error_kind%file, file=self%name)
+   end subroutine finish_file
+
+   !> Rename a file; where the system refuses to replace, the old one is deleted first
+   integer function move(from, to) result(status)
+      character(len=*), intent(in) :: from, to
+      integer :: unit, ignored
+
+      status = int(c_rename(from // c_null_char, to // c_null_char))
+      if (status == 0) return
+      open(newunit=unit, file=to, status="old", iostat=ignored)
+      if (ignored == 0) close(unit, status="delete", iostat=ignored)
+      status = int(c_rename(from // c_null_char, to // c_null_char))
+   end function move
+end module contact_output_finished_file

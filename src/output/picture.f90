@@ -1,0 +1,136 @@
+!> Picture of the element division in characters
+module contact_output_picture
+   use contact_base_choices, only : motion
+   use contact_base_constants, only : pi
+   use contact_base_kinds, only : wp
+   use contact_base_log, only : log_type
+   use contact_grid_element_division, only : bounding_box, contact_box, element
+   use contact_output_formats, only : fixed, whole
+   implicit none (type, external)
+   private
+
+   public :: picture_window, write_picture
+
+   !> Up to so many columns are shown with a blank before each symbol
+   integer, parameter :: spaced_columns = 46
+   !> Contact that starts and ends within so many columns of the border shows the full range
+   integer, parameter :: near_border = 5
+   !> Half the number of columns around the middle that are shown when there is no contact
+   integer, parameter :: empty_half = 5
+
+contains
+
+   !> Write the picture, highest row first, and the column numbers below it
+   subroutine write_picture(log, division, motion_kind, chi)
+      type(log_type), intent(inout) :: log
+      !> Element states, shape (mx, my)
+      integer, intent(in) :: division(:, :)
+      !> Member of motion: rolling shows the rolling direction
+      integer, intent(in) :: motion_kind
+      !> Rolling direction [rad]
+      real(wp), intent(in) :: chi
+      type(bounding_box) :: window
+      character(len=:), allocatable :: row, last_line
+      integer :: ix, iy, step, shown, position
+
+      window = picture_window(division)
+      shown = window%ix1 - window%ix0 + 1
+      step = merge(2, 1, shown <= spaced_columns)
+
+      call log%result("")
+      call log%line(" FORM OF THE CONTACT, ADHESION AND SLIP-AREA`S:")
+      allocate(character(len=step*shown) :: row)
+      do iy = window%iy1, window%iy0, -1
+         row = repeat(" ", step*shown)
+         do ix = window%ix0, window%ix1
+            position = step*(ix - window%ix0 + 1)
+            row(position:position) = symbol(division(ix, iy))
+         end do
+         if (iy == window%iy0 .or. iy == window%iy1) then
+            if (row(step:step) == ".") row(step:step) = "o"
+            position = step*shown
+            if (row(position:position) == ".") row(position:position) = "o"
+         end if
+         call log%line(whole(iy, 6) // "  " // row)
+      end do
+
+      if (shown >= 200) call log%line("        " // column_digits(window, step, 100))
+      if (shown >= 10) call log%line("        " // column_digits(window, step, 10))
+      call log%line("        " // column_digits(window, step, 1))
+      last_line = "     X  -->"
+      if (motion_kind == motion%transient_rolling .or. motion_kind == motion%steady_rolling) &
+         & last_line = last_line // "        Chi=" // fixed(chi*180.0_wp/pi, 6, 2) // " degrees"
+      call log%line(last_line)
+   end subroutine write_picture
+
+   !> Part of the grid that is shown
+   pure function picture_window(division) result(window)
+      !> Element states, shape (mx, my)
+      integer, intent(in) :: division(:, :)
+      type(bounding_box) :: window
+
+      window = contact_box(division)
+      if (window%ix0 > window%ix1) then
+         call around_middle(size(division, 1), window%ix0, window%ix1)
+         call around_middle(size(division, 2), window%iy0, window%iy1)
+      else
+         call widen(size(division, 1), window%ix0, window%ix1)
+         call widen(size(division, 2), window%iy0, window%iy1)
+      end if
+   end function picture_window
+
+   !> Add a border of one; show everything when the contact nearly fills the range
+   pure subroutine widen(size, first, last)
+      integer, intent(in) :: size
+      integer, intent(inout) :: first, last
+
+      if (first <= near_border .and. last > size - near_border) then
+         first = 1
+         last = size
+      else
+         first = max(1, first - 1)
+         last = min(size, last + 1)
+      end if
+   end subroutine widen
+
+   !> A few around the middle
+   pure subroutine around_middle(size, first, last)
+      integer, intent(in) :: size
+      integer, intent(out) :: first, last
+
+      first = max(1, (size + 1)/2 - empty_half)
+      last = min(size, (size + 1)/2 + empty_half)
+   end subroutine around_middle
+
+   !> One decimal of the column numbers, shown where the lower decimals are zero
+   pure function column_digits(window, step, unit) result(line)
+      type(bounding_box), intent(in) :: window
+      !> Columns of text per element; 1, 10 or 100
+      integer, intent(in) :: step, unit
+      character(len=:), allocatable :: line
+      integer :: ix, position
+
+      line = repeat(" ", step*(window%ix1 - window%ix0 + 1))
+      do ix = window%ix0, window%ix1
+         if (mod(ix, unit) /= 0) cycle
+         position = step*(ix - window%ix0 + 1)
+         line(position:position) = achar(48 + mod(ix/unit, 10))
+      end do
+      line = trim(line)
+   end function column_digits
+
+   !> Symbol of an element state
+   elemental character(len=1) function symbol(state)
+      integer, intent(in) :: state
+
+      if (state == element%exterior) then
+         symbol = "."
+      else if (state == element%adhesion) then
+         symbol = "*"
+      else if (state == element%slip) then
+         symbol = "S"
+      else
+         symbol = "|"
+      end if
+   end function symbol
+end module contact_output_picture

@@ -1,0 +1,267 @@
+!> Results of a case in the .out file: totals, sensitivities, statistics, how it was solved
+module contact_output_report_result
+   use contact_base_choices, only : force_control, material_model, motion, pressure_model, variation
+   use contact_base_kinds, only : wp
+   use contact_base_log, only : log_type
+   use contact_base_solve_report, only : ending, solve_report
+   use contact_cases_spec, only : case_spec
+   use contact_output_formats, only : scientific, smart, smarts, whole
+   use contact_patch_result, only : patch_result
+   implicit none (type, external)
+   private
+
+   public :: has_plasticity, shown_totals, without_noise
+   public :: write_sensitivities, write_solution_line, write_statistics, write_totals
+
+   !> Totals as they are printed: what is below the solver tolerance is zero
+   type :: shown_totals
+      !> Forces [N], moment [N mm]
+      real(wp) :: fx = 0.0_wp, fy = 0.0_wp, mz = 0.0_wp
+      !> Relative forces [-]
+      real(wp) :: fx_rel = 0.0_wp, fy_rel = 0.0_wp
+      !> Creepages [-] or shifts [mm]
+      real(wp) :: cksi = 0.0_wp, ceta = 0.0_wp
+      !> Elastic energy [J]
+      real(wp) :: elastic_energy = 0.0_wp
+   end type shown_totals
+
+contains
+
+   !> Does the interfacial layer have a yield limit?
+   pure logical function has_plasticity(spec)
+      type(case_spec), intent(in) :: spec
+
+      has_plasticity = spec%material_model == material_model%interfacial_layer .and. &
+         & spec%material%tau_c0 > 1.0e-10_wp .and. spec%material%tau_c0 <= 1.0e10_wp
+   end function has_plasticity
+
+   !> Totals with values below the tolerance of the solution set to zero
+   pure function without_noise(spec, result) result(totals)
+      type(case_spec), intent(in) :: spec
+      type(patch_result), intent(in) :: result
+      type(shown_totals) :: totals
+      real(wp) :: small
+
+      small = 0.5_wp*spec%iteration%eps
+      totals%fx = clean(result%fx, small*abs(result%fn)*result%mu_scal)
+      totals%fy = clean(result%fy, small*abs(result%fn)*result%mu_scal)
+      totals%mz = clean(result%mz, small*abs(result%fn)*result%mu_scal)
+      totals%fx_rel = clean(result%fx_rel, small)
+      totals%fy_rel = clean(result%fy_rel, small)
+      totals%cksi = result%cksi
+      totals%ceta = result%ceta
+      if (spec%force >= force_control%fx_and_ceta) totals%cksi = clean(result%cksi, spec%iteration%eps*abs(result%ceta))
+      if (spec%force == force_control%fx_and_fy) totals%ceta = clean(result%ceta, spec%iteration%eps*abs(result%cksi))
+      totals%elastic_energy = result%elastic_energy
+      if (any(spec%pressure == [pressure_model%elliptical, pressure_model%parabolical, pressure_model%sdec])) &
+         & totals%elastic_energy = 0.0_wp
+   end function without_noise
+
+   !> Zero if the magnitude is below the limit
+   elemental real(wp) function clean(value, limit)
+      real(wp), intent(in) :: value, limit
+      clean = value
+      if (abs(value) < limit) clean = 0.0_wp
+   end function clean
+
+   !> Forces, energy, approach, and the creepages or relative forces that were not prescribed
+   subroutine write_totals(log, spec, result)
+      type(log_type), intent(inout) :: log
+      type(case_spec), intent(in) :: spec
+      type(patch_result), intent(in) :: result
+      type(shown_totals) :: totals
+      character(len=12) :: first_name, second_name
+      logical :: rolling, by_row
+      real(wp) :: first, second
+
+      totals = without_noise(spec, result)
+      rolling = spec%motion == motion%transient_rolling .or. spec%motion == motion%steady_rolling
+      by_row = spec%variation == variation%by_row
+
+      if (spec%force >= force_control%fx_and_ceta) then
+         first_name = merge(" CREEP X    ", " SHIFT X    ", rolling)
+         first = totals%cksi
+      else
+         first_name = merge("  FX/FN     ", "FX/FSTAT/FN ", by_row)
+         first = totals%fx_rel
+      end if
+      if (spec%force == force_control%fx_and_fy) then
+         second_name = merge(" CREEP Y    ", " SHIFT Y    ", rolling)
+         second = totals%ceta
+      else
+         second_name = merge(" FY/FN      ", "FY/FSTAT/FN ", by_row)
+         second = totals%fy_rel
+      end if
+
+      if (spec%output_level >= 2) then
+         call log%result("")
+         call log%result(" TOTAL FORCES, TORSIONAL MOMENT, ELASTIC ENERGY, FRICTIONAL POWER")
+      end if
+      call log%result("     FN          FX          FY          MZ         ELAST.EN.   FRIC." &
+         & // merge("POWER", "WORK ", rolling))
+      call log%result("  " // smarts([result%fn, totals%fx, totals%fy, totals%mz, totals%elastic_energy, &
+         & result%friction_power]))
+      call log%result("     FN/G      " // first_name // " " // second_name // " APPROACH     PMAX    ")
+      call log%result("  " // smarts([result%fn/result%gg, first, second]) // smart(result%pen, 12, 6, 4) &
+         & // smart(result%pmax, 12, 4, 4))
+   end subroutine write_totals
+
+   !> Derivatives of the forces to approach, creepages and spin
+   subroutine write_sensitivities(log, spec, result)
+      type(log_type), intent(inout) :: log
+      type(case_spec), intent(in) :: spec
+      type(patch_result), intent(in) :: result
+      character(len=2), parameter :: force_name(3) = ["FN", "FX", "FY"]
+      character(len=:), allocatable :: row
+      integer :: i, j
+
+      call log%result("")
+      if (spec%motion == motion%none) then
+         call log%result(" THE SENSITIVITIES.")
+         call log%result(" ZERO MEANS: NOT COMPUTED.")
+         call log%result("  DFN/DPEN")
+         call log%result(smart(result%sensitivity(1, 1), 12, 3, 3))
+         return
+      end if
+      if (spec%variation == variation%by_row) then
+         call log%result(" THE SENSITIVITIES. FX, FY STAND FOR (FX, FY)/FN.")
+      else
+         call log%result(" THE SENSITIVITIES. FX, FY STAND FOR (FX, FY)/FN/FSTAT.")
+      end if
+      call log%result(" ZERO MEANS: NOT COMPUTED.")
+      call log%result("         DF/DPEN     DF/DKSI     DF/DETA     DF/DPHI")
+      do i = 1, 3
+         row = "   " // force_name(i) // " "
+         do j = 1, 4
+            row = row // smart(result%sensitivity(i, j), 12, 3, 3)
+         end do
+         call log%result(row)
+      end do
+   end subroutine write_sensitivities
+
+   !> Numbers of elements per state, passes of the solvers
+   subroutine write_statistics(log, spec, result)
+      type(log_type), intent(inout) :: log
+      type(case_spec), intent(in) :: spec
+      type(patch_result), intent(in) :: result
+      character(len=:), allocatable :: names, numbers
+
+      names = "    NPOT   NCON   NADH  NSLIP"
+      numbers = " " // whole(result%grid%npot(), 7) // whole(result%ncon, 7) // whole(result%nadh, 7) &
+         & // whole(result%nslip, 7)
+      if (has_plasticity(spec)) then
+         names = names // "  NPLAST"
+         numbers = numbers // whole(result%nplast, 7)
+         names = names // " INORM  ITANG"
+      else
+         names = names // "  INORM  ITANG"
+      end if
+      call log%result("")
+      call log%result(" CONTACT STATISTICS")
+      call log%result(" N: ELEMENTS IN A REGION,  I: PASSES OF A SOLVER (NEGATIVE: FAILED),")
+      call log%result(" POT: POTENTIAL CONTACT AREA,  CON: CONTACT,  ADH: ADHESION")
+      call log%result(names)
+      call log%result(numbers // whole(result%inorm, 7) // whole(result%itang, 7))
+   end subroutine write_statistics
+
+   !> Which effects acted, which solvers ended the case and how well: one line of free text
+   !>
+   !> Begins with a blank and holds words in front of all numbers, so that readers of columns skip it.
+   subroutine write_solution_line(log, spec, result)
+      type(log_type), intent(inout) :: log
+      type(case_spec), intent(in) :: spec
+      type(patch_result), intent(in) :: result
+      character(len=:), allocatable :: line, trouble
+      logical :: has_tangential
+
+      has_tangential = spec%motion /= motion%none
+      line = " EFFECTS: "
+      if (allocated(result%effects)) then
+         line = line // harmless(result%effects)
+      end if
+      if (line == " EFFECTS: ") line = line // "none"
+      line = line // "; SOLVER: " // method_name(result%normal)
+      if (has_tangential) line = line // ", " // method_name(result%tangential)
+      line = line // "; RESIDUAL: " // residual_text(result%normal%residual)
+      if (has_tangential) line = line // ", " // residual_text(result%tangential%residual)
+      if (has_tangential .and. result%outer_iterations > 1) &
+         & line = line // ", " // residual_text(result%residual) // " coupled"
+      line = line // "; ITERATIONS: " // whole(result%normal%iterations, 1)
+      if (has_tangential) line = line // ", " // whole(result%tangential%iterations, 1)
+      if (has_tangential .and. result%outer_iterations > 1) &
+         & line = line // ", " // whole(result%outer_iterations, 1) // " outer"
+
+      trouble = fall_back_text(result%normal)
+      if (has_tangential) trouble = trouble // fall_back_text(result%tangential)
+      trouble = trouble // ending_text(result%normal, "normal")
+      if (has_tangential) trouble = trouble // ending_text(result%tangential, "tangential")
+      call log%result(line // trouble)
+   end subroutine write_solution_line
+
+   !> Name of the method that ended an iteration
+   pure function method_name(report) result(name)
+      type(solve_report), intent(in) :: report
+      character(len=:), allocatable :: name
+
+      name = "none"
+      if (allocated(report%method)) name = harmless(report%method)
+      if (len_trim(name) == 0) name = "none"
+   end function method_name
+
+   !> Residual in two digits
+   pure function residual_text(residual) result(text)
+      !> Relative residual, negative when unknown
+      real(wp), intent(in) :: residual
+      character(len=:), allocatable :: text
+
+      text = "unknown"
+      if (residual >= 0.0_wp) text = trim(adjustl(scientific(residual, 10, 1)))
+   end function residual_text
+
+   !> Which method was given up for which; empty normally
+   pure function fall_back_text(report) result(text)
+      type(solve_report), intent(in) :: report
+      character(len=:), allocatable :: text
+
+      text = ""
+      if (.not. allocated(report%gave_up)) return
+      if (len_trim(report%gave_up) == 0) return
+      text = "; FALL-BACK: " // harmless(report%gave_up) // " to " // method_name(report)
+   end function fall_back_text
+
+   !> How an iteration ended that did not converge; empty normally
+   pure function ending_text(report, problem) result(text)
+      type(solve_report), intent(in) :: report
+      !> Name of the problem
+      character(len=*), intent(in) :: problem
+      character(len=:), allocatable :: text
+
+      text = ""
+      if (report%succeeded()) return
+      text = "; NOT CONVERGED: " // problem // " problem, "
+      if (report%ended == ending%iteration_limit) then
+         text = text // "all allowed iterations used"
+      else if (report%ended == ending%stagnated) then
+         text = text // "residual no longer decreasing"
+      else if (report%ended == ending%diverged) then
+         text = text // "iterates growing"
+      else
+         text = text // "reason unknown"
+      end if
+      text = text // ", tolerance " // residual_text(report%tolerance)
+   end function ending_text
+
+   !> Text without the word by which readers count cases
+   pure function harmless(text) result(safe)
+      character(len=*), intent(in) :: text
+      character(len=:), allocatable :: safe
+      integer :: at
+
+      safe = trim(text)
+      do
+         at = index(safe, "Case")
+         if (at == 0) exit
+         safe(at:at) = "c"
+      end do
+   end function harmless
+end module contact_output_report_result

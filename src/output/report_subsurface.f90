@@ -1,0 +1,89 @@
+!> Extremes of the subsurface stresses, and the points one by one, in the .out file
+module contact_output_report_subsurface
+   use contact_base_choices, only : stress_choice
+   use contact_base_kinds, only : wp
+   use contact_base_log, only : log_type
+   use contact_cases_spec, only : case_spec
+   use contact_output_formats, only : fixed, general, generals, whole
+   use contact_patch_result, only : patch_result, subsurface_result
+   implicit none (type, external)
+   private
+
+   public :: write_subsurface
+
+contains
+
+   !> Write all subsurface blocks; does nothing when none were asked for
+   !>
+   !> Depends on the output digit of the subsurface request alone, not on that of the case.
+   subroutine write_subsurface(log, spec, result)
+      type(log_type), intent(inout) :: log
+      type(case_spec), intent(in) :: spec
+      type(patch_result), intent(in) :: result
+      integer :: i
+
+      if (log%out == 0) return
+      if (spec%stress == stress_choice%none .or. spec%subsurface%output < 1) return
+      if (.not. allocated(result%subsurface)) return
+      do i = 1, size(result%subsurface)
+         call log%result("")
+         call log%result(" SUBSURFACE STRESSES BLOCK" // whole(i, 3) // ":")
+         call log%result(" ")
+         if (allocated(result%subsurface(i)%sighyd)) then
+            if (size(result%subsurface(i)%sighyd) > 0) then
+               call write_extremes(log, result%subsurface(i))
+               if (spec%subsurface%output >= 4) call write_points(log, result%subsurface(i))
+            end if
+         end if
+      end do
+   end subroutine write_subsurface
+
+   !> The eight lines with extreme values; the first point wins a tie
+   subroutine write_extremes(log, block)
+      type(log_type), intent(inout) :: log
+      type(subsurface_result), intent(in) :: block
+
+      call extreme("ABSMAX SIGHYD", block%sighyd, maxloc(abs(block%sighyd), dim=1))
+      call extreme("MAX     SIGVM", block%sigvm, maxloc(abs(block%sigvm), dim=1))
+      call extreme("MAX     SIGTR", block%sigtr, maxloc(abs(block%sigtr), dim=1))
+      call extreme("MAX    SIGMA1", block%sigma1, maxloc(block%sigma1, dim=1))
+      call extreme("MIN    SIGMA3", block%sigma3, minloc(block%sigma3, dim=1))
+      call extreme("ABSMAX  SIGXX", block%stress(1, :), maxloc(abs(block%stress(1, :)), dim=1))
+      call extreme("ABSMAX  SIGYY", block%stress(4, :), maxloc(abs(block%stress(4, :)), dim=1))
+      call extreme("ABSMAX  SIGZZ", block%stress(6, :), maxloc(abs(block%stress(6, :)), dim=1))
+
+   contains
+
+      subroutine extreme(label, values, point)
+         character(len=13), intent(in) :: label
+         real(wp), intent(in) :: values(:)
+         integer, intent(in) :: point
+
+         call log%result(" " // label // " =" // fixed(values(point), 10, 3) // " AT (X,Y,Z) = (" &
+            & // fixed(block%position(1, point), 8, 3) // "," // fixed(block%position(2, point), 8, 3) // "," &
+            & // fixed(block%position(3, point), 8, 3) // ")")
+      end subroutine extreme
+   end subroutine write_extremes
+
+   !> Displacements and stress tensor of every point
+   subroutine write_points(log, block)
+      type(log_type), intent(inout) :: log
+      type(subsurface_result), intent(in) :: block
+      !> Component of the stress list for each row and column of the tensor
+      integer, parameter :: entry(3, 3) = reshape([1, 2, 3, 2, 4, 5, 3, 5, 6], [3, 3])
+      integer :: i, point
+
+      call log%result("")
+      do point = 1, size(block%sighyd)
+         call log%result(" Position (X,Y,Z):" // generals(block%position(:, point)))
+         call log%result(" DIRECTION, DISPLACEMENT; ROW OF THE STRESS TENSOR")
+         do i = 1, 3
+            call log%result(whole(i, 3) // "  " // general(block%displacement(i, point), 12, 4) // "; " &
+               & // generals(block%stress(entry(:, i), point)))
+         end do
+         call log%result("  SigHyd = " // general(block%sighyd(point), 12, 4) // ", SigVM = " &
+            & // general(block%sigvm(point), 12, 4))
+         call log%result("")
+      end do
+   end subroutine write_points
+end module contact_output_report_subsurface

@@ -1,0 +1,150 @@
+!> Blocks of points below the surface
+module contact_subsurface_points
+   use contact_base_kinds, only : wp
+   use contact_grid_potential_contact, only : potential_contact
+   implicit none (type, external)
+   private
+
+   public :: point_selection, point_block, expand_points, depth_range
+
+   type :: point_selection_list
+      !> Centres of all elements
+      integer :: all_elements = 1
+      !> Centres of the elements in regular ranges of columns and rows
+      integer :: ranges = 2
+      !> Centres of the elements in lists of columns and rows
+      integer :: lists = 3
+      !> Coordinates that have nothing to do with the grid
+      integer :: free = 9
+   end type point_selection_list
+   !> Ways to choose x and y; the depths are always a list
+   type(point_selection_list), parameter :: point_selection = point_selection_list()
+
+   !> Request for one block: the product of a set of x, of y and of z
+   type :: point_block
+      !> Member of point_selection
+      integer :: selection = 1
+      !> First, increment and last of columns and rows, for ranges; clipped to the grid
+      integer :: ixl = 1, ixinc = 1, ixh = huge(1), iyl = 1, iyinc = 1, iyh = huge(1)
+      !> Columns and rows, for lists, in any order; those outside the grid are left out
+      integer, allocatable :: ix(:), iy(:)
+      !> Coordinates [mm], for free points, in any order
+      real(wp), allocatable :: x(:), y(:)
+      !> Depths [mm], positive in body 1, in any order
+      real(wp), allocatable :: z(:)
+   end type point_block
+
+contains
+
+   !> Positions of the points of a block, x fastest, then y, then z
+   !>
+   !> Lists are sorted; repeated columns and rows count once, repeated coordinates do not
+   !> disturb and stay.
+   pure subroutine expand_points(block, grid, nx, ny, nz, position)
+      type(point_block), intent(in) :: block
+      type(potential_contact), intent(in) :: grid
+      !> Numbers of points that remain after clipping, possibly 0
+      integer, intent(out) :: nx, ny, nz
+      !> Points [mm], shape (3, nx*ny*nz)
+      real(wp), allocatable, intent(out) :: position(:, :)
+      real(wp), allocatable :: x(:), y(:), z(:)
+      integer :: ix, iy, iz, n
+
+      select case (block%selection)
+      case (point_selection%free)
+         x = sorted_copy(block%x)
+         y = sorted_copy(block%y)
+      case (point_selection%lists)
+         x = grid%x(chosen(block%ix, grid%mx))
+         y = grid%y(chosen(block%iy, grid%my))
+      case (point_selection%ranges)
+         x = grid%x(range_within(block%ixl, block%ixinc, block%ixh, grid%mx))
+         y = grid%y(range_within(block%iyl, block%iyinc, block%iyh, grid%my))
+      case default
+         x = grid%x(range_within(1, 1, grid%mx, grid%mx))
+         y = grid%y(range_within(1, 1, grid%my, grid%my))
+      end select
+      z = sorted_copy(block%z)
+      nx = size(x)
+      ny = size(y)
+      nz = size(z)
+      allocate(position(3, nx*ny*nz))
+      n = 0
+      do iz = 1, nz
+         do iy = 1, ny
+            do ix = 1, nx
+               n = n + 1
+               position(:, n) = [x(ix), y(iy), z(iz)]
+            end do
+         end do
+      end do
+   end subroutine expand_points
+
+   !> Depths zl, zl + dz, ... [mm]
+   pure function depth_range(nz, zl, dz) result(z)
+      !> Number of depths
+      integer, intent(in) :: nz
+      !> First depth and step [mm]
+      real(wp), intent(in) :: zl, dz
+      real(wp), allocatable :: z(:)
+      integer :: iz
+
+      z = [(zl + (iz - 1)*dz, iz = 1, nz)]
+   end function depth_range
+
+   !> Numbers first, first + increment, ... up to last as far as they lie in 1...m
+   pure function range_within(first, increment, last, m) result(numbers)
+      !> Ends of the range and step; steps below 1 mean 1
+      integer, intent(in) :: first, increment, last
+      !> Largest number that is allowed
+      integer, intent(in) :: m
+      integer, allocatable :: numbers(:)
+      integer :: i, step, start
+
+      step = max(1, increment)
+      start = first
+      ! the smallest member of the range that is not below 1
+      if (first < 1) start = first + step*((step - first)/step)
+      numbers = [(i, i = start, min(last, m), step)]
+   end function range_within
+
+   !> Members of a list that lie in 1...m, ascending and each of them once
+   pure function chosen(list, m) result(numbers)
+      !> Numbers in any order; unallocated means none
+      integer, allocatable, intent(in) :: list(:)
+      !> Largest number that is allowed
+      integer, intent(in) :: m
+      integer, allocatable :: numbers(:)
+      logical :: wanted(m)
+      integer :: i
+
+      wanted = .false.
+      if (allocated(list)) then
+         do i = 1, size(list)
+            if (list(i) >= 1 .and. list(i) <= m) wanted(list(i)) = .true.
+         end do
+      end if
+      numbers = pack([(i, i = 1, m)], wanted)
+   end function chosen
+
+   !> Values in ascending order, by insertion
+   pure function sorted_copy(list) result(sorted)
+      !> Values in any order; unallocated means none
+      real(wp), allocatable, intent(in) :: list(:)
+      real(wp), allocatable :: sorted(:)
+      real(wp) :: value
+      integer :: i, j
+
+      allocate(sorted(0))
+      if (.not. allocated(list)) return
+      sorted = list
+      do i = 2, size(sorted)
+         value = sorted(i)
+         do j = i - 1, 1, -1
+            if (sorted(j) <= value) exit
+            sorted(j + 1) = sorted(j)
+         end do
+         sorted(j + 1) = value
+      end do
+   end function sorted_copy
+end module contact_subsurface_points
