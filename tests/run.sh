@@ -1,0 +1,30 @@
+#!/bin/sh
+# Install what is missing, build, run all tests: sh tests/run.sh [--long] [--debug] [--werror]
+#
+#   --long     also the long studies (label long)
+#   --debug    with all run-time checks (preset debug) instead of optimised
+#   --werror   compiler warnings are errors, as in CI
+# The exit status is that of ctest.
+set -u
+top=$(cd "$(dirname "$0")/.." && pwd) || exit 1
+. "$top/tests/support/setup.sh"
+
+preset=release
+werror=OFF
+[ -n "${CI:-}" ] && werror=ON
+exclude="-LE ^long$"
+for argument; do
+  case $argument in
+    --long) exclude= ;;
+    --debug) preset=debug ;;
+    --werror) werror=ON ;;
+    *) fail "usage: sh tests/run.sh [--long] [--debug] [--werror]" ;;
+  esac
+done
+
+install_missing
+build "$preset" -DCONTACT_TESTS=ON -DCONTACT_WERROR=$werror
+say "Testing"
+cd "$top/build/$preset" || exit 1
+# shellcheck disable=SC2086
+exec ctest --output-on-failure -j2 $exclude

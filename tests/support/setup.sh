@@ -1,0 +1,108 @@
+# Set-up shared by examples/run.sh and tests/run.sh; sourced by them with $top set to the checkout.
+#
+#   install_missing    installs the compiler, tools and libraries that are not there
+#   build PRESET [-DX] configures and builds into build/PRESET
+
+say() { printf '%s\n' "== $*"; }
+fail() { printf '%s\n' "$*" >&2; exit 1; }
+
+# Take the first gfortran that is new enough, unless the caller named a compiler in FC. On some
+# systems the plain name is an older one, and newer ones carry their number.
+choose_compiler() {
+  [ -n "${FC:-}" ] && return 0
+  for candidate in gfortran gfortran-15 gfortran-14 gfortran-13 gfortran-12; do
+    major=$("$candidate" -dumpversion 2>/dev/null | cut -d. -f1)
+    if [ "${major:-0}" -ge 12 ]; then
+      FC=$candidate
+      export FC
+      return 0
+    fi
+  done
+  return 1
+}
+
+# Whether a Fortran program can be compiled and linked with everything the build asks for. Tried
+# with the tools of the build, because names of packages say little about what works.
+everything_there() {
+  command -v cmake >/dev/null 2>&1 || return 1
+  choose_compiler || return 1
+  command -v cc >/dev/null 2>&1 || command -v gcc >/dev/null 2>&1 || return 1
+  command -v ninja >/dev/null 2>&1 || command -v make >/dev/null 2>&1 || return 1
+  command -v pkg-config >/dev/null 2>&1 || return 1
+  command -v python3 >/dev/null 2>&1 || return 1
+  probe=$(mktemp -d) || return 1
+  cat >"$probe/CMakeLists.txt" <<END
+cmake_minimum_required(VERSION 3.22)
+project(probe LANGUAGES Fortran C)
+list(APPEND CMAKE_MODULE_PATH "$top/src/cmake")
+include(dependencies)
+END
+  cmake -S "$probe" -B "$probe/build" >"$probe/log" 2>&1
+  answer=$?
+  rm -rf "$probe"
+  return $answer
+}
+
+# Run a command as root: directly, or by sudo
+as_root() {
+  if [ "$(id -u)" = 0 ]; then
+    "$@"
+  elif command -v sudo >/dev/null 2>&1; then
+    sudo "$@"
+  else
+    fail "Packages are missing and neither root nor sudo is at hand. As root, run: $*"
+  fi
+}
+
+install_missing() {
+  if everything_there; then
+    return 0
+  fi
+  say "Installing what is missing"
+  if command -v apt-get >/dev/null 2>&1; then
+    # The lists of a fresh machine are empty, those of an old one out of date
+    as_root apt-get update ||
+      say "apt-get update failed; trying with the package lists that are there"
+    as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends \
+      gfortran gcc libc6-dev make cmake ninja-build pkg-config python3 \
+      libfftw3-dev libopenblas-dev liblapack-dev libhdf5-dev &&
+      { choose_compiler || as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y gfortran-12; }
+  elif command -v dnf >/dev/null 2>&1; then
+    as_root dnf install -y gcc-gfortran gcc make cmake ninja-build pkgconf-pkg-config python3 \
+      fftw-devel openblas-devel lapack-devel hdf5-devel
+  elif command -v zypper >/dev/null 2>&1; then
+    as_root zypper --non-interactive install gcc-fortran gcc make cmake ninja pkg-config python3 \
+      fftw3-devel openblas-devel lapack-devel hdf5-devel
+  elif command -v pacman >/dev/null 2>&1; then
+    as_root pacman -Sy --needed --noconfirm gcc-fortran gcc make cmake ninja pkgconf python \
+      fftw openblas lapack hdf5
+  elif command -v apk >/dev/null 2>&1; then
+    as_root apk add gfortran gcc musl-dev make cmake ninja-is-really-ninja pkgconf python3 \
+      fftw-dev openblas-dev lapack-dev hdf5-dev
+  elif command -v brew >/dev/null 2>&1; then
+    brew install gcc cmake ninja pkg-config python3 fftw openblas lapack hdf5
+  else
+    fail "No package manager found (apt-get, dnf, zypper, pacman, apk, brew). Please install:
+gfortran >= 12, a C compiler, cmake >= 3.22, ninja or make, pkg-config, python3 and the
+development files of FFTW 3, LAPACK/BLAS and HDF5 with its Fortran interface."
+  fi || fail "The package manager could not install what is missing; its messages stand above."
+  everything_there || fail "Packages were installed, but a build cannot be configured yet. To see
+why: cmake --preset release (in $top)"
+}
+
+# build PRESET [options of cmake]
+# A folder that was configured before keeps its generator.
+build() {
+  preset=$1
+  shift
+  generator=
+  if [ ! -f "$top/build/$preset/CMakeCache.txt" ] && command -v ninja >/dev/null 2>&1; then
+    generator="-G Ninja"
+  fi
+  say "Building ($preset)"
+  # shellcheck disable=SC2086
+  (cd "$top" && cmake --preset "$preset" $generator "$@" && cmake --build --preset "$preset" -j "$jobs") ||
+    fail "The build failed; its messages stand above."
+}
+
+jobs=${CONTACT_JOBS:-2}
