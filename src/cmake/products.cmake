@@ -39,13 +39,13 @@ set_target_properties(contact_static PROPERTIES LINKER_LANGUAGE Fortran OUTPUT_N
 
 # The program does not need the shared library, so it runs wherever it is copied to
 if(program_room)
-  add_executable(contact_cli ${program_file})
-  set_target_properties(contact_cli PROPERTIES
+  add_executable(contact_program ${program_file})
+  set_target_properties(contact_program PROPERTIES
     OUTPUT_NAME contact
     Fortran_MODULE_DIRECTORY ${CONTACT_MODULE_ROOT}/program)
-  target_link_libraries(contact_cli PRIVATE contact_warnings OpenMP::OpenMP_Fortran)
-  contact_link_rooms(contact_cli base ${program_room})
-  install(TARGETS contact_cli RUNTIME)
+  target_link_libraries(contact_program PRIVATE contact_warnings OpenMP::OpenMP_Fortran)
+  contact_link_rooms(contact_program base ${program_room})
+  install(TARGETS contact_program RUNTIME)
 endif()
 
 set(headers ${PROJECT_SOURCE_DIR}/include/contact.h)
