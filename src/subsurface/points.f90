@@ -52,8 +52,8 @@ contains
 
       select case (block%selection)
       case (point_selection%free)
-         x = sorted_copy(block%x)
-         y = sorted_copy(block%y)
+         call sort_into(x, block%x)
+         call sort_into(y, block%y)
       case (point_selection%lists)
          x = grid%x(chosen(block%ix, grid%mx))
          y = grid%y(chosen(block%iy, grid%my))
@@ -64,7 +64,7 @@ contains
          x = grid%x(range_within(1, 1, grid%mx, grid%mx))
          y = grid%y(range_within(1, 1, grid%my, grid%my))
       end select
-      z = sorted_copy(block%z)
+      call sort_into(z, block%z)
       nx = size(x)
       ny = size(y)
       nz = size(z)
@@ -128,16 +128,18 @@ contains
    end function chosen
 
    !> Values in ascending order, by insertion
-   pure function sorted_copy(list) result(sorted)
+   pure subroutine sort_into(sorted, list)
+      real(wp), allocatable, intent(out) :: sorted(:)
       !> Values in any order; unallocated means none
       real(wp), allocatable, intent(in) :: list(:)
-      real(wp), allocatable :: sorted(:)
       real(wp) :: value
       integer :: i, j
 
-      allocate(sorted(0))
-      if (.not. allocated(list)) return
-      sorted = list
+      if (.not. allocated(list)) then
+         allocate(sorted(0))
+         return
+      end if
+      allocate(sorted, source=list)
       do i = 2, size(sorted)
          value = sorted(i)
          do j = i - 1, 1, -1
@@ -146,5 +148,5 @@ contains
          end do
          sorted(j + 1) = value
       end do
-   end function sorted_copy
+   end subroutine sort_into
 end module contact_subsurface_points
