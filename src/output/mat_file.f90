@@ -20,6 +20,8 @@ module contact_output_mat_file
    integer, parameter :: layout = 2410
    !> Number of columns without plasticity and heat
    integer, parameter :: columns = 11
+   !> Length of a line that holds all columns
+   integer, parameter :: width = 14*columns
    !> Value of A from which on all elements are written
    integer, parameter :: all_elements = 2
 
@@ -69,52 +71,208 @@ contains
       type(patch_result), intent(in) :: result
       !> 0 or the status of the write statement that failed
       integer, intent(out) :: status
+      character(len=width) :: lines(13)
+      real(wp), allocatable :: values(:)
       real(wp) :: chi, dq
       logical :: rolling
+      integer :: i
 
       rolling = spec%motion == motion%transient_rolling .or. spec%motion == motion%steady_rolling
       chi = merge(result%chi, 0.0_wp, rolling)
       dq = merge(result%dq, 1.0_wp, rolling)
 
-      call pair([character(len=11) :: "TIM", "S_WS(FC)", "TH_WS(FC)", "Y_R(TR)", "Z_R(TR)", "ROLL_R(TR)", "RNOM_ROL", &
-         & "-", "-", "-", "FMT"], reals(spread(0.0_wp, 1, 7)) // integers([0, 0, 0, layout]))
-      call pair([character(len=11) :: "X_W(TR)", "Y_W(TR)", "Z_W(TR)", "ROLL_W(TR)", "YAW_W(TR)", "RNOM_WHL", &
-         & "-", "-", "-", "-", "-"], reals(spread(0.0_wp, 1, columns)))
-      call pair([character(len=11) :: "X_CP(R)", "Y_CP(R)", "Z_CP(R)", "DELT_CP(R)", "X_CP(W)", "Y_CP(W)", "Z_CP(W)", &
-         & "NPATCH", "IPATCH", "SPINXO", "SPINYO"], reals(spread(0.0_wp, 1, 7)) // integers([0, 0]) &
-         & // reals([spec%kinematics%spinxo, spec%kinematics%spinyo]))
-      call pair([character(len=11) :: "MX   MY", "XL", "YL", "DX", "DY", "CHI", "DQ", "C1", "D", "YNOM_WHL"], &
-         & two_integers(result%grid%mx, result%grid%my) // reals([result%grid%xl, result%grid%yl, result%grid%dx, &
-         & result%grid%dy, chi, dq]) // integers([0, 2]) // reals([0.0_wp]))
-      call material_pair()
-      call friction_pair()
-      if (status == 0) call put(names_line([character(len=11) :: "I    IGS", "H", "MU", "PN", "PX", "PY", "UN", "UX", &
-         & "UY", merge("SREL", "SHFT", rolling)]))
-
-   contains
-
-      subroutine put(line)
-         character(len=*), intent(in) :: line
-         write(unit, '(a)', iostat=status) trim(line)
-      end subroutine put
-
-      !> Names, then values; nothing after a failure
-      subroutine pair(names, values)
-         character(len=*), intent(in) :: names(:), values
-         if (spec_started(names(1))) status = 0
-         if (status == 0) call put(names_line(names))
-         if (status == 0) call put(values)
-      end subroutine pair
-
-      pure logical function spec_started(name)
-         character(len=*), intent(in) :: name
-         spec_started = name == "TIM"
-      end function spec_started
-
-      subroutine material_pair()
-      end subroutine material_pair
-
-      subroutine friction_pair()
-      end subroutine friction_pair
+      lines(1) = name_line([character(len=11) :: "TIM", "S_WS(FC)", "TH_WS(FC)", "Y_R(TR)", "Z_R(TR)", "ROLL_R(TR)", &
+         & "RNOM_ROL", "-", "-", "-", "FMT"])
+      lines(2) = reals(zeros(7)) // integers([0, 0, 0, layout])
+      lines(3) = name_line([character(len=11) :: "X_W(TR)", "Y_W(TR)", "Z_W(TR)", "ROLL_W(TR)", "YAW_W(TR)", &
+         & "RNOM_WHL", "-", "-", "-", "-", "-"])
+      lines(4) = reals(zeros(columns))
+      lines(5) = name_line([character(len=11) :: "X_CP(R)", "Y_CP(R)", "Z_CP(R)", "DELT_CP(R)", "X_CP(W)", "Y_CP(W)", &
+         & "Z_CP(W)", "NPATCH", "IPATCH", "SPINXO", "SPINYO"])
+      lines(6) = reals(zeros(7)) // integers([0, 0]) // reals([spec%kinematics%spinxo, spec%kinematics%spinyo])
+      lines(7) = name_line([character(len=11) :: "  MX   MY", "XL", "YL", "DX", "DY", "CHI", "DQ", "C1", "D", "YNOM_WHL"])
+      lines(8) = two_integers(result%grid%mx, result%grid%my) // reals([result%grid%xl, result%grid%yl, result%grid%dx, &
+         & result%grid%dy, chi, dq]) // integers([0, 2]) // reals(zeros(1))
+      lines(9) = name_line(completed("   T    M", material_names(spec%material_model), 2))
+      values = material_values(spec)
+      lines(10) = two_integers(spec%digits%t, spec%digits%m) // reals([values, zeros(columns - 2 - size(values))])
+      lines(11) = name_line(completed("   L    H", friction_names(spec%friction_law), 2))
+      values = [spec%rolling%veloc, friction_values(spec)]
+      lines(12) = two_integers(spec%friction_law, spec%digits%h) // reals([values, zeros(columns - 2 - size(values))])
+      lines(13) = name_line([character(len=11) :: "   I  IGS", "H", "MU", "PN", "PX", "PY", "UN", "UX", "UY", &
+         & merge("SREL", "SHFT", rolling)])
+      do i = 1, size(lines)
+         write(unit, '(a)', iostat=status) trim(lines(i))
+         if (status /= 0) return
+      end do
    end subroutine write_header
+
+   !> One line per element in ascending number; slip per step becomes relative slip
+   subroutine write_elements(unit, spec, result, status)
+      integer, intent(in) :: unit
+      type(case_spec), intent(in) :: spec
+      type(patch_result), intent(in) :: result
+      !> 0 or the status of the write statement that failed
+      integer, intent(out) :: status
+      character(len=width) :: line
+      real(wp) :: slip, distance
+      logical :: every, rolling
+      integer :: ix, iy, number
+
+      every = spec%mat_file >= all_elements
+      rolling = spec%motion == motion%transient_rolling .or. spec%motion == motion%steady_rolling
+      distance = merge(result%dq, 1.0_wp, rolling)
+      number = 0
+      status = 0
+      do iy = 1, result%grid%my
+         do ix = 1, result%grid%mx
+            number = number + 1
+            if (result%division(ix, iy) == element%exterior .and. .not. every) cycle
+            slip = hypot(result%sx(ix, iy), result%sy(ix, iy))/distance
+            write(line, '(i7, 1x, i4, 2x, 9g14.6)') number, result%division(ix, iy), printable([result%h(ix, iy), &
+               & result%mu(ix, iy), result%pn(ix, iy), result%px(ix, iy), result%py(ix, iy), result%un(ix, iy), &
+               & result%ux(ix, iy), result%uy(ix, iy), slip])
+            write(unit, '(a)', iostat=status) trim(line)
+            if (status /= 0) return
+         end do
+      end do
+   end subroutine write_elements
+
+   !> Names of the material constants that the model has
+   pure function material_names(model) result(names)
+      !> Member of material_model
+      integer, intent(in) :: model
+      character(len=11), allocatable :: names(:)
+
+      select case (model)
+      case (material_model%viscoelastic)
+         names = [character(len=11) :: "GG1", "GG2", "POISS1", "POISS2", "FG1", "FG2", "TC1", "TC2"]
+      case (material_model%fastsim_single)
+         names = [character(len=11) :: "GG1", "GG2", "POISS1", "FLX1", "FLX2", "FLX3", "K0_MF", "ALFAMF", "BETAMF"]
+      case (material_model%interfacial_layer)
+         names = [character(len=11) :: "GG1", "GG2", "POISS1", "POISS2", "GG3", "LAYTHK", "TAU_C0", "K_TAU"]
+      case default
+         names = [character(len=11) :: "GG1", "GG2", "POISS1", "POISS2"]
+      end select
+   end function material_names
+
+   !> Values that belong to material_names
+   pure function material_values(spec) result(values)
+      type(case_spec), intent(in) :: spec
+      real(wp), allocatable :: values(:)
+
+      associate (material => spec%material)
+         select case (spec%material_model)
+         case (material_model%viscoelastic)
+            values = [material%gg, material%poiss, material%fg, material%tc]
+         case (material_model%fastsim_single)
+            values = [material%gg, material%poiss(1), spread(material%flx, 1, 3), material%k0_mf, material%alfamf, &
+               & material%betamf]
+         case (material_model%interfacial_layer)
+            values = [material%gg, material%poiss, material%gg3, material%laythk, material%tau_c0, material%k_tau]
+         case default
+            values = [material%gg, material%poiss]
+         end select
+      end associate
+   end function material_values
+
+   !> Names of the velocity and of the parameters that the friction law has
+   pure function friction_names(law) result(names)
+      !> Member of friction_model
+      integer, intent(in) :: law
+      character(len=11), allocatable :: names(:)
+
+      select case (law)
+      case (friction_model%coulomb)
+         names = [character(len=11) :: "VELOC", "FSTAT", "FKIN"]
+      case (friction_model%linear)
+         names = [character(len=11) :: "VELOC", "FKIN", "FLIN1", "SABSH1", "FLIN2", "SABSH2", "MEMDST", "MEM_S0"]
+      case (friction_model%rational)
+         names = [character(len=11) :: "VELOC", "FKIN", "FRAT1", "SABSH1", "FRAT2", "SABSH2", "MEMDST", "MEM_S0"]
+      case (friction_model%exponential)
+         names = [character(len=11) :: "VELOC", "FKIN", "FEXP1", "SABSH1", "FEXP2", "SABSH2", "MEMDST", "MEM_S0"]
+      case default
+         names = [character(len=11) :: "VELOC", "FREF", "TREF", "DFHEAT", "DTHEAT", "MEMDST", "MEM_S0"]
+      end select
+   end function friction_names
+
+   !> Values of the first set of friction parameters, without the velocity
+   pure function friction_values(spec) result(values)
+      type(case_spec), intent(in) :: spec
+      real(wp), allocatable :: values(:)
+      type(friction_set) :: set
+
+      if (allocated(spec%friction%sets)) then
+         if (size(spec%friction%sets) > 0) set = spec%friction%sets(1)
+      end if
+      select case (spec%friction_law)
+      case (friction_model%coulomb)
+         values = [set%fstat, set%fkin]
+      case (friction_model%temperature)
+         values = [set%fref, set%tref, set%dfheat, set%dtheat, spec%friction%memdst, spec%friction%mem_s0]
+      case default
+         values = [set%fkin, set%coef1, set%sabsh1, set%coef2, set%sabsh2, spec%friction%memdst, spec%friction%mem_s0]
+      end select
+   end function friction_values
+
+   !> The names with one in front and a dash for each unused column behind
+   pure function completed(first, names, used) result(all_names)
+      !> Name that stands above the first columns, their number
+      character(len=*), intent(in) :: first
+      integer, intent(in) :: used
+      character(len=11), intent(in) :: names(:)
+      character(len=11), allocatable :: all_names(:)
+      integer :: i
+
+      all_names = [character(len=11) :: first, names, [("-", i = 1, columns - used - size(names))]]
+   end function completed
+
+   !> Line of names that loaders skip: a name at the fourth place of every 14 columns
+   pure function name_line(names) result(line)
+      character(len=11), intent(in) :: names(:)
+      character(len=14*size(names)) :: line
+      integer :: i
+
+      line = ""
+      do i = 1, size(names)
+         line(14*i - 10:14*i) = names(i)
+      end do
+      line(1:1) = "%"
+   end function name_line
+
+   !> Values in 14 columns each
+   pure function reals(values) result(text)
+      real(wp), intent(in) :: values(:)
+      character(len=14*size(values)) :: text
+      integer :: i
+
+      do i = 1, size(values)
+         text(14*i - 13:14*i) = general(values(i), 14, 6)
+      end do
+   end function reals
+
+   !> Integers in 14 columns each
+   pure function integers(values) result(text)
+      integer, intent(in) :: values(:)
+      character(len=14*size(values)) :: text
+      integer :: i
+
+      do i = 1, size(values)
+         text(14*i - 13:14*i) = whole(values(i), 6)
+      end do
+   end function integers
+
+   !> Two integers that share 14 columns
+   pure function two_integers(first, second) result(text)
+      integer, intent(in) :: first, second
+      character(len=14) :: text
+      text = whole(first, 7) // " " // whole(second, 4)
+   end function two_integers
+
+   !> So many zeros
+   pure function zeros(count) result(values)
+      integer, intent(in) :: count
+      real(wp) :: values(max(0, count))
+      values = 0.0_wp
+   end function zeros
 end module contact_output_mat_file

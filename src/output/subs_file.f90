@@ -1,0 +1,104 @@
+!> The .subs file: displacements and stresses in subsurface points as a table of numbers
+module contact_output_subs_file
+   use contact_base_error, only : add_context, error_type
+   use contact_base_kinds, only : wp
+   use contact_cases_spec, only : case_spec
+   use contact_output_finished_file, only : case_file_name, finished_file
+   use contact_output_formats, only : general, smart, whole
+   use contact_patch_result, only : patch_result, subsurface_result
+   implicit none (type, external)
+   private
+
+   public :: subs_file_name, write_subs_file
+
+   !> Value of A_s from which on the stress tensor is written
+   integer, parameter :: with_tensor = 2
+
+contains
+
+   !> Name of the file: <base>[_reNNN].<case>[<patch>].subs with four digits for the case, six from
+   !> 10000 on; from a million on the number is left out
+   pure function subs_file_name(base, case_number, result_element, patch) result(name)
+      !> Folder and name of the experiment
+      character(len=*), intent(in) :: base
+      integer, intent(in) :: case_number
+      !> Result element, absent or 0 for none; contact patch (1 = a), absent or 0 for none
+      integer, intent(in), optional :: result_element, patch
+      character(len=:), allocatable :: name
+      character(len=6) :: number
+
+      number = ""
+      if (case_number <= 9999) then
+         write(number, '(i4.4)') case_number
+      else if (case_number <= 999999) then
+         write(number, '(i6.6)') case_number
+      end if
+      name = case_file_name(base, number, "subs", result_element, patch)
+   end function subs_file_name
+
+   !> Write all blocks; under its name the file is complete or does not exist
+   subroutine write_subs_file(file_name, spec, result, error)
+      character(len=*), intent(in) :: file_name
+      type(case_spec), intent(in) :: spec
+      !> The file is not made when the subsurface blocks are unallocated
+      type(patch_result), intent(in) :: result
+      type(error_type), allocatable, intent(out) :: error
+      type(finished_file) :: file
+      integer :: i, status
+
+      if (.not. allocated(result%subsurface)) return
+      call file%start(file_name, error)
+      if (allocated(error)) return
+      status = 0
+      do i = 1, size(result%subsurface)
+         call write_block(file%unit, result%subsurface(i), spec%subsurface%matfil >= with_tensor, status)
+         if (status /= 0) exit
+      end do
+      call file%finish(status, error)
+      call add_context(error, "writing the .subs file")
+   end subroutine write_subs_file
+
+   !> Sizes, names and points of one block
+   subroutine write_block(unit, block, tensor, status)
+      integer, intent(in) :: unit
+      type(subsurface_result), intent(in) :: block
+      !> Write the stress tensor too?
+      logical, intent(in) :: tensor
+      !> 0 or the status of the write statement that failed
+      integer, intent(out) :: status
+      character(len=9), parameter :: name(14) = [character(len=9) :: "X", "Y", "Z", "UX", "UY", "UZ", "SIGHYD", "SIGVM", &
+         & "SIGXX", "SIGXY", "SIGXZ", "SIGYY", "SIGYZ", "SIGZZ"]
+      character(len=:), allocatable :: line, dashes
+      real(wp) :: values(14)
+      integer :: columns, i, point
+
+      columns = merge(14, 8, tensor)
+      dashes = ""
+      line = whole(block%nx, 6) // whole(block%ny, 12) // whole(block%nz, 12) // "      "
+      do i = 4, columns
+         dashes = dashes // "           -"
+         line = line // general(0.0_wp, 12, 4)
+      end do
+      write(unit, '(a)', iostat=status) "%   NX          NY          NZ" // dashes
+      if (status == 0) write(unit, '(a)', iostat=status) line
+      if (status /= 0) return
+
+      line = repeat(" ", 12*columns)
+      do i = 1, columns
+         line(12*i - 6:12*i) = name(i)
+      end do
+      line(1:1) = "%"
+      write(unit, '(a)', iostat=status) trim(line)
+      if (status /= 0) return
+
+      do point = 1, size(block%position, 2)
+         values = [block%position(:, point), block%displacement(:, point), block%sighyd(point), block%sigvm(point), &
+            & block%stress(:, point)]
+         do i = 1, columns
+            line(12*i - 11:12*i) = smart(values(i), 12, 6, 5)
+         end do
+         write(unit, '(a)', iostat=status) line
+         if (status /= 0) return
+      end do
+   end subroutine write_block
+end module contact_output_subs_file
