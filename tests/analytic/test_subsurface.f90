@@ -165,7 +165,7 @@ contains
       character(len=400) :: line
       real(wp), allocatable :: table(:, :), u(:, :), s(:, :), inv(:, :), reference(:), actual(:), position(:, :)
       real(wp) :: row(14)
-      integer :: n, status, unit, point
+      integer :: bad, n, status, unit, point
 
       folder = reference_folder()
       if (len(folder) == 0) then
@@ -194,13 +194,20 @@ contains
       position = table(1:3, 1:n)
       call example_field(position, u, s)
       call stress_invariants(s, inv(:, 1), inv(:, 2), inv(:, 3), inv(:, 4), inv(:, 5))
+      ! The numbers are printed with five digits; at the surface the reference moves points that
+      ! lie beside an edge by 5e-7 of the distance, and leaves tractions of 1e-8 on the free surface
+      bad = 0
       do point = 1, n
          reference = table(4:14, point)
          actual = [u(:, point), inv(point, 1:2), s(:, point)]
-         if (all(abs(actual - reference) <= 2e-7_wp + 1e-5_wp*abs(reference))) cycle
-         write(line, '(a, 3es12.4)') "stored example at", table(1:3, point)
-         call suite%close_to(actual, reference, 1e-5_wp, trim(line))
+         if (all(abs(actual - reference) <= merge(1e-6_wp, 1e-9_wp, position(3, point) == 0.0_wp) &
+            & + 5.1e-5_wp*abs(reference))) cycle
+         bad = bad + 1
+         if (bad > 5) cycle
+         write(*, '(a, 3es12.4)') "stored example at", table(1:3, point)
+         write(*, '(11es13.5)') actual, reference
       end do
+      call suite%equal(bad, 0, "points that differ from the stored example")
    end subroutine one_element_file
 
    !> Stresses on the axis of a Hertzian contact of spheres; second order in the element size
@@ -220,7 +227,7 @@ contains
       do level = 1, size(levels)
          m = levels(level)
          grid = potential_contact(m, m, -1.0_wp, -1.0_wp, 2.0_wp/m, 2.0_wp/m)
-         pn = hertz_pressure(grid)
+         call hertz_pressure(grid, pn)
          none = 0.0_wp*pn
          call subsurface_field(grid, pn, none, none, [1.0_wp, 1.0_wp], [nu, nu], position, u, s)
          err(level) = max(maxval(abs(s(6, :) - sz)), maxval(abs(s(1, :) - sr)), maxval(abs(s(4, :) - sr)))
@@ -231,9 +238,9 @@ contains
    end subroutine hertz_on_axis
 
    !> Averages of the semi-elliptical pressure over each element, by the midpoint rule of 8 x 8
-   function hertz_pressure(grid) result(pn)
+   subroutine hertz_pressure(grid, pn)
       type(potential_contact), intent(in) :: grid
-      real(wp), allocatable :: pn(:, :)
+      real(wp), allocatable, intent(out) :: pn(:, :)
       integer, parameter :: fine = 8
       real(wp) :: x, y
       integer :: i, ix, iy, j
@@ -250,7 +257,7 @@ contains
             end do
          end do
       end do
-   end function hertz_pressure
+   end subroutine hertz_pressure
 
    !> Tractions that vary without any symmetry
    subroutine general_load(grid, pn, px, py)
@@ -337,7 +344,7 @@ contains
       type(test_suite), intent(inout) :: suite
       real(wp), parameter :: gg(2) = [1.0_wp, 1.0_wp], nu(2) = [0.3_wp, 0.3_wp], tol = 1e-14_wp
       type(potential_contact) :: grid, flipped
-      real(wp), allocatable :: pn(:, :), px(:, :), py(:, :)
+      real(wp), allocatable :: pn(:, :), px(:, :), py(:, :), pm(:, :), qx(:, :), qy(:, :)
       real(wp) :: point(3, 1), u(3, 1), s(6, 1), um(3, 1), sm(6, 1)
 
       call general_load(grid, pn, px, py)
@@ -346,20 +353,26 @@ contains
 
       flipped = grid
       flipped%xl = -grid%xl - grid%mx*grid%dx
-      call subsurface_field(flipped, pn(5:1:-1, :), -px(5:1:-1, :), py(5:1:-1, :), gg, nu, &
+      pm = pn(5:1:-1, :)
+      qx = px(5:1:-1, :)
+      qy = py(5:1:-1, :)
+      call subsurface_field(flipped, pm, -qx, qy, gg, nu, &
          & point*reshape([-1.0_wp, 1.0_wp, 1.0_wp], [3, 1]), um, sm)
       call suite%close_to(um(:, 1), u(:, 1)*[-1, 1, 1], tol, "mirror in x: displacements")
       call suite%close_to(sm(:, 1), s(:, 1)*[1, -1, -1, 1, 1, 1], 10*tol, "mirror in x: stresses")
 
       flipped = grid
       flipped%yl = -grid%yl - grid%my*grid%dy
-      call subsurface_field(flipped, pn(:, 4:1:-1), px(:, 4:1:-1), -py(:, 4:1:-1), gg, nu, &
+      pm = pn(:, 4:1:-1)
+      qx = px(:, 4:1:-1)
+      qy = py(:, 4:1:-1)
+      call subsurface_field(flipped, pm, qx, -qy, gg, nu, &
          & point*reshape([1.0_wp, -1.0_wp, 1.0_wp], [3, 1]), um, sm)
       call suite%close_to(um(:, 1), u(:, 1)*[1, -1, 1], tol, "mirror in y: displacements")
       call suite%close_to(sm(:, 1), s(:, 1)*[1, -1, 1, 1, -1, 1], 10*tol, "mirror in y: stresses")
 
       ! reaction on body 2, seen after half a revolution about x
-      call subsurface_field(flipped, pn(:, 4:1:-1), -px(:, 4:1:-1), py(:, 4:1:-1), gg, nu, &
+      call subsurface_field(flipped, pm, -qx, qy, gg, nu, &
          & point*reshape([1.0_wp, -1.0_wp, -1.0_wp], [3, 1]), um, sm)
       call suite%close_to(um(:, 1), u(:, 1)*[1, -1, -1], tol, "body 2: displacements")
       call suite%close_to(sm(:, 1), s(:, 1)*[1, -1, -1, 1, 1, 1], 10*tol, "body 2: stresses")
