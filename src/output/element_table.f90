@@ -6,7 +6,7 @@ module contact_output_element_table
    use contact_base_log, only : log_type
    use contact_cases_spec, only : case_spec
    use contact_grid_element_division, only : element
-   use contact_output_formats, only : general, printable, whole
+   use contact_output_formats, only : fixed, general, generals, whole
    use contact_patch_result, only : patch_result
    implicit none (type, external)
    private
@@ -77,24 +77,21 @@ contains
       type(patch_result), intent(in) :: result
       integer, intent(in) :: ix, iy
       character(len=:), allocatable :: line
-      character(len=110) :: text
       real(wp) :: px, py, traction, angle, gap
 
       px = result%px(ix, iy)
       py = result%py(ix, iy)
       traction = hypot(px, py)
       angle = 0.0_wp
-      if (traction > 0.0_wp) angle = atan2(printable(py), px)*180.0_wp/pi
+      if (traction > 0.0_wp) angle = atan2(py + 0.0_wp, px)*180.0_wp/pi
       gap = result%h(ix, iy) - result%pen
       if (motion_kind == motion%none) then
-         write(text, '(1x, 4g12.4, f10.1)') printable(result%grid%x(ix)), printable(gap), &
-            & printable(result%pn(ix, iy)), printable(traction), angle
+         line = " " // generals([result%grid%x(ix), gap, result%pn(ix, iy), traction]) // fixed(angle, 10, 1)
       else
-         write(text, '(1x, g12.4, 4g11.3, f10.1, 2x, 3g11.3)') printable(result%grid%x(ix)), printable(gap), &
-            & printable(result%pn(ix, iy)), printable(result%mu(ix, iy)*result%pn(ix, iy)), printable(traction), angle, &
-            & printable(hypot(result%sx(ix, iy), result%sy(ix, iy))/result%dq), printable(result%wx(ix, iy)/result%dq), &
-            & printable(result%wy(ix, iy)/result%dq)
+         line = " " // general(result%grid%x(ix), 12, 4) // general(gap, 11, 3) // general(result%pn(ix, iy), 11, 3) &
+            & // general(result%mu(ix, iy)*result%pn(ix, iy), 11, 3) // general(traction, 11, 3) // fixed(angle, 10, 1) &
+            & // "  " // general(hypot(result%sx(ix, iy), result%sy(ix, iy))/result%dq, 11, 3) &
+            & // general(result%wx(ix, iy)/result%dq, 11, 3) // general(result%wy(ix, iy)/result%dq, 11, 3)
       end if
-      line = trim(text)
    end function element_line
 end module contact_output_element_table

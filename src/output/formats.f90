@@ -1,30 +1,41 @@
 !> Numbers as fixed-width texts: the formats of the .out, .mat and .subs files
 !>
 !> Readers split lines on blanks or take fixed columns, so a number must never fill its
-!> field with stars, lose the letter of its exponent or show a negative zero.
+!> field with stars, lose the letter of its exponent or show a negative zero. The digits are
+!> made by integer arithmetic: large tables are written an order of magnitude faster than with
+!> edit descriptors. The last digit may differ from theirs when the next one is a five and the
+!> rest is zero to 15 digits.
 module contact_output_formats
-   use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
-   use contact_base_kinds, only : wp
+   use, intrinsic :: ieee_arithmetic, only : ieee_is_finite, ieee_is_nan
+   use contact_base_kinds, only : long, wp
    implicit none (type, external)
    private
 
-   public :: fixed, general, generals, heading, printable, scientific, smart, smarts, whole
+   public :: fixed, general, generals, heading, scientific, smart, smarts, whole
 
    !> Smaller magnitudes are shown as zero: their exponents would need three digits [-]
    real(wp), parameter :: smallest = 1.0e-99_wp
-   !> From here on exponents need three digits [-]
-   real(wp), parameter :: largest = 9.9e98_wp
    !> Smaller magnitudes are shown as zero by the smart format [-]
    real(wp), parameter :: smart_zero = 1.0e-20_wp
+   !> Largest number that is turned into an integer [-]
+   real(wp), parameter :: integer_limit = 9.0e15_wp
+   !> Columns of the working text
+   integer, parameter :: room = 40
+   !> Powers of ten that are exact
+   real(wp), parameter :: ten(0:22) = [1.0e0_wp, 1.0e1_wp, 1.0e2_wp, 1.0e3_wp, 1.0e4_wp, 1.0e5_wp, 1.0e6_wp, &
+      & 1.0e7_wp, 1.0e8_wp, 1.0e9_wp, 1.0e10_wp, 1.0e11_wp, 1.0e12_wp, 1.0e13_wp, 1.0e14_wp, 1.0e15_wp, 1.0e16_wp, &
+      & 1.0e17_wp, 1.0e18_wp, 1.0e19_wp, 1.0e20_wp, 1.0e21_wp, 1.0e22_wp]
+
+   !> A number rounded to some significant digits: digits * 10**(exponent - count + 1)
+   type :: rounded
+      !> The digits as an integer, 0 for zero
+      integer(long) :: digits = 0
+      !> Power of ten of the first digit
+      integer :: exponent = 0
+      logical :: negative = .false.
+   end type rounded
 
 contains
-
-   !> The value without what a reader could not digest: negative zero and tiny numbers become 0
-   elemental real(wp) function printable(value)
-      real(wp), intent(in) :: value
-      printable = value
-      if (abs(value) < smallest) printable = 0.0_wp
-   end function printable
 
    !> Integer, right-aligned in width columns; longer if it does not fit
    pure function whole(value, width) result(text)
@@ -32,13 +43,15 @@ contains
       !> Number of columns
       integer, intent(in) :: width
       character(len=:), allocatable :: text
-      character(len=24) :: digits
-      integer :: count
+      character(len=room) :: work
+      integer :: first
 
-      write(digits, '(i24)') value
-      digits = adjustl(digits)
-      count = len_trim(digits)
-      text = repeat(" ", max(0, width - count)) // digits(1:count)
+      work = ""
+      first = room + 1
+      call prepend(work, first, abs(int(value, long)), 1)
+      if (value < 0) call prepend_sign(work, first)
+      first = min(first, room + 1 - width)
+      text = work(first:room)
    end function whole
 
    !> Fixed point with the given decimals, right-aligned; large values lose decimals, then
@@ -48,11 +61,25 @@ contains
       !> Number of columns and of decimals
       integer, intent(in) :: width, decimals
       character(len=width) :: text
-      integer :: left
+      character(len=room) :: work
+      real(wp) :: scaled
+      integer :: first, places
 
-      do left = decimals, 0, -1
-         write(text, edit("f", width, left)) printable(value)
-         if (text(1:1) /= "*") return
+      if (.not. ieee_is_finite(value)) then
+         text = not_a_number(value, width)
+         return
+      end if
+      do places = decimals, 0, -1
+         if (abs(value) >= integer_limit) exit
+         scaled = abs(value)*ten(places)
+         if (scaled >= integer_limit) cycle
+         work = ""
+         first = room + 1
+         call prepend_fixed(work, first, nint(scaled, long), places, value < 0.0_wp)
+         if (work(first:first) == "0" .and. room + 1 - first == width + 1 .and. places > 0) first = first + 1
+         if (room + 1 - first > width) cycle
+         text = work(room + 1 - width:room)
+         return
       end do
       text = scientific(value, width, max(0, min(decimals, width - 8)))
    end function fixed
@@ -63,26 +90,39 @@ contains
       !> Number of columns and of decimals
       integer, intent(in) :: width, decimals
       character(len=width) :: text
+      type(rounded) :: number
 
-      if (abs(value) < largest .or. .not. ieee_is_finite(value)) then
-         write(text, edit("es", width, decimals)) printable(value)
-      else
-         write(text, edit("es", width, decimals, wide=.true.)) value
+      if (.not. ieee_is_finite(value)) then
+         text = not_a_number(value, width)
+         return
       end if
+      number = round_to(value, decimals + 1)
+      text = with_exponent(number, number%exponent, decimals, width)
    end function scientific
 
    !> Switching format: fixed with the given significant digits and four blanks behind for
-   !> 0.1 <= |value| < 10**digits, else 0.dddE+xx
+   !> 0.1 <= |value| < 10**digits (after rounding), else 0.dddE+xx
    pure function general(value, width, digits) result(text)
       real(wp), intent(in) :: value
       !> Number of columns and of significant digits
       integer, intent(in) :: width, digits
       character(len=width) :: text
+      character(len=room) :: work
+      type(rounded) :: number
+      integer :: first
 
-      if (abs(value) < largest .or. .not. ieee_is_finite(value)) then
-         write(text, edit("g", width, digits)) printable(value)
+      if (.not. ieee_is_finite(value)) then
+         text = not_a_number(value, width)
+         return
+      end if
+      number = round_to(value, digits)
+      if (number%exponent >= -1 .and. number%exponent < digits) then
+         work = ""
+         first = room - 3
+         call prepend_fixed(work, first, number%digits, digits - 1 - number%exponent, number%negative)
+         text = work(room + 1 - width:room)
       else
-         write(text, edit("e", width, digits, wide=.true.)) value
+         text = with_exponent(number, number%exponent + 1, digits, width)
       end if
    end function general
 
@@ -96,12 +136,12 @@ contains
       real(wp) :: shown
       integer :: magnitude
 
-      shown = value
       if (.not. ieee_is_finite(value)) then
-         write(text, edit("f", width, 1)) value
+         text = not_a_number(value, width)
          return
       end if
       magnitude = 0
+      shown = value
       if (abs(value) < smart_zero) then
          shown = 0.0_wp
       else
@@ -110,7 +150,7 @@ contains
       if (magnitude >= places .or. magnitude <= -2) then
          text = scientific(shown, width, digits - 1)
       else
-         write(text, edit("f", width, max(0, places - magnitude - 1))) shown
+         text = fixed(shown, width, max(0, places - magnitude - 1))
       end if
    end function smart
 
@@ -148,17 +188,130 @@ contains
       text = trim(line)
    end function heading
 
-   !> Edit descriptor such as (es12.3) or, with three digits for the exponent, (es12.3e3)
-   pure function edit(letters, width, digits, wide) result(text)
-      character(len=*), intent(in) :: letters
-      !> At most 99 columns and 9 digits
-      integer, intent(in) :: width, digits
-      !> Three digits for the exponent? Default no
-      logical, intent(in), optional :: wide
-      character(len=11) :: text
+   !> Round to significant digits
+   pure function round_to(value, count) result(number)
+      !> Finite
+      real(wp), intent(in) :: value
+      !> Number of significant digits, at most 15
+      integer, intent(in) :: count
+      type(rounded) :: number
+      integer(long) :: limit
 
-      text = "(" // letters // achar(48 + width/10) // achar(48 + mod(width, 10)) // "." &
-         & // achar(48 + digits) // ")"
-      if (present(wide)) text(index(text, ")"):) = "e3)"
-   end function edit
+      if (abs(value) < smallest) return
+      number%negative = value < 0.0_wp
+      limit = nint(ten(count), long)
+      number%exponent = floor(log10(abs(value)))
+      number%digits = nint(shifted(abs(value), count - 1 - number%exponent), long)
+      if (10*number%digits < limit) then
+         ! The logarithm was rounded up to the next power of ten
+         number%exponent = number%exponent - 1
+         number%digits = nint(shifted(abs(value), count - 1 - number%exponent), long)
+      end if
+      if (number%digits >= limit) then
+         number%exponent = number%exponent + 1
+         number%digits = (number%digits + 5)/10
+      end if
+   end function round_to
+
+   !> value * 10**power with as little rounding as possible
+   pure real(wp) function shifted(value, power)
+      real(wp), intent(in) :: value
+      integer, intent(in) :: power
+
+      if (power >= 0 .and. power <= 22) then
+         shifted = value*ten(power)
+      else if (power < 0 .and. power >= -22) then
+         shifted = value/ten(-power)
+      else if (power > 0) then
+         shifted = value*10.0_wp**(power/2)*10.0_wp**(power - power/2)
+      else
+         shifted = value/10.0_wp**((-power)/2)/10.0_wp**(-power - (-power)/2)
+      end if
+   end function shifted
+
+   !> Digits with a point before the last so many of them, and an exponent
+   pure function with_exponent(number, exponent, decimals, width) result(text)
+      type(rounded), intent(in) :: number
+      !> Exponent to show, decimals, columns
+      integer, intent(in) :: exponent, decimals, width
+      character(len=width) :: text
+      character(len=room) :: work
+      integer :: first
+
+      work = ""
+      first = room + 1
+      call prepend(work, first, abs(int(exponent, long)), 2)
+      first = first - 2
+      work(first:first + 1) = merge("E-", "E+", exponent < 0)
+      call prepend_fixed(work, first, number%digits, decimals, number%negative)
+      text = work(room + 1 - width:room)
+   end function with_exponent
+
+   !> Put digits with a decimal point in front of what is there
+   pure subroutine prepend_fixed(work, first, digits, decimals, negative)
+      character(len=room), intent(inout) :: work
+      !> First used column
+      integer, intent(inout) :: first
+      integer(long), intent(in) :: digits
+      !> Number of digits behind the point
+      integer, intent(in) :: decimals
+      !> Put a sign in front, unless all digits are zero?
+      logical, intent(in) :: negative
+      integer(long) :: unit
+
+      unit = nint(ten(decimals), long)
+      call prepend(work, first, mod(digits, unit), decimals)
+      first = first - 1
+      work(first:first) = "."
+      call prepend(work, first, digits/unit, 1)
+      if (negative .and. digits > 0) call prepend_sign(work, first)
+   end subroutine prepend_fixed
+
+   !> Put an integer with at least so many digits in front of what is there
+   pure subroutine prepend(work, first, number, least)
+      character(len=room), intent(inout) :: work
+      !> First used column
+      integer, intent(inout) :: first
+      !> Not negative
+      integer(long), intent(in) :: number
+      integer, intent(in) :: least
+      integer(long) :: rest
+      integer :: count
+
+      rest = number
+      count = 0
+      do while (rest > 0 .or. count < least)
+         first = first - 1
+         count = count + 1
+         work(first:first) = achar(48 + int(mod(rest, 10_long)))
+         rest = rest/10
+      end do
+   end subroutine prepend
+
+   !> Put a minus sign in front of what is there
+   pure subroutine prepend_sign(work, first)
+      character(len=room), intent(inout) :: work
+      !> First used column
+      integer, intent(inout) :: first
+
+      first = first - 1
+      work(first:first) = "-"
+   end subroutine prepend_sign
+
+   !> NaN or infinity, right-aligned
+   pure function not_a_number(value, width) result(text)
+      real(wp), intent(in) :: value
+      !> At least 3 columns
+      integer, intent(in) :: width
+      character(len=width) :: text
+
+      text = ""
+      if (ieee_is_nan(value)) then
+         text(width - 2:) = "NaN"
+      else if (value > 0.0_wp .or. width < 4) then
+         text(width - 2:) = "Inf"
+      else
+         text(width - 3:) = "-Inf"
+      end if
+   end function not_a_number
 end module contact_output_formats

@@ -8,7 +8,7 @@ module contact_output_mat_file
    use contact_cases_spec, only : case_spec, friction_set
    use contact_grid_element_division, only : element
    use contact_output_finished_file, only : case_file_name, finished_file
-   use contact_output_formats, only : general, printable, whole
+   use contact_output_formats, only : general, whole
    use contact_output_report_result, only : has_plasticity
    use contact_patch_result, only : patch_result
    implicit none (type, external)
@@ -129,9 +129,9 @@ contains
             number = number + 1
             if (result%division(ix, iy) == element%exterior .and. .not. every) cycle
             slip = hypot(result%sx(ix, iy), result%sy(ix, iy))/distance
-            write(line, '(i7, 1x, i4, 2x, 9g14.6)') number, result%division(ix, iy), printable([result%h(ix, iy), &
-               & result%mu(ix, iy), result%pn(ix, iy), result%px(ix, iy), result%py(ix, iy), result%un(ix, iy), &
-               & result%ux(ix, iy), result%uy(ix, iy), slip])
+            line = two_integers(number, result%division(ix, iy)) // reals([result%h(ix, iy), result%mu(ix, iy), &
+               & result%pn(ix, iy), result%px(ix, iy), result%py(ix, iy), result%un(ix, iy), result%ux(ix, iy), &
+               & result%uy(ix, iy), slip])
             write(unit, '(a)', iostat=status) trim(line)
             if (status /= 0) return
          end do

@@ -98,7 +98,7 @@ contains
          call log%result(" TOTAL FORCES, TORSIONAL MOMENT, ELASTIC ENERGY, FRICTIONAL POWER")
       end if
       call log%result("     FN          FX          FY          MZ         ELAST.EN.   FRIC." &
-         & // merge("POWER", "WORK ", rolling))
+         & // trim(merge("POWER", "WORK ", rolling)))
       call log%result("  " // smarts([result%fn, totals%fx, totals%fy, totals%mz, totals%elastic_energy, &
          & result%friction_power]))
       call log%result("     FN/G      " // first_name // " " // second_name // " APPROACH     PMAX    ")
