@@ -16,7 +16,7 @@ module contact_subsurface_element_field
    private
 
    public :: n_derivatives, corner_derivatives, source_derivatives, add_loads, combine_field
-   public :: rectangle_field
+   public :: rectangle_derivatives, rectangle_field, hooke, turn_back
 
    !> Number of derivatives: 6 second, 10 third, 10 fourth ones of which one is to z
    integer, parameter :: n_derivatives = 26
@@ -49,6 +49,8 @@ module contact_subsurface_element_field
    !> Smallest distance to an edge or corner that is told apart, per side of an element; the field
    !> has a logarithmic singularity there if the load jumps
    real(wp), parameter, public :: edge_ratio = 5.0e-7_wp
+   !> Smallest value of 1 - 2 nu in the volumetric part of the stresses
+   real(wp), parameter :: incompressible = 1.0e-6_wp
 
 contains
 
@@ -221,6 +223,39 @@ contains
       end do
    end subroutine combine_field
 
+   !> Derivatives of the potential of a unit load per area on one rectangle
+   !>
+   !> The corner sum near the rectangle, quadrature of the point load far away from it.
+   pure subroutine rectangle_derivatives(position, dx, dy, d)
+      !> Observation point relative to the centre of the rectangle [mm], z >= 0
+      real(wp), intent(in) :: position(3)
+      !> Sides of the rectangle [mm]
+      real(wp), intent(in) :: dx, dy
+      !> Derivatives [mm, 1, 1/mm]
+      real(wp), intent(out) :: d(n_derivatives)
+      real(wp) :: part(n_derivatives), edge
+      integer :: i, j
+
+      d = 0.0_wp
+      if (norm2(position) > far_ratio*max(dx, dy)) then
+         do j = 1, 4
+            do i = 1, 4
+               call source_derivatives(position(1) - gauss_point(i)*dx, position(2) - gauss_point(j)*dy, &
+                  & position(3), part)
+               d = d + gauss_weight(i)*gauss_weight(j)*dx*dy*part
+            end do
+         end do
+      else
+         edge = edge_ratio*min(dx, dy)
+         do j = -1, 1, 2
+            do i = -1, 1, 2
+               call corner_derivatives(position(1) + 0.5_wp*i*dx, position(2) + 0.5_wp*j*dy, position(3), edge, part)
+               d = d + i*j*part
+            end do
+         end do
+      end if
+   end subroutine rectangle_derivatives
+
    !> Displacements and gradients below one uniformly loaded rectangle
    pure subroutine rectangle_field(position, dx, dy, load, gg, nu, displacement, gradient)
       !> Observation point relative to the centre of the rectangle [mm], z >= 0
@@ -235,27 +270,40 @@ contains
       real(wp), intent(out) :: displacement(3)
       !> Gradients [-]: derivative of component i to direction j at (i, j)
       real(wp), intent(out) :: gradient(3, 3)
-      real(wp) :: d(n_derivatives), total(n_derivatives, 3), edge
-      integer :: i, j
+      real(wp) :: d(n_derivatives), total(n_derivatives, 3)
 
+      call rectangle_derivatives(position, dx, dy, d)
       total = 0.0_wp
-      if (norm2(position) > far_ratio*max(dx, dy)) then
-         do j = 1, 4
-            do i = 1, 4
-               call source_derivatives(position(1) - gauss_point(i)*dx, position(2) - gauss_point(j)*dy, &
-                  & position(3), d)
-               call add_loads(d, gauss_weight(i)*gauss_weight(j)*dx*dy*load, total)
-            end do
-         end do
-      else
-         edge = edge_ratio*min(dx, dy)
-         do j = -1, 1, 2
-            do i = -1, 1, 2
-               call corner_derivatives(position(1) + 0.5_wp*i*dx, position(2) + 0.5_wp*j*dy, position(3), edge, d)
-               call add_loads(d, i*j*load, total)
-            end do
-         end do
-      end if
+      call add_loads(d, load, total)
       call combine_field(total, position(3), gg, nu, displacement, gradient)
    end subroutine rectangle_field
+
+   !> From the frame of body 2 to the coordinates of the contact
+   pure subroutine turn_back(displacement, gradient)
+      real(wp), intent(inout) :: displacement(3), gradient(3, 3)
+
+      displacement(2:3) = -displacement(2:3)
+      gradient(2:3, 1) = -gradient(2:3, 1)
+      gradient(1, 2:3) = -gradient(1, 2:3)
+   end subroutine turn_back
+
+   !> Stresses by Hooke's law: xx, xy, xz, yy, yz, zz
+   pure function hooke(gradient, gg, nu) result(stress)
+      !> Gradients [-]: derivative of component i to direction j at (i, j)
+      real(wp), intent(in) :: gradient(3, 3)
+      !> Modulus of rigidity [N/mm2] and Poisson's ratio [-]
+      real(wp), intent(in) :: gg, nu
+      !> Stresses [N/mm2], tension positive
+      real(wp) :: stress(6)
+      real(wp) :: volumetric
+
+      volumetric = 2.0_wp*gg*nu/max(incompressible, 1.0_wp - 2.0_wp*nu) &
+         & *(gradient(1, 1) + gradient(2, 2) + gradient(3, 3))
+      stress(1) = 2.0_wp*gg*gradient(1, 1) + volumetric
+      stress(2) = gg*(gradient(1, 2) + gradient(2, 1))
+      stress(3) = gg*(gradient(1, 3) + gradient(3, 1))
+      stress(4) = 2.0_wp*gg*gradient(2, 2) + volumetric
+      stress(5) = gg*(gradient(2, 3) + gradient(3, 2))
+      stress(6) = 2.0_wp*gg*gradient(3, 3) + volumetric
+   end function hooke
 end module contact_subsurface_element_field

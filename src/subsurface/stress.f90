@@ -4,12 +4,14 @@
 !> corners, the sum over elements is rearranged into one over the corners of the grid, with the
 !> mixed jumps of traction between the four elements around a corner as loads: four times fewer
 !> logarithms, and none where the tractions do not change. The rearranged sum loses digits far
-!> away from all loads; there each element is integrated by quadrature of the point load.
+!> away from all loads; there each element is integrated by quadrature of the point load. Layers
+!> of many points at element centres use a table of responses instead.
 module contact_subsurface_stress
    use contact_base_kinds, only : wp
    use contact_grid_potential_contact, only : potential_contact
    use contact_subsurface_element_field, only : add_loads, combine_field, corner_derivatives, edge_ratio, &
-      & far_ratio, gauss_point, gauss_weight, n_derivatives, source_derivatives
+      & far_ratio, gauss_point, gauss_weight, hooke, n_derivatives, source_derivatives, turn_back
+   use contact_subsurface_layer, only : layer_end, layer_field, layer_offsets, place_layer
    implicit none (type, external)
    private
 
@@ -30,8 +32,6 @@ module contact_subsurface_stress
 
    !> Stresses below this fraction of the modulus of rigidity are rounding noise
    real(wp), parameter :: noise = 1.0e-15_wp
-   !> Smallest value of 1 - 2 nu in the volumetric part of the stresses
-   real(wp), parameter :: incompressible = 1.0e-6_wp
 
 contains
 
@@ -53,20 +53,37 @@ contains
       real(wp), contiguous, intent(out) :: stress(:, :)
       type(load_list) :: corners, sources
       type(load_box) :: box
+      type(layer_offsets) :: offsets
       real(wp) :: total(n_derivatives, 3), gradient(3, 3), edge, near, mirror
-      integer :: body, point
+      logical, allocatable :: pending(:)
+      logical :: worthwhile
+      integer :: body, first, last, point
 
       displacement = 0.0_wp
       stress = 0.0_wp
       if (size(pn) == 0) return
       if (all(pn == 0.0_wp) .and. all(px == 0.0_wp) .and. all(py == 0.0_wp)) return
       call collect_corners(grid, pn, px, py, corners, box)
+      allocate(pending(size(position, 2)), source=.true.)
+      first = 1
+      do while (first <= size(position, 2))
+         last = layer_end(position, first)
+         call place_layer(grid, position(:, first:last), size(corners%x), offsets, worthwhile)
+         if (worthwhile) then
+            call layer_field(grid, offsets, pn, px, py, gg, nu, position(3, first), displacement(:, first:last), &
+               & stress(:, first:last))
+            pending(first:last) = .false.
+         end if
+         first = last + 1
+      end do
+
       edge = edge_ratio*min(grid%dx, grid%dy)
       near = max(far_ratio*max(grid%dx, grid%dy), 2.0_wp*hypot(box%x1 - box%x0, box%y1 - box%y0))
-      if (any_beyond(box, near, position)) call collect_sources(grid, pn, px, py, sources)
+      if (any_beyond(box, near, position, pending)) call collect_sources(grid, pn, px, py, sources)
 
       !$omp parallel do default(shared) private(body, mirror, total, gradient) schedule(dynamic, 16)
       do point = 1, size(position, 2)
+         if (.not. pending(point)) cycle
          body = merge(1, 2, position(3, point) >= 0.0_wp)
          mirror = merge(1.0_wp, -1.0_wp, body == 1)
          if (is_beyond(box, near, position(:, point))) then
@@ -79,6 +96,11 @@ contains
          stress(:, point) = hooke(gradient, gg(body), nu(body))
       end do
       !$omp end parallel do
+
+      do point = 1, size(position, 2)
+         body = merge(1, 2, position(3, point) >= 0.0_wp)
+         where (abs(stress(:, point)) < noise*gg(body)) stress(:, point) = 0.0_wp
+      end do
    end subroutine subsurface_field
 
    !> Corners of the grid at which the tractions jump
@@ -197,36 +219,6 @@ contains
       end do
    end subroutine sum_sources
 
-   !> From the frame of body 2 to the coordinates of the contact
-   pure subroutine turn_back(displacement, gradient)
-      real(wp), intent(inout) :: displacement(3), gradient(3, 3)
-
-      displacement(2:3) = -displacement(2:3)
-      gradient(2:3, 1) = -gradient(2:3, 1)
-      gradient(1, 2:3) = -gradient(1, 2:3)
-   end subroutine turn_back
-
-   !> Stresses by Hooke's law: xx, xy, xz, yy, yz, zz
-   pure function hooke(gradient, gg, nu) result(stress)
-      !> Gradients [-]: derivative of component i to direction j at (i, j)
-      real(wp), intent(in) :: gradient(3, 3)
-      !> Modulus of rigidity [N/mm2] and Poisson's ratio [-]
-      real(wp), intent(in) :: gg, nu
-      !> Stresses [N/mm2], tension positive
-      real(wp) :: stress(6)
-      real(wp) :: volumetric
-
-      volumetric = 2.0_wp*gg*nu/max(incompressible, 1.0_wp - 2.0_wp*nu) &
-         & *(gradient(1, 1) + gradient(2, 2) + gradient(3, 3))
-      stress(1) = 2.0_wp*gg*gradient(1, 1) + volumetric
-      stress(2) = gg*(gradient(1, 2) + gradient(2, 1))
-      stress(3) = gg*(gradient(1, 3) + gradient(3, 1))
-      stress(4) = 2.0_wp*gg*gradient(2, 2) + volumetric
-      stress(5) = gg*(gradient(2, 3) + gradient(3, 2))
-      stress(6) = 2.0_wp*gg*gradient(3, 3) + volumetric
-      where (abs(stress) < noise*gg) stress = 0.0_wp
-   end function hooke
-
    !> Does a point lie so far from all loads that quadrature is the better way?
    pure logical function is_beyond(box, near, position) result(beyond)
       type(load_box), intent(in) :: box
@@ -238,16 +230,17 @@ contains
          & max(box%y0 - position(2), 0.0_wp, position(2) - box%y1), position(3)]) > near
    end function is_beyond
 
-   !> Does any of the points lie far from all loads?
-   pure logical function any_beyond(box, near, position) result(beyond)
+   !> Does any of the pending points lie far from all loads?
+   pure logical function any_beyond(box, near, position, pending) result(beyond)
       type(load_box), intent(in) :: box
       real(wp), intent(in) :: near
       real(wp), intent(in) :: position(:, :)
+      logical, intent(in) :: pending(:)
       integer :: point
 
       beyond = .false.
       do point = 1, size(position, 2)
-         beyond = beyond .or. is_beyond(box, near, position(:, point))
+         if (pending(point)) beyond = beyond .or. is_beyond(box, near, position(:, point))
       end do
    end function any_beyond
 

@@ -21,6 +21,7 @@ program test_subsurface
    call equilibrium(suite)
    call reflections(suite)
    call sum_over_elements(suite)
+   call layers(suite)
    call special_points(suite)
    call invariants(suite)
    call suite%finish()
@@ -407,6 +408,35 @@ contains
             & "sum over elements: stresses")
       end do
    end subroutine sum_over_elements
+
+   !> A layer of element centres by the table of responses is the same as point by point
+   subroutine layers(suite)
+      type(test_suite), intent(inout) :: suite
+      type(potential_contact) :: grid
+      real(wp), allocatable :: pn(:, :), px(:, :), py(:, :)
+      real(wp), parameter :: gg(2) = [1.0_wp, 2.0_wp], nu(2) = [0.3_wp, 0.4_wp]
+      real(wp), parameter :: depth(6) = [0.0_wp, 0.01_wp, 0.5_wp, -0.02_wp, -1.0_wp, -30.0_wp]
+      real(wp) :: place(3, 20), u(3, 20), s(6, 20), u1(3, 1), s1(6, 1)
+      integer :: ix, iy, layer, n
+      logical :: same
+
+      call general_load(grid, pn, px, py)
+      do layer = 1, size(depth)
+         do iy = 1, 4
+            do ix = 1, 5
+               place(:, ix + 5*(iy - 1)) = [grid%x(ix), grid%y(iy), depth(layer)]
+            end do
+         end do
+         call subsurface_field(grid, pn, px, py, gg, nu, place, u, s)
+         same = .true.
+         do n = 1, size(place, 2)
+            call subsurface_field(grid, pn, px, py, gg, nu, place(:, n:n), u1, s1)
+            same = same .and. norm2(u(:, n) - u1(:, 1)) <= 1e-12_wp*norm2(u1)
+            same = same .and. norm2(s(:, n) - s1(:, 1)) <= 1e-12_wp*norm2(s1)
+         end do
+         call suite%check(same, "layer by table and point by point")
+      end do
+   end subroutine layers
 
    !> Finite, and right where a limit exists, on edges, corners and their extensions
    subroutine special_points(suite)
