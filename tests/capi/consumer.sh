@@ -41,16 +41,16 @@ fi
 PKG_CONFIG_PATH=$library_folder/pkgconfig
 export PKG_CONFIG_PATH
 
+# pkg-config escapes blanks in paths for the shell, so its answer is read by eval
 echo "-- pkg-config, shared library"
-# shellcheck disable=SC2046
-"$compiler" -Wall -Wextra -Werror "$here/consumer/consumer.c" -o consumer_shared \
-  $(pkg-config --cflags --libs contact) -Wl,-rpath,"$library_folder"
+flags=$(pkg-config --cflags --libs contact)
+eval "\"\$compiler\" -Wall -Wextra -Werror \"\$here/consumer/consumer.c\" -o consumer_shared $flags" \
+  '"-Wl,-rpath,$library_folder"'
 run shared ./consumer_shared
 
 echo "-- pkg-config, static library"
 mkdir -p static
 cp "$library_folder/libcontact.a" static
-# shellcheck disable=SC2046
-"$compiler" "$here/consumer/consumer.c" -o consumer_static \
-  -Lstatic $(pkg-config --cflags --static --libs contact)
+flags=$(pkg-config --cflags --static --libs contact)
+eval "\"\$compiler\" \"\$here/consumer/consumer.c\" -o consumer_static -Lstatic $flags"
 run static ./consumer_static
