@@ -116,7 +116,7 @@ contains
       character(len=*), intent(in) :: text
       !> Name of the file in messages
       character(len=*), intent(in) :: name
-      character(len=*), parameter :: byte_order_mark = achar(239) // achar(187) // achar(191)
+      character(len=*), parameter :: byte_order_mark = char(239) // char(187) // char(191)
       integer :: start, length, n
 
       self%file = name
@@ -167,7 +167,7 @@ contains
       type(input_value), intent(inout) :: values(:)
       type(error_type), allocatable, intent(out) :: error
       type(word_place) :: place
-      integer :: k, mandatory, state
+      integer :: k, mandatory, position, state
 
       call name_values(names, values(:len(types)))
       mandatory = verify(types, "iras") - 1
@@ -178,9 +178,10 @@ contains
             call self%refuse_end(types(k + 1:k + 1), values(k + 1)%name, names, error)
             return
          end if
-         place%next = self%first(self%line)
+         position = self%first(self%line)
          do while (k < len(types))
-            place = find_word(self%text(:self%last(self%line)), place%next)
+            place = find_word(self%text(:self%last(self%line)), position)
+            position = place%next
             if (place%first == 0) exit
             call self%parse(place, lower(types(k + 1:k + 1)), values(k + 1), state)
             if (state /= word_state%good) then
@@ -210,7 +211,7 @@ contains
       type(input_value) :: value
       type(word_place) :: place
       character :: letter
-      integer :: k, state
+      integer :: k, position, state
 
       letter = "r"
       if (present(angles)) letter = merge("a", "r", angles)
@@ -223,9 +224,10 @@ contains
             return
          end if
          if (k == 0 .and. present(line)) line = self%line
-         place%next = self%first(self%line)
+         position = self%first(self%line)
          do while (k < n)
-            place = find_word(self%text(:self%last(self%line)), place%next)
+            place = find_word(self%text(:self%last(self%line)), position)
+            position = place%next
             if (place%first == 0) exit
             call self%parse(place, letter, value, state)
             if (state /= word_state%good) then

@@ -1,0 +1,253 @@
+!> The control words of a case of module 3 and the checks of its digits
+module contact_input_control3
+   use contact_base_error, only : error_type
+   use contact_cases_spec, only : case_digits, case_spec
+   use contact_control_digits, only : allowed_text, choice_of, decode_words, digit_names, digit_text, digit_value, &
+      & is_built, is_known
+   use contact_input_lexer, only : input_lexer, input_value
+   use contact_input_problems, only : problem_list, severity
+   use contact_input_words, only : integer_text
+   implicit none (type, external)
+   private
+
+   public :: control_words, read_control_words, check_digits, refuse_unbuilt_digits, add_for_digit
+
+   !> The words with their places, for messages
+   type :: control_words
+      !> Words 1, 2 and 3
+      type(input_value) :: word(3)
+      !> The second number of word 2
+      type(input_value) :: second
+   end type control_words
+
+contains
+
+   !> Read the words and make named choices of their digits
+   subroutine read_control_words(lexer, words, spec, error)
+      type(input_lexer), intent(inout) :: lexer
+      type(control_words), intent(out) :: words
+      !> On entry the previous case; its effective choices stay where a digit says "keep"
+      type(case_spec), intent(inout) :: spec
+      type(error_type), allocatable, intent(out) :: error
+      type(input_value) :: values(2)
+
+      call lexer%read_group("i", "PBTNFS", values, error)
+      if (allocated(error)) return
+      words%word(1) = values(1)
+      call lexer%read_group("iI", "VLDCMZE M2", values, error)
+      if (allocated(error)) return
+      words%word(2) = values(1)
+      words%second = values(2)
+      call lexer%read_group("i", "XHGIAOWR", values, error)
+      if (allocated(error)) return
+      words%word(3) = values(1)
+
+      associate (word => words%word%i)
+         if (words%second%given) then
+            call decode_words(word(1), word(2), word(3), spec%digits, words%second%i)
+         else
+            call decode_words(word(1), word(2), word(3), spec%digits)
+         end if
+      end associate
+      if (spec%digits%x > 0) then
+         call lexer%read_group("iI", "PSFLCIN READLN", values, error)
+         if (allocated(error)) return
+      end if
+      call name_choices(spec)
+   end subroutine read_control_words
+
+   !> Digits to names; effective values of the digits that can say "keep"
+   subroutine name_choices(spec)
+      type(case_spec), intent(inout) :: spec
+
+      associate (digits => spec%digits)
+         spec%link = choice_of("P", digits%p)
+         spec%pressure = choice_of("B", digits%b)
+         spec%motion = choice_of("T", digits%t)
+         spec%normal = choice_of("N", digits%n)
+         spec%force = choice_of("F", digits%f)
+         spec%stress = choice_of("S", digits%s)
+         spec%variation = choice_of("V", digits%v)
+         spec%material_model = choice_of("M", digits%m)
+         spec%estimate = choice_of("I", digits%i)
+         spec%mat_file = digits%a
+         spec%output_level = digits%o
+         spec%flow_level = digits%w
+         spec%solve = digits%r <= 1
+         if (digits%l /= 1) spec%friction_law = choice_of("L", digits%l)
+         if (digits%c >= 2) spec%kernel = choice_of("C", digits%c)
+         if (digits%g /= 1) spec%solver = choice_of("G", digits%g)
+         if (digits%e /= 1) spec%slip_source = choice_of("E", digits%e)
+         if (digits%h /= 1) spec%heat_model = choice_of("H", digits%h)
+         if (digits%m2 /= 1) spec%has_damping = digits%m2 >= 2
+         spec%new_grid = digits%d == 2
+         spec%new_geometry = digits%z == 2
+         spec%new_kernel = digits%c >= 2
+      end associate
+   end subroutine name_choices
+
+   !> Range of each digit, and what digits demand of each other and of the previous case
+   !>
+   !> Two digits are corrected in a first case, with a warning: P to 2 and I to 0.
+   subroutine check_digits(words, previous, has_previous, spec, problems)
+      type(control_words), intent(in) :: words
+      !> The previous case of this result element
+      type(case_spec), intent(in) :: previous
+      !> Is there one?
+      logical, intent(in) :: has_previous
+      type(case_spec), intent(inout) :: spec
+      type(problem_list), intent(inout) :: problems
+
+      call check_ranges(words, spec%digits, problems)
+      if (has_previous) then
+         call check_later_case(words, previous, spec, problems)
+      else
+         call check_first_case(words, spec, problems)
+      end if
+      call check_combinations(words, merge(previous%motion, 3, has_previous), spec, problems)
+   end subroutine check_digits
+
+   !> Each digit must be one that the format knows
+   subroutine check_ranges(words, digits, problems)
+      type(control_words), intent(in) :: words
+      type(case_digits), intent(in) :: digits
+      type(problem_list), intent(inout) :: problems
+      character(len=:), allocatable :: name
+      integer :: k
+
+      do k = 1, 3
+         associate (word => words%word(k))
+            if (word%i < 0) call problems%add(severity%error, "the control word " // word%name // " = " // word%word // &
+               & " is negative; it must consist of digits", word%line, word%column)
+         end associate
+      end do
+      do k = 1, size(digit_names)
+         name = trim(digit_names(k))
+         if (is_known(name, digit_value(digits, name))) cycle
+         call add_for_digit(problems, words, severity%error, name, name // " = " // &
+            & integer_text(digit_value(digits, name)) // " is not a known digit; allowed are " // allowed_text(name))
+      end do
+      if (digits%gapwgt > 2) call problems%add(severity%error, "GAPWGT = " // integer_text(digits%gapwgt) // &
+         & " is outside its range 0 to 2", words%second%line, words%second%column)
+   end subroutine check_ranges
+
+   !> A first case has nothing to continue and nothing to keep
+   subroutine check_first_case(words, spec, problems)
+      type(control_words), intent(in) :: words
+      type(case_spec), intent(inout) :: spec
+      type(problem_list), intent(inout) :: problems
+
+      associate (digits => spec%digits)
+         if (digits%p /= 2) then
+            call add_for_digit(problems, words, severity%warning, "P", "P = " // integer_text(digits%p) // &
+               & " is replaced by 2: the first case has no previous tractions")
+            digits%p = 2
+            spec%link = choice_of("P", 2)
+         end if
+         if (digits%i /= 0) then
+            call add_for_digit(problems, words, severity%warning, "I", "I = " // integer_text(digits%i) // &
+               & " is replaced by 0: the first case has no previous solution")
+            digits%i = 0
+            spec%estimate = choice_of("I", 0)
+         end if
+         if (digits%l == 1) call add_for_digit(problems, words, severity%error, "L", &
+            & "L = 1 keeps the friction law of the previous case, but this is the first case")
+         if (digits%d == 0) call add_for_digit(problems, words, severity%error, "D", &
+            & "D = 0 keeps the potential contact area, but this is the first case")
+         if (digits%s == 1 .or. digits%s == 2) call add_for_digit(problems, words, severity%error, "S", &
+            & "S = " // integer_text(digits%s) // " keeps the subsurface points, but this is the first case")
+      end associate
+   end subroutine check_first_case
+
+   !> What a later case keeps must be there
+   subroutine check_later_case(words, previous, spec, problems)
+      type(control_words), intent(in) :: words
+      type(case_spec), intent(in) :: previous, spec
+      type(problem_list), intent(inout) :: problems
+
+      associate (digits => spec%digits)
+         if ((digits%s == 1 .or. digits%s == 2) .and. .not. allocated(spec%subsurface%blocks)) &
+            & call add_for_digit(problems, words, severity%error, "S", &
+            & "S = " // integer_text(digits%s) // " keeps the subsurface points, but no case has given any")
+         if (digits%l == 1 .and. digits%v /= previous%digits%v) call add_for_digit(problems, words, severity%error, "L", &
+            & "L = 1 keeps the friction law, but V changes from " // integer_text(previous%digits%v) // " to " // &
+            & integer_text(digits%v) // ": new friction input is needed")
+      end associate
+   end subroutine check_later_case
+
+   !> What digits demand of each other
+   subroutine check_combinations(words, previous_motion, spec, problems)
+      type(control_words), intent(in) :: words
+      !> T of the previous case, 3 before the first
+      integer, intent(in) :: previous_motion
+      type(case_spec), intent(in) :: spec
+      type(problem_list), intent(inout) :: problems
+
+      associate (digits => spec%digits)
+         if (digits%d /= 0 .and. digits%z == 0) call add_for_digit(problems, words, severity%error, "Z", &
+            & "Z = 0 keeps the undeformed distance, but D = " // integer_text(digits%d) // &
+            & " forms a new grid, which needs a new one")
+         if (digits%c == 0 .and. (digits%t <= 1 .neqv. previous_motion <= 1)) call add_for_digit(problems, words, &
+            & severity%error, "C", "C = 0 keeps the influence coefficients, but T changes from " // &
+            & integer_text(previous_motion) // " to " // integer_text(digits%t) // ", between shift and rolling")
+         if (digits%m == 1 .and. digits%t /= 3) call add_for_digit(problems, words, severity%error, "M", &
+            & "M = 1, viscoelastic material, needs steady rolling, T = 3, not T = " // integer_text(digits%t))
+         if (digits%h >= 1 .and. digits%t /= 3) call add_for_digit(problems, words, severity%error, "H", &
+            & "H = " // integer_text(digits%h) // ", surface temperatures, needs steady rolling, T = 3, not T = " // &
+            & integer_text(digits%t))
+         if (spec%friction_law == 6) then
+            if (digits%h == 0) call add_for_digit(problems, words, severity%error, "L", &
+               & "L = 6, friction falling with temperature, needs surface temperatures, H = 1 or 3")
+            if (any(digits%m == [2, 3, 5, 6, 7])) call add_for_digit(problems, words, severity%error, "L", &
+               & "L = 6, friction falling with temperature, cannot be used with M = " // integer_text(digits%m))
+         end if
+      end associate
+   end subroutine check_combinations
+
+   !> Refuse by name what the format knows but this version cannot compute
+   !>
+   !> A digit that keeps something counts as the one that is kept.
+   subroutine refuse_unbuilt_digits(words, spec, problems)
+      type(control_words), intent(in) :: words
+      type(case_spec), intent(in) :: spec
+      type(problem_list), intent(inout) :: problems
+      character(len=:), allocatable :: name
+      integer :: digit, k
+
+      do k = 1, size(digit_names)
+         name = trim(digit_names(k))
+         digit = digit_value(spec%digits, name)
+         select case (name)
+         case ("L"); if (digit == 1) digit = spec%friction_law
+         case ("C"); if (digit <= 1) digit = spec%kernel
+         case ("E"); if (digit == 1) digit = spec%slip_source
+         case ("M2"); if (digit == 1 .and. spec%has_damping) digit = 2
+         end select
+         if (is_built(name, digit) .or. .not. is_known(name, digit)) cycle
+         call add_for_digit(problems, words, severity%unsupported, name, name // " = " // integer_text(digit) // ", " // &
+            & digit_text(name, digit) // ", is known but not built in this version")
+      end do
+   end subroutine refuse_unbuilt_digits
+
+   !> Add a problem at the word to which a digit belongs
+   subroutine add_for_digit(problems, words, kind, name, message)
+      type(problem_list), intent(inout) :: problems
+      type(control_words), intent(in) :: words
+      !> Member of severity
+      integer, intent(in) :: kind
+      !> Letter of the digit
+      character(len=*), intent(in) :: name
+      character(len=*), intent(in) :: message
+
+      select case (name)
+      case ("P", "B", "T", "N", "F", "S")
+         call problems%add(kind, message, words%word(1)%line, words%word(1)%column)
+      case ("V", "L", "D", "C", "M", "Z", "E")
+         call problems%add(kind, message, words%word(2)%line, words%word(2)%column)
+      case ("M2")
+         call problems%add(kind, message, words%word(2)%line)
+      case default
+         call problems%add(kind, message, words%word(3)%line, words%word(3)%column)
+      end select
+   end subroutine add_for_digit
+end module contact_input_control3

@@ -1,0 +1,233 @@
+!> An input file as a sequence of cases: module lines, result elements, stored input
+module contact_input_experiment_file
+   use contact_base_error, only : add_context, error_kind, error_type, fatal_error
+   use contact_cases_spec, only : case_spec
+   use contact_input_grid3, only : grid_frame
+   use contact_input_lexer, only : input_lexer, input_value
+   use contact_input_problems, only : problem_list, severity
+   use contact_input_reader3, only : read_case3
+   use contact_input_words, only : integer_text
+   implicit none (type, external)
+   private
+
+   public :: experiment_reader, input_case, case_failure
+
+   !> Largest numbers on the module line, and number of different result elements
+   integer, parameter :: highest_element = 999, highest_patch = 9, most_elements = 100
+
+   !> One case as it comes from the file
+   type :: input_case
+      !> Module, 0 at the end of the input
+      integer :: module_number = 0
+      !> Result element, 0 for the default one, and contact patch
+      integer :: reid = 0, cpid = 1
+      !> Number of the case within its result element and patch, from 1
+      integer :: number = 0
+      !> Line of the first control word
+      integer :: first_line = 0
+      type(case_spec) :: spec
+      !> What is wrong with it
+      type(problem_list) :: problems
+   end type input_case
+
+   !> What a result element remembers
+   type :: element_store
+      integer :: reid = 0, cpid = 1
+      !> Number of cases read so far
+      integer :: cases = 0
+      !> The last case
+      type(case_spec) :: spec
+      !> Grid for which influence coefficients were last formed
+      type(grid_frame) :: coefficients
+   end type element_store
+
+   !> A file with the memory of its result elements
+   type :: experiment_reader
+      !> The text
+      type(input_lexer) :: lexer
+      !> Module that the reader is in; 0 when a module line comes next
+      integer, private :: module_number = 0
+      !> Index of the current store
+      integer, private :: current = 0
+      !> Stores in the order of their first use
+      integer, private :: count = 0
+      type(element_store), allocatable, private :: stores(:)
+   contains
+      !> Read a file from the disk
+      procedure :: open_file => open_experiment
+      !> Take a text that is in memory already
+      procedure :: open_text => open_experiment_text
+      !> The next case
+      procedure :: next_case
+      !> Replace the stored input of the case that was read last
+      procedure :: store_case
+      procedure, private :: read_module_line
+      procedure, private :: select_store
+   end type experiment_reader
+
+contains
+
+   !> Read a file from the disk
+   subroutine open_experiment(self, file, error)
+      class(experiment_reader), intent(out) :: self
+      character(len=*), intent(in) :: file
+      type(error_type), allocatable, intent(out) :: error
+
+      call self%lexer%open_file(file, error)
+      allocate(self%stores(4))
+   end subroutine open_experiment
+
+   !> Take a text that is in memory already
+   subroutine open_experiment_text(self, text, name)
+      class(experiment_reader), intent(out) :: self
+      character(len=*), intent(in) :: text
+      !> Name of the file in messages
+      character(len=*), intent(in) :: name
+
+      call self%lexer%open_text(text, name)
+      allocate(self%stores(4))
+   end subroutine open_experiment_text
+
+   !> The next case, with its module number 0 at the end
+   !>
+   !> Problems of values are in the case and do not stop the reader: `case_failure` tells whether the
+   !> case can be solved, and the stored input is that of the file in any event. After an error
+   !> nothing can be read any more.
+   subroutine next_case(self, this, error)
+      class(experiment_reader), intent(inout) :: self
+      type(input_case), intent(out) :: this
+      type(error_type), allocatable, intent(out) :: error
+
+      call this%problems%start(self%lexer%file)
+      if (self%module_number == 0) then
+         call self%read_module_line(error)
+         if (allocated(error)) return
+         if (self%module_number == 0) return
+      end if
+
+      associate (store => self%stores(self%current))
+         this%module_number = self%module_number
+         this%reid = store%reid
+         this%cpid = store%cpid
+         this%number = store%cases + 1
+         call read_case3(self%lexer, store%spec, store%cases > 0, this%number, this%spec, this%problems, error, &
+            & store%coefficients, this%first_line)
+         if (allocated(error)) return
+         store%spec = this%spec
+         store%cases = this%number
+         if (this%spec%digits%r /= 0 .and. this%spec%digits%r /= 2) self%module_number = 0
+      end associate
+   end subroutine next_case
+
+   !> Replace the stored input of the case that was read last
+   !>
+   !> For what is known only after the case was prepared, such as the curvatures of a Hertzian option.
+   subroutine store_case(self, spec)
+      class(experiment_reader), intent(inout) :: self
+      type(case_spec), intent(in) :: spec
+
+      if (self%current > 0) self%stores(self%current)%spec = spec
+   end subroutine store_case
+
+   !> MODULE {REID {CPID}}
+   subroutine read_module_line(self, error)
+      class(experiment_reader), intent(inout) :: self
+      type(error_type), allocatable, intent(out) :: error
+      type(input_value) :: v(3)
+
+      call self%lexer%read_group("iII", "MODULE REID CPID", v, error)
+      if (allocated(error)) then
+         if (self%current > 0) call add_context(error, "case " // integer_text(self%stores(self%current)%cases + 1))
+         return
+      end if
+      select case (v(1)%i)
+      case (0)
+         return
+      case (1)
+         call fatal_error(error, "MODULE = 1, wheel-rail contact, is known but not built in this version", &
+            & error_kind%unsupported, self%lexer%file, v(1)%line, v(1)%column)
+         return
+      case (3)
+         continue
+      case default
+         call fatal_error(error, "MODULE = " // v(1)%word // " is not a known module; allowed are 0, 1 and 3", &
+            & file=self%lexer%file, line=v(1)%line, column=v(1)%column)
+         return
+      end select
+      call check_number(v(2), highest_element)
+      if (allocated(error)) return
+      call check_number(v(3), highest_patch)
+      if (allocated(error)) return
+      if (.not. v(3)%given) v(3)%i = 1
+      call self%select_store(v(2)%i, v(3)%i)
+      if (self%current == 0) then
+         call fatal_error(error, "REID = " // v(2)%word // " is one result element too many; there can be " // &
+            & integer_text(most_elements), file=self%lexer%file, line=v(2)%line, column=v(2)%column)
+         return
+      end if
+      self%module_number = v(1)%i
+
+   contains
+
+      !> Range of a number that may be absent
+      subroutine check_number(value, highest)
+         type(input_value), intent(in) :: value
+         integer, intent(in) :: highest
+
+         if (.not. value%given) return
+         if (value%i >= 1 .and. value%i <= highest) return
+         call fatal_error(error, value%name // " = " // value%word // " is outside its range 1 to " // &
+            & integer_text(highest), file=self%lexer%file, line=value%line, column=value%column)
+      end subroutine check_number
+   end subroutine read_module_line
+
+   !> Make the store of a result element and patch the current one; 0 when there are too many
+   subroutine select_store(self, reid, cpid)
+      class(experiment_reader), intent(inout) :: self
+      integer, intent(in) :: reid, cpid
+      type(element_store), allocatable :: longer(:)
+      integer :: k, elements
+
+      elements = 0
+      do k = 1, self%count
+         self%current = k
+         if (self%stores(k)%reid == reid .and. self%stores(k)%cpid == cpid) return
+         if (.not. any(self%stores(:k - 1)%reid == self%stores(k)%reid)) elements = elements + 1
+      end do
+      self%current = 0
+      if (elements >= most_elements .and. .not. any(self%stores(:self%count)%reid == reid)) return
+      if (self%count == size(self%stores)) then
+         allocate(longer(2*self%count))
+         longer(:self%count) = self%stores
+         call move_alloc(longer, self%stores)
+      end if
+      self%count = self%count + 1
+      self%current = self%count
+      self%stores(self%current)%reid = reid
+      self%stores(self%current)%cpid = cpid
+   end subroutine select_store
+
+   !> The error that ends a run because of what is wrong with a case; nothing when it can be solved
+   !>
+   !> A case with both wrong and unbuilt choices counts as wrong.
+   subroutine case_failure(this, error)
+      type(input_case), intent(in) :: this
+      type(error_type), allocatable, intent(out) :: error
+      character(len=:), allocatable :: place
+      integer :: k, wrong
+
+      wrong = this%problems%number_of(severity%error)
+      place = "case " // integer_text(this%number) // ", which starts at this line, "
+      if (wrong > 0) then
+         call fatal_error(error, place // "has " // integer_text(wrong) // " error" // trim(merge("s", " ", wrong > 1)) // &
+            & " in its input and cannot be solved", error_kind%input, this%problems%file, this%first_line)
+         return
+      end if
+      do k = 1, this%problems%count
+         if (this%problems%items(k)%severity /= severity%unsupported) cycle
+         error = this%problems%items(k)%what
+         call add_context(error, "case " // integer_text(this%number))
+         return
+      end do
+   end subroutine case_failure
+end module contact_input_experiment_file
