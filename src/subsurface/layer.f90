@@ -63,7 +63,8 @@ contains
       do point = 1, n
          column = (position(1, point) - grid%xl)/grid%dx + 0.5_wp
          row = (position(2, point) - grid%yl)/grid%dy + 0.5_wp
-         if (max(abs(column), abs(row)) > real(largest_table, wp)) return
+         ! also leaves for NaN
+         if (.not. (abs(column) <= real(largest_table, wp) .and. abs(row) <= real(largest_table, wp))) return
          offsets%ix(point) = nint(column)
          offsets%iy(point) = nint(row)
          if (abs(column - offsets%ix(point)) > on_centre .or. abs(row - offsets%iy(point)) > on_centre) return
