@@ -1,0 +1,493 @@
+!> Semismooth Newton-Krylov method for friction on a given contact area
+!>
+!> Solves  p - P_g(p - r S(p)) = 0  (see contact_tangential_problem), with prescribed forces as
+!> one or two more unknowns, the creepages. After Alart and Curnier (1991) and Hueeber, Stadler
+!> and Wohlmuth (2008) for the formulation; Eisenstat and Walker (1996) for the accuracy of the
+!> inner iteration. In an element D is the derivative of the projection: the identity where
+!> |z| <= g, z = p - r S, and (g/|z|)(1 - n n'), n = z/|z|, elsewhere; the Jacobian is
+!> J dp = dp - D(dp - r B dp). Directions in the range of D are preconditioned by the inverse of
+!> the circulant that belongs to B, the others are left alone; border rows by block elimination.
+module contact_tangential_newton
+   use contact_base_kinds, only : wp
+   use contact_base_solve_report, only : ending
+   use contact_elastic_operator, only : elastic_operator
+   use contact_tangential_problem, only : apply_operator, divide_elements, reference_compliance, &
+      & slip_of, tangential_problem, tangential_solution, true_residual
+   implicit none (type, external)
+   private
+
+   public :: newton_workspace, newton_outcome, newton_solve
+
+   !> Scratch of one window size; no meaning between calls
+   type :: newton_workspace
+      integer :: mx = 0, my = 0
+      !> Krylov basis, shape (2 mx my + 2, restart + 1)
+      real(wp), allocatable :: basis(:, :)
+      !> Weight g/|z| (1 in adhesion, 0 outside contact) and direction n (0 in adhesion)
+      real(wp), allocatable :: weight(:, :), direction(:, :, :)
+      !> Trial tractions and slip, residual, and two scratch fields
+      real(wp), allocatable :: trial(:, :, :), trial_slip(:, :, :), residual(:, :, :), a(:, :, :), b(:, :, :)
+      !> Border columns after preconditioning
+      real(wp), allocatable :: border(:, :, :, :)
+   end type newton_workspace
+
+   !> How a solve ended
+   type :: newton_outcome
+      !> Member of ending
+      integer :: ended = ending%not_started
+      !> Newton steps and applications of the preconditioner
+      integer :: steps = 0, preconditionings = 0
+      !> True residual on exit
+      real(wp) :: residual = 0.0_wp
+   end type newton_outcome
+
+   !> Largest Krylov space between restarts, number of restarts, Newton steps
+   integer, parameter :: restart = 50, max_cycles = 4, max_steps = 60
+
+   !> One linearised system with its scales
+   type :: linear_system
+      !> Unknown creepages
+      integer :: n_forces = 0
+      !> Number of traction unknowns
+      integer :: n = 0
+      !> 1/A_xx(0) [(N/mm2)/mm]
+      real(wp) :: r = 1.0_wp
+      !> Scales of tractions |g| and sums of g, and of the creepages
+      real(wp) :: g_norm = 1.0_wp, g_sum = 1.0_wp, creep_scale = 1.0_wp
+      !> Inverse of the Schur complement of the preconditioner
+      real(wp) :: schur(2, 2) = 0.0_wp
+   end type linear_system
+
+contains
+
+   !> Improve a solution until the true residual is below a tolerance
+   subroutine newton_solve(problem, operator, tolerance, workspace, solution, outcome)
+      type(tangential_problem), intent(in) :: problem
+      !> Prepared for the window and the rolling direction of the problem
+      type(elastic_operator), intent(inout) :: operator
+      !> On the true residual [-]
+      real(wp), intent(in) :: tolerance
+      type(newton_workspace), intent(inout) :: workspace
+      !> Tractions inside the discs and creepages to start from
+      type(tangential_solution), intent(inout) :: solution
+      type(newton_outcome), intent(out) :: outcome
+      type(linear_system) :: system
+      real(wp) :: residual, previous, forcing, history(0:max_steps), alpha, best, creep(2), best_creep(2), trial
+      real(wp) :: correction(2), unbalance(2), reached
+      integer :: step, k, attempt
+      real(wp), parameter :: lengths(6) = [1.0_wp, 0.5_wp, 0.25_wp, 0.1_wp, 0.03_wp, 0.01_wp]
+
+      outcome%residual = 0.0_wp
+      if (.not. any(problem%contact)) return
+      call fit_workspace(workspace, problem%mx, problem%my)
+      system%n_forces = problem%n_forces
+      system%n = 2*problem%mx*problem%my
+      system%r = 1.0_wp/reference_compliance(operator)
+      system%g_norm = sqrt(sum(problem%bound**2))
+      system%g_sum = sum(problem%bound)
+      if (system%g_norm <= 0.0_wp) then
+         ! no friction at all
+         solution%p = 0.0_wp
+         call slip_of(problem, operator, solution%p, solution%creep, solution%slip)
+         call divide_elements(problem, solution%p, solution%slip, system%r, solution%division)
+         outcome%ended = ending%converged
+         return
+      end if
+      system%creep_scale = system%g_sum/(count(problem%contact)*system%r*problem%dq)
+
+      call slip_of(problem, operator, solution%p, solution%creep, solution%slip)
+      residual = true_residual(problem, solution%p, solution%slip, system%r)
+      previous = residual
+      history = 0.0_wp
+      outcome%ended = ending%iteration_limit
+      do step = 0, max_steps
+         history(step) = residual
+         outcome%steps = step
+         outcome%residual = residual
+         if (.not. residual <= huge(residual)) then
+            outcome%ended = ending%diverged
+            exit
+         end if
+         if (residual <= tolerance) then
+            outcome%ended = ending%converged
+            exit
+         end if
+         if (step >= 8 .and. residual > 0.5_wp*history(max(0, step - 8))) then
+            outcome%ended = ending%stagnated
+            exit
+         end if
+         if (step == max_steps) exit
+
+         call linearise(problem, system, solution, workspace)
+         do k = 1, problem%n_forces
+            unbalance(k) = (sum(solution%p(:, :, k)) - problem%target(k))/system%g_sum
+         end do
+         ! no more accuracy than the next residual can make use of
+         forcing = min(0.1_wp, 0.5_wp*(residual/max(previous, residual))**1.5_wp)
+         forcing = max(forcing, min(0.1_wp, 0.3_wp*tolerance/residual))
+         if (step == 0) forcing = 0.1_wp
+         call solve_linear(problem, operator, system, workspace, unbalance, forcing, correction, outcome%preconditionings, reached)
+
+         best = huge(best)
+         best_creep = solution%creep
+         do attempt = 1, size(lengths)
+            alpha = lengths(attempt)
+            call step_and_project(problem, solution%p, alpha, workspace%a, workspace%trial)
+            creep = solution%creep + alpha*correction
+            call slip_of(problem, operator, workspace%trial, creep, workspace%trial_slip)
+            trial = true_residual(problem, workspace%trial, workspace%trial_slip, system%r)
+            if (trial < best) then
+               best = trial
+               best_creep = creep
+               workspace%residual = workspace%trial
+               workspace%b = workspace%trial_slip
+            end if
+            if (trial < residual*(1.0_wp - 0.1_wp*alpha)) exit
+         end do
+         if (.not. best < huge(best)) then
+            outcome%ended = ending%diverged
+            exit
+         end if
+         previous = residual
+         residual = best
+         solution%p = workspace%residual
+         solution%slip = workspace%b
+         solution%creep = best_creep
+      end do
+      call divide_elements(problem, solution%p, solution%slip, system%r, solution%division)
+   end subroutine newton_solve
+
+   !> Weights and directions of D, and the residual field, at the present tractions
+   subroutine linearise(problem, system, solution, workspace)
+      type(tangential_problem), intent(in) :: problem
+      type(linear_system), intent(in) :: system
+      type(tangential_solution), intent(in) :: solution
+      type(newton_workspace), intent(inout) :: workspace
+      integer :: ix, iy
+      real(wp) :: z(2), length, g
+
+      !$omp parallel do private(ix, z, length, g) if (size(problem%bound) > 20000)
+      do iy = 1, problem%my
+         do ix = 1, problem%mx
+            workspace%weight(ix, iy) = 0.0_wp
+            workspace%direction(ix, iy, :) = 0.0_wp
+            workspace%residual(ix, iy, :) = 0.0_wp
+            if (.not. problem%contact(ix, iy)) cycle
+            g = problem%bound(ix, iy)
+            z = solution%p(ix, iy, :) - system%r*solution%slip(ix, iy, :)
+            length = hypot(z(1), z(2))
+            if (g <= 0.0_wp) then
+               z = 0.0_wp
+            else if (length <= g) then
+               workspace%weight(ix, iy) = 1.0_wp
+            else
+               workspace%weight(ix, iy) = g/length
+               workspace%direction(ix, iy, :) = z/length
+               z = z*(g/length)
+            end if
+            workspace%residual(ix, iy, :) = solution%p(ix, iy, :) - z
+         end do
+      end do
+   end subroutine linearise
+
+   !> v := D v
+   subroutine apply_d(workspace, v)
+      type(newton_workspace), intent(in) :: workspace
+      real(wp), contiguous, intent(inout) :: v(:, :, :)
+      integer :: ix, iy
+      real(wp) :: c
+
+      !$omp parallel do private(ix, c) if (size(v) > 40000)
+      do iy = 1, size(v, 2)
+         do ix = 1, size(v, 1)
+            c = workspace%direction(ix, iy, 1)*v(ix, iy, 1) + workspace%direction(ix, iy, 2)*v(ix, iy, 2)
+            v(ix, iy, 1) = workspace%weight(ix, iy)*(v(ix, iy, 1) - workspace%direction(ix, iy, 1)*c)
+            v(ix, iy, 2) = workspace%weight(ix, iy)*(v(ix, iy, 2) - workspace%direction(ix, iy, 2)*c)
+         end do
+      end do
+   end subroutine apply_d
+
+   !> out := J y, y = (tractions, creepages), both scaled
+   subroutine apply_jacobian(problem, operator, system, workspace, y, out)
+      type(tangential_problem), intent(in) :: problem
+      type(elastic_operator), intent(inout) :: operator
+      type(linear_system), intent(in) :: system
+      type(newton_workspace), intent(inout) :: workspace
+      real(wp), contiguous, target, intent(in) :: y(:)
+      real(wp), contiguous, target, intent(out) :: out(:)
+      real(wp), pointer :: dp(:, :, :), res(:, :, :)
+      real(wp) :: creep(2), c, vx, vy
+      integer :: ix, iy, k
+
+      dp(1:problem%mx, 1:problem%my, 1:2) => y(:system%n)
+      res(1:problem%mx, 1:problem%my, 1:2) => out(:system%n)
+      call apply_operator(problem, operator, dp, workspace%trial)
+      creep = 0.0_wp
+      do k = 1, system%n_forces
+         creep(k) = problem%dq*system%creep_scale*y(system%n + k)/system%g_norm
+      end do
+      !$omp parallel do private(ix, c, vx, vy) if (size(workspace%weight) > 20000)
+      do iy = 1, problem%my
+         do ix = 1, problem%mx
+            vx = dp(ix, iy, 1) - system%r*(workspace%trial(ix, iy, 1) + creep(1))
+            vy = dp(ix, iy, 2) - system%r*(workspace%trial(ix, iy, 2) + creep(2))
+            c = workspace%direction(ix, iy, 1)*vx + workspace%direction(ix, iy, 2)*vy
+            res(ix, iy, 1) = dp(ix, iy, 1) - workspace%weight(ix, iy)*(vx - workspace%direction(ix, iy, 1)*c)
+            res(ix, iy, 2) = dp(ix, iy, 2) - workspace%weight(ix, iy)*(vy - workspace%direction(ix, iy, 2)*c)
+         end do
+      end do
+      do k = 1, system%n_forces
+         out(system%n + k) = sum(dp(:, :, k))*system%g_norm/system%g_sum
+      end do
+   end subroutine apply_jacobian
+
+   !> u := (D C^-1 D / r + 1 - D) v for traction fields
+   subroutine precondition_field(problem, operator, system, workspace, v, u)
+      type(tangential_problem), intent(in) :: problem
+      type(elastic_operator), intent(inout) :: operator
+      type(linear_system), intent(in) :: system
+      type(newton_workspace), intent(inout) :: workspace
+      real(wp), contiguous, intent(in) :: v(:, :, :)
+      real(wp), contiguous, intent(inout) :: u(:, :, :)
+      integer :: ix, iy
+      real(wp) :: c, vx, vy, ux, uy, w, nx, ny
+
+      workspace%trial = v
+      call apply_d(workspace, workspace%trial)
+      if (problem%steady) then
+         call operator%steady_inverse(workspace%trial, u)
+      else
+         call operator%tangential_inverse(workspace%trial, u)
+      end if
+      !$omp parallel do private(ix, c, vx, vy, ux, uy, w, nx, ny) if (size(u) > 40000)
+      do iy = 1, problem%my
+         do ix = 1, problem%mx
+            w = workspace%weight(ix, iy)
+            nx = workspace%direction(ix, iy, 1)
+            ny = workspace%direction(ix, iy, 2)
+            ux = u(ix, iy, 1)/system%r
+            uy = u(ix, iy, 2)/system%r
+            c = nx*ux + ny*uy
+            vx = v(ix, iy, 1) - workspace%trial(ix, iy, 1)
+            vy = v(ix, iy, 2) - workspace%trial(ix, iy, 2)
+            u(ix, iy, 1) = w*(ux - nx*c) + vx
+            u(ix, iy, 2) = w*(uy - ny*c) + vy
+         end do
+      end do
+   end subroutine precondition_field
+
+   !> Preconditioned border columns and the inverse of their Schur complement
+   subroutine prepare_border(problem, operator, system, workspace, preconditionings)
+      type(tangential_problem), intent(in) :: problem
+      type(elastic_operator), intent(inout) :: operator
+      type(linear_system), intent(inout) :: system
+      type(newton_workspace), intent(inout) :: workspace
+      integer, intent(inout) :: preconditionings
+      integer :: k, j
+      real(wp) :: s(2, 2), det
+
+      s = 0.0_wp
+      do k = 1, system%n_forces
+         workspace%b = 0.0_wp
+         workspace%b(:, :, k) = system%r*problem%dq*system%creep_scale/system%g_norm
+         call apply_d(workspace, workspace%b)
+         call precondition_field(problem, operator, system, workspace, workspace%b, workspace%border(:, :, :, k))
+         preconditionings = preconditionings + 1
+         do j = 1, system%n_forces
+            s(j, k) = -sum(workspace%border(:, :, j, k))*system%g_norm/system%g_sum
+         end do
+      end do
+      system%schur = 0.0_wp
+      if (system%n_forces == 1) then
+         if (abs(s(1, 1)) > 1.0e-12_wp) system%schur(1, 1) = 1.0_wp/s(1, 1)
+      else if (system%n_forces == 2) then
+         det = s(1, 1)*s(2, 2) - s(1, 2)*s(2, 1)
+         if (abs(det) > 1.0e-14_wp*(s(1, 1)**2 + s(2, 2)**2)) then
+            system%schur = reshape([s(2, 2), -s(2, 1), -s(1, 2), s(1, 1)], [2, 2])/det
+         else
+            do k = 1, 2
+               if (abs(s(k, k)) > 0.0_wp) system%schur(k, k) = 1.0_wp/s(k, k)
+            end do
+         end if
+      end if
+   end subroutine prepare_border
+
+   !> out := M^-1 v, bordered
+   subroutine precondition(problem, operator, system, workspace, v, out, preconditionings)
+      type(tangential_problem), intent(in) :: problem
+      type(elastic_operator), intent(inout) :: operator
+      type(linear_system), intent(in) :: system
+      type(newton_workspace), intent(inout) :: workspace
+      real(wp), contiguous, target, intent(in) :: v(:)
+      real(wp), contiguous, target, intent(inout) :: out(:)
+      integer, intent(inout) :: preconditionings
+      real(wp), pointer :: field(:, :, :), u(:, :, :)
+      real(wp) :: rest(2), dc(2)
+      integer :: k
+
+      field(1:problem%mx, 1:problem%my, 1:2) => v(:system%n)
+      u(1:problem%mx, 1:problem%my, 1:2) => out(:system%n)
+      call precondition_field(problem, operator, system, workspace, field, u)
+      preconditionings = preconditionings + 1
+      if (system%n_forces == 0) return
+      rest = 0.0_wp
+      do k = 1, system%n_forces
+         rest(k) = v(system%n + k) - sum(u(:, :, k))*system%g_norm/system%g_sum
+      end do
+      dc = matmul(system%schur, rest)
+      do k = 1, system%n_forces
+         u = u - dc(k)*workspace%border(:, :, :, k)
+         out(system%n + k) = dc(k)
+      end do
+   end subroutine precondition
+
+   !> Restarted GMRES (Saad and Schultz 1986), preconditioned from the right
+   !>
+   !> On exit workspace%a holds the correction of the tractions [N/mm2].
+   subroutine solve_linear(problem, operator, system, workspace, unbalance, tolerance, correction, preconditionings, reached)
+      type(tangential_problem), intent(in) :: problem
+      type(elastic_operator), intent(inout) :: operator
+      type(linear_system), intent(inout) :: system
+      type(newton_workspace), target, intent(inout) :: workspace
+      !> Errors of the prescribed forces, relative
+      real(wp), intent(in) :: unbalance(2)
+      !> Relative to the right-hand side
+      real(wp), intent(in) :: tolerance
+      !> Correction of the creepages
+      real(wp), intent(out) :: correction(2)
+      integer, intent(inout) :: preconditionings
+      !> Relative residual that was reached
+      real(wp), intent(out) :: reached
+      real(wp) :: h(restart + 1, restart), cs(restart), sn(restart), s(restart + 1), y(restart)
+      real(wp) :: start, beta, before, after, t
+      real(wp), allocatable :: x(:), work(:), update(:)
+      integer :: n, m, j, k, cycle_, used
+
+      n = system%n + system%n_forces
+      allocate(x(n), source=0.0_wp)
+      allocate(work(n), update(n))
+      if (system%n_forces > 0) call prepare_border(problem, operator, system, workspace, preconditionings)
+      associate (v => workspace%basis)
+         v(:n, 1) = right_side(n)
+         start = norm2(v(:n, 1))
+         beta = start
+         reached = 1.0_wp
+         do cycle_ = 1, max_cycles
+            if (.not. beta > tolerance*start) exit
+            v(:n, 1) = v(:n, 1)/beta
+            s = 0.0_wp
+            s(1) = beta
+            used = 0
+            do j = 1, restart
+               call precondition(problem, operator, system, workspace, v(:n, j), work, preconditionings)
+               call apply_jacobian(problem, operator, system, workspace, work, v(:n, j + 1))
+               before = norm2(v(:n, j + 1))
+               do k = 1, j
+                  h(k, j) = dot_product(v(:n, k), v(:n, j + 1))
+                  v(:n, j + 1) = v(:n, j + 1) - h(k, j)*v(:n, k)
+               end do
+               after = norm2(v(:n, j + 1))
+               if (after < 0.1_wp*before) then
+                  do k = 1, j
+                     t = dot_product(v(:n, k), v(:n, j + 1))
+                     h(k, j) = h(k, j) + t
+                     v(:n, j + 1) = v(:n, j + 1) - t*v(:n, k)
+                  end do
+                  after = norm2(v(:n, j + 1))
+               end if
+               h(j + 1, j) = after
+               if (after > 0.0_wp) v(:n, j + 1) = v(:n, j + 1)/after
+               do k = 1, j - 1
+                  t = cs(k)*h(k, j) + sn(k)*h(k + 1, j)
+                  h(k + 1, j) = -sn(k)*h(k, j) + cs(k)*h(k + 1, j)
+                  h(k, j) = t
+               end do
+               t = hypot(h(j, j), h(j + 1, j))
+               if (.not. t > 0.0_wp) exit
+               used = j
+               cs(j) = h(j, j)/t
+               sn(j) = h(j + 1, j)/t
+               h(j, j) = t
+               s(j + 1) = -sn(j)*s(j)
+               s(j) = cs(j)*s(j)
+               if (abs(s(j + 1)) <= tolerance*start .or. .not. after > 0.0_wp) exit
+            end do
+            if (used == 0) exit
+            do k = used, 1, -1
+               y(k) = (s(k) - dot_product(h(k, k + 1:used), y(k + 1:used)))/h(k, k)
+            end do
+            update = 0.0_wp
+            do k = 1, used
+               update = update + y(k)*v(:n, k)
+            end do
+            call precondition(problem, operator, system, workspace, update, work, preconditionings)
+            x = x + work
+            beta = abs(s(used + 1))
+            reached = beta/start
+            if (beta <= tolerance*start .or. cycle_ == max_cycles) exit
+            call apply_jacobian(problem, operator, system, workspace, x, work)
+            v(:n, 1) = right_side(n) - work
+            beta = norm2(v(:n, 1))
+         end do
+      end associate
+      m = system%n
+      workspace%a = reshape(x(:m), shape(workspace%a))
+      correction = 0.0_wp
+      do k = 1, system%n_forces
+         correction(k) = x(m + k)*system%creep_scale/system%g_norm
+      end do
+
+   contains
+
+      !> Minus the residual of the contact conditions and forces
+      pure function right_side(n) result(b)
+         integer, intent(in) :: n
+         real(wp) :: b(n)
+         b(:system%n) = -reshape(workspace%residual, [system%n])
+         if (n > system%n) b(system%n + 1:) = -system%g_norm*unbalance(:n - system%n)
+      end function right_side
+   end subroutine solve_linear
+
+   !> out := projection of p + alpha d onto the discs
+   subroutine step_and_project(problem, p, alpha, d, out)
+      type(tangential_problem), intent(in) :: problem
+      real(wp), contiguous, intent(in) :: p(:, :, :), d(:, :, :)
+      real(wp), intent(in) :: alpha
+      real(wp), contiguous, intent(inout) :: out(:, :, :)
+      integer :: ix, iy
+      real(wp) :: q(2), length
+
+      !$omp parallel do private(ix, q, length) if (size(p) > 40000)
+      do iy = 1, problem%my
+         do ix = 1, problem%mx
+            q = p(ix, iy, :) + alpha*d(ix, iy, :)
+            length = hypot(q(1), q(2))
+            if (.not. problem%contact(ix, iy)) then
+               q = 0.0_wp
+            else if (length > problem%bound(ix, iy)) then
+               q = q*(problem%bound(ix, iy)/length)
+            end if
+            out(ix, iy, :) = q
+         end do
+      end do
+   end subroutine step_and_project
+
+   !> Allocate scratch for a window; keeps it when the size is the same
+   subroutine fit_workspace(workspace, mx, my)
+      type(newton_workspace), intent(inout) :: workspace
+      integer, intent(in) :: mx, my
+
+      if (workspace%mx == mx .and. workspace%my == my) return
+      if (allocated(workspace%basis)) then
+         deallocate(workspace%basis, workspace%weight, workspace%direction, workspace%trial, workspace%trial_slip)
+         deallocate(workspace%residual, workspace%a, workspace%b, workspace%border)
+      end if
+      allocate(workspace%basis(2*mx*my + 2, restart + 1), source=0.0_wp)
+      allocate(workspace%weight(mx, my), workspace%direction(mx, my, 2), source=0.0_wp)
+      allocate(workspace%trial(mx, my, 2), workspace%trial_slip(mx, my, 2), source=0.0_wp)
+      allocate(workspace%residual(mx, my, 2), workspace%a(mx, my, 2), workspace%b(mx, my, 2), source=0.0_wp)
+      allocate(workspace%border(mx, my, 2, 2), source=0.0_wp)
+      workspace%mx = mx
+      workspace%my = my
+   end subroutine fit_workspace
+end module contact_tangential_newton
