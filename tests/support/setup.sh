@@ -50,35 +50,41 @@ as_root() {
   elif command -v sudo >/dev/null 2>&1; then
     sudo "$@"
   else
-    fail "Packages are missing and neither root nor sudo is at hand. As root, run: $*"
+    fail "Packages are missing, and neither root nor sudo is at hand. Ask for these:
+  $packages"
   fi
 }
 
+# $packages is a list of words on purpose
+# shellcheck disable=SC2086
 install_missing() {
   if everything_there; then
     return 0
   fi
   say "Installing what is missing"
   if command -v apt-get >/dev/null 2>&1; then
+    packages="gfortran gcc libc6-dev make cmake ninja-build pkg-config python3
+      libfftw3-dev libopenblas-dev liblapack-dev libhdf5-dev"
+    apt="env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends"
     # The lists of a fresh machine are empty, those of an old one out of date
     as_root apt-get update ||
       say "apt-get update failed; trying with the package lists that are there"
-    as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends \
-      gfortran gcc libc6-dev make cmake ninja-build pkg-config python3 \
-      libfftw3-dev libopenblas-dev liblapack-dev libhdf5-dev &&
-      { choose_compiler || as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y gfortran-12; }
+    as_root $apt $packages && { choose_compiler || as_root $apt gfortran-12; }
   elif command -v dnf >/dev/null 2>&1; then
-    as_root dnf install -y gcc-gfortran gcc make cmake ninja-build pkgconf-pkg-config python3 \
-      fftw-devel openblas-devel lapack-devel hdf5-devel
+    packages="gcc-gfortran gcc make cmake ninja-build pkgconf-pkg-config python3
+      fftw-devel openblas-devel lapack-devel hdf5-devel"
+    as_root dnf install -y $packages
   elif command -v zypper >/dev/null 2>&1; then
-    as_root zypper --non-interactive install gcc-fortran gcc make cmake ninja pkg-config python3 \
-      fftw3-devel openblas-devel lapack-devel hdf5-devel
+    packages="gcc-fortran gcc make cmake ninja pkg-config python3
+      fftw3-devel openblas-devel lapack-devel hdf5-devel"
+    as_root zypper --non-interactive install $packages
   elif command -v pacman >/dev/null 2>&1; then
-    as_root pacman -Sy --needed --noconfirm gcc-fortran gcc make cmake ninja pkgconf python \
-      fftw openblas lapack hdf5
+    packages="gcc-fortran gcc make cmake ninja pkgconf python fftw openblas lapack hdf5"
+    as_root pacman -Sy --needed --noconfirm $packages
   elif command -v apk >/dev/null 2>&1; then
-    as_root apk add gfortran gcc musl-dev make cmake ninja-is-really-ninja pkgconf python3 \
-      fftw-dev openblas-dev lapack-dev hdf5-dev
+    packages="gfortran gcc musl-dev make cmake samurai pkgconf python3
+      fftw-dev openblas-dev lapack-dev hdf5-dev"
+    as_root apk add $packages
   elif command -v brew >/dev/null 2>&1; then
     brew install gcc cmake ninja pkg-config python3 fftw openblas lapack hdf5
   else
