@@ -1,0 +1,445 @@
+!> NormCG: the normal contact problem by bound-constrained conjugate gradients
+!>
+!> Find p >= 0 with  e = h - pen + A p >= 0  and  p e = 0, for a prescribed approach or for a
+!> prescribed force. After Polonsky and Keer (1999) and Vollebregt (2014): conjugate gradients
+!> with Polak-Ribiere directions that are not restarted when the contact area changes, the
+!> circulant inverse of A as preconditioner, and for a prescribed force directions of zero total force
+!> (the approach is the multiplier that belongs to it). Inside nested iteration the number of
+!> transforms does not depend on the grid.
+module contact_normal_conjugate_gradient
+   use contact_base_constants, only : excluded_threshold
+   use contact_base_kinds, only : wp
+   use contact_base_solve_report, only : ending, solve_report
+   use contact_elastic_material, only : combined_material
+   use contact_elastic_operator, only : elastic_operator
+   use contact_grid_coarsening, only : coarse_neighbours, coarse_size, coarsening_factor, shortest_side
+   implicit none (type, external)
+   private
+
+   public :: normal_problem, normal_workspace, solve_normal
+
+   !> Data of a normal problem on a window; constant during the solution
+   type :: normal_problem
+      integer :: mx = 0, my = 0
+      !> Sides of the elements [mm]
+      real(wp) :: dx = 1.0_wp, dy = 1.0_wp
+      !> Undeformed distance with displacements by tangential tractions [mm], shape (mx, my);
+      !> above excluded_threshold: no contact possible
+      real(wp), allocatable :: h(:, :)
+      !> Is the force prescribed, or the approach?
+      logical :: force_prescribed = .true.
+      !> Normal force [N]
+      real(wp) :: fn = 0.0_wp
+      !> Tolerance on the contact conditions relative to the approach, largest number of iterations
+      real(wp) :: eps = 1.0e-6_wp
+      integer :: maxgs = 999
+   end type normal_problem
+
+   !> Scratch of one level of nested iteration
+   type :: level_type
+      type(normal_problem) :: problem
+      type(elastic_operator) :: operator
+      real(wp), allocatable :: p(:, :)
+      real(wp), allocatable :: u(:, :), r(:, :), z(:, :), d(:, :), q(:, :), previous(:, :)
+      logical, allocatable :: free(:, :)
+   end type level_type
+
+   !> Scratch of all levels, no meaning between calls; level 1 belongs to the finest grid
+   type :: normal_workspace
+      type(level_type) :: level(12)
+   end type normal_workspace
+
+   !> Smaller windows are solved directly
+   integer, parameter :: smallest = 1500
+   !> Residual of the coarse levels; a better estimate than the second is not replaced by one from coarse grids
+   real(wp), parameter :: coarse_tolerance = 1.0e-3_wp, good_estimate = 3.0e-2_wp
+
+contains
+
+   !> Solve for pressures and approach or force
+   subroutine solve_normal(problem, operator, workspace, p, pen, report)
+      type(normal_problem), intent(in) :: problem
+      !> Prepared for the window
+      type(elastic_operator), intent(inout) :: operator
+      type(normal_workspace), intent(inout) :: workspace
+      !> Estimate on entry (zero when there is none), pressures on exit [N/mm2], shape (mx, my)
+      real(wp), contiguous, intent(inout) :: p(:, :)
+      !> Approach [mm]: prescribed, or an exit value
+      real(wp), intent(inout) :: pen
+      type(solve_report), intent(inout) :: report
+      real(wp) :: pairs_before, fine_size
+      integer :: k, products_before
+
+      pairs_before = operator%fft_pairs()
+      products_before = operator%products
+      report%method = "NormCG"
+      report%tolerance = problem%eps
+      call solve_level(problem, operator, workspace, 1, p, pen, problem%eps, report)
+      report%products = report%products + operator%products - products_before
+      report%fft_pairs = report%fft_pairs + operator%fft_pairs() - pairs_before
+      fine_size = real(problem%mx, wp)*problem%my
+      do k = 2, size(workspace%level)
+         associate (level => workspace%level(k))
+            if (level%operator%transforms == 0) cycle
+            report%fft_pairs = report%fft_pairs + level%operator%fft_pairs()*level%problem%mx*level%problem%my/fine_size
+            level%operator%transforms = 0
+            level%operator%products = 0
+         end associate
+      end do
+   end subroutine solve_normal
+
+   !> One level: estimate from the next coarser one where that pays, then iterate
+   recursive subroutine solve_level(problem, operator, workspace, k, p, pen, tolerance, report)
+      type(normal_problem), intent(in) :: problem
+      type(elastic_operator), intent(inout) :: operator
+      type(normal_workspace), intent(inout) :: workspace
+      integer, intent(in) :: k
+      real(wp), contiguous, intent(inout) :: p(:, :)
+      real(wp), intent(inout) :: pen
+      real(wp), intent(in) :: tolerance
+      type(solve_report), intent(inout) :: report
+      type(solve_report) :: coarse_report
+      real(wp) :: residual
+
+      report%ended = ending%converged
+      report%iterations = 0
+      report%residual = 0.0_wp
+      if (problem%force_prescribed .and. problem%fn <= 0.0_wp) then
+         p = 0.0_wp
+         pen = minval(problem%h)
+         return
+      end if
+      if (.not. problem%force_prescribed .and. pen <= minval(problem%h)) then
+         p = 0.0_wp
+         return
+      end if
+      call fit_level(workspace%level(k), problem%mx, problem%my)
+      call make_admissible(problem, p)
+      if (k < size(workspace%level) .and. problem%mx*problem%my >= smallest .and. max(problem%mx, problem%my) >= shortest_side) then
+         residual = huge(residual)
+         if (any(p > 0.0_wp)) then
+            call operator%normal(p, workspace%level(k)%u)
+            residual = estimate_quality(problem, workspace%level(k)%u, p, pen)
+         end if
+         if (residual > good_estimate) then
+            associate (coarse => workspace%level(k + 1))
+               call coarsen(problem, coarse%problem)
+               call coarse%operator%prepare(operator%material, coarse%problem%dx, coarse%problem%dy, coarse%problem%mx, &
+                  & coarse%problem%my, 1)
+               call fit_level(coarse, coarse%problem%mx, coarse%problem%my)
+               coarse%p = 0.0_wp
+               call solve_level(coarse%problem, coarse%operator, workspace, k + 1, coarse%p, pen, coarse_tolerance, &
+                  & coarse_report)
+               call prolong(coarse%p, problem, p)
+               call make_admissible(problem, p)
+            end associate
+         end if
+      end if
+      if (.not. any(p > 0.0_wp)) call first_guess(problem, operator, workspace%level(k), p, pen)
+      call iterate(problem, operator, workspace%level(k), p, pen, tolerance, report)
+   end subroutine solve_level
+
+   !> Conjugate gradients on one level
+   subroutine iterate(problem, operator, level, p, pen, tolerance, report)
+      type(normal_problem), intent(in) :: problem
+      type(elastic_operator), intent(inout) :: operator
+      type(level_type), intent(inout) :: level
+      real(wp), contiguous, intent(inout) :: p(:, :)
+      real(wp), intent(inout) :: pen
+      real(wp), intent(in) :: tolerance
+      type(solve_report), intent(inout) :: report
+      real(wp) :: rz, rz_old, rz_cross, beta, alpha, dq, dr, worst, scale, h_min, total, mean, best
+      integer :: it, since_best
+      logical :: fresh, changed, exact_u
+
+      h_min = minval(problem%h)
+      level%previous = 0.0_wp
+      level%d = 0.0_wp
+      rz_old = 1.0_wp
+      fresh = .true.
+      exact_u = .true.
+      best = huge(best)
+      since_best = 0
+      call operator%normal(p, level%u)
+      report%ended = ending%iteration_limit
+      do it = 1, problem%maxgs + 1
+         call residuals(problem, level, p, pen, worst)
+         scale = max(abs(pen - h_min), tiny(scale))
+         if (.not. worst <= huge(worst)) then
+            report%ended = ending%diverged
+            exit
+         end if
+         report%residual = worst/scale
+         if (worst <= tolerance*scale) then
+            if (exact_u) then
+               report%ended = ending%converged
+               exit
+            end if
+            ! the displacements were updated: believe the end only when they are computed anew
+            call operator%normal(p, level%u)
+            exact_u = .true.
+            cycle
+         end if
+         if (worst < 0.9_wp*best) then
+            best = worst
+            since_best = 0
+         else
+            since_best = since_best + 1
+         end if
+         if (since_best > 60) then
+            report%ended = ending%stagnated
+            exit
+         end if
+         if (it > problem%maxgs) exit
+         report%iterations = it
+
+         level%free = (p > 0.0_wp .or. level%r > 0.0_wp) .and. problem%h < excluded_threshold
+         where (level%free)
+            level%q = level%r
+         elsewhere
+            level%q = 0.0_wp
+         end where
+         level%r = level%q
+         call operator%normal_inverse(level%q, level%z)
+         call project(problem, level%free, level%z)
+         rz = sum(level%r*level%z)
+         if (.not. rz > 0.0_wp) then
+            level%z = level%r
+            call project(problem, level%free, level%z)
+            rz = sum(level%r*level%z)
+         end if
+         if (.not. rz > 0.0_wp) then
+            ! nothing is left to improve inside the contact area, and elements that want in have no room:
+            ! a contact of one element
+            report%ended = ending%stagnated
+            exit
+         end if
+         rz_cross = sum(level%previous*level%z)
+         beta = 0.0_wp
+         if (.not. fresh) beta = max(0.0_wp, (rz - rz_cross)/rz_old)
+         rz_old = rz
+         level%previous = level%r
+         where (level%free)
+            level%d = level%z + beta*level%d
+         elsewhere
+            level%d = 0.0_wp
+         end where
+         call project(problem, level%free, level%d)
+         dr = sum(level%d*level%r)
+         if (.not. dr > 0.0_wp) then
+            level%d = level%z
+            dr = rz
+         end if
+         call operator%normal(level%d, level%q)
+         dq = sum(level%d*level%q)
+         fresh = .false.
+         if (.not. dq > 0.0_wp) then
+            report%ended = ending%stagnated
+            exit
+         end if
+         alpha = dr/dq
+         p = p + alpha*level%d
+         changed = any(p < 0.0_wp)
+         if (changed) then
+            p = max(p, 0.0_wp)
+            if (.not. any(p > 0.0_wp)) call lowest_element(problem, p)
+         end if
+         if (problem%force_prescribed) then
+            total = sum(p)*problem%dx*problem%dy
+            mean = problem%fn/total
+            if (abs(mean - 1.0_wp) > 1.0e-14_wp) then
+               p = p*mean
+               changed = .true.
+            end if
+         end if
+         if (changed) then
+            call operator%normal(p, level%u)
+         else
+            level%u = level%u + alpha*level%q
+         end if
+         exact_u = changed
+      end do
+   end subroutine iterate
+
+   !> r = -(h - pen + u) and the largest violation of the contact conditions [mm]
+   !>
+   !> For a prescribed force the approach is the mean that makes the residual vanish on average.
+   subroutine residuals(problem, level, p, pen, worst)
+      type(normal_problem), intent(in) :: problem
+      type(level_type), intent(inout) :: level
+      real(wp), contiguous, intent(in) :: p(:, :)
+      real(wp), intent(inout) :: pen
+      real(wp), intent(out) :: worst
+      integer :: ix, iy, n
+      real(wp) :: total
+
+      if (problem%force_prescribed) then
+         total = 0.0_wp
+         n = 0
+         do iy = 1, problem%my
+            do ix = 1, problem%mx
+               if (.not. p(ix, iy) > 0.0_wp) cycle
+               total = total + problem%h(ix, iy) + level%u(ix, iy)
+               n = n + 1
+            end do
+         end do
+         pen = total/max(1, n)
+      end if
+      worst = 0.0_wp
+      do iy = 1, problem%my
+         do ix = 1, problem%mx
+            level%r(ix, iy) = pen - problem%h(ix, iy) - level%u(ix, iy)
+            if (.not. p(ix, iy) > 0.0_wp) level%r(ix, iy) = max(0.0_wp, level%r(ix, iy))
+            if (.not. abs(level%r(ix, iy)) <= worst) worst = abs(level%r(ix, iy))
+         end do
+      end do
+   end subroutine residuals
+
+   !> Quality of an estimate: violation of the contact conditions relative to the approach
+   real(wp) function estimate_quality(problem, u, p, pen) result(quality)
+      type(normal_problem), intent(in) :: problem
+      real(wp), contiguous, intent(in) :: u(:, :), p(:, :)
+      real(wp), intent(in) :: pen
+      real(wp) :: approach
+
+      approach = pen
+      if (problem%force_prescribed) approach = sum(problem%h + u, p > 0.0_wp)/count(p > 0.0_wp)
+      quality = max(maxval(abs(problem%h + u - approach), p > 0.0_wp), maxval(approach - problem%h - u))
+      quality = quality/max(abs(approach - minval(problem%h)), tiny(quality))
+   end function estimate_quality
+
+   !> Directions of zero total force on the free set, when the force is prescribed; zero elsewhere
+   subroutine project(problem, free, v)
+      type(normal_problem), intent(in) :: problem
+      logical, contiguous, intent(in) :: free(:, :)
+      real(wp), contiguous, intent(inout) :: v(:, :)
+      real(wp) :: mean
+
+      mean = 0.0_wp
+      if (problem%force_prescribed) mean = sum(v, free)/max(1, count(free))
+      where (free)
+         v = v - mean
+      elsewhere
+         v = 0.0_wp
+      end where
+   end subroutine project
+
+   !> Pressures that are not negative, zero where contact is impossible, and of the right total
+   subroutine make_admissible(problem, p)
+      type(normal_problem), intent(in) :: problem
+      real(wp), contiguous, intent(inout) :: p(:, :)
+      real(wp) :: total
+
+      where (problem%h > excluded_threshold .or. .not. p > 0.0_wp) p = 0.0_wp
+      if (.not. problem%force_prescribed) return
+      total = sum(p)*problem%dx*problem%dy
+      if (total > 1.0e-3_wp*problem%fn) then
+         p = p*(problem%fn/total)
+      else
+         p = 0.0_wp
+      end if
+   end subroutine make_admissible
+
+   !> First pressures without any estimate
+   subroutine first_guess(problem, operator, level, p, pen)
+      type(normal_problem), intent(in) :: problem
+      type(elastic_operator), intent(inout) :: operator
+      type(level_type), intent(inout) :: level
+      real(wp), contiguous, intent(inout) :: p(:, :)
+      real(wp), intent(in) :: pen
+      real(wp) :: h_min, h_max
+
+      h_min = minval(problem%h)
+      if (problem%force_prescribed) then
+         h_max = maxval(problem%h, problem%h < excluded_threshold)
+         p = max(0.0_wp, h_min + 0.3_wp*max(h_max - h_min, 1.0e-10_wp) - problem%h)
+         call make_admissible(problem, p)
+         return
+      end if
+      p = max(0.0_wp, pen - problem%h)
+      call operator%normal(p, level%u)
+      p = p*(sum(p*p)/sum(p*level%u))
+   end subroutine first_guess
+
+   !> Put the load on the element that is nearest to contact
+   subroutine lowest_element(problem, p)
+      type(normal_problem), intent(in) :: problem
+      real(wp), contiguous, intent(inout) :: p(:, :)
+      integer :: place(2)
+
+      place = minloc(problem%h)
+      p(place(1), place(2)) = 1.0_wp
+   end subroutine lowest_element
+
+   !> The same problem with half as many elements; distances are averaged
+   subroutine coarsen(fine, coarse)
+      type(normal_problem), intent(in) :: fine
+      type(normal_problem), intent(inout) :: coarse
+      integer :: fx, fy, mx, my, ix, iy, jx, jy, n
+      real(wp) :: h
+
+      fx = coarsening_factor(fine%mx)
+      fy = coarsening_factor(fine%my)
+      mx = coarse_size(fine%mx)
+      my = coarse_size(fine%my)
+      if (allocated(coarse%h)) then
+         if (any(shape(coarse%h) /= [mx, my])) deallocate(coarse%h)
+      end if
+      if (.not. allocated(coarse%h)) allocate(coarse%h(mx, my))
+      coarse%mx = mx
+      coarse%my = my
+      coarse%dx = fx*fine%dx
+      coarse%dy = fy*fine%dy
+      coarse%force_prescribed = fine%force_prescribed
+      coarse%fn = fine%fn
+      coarse%maxgs = fine%maxgs
+      do iy = 1, my
+         do ix = 1, mx
+            h = 0.0_wp
+            n = 0
+            do jy = fy*(iy - 1) + 1, min(fy*iy, fine%my)
+               do jx = fx*(ix - 1) + 1, min(fx*ix, fine%mx)
+                  if (fine%h(jx, jy) > excluded_threshold) cycle
+                  h = h + fine%h(jx, jy)
+                  n = n + 1
+               end do
+            end do
+            coarse%h(ix, iy) = 1.0e30_wp
+            if (n > 0) coarse%h(ix, iy) = h/n
+         end do
+      end do
+   end subroutine coarsen
+
+   !> Bilinear interpolation of pressures to the fine grid
+   subroutine prolong(pc, fine, p)
+      type(normal_problem), intent(in) :: fine
+      real(wp), contiguous, intent(in) :: pc(:, :)
+      real(wp), contiguous, intent(inout) :: p(:, :)
+      integer :: ix, iy, i0, i1, j0, j1, fx, fy
+      real(wp) :: a, b
+
+      fx = coarsening_factor(fine%mx)
+      fy = coarsening_factor(fine%my)
+      do iy = 1, fine%my
+         call coarse_neighbours(iy, fine%my, j0, j1, b)
+         do ix = 1, fine%mx
+            call coarse_neighbours(ix, fine%mx, i0, i1, a)
+            p(ix, iy) = (1.0_wp - b)*((1.0_wp - a)*pc(i0, j0) + a*pc(i1, j0)) + b*((1.0_wp - a)*pc(i0, j1) + a*pc(i1, j1))
+         end do
+      end do
+   end subroutine prolong
+
+   !> Allocate scratch; keeps it when the size is the same
+   subroutine fit_level(level, mx, my)
+      type(level_type), intent(inout) :: level
+      integer, intent(in) :: mx, my
+
+      if (allocated(level%u)) then
+         if (all(shape(level%u) == [mx, my])) return
+         deallocate(level%p, level%u, level%r, level%z, level%d, level%q, level%previous, level%free)
+      end if
+      allocate(level%p(mx, my), level%u(mx, my), level%r(mx, my), level%z(mx, my), level%d(mx, my), &
+         & level%q(mx, my), level%previous(mx, my), source=0.0_wp)
+      allocate(level%free(mx, my), source=.false.)
+   end subroutine fit_level
+end module contact_normal_conjugate_gradient

@@ -1,0 +1,239 @@
+!> Newton-Krylov method inside nested iteration: coarse grids provide the first estimate
+!>
+!> Every level halves the number of elements in the directions that are long enough. Bounds
+!> and rigid slip are averaged, tractions relative to the bound are interpolated bilinearly,
+!> extended over the edge by a few rings, and clipped to the discs.
+module contact_tangential_nested
+   use contact_base_kinds, only : wp
+   use contact_base_solve_report, only : ending, solve_report
+   use contact_elastic_material, only : combined_material
+   use contact_elastic_operator, only : elastic_operator
+   use contact_grid_coarsening, only : coarse_neighbours, coarse_size, coarsening_factor, shortest_side
+   use contact_tangential_newton, only : newton_outcome, newton_solve, newton_workspace
+   use contact_tangential_problem, only : prepare_solution, reference_compliance, slip_of, &
+      & tangential_problem, tangential_solution, true_residual
+   implicit none (type, external)
+   private
+
+   public :: nested_workspace, solve_newton_krylov
+
+   !> Scratch of one level
+   type :: level_type
+      type(tangential_problem) :: problem
+      type(tangential_solution) :: solution
+      type(elastic_operator) :: operator
+      type(newton_workspace) :: newton
+      !> Relative tractions for interpolation, shape (mx, my, 2), and elements that have them
+      real(wp), allocatable :: relative(:, :, :), smooth(:, :, :)
+      logical, allocatable :: known(:, :), fresh(:, :)
+   end type level_type
+
+   !> Scratch of all levels; level 1 is the finest and keeps only what the caller's does not
+   type :: nested_workspace
+      type(level_type) :: level(12)
+   end type nested_workspace
+
+   !> Windows with fewer elements are solved directly
+   integer, parameter :: smallest = 900
+   !> Residual of the coarse levels
+   real(wp), parameter :: coarse_tolerance = 1.0e-2_wp
+   !> A better estimate than this is not replaced by one from coarse grids
+   real(wp), parameter :: good_estimate = 5.0e-2_wp
+
+contains
+
+   !> Solve a tangential problem by Newton-Krylov; nested iteration where that pays
+   subroutine solve_newton_krylov(problem, operator, workspace, solution, report)
+      type(tangential_problem), intent(in) :: problem
+      !> Prepared for the window and the rolling direction of the problem
+      type(elastic_operator), intent(inout) :: operator
+      type(nested_workspace), intent(inout) :: workspace
+      !> Estimate on entry (zero tractions when there is none)
+      type(tangential_solution), intent(inout) :: solution
+      type(solve_report), intent(inout) :: report
+      type(newton_outcome) :: outcome
+      real(wp) :: residual, pairs_before, fine_size
+      integer :: k, products_before
+
+      pairs_before = operator%fft_pairs()
+      products_before = operator%products
+      report%method = "Newton-Krylov"
+      report%tolerance = problem%eps
+      if (can_coarsen(problem)) then
+         call slip_of(problem, operator, solution%p, solution%creep, solution%slip)
+         residual = true_residual(problem, solution%p, solution%slip, 1.0_wp/reference_compliance(operator))
+         if (residual > good_estimate) then
+            call solve_coarse(problem, operator%material, workspace, 2, solution)
+         end if
+      end if
+      call newton_solve(problem, operator, problem%eps, workspace%level(1)%newton, solution, outcome)
+      report%ended = outcome%ended
+      report%iterations = outcome%steps
+      report%residual = outcome%residual
+      report%products = report%products + operator%products - products_before
+      report%fft_pairs = report%fft_pairs + operator%fft_pairs() - pairs_before
+      fine_size = real(problem%mx, wp)*problem%my
+      do k = 2, size(workspace%level)
+         associate (level => workspace%level(k))
+            if (level%operator%transforms == 0) cycle
+            report%fft_pairs = report%fft_pairs + level%operator%fft_pairs()*level%problem%mx*level%problem%my/fine_size
+            level%operator%transforms = 0
+            level%operator%products = 0
+         end associate
+      end do
+   end subroutine solve_newton_krylov
+
+   pure logical function can_coarsen(problem)
+      type(tangential_problem), intent(in) :: problem
+      can_coarsen = problem%mx*problem%my >= smallest .and. max(problem%mx, problem%my) >= shortest_side
+   end function can_coarsen
+
+   !> Estimate for a problem from the next coarser level
+   recursive subroutine solve_coarse(fine, material, workspace, k, solution)
+      type(tangential_problem), intent(in) :: fine
+      type(combined_material), intent(in) :: material
+      type(nested_workspace), intent(inout) :: workspace
+      !> Number of the coarse level
+      integer, intent(in) :: k
+      !> Solution of the fine problem to be estimated
+      type(tangential_solution), intent(inout) :: solution
+      type(newton_outcome) :: outcome
+
+      associate (level => workspace%level(k))
+         call coarsen(fine, level%problem)
+         call prepare_solution(level%problem, level%solution)
+         level%solution%p = 0.0_wp
+         level%solution%creep = solution%creep
+         call level%operator%prepare(material, level%problem%dx, level%problem%dy, level%problem%mx, level%problem%my, &
+            & fine%direction)
+         if (k < size(workspace%level) .and. can_coarsen(level%problem)) &
+            & call solve_coarse(level%problem, material, workspace, k + 1, level%solution)
+         call newton_solve(level%problem, level%operator, coarse_tolerance, level%newton, level%solution, outcome)
+         ! a coarse solution without success is an estimate all the same: it lies inside the discs
+         if (outcome%ended == ending%diverged) return
+         call prolong(level, fine, solution)
+      end associate
+   end subroutine solve_coarse
+
+   !> The same contact with half as many elements
+   subroutine coarsen(fine, coarse)
+      type(tangential_problem), intent(in) :: fine
+      type(tangential_problem), intent(inout) :: coarse
+      integer :: fx, fy, mx, my, ix, iy, jx, jy, n
+      real(wp) :: g, w(2), step
+
+      fx = coarsening_factor(fine%mx)
+      fy = coarsening_factor(fine%my)
+      mx = coarse_size(fine%mx)
+      my = coarse_size(fine%my)
+      if (allocated(coarse%contact)) then
+         if (any(shape(coarse%contact) /= [mx, my])) deallocate(coarse%contact, coarse%bound, coarse%shift)
+      end if
+      if (.not. allocated(coarse%contact)) allocate(coarse%contact(mx, my), coarse%bound(mx, my), coarse%shift(mx, my, 2))
+      coarse%mx = mx
+      coarse%my = my
+      coarse%dx = fx*fine%dx
+      coarse%dy = fy*fine%dy
+      coarse%steady = fine%steady
+      coarse%direction = fine%direction
+      ! the step of steady rolling is one element
+      step = merge(real(fx, wp), 1.0_wp, fine%steady)
+      coarse%dq = step*fine%dq
+      coarse%n_forces = fine%n_forces
+      do iy = 1, my
+         do ix = 1, mx
+            g = 0.0_wp
+            w = 0.0_wp
+            n = 0
+            coarse%contact(ix, iy) = .false.
+            do jy = fy*(iy - 1) + 1, min(fy*iy, fine%my)
+               do jx = fx*(ix - 1) + 1, min(fx*ix, fine%mx)
+                  g = g + fine%bound(jx, jy)
+                  w = w + fine%shift(jx, jy, :)
+                  n = n + 1
+                  if (fine%contact(jx, jy)) coarse%contact(ix, iy) = .true.
+               end do
+            end do
+            coarse%bound(ix, iy) = g/(fx*fy)
+            coarse%shift(ix, iy, :) = step*w/n
+         end do
+      end do
+      coarse%target = fine%target/(fx*fy)
+   end subroutine coarsen
+
+   !> Interpolate tractions relative to their bounds to the fine grid
+   subroutine prolong(level, fine, solution)
+      type(level_type), intent(inout) :: level
+      type(tangential_problem), intent(in) :: fine
+      type(tangential_solution), intent(inout) :: solution
+      integer :: mx, my, ix, iy, k, fx, fy, i0, j0, i1, j1
+      real(wp) :: a, b, q(2), length
+
+      mx = level%problem%mx
+      my = level%problem%my
+      if (allocated(level%relative)) then
+         if (any(shape(level%known) /= [mx, my])) deallocate(level%relative, level%smooth, level%known, level%fresh)
+      end if
+      if (.not. allocated(level%relative)) then
+         allocate(level%relative(mx, my, 2), level%smooth(mx, my, 2), level%known(mx, my), level%fresh(mx, my))
+      end if
+      level%relative = 0.0_wp
+      do iy = 1, my
+         do ix = 1, mx
+            level%known(ix, iy) = level%problem%bound(ix, iy) > 0.0_wp
+            if (level%known(ix, iy)) level%relative(ix, iy, :) = level%solution%p(ix, iy, :)/level%problem%bound(ix, iy)
+         end do
+      end do
+      do k = 1, 2
+         call extend(level)
+      end do
+      fx = coarsening_factor(fine%mx)
+      fy = coarsening_factor(fine%my)
+      do iy = 1, fine%my
+         call coarse_neighbours(iy, fine%my, j0, j1, b)
+         do ix = 1, fine%mx
+            solution%p(ix, iy, :) = 0.0_wp
+            if (.not. fine%contact(ix, iy)) cycle
+            call coarse_neighbours(ix, fine%mx, i0, i1, a)
+            q = (1.0_wp - b)*((1.0_wp - a)*level%relative(i0, j0, :) + a*level%relative(i1, j0, :)) &
+               & + b*((1.0_wp - a)*level%relative(i0, j1, :) + a*level%relative(i1, j1, :))
+            length = hypot(q(1), q(2))
+            if (length > 1.0_wp) q = q/length
+            solution%p(ix, iy, :) = q*fine%bound(ix, iy)
+         end do
+      end do
+      solution%creep = level%solution%creep
+   end subroutine prolong
+
+   !> One ring of elements around the known ones gets the mean of its known neighbours
+   subroutine extend(level)
+      type(level_type), intent(inout) :: level
+      integer :: ix, iy, jx, jy, n
+      real(wp) :: total(2)
+
+      level%fresh = level%known
+      do iy = 1, size(level%known, 2)
+         do ix = 1, size(level%known, 1)
+            if (level%known(ix, iy)) cycle
+            total = 0.0_wp
+            n = 0
+            do jy = max(1, iy - 1), min(size(level%known, 2), iy + 1)
+               do jx = max(1, ix - 1), min(size(level%known, 1), ix + 1)
+                  if (.not. level%known(jx, jy)) cycle
+                  total = total + level%relative(jx, jy, :)
+                  n = n + 1
+               end do
+            end do
+            if (n == 0) cycle
+            level%smooth(ix, iy, :) = total/n
+            level%fresh(ix, iy) = .true.
+         end do
+      end do
+      do iy = 1, size(level%known, 2)
+         do ix = 1, size(level%known, 1)
+            if (level%fresh(ix, iy) .and. .not. level%known(ix, iy)) level%relative(ix, iy, :) = level%smooth(ix, iy, :)
+         end do
+      end do
+      level%known = level%fresh
+   end subroutine extend
+end module contact_tangential_nested
