@@ -1,0 +1,503 @@
+!> From the numbers of a case to Hertz data, grid and undeformed distance
+module contact_cases_geometry
+   use, intrinsic :: ieee_arithmetic, only : ieee_is_finite, ieee_is_nan
+   use contact_base_choices, only : normal_control
+   use contact_base_constants, only : excluded_distance, excluded_threshold
+   use contact_base_error, only : error_kind, error_type, fatal_error
+   use contact_base_kinds, only : long, wp
+   use contact_cases_spec, only : geometry_spec, grid_spec
+   use contact_grid_potential_contact, only : potential_contact
+   use contact_normal_hertz, only : hertz_by_axes, hertz_by_curvatures, hertz_by_ratio, hertz_contact, &
+      & hertz_load, line_contact_by_axes, line_contact_by_curvature
+   use contact_patch_result, only : hertz_result
+   implicit none (type, external)
+   private
+
+   public :: solve_hertz, build_grid, undeformed_distance, curvature_radius, is_line_contact
+
+   !> Curvatures [1/mm], lengths [mm] and ratios [-] below this value are taken for missing
+   real(wp), parameter :: least_value = 1.0e-20_wp
+   !> Semi-axis that takes the place of zero when a grid is laid out [mm]
+   real(wp), parameter :: least_axis = 1.0e-9_wp
+
+contains
+
+   !> Is this one of the options for line contact, in which bb is half a length?
+   elemental logical function is_line_contact(spec)
+      type(grid_spec), intent(in) :: spec
+      is_line_contact = spec%ipotcn == -4 .or. spec%ipotcn == -5
+   end function is_line_contact
+
+   !> Solve Hertz's problem for the options that ask for it (IPOTCN -1...-5).
+   !>
+   !> A force or approach of zero is allowed and gives no contact: zero semi-axes when the
+   !> curvatures are given.
+   subroutine solve_hertz(spec, control, fn, pen, gg, nu, hertz, error)
+      type(grid_spec), intent(in) :: spec
+      !> Member of normal_control
+      integer, intent(in) :: control
+      !> Prescribed normal force [N] or approach [mm]
+      real(wp), intent(in) :: fn, pen
+      !> Combined modulus of rigidity [N/mm2] and Poisson ratio [-]
+      real(wp), intent(in) :: gg, nu
+      !> Complete solution; unallocated for other options
+      type(hertz_result), allocatable, intent(out) :: hertz
+      type(error_type), allocatable, intent(out) :: error
+      type(hertz_load) :: load
+      type(hertz_contact) :: solution
+
+      if (spec%ipotcn < -5 .or. spec%ipotcn > -1) return
+      call check_hertz(spec, control, fn, pen, gg, nu, error)
+      if (allocated(error)) return
+      load%control = control
+      if (control == normal_control%force) then
+         load%fn = fn
+      else
+         load%pen = pen
+      end if
+      load%modulus = gg/(1.0_wp - nu)
+      select case (spec%ipotcn)
+      case (-1)
+         solution = hertz_by_curvatures(load, spec%a1, spec%b1)
+      case (-2)
+         solution = hertz_by_ratio(load, spec%a1, spec%aob)
+      case (-3)
+         solution = hertz_by_axes(load, spec%aa, spec%bb)
+      case (-4)
+         solution = line_contact_by_curvature(load, spec%a1, spec%bb)
+      case (-5)
+         solution = line_contact_by_axes(load, spec%aa, spec%bb)
+      end select
+      allocate(hertz)
+      hertz = hertz_result(a1=solution%a1, b1=solution%b1, aa=solution%aa, bb=solution%bb, &
+         & aob=solution%aob, rho=solution%rho, cp=solution%cp, fn=solution%fn, pen=solution%pen)
+   end subroutine solve_hertz
+
+   !> Can Hertz's problem be solved with these numbers?
+   subroutine check_hertz(spec, control, fn, pen, gg, nu, error)
+      type(grid_spec), intent(in) :: spec
+      integer, intent(in) :: control
+      real(wp), intent(in) :: fn, pen, gg, nu
+      type(error_type), allocatable, intent(out) :: error
+
+      if (control == normal_control%force) then
+         call require_finite("normal force FN", fn, error)
+      else
+         call require_finite("approach PEN", pen, error)
+      end if
+      call require_positive("modulus of rigidity", gg, error)
+      call require_finite("Poisson ratio", nu, error)
+      if (allocated(error)) return
+      if (nu >= 1.0_wp) then
+         call fatal_error(error, "the combined Poisson ratio must be below 1, it is " // text(nu))
+         return
+      end if
+      select case (spec%ipotcn)
+      case (-1)
+         call require_positive("curvature A1", spec%a1, error)
+         call require_positive("curvature B1", spec%b1, error)
+      case (-2)
+         call require_positive("curvature A1", spec%a1, error)
+         call require_positive("ratio AOB", spec%aob, error)
+      case (-3, -5)
+         call require_positive("semi-axis AA", spec%aa, error)
+         call require_positive("semi-axis BB", spec%bb, error)
+      case (-4)
+         call require_positive("curvature A1", spec%a1, error)
+         call require_positive("half length BB", spec%bb, error)
+      end select
+      if (allocated(error)) return
+      if (is_line_contact(spec) .and. control /= normal_control%force) &
+         & call fatal_error(error, "a Hertzian line contact (IPOTCN = " // whole(spec%ipotcn) &
+         & // ") needs a prescribed normal force, N = 1")
+   end subroutine check_hertz
+
+   !> Complete the potential contact from what its option gives (IPOTCN -1...-6 and 1...4)
+   subroutine build_grid(spec, hertz, grid, error)
+      type(grid_spec), intent(in) :: spec
+      !> Hertz solution, for IPOTCN -1...-5; may be absent or unallocated for the others
+      type(hertz_result), intent(in), optional :: hertz
+      type(potential_contact), intent(out) :: grid
+      type(error_type), allocatable, intent(out) :: error
+
+      if (spec%mx < 1 .or. spec%my < 1) then
+         call fatal_error(error, "the numbers of elements MX, MY must be positive, they are " &
+            & // whole(spec%mx) // " and " // whole(spec%my))
+         return
+      end if
+      if (int(spec%mx, long)*int(spec%my, long) > int(huge(1), long)) then
+         call fatal_error(error, "the potential contact has too many elements: MX = " &
+            & // whole(spec%mx) // ", MY = " // whole(spec%my))
+         return
+      end if
+      if (spec%ipotcn >= -5 .and. spec%ipotcn <= -1 .and. .not. present(hertz)) then
+         call fatal_error(error, "a Hertzian potential contact needs the Hertz solution", &
+            & kind=error_kind%internal)
+         return
+      end if
+      grid%mx = spec%mx
+      grid%my = spec%my
+      select case (spec%ipotcn)
+      case (-6:-1)
+         call require_positive("grid factor SCALE", spec%scale, error)
+         if (spec%ipotcn == -6) then
+            call require_positive("semi-axis AA", spec%aa, error)
+            call require_positive("extent BNEG", spec%bneg, error)
+            call require_positive("extent BPOS", spec%bpos, error)
+         end if
+         if (allocated(error)) return
+         if (spec%ipotcn == -6) then
+            call lay_out_window(spec%scale*spec%aa, 0.5_wp*spec%scale*(spec%bneg + spec%bpos), grid)
+         else if (is_line_contact(spec)) then
+            call lay_out_strip(spec%scale, hertz%aa, hertz%bb, grid)
+         else
+            call lay_out_window(spec%scale*max(least_axis, hertz%aa), &
+               & spec%scale*max(least_axis, hertz%bb), grid)
+         end if
+      case (1:4)
+         call lay_out_given(spec, grid)
+      case default
+         call fatal_error(error, "IPOTCN = " // whole(spec%ipotcn) // " is not an option for the " &
+            & // "potential contact; -6...-1 and 1...4 are")
+         return
+      end select
+      call require_finite("corner XL of the potential contact", grid%xl, error)
+      call require_finite("corner YL of the potential contact", grid%yl, error)
+      call require_positive("element size DX", grid%dx, error)
+      call require_positive("element size DY", grid%dy, error)
+   end subroutine build_grid
+
+   !> Window centred in the origin
+   pure subroutine lay_out_window(half_x, half_y, grid)
+      !> Half of the sides [mm]
+      real(wp), intent(in) :: half_x, half_y
+      type(potential_contact), intent(inout) :: grid
+
+      grid%xl = -half_x
+      grid%yl = -half_y
+      grid%dx = 2.0_wp*half_x/grid%mx
+      grid%dy = 2.0_wp*half_y/grid%my
+   end subroutine lay_out_window
+
+   !> Window of a line contact: a whole number of rows fits its length exactly
+   pure subroutine lay_out_strip(scale, aa, bb, grid)
+      !> Size of the window relative to the contact area [-]
+      real(wp), intent(in) :: scale
+      !> Half width and half length [mm]
+      real(wp), intent(in) :: aa, bb
+      type(potential_contact), intent(inout) :: grid
+      integer :: rows
+
+      rows = grid%my
+      if (scale > 1.0_wp) then
+         rows = max(1, nint(grid%my/scale))
+         ! As many rows on either side, so that the ends of the contact lie between rows
+         if (mod(grid%my - rows, 2) /= 0) rows = rows + 1
+      end if
+      call lay_out_window(scale*max(least_axis, aa), max(least_axis, bb)*grid%my/rows, grid)
+   end subroutine lay_out_strip
+
+   !> Window by corner or first centre, and by steps or the opposite corner or last centre
+   pure subroutine lay_out_given(spec, grid)
+      type(grid_spec), intent(in) :: spec
+      type(potential_contact), intent(inout) :: grid
+
+      select case (spec%ipotcn)
+      case (1, 3)
+         grid%dx = spec%dx
+         grid%dy = spec%dy
+      case (2)
+         grid%dx = (spec%xh - spec%xl)/spec%mx
+         grid%dy = (spec%yh - spec%yl)/spec%my
+      case (4)
+         grid%dx = (spec%xcm - spec%xc1)/max(1, spec%mx - 1)
+         grid%dy = (spec%ycm - spec%yc1)/max(1, spec%my - 1)
+      end select
+      if (spec%ipotcn <= 2) then
+         grid%xl = spec%xl
+         grid%yl = spec%yl
+      else
+         grid%xl = spec%xc1 - 0.5_wp*grid%dx
+         grid%yl = spec%yc1 - 0.5_wp*grid%dy
+      end if
+   end subroutine lay_out_given
+
+   !> Undeformed distance at the centres of the elements; the approach is not included.
+   !>
+   !> With Hertz data it is a1 x**2 + b1 y**2, whatever geometry the case holds. Elements outside
+   !> the planform get excluded_distance, and so does every value that is meant to exclude.
+   subroutine undeformed_distance(spec, grid, hertz, h, error)
+      type(geometry_spec), intent(in) :: spec
+      type(potential_contact), intent(in) :: grid
+      !> Hertz solution of a Hertzian geometry; may be absent or unallocated
+      type(hertz_result), intent(in), optional :: hertz
+      !> Undeformed distance [mm], shape (mx, my)
+      real(wp), allocatable, intent(out) :: h(:, :)
+      type(error_type), allocatable, intent(out) :: error
+      integer :: status
+
+      allocate(h(grid%mx, grid%my), stat=status)
+      if (status /= 0) then
+         call fatal_error(error, "no memory for " // whole(grid%mx) // " x " // whole(grid%my) &
+            & // " elements", kind=error_kind%memory)
+         return
+      end if
+      if (present(hertz)) then
+         call fill_quadratic(grid, [hertz%a1, 0.0_wp, hertz%b1, 0.0_wp, 0.0_wp, 0.0_wp], h)
+         return
+      end if
+      select case (spec%ibase)
+      case (1)
+         call fill_quadratic(grid, spec%b(1:6), h)
+      case (2)
+         call fill_profile(spec, grid, h, error)
+      case (3)
+         call fill_sines(spec, grid, h, error)
+      case (9)
+         call fill_given(spec, grid, h, error)
+      case default
+         call fatal_error(error, "IBASE = " // whole(spec%ibase) &
+            & // " is not a form of the undeformed distance; 1, 2, 3 and 9 are")
+      end select
+      if (allocated(error)) return
+      if (any(ieee_is_nan(h))) then
+         call fatal_error(error, "the undeformed distance is not a number in some elements")
+         return
+      end if
+      h = min(h, excluded_distance)
+      call apply_planform(spec, grid, h, error)
+      if (allocated(error)) return
+      if (all(h > excluded_threshold)) call fatal_error(error, &
+         & "the planform excludes all elements of the potential contact from contact")
+   end subroutine undeformed_distance
+
+   !> IBASE = 1: c1 x**2 + c2 x y + c3 y**2 + c4 x + c5 y + c6
+   pure subroutine fill_quadratic(grid, c, h)
+      type(potential_contact), intent(in) :: grid
+      real(wp), intent(in) :: c(6)
+      real(wp), intent(out) :: h(:, :)
+      integer :: ix, iy
+
+      do iy = 1, grid%my
+         do ix = 1, grid%mx
+            h(ix, iy) = quadratic(c, grid%x(ix), grid%y(iy))
+         end do
+      end do
+   end subroutine fill_quadratic
+
+   pure real(wp) function quadratic(c, x, y) result(value)
+      real(wp), intent(in) :: c(6), x, y
+      value = (c(1)*x + c(2)*y + c(4))*x + (c(3)*y + c(5))*y + c(6)
+   end function quadratic
+
+   !> IBASE = 2: body of revolution, profile over y by linear inter- and extrapolation
+   subroutine fill_profile(spec, grid, h, error)
+      type(geometry_spec), intent(in) :: spec
+      type(potential_contact), intent(in) :: grid
+      real(wp), intent(out) :: h(:, :)
+      type(error_type), allocatable, intent(out) :: error
+      real(wp) :: height
+      integer :: ix, iy
+
+      h = 0.0_wp
+      call require_positive("profile step DY1", spec%dy1, error)
+      call require_nonzero("radius RM", spec%rm, error)
+      if (allocated(error)) return
+      if (.not. allocated(spec%profile)) then
+         call fatal_error(error, "the profile of IBASE = 2 has not been given")
+         return
+      end if
+      if (size(spec%profile) < 2) then
+         call fatal_error(error, "the profile of IBASE = 2 needs 2 points at least, it has " &
+            & // whole(size(spec%profile)))
+         return
+      end if
+      do iy = 1, grid%my
+         height = profile_height(spec, grid%y(iy))
+         do ix = 1, grid%mx
+            h(ix, iy) = height + 0.5_wp*(grid%x(ix) - spec%xm)**2/spec%rm
+         end do
+      end do
+   end subroutine fill_profile
+
+   !> Height of the profile [mm]; the first and last interval are continued to the outside
+   pure real(wp) function profile_height(spec, y) result(height)
+      type(geometry_spec), intent(in) :: spec
+      real(wp), intent(in) :: y
+      real(wp) :: position
+      integer :: k
+
+      associate (p => spec%profile)
+         position = (y - spec%y1)/spec%dy1
+         ! Limited as a real number first: far outside the profile it is no integer
+         k = 1 + int(min(max(position, 0.0_wp), real(size(p) - 2, wp)))
+         height = p(k) + (position - real(k - 1, wp))*(p(k + 1) - p(k))
+      end associate
+   end function profile_height
+
+   !> IBASE = 3: difference of two sines over x, plus parabolas of radii b7/2 and b8/2
+   subroutine fill_sines(spec, grid, h, error)
+      type(geometry_spec), intent(in) :: spec
+      type(potential_contact), intent(in) :: grid
+      real(wp), intent(out) :: h(:, :)
+      type(error_type), allocatable, intent(out) :: error
+      real(wp) :: x
+      integer :: ix
+
+      h = 0.0_wp
+      call require_nonzero("parameter B7", spec%b(7), error)
+      call require_nonzero("parameter B8", spec%b(8), error)
+      if (allocated(error)) return
+      associate (b => spec%b)
+         do ix = 1, grid%mx
+            x = grid%x(ix)
+            h(ix, :) = b(1)*sin(b(2)*(x - b(3))) - b(4)*sin(b(5)*(x - b(6))) + x**2/b(7) &
+               & + grid%y(row_numbers(grid%my))**2/b(8)
+         end do
+      end associate
+   end subroutine fill_sines
+
+   !> 1...my
+   pure function row_numbers(my) result(rows)
+      integer, intent(in) :: my
+      integer :: rows(my)
+      integer :: iy
+      rows = [(iy, iy = 1, my)]
+   end function row_numbers
+
+   !> IBASE = 9: one value per element
+   subroutine fill_given(spec, grid, h, error)
+      type(geometry_spec), intent(in) :: spec
+      type(potential_contact), intent(in) :: grid
+      real(wp), intent(out) :: h(:, :)
+      type(error_type), allocatable, intent(out) :: error
+      integer :: given
+
+      given = 0
+      if (allocated(spec%h)) given = size(spec%h)
+      if (given == grid%npot()) then
+         h = reshape(spec%h, [grid%mx, grid%my])
+         return
+      end if
+      h = 0.0_wp
+      call fatal_error(error, "the undeformed distance is given for " // whole(given) &
+         & // " elements (IBASE = 9), the potential contact has " // whole(grid%mx) // " x " &
+         & // whole(grid%my) // " = " // whole(grid%npot()))
+   end subroutine fill_given
+
+   !> Exclude the elements whose centre lies outside the planform
+   subroutine apply_planform(spec, grid, h, error)
+      type(geometry_spec), intent(in) :: spec
+      type(potential_contact), intent(in) :: grid
+      real(wp), intent(inout) :: h(:, :)
+      type(error_type), allocatable, intent(out) :: error
+      integer :: ix, iy
+      logical :: inside
+
+      select case (spec%iplan)
+      case (1)
+         return
+      case (2, 3)
+         continue
+      case (4)
+         call fatal_error(error, "a planform of several patches (IPLAN = 4) is not supported; " &
+            & // "1, 2 and 3 are", kind=error_kind%unsupported)
+         return
+      case default
+         call fatal_error(error, "IPLAN = " // whole(spec%iplan) // " is not a planform; 1, 2 and 3 are")
+         return
+      end select
+      do iy = 1, grid%my
+         do ix = 1, grid%mx
+            if (spec%iplan == 2) then
+               inside = quadratic(spec%pl(1:6), grid%x(ix), grid%y(iy)) < 0.0_wp
+            else
+               inside = in_rectangle(spec%pl(1:4), grid%x(ix), grid%y(iy)) &
+                  & .or. in_rectangle(spec%pl(5:8), grid%x(ix), grid%y(iy))
+            end if
+            if (.not. inside) h(ix, iy) = excluded_distance
+         end do
+      end do
+   end subroutine apply_planform
+
+   !> Does a point lie in the closed rectangle xl, xh, yl, yh?
+   pure logical function in_rectangle(sides, x, y) result(inside)
+      real(wp), intent(in) :: sides(4), x, y
+      inside = sides(1) <= x .and. x <= sides(2) .and. sides(3) <= y .and. y <= sides(4)
+   end function in_rectangle
+
+   !> Radius of curvature along x [mm] that the guess of the contact area of a single row uses; 0: unknown
+   pure real(wp) function curvature_radius(spec, hertz) result(radius)
+      type(geometry_spec), intent(in) :: spec
+      !> Hertz solution of a Hertzian geometry; may be absent or unallocated
+      type(hertz_result), intent(in), optional :: hertz
+      real(wp) :: curvature
+
+      curvature = 0.0_wp
+      radius = 0.0_wp
+      if (present(hertz)) then
+         curvature = hertz%a1
+      else if (spec%ibase == 1) then
+         curvature = spec%b(1)
+      else if (spec%ibase == 2) then
+         radius = max(0.0_wp, spec%rm)
+      else if (spec%ibase == 3) then
+         radius = max(0.0_wp, 0.5_wp*spec%b(7))
+      end if
+      if (curvature > least_value) radius = 0.5_wp/curvature
+   end function curvature_radius
+
+   !> Complain about a value that is infinite or not a number; an earlier complaint stays
+   subroutine require_finite(name, value, error)
+      character(len=*), intent(in) :: name
+      real(wp), intent(in) :: value
+      type(error_type), allocatable, intent(inout) :: error
+
+      if (allocated(error) .or. ieee_is_finite(value)) return
+      call fatal_error(error, "the " // name // " must be a finite number")
+   end subroutine require_finite
+
+   !> Complain about a value that is zero or close to it, infinite or not a number
+   subroutine require_nonzero(name, value, error)
+      character(len=*), intent(in) :: name
+      real(wp), intent(in) :: value
+      type(error_type), allocatable, intent(inout) :: error
+
+      call require_finite(name, value, error)
+      if (allocated(error)) return
+      if (abs(value) > least_value) return
+      call fatal_error(error, "the " // name // " must not be zero")
+   end subroutine require_nonzero
+
+   !> Complain about a value that is not clearly above zero, infinite or not a number
+   subroutine require_positive(name, value, error)
+      character(len=*), intent(in) :: name
+      real(wp), intent(in) :: value
+      type(error_type), allocatable, intent(inout) :: error
+
+      call require_finite(name, value, error)
+      if (allocated(error)) return
+      if (value > least_value) return
+      call fatal_error(error, "the " // name // " must be positive, it is " // text(value))
+   end subroutine require_positive
+
+   !> A real number for a message
+   pure function text(value)
+      real(wp), intent(in) :: value
+      character(len=:), allocatable :: text
+      character(len=24) :: digits
+
+      write(digits, '(es12.4)') value
+      text = trim(adjustl(digits))
+   end function text
+
+   !> A whole number for a message
+   pure function whole(value)
+      integer, intent(in) :: value
+      character(len=:), allocatable :: whole
+      character(len=24) :: digits
+
+      write(digits, '(i0)') value
+      whole = trim(digits)
+   end function whole
+end module contact_cases_geometry

@@ -1,0 +1,255 @@
+!> Hertz's solution: frictionless contact of two quadratic surfaces, and of cylinders
+!>
+!> The undeformed distance is h = a1 x**2 + b1 y**2; the contact area is an ellipse with
+!> semi-axes aa, bb along x and y. Each procedure starts from other knowns and completes
+!> the rest. Theory and symbols: doc/theory/hertz.md, after Hertz (1882) and Johnson (1985).
+module contact_normal_hertz
+   use contact_base_choices, only : normal_control
+   use contact_base_constants, only : pi
+   use contact_base_kinds, only : wp
+   use contact_numeric_elliptic, only : complete_elliptic, elliptic_integrals
+   implicit none (type, external)
+   private
+
+   public :: hertz_load, hertz_contact
+   public :: hertz_by_curvatures, hertz_by_ratio, hertz_by_axes
+   public :: line_contact_by_curvature, line_contact_by_axes
+   public :: curvature_ratio, axis_ratio
+
+   !> Approach that stands for "just touching" when an area is prescribed without a load [mm]
+   real(wp), parameter :: least_approach = 1.0e-9_wp
+
+   !> What presses the bodies together
+   type :: hertz_load
+      !> Member of normal_control: which of force and approach is prescribed
+      integer :: control = normal_control%force
+      !> Prescribed normal force [N] or approach [mm]; negative values count as zero
+      real(wp) :: fn = 0.0_wp, pen = 0.0_wp
+      !> Contact modulus G/(1 - nu) of the combined material [N/mm2]
+      real(wp) :: modulus = 1.0_wp
+   end type hertz_load
+
+   !> A complete solution
+   type :: hertz_contact
+      !> Curvatures of the undeformed distance along x and y [1/mm]
+      real(wp) :: a1 = 0.0_wp, b1 = 0.0_wp
+      !> Semi-axes along x and y [mm], zero without load; bb is half the length of a line contact
+      real(wp) :: aa = 0.0_wp, bb = 0.0_wp
+      !> Ratio aa/bb [-], defined also when both are zero
+      real(wp) :: aob = 1.0_wp
+      !> Effective radius of curvature 2/(a1 + b1) [mm], effective semi-axis [mm]
+      real(wp) :: rho = 0.0_wp, cp = 0.0_wp
+      !> Normal force [N] and approach [mm]; the approach of a line contact is not defined: 0
+      real(wp) :: fn = 0.0_wp, pen = 0.0_wp
+   end type hertz_contact
+
+contains
+
+   !> Ratio of the smaller to the larger curvature for an ellipse of given ratio.
+   !>
+   !> The larger curvature belongs to the smaller semi-axis.
+   elemental function curvature_ratio(g) result(ratio)
+      !> Ratio of the smaller to the larger semi-axis [-], 0 < g <= 1
+      real(wp), intent(in) :: g
+      real(wp) :: ratio
+      type(elliptic_integrals) :: integrals
+
+      integrals = complete_elliptic(g)
+      ratio = g**2*(integrals%d/integrals%b)
+   end function curvature_ratio
+
+   !> Ratio of the smaller to the larger semi-axis for given curvatures: inverse of curvature_ratio.
+   !>
+   !> Newton's method for log(ratio) as a function of log(g), whose slope lies between 3/2
+   !> (circle) and 2 (narrow ellipse): it needs about five steps for any ratio. Differs from
+   !> bisection of the modulus k, which cannot tell narrow ellipses apart.
+   elemental function axis_ratio(ratio) result(g)
+      !> Ratio of the smaller to the larger curvature [-], 0 < ratio <= 1
+      real(wp), intent(in) :: ratio
+      real(wp) :: g
+      integer, parameter :: most_steps = 50
+      !> The error after a step is of the order of the step squared
+      real(wp), parameter :: tolerance = 1.0e-9_wp
+      type(elliptic_integrals) :: integrals
+      real(wp) :: step
+      integer :: i
+
+      ! D >= B, hence ratio >= g**2
+      g = min(1.0_wp, sqrt(ratio))
+      do i = 1, most_steps
+         integrals = complete_elliptic(g)
+         step = (log(ratio) - log(g)*2.0_wp - log(integrals%d/integrals%b))/ratio_slope(g, integrals)
+         g = min(1.0_wp, g*exp(step))
+         if (abs(step) <= tolerance) exit
+      end do
+   end function axis_ratio
+
+   !> Derivative of log(curvature ratio) with respect to log(g)
+   elemental function ratio_slope(g, integrals) result(slope)
+      real(wp), intent(in) :: g
+      !> The integrals for this g
+      type(elliptic_integrals), intent(in) :: integrals
+      real(wp) :: slope
+      !> Squared modulus below which the derivative of D is taken at the circle
+      real(wp), parameter :: nearly_circular = 1.0e-6_wp
+      real(wp) :: m, db, dd
+
+      ! Derivatives with respect to m = k**2, times g**2
+      m = (1.0_wp - g)*(1.0_wp + g)
+      if (m > nearly_circular) then
+         dd = 0.5_wp*(integrals%b - g**2*integrals%d)/m
+      else
+         dd = 3.0_wp*pi/32.0_wp
+      end if
+      db = g**2*(0.5_wp*integrals%d - dd)
+      slope = 2.0_wp - 2.0_wp*(dd/integrals%d - db/integrals%b)
+   end function ratio_slope
+
+   !> Both curvatures given
+   elemental function hertz_by_curvatures(load, a1, b1) result(hertz)
+      type(hertz_load), intent(in) :: load
+      !> Curvatures along x and y [1/mm], positive
+      real(wp), intent(in) :: a1, b1
+      type(hertz_contact) :: hertz
+      real(wp) :: g
+
+      g = axis_ratio(min(a1, b1)/max(a1, b1))
+      hertz%a1 = a1
+      hertz%b1 = b1
+      hertz%aob = merge(g, 1.0_wp/g, a1 >= b1)
+      call press_together(load, g, hertz)
+   end function hertz_by_curvatures
+
+   !> Curvature along x and ratio of the semi-axes given
+   elemental function hertz_by_ratio(load, a1, aob) result(hertz)
+      type(hertz_load), intent(in) :: load
+      !> Curvature along x [1/mm] and ratio aa/bb [-], positive
+      real(wp), intent(in) :: a1, aob
+      type(hertz_contact) :: hertz
+      real(wp) :: g, ratio
+
+      g = min(aob, 1.0_wp/aob)
+      ratio = curvature_ratio(g)
+      hertz%a1 = a1
+      hertz%b1 = merge(a1*ratio, a1/ratio, aob <= 1.0_wp)
+      hertz%aob = aob
+      call press_together(load, g, hertz)
+   end function hertz_by_ratio
+
+   !> Complete a solution of which curvatures and ratio of the axes are known
+   pure subroutine press_together(load, g, hertz)
+      type(hertz_load), intent(in) :: load
+      !> Ratio of the smaller to the larger semi-axis [-]
+      real(wp), intent(in) :: g
+      !> In: a1, b1, aob
+      type(hertz_contact), intent(inout) :: hertz
+      type(elliptic_integrals) :: integrals
+
+      integrals = complete_elliptic(g)
+      hertz%rho = 2.0_wp/(hertz%a1 + hertz%b1)
+      if (load%control == normal_control%force) then
+         hertz%fn = max(0.0_wp, load%fn)
+         hertz%cp = (0.75_wp*hertz%fn*hertz%rho*integrals%e/(pi*load%modulus*sqrt(g)))**(1.0_wp/3.0_wp)
+         hertz%pen = 2.0_wp*hertz%cp**2*g*integrals%k/(hertz%rho*integrals%e)
+      else
+         hertz%pen = max(0.0_wp, load%pen)
+         hertz%cp = sqrt(0.5_wp*hertz%pen*hertz%rho*integrals%e/(integrals%k*g))
+         hertz%fn = force_of_axis(hertz%cp, g, hertz%rho, load%modulus, integrals)
+      end if
+      hertz%aa = hertz%cp*sqrt(hertz%aob)
+      hertz%bb = hertz%cp/sqrt(hertz%aob)
+   end subroutine press_together
+
+   !> Normal force [N] of an ellipse with effective semi-axis cp
+   elemental function force_of_axis(cp, g, rho, modulus, integrals) result(fn)
+      real(wp), intent(in) :: cp, g, rho, modulus
+      type(elliptic_integrals), intent(in) :: integrals
+      real(wp) :: fn
+
+      fn = 4.0_wp*pi*cp**3*modulus*sqrt(g)/(3.0_wp*rho*integrals%e)
+   end function force_of_axis
+
+   !> Both semi-axes given; the curvatures follow from the load.
+   !>
+   !> Without load the curvatures are those of a very small approach; force and approach are
+   !> then zero when a force was prescribed, and the small ones otherwise.
+   elemental function hertz_by_axes(load, aa, bb) result(hertz)
+      type(hertz_load), intent(in) :: load
+      !> Semi-axes [mm], positive
+      real(wp), intent(in) :: aa, bb
+      type(hertz_contact) :: hertz
+      type(elliptic_integrals) :: integrals
+      real(wp) :: g, ratio, larger
+
+      g = min(aa, bb)/max(aa, bb)
+      integrals = complete_elliptic(g)
+      hertz%aa = aa
+      hertz%bb = bb
+      hertz%aob = aa/bb
+      hertz%cp = sqrt(aa)*sqrt(bb)
+      if (load%control == normal_control%force .and. load%fn > 0.0_wp) then
+         hertz%fn = load%fn
+         hertz%rho = 4.0_wp*pi*hertz%cp**3*load%modulus*sqrt(g)/(3.0_wp*load%fn*integrals%e)
+         hertz%pen = 2.0_wp*hertz%cp**2*g*integrals%k/(hertz%rho*integrals%e)
+      else
+         hertz%pen = least_approach
+         if (load%control == normal_control%approach) hertz%pen = max(load%pen, least_approach)
+         hertz%rho = 2.0_wp*hertz%cp**2*g*integrals%k/(hertz%pen*integrals%e)
+         hertz%fn = force_of_axis(hertz%cp, g, hertz%rho, load%modulus, integrals)
+         if (load%control == normal_control%force) then
+            hertz%fn = 0.0_wp
+            hertz%pen = 0.0_wp
+         end if
+      end if
+      ratio = g**2*(integrals%d/integrals%b)
+      larger = 2.0_wp/(hertz%rho*(1.0_wp + ratio))
+      hertz%a1 = merge(larger, ratio*larger, aa <= bb)
+      hertz%b1 = merge(ratio*larger, larger, aa <= bb)
+   end function hertz_by_axes
+
+   !> Line contact of finite length: curvature along x and half the length given
+   elemental function line_contact_by_curvature(load, a1, bb) result(hertz)
+      !> The force is prescribed
+      type(hertz_load), intent(in) :: load
+      !> Curvature along x [1/mm], half length along y [mm], positive
+      real(wp), intent(in) :: a1, bb
+      type(hertz_contact) :: hertz
+
+      hertz%fn = max(0.0_wp, load%fn)
+      hertz%aa = sqrt(hertz%fn/(pi*load%modulus*a1*bb))
+      call complete_line(a1, bb, hertz)
+   end function line_contact_by_curvature
+
+   !> Line contact of finite length: half width and half length given.
+   !>
+   !> Without load the curvature is a very small one.
+   elemental function line_contact_by_axes(load, aa, bb) result(hertz)
+      !> The force is prescribed
+      type(hertz_load), intent(in) :: load
+      !> Half width along x, half length along y [mm], positive
+      real(wp), intent(in) :: aa, bb
+      type(hertz_contact) :: hertz
+      real(wp) :: a1
+
+      hertz%fn = max(0.0_wp, load%fn)
+      hertz%aa = aa
+      a1 = least_approach/aa**2
+      if (hertz%fn > 0.0_wp) a1 = hertz%fn/(pi*aa**2*load%modulus*bb)
+      call complete_line(a1, bb, hertz)
+   end function line_contact_by_axes
+
+   !> Complete a line contact of which force and half width are known
+   pure subroutine complete_line(a1, bb, hertz)
+      real(wp), intent(in) :: a1, bb
+      !> In: fn, aa
+      type(hertz_contact), intent(inout) :: hertz
+
+      hertz%a1 = a1
+      hertz%b1 = 0.0_wp
+      hertz%bb = bb
+      hertz%aob = hertz%aa/bb
+      hertz%rho = 2.0_wp/a1
+      hertz%cp = sqrt(4.0_wp*hertz%aa*bb/pi)
+      hertz%pen = 0.0_wp
+   end subroutine complete_line
+end module contact_normal_hertz
