@@ -17,7 +17,7 @@ program test_elliptic
 
 contains
 
-   !> mpmath 1.3, 40 digits
+   !> Computed with mpmath, working with 25 digits or more; g = 1e-150 from the limit K = log(4/g)
    subroutine values(suite)
       type(test_suite), intent(inout) :: suite
 
