@@ -154,6 +154,8 @@ contains
             & "L = 1 keeps the friction law of the previous case, but this is the first case")
          if (digits%d == 0) call add_for_digit(problems, words, severity%error, "D", &
             & "D = 0 keeps the potential contact area, but this is the first case")
+         if (digits%d == 1) call add_for_digit(problems, words, severity%error, "D", &
+            & "D = 1 forms the potential contact area from the values in store, but this is the first case")
          if (digits%s == 1 .or. digits%s == 2) call add_for_digit(problems, words, severity%error, "S", &
             & "S = " // integer_text(digits%s) // " keeps the subsurface points, but this is the first case")
       end associate

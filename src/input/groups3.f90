@@ -51,16 +51,16 @@ contains
 
          select case (spec%digits%g)
          case (2, 3)
-            call lexer%read_group("rrir", "OMEGAH OMEGAS INISLP OMGSLP", v, error)
+            call lexer%read_group("rrrr", "OMEGAH OMEGAS INISLP OMGSLP", v, error)
             if (allocated(error)) return
             iteration%omegah = v(1)%r
             iteration%omegas = v(2)%r
-            iteration%inislp = v(3)%i
+            iteration%inislp = branch(v(3)%r)
             iteration%omgslp = v(4)%r
          case (4)
-            call lexer%read_group("ir", "INISLP OMGSLP", v, error)
+            call lexer%read_group("rr", "INISLP OMGSLP", v, error)
             if (allocated(error)) return
-            iteration%inislp = v(1)%i
+            iteration%inislp = branch(v(1)%r)
             iteration%omgslp = v(2)%r
          case (5)
             call lexer%read_group("rrirrrrr", "FDECAY BETATH KDOWFB D_IFC D_LIN D_CNS D_SLP POW_S", v, error)
@@ -82,6 +82,13 @@ contains
          end select
       end associate
    end subroutine read_iteration
+
+   !> INISLP as an integer: files in use write it as 0.0 or 1.0 too, and only its sign has a meaning
+   pure integer function branch(value)
+      real(wp), intent(in) :: value
+
+      branch = int(sign(min(1000.0_wp, anint(abs(value) + 0.49_wp)), value))
+   end function branch
 
    !> Approach or normal force, creepages or tangential forces (always)
    subroutine read_kinematics(lexer, spec, problems, line, error)
@@ -137,7 +144,7 @@ contains
       end associate
    end subroutine read_kinematics
 
-   !> One set of friction parameters (L other than 1, V = 0)
+   !> One set of friction parameters (L other than 1, V other than 3)
    subroutine read_friction(lexer, spec, problems, error)
       type(input_lexer), intent(inout) :: lexer
       type(case_spec), intent(inout) :: spec
@@ -145,7 +152,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       if (.not. allocated(spec%friction%sets)) allocate(spec%friction%sets(1))
-      if (spec%digits%l == 1 .or. spec%digits%v /= 0) return
+      if (spec%digits%l == 1 .or. spec%digits%v == 3) return
       if (size(spec%friction%sets) /= 1) then
          deallocate(spec%friction%sets)
          allocate(spec%friction%sets(1))
@@ -281,8 +288,8 @@ contains
          if (allocated(error)) return
          if (spec%digits%m == 1 .and. abs(v(1)%r) > 0.01_wp) call problems%add(severity%error, "CHI = " // v(1)%word // &
             & " is outside its range -0.01 to 0.01 rad for viscoelastic material", v(1)%line, v(1)%column)
-         call problems%check_real(v(2), spec%iteration%eps)
-         call problems%check_real(v(3), spec%iteration%eps)
+         call problems%check_real(v(2), max(0.0_wp, spec%iteration%eps))
+         call problems%check_real(v(3), max(0.0_wp, spec%iteration%eps))
          rolling%chi = v(1)%r
          rolling%dq = v(2)%r
          rolling%veloc = v(3)%r

@@ -1,0 +1,850 @@
+!> Reading of cases of module 3: what is stored, what is kept, and one faulty input per check
+program test_reader3
+   use contact_base_constants, only : pi
+   use contact_base_error, only : error_kind, error_type, full_text
+   use contact_base_kinds, only : wp
+   use contact_cases_spec, only : case_spec
+   use contact_input_experiment_file, only : case_failure, experiment_reader, input_case
+   use contact_input_lexer, only : input_lexer
+   use contact_input_problems, only : problem_list, problem_text, severity
+   use contact_input_reader3, only : read_case3
+   use contact_test_harness, only : test_suite
+   implicit none (type, external)
+   character, parameter :: nl = achar(10)
+
+   !> A line of a case, or several with semicolons between
+   type :: text_line
+      character(len=:), allocatable :: text
+   end type text_line
+
+   type(test_suite) :: suite
+
+   call suite%start("reader of module 3")
+   call plain_case(suite)
+   call all_groups(suite)
+   call kept_values(suite)
+   call subsurface_blocks(suite)
+   call digits_of_one_case(suite)
+   call digits_of_two_cases(suite)
+   call numbers(suite)
+   call friction(suite)
+   call materials(suite)
+   call grids(suite)
+   call geometries(suite)
+   call combinations(suite)
+   call grids_of_two_cases(suite)
+   call outer_iteration(suite)
+   call unreadable(suite)
+   call unbuilt(suite)
+   call collected(suite)
+   call experiments(suite)
+   call suite%finish()
+
+contains
+
+   !> A rolling case on a given grid, with changes
+   !>
+   !> Changes are "number=text" with bars between: line numbers 1...12 as below; semicolons begin new
+   !> lines, and an empty text removes the line.
+   function new_case(changes) result(text)
+      character(len=*), intent(in) :: changes
+      character(len=:), allocatable :: text
+      type(text_line) :: lines(12)
+      integer :: first, last, k, place
+
+      lines(1)%text = "203100"
+      lines(2)%text = "0022020"
+      lines(3)%text = "0000001"
+      lines(4)%text = "100 100 30 1 1e-5"
+      lines(5)%text = "1000.0 0.001 0.0 0.0"
+      lines(6)%text = "0.3 0.3"
+      lines(7)%text = "0d 0.1 1000."
+      lines(8)%text = "0.28 0.28 82000. 82000."
+      lines(9)%text = "1"
+      lines(10)%text = "10 8 -0.5 -0.4 0.1 0.1"
+      lines(11)%text = "1 1"
+      lines(12)%text = "0.01 0 0.01 0 0 0"
+      first = 1
+      do while (first <= len(changes))
+         last = index(changes(first:) // "|", "|") + first - 2
+         place = index(changes(first:last), "=") + first - 1
+         read(changes(first:place - 1), *) k
+         lines(k)%text = changes(place + 1:last)
+         first = last + 2
+      end do
+      text = ""
+      do k = 1, size(lines)
+         if (len(lines(k)%text) > 0) text = text // lines(k)%text // nl
+      end do
+      do k = 1, len(text)
+         if (text(k:k) == ";") text(k:k) = nl
+      end do
+   end function new_case
+
+   !> Read one case
+   subroutine read_one(changes, spec, problems, error)
+      character(len=*), intent(in) :: changes
+      type(case_spec), intent(out) :: spec
+      type(problem_list), intent(inout) :: problems
+      type(error_type), allocatable, intent(out) :: error
+      type(input_lexer) :: lexer
+      type(case_spec) :: nothing
+
+      call lexer%open_text(new_case(changes), "test")
+      call read_case3(lexer, nothing, .false., 1, spec, problems, error)
+   end subroutine read_one
+
+   !> Read two cases, the problems are those of the second
+   subroutine read_two(first, second, spec, problems, error)
+      character(len=*), intent(in) :: first, second
+      type(case_spec), intent(out) :: spec
+      type(problem_list), intent(inout) :: problems
+      type(error_type), allocatable, intent(out) :: error
+      type(input_lexer) :: lexer
+      type(case_spec) :: previous
+
+      call read_one(first, previous, problems, error)
+      if (allocated(error)) return
+      call lexer%open_text(new_case(second), "test")
+      call read_case3(lexer, previous, .true., 2, spec, problems, error)
+   end subroutine read_two
+
+   !> Exactly one error, or warning, with a phrase; choices that are not built do not count
+   subroutine one_problem(suite, kind, phrase, problems, error, what)
+      type(test_suite), intent(inout) :: suite
+      integer, intent(in) :: kind
+      character(len=*), intent(in) :: phrase
+      type(problem_list), intent(in) :: problems
+      type(error_type), allocatable, intent(in) :: error
+      character(len=*), intent(in) :: what
+      integer :: k, others
+
+      if (allocated(error)) then
+         call suite%check(.false., what // ": " // full_text(error))
+         return
+      end if
+      others = problems%number_of(severity%error) + problems%number_of(severity%warning)
+      if (kind == severity%unsupported) others = others + problems%number_of(severity%unsupported)
+      call suite%check(others == 1, what // ", exactly one problem")
+      do k = 1, problems%count
+         if (problems%items(k)%severity /= kind) cycle
+         call suite%check(index(problem_text(problems%items(k)), phrase) > 0, what // ": " // &
+            & problem_text(problems%items(k)))
+         call suite%check(problems%items(k)%what%line > 0, what // ", has a line")
+         return
+      end do
+      if (others > 1) then
+         do k = 1, problems%count
+            call suite%check(.false., what // ": " // problem_text(problems%items(k)))
+         end do
+      end if
+      call suite%check(.false., what // ": has no problem of its kind")
+   end subroutine one_problem
+
+   !> One error in a first case
+   subroutine wrong(suite, changes, phrase)
+      type(test_suite), intent(inout) :: suite
+      character(len=*), intent(in) :: changes, phrase
+      type(case_spec) :: spec
+      type(problem_list) :: problems
+      type(error_type), allocatable :: error
+
+      call read_one(changes, spec, problems, error)
+      call one_problem(suite, severity%error, phrase, problems, error, changes)
+   end subroutine wrong
+
+   !> One warning in a first case
+   subroutine dubious(suite, changes, phrase)
+      type(test_suite), intent(inout) :: suite
+      character(len=*), intent(in) :: changes, phrase
+      type(case_spec) :: spec
+      type(problem_list) :: problems
+      type(error_type), allocatable :: error
+
+      call read_one(changes, spec, problems, error)
+      call one_problem(suite, severity%warning, phrase, problems, error, changes)
+   end subroutine dubious
+
+   !> Nothing wrong in a first case, not built choices excepted
+   subroutine right(suite, changes)
+      type(test_suite), intent(inout) :: suite
+      character(len=*), intent(in) :: changes
+      type(case_spec) :: spec
+      type(problem_list) :: problems
+      type(error_type), allocatable :: error
+
+      call read_one(changes, spec, problems, error)
+      call no_problem(suite, problems, error, changes)
+   end subroutine right
+
+   !> One error in a second case
+   subroutine wrong_second(suite, first, second, phrase)
+      type(test_suite), intent(inout) :: suite
+      character(len=*), intent(in) :: first, second, phrase
+      type(case_spec) :: spec
+      type(problem_list) :: problems
+      type(error_type), allocatable :: error
+
+      call read_two(first, second, spec, problems, error)
+      call one_problem(suite, severity%error, phrase, problems, error, first // " then " // second)
+   end subroutine wrong_second
+
+   !> Nothing wrong in a second case
+   subroutine right_second(suite, first, second)
+      type(test_suite), intent(inout) :: suite
+      character(len=*), intent(in) :: first, second
+      type(case_spec) :: spec
+      type(problem_list) :: problems
+      type(error_type), allocatable :: error
+
+      call read_two(first, second, spec, problems, error)
+      call no_problem(suite, problems, error, first // " then " // second)
+   end subroutine right_second
+
+   subroutine no_problem(suite, problems, error, what)
+      type(test_suite), intent(inout) :: suite
+      type(problem_list), intent(in) :: problems
+      type(error_type), allocatable, intent(in) :: error
+      character(len=*), intent(in) :: what
+      integer :: k
+
+      if (allocated(error)) then
+         call suite%check(.false., what // ": " // full_text(error))
+         return
+      end if
+      do k = 1, problems%count
+         if (problems%items(k)%severity /= severity%unsupported) &
+            & call suite%check(.false., what // ": " // problem_text(problems%items(k)))
+      end do
+      call suite%check(.true., what)
+   end subroutine no_problem
+
+   !> Reading cannot go on
+   subroutine fails(suite, changes, phrase)
+      type(test_suite), intent(inout) :: suite
+      character(len=*), intent(in) :: changes, phrase
+      type(case_spec) :: spec
+      type(problem_list) :: problems
+      type(error_type), allocatable :: error
+
+      call read_one(changes, spec, problems, error)
+      call suite%check(allocated(error), "ends the reading: " // changes)
+      if (allocated(error)) call suite%check(index(full_text(error), phrase) > 0, changes // ": " // full_text(error))
+   end subroutine fails
+
+   !> What is stored for the plain case
+   subroutine plain_case(suite)
+      type(test_suite), intent(inout) :: suite
+      type(case_spec) :: spec
+      type(problem_list) :: problems
+      type(error_type), allocatable :: error
+
+      call read_one("", spec, problems, error)
+      call no_problem(suite, problems, error, "plain case")
+      call suite%check(problems%is_usable() .and. problems%count == 0, "the plain case can be computed")
+      call suite%check(spec%link == 2 .and. spec%motion == 3 .and. spec%normal == 1 .and. spec%force == 0, "named choices")
+      call suite%check(spec%kernel == 2 .and. spec%friction_law == 0 .and. spec%solver == 0, "effective choices")
+      call suite%check(spec%new_grid .and. spec%new_geometry .and. spec%new_kernel .and. spec%solve, "flags")
+      call suite%check(spec%iteration%maxgs == 100 .and. spec%iteration%eps == 1.0e-5_wp, "iteration")
+      call suite%check(spec%kinematics%fn == 1000.0_wp .and. spec%kinematics%cksi == 1.0e-3_wp, "kinematics")
+      call suite%check(spec%friction%sets(1)%fstat == 0.3_wp, "friction")
+      call suite%check(spec%rolling%dq == 0.1_wp .and. spec%rolling%veloc == 1000.0_wp, "rolling")
+      call suite%close_to(spec%rolling%facphi, 1.0_wp/6.0_wp, 0.0_wp, "FACPHI")
+      call suite%check(all(spec%material%gg == 82000.0_wp), "materials")
+      call suite%check(spec%grid%ipotcn == 1 .and. spec%grid%mx == 10 .and. spec%grid%my == 8, "grid")
+      call suite%check(spec%geometry%ibase == 1 .and. spec%geometry%b(3) == 0.01_wp, "geometry")
+   end subroutine plain_case
+
+   !> All optional groups, in their order
+   subroutine all_groups(suite)
+      type(test_suite), intent(inout) :: suite
+      type(case_spec) :: spec
+      type(problem_list) :: problems
+      type(error_type), allocatable :: error
+
+      call right(suite, "2=022020 = words, text|3=001341")
+      call right(suite, "3=10000001;1000000 4")
+      call right(suite, "1=203103|3=0000001|12=0.01 0 0.01 0 0 0;1 0;1;3 0.0 0.5;2;1 1 5;1 2 7;3 0 0.5;3;2 2;1 2;3 4;1 0 1;" // &
+         & "5;2;0 1;6;1 1 2;1 1 2;1;0.5;7;1 1;2;2;1;0.1;9;1 1 1;0;0;-0.5;0")
+
+      call read_one("2=0624029 2|3=3200001|4=100 100 30 1 1e-5 50;0.8 0.9 1.0 0.4|6=0.4 20. -0.1 500.;0.001 5.|" // &
+         & "7=180d 0.1 1000. 0.2|8=0 2 2; 0 0d 1 90d; 0.3 0.3 1. 1.;5. 6. 7. 8.;20 450 .05 7.85-6;30 450 .05 7.85-6|" // &
+         & "10=2 1 0 0 1 1|12=0.01 0 0.01 0 0 0;1 2 3 4", spec, problems, error)
+      call suite%check(.not. allocated(error), "friction memory, table, damping, heat, extra slip")
+      if (.not. allocated(error)) then
+         call suite%check(spec%iteration%npot_max == 100, "NPOT_MAX is clipped")
+         call suite%check(spec%iteration%omegah == 0.8_wp .and. spec%iteration%inislp == 1, "relaxation; INISLP as a real")
+         call suite%check(spec%friction%memdst == 0.001_wp .and. spec%friction%sets(1)%dtheat == 500.0_wp, "memory")
+         call suite%close_to(spec%friction%sets(1)%fkin, 0.3_wp, 1.0e-15_wp, "kinetic friction of L = 6")
+         call suite%close_to(spec%rolling%chi, pi, 1.0e-15_wp, "CHI in degrees")
+         call suite%check(spec%rolling%facphi == 0.2_wp, "FACPHI given")
+         call suite%close_to(spec%material%table_alpha, [0.0_wp, 0.5_wp*pi], 1.0e-15_wp, "table of inclinations")
+         call suite%check(spec%has_damping .and. spec%damping%dftmax == 8.0_wp, "damping")
+         call suite%check(spec%heat%bktemp(2) == 30.0_wp .and. spec%heat%dens(1) == 7.85e-6_wp, "heat")
+         call suite%check(all(spec%extra_slip == reshape([1.0_wp, 2.0_wp, 3.0_wp, 4.0_wp], [2, 2])), "extra slip")
+         call suite%check(spec%slip_source == 9 .and. spec%kernel == 4, "extra slip and kernel by name")
+      end if
+
+      call read_one("3=0500001|4=100 100 30 1 1e-5;0.9 0.1 1 0. 1. 2. 3. 20.", spec, problems, error)
+      call no_problem(suite, problems, error, "G = 5")
+      call suite%check(spec%iteration%d_ifc == 0.01_wp .and. spec%iteration%pow_s == 10.0_wp, "clipped values of G = 5")
+      call dubious(suite, "3=0500001|4=100 100 30 1 1e-5;0.9 0.1 1 1. -1. 2. 3. 1.", "D_LIN")
+      call right(suite, "3=0400001|4=100 100 30 1 1e-5;-1 0.5")
+      call right(suite, "2=0021020|7=|8=")
+   end subroutine all_groups
+
+   !> What digits keep
+   subroutine kept_values(suite)
+      type(test_suite), intent(inout) :: suite
+      character(len=*), parameter :: kept = "1=203100|2=0100000|3=0100001|4=|6=|7=|8=|9=|10=|11=|12="
+      type(case_spec) :: spec
+      type(problem_list) :: problems
+      type(error_type), allocatable :: error
+
+      call read_two("3=0200001|4=77 100 30 1 1e-6;0.8 0.9 0 0.4|6=0.25 0.25", kept // "|5=10 0 0 0", spec, problems, error)
+      call no_problem(suite, problems, error, "a case that keeps everything")
+      call suite%check(spec%iteration%maxgs == 77 .and. spec%solver == 2, "solver settings are kept")
+      call suite%check(spec%friction%sets(1)%fstat == 0.25_wp .and. spec%friction_law == 0, "friction is kept")
+      call suite%check(spec%rolling%dq == 0.1_wp .and. spec%material%gg(1) == 82000.0_wp, "materials are kept")
+      call suite%check(spec%grid%mx == 10 .and. spec%geometry%b(1) == 0.01_wp, "grid and geometry are kept")
+      call suite%check(spec%kinematics%fn == 10.0_wp, "kinematics are new")
+      call suite%check(.not. (spec%new_grid .or. spec%new_geometry .or. spec%new_kernel), "nothing is new")
+
+      call read_two("", "1=202100|5=10 0 0 0 1 2|7=0 0.3 100", spec, problems, error)
+      call suite%check(spec%kinematics%spinxo == 1.0_wp .and. spec%kinematics%spinyo == 2.0_wp, "spin centre")
+      call read_two("5=10 0 0 0 1 2", "", spec, problems, error)
+      call suite%check(spec%kinematics%spinxo == 0.0_wp, "the spin centre is reset")
+      call read_two("", "1=201100|7=", spec, problems, error)
+      call suite%check(spec%rolling%dq == 1.0_wp .and. spec%rolling%veloc == 1.0_wp, "shifts have no step and velocity")
+
+      call read_two("9=-3|10=10 8 1 2 1.1|11=|12=", kept, spec, problems, error)
+      call no_problem(suite, problems, error, "a Hertzian grid that is kept")
+      call suite%check(spec%grid%ipotcn == -3 .and. spec%grid%bb == 2.0_wp .and. .not. spec%new_geometry, "Hertzian grid")
+      call read_one("9=-1|10=10 8 .1 .2 1.1|11=|12=", spec, problems, error)
+      call suite%check(spec%new_geometry .and. spec%geometry%b(3) == 0.2_wp, "curvatures of a Hertzian grid")
+
+      call read_two("2=0022029|12=0.01 0 0.01 0 0 0;" // repeat("1 2 ", 80), "2=0100001|4=100 100 30 1 1e-5|6=|7=|8=|9=|" // &
+         & "10=|11=|12=", spec, problems, error)
+      call no_problem(suite, problems, error, "extra slip is kept")
+      call suite%check(spec%slip_source == 9 .and. size(spec%extra_slip, 2) == 80, "extra slip of the first case")
+      call read_two("2=0022029|12=0.01 0 0.01 0 0 0;" // repeat("1 2 ", 80), "", spec, problems, error)
+      call suite%check(spec%slip_source == 0 .and. .not. allocated(spec%extra_slip), "extra slip is removed by E = 0")
+      call read_two("2=0022020 2|8=.3 .3 1 1;1 2 3 4", "", spec, problems, error)
+      call suite%check(spec%has_damping .and. spec%damping%cdampn == 1.0_wp, "damping is kept without a second number")
+      call read_two("2=0022020 2|8=.3 .3 1 1;1 2 3 4", "2=0022020 0", spec, problems, error)
+      call suite%check(.not. spec%has_damping .and. spec%damping%cdampn == 0.0_wp, "damping is switched off by M2 = 0")
+   end subroutine kept_values
+
+   !> Subsurface blocks as they are stored
+   subroutine subsurface_blocks(suite)
+      type(test_suite), intent(inout) :: suite
+      character(len=*), parameter :: start = "1=203103|12=0.01 0 0.01 0 0 0;"
+      type(case_spec) :: spec
+      type(problem_list) :: problems
+      type(error_type), allocatable :: error
+
+      call read_one(start // "7 -3;1;3 0.25 0.5;9;2 1 2;3 1;0;-1 -2;2;2 0 9;1 2 7;1 0 1;0", spec, problems, error)
+      call no_problem(suite, problems, error, "three blocks")
+      call suite%check(spec%subsurface%matfil == 2 .and. spec%subsurface%output == 0, "output digits are clipped")
+      call suite%check(size(spec%subsurface%blocks) == 3, "number of blocks")
+      if (size(spec%subsurface%blocks) /= 3) return
+      call suite%close_to(spec%subsurface%blocks(1)%z, [0.25_wp, 0.75_wp, 1.25_wp], 1.0e-15_wp, "depths from a step")
+      call suite%close_to(spec%subsurface%blocks(2)%x, [1.0_wp, 3.0_wp], 0.0_wp, "coordinates are sorted")
+      call suite%close_to(spec%subsurface%blocks(2)%z, [-2.0_wp, -1.0_wp], 0.0_wp, "depths are sorted")
+      call suite%check(spec%subsurface%blocks(3)%ixinc == 1 .and. spec%subsurface%blocks(3)%iyh == 7, "column and row ranges")
+      call read_one(start // "0 0;1;1 0 1;" // repeat("5;1;0.5;", 30) // "0", spec, problems, error)
+      call suite%check(size(spec%subsurface%blocks) == 31, "many blocks")
+      call dubious(suite, start // "0 0;3;4 1;5 5 -2 3.2;1;1 0 1;0", "2 of the 4 numbers of IX are dropped")
+      call fails(suite, start // "0 0;4;0", "ISUBS = 4 is not a known option")
+      call fails(suite, start // "0 0;1;0 0 1;0", "NZ = 0 is outside its range 1 to 9999 (subsurface block 1, case 1)")
+      call fails(suite, start // "0 0;9;1 10000 1;0", "NY = 10000 is outside its range")
+      call fails(suite, start // "0 0;3;0 1", "NX = 0 is outside its range")
+      call wrong(suite, start // "0 0;2;0 1 5;1 1 5;1 0 1;0", "IXL = 0 is outside its range")
+      call wrong(suite, start // "0 0;2;4 1 3;1 1 5;1 0 1;0", "IXH = 3 is outside its range 4 to 999999")
+      call wrong(suite, start // "0 0;2;1 1 3;0 1 5;1 0 1;0", "IYL = 0")
+      call wrong(suite, start // "0 0;2;1 1 3;6 1 5;1 0 1;0", "IYH = 5")
+      call wrong(suite, start // "0 0;1;1 0 0;0", "DZ = 0 is below its lower bound")
+   end subroutine subsurface_blocks
+
+   !> Ranges of digits, and what digits of a first case demand
+   subroutine digits_of_one_case(suite)
+      type(test_suite), intent(inout) :: suite
+      character(len=*), parameter :: blocks = "12=0.01 0 0.01 0 0 0;0 0"
+
+      call wrong(suite, "1=273100", "B = 7 is not a known digit; allowed are 0, 1, 2, 3, 4, 5, 6")
+      call wrong(suite, "1=204100|7=", "T = 4 is not")
+      call wrong(suite, "1=203200", "N = 2 is not")
+      call wrong(suite, "1=203130|5=1000 0.1 0.1 0", "F = 3 is not")
+      call wrong(suite, "1=203104|" // blocks, "S = 4 is not")
+      call wrong(suite, "2=1022020", "V = 1 is not")
+      call wrong(suite, "2=12022020", "V = 12 is not")
+      call wrong(suite, "2=0522020|6=", "L = 5 is not")
+      call wrong(suite, "2=0032020|9=|10=|11=|12=", "D = 3 is not")
+      call wrong(suite, "2=0025020", "C = 5 is not")
+      call wrong(suite, "2=0022820", "M = 8 is not")
+      call wrong(suite, "2=0022030|11=|12=", "Z = 3 is not")
+      call wrong(suite, "2=0022024", "E = 4 is not")
+      call wrong(suite, "3=20000001;0", "X = 2 is not")
+      call wrong(suite, "3=2000001", "H = 2 is not")
+      call wrong(suite, "3=0600001", "G = 6 is not")
+      call wrong(suite, "3=0003001", "A = 3 is not")
+      call wrong(suite, "3=0000701", "O = 7 is not")
+      call wrong(suite, "3=0000004", "R = 4 is not")
+      call wrong(suite, "2=0022020 31", "GAPWGT = 3 is outside")
+      call wrong(suite, "2=-0022020", "is negative")
+      call right(suite, "1=5203100")
+      call wrong_second(suite, "", "1=403100", "P = 4 is not")
+      call wrong_second(suite, "", "3=0040001", "I = 4 is not")
+      call dubious(suite, "1=003100", "P = 0 is replaced by 2")
+      call dubious(suite, "3=0010001", "I = 1 is replaced by 0")
+      call wrong(suite, "2=0122020|6=", "L = 1 keeps")
+      call wrong(suite, "2=0002000|9=|10=|11=|12=", "D = 0 keeps")
+      call wrong(suite, "2=0012010|9=|10=|11=|12=", "D = 1 forms the potential contact area from the values in store, but")
+      call wrong(suite, "1=203101", "S = 1 keeps")
+      call wrong(suite, "1=203102|" // blocks, "S = 2 keeps")
+      call wrong(suite, "2=0022000|11=|12=", "Z = 0 keeps")
+      call wrong(suite, "1=201100|2=0020020|7=|8=", "C = 0 keeps")
+      call wrong(suite, "1=201100|2=0022120|7=|8=.3 .3 1 1;0 0 0 0", "M = 1, viscoelastic")
+      call wrong(suite, "1=201100|3=3000001|7=|8=.3 .3 1 1;0 450 .05 1;0 450 .05 1", "H = 3, surface temperatures, needs")
+      call wrong(suite, "1=201100|3=1000001|7=", "H = 1, surface temperatures, needs")
+      call wrong(suite, "2=0622020|6=.3 0 -.1 100;0 0", "L = 6, friction falling with temperature, needs")
+      call wrong(suite, "2=0622320|3=1000001|6=.3 0 -.1 100;0 0|8=.3 .3 1 1;1 1 1", "cannot be used with M = 3")
+   end subroutine digits_of_one_case
+
+   !> What digits of a later case demand of the one before
+   subroutine digits_of_two_cases(suite)
+      type(test_suite), intent(inout) :: suite
+      character(len=*), parameter :: kept = "2=0100000|6=|7=|8=|9=|10=|11=|12="
+
+      call wrong_second(suite, "", kept // "|1=203101", "no case has given any")
+      call wrong_second(suite, "", kept // "|1=203102|12=0 0", "no case has given any")
+      call right_second(suite, "1=203103|12=0.01 0 0.01 0 0 0;0 0;1;1 0 1;0", kept // "|1=203102|12=0 0")
+      call wrong_second(suite, "", kept // "|2=3100000", "V changes from 0 to 3")
+      call wrong_second(suite, "", kept // "|1=201100", "T changes from 3 to 1")
+      call wrong_second(suite, "1=200100|7=", kept // "|1=202100", "T changes from 0 to 2")
+      call right_second(suite, "", kept // "|1=202100")
+      call right_second(suite, "1=200100|7=", kept // "|1=201100")
+   end subroutine digits_of_two_cases
+
+   !> Values of the iteration, kinematics and rolling groups
+   subroutine numbers(suite)
+      type(test_suite), intent(inout) :: suite
+
+      call wrong(suite, "4=0 100 30 1 1e-5", "test:4:1: MAXGS = 0 is outside its range 1 to 9999")
+      call wrong(suite, "4=10000 100 30 1 1e-5", "MAXGS = 10000")
+      call wrong(suite, "4=100 1000000 30 1 1e-5", "MAXIN = 1000000 is outside its range 1 to 999999")
+      call right(suite, "4=9999 999999 9999 1 1e-5")
+      call wrong(suite, "4=100 100 0 1 1e-5", "MAXNR = 0")
+      call wrong(suite, "4=100 100 30 0 1e-5", "MAXOUT = 0")
+      call wrong(suite, "4=100 100 30 1 0.", "EPS = 0. must be larger than 0")
+      call wrong(suite, "5=-1. 0 0 0", "Input: ERROR. test:5:1: FN = -1. is below its lower bound 0")
+      call right(suite, "5=0. 0 0 0")
+      call right(suite, "1=203000|5=-0.01 0 0 0")
+      call wrong(suite, "1=203110|5=10 -1.5 0 0", "FX = -1.5 is outside its range -1 to 1")
+      call wrong(suite, "1=203120|5=10 0.8 0.8 0", "FX**2 + FY**2 = 1.28 is above")
+      call right(suite, "1=203120|5=10 0.6 -0.6 0")
+      call dubious(suite, "5=10 0 0 0 1.5", "SPINXO = 1.5 is given without SPINYO")
+      call wrong(suite, "7=0 0 1000", "DQ = 0 is below its lower bound 1.00000E-05")
+      call wrong(suite, "7=0 0.1 -1000", "VELOC = -1000 is below")
+      call wrong(suite, "2=0022120|7=1d 0.1 1000|8=.3 .3 1 1;0 0 0 0", "CHI = 1d is outside")
+   end subroutine numbers
+
+   !> Friction laws
+   subroutine friction(suite)
+      type(test_suite), intent(inout) :: suite
+
+      call wrong(suite, "6=0 0", "FSTAT = 0 is below its lower bound 0.0001")
+      call dubious(suite, "6=0.3 0.2", "FKIN = 0.2 differs from FSTAT")
+      call right(suite, "2=0222020|6=0.1 0.2 1.0 0.0 0.0;0.001 10")
+      call wrong(suite, "2=0222020|6=-0.1 0.2 1.0 0.1 1.0;0.001 10", "FKIN = -0.1 is below")
+      call wrong(suite, "2=0222020|6=0.1 -0.2 1.0 0.1 1.0;0.001 10", "FLIN1 = -0.2 is below")
+      call wrong(suite, "2=0322020|6=0.1 0.2 1.0 -0.1 1.0;0.001 10", "FRAT2 = -0.1 is below")
+      call wrong(suite, "2=0422020|6=0.1 -0.2 1.0 0.1 1.0;0.001 10", "FEXP1 = -0.2 is below")
+      call wrong(suite, "2=0422020|6=0.1 0.2 0.0 0.1 1.0;0.001 10", "SABSH1 = 0.0 is below")
+      call wrong(suite, "2=0422020|6=0.1 0.2 1.0 0.1 0.0;0.001 10", "SABSH2 = 0.0 is below")
+      call wrong(suite, "2=0422020|6=0.1 0.2 1.0 0.1 1.0;-0.001 10", "MEMDST = -0.001 is below")
+      call wrong(suite, "2=0422020|6=0.1 0.2 1.0 0.1 1.0;0.001 -10", "MEM_S0 = -10 is below")
+      call wrong(suite, "2=0622020|3=1000001|6=-.3 0 .5 100;0 0", "FREF = -.3 is below")
+      call wrong(suite, "2=0622020|3=1000001|6=.3 0 -.4 100;0 0", "FREF + DFHEAT = -0.1 is below")
+      call wrong(suite, "2=0622020|3=1000001|6=.3 0 -.1 0;0 0", "DTHEAT = 0 must be larger than 0")
+      call right(suite, "2=3022020|6=|10=10 2 -0.5 -0.4 0.1 0.1|12=0 0 0 0 0 0;.3 .3;.2 .2")
+      call wrong(suite, "2=3222020|6=|10=10 2 -0.5 -0.4 0.1 0.1|12=0 0 0 0 0 0;.3 0 0 0 0;-.2 0 0 0 0;0 0", "FKIN = -.2")
+   end subroutine friction
+
+   !> Materials, damping, heat
+   subroutine materials(suite)
+      type(test_suite), intent(inout) :: suite
+      character(len=*), parameter :: steel = "8=.3 .3 1 1;"
+
+      call wrong(suite, "8=-.1 -.1 1 1|1=200100|7=|2=0022020|8=-.1 .3 1 1", "POISS1 = -.1 is below its lower bound 0")
+      call wrong(suite, "8=.3 .6 1 1|1=200100|7=", "POISS2 = .6 is above its upper bound 0.5")
+      call wrong(suite, "8=.3 .3 0 1", "GG1 = 0 is below its lower bound 1.00000E-05")
+      call wrong(suite, "1=200100|7=|8=.3 .3 1 1e21", "GG2 = 1e21 is above its upper bound 1.00000E+20")
+      call right(suite, "1=213100|" // steel // "1e-6")
+      call wrong(suite, "1=213100|" // steel // "0", "FLXZ = 0 is below")
+      call wrong(suite, "2=0022120|" // steel // "-1 0 0 0", "FG1 = -1 is below")
+      call wrong(suite, "2=0022120|" // steel // "0 -1 0 0", "FG2 = -1 is below")
+      call wrong(suite, "2=0022120|" // steel // "0 0 -1 0", "TC1 = -1 is below")
+      call wrong(suite, "2=0022120|" // steel // "0 0 0 -1", "TC2 = -1 is below")
+      call wrong(suite, "2=0022220|" // steel // "0 1 1 1", "FLX = 0 is below")
+      call wrong(suite, "2=0022220|" // steel // "1 0 1 1", "K0_MF = 0 is below")
+      call wrong(suite, "2=0022320|" // steel // "1.1 1 1", "K0_MF = 1.1 is above")
+      call wrong(suite, "2=0022520|" // steel // "1 1.1 1", "ALFAMF = 1.1 is above")
+      call wrong(suite, "2=0022320|" // steel // "1 1 -1", "BETAMF = -1 is below")
+      call right(suite, "2=0022420|" // steel // "1 0 1e11 0")
+      call wrong(suite, "2=0022420|" // steel // "0 0 0 0", "GG3 = 0 is below")
+      call wrong(suite, "2=0022420|" // steel // "1 -1 0 0", "LAYTHK = -1 is below")
+      call right(suite, "2=0022620")
+      call wrong(suite, "2=0024020|4=100 100 30 10 1e-5|8=2 1 1;0 0;.3 .3 1 1", "IF_METH = 2 is outside its range 0 to 1")
+      call wrong(suite, "2=0024020|4=100 100 30 10 1e-5|8=0 5 1;0 0;.3 .3 1 1", "VARIANT = 5 is outside its range 1 to 4")
+      call wrong(suite, "2=0024020|4=100 100 30 10 1e-5|8=0 1 0;.3 .3 1 1", "NN = 0 is outside its range 1 to 9999")
+      call right(suite, "2=0029020|4=100 100 30 10 1e-5|8='a,b.txt';.3 .3 1 1")
+      call wrong(suite, "2=0022020 2|" // steel // "-1 0 0 0", "CDAMPN = -1 is below")
+      call wrong(suite, "2=0022020 2|" // steel // "0 -1 0 0", "CDAMPT = -1 is below")
+      call wrong(suite, "2=0022020 2|" // steel // "0 0 -1 0", "DFNMAX = -1 is below")
+      call wrong(suite, "2=0022020 2|" // steel // "0 0 0 -1", "DFTMAX = -1 is below")
+      call wrong(suite, "3=3000001|" // steel // "0 0 1 1;0 1 1 1", "HEATCP1 = 0 is below")
+      call wrong(suite, "3=3000001|" // steel // "0 1 1 1;0 1 0 1", "LAMBDA2 = 0 is below")
+      call wrong(suite, "3=3000001|" // steel // "0 1 1 0;0 1 1 1", "DENS1 = 0 is below")
+      call wrong(suite, "2=0022420|3=3000001|" // steel // "1 0 0 0;0 1 1 1;0 1 1 1;1.5", "BETAPL = 1.5 is above")
+   end subroutine materials
+
+   !> Potential contact areas
+   subroutine grids(suite)
+      type(test_suite), intent(inout) :: suite
+      character(len=*), parameter :: hertz = "|11=|12="
+
+      call wrong(suite, "9=5|10=|11=|12=", "IPOTCN = 5 is not a known option")
+      call wrong(suite, "9=0|10=|11=|12=", "IPOTCN = 0 is not a known option")
+      call right(suite, "9=-1|10=10 8 .1 .1 1.1" // hertz)
+      call wrong(suite, "9=-1|10=10 8 0 .1 1.1" // hertz, "A1 = 0 must be larger than 0")
+      call wrong(suite, "9=-1|10=10 8 .1 -1 1.1" // hertz, "B1 = -1 must be larger than 0")
+      call wrong(suite, "9=-2|10=10 8 .1 0 1.1" // hertz, "AOB = 0 must be larger than 0")
+      call wrong(suite, "9=-3|10=10 8 0 1 1.1" // hertz, "AA = 0 must be larger than 0")
+      call wrong(suite, "9=-3|10=10 8 1 0 1.1" // hertz, "BB = 0 must be larger than 0")
+      call wrong(suite, "9=-3|10=10 8 1 1 0" // hertz, "SCALE = 0 must be larger than 0")
+      call wrong(suite, "9=-4|10=10 8 0 1 1" // hertz, "A1 = 0 must be larger than 0")
+      call wrong(suite, "9=-5|10=10 8 1 0 1" // hertz, "BB = 0 must be larger than 0")
+      call wrong(suite, "1=243100|9=-6|10=10 8 1 0 1 1" // hertz, "BNEG = 0 is below")
+      call wrong(suite, "1=243100|9=-6|10=10 8 1 1 0 1" // hertz, "BPOS = 0 is below")
+      call wrong(suite, "1=243100|9=-6|10=10 8 0 1 1 1" // hertz, "AA = 0 must be larger than 0")
+      call wrong(suite, "10=0 8 0 0 .1 .1", "MX = 0 is below its lower bound 1")
+      call wrong(suite, "10=10 -1 0 0 .1 .1", "MY = -1 is below its lower bound 1")
+      call wrong(suite, "10=2000 1001 0 0 .1 .1", "is above its upper bound of 2000000 elements")
+      call wrong(suite, "10=2000000000 2000000000 0 0 .1 .1", "is above its upper bound of 2000000 elements")
+      call wrong(suite, "10=10 8 0 0 0 .1", "DX = 0 is below its lower bound 1.00000E-08")
+      call wrong(suite, "9=3|10=10 8 0 0 .1 -.1", "DY = -.1 is below its lower bound 1.00000E-08")
+      call right(suite, "9=2|10=1 1 0 0 .1 .1")
+      call wrong(suite, "9=2|10=10 8 0 0 0 1", "XH = 0 must be larger than XL = 0")
+      call wrong(suite, "9=2|10=10 8 0 0 1 -1", "YH = -1 must be larger than YL = 0")
+      call right(suite, "9=4|10=2 2 0 0 .1 .1")
+      call wrong(suite, "9=4|10=10 8 1 0 0 1", "XCM = 0 must be larger than XC1 = 1")
+      call wrong(suite, "9=4|10=10 8 0 1 1 1", "YCM = 1 must be larger than YC1 = 1")
+      call wrong(suite, "9=4|10=1 8 0 0 1 1", "MX = 1 is below its lower bound 2 for IPOTCN = 4")
+      call wrong(suite, "9=4|10=10 1 0 0 1 1", "MY = 1 is below its lower bound 2 for IPOTCN = 4")
+   end subroutine grids
+
+   !> Undeformed distances and planforms
+   subroutine geometries(suite)
+      type(test_suite), intent(inout) :: suite
+      character(len=*), parameter :: quadratic = "12=0.01 0 0.01 0 0 0;"
+
+      call wrong(suite, "11=4 1|12=", "IBASE = 4 is not a known option")
+      call wrong(suite, "11=1 5", "IPLAN = 5 is not a known option")
+      call right(suite, "11=2 1|12=2 0 1 0 .1;0 0")
+      call wrong(suite, "11=2 1|12=1 0 1 0 .1;0", "NN = 1 is outside its range 2 to 999999")
+      call wrong(suite, "11=2 1|12=2 0 1 0 0;0 0", "DY1 = 0 is below")
+      call right(suite, "11=3 1|12=1 2 3 4 5 6 7 8")
+      call right(suite, "11=9 1|10=2 2 0 0 1 1|12=1 2;3 4")
+      call right(suite, "11=1 2|" // quadratic // "1 2 3 4 5 6")
+      call right(suite, "11=1 3|" // quadratic // "0 1 0 1 0 1 0 1")
+      call wrong(suite, "11=1 3|" // quadratic // "0 1 0 1 0 1 1 1", "XL2, XH2, YL2, YH2 = 0, 1, 0, 1, 0, 1, 1, 1")
+      call wrong(suite, "11=1 3|" // quadratic // "0 1 0 1 2 1 0 1", "need XL < XH and YL < YH")
+      call right(suite, "11=1 4|" // quadratic // "3;0 1 0 1 0 1 0 1 0 1 0 1;.1 .2 .3")
+   end subroutine geometries
+
+   !> Digits and numbers together
+   subroutine combinations(suite)
+      type(test_suite), intent(inout) :: suite
+      character(len=*), parameter :: ellipse = "|9=-3|10=10 8 1 1 1|11=|12=", strip = "|9=-5|10=10 8 1 1 1|11=|12="
+
+      call right(suite, "1=223100" // ellipse)
+      call wrong(suite, "1=223100", "needs a Hertzian option")
+      call wrong(suite, "1=233100|2=0022320|8=.3 .3 1 1;1 1 1", "needs a Hertzian option")
+      call wrong(suite, "1=203100|9=-6|10=10 8 1 1 1 1|11=|12=", "IPOTCN = -6 and B = 4 need each other")
+      call wrong(suite, "1=243100" // ellipse, "IPOTCN = -6 and B = 4 need each other")
+      call right(suite, "1=243100|9=-6|10=10 8 1 1 1 1|11=|12=")
+      call right(suite, "1=203100" // strip)
+      call wrong(suite, "1=203000|5=.01 0 0 0" // strip, "needs the normal force: N = 1, not N = 0")
+      call dubious(suite, "1=223100" // strip, "the approach is not computed")
+      call wrong(suite, "1=203000|5=-.01 0 0 0" // ellipse, "PEN = -0.01 is below its lower bound 0")
+      call dubious(suite, "1=233100" // ellipse, "B = 3, a parabolic traction bound")
+      call wrong(suite, "1=243000|9=-6|10=10 8 1 1 1 1|11=|12=", "B = 4 needs the normal force")
+      call wrong(suite, "1=253100", "B = 5 needs the approach")
+      call wrong(suite, "1=263100", "B = 6 needs the approach")
+      call right(suite, "1=253000")
+   end subroutine combinations
+
+   !> A new grid and what is kept from the old one
+   subroutine grids_of_two_cases(suite)
+      type(test_suite), intent(inout) :: suite
+      character(len=*), parameter :: old = "2=0020020|8=|7="
+      character(len=*), parameter :: go_on = "1=003100|"
+      character(len=*), parameter :: kept = "2=0100010|6=|7=|8=|9=|10=|11=|12="
+
+      call right_second(suite, "", old // "|10=8 8 0 0 .100005 .1")
+      call wrong_second(suite, "", old // "|10=8 8 0 0 .101 .1", "DX = 0.101 differs from the 0.1 of the influence")
+      call wrong_second(suite, "", old // "|10=8 8 0 0 .1 .2", "DY = 0.2 differs from the 0.1 of the influence")
+      call wrong_second(suite, "", old // "|10=11 8 0 0 .1 .1", "MX = 11 is above its upper bound, the 10 of the influence")
+      call wrong_second(suite, "", old // "|10=8 9 0 0 .1 .1", "MY = 9 is above its upper bound, the 8 of the influence")
+      call right_second(suite, "9=-3|10=10 8 1 1 1|11=|12=", old // "|9=2|10=8 8 0 0 1.6 2.0")
+      call right_second(suite, "", go_on // "10=12 7 -0.6 -0.3 .1 .1")
+      call right_second(suite, "", go_on // "10=12 7 -0.60005 -0.3 .1 .1")
+      call wrong_second(suite, "", go_on // "10=12 7 -0.61 -0.3 .1 .1", "XC1, the centre of the first element, moves by -0.11")
+      call wrong_second(suite, "", go_on // "10=12 7 -0.6 -0.35 .1 .1", "YC1, the centre of the first element, moves by 0.05")
+      call wrong_second(suite, "", go_on // "10=12 7 -0.6 -0.3 .11 .1", "DX = 0.11 differs from the 0.1 of the previous case")
+      call wrong_second(suite, "", "3=0010001|10=12 7 -0.6 -0.3 .1 .11", "DY = 0.11 differs from the 0.1 of the previous")
+      call right_second(suite, "", "10=12 7 -0.61 -0.3 .12 .1")
+      call wrong_second(suite, "10=2 2 0 0 1 1|11=9 1|12=1 2 3 4", "2=0022010|10=3 2 0 0 1 1|11=|12=", "IBASE = 9")
+      call wrong_second(suite, "10=2 2 0 0 1 1|11=9 1|12=1 2 3 4", "2=0022010|10=2 2 5 0 1 1|11=|12=", "IBASE = 9")
+      call right_second(suite, "10=2 2 0 0 1 1|11=9 1|12=1 2 3 4", "2=0022010|10=2 2 0 0 1 1|11=|12=")
+      call right_second(suite, "10=2 2 0 0 1 1|11=9 1|12=1 2 3 4", kept)
+      call wrong_second(suite, "2=0022029|10=1 1 0 0 1 1|12=1 0 1 0 0 0;1 2", "2=0022021", "E = 1 keeps the extra")
+      call memory_of_coefficients(suite)
+   end subroutine grids_of_two_cases
+
+   !> C = 0 compares with the grid of the coefficients, not of the previous case
+   subroutine memory_of_coefficients(suite)
+      type(test_suite), intent(inout) :: suite
+      character(len=*), parameter :: module_line = "3" // nl
+      type(experiment_reader) :: reader
+      type(input_case) :: this
+      type(error_type), allocatable :: error
+      integer :: k
+
+      call reader%open_text(module_line // new_case("") // module_line // new_case("2=0020020|7=|8=|10=5 5 0 0 .1 .1") // &
+         & module_line // new_case("2=0020020|7=|8=") // "0", "test")
+      do k = 1, 3
+         call reader%next_case(this, error)
+         call suite%check(.not. allocated(error) .and. this%problems%count == 0, "a smaller grid between two of one size")
+      end do
+   end subroutine memory_of_coefficients
+
+   !> Outer iteration and difference of materials
+   subroutine outer_iteration(suite)
+      type(test_suite), intent(inout) :: suite
+      type(case_spec) :: spec
+      type(problem_list) :: problems
+      type(error_type), allocatable :: error
+
+      call dubious(suite, "4=100 100 30 10 1e-5", "MAXOUT = 10 is replaced by 1")
+      call read_one("4=100 100 30 10 1e-5", spec, problems, error)
+      call suite%check(spec%iteration%maxout == 1, "MAXOUT becomes 1 for similar bodies")
+      call dubious(suite, "8=.3 .4 1 1", "dissimilar materials, AK = 0.05;")
+      call right(suite, "4=100 100 30 10 1e-5|8=.3 .4 1 1")
+      call dubious(suite, "2=0024020|8=0 1 1;0 0;.3 .3 1 1", "dissimilar shapes")
+      call right(suite, "1=200100|4=100 100 30 10 1e-5|7=")
+   end subroutine outer_iteration
+
+   !> Text that cannot be read
+   subroutine unreadable(suite)
+      type(test_suite), intent(inout) :: suite
+
+      call fails(suite, "1=abc", "test:1:1: ""abc"" is not an integer; expected PBTNFS")
+      call fails(suite, "4=abc 100 30 1 1e-5", "test:4:1: ""abc"" is not an integer; expected MAXGS, an integer, value 1 of " // &
+         & "the group MAXGS MAXIN MAXNR MAXOUT EPS NPOT_MAX; the line reads ""abc 100 30 1 1e-5"" (case 1)")
+      call fails(suite, "5=10 0 0 CPHI", """CPHI"" is not a number; expected CPHI")
+      call fails(suite, "7=0 0.1d 1000", """0.1d"" is not a number; expected DQ")
+      call fails(suite, "10=10. 8 0 0 1 1", """10."" is not an integer; expected MX")
+      call fails(suite, "2=0029020|8=file.txt;.3 .3 1 1", """file.txt"" is not a text in single quotes")
+      call fails(suite, "12=1 2 3 4 5", "the end of the file is reached; expected B(6)")
+      call fails(suite, "10=|11=|12=", "the end of the file is reached; expected MX")
+      call fails(suite, "1=abc", "(case 1)")
+      call fails(suite, "11=9 1|10=0 8 0 0 1 1|12=1", "the list H has one entry for each element")
+      call fails(suite, "2=0022029|10=1000000 8 0 0 1 1", "the list EXRHS has one entry for each element")
+   end subroutine unreadable
+
+   !> What is known but not built
+   subroutine unbuilt(suite)
+      type(test_suite), intent(inout) :: suite
+
+      call refused(suite, "1=213100|8=.3 .3 1 1;1", "B = 1, elastic thin sheet")
+      call refused(suite, "1=253000", "B = 5, Kik-Piotrowski")
+      call refused(suite, "2=3022020|6=|10=2 1 0 0 1 1|12=0 0 0 0 0 0;.3 .3", "V = 3, friction parameters for each row")
+      call refused(suite, "2=0222020|6=.1 0 0 0 0;0 0", "L = 2, friction falling")
+      call refused(suite, "2=0023020", "C = 3, half-space with bilinear tractions, is known but not built in this version")
+      call refused(suite, "2=0022120|8=.3 .3 1 1;0 0 0 0", "M = 1, viscoelastic")
+      call refused(suite, "2=0022720", "M = 7, experimental")
+      call refused(suite, "2=0022020 2|8=.3 .3 1 1;0 0 0 0", "M2 = 2, force-based proportional damping")
+      call refused(suite, "2=0022022", "E = 2, extra term")
+      call refused(suite, "3=1000001", "H = 1, surface temperatures")
+      call refused(suite, "11=1 4|12=0 0 0 0 0 0;1;0 1 0 1", "IPLAN = 4, weighted")
+      call refused_second(suite, "2=0222020|6=.1 0 0 0 0;0 0", "2=0122020|6=", "L = 2, friction falling")
+      call refused_second(suite, "2=0023020", "2=0020020|7=|8=", "C = 3, half-space with bilinear")
+      call refused_second(suite, "2=0022020 2|8=.3 .3 1 1;0 0 0 0", "", "M2 = 2, force-based")
+   end subroutine unbuilt
+
+   subroutine refused(suite, changes, phrase)
+      type(test_suite), intent(inout) :: suite
+      character(len=*), intent(in) :: changes, phrase
+      type(case_spec) :: spec
+      type(problem_list) :: problems
+      type(error_type), allocatable :: error
+
+      call read_one(changes, spec, problems, error)
+      call one_problem(suite, severity%unsupported, phrase, problems, error, changes)
+      call suite%check(.not. problems%is_usable(), "is not usable: " // changes)
+   end subroutine refused
+
+   subroutine refused_second(suite, first, second, phrase)
+      type(test_suite), intent(inout) :: suite
+      character(len=*), intent(in) :: first, second, phrase
+      type(case_spec) :: spec
+      type(problem_list) :: problems
+      type(error_type), allocatable :: error
+
+      call read_two(first, second, spec, problems, error)
+      call one_problem(suite, severity%unsupported, phrase, problems, error, first // " then " // second)
+   end subroutine refused_second
+
+   !> Several problems at once are all reported, in the order of the file
+   subroutine collected(suite)
+      type(test_suite), intent(inout) :: suite
+      type(case_spec) :: spec
+      type(problem_list) :: problems
+      type(error_type), allocatable :: error
+      integer :: k
+
+      call read_one("1=003100|3=0000801|4=0 0 0 0 -1|5=-1 0 0 0|6=0 0|7=0 -1 -1|8=.6 .6 1 1|10=0 0 0 0 0 0|11=1 6", &
+         & spec, problems, error)
+      call suite%check(.not. allocated(error), "many problems do not stop the reading")
+      call suite%equal(problems%number_of(severity%error), 17, "number of errors")
+      call suite%equal(problems%number_of(severity%warning), 1, "number of warnings")
+      do k = 2, problems%number_of(severity%error)
+         if (problems%items(k)%severity /= severity%error .or. problems%items(k)%what%line < 3) cycle
+         call suite%check(problems%items(k)%what%line >= problems%items(k - 1)%what%line .or. k <= 2, "order of the file")
+      end do
+      call suite%check(index(problem_text(problems%items(2)), " Input: WARNING. test:1:1: P = 0") == 1, "head of a warning")
+   end subroutine collected
+
+   !> The level above: modules, result elements, faulty cases in a sequence
+   subroutine experiments(suite)
+      type(test_suite), intent(inout) :: suite
+
+      call sequence(suite, "3 MODULE" // nl // new_case("") // "3" // nl // new_case("") // "0 END" // nl // "rubbish", &
+         & [1, 2], "", "two cases")
+      call sequence(suite, "3" // nl // new_case("3=0000000") // new_case("3=0000002") // new_case("") // "0", [1, 2, 3], "", &
+         & "staying in the module")
+      call sequence(suite, "3 7" // nl // new_case("") // "3 8" // nl // new_case("") // "3 7" // nl // new_case("") // &
+         & "3 7 2" // nl // new_case("") // "3" // nl // new_case("") // "0", [1, 1, 2, 1, 1], "", "result elements")
+      call sequence(suite, "3" // nl // new_case("4=0 1 1 1 1e-5") // "3" // nl // new_case("5=-1 0 0 0") // "0", [1, 2], "", &
+         & "two faulty cases")
+      call sequence(suite, "0", [integer ::], "", "nothing")
+      call sequence(suite, "3" // nl // new_case(""), [1], "the end of the file is reached; expected MODULE", "no end")
+      call sequence(suite, "", [integer ::], "the end of the file is reached; expected MODULE", "an empty file")
+      call sequence(suite, "2", [integer ::], "MODULE = 2 is not a known module", "a wrong module")
+      call sequence(suite, "x", [integer ::], """x"" is not an integer; expected MODULE", "no module")
+      call sequence(suite, nl // " 1", [integer ::], "test:2:2: MODULE = 1, wheel-rail contact, is known but not built", &
+         & "wheel-rail contact")
+      call sequence(suite, "3 0", [integer ::], "REID = 0 is outside its range 1 to 999", "a wrong element")
+      call sequence(suite, "3 1000", [integer ::], "REID = 1000 is outside its range 1 to 999", "another wrong element")
+      call sequence(suite, "3 1 10", [integer ::], "CPID = 10 is outside its range 1 to 9", "a wrong patch")
+      call sequence(suite, "3" // nl // new_case("") // "3" // nl // "abc", [1], """abc"" is not an integer; expected PBTNFS", &
+         & "an unreadable second case")
+      call failures(suite)
+      call replaced_store(suite)
+      call too_many_elements(suite)
+   end subroutine experiments
+
+   !> The numbers of the cases, then the end or an error
+   subroutine sequence(suite, text, numbers, phrase, what)
+      type(test_suite), intent(inout) :: suite
+      character(len=*), intent(in) :: text
+      integer, intent(in) :: numbers(:)
+      !> Empty when the end is regular
+      character(len=*), intent(in) :: phrase, what
+      type(experiment_reader) :: reader
+      type(input_case) :: this
+      type(error_type), allocatable :: error
+      integer :: k
+
+      call reader%open_text(text, "test")
+      do k = 1, size(numbers)
+         call reader%next_case(this, error)
+         call suite%check(.not. allocated(error) .and. this%module_number == 3 .and. this%number == numbers(k), what)
+         if (allocated(error)) return
+      end do
+      call reader%next_case(this, error)
+      call suite%check(allocated(error) .eqv. len(phrase) > 0, what // ", end")
+      if (allocated(error)) then
+         call suite%check(index(full_text(error), phrase) > 0, what // ": " // full_text(error))
+      else
+         call suite%check(this%module_number == 0, what // ", module 0")
+      end if
+   end subroutine sequence
+
+   !> The error that ends a run
+   subroutine failures(suite)
+      type(test_suite), intent(inout) :: suite
+      type(experiment_reader) :: reader
+      type(input_case) :: this
+      type(error_type), allocatable :: error
+
+      call reader%open_text("3" // nl // new_case("") // "3" // nl // new_case("4=0 0 1 1 1e-5") // "3" // nl // &
+         & new_case("2=0023020") // "0", "test")
+      call reader%next_case(this, error)
+      call case_failure(this, error)
+      call suite%check(.not. allocated(error), "a good case has no failure")
+      call reader%next_case(this, error)
+      call case_failure(this, error)
+      call suite%check(allocated(error), "a faulty case has a failure")
+      if (allocated(error)) call suite%equal(full_text(error), "test:15: case 2, which starts at this line, has 2 errors " // &
+         & "in its input and cannot be solved", "its words")
+      call reader%next_case(this, error)
+      call case_failure(this, error)
+      call suite%check(allocated(error), "a case that is not built has a failure")
+      if (allocated(error)) call suite%check(error%kind == error_kind%unsupported .and. index(full_text(error), "C = 3") > 0, &
+         & "its kind and name")
+   end subroutine failures
+
+   !> What is known only after a case was prepared can be put into the store
+   subroutine replaced_store(suite)
+      type(test_suite), intent(inout) :: suite
+      type(experiment_reader) :: reader
+      type(input_case) :: this
+      type(error_type), allocatable :: error
+
+      call reader%open_text("3" // nl // new_case("9=-3|10=9 9 1 1 1|11=|12=") // "3" // nl // &
+         & new_case("2=0022010|11=|12=") // "0", "test")
+      call reader%next_case(this, error)
+      this%spec%geometry%b(1) = 0.125_wp
+      call reader%store_case(this%spec)
+      call reader%next_case(this, error)
+      call suite%check(this%spec%geometry%b(1) == 0.125_wp .and. .not. this%spec%new_geometry, "a replaced store")
+   end subroutine replaced_store
+
+   !> At most a hundred result elements
+   subroutine too_many_elements(suite)
+      type(test_suite), intent(inout) :: suite
+      type(experiment_reader) :: reader
+      type(input_case) :: this
+      type(error_type), allocatable :: error
+      character(len=:), allocatable :: text
+      character(len=4) :: number
+      integer :: k
+
+      text = ""
+      do k = 1, 101
+         write(number, '(i0)') k
+         text = text // "3 " // trim(number) // nl // new_case("")
+      end do
+      call reader%open_text(text // "0", "test")
+      do k = 1, 100
+         call reader%next_case(this, error)
+         if (allocated(error)) exit
+      end do
+      call suite%check(.not. allocated(error) .and. this%reid == 100, "a hundred elements")
+      call reader%next_case(this, error)
+      call suite%check(allocated(error), "one element too many")
+   end subroutine too_many_elements
+end program test_reader3
