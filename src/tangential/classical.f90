@@ -1,0 +1,250 @@
+!> The classical solvers by name, with prescribed creepages or forces
+module contact_tangential_classical
+   use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
+   use contact_base_kinds, only : wp
+   use contact_base_log, only : log_type
+   use contact_base_solve_report, only : ending, solve_report
+   use contact_elastic_halfspace, only : kernel_table
+   use contact_elastic_operator, only : elastic_operator
+   use contact_grid_element_division, only : element
+   use contact_tangential_convex_gs, only : convex_gs
+   use contact_tangential_gd_steady, only : gd_steady
+   use contact_tangential_prescribed_forces, only : force_iteration
+   use contact_tangential_problem, only : divide_elements, prepare_solution, reference_compliance, &
+      & slip_of, tangential_problem, tangential_solution, true_residual
+   use contact_tangential_steady_gs, only : steady_gs
+   use contact_tangential_streaming, only : streaming_rows
+   use contact_tangential_tang_cg, only : tang_cg
+   implicit none (type, external)
+   private
+
+   public :: classical_method, solve_classical, method_name
+
+   type :: classical_method_list
+      !> Conjugate gradients; shifts and transient rolling
+      integer :: tang_cg = 1
+      !> Gauss-Seidel on increments; steady rolling along x, one element per step
+      integer :: steady_gs = 2
+      !> Gauss-Seidel on tractions; everything
+      integer :: convex_gs = 3
+      !> Gradient descent on increments, SteadyGS when it fails; as SteadyGS
+      integer :: gd_steady = 4
+   end type classical_method_list
+   !> Names of the methods
+   type(classical_method_list), parameter :: classical_method = classical_method_list()
+
+   !> Tolerance of the tractions relative to that of prescribed forces
+   real(wp), parameter :: inner_share = 0.2_wp
+
+contains
+
+   !> Name of a method in reports
+   pure function method_name(choice) result(name)
+      !> Member of classical_method
+      integer, intent(in) :: choice
+      character(len=:), allocatable :: name
+
+      select case (choice)
+      case (classical_method%tang_cg)
+         name = "TangCG"
+      case (classical_method%steady_gs)
+         name = "SteadyGS"
+      case (classical_method%convex_gs)
+         name = "ConvexGS"
+      case (classical_method%gd_steady)
+         name = "GDsteady"
+      case default
+         name = "unknown method"
+      end select
+   end function method_name
+
+   !> Solve a tangential problem from the estimate in the solution
+   !>
+   !> Always ends. The solution is admissible and finite in every case; report%ended tells
+   !> what it is worth. A method that does not suit the problem is replaced by one that does.
+   subroutine solve_classical(problem, operator, choice, solution, report, log, shifted)
+      type(tangential_problem), intent(in) :: problem
+      !> Prepared for the window of the problem
+      type(elastic_operator), intent(inout) :: operator
+      !> Member of classical_method
+      integer, intent(in) :: choice
+      type(tangential_solution), intent(inout) :: solution
+      !> Products and transforms are added up, everything else is of this call
+      type(solve_report), intent(inout) :: report
+      type(log_type), intent(inout) :: log
+      !> Coefficients of the same particles at the previous moment, in steady rolling with steps
+      !> other than one element or in an oblique direction (ConvexGS only)
+      type(kernel_table), intent(in), optional :: shifted
+      type(streaming_rows) :: rows
+      type(force_iteration) :: forces
+      real(wp) :: creep(2), force(2), sum_g, r, pairs_before, eps
+      integer :: method, products_before, total
+      logical :: with_rows, general
+      character(len=160) :: text
+
+      call prepare_solution(problem, solution)
+      report%ended = ending%not_started
+      report%iterations = 0
+      report%residual = 0.0_wp
+      report%tolerance = problem%eps
+      if (allocated(report%gave_up)) deallocate(report%gave_up)
+      products_before = operator%products
+      pairs_before = operator%fft_pairs()
+      general = present(shifted) .and. problem%steady
+      method = suitable_method(problem, choice, general)
+      report%method = method_name(method)
+      solution%division = element%exterior
+      if (.not. any(problem%contact)) then
+         solution%p = 0.0_wp
+         solution%slip = 0.0_wp
+         return
+      end if
+      r = 1.0_wp/reference_compliance(operator)
+      if (.not. clean_input()) then
+         report%ended = ending%diverged
+         report%residual = -1.0_wp
+         where (problem%contact) solution%division = element%adhesion
+         return
+      end if
+
+      with_rows = method /= classical_method%tang_cg
+      if (with_rows) then
+         if (general) then
+            call rows%prepare(problem, operator, shifted)
+         else
+            call rows%prepare(problem, operator)
+         end if
+      end if
+      total = 0
+      eps = problem%eps
+      if (problem%n_forces == 0) then
+         call solve_once()
+         solution%sensitivity = 0.0_wp
+      else
+         ! forces are compared at the tolerance eps, which takes tractions that are better
+         eps = inner_share*problem%eps
+         sum_g = sum(problem%bound, mask=problem%contact)
+         call forces%start(problem, operator, solution%sensitivity)
+         creep = solution%creep
+         do
+            solution%creep = creep
+            call solve_once()
+            if (sum_g <= 0.0_wp .or. report%ended == ending%diverged) exit
+            force = [sum(solution%p(:, :, 1)), sum(solution%p(:, :, 2))]/sum_g
+            call forces%advance(force, any(solution%division == element%adhesion), creep)
+            call trace_forces()
+            if (forces%ended /= ending%not_started) exit
+         end do
+         if (forces%ended > ending%converged) report%ended = forces%ended
+         solution%sensitivity = 0.0_wp
+         solution%sensitivity(:forces%n, :forces%n) = forces%sensitivity(:forces%n, :forces%n)
+         if (forces%full_sliding) then
+            report%ended = ending%stagnated
+            call log%warning("full sliding; the prescribed tangential force cannot be reached")
+         end if
+      end if
+      report%residual = true_residual(problem, solution%p, solution%slip, r)
+      report%products = report%products + operator%products - products_before
+      if (with_rows) report%products = report%products + rows%products()
+      report%fft_pairs = report%fft_pairs + operator%fft_pairs() - pairs_before
+
+   contains
+
+      !> Is everything finite? Makes the estimate admissible
+      logical function clean_input() result(clean)
+         integer :: ix, iy
+         real(wp) :: length
+
+         clean = all(ieee_is_finite(problem%shift)) .and. all(ieee_is_finite(problem%bound)) &
+            & .and. all(ieee_is_finite(problem%target))
+         if (.not. all(ieee_is_finite(solution%creep))) solution%creep = 0.0_wp
+         if (.not. (clean .and. all(ieee_is_finite(solution%p)))) solution%p = 0.0_wp
+         do iy = 1, problem%my
+            do ix = 1, problem%mx
+               if (.not. problem%contact(ix, iy)) then
+                  solution%p(ix, iy, :) = 0.0_wp
+                  cycle
+               end if
+               length = hypot(solution%p(ix, iy, 1), solution%p(ix, iy, 2))
+               if (length > problem%bound(ix, iy)) &
+                  & solution%p(ix, iy, :) = solution%p(ix, iy, :)*(problem%bound(ix, iy)/length)
+            end do
+         end do
+         if (.not. clean) solution%slip = 0.0_wp
+      end function clean_input
+
+      !> Solve with the creepages of the solution
+      subroutine solve_once()
+         select case (method)
+         case (classical_method%tang_cg)
+            call mark_states()
+            call tang_cg(problem, operator, eps, solution%creep, solution%p, solution%division, report, log)
+         case (classical_method%steady_gs)
+            call rows%start(problem, solution%creep, solution%p)
+            call steady_gs(problem, rows, eps, report, log)
+            call rows%get_tractions(solution%p)
+         case (classical_method%gd_steady)
+            call mark_states()
+            call gd_steady(problem, operator, eps, solution%creep, solution%p, solution%division, report, log)
+            if (report%ended /= ending%converged) then
+               report%gave_up = method_name(method)
+               method = classical_method%steady_gs
+               report%method = method_name(method)
+               call log%trace(3, "      Tang: GDsteady does not converge, continuing with SteadyGS")
+               total = total + report%iterations
+               call rows%start(problem, solution%creep, solution%p)
+               call steady_gs(problem, rows, eps, report, log)
+               call rows%get_tractions(solution%p)
+            end if
+         case default
+            call rows%start(problem, solution%creep, solution%p)
+            call convex_gs(problem, rows, eps, report, log)
+            call rows%get_tractions(solution%p)
+         end select
+         total = total + report%iterations
+         if (general) then
+            call rows%get_slip(solution%slip)
+         else
+            call slip_of(problem, operator, solution%p, solution%creep, solution%slip)
+         end if
+         call divide_elements(problem, solution%p, solution%slip, r, solution%division)
+         if (log%shows(4)) then
+            write(text, '(4x, i4, a, 2i7)') 1, ", Tang: size of Adhes, Slip area :", &
+               & count(solution%division == element%adhesion), count(solution%division == element%slip)
+            call log%trace(4, trim(text))
+         end if
+      end subroutine solve_once
+
+      !> Element states of the estimate: slip where the bound is reached
+      subroutine mark_states()
+         solution%division = element%exterior
+         where (problem%contact) solution%division = element%adhesion
+         where (problem%contact .and. hypot(solution%p(:, :, 1), solution%p(:, :, 2)) &
+            & >= (1.0_wp - 1.0e-12_wp)*problem%bound) solution%division = element%slip
+      end subroutine mark_states
+
+      subroutine trace_forces()
+         if (.not. log%shows(4)) return
+         write(text, '(4x, i6, a, 2es15.6, a, i5)') forces%evaluations, ", NR_Fx,    Cksi, Fxk: ", &
+            & solution%creep(1), force(1), "   ItCG:", report%iterations
+         call log%trace(4, trim(text))
+         if (problem%n_forces < 2) return
+         write(text, '(4x, i6, a, 2es15.6)') forces%evaluations, ", NR_Fy,    Ceta, Fyk: ", &
+            & solution%creep(2), force(2)
+         call log%trace(4, trim(text))
+      end subroutine trace_forces
+   end subroutine solve_classical
+
+   !> The method asked for, or one that can do the problem
+   pure integer function suitable_method(problem, choice, general) result(method)
+      type(tangential_problem), intent(in) :: problem
+      integer, intent(in) :: choice
+      logical, intent(in) :: general
+
+      method = choice
+      if (problem%steady .and. choice == classical_method%tang_cg) method = classical_method%steady_gs
+      if (.not. problem%steady .and. (choice == classical_method%steady_gs &
+         & .or. choice == classical_method%gd_steady)) method = classical_method%tang_cg
+      if (general) method = classical_method%convex_gs
+   end function suitable_method
+end module contact_tangential_classical

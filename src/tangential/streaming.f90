@@ -1,0 +1,408 @@
+!> The problem as Gauss-Seidel methods see it: rows, ordered from trailing to leading edge
+!>
+!> Columns are numbered 1..mx from the trailing to the leading side, whatever the rolling
+!> direction: for rolling towards decreasing x all arrays are mirrored and x-components change
+!> sign, which makes both directions the same computation. Column 0 is an exterior column
+!> behind the window; it carries the increment -p(1) of an element at the trailing edge.
+!>
+!> The slip of a row by the loads of all rows takes one transform of length 2 mx per row: the
+!> rows' spectra are kept and renewed when a row was treated. Changes within the row are added
+!> directly, to the elements that are still to be visited. That gives the iterates of the
+!> classical methods at a cost per sweep of O(mx my (mx + my)) instead of O(mx**2 my**2).
+module contact_tangential_streaming
+   use contact_base_kinds, only : wp
+   use contact_elastic_halfspace, only : kernel_table
+   use contact_elastic_operator, only : elastic_operator
+   use contact_fft_plan, only : fft_plan, good_size
+   use contact_grid_element_division, only : element
+   use contact_tangential_element_problem, only : element_compliance
+   use contact_tangential_problem, only : tangential_problem
+   implicit none (type, external)
+   private
+
+   public :: streaming_rows, loads
+
+   type :: load_list
+      !> Displacements by the tractions themselves: A, or A - A' of a shifted table
+      integer :: tractions = 0
+      !> A - A' of a shift by one element: A on differences with the next element upstream
+      integer :: increments = 1
+   end type load_list
+   !> What the kernel is applied to
+   type(load_list), parameter :: loads = load_list()
+
+   !> A tangential problem with all creepages known, in streaming order
+   type :: streaming_rows
+      integer :: mx = 0, my = 0
+      !> Member of loads
+      integer :: load = 0
+      !> First and last column in contact per row; first > last if there is none
+      integer, allocatable :: first(:), last(:)
+      !> Number of elements in contact
+      integer :: n_contact = 0
+      !> Element states, shape (0:mx + 1, my)
+      integer, allocatable :: state(:, :)
+      !> Traction bound [N/mm2], shape (mx, my)
+      real(wp), allocatable :: bound(:, :)
+      !> Rigid slip per step [mm], shape (mx, 2, my)
+      real(wp), allocatable :: shift(:, :, :)
+      !> Tractions [N/mm2], shape (0:mx + 1, 2, my)
+      real(wp), allocatable :: p(:, :, :)
+      !> Increments p(i) - p(i + 1) [N/mm2], shape (0:mx, 2, my); in use with loads%increments
+      real(wp), allocatable :: dp(:, :, :)
+      !> Coefficients within a row, offset "receiving minus loaded", -mx:mx [mm/(N/mm2)]
+      real(wp), allocatable :: near_xx(:), near_yy(:), near_xy(:)
+      !> Rolling direction +1 or -1
+      integer :: direction = 1
+      !> Row products since the rows were made
+      integer, private :: row_products = 0
+      type(fft_plan), private :: plan
+      !> Spectra per distance of rows, shape (kx, 0:my - 1); xy: imaginary part
+      real(wp), allocatable, private :: axx(:, :), ayy(:, :), axy(:, :)
+      !> Spectra for a shifted table, shape (kx, 1 - my:my - 1); unallocated without
+      complex(wp), allocatable, private :: gxx(:, :), gyy(:, :), gxy(:, :)
+      !> Spectra of the loads, real and imaginary part, shape (kx, 2, my)
+      real(wp), allocatable, private :: load_re(:, :, :), load_im(:, :, :)
+      real(wp), allocatable, private :: sum_re(:, :), sum_im(:, :), field(:, :)
+      complex(wp), allocatable, private :: spectrum(:, :)
+      !> Where elements were loaded: rows without contact are passed over
+      logical, allocatable, private :: loaded(:)
+   contains
+      !> Kernels, geometry, bounds
+      procedure :: prepare
+      !> Rigid slip and tractions for given creepages
+      procedure :: start
+      !> Tell that the loads of a row have changed
+      procedure :: renew_row
+      !> Slip of a row by the loads of all rows [mm]
+      procedure :: row_slip
+      !> Compliance of an element when its landing element is some columns downstream
+      procedure :: landing_compliance
+      !> Compliance of an element on itself
+      procedure :: own_compliance
+      !> Tractions in window order
+      procedure :: get_tractions
+      !> Slip of all rows in window order
+      procedure :: get_slip
+      !> Full products that all row products so far amount to
+      procedure :: products
+   end type streaming_rows
+
+contains
+
+   subroutine prepare(self, problem, operator, shifted)
+      class(streaming_rows), intent(inout) :: self
+      type(tangential_problem), intent(in) :: problem
+      type(elastic_operator), intent(in) :: operator
+      !> Coefficients of the same particles at the previous moment, if that is not one element
+      type(kernel_table), intent(in), optional :: shifted
+      type(fft_plan) :: whole_period
+      integer :: ix, iy, jx, l, mx, my, px
+      real(wp) :: scale
+
+      mx = problem%mx
+      my = problem%my
+      self%mx = mx
+      self%my = my
+      self%direction = problem%direction
+      self%load = loads%tractions
+      if (problem%steady .and. .not. present(shifted)) self%load = loads%increments
+      self%row_products = 0
+      call reshape_rows(self, mx, my)
+      do iy = 1, my
+         self%first(iy) = mx + 1
+         self%last(iy) = 0
+         do ix = 1, mx
+            jx = window_column(self, ix)
+            self%state(ix, iy) = element%exterior
+            self%bound(ix, iy) = 0.0_wp
+            if (.not. problem%contact(jx, iy)) cycle
+            self%state(ix, iy) = element%adhesion
+            self%bound(ix, iy) = problem%bound(jx, iy)
+            self%first(iy) = min(self%first(iy), ix)
+            self%last(iy) = ix
+         end do
+      end do
+      self%n_contact = count(self%state /= element%exterior)
+
+      px = good_size(2*(mx + 1))
+      call self%plan%prepare(mx + 1, 1, px, 1)
+      call whole_period%prepare(px, 1, px, 1)
+      call allocate_spectra(self, present(shifted))
+      scale = 1.0_wp/px
+      do l = 0, my - 1
+         call row_spectrum(operator%table%xx(-mx:mx, l))
+         self%axx(:, l) = scale*real(self%spectrum(:, 1))
+         call row_spectrum(operator%table%yy(-mx:mx, l))
+         self%ayy(:, l) = scale*real(self%spectrum(:, 1))
+         call row_spectrum(operator%table%xy(-mx:mx, l))
+         self%axy(:, l) = scale*aimag(self%spectrum(:, 1))
+      end do
+      self%near_xx = operator%table%xx(-mx:mx, 0)
+      self%near_yy = operator%table%yy(-mx:mx, 0)
+      self%near_xy = operator%table%xy(-mx:mx, 0)
+      if (.not. present(shifted)) return
+
+      do l = 1 - my, my - 1
+         call row_spectrum(operator%table%xx(-mx:mx, l) - shifted%xx(-mx:mx, l), mirror=1.0_wp)
+         self%gxx(:, l) = scale*self%spectrum(:, 1)
+         call row_spectrum(operator%table%yy(-mx:mx, l) - shifted%yy(-mx:mx, l), mirror=1.0_wp)
+         self%gyy(:, l) = scale*self%spectrum(:, 1)
+         call row_spectrum(operator%table%xy(-mx:mx, l) - shifted%xy(-mx:mx, l), mirror=-1.0_wp)
+         self%gxy(:, l) = scale*self%spectrum(:, 1)
+      end do
+      self%near_xx = self%near_xx - shifted%xx(-mx:mx, 0)
+      self%near_yy = self%near_yy - shifted%yy(-mx:mx, 0)
+      self%near_xy = self%near_xy - shifted%xy(-mx:mx, 0)
+      if (self%direction < 0) then
+         self%near_xx = self%near_xx(mx:-mx:-1)
+         self%near_yy = self%near_yy(mx:-mx:-1)
+         self%near_xy = -self%near_xy(mx:-mx:-1)
+      end if
+
+   contains
+
+      !> Spectrum of the coefficients of one row distance; with mirror: turned around, with this
+      !> sign, for rolling towards decreasing x
+      subroutine row_spectrum(c, mirror)
+         real(wp), intent(in) :: c(-mx:mx)
+         real(wp), intent(in), optional :: mirror
+         real(wp) :: period(px, 1)
+         integer :: k
+
+         period = 0.0_wp
+         do k = -mx, mx
+            period(1 + modulo(k, px), 1) = c(k)
+         end do
+         if (present(mirror)) then
+            if (self%direction < 0) then
+               do k = -mx, mx
+                  period(1 + modulo(-k, px), 1) = mirror*c(k)
+               end do
+            end if
+         end if
+         call whole_period%forward(period, self%spectrum)
+      end subroutine row_spectrum
+   end subroutine prepare
+
+   !> Column of the window that belongs to a column in streaming order
+   elemental integer function window_column(self, ix) result(jx)
+      type(streaming_rows), intent(in) :: self
+      integer, intent(in) :: ix
+      jx = merge(ix, self%mx + 1 - ix, self%direction > 0)
+   end function window_column
+
+   subroutine reshape_rows(self, mx, my)
+      class(streaming_rows), intent(inout) :: self
+      integer, intent(in) :: mx, my
+
+      if (allocated(self%bound)) then
+         if (any(shape(self%bound) /= [mx, my])) deallocate(self%bound, self%first, self%last, &
+            & self%state, self%shift, self%p, self%dp, self%near_xx, self%near_yy, self%near_xy)
+      end if
+      if (.not. allocated(self%bound)) allocate(self%bound(mx, my), self%first(my), self%last(my), &
+         & self%state(0:mx + 1, my), self%shift(mx, 2, my), self%p(0:mx + 1, 2, my), &
+         & self%dp(0:mx, 2, my), self%near_xx(-mx:mx), self%near_yy(-mx:mx), self%near_xy(-mx:mx))
+      self%state = element%exterior
+      self%p = 0.0_wp
+      self%dp = 0.0_wp
+   end subroutine reshape_rows
+
+   subroutine allocate_spectra(self, general)
+      class(streaming_rows), intent(inout) :: self
+      logical, intent(in) :: general
+      integer :: kx
+
+      kx = self%plan%kx
+      if (allocated(self%axx)) deallocate(self%axx, self%ayy, self%axy, self%load_re, self%load_im, &
+         & self%sum_re, self%sum_im, self%field, self%spectrum, self%loaded)
+      if (allocated(self%gxx)) deallocate(self%gxx, self%gyy, self%gxy)
+      associate (my => self%my)
+         allocate(self%axx(kx, 0:my - 1), self%ayy(kx, 0:my - 1), self%axy(kx, 0:my - 1))
+         allocate(self%load_re(kx, 2, my), self%load_im(kx, 2, my), source=0.0_wp)
+         allocate(self%sum_re(kx, 2), self%sum_im(kx, 2), self%field(self%mx + 1, 1))
+         allocate(self%spectrum(kx, 1), self%loaded(my))
+         if (general) allocate(self%gxx(kx, 1 - my:my - 1), self%gyy(kx, 1 - my:my - 1), &
+            & self%gxy(kx, 1 - my:my - 1))
+      end associate
+      self%loaded = .false.
+   end subroutine allocate_spectra
+
+   !> Take over rigid slip (with the creepages) and tractions in window order
+   subroutine start(self, problem, creep, p)
+      class(streaming_rows), intent(inout) :: self
+      type(tangential_problem), intent(in) :: problem
+      real(wp), intent(in) :: creep(2)
+      !> Estimate of the tractions [N/mm2], shape (mx, my, 2), admissible
+      real(wp), intent(in) :: p(:, :, :)
+      integer :: ix, iy, jx, k
+      real(wp) :: sign_, extra
+
+      do iy = 1, self%my
+         do k = 1, 2
+            sign_ = merge(real(self%direction, wp), 1.0_wp, k == 1)
+            extra = 0.0_wp
+            if (k <= problem%n_forces) extra = problem%dq*creep(k)
+            do ix = 1, self%mx
+               jx = window_column(self, ix)
+               self%shift(ix, k, iy) = sign_*(problem%shift(jx, iy, k) + extra)
+               self%p(ix, k, iy) = 0.0_wp
+               if (self%state(ix, iy) /= element%exterior) self%p(ix, k, iy) = sign_*p(jx, iy, k)
+            end do
+            self%dp(0:self%mx, k, iy) = self%p(0:self%mx, k, iy) - self%p(1:self%mx + 1, k, iy)
+         end do
+         do ix = self%first(iy), self%last(iy)
+            if (self%state(ix, iy) == element%exterior) cycle
+            self%state(ix, iy) = element%adhesion
+            if (hypot(self%p(ix, 1, iy), self%p(ix, 2, iy)) >= (1.0_wp - 1.0e-12_wp)*self%bound(ix, iy)) &
+               & self%state(ix, iy) = element%slip
+         end do
+         call self%renew_row(iy)
+      end do
+   end subroutine start
+
+   subroutine renew_row(self, iy)
+      class(streaming_rows), intent(inout) :: self
+      integer, intent(in) :: iy
+      integer :: k
+
+      self%loaded(iy) = self%first(iy) <= self%last(iy)
+      if (.not. self%loaded(iy)) return
+      do k = 1, 2
+         if (self%load == loads%increments) then
+            self%field(:, 1) = self%dp(:, k, iy)
+         else
+            self%field(:, 1) = self%p(0:self%mx, k, iy)
+         end if
+         call self%plan%forward(self%field, self%spectrum)
+         self%load_re(:, k, iy) = real(self%spectrum(:, 1))
+         self%load_im(:, k, iy) = aimag(self%spectrum(:, 1))
+      end do
+   end subroutine renew_row
+
+   subroutine row_slip(self, iy, slip)
+      class(streaming_rows), intent(inout) :: self
+      integer, intent(in) :: iy
+      !> Slip per step [mm], shape (mx, 2)
+      real(wp), intent(out) :: slip(:, :)
+      integer :: l, k
+      real(wp) :: sign_
+
+      self%sum_re = 0.0_wp
+      self%sum_im = 0.0_wp
+      do l = 1, self%my
+         if (.not. self%loaded(l)) cycle
+         if (allocated(self%gxx)) then
+            call add_general(self%gxx(:, iy - l), self%gyy(:, iy - l), self%gxy(:, iy - l), &
+               & self%load_re(:, :, l), self%load_im(:, :, l), self%sum_re, self%sum_im)
+         else
+            ! the coefficients xy change sign with the distance of the rows
+            sign_ = sign(1.0_wp, real(iy - l, wp))
+            call add_even(self%axx(:, abs(iy - l)), self%ayy(:, abs(iy - l)), self%axy(:, abs(iy - l)), &
+               & sign_, self%load_re(:, :, l), self%load_im(:, :, l), self%sum_re, self%sum_im)
+         end if
+      end do
+      do k = 1, 2
+         self%spectrum(:, 1) = cmplx(self%sum_re(:, k), self%sum_im(:, k), wp)
+         call self%plan%backward(self%spectrum, self%field)
+         slip(:, k) = self%shift(:, k, iy) + self%field(2:, 1)
+      end do
+      self%row_products = self%row_products + 1
+   end subroutine row_slip
+
+   !> Add the displacements by one row to the sums; real spectra xx, yy, imaginary spectrum xy
+   pure subroutine add_even(axx, ayy, axy, sign_, re, im, sum_re, sum_im)
+      real(wp), contiguous, intent(in) :: axx(:), ayy(:), axy(:)
+      real(wp), intent(in) :: sign_
+      real(wp), contiguous, intent(in) :: re(:, :), im(:, :)
+      real(wp), contiguous, intent(inout) :: sum_re(:, :), sum_im(:, :)
+      integer :: k
+
+      do k = 1, size(axx)
+         sum_re(k, 1) = sum_re(k, 1) + axx(k)*re(k, 1) - sign_*axy(k)*im(k, 2)
+         sum_im(k, 1) = sum_im(k, 1) + axx(k)*im(k, 1) + sign_*axy(k)*re(k, 2)
+         sum_re(k, 2) = sum_re(k, 2) + ayy(k)*re(k, 2) - sign_*axy(k)*im(k, 1)
+         sum_im(k, 2) = sum_im(k, 2) + ayy(k)*im(k, 2) + sign_*axy(k)*re(k, 1)
+      end do
+   end subroutine add_even
+
+   !> The same for complex spectra
+   pure subroutine add_general(gxx, gyy, gxy, re, im, sum_re, sum_im)
+      complex(wp), contiguous, intent(in) :: gxx(:), gyy(:), gxy(:)
+      real(wp), contiguous, intent(in) :: re(:, :), im(:, :)
+      real(wp), contiguous, intent(inout) :: sum_re(:, :), sum_im(:, :)
+      complex(wp) :: a, b, u
+      integer :: k
+
+      do k = 1, size(gxx)
+         a = cmplx(re(k, 1), im(k, 1), wp)
+         b = cmplx(re(k, 2), im(k, 2), wp)
+         u = gxx(k)*a + gxy(k)*b
+         sum_re(k, 1) = sum_re(k, 1) + real(u)
+         sum_im(k, 1) = sum_im(k, 1) + aimag(u)
+         u = gxy(k)*a + gyy(k)*b
+         sum_re(k, 2) = sum_re(k, 2) + real(u)
+         sum_im(k, 2) = sum_im(k, 2) + aimag(u)
+      end do
+   end subroutine add_general
+
+   pure function landing_compliance(self, distance) result(c)
+      class(streaming_rows), intent(in) :: self
+      !> Columns between the element and the one where its change of traction ends, 1 or more
+      integer, intent(in) :: distance
+      type(element_compliance) :: c
+      c%xx = self%near_xx(0) - self%near_xx(distance)
+      c%yy = self%near_yy(0) - self%near_yy(distance)
+      c%xy = 0.0_wp
+   end function landing_compliance
+
+   pure function own_compliance(self) result(c)
+      class(streaming_rows), intent(in) :: self
+      type(element_compliance) :: c
+
+      if (self%load == loads%increments) then
+         c = self%landing_compliance(1)
+      else
+         c%xx = self%near_xx(0)
+         c%yy = self%near_yy(0)
+         c%xy = self%near_xy(0)
+      end if
+   end function own_compliance
+
+   pure subroutine get_tractions(self, p)
+      class(streaming_rows), intent(in) :: self
+      !> Tractions [N/mm2], shape (mx, my, 2)
+      real(wp), intent(inout) :: p(:, :, :)
+      integer :: ix, iy, jx
+
+      do iy = 1, self%my
+         do ix = 1, self%mx
+            jx = window_column(self, ix)
+            p(jx, iy, 1) = self%direction*self%p(ix, 1, iy)
+            p(jx, iy, 2) = self%p(ix, 2, iy)
+         end do
+      end do
+   end subroutine get_tractions
+
+   subroutine get_slip(self, slip)
+      class(streaming_rows), intent(inout) :: self
+      !> Slip per step [mm], shape (mx, my, 2)
+      real(wp), intent(inout) :: slip(:, :, :)
+      real(wp) :: row(self%mx, 2)
+      integer :: ix, iy, jx
+
+      do iy = 1, self%my
+         call self%row_slip(iy, row)
+         do ix = 1, self%mx
+            jx = window_column(self, ix)
+            slip(jx, iy, 1) = self%direction*row(ix, 1)
+            slip(jx, iy, 2) = row(ix, 2)
+         end do
+      end do
+   end subroutine get_slip
+
+   pure integer function products(self)
+      class(streaming_rows), intent(in) :: self
+      products = nint(real(self%row_products, wp)/max(1, count(self%first <= self%last)))
+   end function products
+end module contact_tangential_streaming

@@ -1,0 +1,79 @@
+!> When Gauss-Seidel sweeps end, and what they tell about it
+module contact_tangential_sweep
+   use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
+   use contact_base_kinds, only : wp
+   use contact_base_log, only : log_type
+   use contact_base_solve_report, only : ending
+   use contact_grid_element_division, only : element
+   implicit none (type, external)
+   private
+
+   public :: update_watch, trace_iteration
+
+   !> Follows the size of the updates of an iteration
+   type :: update_watch
+      !> Tolerance relative to the tractions
+      real(wp) :: eps = 1.0e-6_wp
+      !> Number of elements in contact and largest traction bound [N/mm2]
+      integer :: n_contact = 0
+      real(wp) :: largest_bound = 0.0_wp
+      !> First and last size of an update, size of the tractions [N/mm2], root mean squares
+      real(wp) :: first = 0.0_wp, dif = 0.0_wp, size = 0.0_wp
+      !> Number of updates so far
+      integer :: updates = 0
+   contains
+      !> Take note of an update; is the iteration over, and how?
+      procedure :: judge
+      !> Average rate of convergence
+      procedure :: rate
+   end type update_watch
+
+contains
+
+   !> ending%not_started while the iteration goes on
+   subroutine judge(self, square_dif, square_size, limit, ended)
+      class(update_watch), intent(inout) :: self
+      !> Sums of squares of the update and of the tractions
+      real(wp), intent(in) :: square_dif, square_size
+      !> Largest number of updates
+      integer, intent(in) :: limit
+      integer, intent(out) :: ended
+
+      ended = ending%diverged
+      if (.not. (ieee_is_finite(square_dif) .and. ieee_is_finite(square_size))) return
+      self%updates = self%updates + 1
+      self%dif = sqrt(square_dif/(2*max(1, self%n_contact)))
+      self%size = sqrt(square_size/(2*max(1, self%n_contact)))
+      if (self%updates == 1) self%first = self%dif
+      if (self%dif <= self%eps*max(1.0e-6_wp*min(1.0_wp, self%largest_bound), self%size)) then
+         ended = ending%converged
+      else if (self%updates >= limit) then
+         ended = ending%iteration_limit
+         if (self%rate() > 0.997_wp) ended = ending%stagnated
+         if (self%rate() > 1.0_wp) ended = ending%diverged
+      else
+         ended = ending%not_started
+      end if
+   end subroutine judge
+
+   pure real(wp) function rate(self)
+      class(update_watch), intent(in) :: self
+      rate = 0.0_wp
+      if (self%updates > 1 .and. self%first > 0.0_wp) rate = (self%dif/self%first)**(1.0_wp/(self%updates - 1))
+   end function rate
+
+   !> One line per iteration at flow-trace level 5
+   subroutine trace_iteration(log, watch, method, state)
+      type(log_type), intent(inout) :: log
+      type(update_watch), intent(in) :: watch
+      character(len=*), intent(in) :: method
+      !> Element states
+      integer, intent(in) :: state(:, :)
+      character(len=120) :: text
+
+      if (.not. log%shows(5)) return
+      write(text, '(i6, 3a, 2es12.4, a, 2i7)') watch%updates, ", ", method, ": |Pk-Pk-1|, Eps |Pk|:", &
+         & watch%dif, watch%eps*watch%size, ", A, S=", count(state == element%adhesion), count(state == element%slip)
+      call log%trace(5, trim(text))
+   end subroutine trace_iteration
+end module contact_tangential_sweep
