@@ -1,0 +1,113 @@
+!> Displacements of particles at the previous time: convolution with a shifted kernel
+!>
+!> The particle that is at x now was at x + (shift_x, shift_y) in the frame of the old tractions;
+!> the kernel is sampled at that point. It has no symmetry, so its spectra are complex.
+module contact_elastic_previous
+   use contact_base_kinds, only : wp
+   use contact_elastic_halfspace, only : fill_shifted_table, kernel_table
+   use contact_elastic_material, only : combined_material
+   use contact_fft_plan, only : fft_plan, good_size
+   implicit none (type, external)
+   private
+
+   public :: previous_operator
+
+   !> Spectra of a shifted kernel on a window; kept while nothing changes
+   type :: previous_operator
+      integer :: mx = 0, my = 0
+      real(wp) :: dx = 0.0_wp, dy = 0.0_wp, shift_x = 0.0_wp, shift_y = 0.0_wp
+      type(combined_material) :: material
+      integer :: transforms = 0
+      type(fft_plan), private :: plan
+      complex(wp), allocatable, private :: xx(:, :), yy(:, :), xy(:, :), xn(:, :), yn(:, :)
+      complex(wp), allocatable, private :: sx(:, :), sy(:, :), sn(:, :), s(:, :)
+   contains
+      !> Set window, material and shift
+      procedure :: prepare
+      !> Tangential displacements u_t' by all tractions
+      procedure :: tangential
+   end type previous_operator
+
+contains
+
+   subroutine prepare(self, material, dx, dy, mx, my, shift_x, shift_y)
+      class(previous_operator), intent(inout) :: self
+      type(combined_material), intent(in) :: material
+      !> Sides of the elements [mm]
+      real(wp), intent(in) :: dx, dy
+      !> Size of the window
+      integer, intent(in) :: mx, my
+      !> Displacement of the observation points [mm]
+      real(wp), intent(in) :: shift_x, shift_y
+      type(kernel_table) :: table
+
+      if (self%mx == mx .and. self%my == my .and. self%dx == dx .and. self%dy == dy .and. self%shift_x == shift_x &
+         & .and. self%shift_y == shift_y .and. self%material%gg == material%gg .and. self%material%nu == material%nu &
+         & .and. self%material%ak == material%ak) return
+      call self%plan%prepare(mx, my, good_size(2*mx), merge(1, good_size(2*my), my == 1))
+      call fill_shifted_table(table, material, dx, dy, self%plan%px/2, self%plan%py/2, shift_x, shift_y)
+      call spectrum_of(self%plan, table, table%xx, self%xx)
+      call spectrum_of(self%plan, table, table%yy, self%yy)
+      call spectrum_of(self%plan, table, table%xy, self%xy)
+      if (material%coupled()) then
+         call spectrum_of(self%plan, table, table%xn, self%xn)
+         call spectrum_of(self%plan, table, table%yn, self%yn)
+      end if
+      if (allocated(self%sx)) deallocate(self%sx, self%sy, self%sn, self%s)
+      allocate(self%sx, self%sy, self%sn, self%s, mold=self%xx)
+      self%mx = mx
+      self%my = my
+      self%dx = dx
+      self%dy = dy
+      self%shift_x = shift_x
+      self%shift_y = shift_y
+      self%material = material
+   end subroutine prepare
+
+   !> Spectrum of one shifted kernel, scaled for the back transform
+   subroutine spectrum_of(plan, table, kernel, spectrum)
+      type(fft_plan), intent(in) :: plan
+      type(kernel_table), intent(in) :: table
+      real(wp), intent(in) :: kernel(-table%nx:, -table%ny:)
+      complex(wp), allocatable, intent(inout) :: spectrum(:, :)
+      real(wp), allocatable :: period(:, :)
+      integer :: k, l, i, j
+
+      allocate(period(plan%px, plan%py))
+      do l = 1, plan%py
+         j = l - 1
+         if (j > plan%py/2) j = j - plan%py
+         do k = 1, plan%px
+            i = k - 1
+            if (i > plan%px/2) i = i - plan%px
+            period(k, l) = kernel(i, j)
+         end do
+      end do
+      if (allocated(spectrum)) deallocate(spectrum)
+      allocate(spectrum(plan%kx, plan%py))
+      call plan%kernel_spectrum(period, spectrum)
+      spectrum = spectrum/(real(plan%px, wp)*real(plan%py, wp))
+   end subroutine spectrum_of
+
+   subroutine tangential(self, px, py, pn, ux, uy)
+      class(previous_operator), intent(inout) :: self
+      !> Tractions [N/mm2], shape (mx, my)
+      real(wp), contiguous, intent(in) :: px(:, :), py(:, :), pn(:, :)
+      !> Displacement differences [mm], shape (mx, my)
+      real(wp), contiguous, intent(inout) :: ux(:, :), uy(:, :)
+
+      call self%plan%forward(px, self%sx)
+      call self%plan%forward(py, self%sy)
+      self%s = self%xx*self%sx + self%xy*self%sy
+      self%sy = self%xy*self%sx + self%yy*self%sy
+      self%transforms = self%transforms + 4
+      if (self%material%coupled()) then
+         call self%plan%forward(pn, self%sn)
+         self%s = self%s + self%xn*self%sn
+         self%sy = self%sy + self%yn*self%sn
+         self%transforms = self%transforms + 1
+      end if
+      call self%plan%backward(self%s, ux)
+      call self%plan%backward(self%sy, uy)
+   end subroutine tangential
+end module contact_elastic_previous

@@ -1,0 +1,72 @@
+!> One contact patch: what is asked, what is remembered from case to case
+module contact_patch_problem
+   use contact_base_kinds, only : wp
+   use contact_elastic_material, only : combined_material
+   use contact_grid_potential_contact, only : potential_contact
+   implicit none (type, external)
+   private
+
+   public :: patch_problem, patch_state, traction_fields
+
+   !> Everything that defines the problem of one step; constant from here on
+   type :: patch_problem
+      type(potential_contact) :: grid
+      type(combined_material) :: material
+      !> Undeformed distance [mm], shape (mx, my)
+      real(wp), allocatable :: h(:, :)
+      !> Given pressures [N/mm2], shape (mx, my); unallocated for the full solution
+      real(wp), allocatable :: given_pressure(:, :)
+      !> Estimate of the pressures [N/mm2] where the previous ones are not to be used; unallocated: none
+      real(wp), allocatable :: pressure_estimate(:, :)
+      !> Named choices, see contact_base_choices
+      integer :: motion = 0, estimate = 0, solver = 0
+      !> Is the normal force prescribed, or the approach?
+      logical :: force_prescribed = .true.
+      !> Normal force [N], approach [mm]
+      real(wp) :: fn = 0.0_wp, pen = 0.0_wp
+      !> Number of prescribed tangential forces (0, 1, 2) and the relative forces F/(mu Fn) [-]
+      integer :: n_forces = 0
+      real(wp) :: force(2) = 0.0_wp
+      !> Creepages [-] or shifts [mm]; spin [rad/mm] or rotation [rad]; spin centre [mm]
+      real(wp) :: creep(2) = 0.0_wp, spin = 0.0_wp, spin_centre(2) = 0.0_wp
+      !> Offset of the spin contribution in steps [-]
+      real(wp) :: spin_offset = 0.0_wp
+      !> Extra rigid slip per unit distance [-], shape (mx, my, 2); unallocated: none
+      real(wp), allocatable :: extra_slip(:, :, :)
+      !> Rolling direction [rad], step [mm], velocity [mm/s]
+      real(wp) :: chi = 0.0_wp, dq = 1.0_wp, veloc = 1.0_wp
+      !> Coefficient of friction [-]
+      real(wp) :: mu = 0.3_wp
+      !> Tolerance and iteration limits
+      real(wp) :: eps = 1.0e-5_wp
+      integer :: maxgs = 999, maxin = 20, maxnr = 25, maxout = 1
+      !> Relaxation from the input; only when given, otherwise chosen by the solver
+      logical :: relaxation_given = .false.
+      real(wp) :: omegah = 0.9_wp, omegas = 1.0_wp
+      !> Parameters of GDsteady
+      real(wp) :: fdecay = 0.9_wp, betath = 0.1_wp
+      integer :: kdowfb = 1
+      real(wp) :: d_ifc = 1.0_wp, d_lin = 1.0_wp, d_cns = 1.0_wp, d_slp = 1.0_wp, pow_s = 0.9_wp
+      !> Are displacements of exterior elements wanted?
+      logical :: want_exterior = .false.
+   end type patch_problem
+
+   !> Tractions and element states of one moment, on a window
+   type :: traction_fields
+      type(potential_contact) :: grid
+      integer, allocatable :: division(:, :)
+      real(wp), allocatable :: pn(:, :), px(:, :), py(:, :)
+      !> Approach [mm]
+      real(wp) :: pen = 0.0_wp
+   end type traction_fields
+
+   !> What the physics remembers from case to case
+   type :: patch_state
+      !> Has a case been solved?
+      logical :: started = .false.
+      !> Present and previous moment
+      type(traction_fields) :: now, before
+      !> Creepages found last [-]
+      real(wp) :: creep(2) = 0.0_wp
+   end type patch_state
+end module contact_patch_problem
