@@ -33,10 +33,10 @@ module contact_control_digits
       & "P", "B", "T", "N", "F", "S", "V", "L", "D", "C", "M", "Z", "E", "M2", "X", "H", "G", "I", "A", "O", "W", "R"]
 
    type(digit_row), parameter :: word1_rows(*) = [ &
-      & digit_row("P", 0, time_link%continue_all, .true., "continue: previous tractions in normal and tangential part"), &
-      & digit_row("P", 1, time_link%continue_normal, .true., "continue in the normal part, no previous shear tractions"), &
-      & digit_row("P", 2, time_link%initiate, .true., "initiation: no previous tractions"), &
-      & digit_row("P", 3, time_link%repeat_step, .true., "repeat the step: previous tractions of the case before"), &
+      & digit_row("P", 0, time_link%continue_all, .true., "new time step: the previous case gives the previous tractions"), &
+      & digit_row("P", 1, time_link%continue_normal, .true., "as 0 for the pressures; previous shear tractions are zero"), &
+      & digit_row("P", 2, time_link%initiate, .true., "new sequence: no previous tractions"), &
+      & digit_row("P", 3, time_link%repeat_step, .true., "new iteration: previous tractions stay as they are"), &
       & digit_row("B", 0, pressure_model%full, .true., "full solution of the normal problem"), &
       & digit_row("B", 1, pressure_model%thin_sheet, .false., "elastic thin sheet with a vertical flexibility"), &
       & digit_row("B", 2, pressure_model%elliptical, .true., "Hertzian: elliptical pressure and traction bound"), &
@@ -123,15 +123,15 @@ module contact_control_digits
       & digit_row("O", 5, 5, .true., "as 4, with a table of the elements in contact"), &
       & digit_row("O", 6, 6, .true., "as 4, with a table of all elements"), &
       & digit_row("W", 0, 0, .true., "no flow trace"), &
-      & digit_row("W", 1, 1, .true., "headings only"), &
-      & digit_row("W", 2, 2, .true., "trace of the outer iteration"), &
-      & digit_row("W", 3, 3, .true., "trace of the outer and force iterations"), &
-      & digit_row("W", 4, 4, .true., "as 3, with the iterations of the element division"), &
-      & digit_row("W", 5, 5, .true., "as 4, with the iterations of the solvers"), &
-      & digit_row("W", 6, 6, .true., "as 5, more detail"), &
-      & digit_row("W", 7, 7, .true., "as 6, more detail"), &
-      & digit_row("W", 8, 8, .true., "as 7, more detail"), &
-      & digit_row("W", 9, 9, .true., "all there is"), &
+      & digit_row("W", 1, 1, .true., "outer iteration"), &
+      & digit_row("W", 2, 2, .true., "as 1, with the iteration of slip velocity and friction"), &
+      & digit_row("W", 3, 3, .true., "as 2, with the normal and tangential algorithms"), &
+      & digit_row("W", 4, 4, .true., "as 3, with the Newton-Raphson iteration of forces"), &
+      & digit_row("W", 5, 5, .true., "as 4, with the tangential solvers"), &
+      & digit_row("W", 6, 6, .true., "as 5, with the normal solver"), &
+      & digit_row("W", 7, 7, .true., "as 6"), &
+      & digit_row("W", 8, 8, .true., "as 6"), &
+      & digit_row("W", 9, 9, .true., "full flow trace, with pictures of the element division"), &
       & digit_row("R", 0, 0, .true., "solve; the next case of this module follows"), &
       & digit_row("R", 1, 1, .true., "solve; a module line follows"), &
       & digit_row("R", 2, 2, .true., "store the input only; the next case of this module follows"), &

@@ -8,7 +8,7 @@ program test_reader3
    use contact_input_lexer, only : input_lexer
    use contact_input_problems, only : problem_list, problem_text, severity
    use contact_input_reader3, only : read_case3
-   use contact_test_harness, only : test_suite
+   use contact_test_harness, only : environment, test_suite
    implicit none (type, external)
    character, parameter :: nl = achar(10)
 
@@ -38,6 +38,7 @@ program test_reader3
    call unbuilt(suite)
    call collected(suite)
    call experiments(suite)
+   call manual_example(suite)
    call suite%finish()
 
 contains
@@ -822,6 +823,42 @@ contains
       call reader%next_case(this, error)
       call suite%check(this%spec%geometry%b(1) == 0.125_wp .and. .not. this%spec%new_geometry, "a replaced store")
    end subroutine replaced_store
+
+   !> The complete example of doc/user/input.md, its first piece between ``` lines
+   subroutine manual_example(suite)
+      type(test_suite), intent(inout) :: suite
+      type(experiment_reader) :: reader
+      type(input_case) :: this
+      type(error_type), allocatable :: error
+      character(len=:), allocatable :: folder, text
+      character(len=200) :: line
+      integer :: fences, status, unit
+
+      folder = environment("CONTACT_SOURCE")
+      if (len(folder) == 0) folder = "."
+      open(newunit=unit, file=folder // "/doc/user/input.md", status="old", action="read", iostat=status)
+      if (status /= 0) then
+         call suite%skip("example of the manual", "doc/user/input.md is not there")
+         return
+      end if
+      text = ""
+      fences = 0
+      do while (fences < 2)
+         read(unit, '(a)', iostat=status) line
+         if (status /= 0) exit
+         if (line(1:3) == "```") then
+            fences = fences + 1
+         else if (fences == 1) then
+            text = text // trim(line) // nl
+         end if
+      end do
+      close(unit)
+      call reader%open_text(text, "manual")
+      call reader%next_case(this, error)
+      call no_problem(suite, this%problems, error, "example of the manual")
+      call reader%next_case(this, error)
+      call suite%check(.not. allocated(error) .and. this%module_number == 0, "end of the example of the manual")
+   end subroutine manual_example
 
    !> At most a hundred result elements
    subroutine too_many_elements(suite)
