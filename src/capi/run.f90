@@ -1,0 +1,104 @@
+!> The C interface: an experiment run by a host program, see include/contact.h
+module contact_capi_run
+   use, intrinsic :: iso_c_binding, only : c_associated, c_char, c_f_pointer, c_int, c_null_char, c_ptr, c_size_t
+   use contact_base_error, only : error_type, fatal_error, full_text
+   use contact_experiment_run, only : run_experiment, run_settings
+   implicit none (type, external)
+   private
+
+   public :: contact_run
+
+   !> What a host may ask for, as in the header
+   integer(c_int), parameter :: mode_run = 2, mode_check = 3
+   !> Failures by their cause start here, so that 1 stays free for a wrong call
+   integer(c_int), parameter :: wrong_call = 1, first_failure = 10
+
+   interface
+      !> Length of a null-terminated text
+      function c_strlen(text) result(length) bind(c, name="strlen")
+         import :: c_ptr, c_size_t
+         type(c_ptr), value :: text
+         integer(c_size_t) :: length
+      end function c_strlen
+   end interface
+
+contains
+
+   !> Run or check one experiment silently
+   !>
+   !> 0 is success, 1 a call with unusable arguments, 10 and above a failure by its error_kind.
+   function contact_run(experiment, mode, output_dir, threads, message, message_length) result(status) &
+      & bind(c, name="contact_run")
+      !> Path of the experiment, null-terminated
+      type(c_ptr), value :: experiment
+      integer(c_int), value :: mode
+      !> Folder of the results, null-terminated; null or empty for that of the input
+      type(c_ptr), value :: output_dir
+      !> Number of threads, 0 for the default
+      integer(c_int), value :: threads
+      !> Buffer of the reason of a failure, null if not wanted, and its size
+      type(c_ptr), value :: message
+      integer(c_int), value :: message_length
+      integer(c_int) :: status
+      type(run_settings) :: settings
+      type(error_type), allocatable :: error
+
+      settings%experiment = text_of(experiment)
+      settings%output_folder = text_of(output_dir)
+      settings%check_only = mode == mode_check
+      settings%threads = int(threads)
+      if (len_trim(settings%experiment) == 0) then
+         call fatal_error(error, "contact_run: the name of the experiment is missing")
+      else if (mode /= mode_run .and. mode /= mode_check) then
+         call fatal_error(error, "contact_run: the mode is neither CONTACT_RUN nor CONTACT_CHECK")
+      else if (threads < 0) then
+         call fatal_error(error, "contact_run: the number of threads is negative")
+      end if
+      status = 0
+      if (allocated(error)) then
+         status = wrong_call
+      else
+         call run_experiment(settings, error)
+         if (allocated(error)) status = first_failure + int(error%kind, c_int)
+      end if
+      if (allocated(error)) then
+         call give_message(full_text(error), message, message_length)
+      else
+         call give_message("", message, message_length)
+      end if
+   end function contact_run
+
+   !> A null-terminated text as a Fortran one, "" for a null pointer
+   function text_of(pointer) result(text)
+      type(c_ptr), intent(in) :: pointer
+      character(len=:), allocatable :: text
+      character(kind=c_char), pointer :: letters(:)
+      integer :: i
+
+      text = ""
+      if (.not. c_associated(pointer)) return
+      call c_f_pointer(pointer, letters, [c_strlen(pointer)])
+      text = repeat(" ", size(letters))
+      do i = 1, size(letters)
+         text(i:i) = letters(i)
+      end do
+   end function text_of
+
+   !> Copy a text into the buffer of the caller, cut to fit and null-terminated
+   subroutine give_message(text, buffer, length)
+      character(len=*), intent(in) :: text
+      type(c_ptr), intent(in) :: buffer
+      !> Size of the buffer, the final null included
+      integer(c_int), intent(in) :: length
+      character(kind=c_char), pointer :: letters(:)
+      integer :: i, n
+
+      if (.not. c_associated(buffer) .or. length < 1) return
+      call c_f_pointer(buffer, letters, [length])
+      n = min(len(text), int(length) - 1)
+      do i = 1, n
+         letters(i) = text(i:i)
+      end do
+      letters(n + 1) = c_null_char
+   end subroutine give_message
+end module contact_capi_run

@@ -1,0 +1,309 @@
+!> The command line: what was typed, what is asked for when something is missing, what to do
+module contact_cli_arguments
+   use, intrinsic :: iso_fortran_env, only : error_unit, input_unit, output_unit
+   use contact_base_error, only : error_type, fatal_error
+   use contact_cli_versions, only : contact_version, version_text
+   use contact_experiment_progress, only : is_terminal
+   use contact_experiment_run, only : run_experiment, run_settings
+   implicit none (type, external)
+   private
+
+   public :: run_command_line
+
+   type :: mode_list
+      !> Licence management, of which nothing is left
+      integer :: licence = 1
+      !> Read, compute, write results
+      integer :: compute = 2
+      !> Read and check only
+      integer :: check = 3
+   end type mode_list
+   !> Names of the modes
+   type(mode_list), parameter :: mode = mode_list()
+
+   !> Exit statuses
+   integer, parameter :: success = 0, failure = 1
+   !> Name of the experiment when the answer to the question for it is empty
+   character(len=*), parameter :: default_experiment = "contact"
+   !> Longest answer
+   integer, parameter :: longest_answer = 4096
+   !> Largest number of threads that can be asked for
+   integer, parameter :: most_threads = 4096
+   character(len=*), parameter :: usage = "Usage: contact [options] [IMODE [EXPNAM]], see contact --help"
+
+   !> What the command line said
+   type :: command
+      !> Mode, 0 when not given
+      integer :: mode = 0
+      !> Name of the experiment; unallocated when not given
+      character(len=:), allocatable :: experiment
+      !> Folder of the results; unallocated when not given
+      character(len=:), allocatable :: output_folder
+      !> Number of threads, 0 when not given
+      integer :: threads = 0
+      logical :: quiet = .false., help = .false., version = .false.
+   end type command
+
+contains
+
+   !> Do what the command line says; the result is the exit status
+   integer function run_command_line() result(status)
+      type(command) :: asked
+      type(error_type), allocatable :: error
+
+      status = success
+      call read_arguments(asked, error)
+      if (.not. allocated(error)) then
+         if (asked%help) then
+            call write_help()
+            return
+         else if (asked%version) then
+            write(output_unit, '(a)') version_text()
+            return
+         end if
+         if (asked%mode == 0) call ask_mode(asked, error)
+      end if
+      if (.not. allocated(error)) then
+         if (asked%mode == mode%licence) then
+            write(output_unit, '(a)') "CONTACT is open source: no licence is needed, and mode 1 has nothing to do."
+            return
+         end if
+         if (.not. allocated(asked%experiment)) call ask_experiment(asked, error)
+      end if
+      if (allocated(error)) then
+         flush(output_unit)
+         write(error_unit, '(a)') "contact: " // error%message, usage
+         status = failure
+         return
+      end if
+      call run(asked, status)
+   end function run_command_line
+
+   !> Run the experiment; errors have been written when this returns
+   subroutine run(asked, status)
+      type(command), intent(in) :: asked
+      !> Exit status
+      integer, intent(out) :: status
+      type(run_settings) :: settings
+      type(error_type), allocatable :: error
+
+      settings%experiment = asked%experiment
+      if (allocated(asked%output_folder)) settings%output_folder = asked%output_folder
+      settings%version = contact_version
+      settings%check_only = asked%mode == mode%check
+      settings%threads = asked%threads
+      if (.not. asked%quiet) then
+         settings%screen = output_unit
+         settings%progress = is_terminal()
+      end if
+      settings%complaints = error_unit
+      call run_experiment(settings, error)
+      status = merge(failure, success, allocated(error))
+   end subroutine run
+
+   !> Sort the words of the command line into options and positional arguments
+   subroutine read_arguments(asked, error)
+      type(command), intent(out) :: asked
+      type(error_type), allocatable, intent(out) :: error
+      character(len=:), allocatable :: word
+      integer :: k, position
+      logical :: options
+
+      options = .true.
+      position = 0
+      k = 0
+      do while (k < command_argument_count())
+         k = k + 1
+         word = argument(k)
+         if (options .and. word == "--") then
+            options = .false.
+         else if (options .and. index(word, "-") == 1) then
+            call take_option(asked, word, k, error)
+         else
+            position = position + 1
+            if (position == 1) then
+               call take_mode(asked, word, error)
+            else if (position == 2 .and. len_trim(word) > 0) then
+               asked%experiment = word
+            end if
+         end if
+         if (allocated(error)) return
+      end do
+   end subroutine read_arguments
+
+   !> An option, and its value if it has one
+   subroutine take_option(asked, word, k, error)
+      type(command), intent(inout) :: asked
+      !> The word; a value may follow after an equals sign
+      character(len=*), intent(in) :: word
+      !> Number of the word; on return that of the last one used
+      integer, intent(inout) :: k
+      type(error_type), allocatable, intent(out) :: error
+      character(len=:), allocatable :: name, value
+      integer :: equals
+
+      equals = index(word, "=")
+      name = word
+      if (equals > 0) name = word(:equals - 1)
+      select case (name)
+      case ("--help", "-h")
+         asked%help = .true.
+      case ("--version")
+         asked%version = .true.
+      case ("--quiet")
+         asked%quiet = .true.
+      case ("--output-dir")
+         call take_value("the name of a folder")
+         if (.not. allocated(error)) asked%output_folder = value
+         return
+      case ("--threads")
+         call take_value("a number of threads")
+         if (allocated(error)) return
+         asked%threads = to_number(value)
+         if (asked%threads < 1 .or. asked%threads > most_threads) call fatal_error(error, &
+            & "the number of threads, '" // value // "', is not an integer from 1 to 4096")
+         return
+      case default
+         call fatal_error(error, "there is no option '" // name // &
+            & "'; the options are --help, --version, --output-dir DIR, --threads N and --quiet")
+         return
+      end select
+      if (equals > 0) call fatal_error(error, "the option " // name // " takes no value")
+
+   contains
+
+      !> The value of the option: after the equals sign, or the next word
+      subroutine take_value(what)
+         character(len=*), intent(in) :: what
+
+         value = ""
+         if (equals > 0) then
+            value = word(equals + 1:)
+         else if (k < command_argument_count()) then
+            k = k + 1
+            value = argument(k)
+         end if
+         if (len_trim(value) == 0) call fatal_error(error, "the option " // name // " needs " // what)
+      end subroutine take_value
+   end subroutine take_option
+
+   !> The mode, from the first positional argument
+   subroutine take_mode(asked, word, error)
+      type(command), intent(inout) :: asked
+      character(len=*), intent(in) :: word
+      type(error_type), allocatable, intent(out) :: error
+
+      asked%mode = to_number(word)
+      if (is_mode(asked%mode)) return
+      call fatal_error(error, "the first argument, '" // word // "', is not a mode; the modes are 1, 2 and 3")
+   end subroutine take_mode
+
+   !> Is there such a mode?
+   pure logical function is_mode(number)
+      integer, intent(in) :: number
+      is_mode = number == mode%licence .or. number == mode%compute .or. number == mode%check
+   end function is_mode
+
+   !> Show the modes and ask until one is chosen
+   subroutine ask_mode(asked, error)
+      type(command), intent(inout) :: asked
+      type(error_type), allocatable, intent(out) :: error
+      character(len=:), allocatable :: answer
+
+      write(output_unit, '(a)') "What shall be done?", &
+         & "  1  licence management (not needed)", &
+         & "  2  read EXPNAM.inp, compute, write the results", &
+         & "  3  read and check EXPNAM.inp"
+      do
+         call ask("Mode (1, 2 or 3): ", answer, error)
+         if (allocated(error)) return
+         asked%mode = to_number(answer)
+         if (is_mode(asked%mode)) return
+      end do
+   end subroutine ask_mode
+
+   !> Ask for the name of the experiment
+   subroutine ask_experiment(asked, error)
+      type(command), intent(inout) :: asked
+      type(error_type), allocatable, intent(out) :: error
+
+      call ask("Name of the experiment (empty for '" // default_experiment // "'): ", asked%experiment, error)
+      if (allocated(error)) return
+      if (len_trim(asked%experiment) == 0) asked%experiment = default_experiment
+   end subroutine ask_experiment
+
+   !> One question and its answer; the end of the input is an error
+   subroutine ask(question, answer, error)
+      character(len=*), intent(in) :: question
+      character(len=:), allocatable, intent(out) :: answer
+      type(error_type), allocatable, intent(out) :: error
+      character(len=longest_answer) :: line
+      integer :: status
+
+      write(output_unit, '(a)', advance="no") question
+      flush(output_unit)
+      read(input_unit, '(a)', iostat=status) line
+      if (status == 0) then
+         answer = without_carriage_return(trim(adjustl(line)))
+      else
+         answer = ""
+         write(output_unit, '(a)') ""
+         call fatal_error(error, "the input ended where an answer was expected")
+      end if
+   end subroutine ask
+
+   !> A line without the carriage return of foreign line ends
+   pure function without_carriage_return(line) result(text)
+      character(len=*), intent(in) :: line
+      character(len=:), allocatable :: text
+
+      text = line
+      if (len(line) == 0) return
+      if (line(len(line):) == achar(13)) text = trim(line(:len(line) - 1))
+   end function without_carriage_return
+
+   !> An unsigned integer, -1 when the word is none
+   pure integer function to_number(word) result(number)
+      character(len=*), intent(in) :: word
+      integer :: status
+
+      number = -1
+      if (len_trim(word) == 0 .or. verify(trim(word), "0123456789") /= 0) return
+      read(word, *, iostat=status) number
+      if (status /= 0) number = -1
+   end function to_number
+
+   !> A word of the command line
+   function argument(k) result(word)
+      integer, intent(in) :: k
+      character(len=:), allocatable :: word
+      integer :: length
+
+      call get_command_argument(k, length=length)
+      allocate(character(len=length) :: word)
+      if (length > 0) call get_command_argument(k, word)
+   end function argument
+
+   !> Answer to --help
+   subroutine write_help()
+      write(output_unit, '(a)') &
+         & "Usage: contact [options] [IMODE [EXPNAM]]", &
+         & "", &
+         & "Rolling and sliding contact with friction.", &
+         & "", &
+         & "IMODE   1  licence management (none is needed)", &
+         & "        2  read EXPNAM.inp, compute, write EXPNAM.out and other results", &
+         & "        3  read and check EXPNAM.inp, compute nothing", &
+         & "EXPNAM  name of the experiment, with a folder if need be, without or with .inp", &
+         & "What is missing is asked for.", &
+         & "", &
+         & "Options", &
+         & "  --output-dir DIR  write the results to this folder instead of that of the input", &
+         & "  --threads N       number of threads; default is OMP_NUM_THREADS or all processors", &
+         & "  --quiet           write nothing but errors to the screen", &
+         & "  --help            this text", &
+         & "  --version         versions of program, compiler and libraries", &
+         & "", &
+         & "The exit status is 0 when all went well, and 1 after any error."
+   end subroutine write_help
+end module contact_cli_arguments

@@ -1,0 +1,111 @@
+!> One line on a terminal that tells how far a run is
+!>
+!> It stands on the standard error stream, is overwritten in place, and never goes into a pipe or file.
+module contact_experiment_progress
+   use, intrinsic :: iso_c_binding, only : c_int
+   use, intrinsic :: iso_fortran_env, only : error_unit
+   use contact_base_kinds, only : wp
+   use contact_experiment_stopwatch, only : wall_clock
+   implicit none (type, external)
+   private
+
+   public :: progress_line, is_terminal, progress_text
+
+   !> Runs of fewer cases have no such line
+   integer, parameter :: many_cases = 10
+   !> The line is not rewritten more often than this [s]
+   real(wp), parameter :: pause_between = 0.2_wp
+   !> File descriptor of the standard error stream
+   integer(c_int), parameter :: standard_error = 2
+   character(len=*), parameter :: carriage_return = achar(13), clear_to_end = achar(27) // "[K"
+
+   !> The line and what it shows
+   type :: progress_line
+      !> Number of cases of the run; 0 when no line is shown
+      integer :: total = 0
+      !> Is it on the terminal now?
+      logical, private :: visible = .false.
+      !> Times of the start of the run and of the last change [s]
+      real(wp), private :: started = 0.0_wp, changed = 0.0_wp
+   contains
+      procedure :: begin
+      procedure :: show
+      procedure :: hide
+   end type progress_line
+
+   interface
+      !> POSIX: 1 when the file descriptor belongs to a terminal
+      function c_isatty(descriptor) result(answer) bind(c, name="isatty")
+         import :: c_int
+         integer(c_int), value :: descriptor
+         integer(c_int) :: answer
+      end function c_isatty
+   end interface
+
+contains
+
+   !> Does the standard error stream go to a terminal?
+   logical function is_terminal()
+      is_terminal = c_isatty(standard_error) == 1_c_int
+   end function is_terminal
+
+   !> Take the number of cases and start the clock
+   subroutine begin(self, total)
+      class(progress_line), intent(inout) :: self
+      integer, intent(in) :: total
+
+      self%total = merge(total, 0, total >= many_cases)
+      self%started = wall_clock()
+      self%changed = self%started
+   end subroutine begin
+
+   !> Tell how many cases are done; the cursor stays at the start of the line
+   subroutine show(self, done)
+      class(progress_line), intent(inout) :: self
+      integer, intent(in) :: done
+      real(wp) :: now
+
+      if (self%total == 0) return
+      now = wall_clock()
+      if (now - self%changed < pause_between) return
+      self%changed = now
+      self%visible = .true.
+      write(error_unit, '(a)', advance="no") carriage_return // progress_text(done, self%total, now - self%started) // &
+         & clear_to_end // carriage_return
+      flush(error_unit)
+   end subroutine show
+
+   !> Clear the line before something else is written
+   subroutine hide(self)
+      class(progress_line), intent(inout) :: self
+
+      if (.not. self%visible) return
+      self%visible = .false.
+      write(error_unit, '(a)', advance="no") carriage_return // clear_to_end
+      flush(error_unit)
+   end subroutine hide
+
+   !> " case 12 of 171, 1:05 left"
+   pure function progress_text(done, total, elapsed) result(text)
+      integer, intent(in) :: done, total
+      !> Time that the cases have taken so far [s]
+      real(wp), intent(in) :: elapsed
+      character(len=:), allocatable :: text
+      character(len=80) :: line
+      integer :: seconds
+
+      if (done < 1) then
+         write(line, '(" case ", i0, " of ", i0)') min(done + 1, total), total
+      else
+         seconds = nint(min(elapsed*real(total - done, wp)/real(done, wp), 3.0e7_wp))
+         if (seconds >= 3600) then
+            write(line, '(" case ", i0, " of ", i0, ", ", i0, ":", i2.2, ":", i2.2, " left")') min(done + 1, total), total, &
+               & seconds/3600, mod(seconds, 3600)/60, mod(seconds, 60)
+         else
+            write(line, '(" case ", i0, " of ", i0, ", ", i0, ":", i2.2, " left")') min(done + 1, total), total, &
+               & seconds/60, mod(seconds, 60)
+         end if
+      end if
+      text = trim(line)
+   end function progress_text
+end module contact_experiment_progress

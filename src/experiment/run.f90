@@ -1,0 +1,405 @@
+!> One experiment from its input file to its result files
+!>
+!> Cases are read, solved and written one after the other. Every result element and contact patch has
+!> a session and a result of its own, which live until the end of the run, so that arrays are reused.
+!>
+!> What an error does: a file that cannot be understood, a wrong value and a choice that is not built
+!> end the run before that case is computed. A case that cannot be solved and a .mat or .subs file that
+!> cannot be written are reported, and the run goes on. After any of them the run counts as failed.
+module contact_experiment_run
+   use omp_lib, only : omp_get_max_threads, omp_set_num_threads
+   use contact_base_error, only : add_context, error_kind, error_type, fatal_error, full_text
+   use contact_base_log, only : log_type
+   use contact_cases_session, only : contact_session, solve_case
+   use contact_cases_spec, only : case_spec
+   use contact_experiment_place, only : experiment_place, locate_experiment
+   use contact_experiment_progress, only : is_terminal, progress_line
+   use contact_experiment_stopwatch, only : stopwatch
+   use contact_input_experiment_file, only : case_failure, experiment_reader, input_case
+   use contact_input_problems, only : problem_text, severity
+   use contact_input_words, only : integer_text
+   use contact_output_mat_file, only : mat_file_name, write_mat_file
+   use contact_output_report, only : timer_line, write_banner, write_case, write_case_line, write_closing, write_end, &
+      & write_subsurface
+   use contact_output_subs_file, only : subs_file_name, write_subs_file
+   use contact_patch_result, only : patch_result
+   implicit none (type, external)
+   private
+
+   public :: run_experiment, run_settings
+
+   !> What is to be run and where messages go
+   type :: run_settings
+      !> Name of the experiment, with or without folder and suffix .inp
+      character(len=:), allocatable :: experiment
+      !> Folder of the results; unallocated or "" for the folder of the input
+      character(len=:), allocatable :: output_folder
+      !> Version for the banner; unallocated to leave it out
+      character(len=:), allocatable :: version
+      !> Only read and check the cases? Then no file is written
+      logical :: check_only = .false.
+      !> Number of threads, 0 for the default
+      integer :: threads = 0
+      !> Unit for the log on the screen, 0 for none
+      integer :: screen = 0
+      !> Unit for errors, 0 for none
+      integer :: complaints = 0
+      !> May a progress line be shown on the terminal?
+      logical :: progress = .false.
+   end type run_settings
+
+   !> The problem of one result element and contact patch
+   type :: problem_slot
+      integer :: reid = 0, cpid = 1
+      type(contact_session), allocatable :: session
+      type(patch_result), allocatable :: result
+   end type problem_slot
+
+   !> Everything that a run keeps from case to case
+   type :: experiment_state
+      type(experiment_place) :: place
+      type(experiment_reader) :: reader
+      type(log_type) :: log
+      type(progress_line) :: progress
+      !> Slots 1...used are in use
+      integer :: used = 0
+      type(problem_slot), allocatable :: slots(:)
+      !> Unit for errors, 0 for none
+      integer :: complaints = 0
+      !> Numbers of cases read, of cases that did not reach their tolerance, of errors
+      integer :: cases = 0, unconverged = 0, errors = 0
+      !> The first error; unallocated when there was none
+      type(error_type), allocatable :: first_error
+      type(stopwatch) :: total, reading, solving, writing
+   end type experiment_state
+
+contains
+
+   !> Run or check one experiment; the error is the first of all that were met
+   subroutine run_experiment(settings, error)
+      type(run_settings), intent(in) :: settings
+      type(error_type), allocatable, intent(out) :: error
+      type(experiment_state) :: state
+      integer :: default_threads
+
+      default_threads = omp_get_max_threads()
+      if (settings%threads > 0) call omp_set_num_threads(settings%threads)
+      state%log%screen = settings%screen
+      state%complaints = settings%complaints
+      if (allocated(settings%output_folder)) then
+         state%place = locate_experiment(settings%experiment, settings%output_folder)
+      else
+         state%place = locate_experiment(settings%experiment, "")
+      end if
+      if (state%place%shortened) call state%log%line(" The suffix .inp is taken off, the experiment is '" // &
+         & state%place%name // "'")
+
+      call check_place(state, error)
+      if (.not. allocated(error)) call state%reader%open_file(state%place%input, error)
+      if (allocated(error)) then
+         call report_error(state, error)
+      else if (settings%check_only) then
+         call check_all_cases(state)
+      else
+         call compute_all_cases(state, settings)
+      end if
+      call omp_set_num_threads(default_threads)
+      call move_alloc(state%first_error, error)
+      if (state%errors > 1) call add_context(error, "first of " // integer_text(state%errors) // " errors")
+   end subroutine run_experiment
+
+   !> A name must be left after the folder and the suffix
+   subroutine check_place(state, error)
+      type(experiment_state), intent(in) :: state
+      type(error_type), allocatable, intent(out) :: error
+
+      if (len_trim(state%place%name) > 0) return
+      call fatal_error(error, "'" // state%place%folder // "' names no experiment; expected is a name such as folder/name", &
+         & error_kind%file)
+   end subroutine check_place
+
+   !> Read the cases to the end and tell everything that is wrong with them
+   subroutine check_all_cases(state)
+      type(experiment_state), intent(inout) :: state
+      type(error_type), allocatable :: error
+      type(input_case) :: this
+      integer :: faulty
+
+      faulty = 0
+      do
+         call state%reader%next_case(this, error)
+         if (allocated(error)) then
+            call report_error(state, error)
+            faulty = faulty + 1
+            exit
+         end if
+         if (this%module_number == 0) exit
+         state%cases = state%cases + 1
+         call report_problems(state, this)
+         if (.not. this%problems%is_usable()) faulty = faulty + 1
+      end do
+      if (faulty == 0) then
+         call state%log%line(" " // state%place%input // ": " // integer_text(state%cases) // " cases checked, no errors, " // &
+            & integer_text(state%log%warnings) // " warnings")
+      else
+         call state%log%line(" " // state%place%input // ": " // integer_text(state%cases) // " cases checked, " // &
+            & integer_text(state%errors) // " errors, " // integer_text(state%log%warnings) // " warnings")
+      end if
+   end subroutine check_all_cases
+
+   !> Solve the cases one after the other and write the results
+   subroutine compute_all_cases(state, settings)
+      type(experiment_state), intent(inout) :: state
+      type(run_settings), intent(in) :: settings
+      type(error_type), allocatable :: error
+      type(input_case) :: this
+      logical :: go_on
+      integer :: status
+
+      call state%total%start()
+      call open_out_file(state, error)
+      if (allocated(error)) then
+         call report_error(state, error)
+         return
+      end if
+      call write_banner(state%log, settings%version)
+      if (settings%progress) call state%progress%begin(number_of_cases(state%place%input))
+      allocate(state%slots(4))
+      do
+         call state%reading%start()
+         call state%reader%next_case(this, error)
+         call state%reading%halt()
+         if (allocated(error)) then
+            call report_error(state, error)
+            exit
+         end if
+         if (this%module_number == 0) exit
+         state%cases = state%cases + 1
+         call compute_case(state, this, go_on)
+         flush(state%log%out, iostat=status)
+         if (.not. go_on) exit
+         if (settings%screen == 0 .or. this%spec%flow_level == 0) call state%progress%show(state%cases)
+      end do
+      call state%progress%hide()
+      call close_out_file(state)
+      call free_slots(state)
+   end subroutine compute_all_cases
+
+   !> Check, solve and write one case
+   subroutine compute_case(state, this, go_on)
+      type(experiment_state), intent(inout) :: state
+      type(input_case), intent(in) :: this
+      !> Can the next case be read?
+      logical, intent(out) :: go_on
+      type(error_type), allocatable :: error
+      integer :: k
+
+      if (state%log%screen /= 0) call state%progress%hide()
+      call write_case_line(state%log, this%number, this%reid)
+      call report_problems(state, this)
+      go_on = this%problems%is_usable()
+      if (.not. go_on) then
+         call case_failure(this, error)
+         call state%log%line(" The run ends at case " // integer_text(this%number) // ", line " // &
+            & integer_text(this%first_line) // ": its input cannot be used.")
+         return
+      end if
+
+      call find_slot(state, this%reid, this%cpid, k)
+      associate (slot => state%slots(k))
+         call state%solving%start()
+         state%log%level = this%spec%flow_level
+         call solve_case(slot%session, this%spec, state%log, slot%result, error)
+         call state%solving%halt()
+         if (allocated(error)) then
+            call add_context(error, "case " // integer_text(this%number))
+            if (this%reid > 0) call add_context(error, "result element " // integer_text(this%reid))
+            call report_error(state, error)
+         else if (this%spec%solve) then
+            if (.not. (slot%result%normal%succeeded() .and. slot%result%tangential%succeeded())) &
+               & state%unconverged = state%unconverged + 1
+            call state%writing%start()
+            call write_results(state, this, slot%result)
+            call state%writing%halt()
+         end if
+      end associate
+   end subroutine compute_case
+
+   !> Report, .mat and .subs file of a solved case
+   subroutine write_results(state, this, result)
+      type(experiment_state), intent(inout) :: state
+      type(input_case), intent(in) :: this
+      type(patch_result), intent(in) :: result
+      type(error_type), allocatable :: error
+
+      call write_case(state%log, this%spec, result)
+      if (this%spec%mat_file >= 1) then
+         call write_mat_file(mat_file_name(state%place%results, this%number, this%reid), this%spec, result, error)
+         if (allocated(error)) call report_error(state, error)
+      end if
+      if (this%spec%digits%s < 1 .or. .not. allocated(result%subsurface)) return
+      call write_subsurface(state%log, this%spec, result)
+      if (this%spec%subsurface%matfil >= 1) then
+         call write_subs_file(subs_file_name(state%place%results, this%number, this%reid), this%spec, result, error)
+         if (allocated(error)) call report_error(state, error)
+      end if
+   end subroutine write_results
+
+   !> Index of the slot of a result element and patch, which is made when it is new
+   subroutine find_slot(state, reid, cpid, k)
+      type(experiment_state), intent(inout) :: state
+      integer, intent(in) :: reid, cpid
+      integer, intent(out) :: k
+      type(problem_slot), allocatable :: longer(:)
+      integer :: i
+
+      do k = 1, state%used
+         if (state%slots(k)%reid == reid .and. state%slots(k)%cpid == cpid) return
+      end do
+      if (state%used == size(state%slots)) then
+         allocate(longer(2*state%used))
+         do i = 1, state%used
+            longer(i)%reid = state%slots(i)%reid
+            longer(i)%cpid = state%slots(i)%cpid
+            call move_alloc(state%slots(i)%session, longer(i)%session)
+            call move_alloc(state%slots(i)%result, longer(i)%result)
+         end do
+         call move_alloc(longer, state%slots)
+      end if
+      state%used = state%used + 1
+      k = state%used
+      state%slots(k)%reid = reid
+      state%slots(k)%cpid = cpid
+      allocate(state%slots(k)%session, state%slots(k)%result)
+   end subroutine find_slot
+
+   !> Give back the memory of all problems, one by one
+   !>
+   !> Left to itself, gfortran 12 finalises array elements that were never in use, and crashes.
+   subroutine free_slots(state)
+      type(experiment_state), intent(inout) :: state
+      integer :: k
+
+      do k = 1, state%used
+         deallocate(state%slots(k)%session)
+         deallocate(state%slots(k)%result)
+      end do
+      state%used = 0
+   end subroutine free_slots
+
+   !> Number of cases in the input as far as it can be read, for the progress line
+   integer function number_of_cases(file) result(n)
+      character(len=*), intent(in) :: file
+      type(experiment_reader) :: reader
+      type(input_case) :: this
+      type(error_type), allocatable :: error
+
+      n = 0
+      call reader%open_file(file, error)
+      do while (.not. allocated(error))
+         call reader%next_case(this, error)
+         if (allocated(error)) exit
+         if (this%module_number == 0) exit
+         n = n + 1
+      end do
+   end function number_of_cases
+
+   !> Write an error to the .out file and to the unit for errors, and remember the first
+   subroutine report_error(state, error)
+      type(experiment_state), intent(inout) :: state
+      type(error_type), intent(in) :: error
+
+      call write_error(state, " ERROR. " // full_text(error))
+      state%errors = state%errors + 1
+      if (.not. allocated(state%first_error)) state%first_error = error
+   end subroutine report_error
+
+   !> Write the problems of a case: warnings to the log, errors as report_error does
+   subroutine report_problems(state, this)
+      type(experiment_state), intent(inout) :: state
+      type(input_case), intent(in) :: this
+      integer :: k
+
+      do k = 1, this%problems%count
+         associate (item => this%problems%items(k))
+            if (item%severity == severity%warning) then
+               call state%log%line(problem_text(item))
+               state%log%warnings = state%log%warnings + 1
+            else
+               call write_error(state, problem_text(item))
+               state%errors = state%errors + 1
+               if (.not. allocated(state%first_error)) then
+                  state%first_error = item%what
+                  call add_context(state%first_error, "case " // integer_text(this%number))
+               end if
+            end if
+         end associate
+      end do
+   end subroutine report_problems
+
+   !> A line to the .out file and to the unit for errors, after what stands on the screen already
+   subroutine write_error(state, text)
+      type(experiment_state), intent(inout) :: state
+      character(len=*), intent(in) :: text
+      integer :: status
+
+      call state%log%result(text)
+      if (state%complaints == 0) return
+      call state%progress%hide()
+      if (state%log%screen /= 0) flush(state%log%screen, iostat=status)
+      write(state%complaints, '(a)') text
+      flush(state%complaints, iostat=status)
+   end subroutine write_error
+
+   !> Open the .out file of the run
+   subroutine open_out_file(state, error)
+      type(experiment_state), intent(inout) :: state
+      type(error_type), allocatable, intent(out) :: error
+      character(len=200) :: reason
+      integer :: status, unit
+
+      reason = ""
+      open(newunit=unit, file=state%place%results // ".out", status="replace", action="write", iostat=status, iomsg=reason)
+      if (status == 0) then
+         state%log%out = unit
+      else
+         call fatal_error(error, "the file cannot be written: " // trim(reason), error_kind%file, state%place%results // ".out")
+      end if
+   end subroutine open_out_file
+
+   !> Timers and closing lines, and the end of the .out file
+   subroutine close_out_file(state)
+      type(experiment_state), intent(inout) :: state
+      type(error_type), allocatable :: error
+      character(len=200) :: reason
+      integer :: status
+
+      call state%total%halt()
+      call write_end(state%log, omp_get_max_threads(), [ &
+         & new_line_of("Total", state%total), &
+         & new_line_of("Reading input", state%reading), &
+         & new_line_of("Solving cases", state%solving), &
+         & new_line_of("Writing results", state%writing)])
+      if (state%unconverged > 0) call state%log%line(" Number of cases that did not reach their tolerance: " // &
+         & integer_text(state%unconverged))
+      call write_closing(state%log, state%errors > 0)
+      close(state%log%out, iostat=status, iomsg=reason)
+      state%log%out = 0
+      if (status == 0) return
+      call fatal_error(error, "the file could not be completed: " // trim(reason), error_kind%file, &
+         & state%place%results // ".out")
+      call report_error(state, error)
+   end subroutine close_out_file
+
+   !> A stopwatch as a line of the timer table
+   pure function new_line_of(name, watch) result(line)
+      character(len=*), intent(in) :: name
+      type(stopwatch), intent(in) :: watch
+      type(timer_line) :: line
+
+      line%name = name
+      line%calls = watch%calls
+      line%cpu = watch%cpu
+      line%wall = watch%wall
+   end function new_line_of
+end module contact_experiment_run
