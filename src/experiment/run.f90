@@ -51,7 +51,9 @@ module contact_experiment_run
    !> The problem of one result element and contact patch
    type :: problem_slot
       integer :: reid = 0, cpid = 1
-      type(contact_session), allocatable :: session
+      !> A pointer that is never freed: gfortran 12 crashes when it finalises an array of fixed size
+      !> whose elements hold FFT plans, as the workspaces of the levels are (a loss per run, not per case)
+      type(contact_session), pointer :: session => null()
       type(patch_result), allocatable :: result
    end type problem_slot
 
@@ -182,7 +184,6 @@ contains
       end do
       call state%progress%hide()
       call close_out_file(state)
-      call free_slots(state)
    end subroutine compute_all_cases
 
    !> Check, solve and write one case
@@ -261,7 +262,7 @@ contains
          do i = 1, state%used
             longer(i)%reid = state%slots(i)%reid
             longer(i)%cpid = state%slots(i)%cpid
-            call move_alloc(state%slots(i)%session, longer(i)%session)
+            longer(i)%session => state%slots(i)%session
             call move_alloc(state%slots(i)%result, longer(i)%result)
          end do
          call move_alloc(longer, state%slots)
@@ -272,20 +273,6 @@ contains
       state%slots(k)%cpid = cpid
       allocate(state%slots(k)%session, state%slots(k)%result)
    end subroutine find_slot
-
-   !> Give back the memory of all problems, one by one
-   !>
-   !> Left to itself, gfortran 12 finalises array elements that were never in use, and crashes.
-   subroutine free_slots(state)
-      type(experiment_state), intent(inout) :: state
-      integer :: k
-
-      do k = 1, state%used
-         deallocate(state%slots(k)%session)
-         deallocate(state%slots(k)%result)
-      end do
-      state%used = 0
-   end subroutine free_slots
 
    !> Number of cases in the input as far as it can be read, for the progress line
    integer function number_of_cases(file) result(n)
