@@ -353,7 +353,7 @@ contains
       if (problem%force_prescribed) then
          h_max = maxval(problem%h, problem%h < excluded_threshold)
          p = max(0.0_wp, h_min + 0.3_wp*max(h_max - h_min, 1.0e-10_wp) - problem%h)
-         call make_admissible(problem, p)
+         p = p*(problem%fn/(sum(p)*problem%dx*problem%dy))
          return
       end if
       p = max(0.0_wp, pen - problem%h)

@@ -72,7 +72,8 @@ contains
       type(tangential_solution), intent(inout) :: solution
       type(newton_outcome), intent(out) :: outcome
       type(linear_system) :: system
-      real(wp) :: residual, previous, forcing, history(0:max_steps), alpha, best, creep(2), best_creep(2), trial
+      real(wp) :: residual, previous, forcing, history(0:max_steps), alpha, best, longest, &
+         & creep_range, creep(2), best_creep(2), trial
       real(wp) :: correction(2), unbalance(2), reached
       integer :: step, k, attempt
       real(wp), parameter :: lengths(6) = [1.0_wp, 0.5_wp, 0.25_wp, 0.1_wp, 0.03_wp, 0.01_wp]
@@ -95,8 +96,15 @@ contains
       end if
       system%creep_scale = system%g_sum/(count(problem%contact)*system%r*problem%dq)
 
-      call slip_of(problem, operator, solution%p, solution%creep, solution%slip)
-      residual = true_residual(problem, solution%p, solution%slip, system%r)
+      creep_range = huge(creep_range)
+      if (problem%n_forces > 0) then
+         ! slip that full sliding in one direction would bring about
+         workspace%trial(:, :, 1) = problem%bound
+         workspace%trial(:, :, 2) = 0.0_wp
+         call apply_operator(problem, operator, workspace%trial, workspace%trial_slip)
+         creep_range = 0.2_wp*maxval(abs(workspace%trial_slip(:, :, 1)), problem%contact)/problem%dq
+      end if
+      call start_values(problem, operator, system, solution, workspace, residual)
       previous = residual
       history = 0.0_wp
       outcome%ended = ending%iteration_limit
@@ -130,12 +138,16 @@ contains
 
          best = huge(best)
          best_creep = solution%creep
+         longest = 1.0_wp
+         if (problem%n_forces > 0) longest = min(1.0_wp, creep_range/max(norm2(correction), tiny(longest)))
          do attempt = 1, size(lengths)
-            alpha = lengths(attempt)
+            alpha = longest*lengths(attempt)
             call step_and_project(problem, solution%p, alpha, workspace%a, workspace%trial)
             creep = solution%creep + alpha*correction
             call slip_of(problem, operator, workspace%trial, creep, workspace%trial_slip)
             trial = true_residual(problem, workspace%trial, workspace%trial_slip, system%r)
+            ! in full sliding the force no longer depends on the creepage: no place to continue from
+            if (slides_too_far(problem, system, workspace)) cycle
             if (trial < best) then
                best = trial
                best_creep = creep
@@ -156,6 +168,80 @@ contains
       end do
       call divide_elements(problem, solution%p, solution%slip, system%r, solution%division)
    end subroutine newton_solve
+
+   !> Slip and residual of the estimate, with creepages that suit its tractions
+   !>
+   !> With prescribed forces and no tractions yet, they start as the same share of the bound
+   !> everywhere, which has the right total. Creepages that cancel the mean slip of the elements
+   !> far from their bound replace the given ones when the residual gets smaller by it.
+   subroutine start_values(problem, operator, system, solution, workspace, residual)
+      type(tangential_problem), intent(in) :: problem
+      type(elastic_operator), intent(inout) :: operator
+      type(linear_system), intent(in) :: system
+      type(tangential_solution), intent(inout) :: solution
+      type(newton_workspace), intent(inout) :: workspace
+      real(wp), intent(out) :: residual
+      real(wp) :: creep(2), total, weight, other
+      integer :: ix, iy, k
+
+      if (problem%n_forces > 0) then
+         if (.not. any(abs(solution%p) > 0.0_wp)) then
+            do k = 1, problem%n_forces
+               solution%p(:, :, k) = problem%target(k)/system%g_sum*problem%bound
+            end do
+         end if
+      end if
+      call slip_of(problem, operator, solution%p, solution%creep, solution%slip)
+      residual = true_residual(problem, solution%p, solution%slip, system%r)
+      if (problem%n_forces == 0) return
+      creep = 0.0_wp
+      total = 0.0_wp
+      do iy = 1, problem%my
+         do ix = 1, problem%mx
+            if (.not. problem%contact(ix, iy)) cycle
+            weight = max(1.0e-3_wp*problem%bound(ix, iy), &
+               & problem%bound(ix, iy) - hypot(solution%p(ix, iy, 1), solution%p(ix, iy, 2)))
+            total = total + weight
+            creep = creep + weight*solution%slip(ix, iy, :)
+         end do
+      end do
+      creep(problem%n_forces + 1:) = 0.0_wp
+      creep = creep/(total*problem%dq)
+      workspace%trial_slip = solution%slip
+      do k = 1, problem%n_forces
+         workspace%trial_slip(:, :, k) = workspace%trial_slip(:, :, k) - problem%dq*creep(k)
+      end do
+      other = true_residual(problem, solution%p, workspace%trial_slip, system%r)
+      if (other >= residual) return
+      residual = other
+      solution%slip = workspace%trial_slip
+      solution%creep = solution%creep - creep
+   end subroutine start_values
+
+   !> Does the whole contact area slide, with more force than prescribed?
+   pure logical function slides_too_far(problem, system, workspace)
+      type(tangential_problem), intent(in) :: problem
+      type(linear_system), intent(in) :: system
+      type(newton_workspace), intent(in) :: workspace
+      integer :: ix, iy, k
+      real(wp) :: force
+
+      slides_too_far = .false.
+      if (problem%n_forces == 0) return
+      force = 0.0_wp
+      do k = 1, problem%n_forces
+         force = force + sum(workspace%trial(:, :, k))**2
+      end do
+      if (force <= sum(problem%target(:problem%n_forces)**2)) return
+      do iy = 1, problem%my
+         do ix = 1, problem%mx
+            if (problem%bound(ix, iy) <= 0.0_wp) cycle
+            if (hypot(workspace%trial(ix, iy, 1) - system%r*workspace%trial_slip(ix, iy, 1), &
+               & workspace%trial(ix, iy, 2) - system%r*workspace%trial_slip(ix, iy, 2)) <= problem%bound(ix, iy)) return
+         end do
+      end do
+      slides_too_far = .true.
+   end function slides_too_far
 
    !> Weights and directions of D, and the residual field, at the present tractions
    subroutine linearise(problem, system, solution, workspace)
