@@ -4,7 +4,10 @@
 !> creepages, around any solver for given creepages: the caller solves, hands over the forces
 !> and gets the next creepages. One force: secants inside a bracket, because f does not
 !> increase with the creepage. Two forces: Broyden (1965) updates of the sensitivities with a
-!> limit on the step and return to the best point after a step that failed.
+!> limit on the step and return to the best point after a step that failed; where that is slow,
+!> near full sliding, the sensitivities are renewed by differences. Two forces are compared after
+!> stretching, F = f/sqrt(1 - |f|**2): forces saturate about like c/sqrt(1 + c**2) for creepages
+!> c in units of the linear theory, so that F depends almost linearly on c.
 module contact_tangential_prescribed_forces
    use contact_base_kinds, only : wp
    use contact_base_solve_report, only : ending
@@ -36,8 +39,22 @@ module contact_tangential_prescribed_forces
       integer, private :: limit = 25
       !> Largest step [creepage]
       real(wp), private :: reach = 0.0_wp
-      !> Best point and its distance to the target
+      !> Creepages beyond which sliding elements are accepted as full sliding
+      real(wp), private :: far = 0.0_wp
+      !> Sensitivities of the stretched forces; do they still have to be converted?
+      real(wp), private :: slope(2, 2) = 0.0_wp
+      logical, private :: inherited = .false.
+      !> Best point and its distance to the target, stretched for two forces
       real(wp), private :: best(2) = 0.0_wp, best_miss(2) = 0.0_wp
+      !> Creepage that is being changed for differences, 0 for none, and the change
+      integer, private :: probed = 0
+      real(wp), private :: change = 0.0_wp
+      !> Sensitivities from differences, while they are gathered
+      real(wp), private :: differences(2, 2) = 0.0_wp
+      !> Steps without much progress since the last differences
+      integer, private :: slow = 0
+      !> Are the sensitivities the ones by differences at the best point?
+      logical, private :: fresh = .false.
       !> Bracket of one creepage and the misses there
       logical, private :: has_low = .false., has_high = .false.
       real(wp), private :: low = 0.0_wp, high = 0.0_wp, low_miss = 0.0_wp, high_miss = 0.0_wp
@@ -48,8 +65,12 @@ module contact_tangential_prescribed_forces
       procedure, private :: advance_two
    end type force_iteration
 
-   !> Multiples of the linear creepage at which sliding elements are accepted as full sliding
+   !> The same in multiples of the linear creepage and of the given creepages
    real(wp), parameter :: far_out = 100.0_wp
+   !> Relative change of the creepages for differences
+   real(wp), parameter :: probe = 0.002_wp
+   !> Keeps stretched forces finite in full sliding
+   real(wp), parameter :: tail = 1.0e-10_wp
 
 contains
 
@@ -73,6 +94,9 @@ contains
       self%full_sliding = .false.
       self%has_low = .false.
       self%has_high = .false.
+      self%probed = 0
+      self%slow = 0
+      self%fresh = .false.
       sum_g = sum(problem%bound, mask=problem%contact)
       self%target = 0.0_wp
       self%linear = -1.0_wp
@@ -95,12 +119,14 @@ contains
       self%sensitivity(1, 1) = self%linear(1)
       self%sensitivity(2, 2) = self%linear(2)
       self%reach = 2.0_wp/minval(abs(self%linear(:self%n)))
+      self%far = far_out*max(1.0_wp/minval(abs(self%linear(:self%n))), maxval(abs(problem%shift))/problem%dq)
       ! what the previous case left is used if it is of the expected sign and order of magnitude
       usable = all([(sensitivity(k, k)/self%linear(k) > 1.0e-3_wp &
          & .and. sensitivity(k, k)/self%linear(k) < 30.0_wp, k=1, self%n)])
       if (self%n == 2) usable = usable .and. sensitivity(1, 1)*sensitivity(2, 2) - sensitivity(1, 2)*sensitivity(2, 1) &
          & > 1.0e-3_wp*sensitivity(1, 1)*sensitivity(2, 2)
       if (usable) self%sensitivity(:self%n, :self%n) = sensitivity(:self%n, :self%n)
+      self%inherited = usable
    end subroutine start
 
    !> Take the forces at the present creepages; choose the next ones or end
@@ -115,13 +141,13 @@ contains
       real(wp) :: miss(2)
 
       self%force = force
-      self%evaluations = self%evaluations + 1
+      if (self%probed == 0) self%evaluations = self%evaluations + 1
       miss = 0.0_wp
       miss(:self%n) = self%target(:self%n) - force(:self%n)
       if (sum(abs(miss)) <= self%eps) self%ended = ending%converged
       if (self%ended == ending%not_started .and. .not. adhesion &
          & .and. norm2(force(:self%n)) < norm2(self%target(:self%n)) &
-         & .and. maxval(abs(creep(:self%n)*self%linear(:self%n))) > far_out) then
+         & .and. maxval(abs(creep(:self%n))) > self%far) then
          self%full_sliding = .true.
          self%ended = ending%stagnated
       end if
@@ -129,7 +155,7 @@ contains
       if (self%n == 1) then
          call self%advance_one(miss(1), creep(1))
       else
-         call self%advance_two(miss, creep)
+         call self%advance_two(stretched(self%target) - stretched(force), creep)
       end if
    end subroutine advance
 
@@ -180,56 +206,124 @@ contains
       class(force_iteration), intent(inout) :: self
       real(wp), intent(in) :: miss(2)
       real(wp), intent(inout) :: creep(2)
-      real(wp) :: s(2), y(2), j(2, 2), det, step(2), length
-      logical :: better
+      real(wp) :: s(2), y(2), j(2, 2), progress
 
-      better = .true.
-      if (self%evaluations > 1) then
-         s = creep - self%best
-         y = self%best_miss - miss
-         if (dot_product(s, s) > 0.0_wp) then
-            j = self%sensitivity + spread(y - matmul(self%sensitivity, s), 2, 2) &
-               & *spread(s, 1, 2)/dot_product(s, s)
-            if (falls(j)) then
-               self%sensitivity = j
-            else if (dot_product(s, y) < 0.0_wp) then
-               ! the slope along the step in all directions, if it has the right sign
-               self%sensitivity = 0.0_wp
-               self%sensitivity(1, 1) = dot_product(s, y)/dot_product(s, s)
-               self%sensitivity(2, 2) = self%sensitivity(1, 1)
-            end if
+      if (self%probed > 0) then
+         self%differences(:, self%probed) = (self%best_miss - miss)/self%change
+         if (self%ended /= ending%not_started) return
+         if (self%probed == 1) then
+            self%probed = 2
+            creep = self%best + [0.0_wp, self%change]
+            return
          end if
-         better = norm2(miss) < norm2(self%best_miss)
-         length = norm2(s)
-         if (.not. better) then
-            self%failures = self%failures + 1
-            self%reach = max(0.4_wp*min(length, self%reach), 1.0e-12_wp*self%reach)
-         else if (norm2(miss) < 0.5_wp*norm2(self%best_miss)) then
-            self%reach = max(self%reach, 3.0_wp*length)
+         self%probed = 0
+         self%slow = 0
+         self%fresh = determinant(self%differences) > 0.0_wp .and. self%differences(1, 1) < 0.0_wp
+         if (self%fresh) then
+            self%slope = self%differences
+            call report_sensitivity(self)
+            creep = self%best + limited_step(self)
          else
-            self%reach = max(self%reach, 1.5_wp*length)
+            ! so far out that forces no longer depend on the creepages
+            creep = 0.5_wp*self%best
+            self%best_miss = huge(1.0_wp)
          end if
-      end if
-      if (better) then
-         self%best = creep
-         self%best_miss = miss
-      end if
-      if (self%ended /= ending%not_started) then
          return
       end if
-      det = self%sensitivity(1, 1)*self%sensitivity(2, 2) - self%sensitivity(1, 2)*self%sensitivity(2, 1)
-      associate (a => self%sensitivity, m => self%best_miss)
-         step = [a(2, 2)*m(1) - a(1, 2)*m(2), a(1, 1)*m(2) - a(2, 1)*m(1)]/det
+
+      if (self%evaluations == 1) then
+         self%best = creep
+         self%best_miss = miss
+         call start_slope(self)
+      else if (maxval(self%best_miss) > 1.0e100_wp) then
+         self%best = creep
+         self%best_miss = miss
+      else
+         s = creep - self%best
+         y = self%best_miss - miss
+         progress = norm2(miss)/norm2(self%best_miss)
+         if (progress < 1.0_wp) then
+            self%reach = max(self%reach, merge(3.0_wp, 1.5_wp, progress < 0.5_wp)*norm2(s))
+         else
+            self%failures = self%failures + 1
+            self%reach = 0.4_wp*min(norm2(s), self%reach)
+         end if
+         self%slow = self%slow + merge(1, 0, progress > 0.5_wp)
+         ! after a failed step, good sensitivities and a shorter step are the better choice
+         if (dot_product(s, s) > 0.0_wp .and. .not. (self%fresh .and. progress >= 1.0_wp)) then
+            j = self%slope + spread(y - matmul(self%slope, s), 2, 2)*spread(s, 1, 2)/dot_product(s, s)
+            if (falls(j)) then
+               self%slope = j
+            else
+               self%slow = self%slow + 2
+            end if
+         end if
+         if (progress < 1.0_wp) then
+            self%best = creep
+            self%best_miss = miss
+            self%fresh = .false.
+         end if
+      end if
+      call report_sensitivity(self)
+      if (self%ended /= ending%not_started) return
+
+      if (self%slow >= 2 .and. .not. self%fresh) then
+         self%probed = 1
+         self%change = probe*max(norm2(self%best), probe/maxval(abs(self%linear)))
+         creep = self%best + [self%change, 0.0_wp]
+      else
+         creep = self%best + limited_step(self)
+      end if
+   end subroutine advance_two
+
+   !> Forces without the effect of saturation
+   pure function stretched(f) result(large)
+      real(wp), intent(in) :: f(2)
+      real(wp) :: large(2)
+      large = f/sqrt(max(0.0_wp, 1.0_wp - dot_product(f, f)) + tail)
+   end function stretched
+
+   !> Sensitivities of the stretched forces from those of the forces, at the first evaluation
+   pure subroutine start_slope(self)
+      type(force_iteration), intent(inout) :: self
+      real(wp) :: rest
+
+      self%slope = self%sensitivity
+      if (.not. self%inherited) return
+      rest = max(1.0e-3_wp, 1.0_wp - dot_product(self%force, self%force))
+      self%slope = (self%sensitivity + spread(self%force, 2, 2)*spread(matmul(self%force, self%sensitivity), 1, 2)/rest) &
+         & /sqrt(rest)
+   end subroutine start_slope
+
+   !> Sensitivities of the forces from those of the stretched forces
+   pure subroutine report_sensitivity(self)
+      type(force_iteration), intent(inout) :: self
+
+      self%sensitivity = (self%slope - spread(self%force, 2, 2)*spread(matmul(self%force, self%slope), 1, 2)) &
+         & *sqrt(max(0.0_wp, 1.0_wp - dot_product(self%force, self%force)))
+   end subroutine report_sensitivity
+
+   !> Newton step from the best point, not longer than the reach
+   pure function limited_step(self) result(step)
+      type(force_iteration), intent(in) :: self
+      real(wp) :: step(2), length
+
+      associate (a => self%slope, m => self%best_miss)
+         step = [a(2, 2)*m(1) - a(1, 2)*m(2), a(1, 1)*m(2) - a(2, 1)*m(1)]/determinant(a)
       end associate
       length = norm2(step)
       if (length > self%reach) step = step*(self%reach/length)
-      creep = self%best + step
-   end subroutine advance_two
+   end function limited_step
+
+   pure real(wp) function determinant(a)
+      real(wp), intent(in) :: a(2, 2)
+      determinant = a(1, 1)*a(2, 2) - a(1, 2)*a(2, 1)
+   end function determinant
 
    !> Do forces fall in every direction of creepage? (negative definite symmetric part)
    pure logical function falls(j)
       real(wp), intent(in) :: j(2, 2)
       falls = j(1, 1) < 0.0_wp .and. j(2, 2) < 0.0_wp &
-         & .and. 4.0_wp*j(1, 1)*j(2, 2) > (1.0_wp + 1.0e-3_wp)*(j(1, 2) + j(2, 1))**2
+         & .and. 4.0_wp*j(1, 1)*j(2, 2) > (1.0_wp + 1.0e-6_wp)*(j(1, 2) + j(2, 1))**2
    end function falls
 end module contact_tangential_prescribed_forces
