@@ -15,7 +15,7 @@ module contact_experiment_run
    use contact_experiment_place, only : experiment_place, locate_experiment
    use contact_experiment_progress, only : is_terminal, progress_line
    use contact_experiment_stopwatch, only : stopwatch
-   use contact_input_experiment_file, only : case_failure, experiment_reader, input_case
+   use contact_input_experiment_file, only : experiment_reader, input_case
    use contact_input_problems, only : problem_text, severity
    use contact_input_words, only : integer_text
    use contact_output_mat_file, only : mat_file_name, write_mat_file
@@ -26,7 +26,10 @@ module contact_experiment_run
    implicit none (type, external)
    private
 
-   public :: run_experiment, run_settings
+   public :: no_unit, run_experiment, run_settings
+
+   !> Stands for no unit; 0 is the standard error stream of gfortran
+   integer, parameter :: no_unit = -1
 
    !> What is to be run and where messages go
    type :: run_settings
@@ -42,8 +45,8 @@ module contact_experiment_run
       integer :: threads = 0
       !> Unit for the log on the screen, 0 for none
       integer :: screen = 0
-      !> Unit for errors, 0 for none
-      integer :: complaints = 0
+      !> Unit for errors, or no_unit
+      integer :: complaints = no_unit
       !> May a progress line be shown on the terminal?
       logical :: progress = .false.
    end type run_settings
@@ -66,8 +69,8 @@ module contact_experiment_run
       !> Slots 1...used are in use
       integer :: used = 0
       type(problem_slot), allocatable :: slots(:)
-      !> Unit for errors, 0 for none
-      integer :: complaints = 0
+      !> Unit for errors, or no_unit
+      integer :: complaints = no_unit
       !> Numbers of cases read, of cases that did not reach their tolerance, of errors
       integer :: cases = 0, unconverged = 0, errors = 0
       !> The first error; unallocated when there was none
@@ -132,7 +135,6 @@ contains
          call state%reader%next_case(this, error)
          if (allocated(error)) then
             call report_error(state, error)
-            faulty = faulty + 1
             exit
          end if
          if (this%module_number == 0) exit
@@ -140,14 +142,20 @@ contains
          call report_problems(state, this)
          if (.not. this%problems%is_usable()) faulty = faulty + 1
       end do
-      if (faulty == 0) then
-         call state%log%line(" " // state%place%input // ": " // integer_text(state%cases) // " cases checked, no errors, " // &
-            & integer_text(state%log%warnings) // " warnings")
-      else
-         call state%log%line(" " // state%place%input // ": " // integer_text(state%cases) // " cases checked, " // &
-            & integer_text(state%errors) // " errors, " // integer_text(state%log%warnings) // " warnings")
-      end if
+      call state%log%line(" " // state%place%input // ": " // counted(state%cases, "case") // " checked, " // &
+         & counted(faulty, "faulty case") // ", " // counted(state%errors, "error") // ", " // &
+         & counted(state%log%warnings, "warning"))
    end subroutine check_all_cases
+
+   !> "1 case", "2 cases"
+   pure function counted(n, what) result(text)
+      integer, intent(in) :: n
+      character(len=*), intent(in) :: what
+      character(len=:), allocatable :: text
+
+      text = integer_text(n) // " " // what
+      if (n /= 1) text = text // "s"
+   end function counted
 
    !> Solve the cases one after the other and write the results
    subroutine compute_all_cases(state, settings)
@@ -200,7 +208,6 @@ contains
       call report_problems(state, this)
       go_on = this%problems%is_usable()
       if (.not. go_on) then
-         call case_failure(this, error)
          call state%log%line(" The run ends at case " // integer_text(this%number) // ", line " // &
             & integer_text(this%first_line) // ": its input cannot be used.")
          return
@@ -331,7 +338,7 @@ contains
       integer :: status
 
       call state%log%result(text)
-      if (state%complaints == 0) return
+      if (state%complaints == no_unit) return
       call state%progress%hide()
       if (state%log%screen /= 0) flush(state%log%screen, iostat=status)
       write(state%complaints, '(a)') text

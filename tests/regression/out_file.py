@@ -1,0 +1,43 @@
+"""Read the results of an .out file as the public scripts for this family of files do.
+
+They search for a heading anywhere in a line, skip lines, and split what stands there at blanks.
+"""
+
+TOTALS = ("FN", "FX", "FY", "MZ", "ENERGY", "POWER")
+
+
+def read(path):
+    """Return {case number: {quantity: value}}; X and Y are what the heading of case says they are."""
+    with open(path) as file:
+        lines = file.read().splitlines()
+    if len(lines) < 2 or "detailed investigation of 3D" not in lines[1]:
+        raise ValueError("%s: the second line does not tell that this is an .out file" % path)
+    cases = {}
+    values = None
+    for k, line in enumerate(lines):
+        words = line.split()
+        if "Case" in line:
+            values = cases.setdefault(int(words[1].rstrip(",")), {})
+        elif values is None:
+            continue
+        elif "ELAST.EN.   FRIC" in line:
+            values.update(zip(TOTALS, numbers(lines[k + 1])))
+            second = numbers(lines[k + 3])
+            values.update(zip(("FN/G", "X", "Y", "APPROACH", "PMAX"), second))
+            values["X is"] = meaning(lines[k + 2], "X")
+            values["Y is"] = meaning(lines[k + 2], "Y")
+        elif "NPOT   NCON   NADH  NSLIP" in line:
+            values.update((name, int(word)) for name, word in zip(words, lines[k + 1].split()))
+    return cases
+
+
+def numbers(line):
+    return [float(word) for word in line.split()]
+
+
+def meaning(heading, axis):
+    """What the number for an axis is: creep, shift or force"""
+    for word in ("CREEP", "SHIFT"):
+        if "%s %s" % (word, axis) in heading:
+            return word.lower()
+    return "force"
