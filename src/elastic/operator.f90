@@ -100,9 +100,9 @@ contains
          self%has_coupling = .false.
          self%direction = 0
          if (allocated(self%s1)) then
-            if (any(shape(self%s1) /= [px/2 + 1, py])) deallocate(self%s1, self%s2)
+            if (any(shape(self%s1) /= [py, px/2 + 1])) deallocate(self%s1, self%s2)
          end if
-         if (.not. allocated(self%s1)) allocate(self%s1(px/2 + 1, py), self%s2(px/2 + 1, py))
+         if (.not. allocated(self%s1)) allocate(self%s1(py, px/2 + 1), self%s2(py, px/2 + 1))
       end if
       self%mx = mx
       self%my = my
@@ -138,7 +138,7 @@ contains
 
       px = self%plan%px
       py = self%plan%py
-      allocate(period(px, py), transform(self%plan%kx, py))
+      allocate(period(px, py), transform(py, self%plan%kx))
       do l = 1, py
          do k = 1, px
             period(k, l) = kernel(wrapped(k, px), wrapped(l, py))
@@ -149,7 +149,7 @@ contains
       if (allocated(spectrum)) then
          if (any(shape(spectrum) /= shape(transform))) deallocate(spectrum)
       end if
-      if (.not. allocated(spectrum)) allocate(spectrum(self%plan%kx, py))
+      if (.not. allocated(spectrum)) allocate(spectrum(py, self%plan%kx))
       if (even) then
          spectrum = scale*real(transform)
       else
@@ -159,7 +159,7 @@ contains
       if (allocated(inverse)) then
          if (any(shape(inverse) /= shape(transform))) deallocate(inverse)
       end if
-      if (.not. allocated(inverse)) allocate(inverse(self%plan%kx, py))
+      if (.not. allocated(inverse)) allocate(inverse(py, self%plan%kx))
       ! a complete period has a positive spectrum; the floor guards extreme shapes only
       smallest = 1.0e-10_wp*maxval(abs(spectrum))/scale
       inverse = scale/max(spectrum/scale, smallest)
@@ -214,8 +214,8 @@ contains
       if (.not. allocated(self%ixx)) allocate(self%ixx, self%iyy, self%ixy, mold=self%xx)
       scale = 1.0_wp/(real(self%plan%px, wp)*real(self%plan%py, wp))
       floor_ = 1.0e-10_wp*maxval(abs(self%xx))*maxval(abs(self%yy))
-      do l = 1, self%plan%py
-         do k = 1, self%plan%kx
+      do l = 1, self%plan%kx
+         do k = 1, self%plan%py
             det = max(self%xx(k, l)*self%yy(k, l) - self%xy(k, l)**2, floor_)
             self%ixx(k, l) = scale**2*self%yy(k, l)/det
             self%iyy(k, l) = scale**2*self%xx(k, l)/det
@@ -248,9 +248,9 @@ contains
       real(wp), contiguous, intent(inout) :: u(:, :)
 
       call need_normal(self)
-      call self%plan%forward(p, self%s1)
+      call self%plan%forward(p, self%s1, 1)
       call scale_spectrum(self%nn, self%s1)
-      call self%plan%backward(self%s1, u)
+      call self%plan%backward(self%s1, u, 1)
       self%products = self%products + 1
       self%transforms = self%transforms + 2
    end subroutine normal
@@ -263,9 +263,9 @@ contains
       real(wp), contiguous, intent(inout) :: z(:, :)
 
       call need_normal(self)
-      call self%plan%forward(r, self%s1)
+      call self%plan%forward(r, self%s1, 1)
       call scale_spectrum(self%inn, self%s1)
-      call self%plan%backward(self%s1, z)
+      call self%plan%backward(self%s1, z, 1)
       self%transforms = self%transforms + 2
    end subroutine normal_inverse
 
@@ -317,33 +317,32 @@ contains
       real(wp), contiguous, intent(inout) :: u(:, :, :)
       complex(wp), contiguous, intent(in), optional :: factor(:)
       integer :: k, l
-      complex(wp) :: a, b
+      complex(wp) :: a, b, turn
 
-      call self%plan%forward(p(:, :, 1), self%s1)
-      call self%plan%forward(p(:, :, 2), self%s2)
-      if (present(factor)) then
-         !$omp parallel do private(k, a, b) if (size(axx) > 40000)
-         do l = 1, self%plan%py
-            do k = 1, self%plan%kx
-               a = factor(k)*self%s1(k, l)
-               b = factor(k)*self%s2(k, l)
-               self%s1(k, l) = axx(k, l)*a + axy(k, l)*b
-               self%s2(k, l) = axy(k, l)*a + ayy(k, l)*b
-            end do
+      ! two transforms side by side; small windows are done before threads are awake
+      !$omp parallel sections if (size(axx) > 20000)
+      !$omp section
+      call self%plan%forward(p(:, :, 1), self%s1, 1)
+      !$omp section
+      call self%plan%forward(p(:, :, 2), self%s2, 2)
+      !$omp end parallel sections
+      !$omp parallel do private(k, turn, a, b) if (size(axx) > 40000)
+      do l = 1, self%plan%kx
+         turn = 1.0_wp
+         if (present(factor)) turn = factor(l)
+         do k = 1, self%plan%py
+            a = turn*self%s1(k, l)
+            b = turn*self%s2(k, l)
+            self%s1(k, l) = axx(k, l)*a + axy(k, l)*b
+            self%s2(k, l) = axy(k, l)*a + ayy(k, l)*b
          end do
-      else
-         !$omp parallel do private(k, a, b) if (size(axx) > 40000)
-         do l = 1, self%plan%py
-            do k = 1, self%plan%kx
-               a = self%s1(k, l)
-               b = self%s2(k, l)
-               self%s1(k, l) = axx(k, l)*a + axy(k, l)*b
-               self%s2(k, l) = axy(k, l)*a + ayy(k, l)*b
-            end do
-         end do
-      end if
-      call self%plan%backward(self%s1, u(:, :, 1))
-      call self%plan%backward(self%s2, u(:, :, 2))
+      end do
+      !$omp parallel sections if (size(axx) > 20000)
+      !$omp section
+      call self%plan%backward(self%s1, u(:, :, 1), 1)
+      !$omp section
+      call self%plan%backward(self%s2, u(:, :, 2), 2)
+      !$omp end parallel sections
       self%transforms = self%transforms + 4
    end subroutine pair_product
 
@@ -356,11 +355,11 @@ contains
       complex(wp), parameter :: i = (0.0_wp, 1.0_wp)
 
       call need_coupling(self)
-      call self%plan%forward(p(:, :, 1), self%s1)
-      call self%plan%forward(p(:, :, 2), self%s2)
+      call self%plan%forward(p(:, :, 1), self%s1, 1)
+      call self%plan%forward(p(:, :, 2), self%s2, 2)
       ! c_nx = -c_xn, c_ny = -c_yn
       self%s1 = -i*(self%xn*self%s1 + self%yn*self%s2)
-      call self%plan%backward(self%s1, u)
+      call self%plan%backward(self%s1, u, 1)
       self%products = self%products + 1
       self%transforms = self%transforms + 3
    end subroutine normal_by_tangential
@@ -374,11 +373,11 @@ contains
       complex(wp), parameter :: i = (0.0_wp, 1.0_wp)
 
       call need_coupling(self)
-      call self%plan%forward(p, self%s1)
+      call self%plan%forward(p, self%s1, 1)
       self%s2 = i*self%yn*self%s1
       self%s1 = i*self%xn*self%s1
-      call self%plan%backward(self%s1, u(:, :, 1))
-      call self%plan%backward(self%s2, u(:, :, 2))
+      call self%plan%backward(self%s1, u(:, :, 1), 1)
+      call self%plan%backward(self%s2, u(:, :, 2), 2)
       self%products = self%products + 1
       self%transforms = self%transforms + 3
    end subroutine tangential_by_normal
@@ -391,13 +390,13 @@ contains
       integer :: l
 
       call need_coupling(self)
-      call self%plan%forward(p, self%s1)
-      do l = 1, self%plan%py
-         self%s2(:, l) = i*self%yn(:, l)*self%difference*self%s1(:, l)
-         self%s1(:, l) = i*self%xn(:, l)*self%difference*self%s1(:, l)
+      call self%plan%forward(p, self%s1, 1)
+      do l = 1, self%plan%kx
+         self%s2(:, l) = i*self%difference(l)*self%yn(:, l)*self%s1(:, l)
+         self%s1(:, l) = i*self%difference(l)*self%xn(:, l)*self%s1(:, l)
       end do
-      call self%plan%backward(self%s1, u(:, :, 1))
-      call self%plan%backward(self%s2, u(:, :, 2))
+      call self%plan%backward(self%s1, u(:, :, 1), 1)
+      call self%plan%backward(self%s2, u(:, :, 2), 2)
       self%products = self%products + 1
       self%transforms = self%transforms + 3
    end subroutine steady_by_normal

@@ -84,7 +84,7 @@ contains
          end do
       end do
       if (allocated(spectrum)) deallocate(spectrum)
-      allocate(spectrum(plan%kx, plan%py))
+      allocate(spectrum(plan%py, plan%kx))
       call plan%kernel_spectrum(period, spectrum)
       spectrum = spectrum/(real(plan%px, wp)*real(plan%py, wp))
    end subroutine spectrum_of
@@ -96,18 +96,18 @@ contains
       !> Displacement differences [mm], shape (mx, my)
       real(wp), contiguous, intent(inout) :: ux(:, :), uy(:, :)
 
-      call self%plan%forward(px, self%sx)
-      call self%plan%forward(py, self%sy)
+      call self%plan%forward(px, self%sx, 1)
+      call self%plan%forward(py, self%sy, 2)
       self%s = self%xx*self%sx + self%xy*self%sy
       self%sy = self%xy*self%sx + self%yy*self%sy
       self%transforms = self%transforms + 4
       if (self%material%coupled()) then
-         call self%plan%forward(pn, self%sn)
+         call self%plan%forward(pn, self%sn, 1)
          self%s = self%s + self%xn*self%sn
          self%sy = self%sy + self%yn*self%sn
          self%transforms = self%transforms + 1
       end if
-      call self%plan%backward(self%s, ux)
-      call self%plan%backward(self%sy, uy)
+      call self%plan%backward(self%s, ux, 1)
+      call self%plan%backward(self%sy, uy, 2)
    end subroutine tangential
 end module contact_elastic_previous

@@ -2,7 +2,8 @@
 !>
 !> Rows that are known to be zero are not transformed, and rows of the result that
 !> nobody asks for are not transformed back; that leaves about three quarters of the work of
-!> a plain two-dimensional transform of the padded window.
+!> a plain two-dimensional transform of the padded window. Spectra are stored transposed,
+!> shape (py, kx), so that the second pass runs along contiguous memory.
 module contact_fft_plan
    use, intrinsic :: iso_c_binding, only : c_associated, c_loc, c_null_ptr, c_ptr
    use contact_base_kinds, only : wp
@@ -21,8 +22,8 @@ module contact_fft_plan
       integer :: mx = 0, my = 0, px = 0, py = 0
       !> Number of frequencies kept in x: px/2 + 1
       integer :: kx = 0
-      !> Rows of the window, padded in x, shape (px, my)
-      real(wp), allocatable :: rows(:, :)
+      !> Rows of the window, padded in x, one set for each of two concurrent transforms, shape (px, my, 2)
+      real(wp), allocatable, private :: rows(:, :, :)
       type(c_ptr), private :: row_forward = c_null_ptr, row_backward = c_null_ptr
       type(c_ptr), private :: column_forward = c_null_ptr, column_backward = c_null_ptr
    contains
@@ -76,52 +77,61 @@ contains
       self%px = px
       self%py = py
       self%kx = px/2 + 1
-      allocate(self%rows(px, my), source=0.0_wp)
-      allocate(spectrum(self%kx, py), source=(0.0_wp, 0.0_wp))
+      allocate(self%rows(px, my, 2), source=0.0_wp)
+      allocate(spectrum(py, self%kx), source=(0.0_wp, 0.0_wp))
       ! the planner of FFTW is not thread-safe; estimated plans make results reproducible
       !$omp critical (contact_fft_planner)
       self%row_forward = fftw_plan_many_dft_r2c(1, [px], my, self%rows, [px], 1, px, &
-         & spectrum, [self%kx], 1, self%kx, fftw_estimate)
-      self%row_backward = fftw_plan_many_dft_c2r(1, [px], my, spectrum, [self%kx], 1, self%kx, &
+         & spectrum, [self%kx], py, 1, fftw_estimate)
+      self%row_backward = fftw_plan_many_dft_c2r(1, [px], my, spectrum, [self%kx], py, 1, &
          & self%rows, [px], 1, px, ior(fftw_estimate, fftw_destroy_input))
-      self%column_forward = plan_in_place(1, [py], self%kx, c_loc(spectrum), [py], self%kx, 1, &
-         & c_loc(spectrum), [py], self%kx, 1, fftw_forward, fftw_estimate)
-      self%column_backward = plan_in_place(1, [py], self%kx, c_loc(spectrum), [py], self%kx, 1, &
-         & c_loc(spectrum), [py], self%kx, 1, fftw_backward, fftw_estimate)
+      self%column_forward = plan_in_place(1, [py], self%kx, c_loc(spectrum), [py], 1, py, &
+         & c_loc(spectrum), [py], 1, py, fftw_forward, fftw_estimate)
+      self%column_backward = plan_in_place(1, [py], self%kx, c_loc(spectrum), [py], 1, py, &
+         & c_loc(spectrum), [py], 1, py, fftw_backward, fftw_estimate)
       !$omp end critical (contact_fft_planner)
    end subroutine prepare_plan
 
-   subroutine transform_forward(self, field, spectrum)
+   subroutine transform_forward(self, field, spectrum, channel)
       class(fft_plan), intent(inout) :: self
       !> Window, shape (mx, my)
       real(wp), contiguous, intent(in) :: field(:, :)
-      !> Spectrum, shape (kx, py)
+      !> Spectrum, shape (py, kx)
       complex(wp), contiguous, target, intent(inout) :: spectrum(:, :)
-      integer :: iy
+      !> 1 or 2: set of buffers; transforms that run at the same time need different ones. Default 1
+      integer, intent(in), optional :: channel
+      integer :: iy, k, c
 
+      c = 1
+      if (present(channel)) c = channel
       do iy = 1, self%my
-         self%rows(1:self%mx, iy) = field(:, iy)
-         self%rows(self%mx + 1:, iy) = 0.0_wp
+         self%rows(1:self%mx, iy, c) = field(:, iy)
+         self%rows(self%mx + 1:, iy, c) = 0.0_wp
       end do
-      call fftw_execute_dft_r2c(self%row_forward, self%rows, spectrum)
-      if (self%py > 1) then
-         spectrum(:, self%my + 1:) = (0.0_wp, 0.0_wp)
-         call execute_in_place(self%column_forward, c_loc(spectrum), c_loc(spectrum))
-      end if
+      call fftw_execute_dft_r2c(self%row_forward, self%rows(:, :, c), spectrum)
+      if (self%py == 1) return
+      do k = 1, self%kx
+         spectrum(self%my + 1:, k) = (0.0_wp, 0.0_wp)
+      end do
+      call execute_in_place(self%column_forward, c_loc(spectrum), c_loc(spectrum))
    end subroutine transform_forward
 
-   subroutine transform_backward(self, spectrum, field)
+   subroutine transform_backward(self, spectrum, field, channel)
       class(fft_plan), intent(inout) :: self
-      !> Spectrum, shape (kx, py); destroyed
+      !> Spectrum, shape (py, kx); destroyed
       complex(wp), contiguous, target, intent(inout) :: spectrum(:, :)
       !> Window, shape (mx, my)
       real(wp), contiguous, intent(inout) :: field(:, :)
-      integer :: iy
+      !> 1 or 2: set of buffers. Default 1
+      integer, intent(in), optional :: channel
+      integer :: iy, c
 
+      c = 1
+      if (present(channel)) c = channel
       if (self%py > 1) call execute_in_place(self%column_backward, c_loc(spectrum), c_loc(spectrum))
-      call fftw_execute_dft_c2r(self%row_backward, spectrum, self%rows)
+      call fftw_execute_dft_c2r(self%row_backward, spectrum, self%rows(:, :, c))
       do iy = 1, self%my
-         field(:, iy) = self%rows(1:self%mx, iy)
+         field(:, iy) = self%rows(1:self%mx, iy, c)
       end do
    end subroutine transform_backward
 
@@ -130,14 +140,17 @@ contains
       class(fft_plan), intent(in) :: self
       !> One period, shape (px, py); destroyed
       real(wp), contiguous, intent(inout) :: period(:, :)
-      !> Spectrum, shape (kx, py)
+      !> Spectrum, shape (py, kx)
       complex(wp), contiguous, intent(inout) :: spectrum(:, :)
       type(c_ptr) :: plan
+      complex(wp), allocatable :: by_rows(:, :)
 
+      allocate(by_rows(self%kx, self%py))
       !$omp critical (contact_fft_planner)
-      plan = fftw_plan_dft_r2c_2d(self%py, self%px, period, spectrum, fftw_estimate)
+      plan = fftw_plan_dft_r2c_2d(self%py, self%px, period, by_rows, fftw_estimate)
       !$omp end critical (contact_fft_planner)
-      call fftw_execute_dft_r2c(plan, period, spectrum)
+      call fftw_execute_dft_r2c(plan, period, by_rows)
+      spectrum = transpose(by_rows)
       !$omp critical (contact_fft_planner)
       call fftw_destroy_plan(plan)
       !$omp end critical (contact_fft_planner)

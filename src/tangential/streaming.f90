@@ -132,11 +132,11 @@ contains
       scale = 1.0_wp/px
       do l = 0, my - 1
          call row_spectrum(operator%table%xx(-mx:mx, l))
-         self%axx(:, l) = scale*real(self%spectrum(:, 1))
+         self%axx(:, l) = scale*real(self%spectrum(1, :))
          call row_spectrum(operator%table%yy(-mx:mx, l))
-         self%ayy(:, l) = scale*real(self%spectrum(:, 1))
+         self%ayy(:, l) = scale*real(self%spectrum(1, :))
          call row_spectrum(operator%table%xy(-mx:mx, l))
-         self%axy(:, l) = scale*aimag(self%spectrum(:, 1))
+         self%axy(:, l) = scale*aimag(self%spectrum(1, :))
       end do
       self%near_xx = operator%table%xx(-mx:mx, 0)
       self%near_yy = operator%table%yy(-mx:mx, 0)
@@ -145,11 +145,11 @@ contains
 
       do l = 1 - my, my - 1
          call row_spectrum(operator%table%xx(-mx:mx, l) - shifted%xx(-mx:mx, l), mirror=1.0_wp)
-         self%gxx(:, l) = scale*self%spectrum(:, 1)
+         self%gxx(:, l) = scale*self%spectrum(1, :)
          call row_spectrum(operator%table%yy(-mx:mx, l) - shifted%yy(-mx:mx, l), mirror=1.0_wp)
-         self%gyy(:, l) = scale*self%spectrum(:, 1)
+         self%gyy(:, l) = scale*self%spectrum(1, :)
          call row_spectrum(operator%table%xy(-mx:mx, l) - shifted%xy(-mx:mx, l), mirror=-1.0_wp)
-         self%gxy(:, l) = scale*self%spectrum(:, 1)
+         self%gxy(:, l) = scale*self%spectrum(1, :)
       end do
       self%near_xx = self%near_xx - shifted%xx(-mx:mx, 0)
       self%near_yy = self%near_yy - shifted%yy(-mx:mx, 0)
@@ -181,7 +181,7 @@ contains
                end do
             end if
          end if
-         call whole_period%forward(period, self%spectrum)
+         call whole_period%forward(period, self%spectrum, 1)
       end subroutine row_spectrum
    end subroutine prepare
 
@@ -221,7 +221,7 @@ contains
          allocate(self%axx(kx, 0:my - 1), self%ayy(kx, 0:my - 1), self%axy(kx, 0:my - 1))
          allocate(self%load_re(kx, 2, my), self%load_im(kx, 2, my), source=0.0_wp)
          allocate(self%sum_re(kx, 2), self%sum_im(kx, 2), self%field(self%mx + 1, 1))
-         allocate(self%spectrum(kx, 1), self%loaded(my))
+         allocate(self%spectrum(1, kx), self%loaded(my))
          if (general) allocate(self%gxx(kx, 1 - my:my - 1), self%gyy(kx, 1 - my:my - 1), &
             & self%gxy(kx, 1 - my:my - 1))
       end associate
@@ -274,9 +274,9 @@ contains
          else
             self%field(:, 1) = self%p(0:self%mx, k, iy)
          end if
-         call self%plan%forward(self%field, self%spectrum)
-         self%load_re(:, k, iy) = real(self%spectrum(:, 1))
-         self%load_im(:, k, iy) = aimag(self%spectrum(:, 1))
+         call self%plan%forward(self%field, self%spectrum, 1)
+         self%load_re(:, k, iy) = real(self%spectrum(1, :))
+         self%load_im(:, k, iy) = aimag(self%spectrum(1, :))
       end do
    end subroutine renew_row
 
@@ -303,8 +303,8 @@ contains
          end if
       end do
       do k = 1, 2
-         self%spectrum(:, 1) = cmplx(self%sum_re(:, k), self%sum_im(:, k), wp)
-         call self%plan%backward(self%spectrum, self%field)
+         self%spectrum(1, :) = cmplx(self%sum_re(:, k), self%sum_im(:, k), wp)
+         call self%plan%backward(self%spectrum, self%field, 1)
          slip(:, k) = self%shift(:, k, iy) + self%field(2:, 1)
       end do
       self%row_products = self%row_products + 1
