@@ -329,15 +329,14 @@ class Failures(Cli):
 
     def test_case_that_cannot_be_solved(self):
         """It is reported, the next cases are computed, and the run counts as failed"""
-        other_grid = case(first="002100", second="022020").replace("-1\n7 7 0.001 0.001 1.2\n",
-                                                              "1\n7 7 -1 -1 0.3 0.31\n1 1\n0.001 0 0.001 0 0 0\n")
-        start = other_grid.replace("002100", "203100").replace("0.3 0.31", "0.3 0.3")
-        rolling = "0.3 0.3\n0 0.3 1000\n"
-        self.write("ball.inp", start.replace("0.3 0.3\n0.28", rolling + "0.28") +
-                   other_grid.replace("0.3 0.3\n0.28", rolling + "0.28") + case() + "0\n")
+        hertz = "-1\n7 7 0.001 0.001 1.2\n"
+        without_contact = "1\n7 7 -1 -1 0.3 0.3\n1 2\n0.001 0 0.001 0 0 0\n0 0 0 0 0 1\n"
+        third = "0001201"
+        self.write("ball.inp", case(third=third) + case(third=third).replace(hertz, without_contact) + case(third=third) + "0\n")
         run = self.run_program("2", "ball")
-        self.fails(run, "ERROR", "case 2")
+        self.fails(run, "ERROR", "case 2", "planform")
         self.assertEqual(self.read("ball.out").count("TOTAL FORCES"), 2)
+        self.assertEqual(self.files(), ["ball.0001.mat", "ball.0003.mat", "ball.inp", "ball.out"])
 
     def test_unwritable_mat_file(self):
         self.write("ball.inp", case(third="0001201") + case() + "0\n")

@@ -1,0 +1,77 @@
+!> Names of the files of an experiment, text of the progress line, stopwatch
+program test_experiment
+   use contact_base_kinds, only : wp
+   use contact_experiment_place, only : experiment_place, locate_experiment
+   use contact_experiment_progress, only : progress_text
+   use contact_experiment_stopwatch, only : stopwatch
+   use contact_test_harness, only : test_suite
+   implicit none (type, external)
+   type(test_suite) :: suite
+
+   call suite%start("experiment")
+   call places(suite)
+   call progress(suite)
+   call stopwatches(suite)
+   call suite%finish()
+
+contains
+
+   !> From what a user types to the names of files
+   subroutine places(suite)
+      type(test_suite), intent(inout) :: suite
+
+      call check("run", "", "", "run", "run.inp", "run")
+      call check("run.inp", "", "", "run", "run.inp", "run")
+      call check(" run ", "", "", "run", "run.inp", "run")
+      call check(".inp", "", "", ".inp", ".inp.inp", ".inp")
+      call check("a/.inp", "", "a/", ".inp", "a/.inp.inp", "a/.inp")
+      call check("run.INP", "", "", "run.INP", "run.INP.inp", "run.INP")
+      call check("a/b/run", "", "a/b/", "run", "a/b/run.inp", "a/b/run")
+      call check("a\b\run.inp", "", "a/b/", "run", "a/b/run.inp", "a/b/run")
+      call check("/run", "", "/", "run", "/run.inp", "/run")
+      call check("a/run", "out", "a/", "run", "a/run.inp", "out/run")
+      call check("a/run", "out\x/", "a/", "run", "a/run.inp", "out/x/run")
+      call check("run", "/", "", "run", "run.inp", "/run")
+      call check("a/", "", "a/", "", "a/.inp", "a/")
+
+   contains
+
+      !> One name
+      subroutine check(typed, output_folder, folder, name, input, results)
+         character(len=*), intent(in) :: typed, output_folder, folder, name, input, results
+         type(experiment_place) :: place
+
+         place = locate_experiment(typed, output_folder)
+         call suite%check(place%folder == folder .and. len(place%folder) == len(folder), typed // ": folder")
+         call suite%check(place%name == name .and. len(place%name) == len(name), typed // ": name")
+         call suite%check(place%input == input, typed // ": input is " // place%input)
+         call suite%check(place%results == results, typed // ": results are " // place%results)
+      end subroutine check
+   end subroutine places
+
+   !> Time that is left, in the words of the line
+   subroutine progress(suite)
+      type(test_suite), intent(inout) :: suite
+
+      call suite%check(progress_text(0, 20, 1.0_wp) == " case 1 of 20", "nothing is done")
+      call suite%check(progress_text(10, 20, 65.0_wp) == " case 11 of 20, 1:05 left", "a half is done")
+      call suite%check(progress_text(1, 3, 5000.0_wp) == " case 2 of 3, 2:46:40 left", "hours")
+      call suite%check(progress_text(20, 20, 65.0_wp) == " case 20 of 20, 0:00 left", "all is done")
+      call suite%check(progress_text(1, huge(1), 1.0e300_wp) == " case 2 of 2147483647, 8333:20:00 left", "for ever")
+   end subroutine progress
+
+   !> Calls are counted and times are added
+   subroutine stopwatches(suite)
+      type(test_suite), intent(inout) :: suite
+      type(stopwatch) :: watch
+      integer :: k
+
+      do k = 1, 3
+         call watch%start()
+         call watch%halt()
+      end do
+      call suite%check(watch%calls == 3, "three calls")
+      call suite%check(watch%wall >= 0.0_wp .and. watch%wall < 10.0_wp, "elapsed time")
+      call suite%check(watch%cpu >= 0.0_wp .and. watch%cpu < 10.0_wp, "processor time")
+   end subroutine stopwatches
+end program test_experiment
