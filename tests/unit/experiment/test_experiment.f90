@@ -20,34 +20,33 @@ contains
    subroutine places(suite)
       type(test_suite), intent(inout) :: suite
 
-      call check("run", "", "", "run", "run.inp", "run")
-      call check("run.inp", "", "", "run", "run.inp", "run")
-      call check(" run ", "", "", "run", "run.inp", "run")
-      call check(".inp", "", "", ".inp", ".inp.inp", ".inp")
-      call check("a/.inp", "", "a/", ".inp", "a/.inp.inp", "a/.inp")
-      call check("run.INP", "", "", "run.INP", "run.INP.inp", "run.INP")
-      call check("a/b/run", "", "a/b/", "run", "a/b/run.inp", "a/b/run")
-      call check("a\b\run.inp", "", "a/b/", "run", "a/b/run.inp", "a/b/run")
-      call check("/run", "", "/", "run", "/run.inp", "/run")
-      call check("a/run", "out", "a/", "run", "a/run.inp", "out/run")
-      call check("a/run", "out\x/", "a/", "run", "a/run.inp", "out/x/run")
-      call check("run", "/", "", "run", "run.inp", "/run")
-      call check("a/", "", "a/", "", "a/.inp", "a/")
-
-   contains
-
-      !> One name
-      subroutine check(typed, output_folder, folder, name, input, results)
-         character(len=*), intent(in) :: typed, output_folder, folder, name, input, results
-         type(experiment_place) :: place
-
-         place = locate_experiment(typed, output_folder)
-         call suite%check(place%folder == folder .and. len(place%folder) == len(folder), typed // ": folder")
-         call suite%check(place%name == name .and. len(place%name) == len(name), typed // ": name")
-         call suite%check(place%input == input, typed // ": input is " // place%input)
-         call suite%check(place%results == results, typed // ": results are " // place%results)
-      end subroutine check
+      call check_place(suite, "run", "", "", "run", "run.inp", "run")
+      call check_place(suite, "run.inp", "", "", "run", "run.inp", "run")
+      call check_place(suite, " run ", "", "", "run", "run.inp", "run")
+      call check_place(suite, ".inp", "", "", ".inp", ".inp.inp", ".inp")
+      call check_place(suite, "a/.inp", "", "a/", ".inp", "a/.inp.inp", "a/.inp")
+      call check_place(suite, "run.INP", "", "", "run.INP", "run.INP.inp", "run.INP")
+      call check_place(suite, "a/b/run", "", "a/b/", "run", "a/b/run.inp", "a/b/run")
+      call check_place(suite, "a\b\run.inp", "", "a/b/", "run", "a/b/run.inp", "a/b/run")
+      call check_place(suite, "/run", "", "/", "run", "/run.inp", "/run")
+      call check_place(suite, "a/run", "out", "a/", "run", "a/run.inp", "out/run")
+      call check_place(suite, "a/run", "out\x/", "a/", "run", "a/run.inp", "out/x/run")
+      call check_place(suite, "run", "/", "", "run", "run.inp", "/run")
+      call check_place(suite, "a/", "", "a/", "", "a/.inp", "a/")
    end subroutine places
+
+   !> One name
+   subroutine check_place(suite, typed, output_folder, folder, name, input, results)
+      type(test_suite), intent(inout) :: suite
+      character(len=*), intent(in) :: typed, output_folder, folder, name, input, results
+      type(experiment_place) :: place
+
+      place = locate_experiment(typed, output_folder)
+      call suite%check(place%folder == folder .and. len(place%folder) == len(folder), typed // ": folder")
+      call suite%check(place%name == name .and. len(place%name) == len(name), typed // ": name")
+      call suite%check(place%input == input, typed // ": input is " // place%input)
+      call suite%check(place%results == results, typed // ": results are " // place%results)
+   end subroutine check_place
 
    !> Time that is left, in the words of the line
    subroutine progress(suite)
