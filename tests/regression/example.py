@@ -22,9 +22,10 @@ def main(name):
         if old.startswith(name + "."):
             os.remove(old)
     run = subprocess.run([program, "--quiet", "--output-dir", ".", "2", os.path.join(source, "examples", name)],
-                         stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-    print(run.stdout, end="")
+                         stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    # debug builds tell array temporaries on the error stream
     if run.returncode != 0 or run.stdout:
+        print(run.stdout, run.stderr[-3000:], sep="")
         print("FAILED: exit status %d, or output in spite of --quiet" % run.returncode)
         return 1
     cases = out_file.read(name + ".out")

@@ -56,7 +56,7 @@ contains
       call suite%check(progress_text(10, 20, 65.0_wp) == " case 11 of 20, 1:05 left", "a half is done")
       call suite%check(progress_text(1, 3, 5000.0_wp) == " case 2 of 3, 2:46:40 left", "hours")
       call suite%check(progress_text(20, 20, 65.0_wp) == " case 20 of 20, 0:00 left", "all is done")
-      call suite%check(progress_text(1, huge(1), 1.0e300_wp) == " case 2 of 2147483647, 8333:20:00 left", "for ever")
+      call suite%check(progress_text(1, huge(1), 1.0e30_wp) == " case 2 of 2147483647, 8333:20:00 left", "for ever")
    end subroutine progress
 
    !> Calls are counted and times are added
