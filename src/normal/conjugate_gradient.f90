@@ -46,9 +46,11 @@ module contact_normal_conjugate_gradient
 
    !> Scratch of all levels, no meaning between calls; level 1 belongs to the finest grid
    type :: normal_workspace
-      type(level_type) :: level(12)
+      type(level_type), allocatable :: level(:)
    end type normal_workspace
 
+   !> Largest number of levels
+   integer, parameter :: levels = 12
    !> Smaller windows are solved directly
    integer, parameter :: smallest = 1500
    !> Residual of the coarse levels; a better estimate than the second is not replaced by one from coarse grids
@@ -70,6 +72,7 @@ contains
       real(wp) :: pairs_before, fine_size
       integer :: k, products_before
 
+      if (.not. allocated(workspace%level)) allocate(workspace%level(levels))
       pairs_before = operator%fft_pairs()
       products_before = operator%products
       report%method = "NormCG"

@@ -30,9 +30,11 @@ module contact_tangential_nested
 
    !> Scratch of all levels; level 1 is the finest and keeps only what the caller's does not
    type :: nested_workspace
-      type(level_type) :: level(12)
+      type(level_type), allocatable :: level(:)
    end type nested_workspace
 
+   !> Largest number of levels
+   integer, parameter :: levels = 12
    !> Windows with fewer elements are solved directly
    integer, parameter :: smallest = 900
    !> Residual of the coarse levels
@@ -55,6 +57,7 @@ contains
       real(wp) :: residual, pairs_before, fine_size
       integer :: k, products_before
 
+      if (.not. allocated(workspace%level)) allocate(workspace%level(levels))
       pairs_before = operator%fft_pairs()
       products_before = operator%products
       report%method = "Newton-Krylov"

@@ -21,12 +21,14 @@ module contact_tangential_newton
    !> Scratch of one window size; no meaning between calls
    type :: newton_workspace
       integer :: mx = 0, my = 0
-      !> Krylov basis, shape (2 mx my + 2, restart + 1)
-      real(wp), allocatable :: basis(:, :)
+      !> Krylov basis and the same after preconditioning, shapes (2 mx my + 2, restart + 1), (..., restart)
+      real(wp), allocatable :: basis(:, :), preconditioned(:, :)
+      !> Solution, right-hand side and scratch of the linear system, shape (2 mx my + 2)
+      real(wp), allocatable :: x(:), b(:), work(:)
       !> Weight g/|z| (1 in adhesion, 0 outside contact) and direction n (0 in adhesion)
       real(wp), allocatable :: weight(:, :), direction(:, :, :)
       !> Trial tractions and slip, residual, and two scratch fields
-      real(wp), allocatable :: trial(:, :, :), trial_slip(:, :, :), residual(:, :, :), a(:, :, :), b(:, :, :)
+      real(wp), allocatable :: trial(:, :, :), trial_slip(:, :, :), residual(:, :, :), step(:, :, :), best_slip(:, :, :)
       !> Border columns after preconditioning
       real(wp), allocatable :: border(:, :, :, :)
    end type newton_workspace
@@ -42,7 +44,7 @@ module contact_tangential_newton
    end type newton_outcome
 
    !> Largest Krylov space between restarts, number of restarts, Newton steps
-   integer, parameter :: restart = 50, max_cycles = 4, max_steps = 60
+   integer, parameter :: restart = 40, max_cycles = 4, max_steps = 60
 
    !> One linearised system with its scales
    type :: linear_system
@@ -131,9 +133,9 @@ contains
             unbalance(k) = (sum(solution%p(:, :, k)) - problem%target(k))/system%g_sum
          end do
          ! no more accuracy than the next residual can make use of
-         forcing = min(0.1_wp, 0.5_wp*(residual/max(previous, residual))**1.5_wp)
+         forcing = min(0.2_wp, 0.5_wp*(residual/max(previous, residual))**1.5_wp)
          forcing = max(forcing, min(0.1_wp, 0.3_wp*tolerance/residual))
-         if (step == 0) forcing = 0.1_wp
+         if (step == 0) forcing = 0.2_wp
          call solve_linear(problem, operator, system, workspace, unbalance, forcing, correction, outcome%preconditionings, reached)
 
          best = huge(best)
@@ -142,7 +144,7 @@ contains
          if (problem%n_forces > 0) longest = min(1.0_wp, creep_range/max(norm2(correction), tiny(longest)))
          do attempt = 1, size(lengths)
             alpha = longest*lengths(attempt)
-            call step_and_project(problem, solution%p, alpha, workspace%a, workspace%trial)
+            call step_and_project(problem, solution%p, alpha, workspace%step, workspace%trial)
             creep = solution%creep + alpha*correction
             call slip_of(problem, operator, workspace%trial, creep, workspace%trial_slip)
             trial = true_residual(problem, workspace%trial, workspace%trial_slip, system%r)
@@ -152,7 +154,7 @@ contains
                best = trial
                best_creep = creep
                workspace%residual = workspace%trial
-               workspace%b = workspace%trial_slip
+               workspace%best_slip = workspace%trial_slip
             end if
             if (trial < residual*(1.0_wp - 0.1_wp*alpha)) exit
          end do
@@ -163,7 +165,7 @@ contains
          previous = residual
          residual = best
          solution%p = workspace%residual
-         solution%slip = workspace%b
+         solution%slip = workspace%best_slip
          solution%creep = best_creep
       end do
       call divide_elements(problem, solution%p, solution%slip, system%r, solution%division)
@@ -374,10 +376,10 @@ contains
 
       s = 0.0_wp
       do k = 1, system%n_forces
-         workspace%b = 0.0_wp
-         workspace%b(:, :, k) = system%r*problem%dq*system%creep_scale/system%g_norm
-         call apply_d(workspace, workspace%b)
-         call precondition_field(problem, operator, system, workspace, workspace%b, workspace%border(:, :, :, k))
+         workspace%best_slip = 0.0_wp
+         workspace%best_slip(:, :, k) = system%r*problem%dq*system%creep_scale/system%g_norm
+         call apply_d(workspace, workspace%best_slip)
+         call precondition_field(problem, operator, system, workspace, workspace%best_slip, workspace%border(:, :, :, k))
          preconditionings = preconditionings + 1
          do j = 1, system%n_forces
             s(j, k) = -sum(workspace%border(:, :, j, k))*system%g_norm/system%g_sum
@@ -429,7 +431,7 @@ contains
 
    !> Restarted GMRES (Saad and Schultz 1986), preconditioned from the right
    !>
-   !> On exit workspace%a holds the correction of the tractions [N/mm2].
+   !> On exit workspace%step holds the correction of the tractions [N/mm2].
    subroutine solve_linear(problem, operator, system, workspace, unbalance, tolerance, correction, preconditionings, reached)
       type(tangential_problem), intent(in) :: problem
       type(elastic_operator), intent(inout) :: operator
@@ -446,15 +448,15 @@ contains
       real(wp), intent(out) :: reached
       real(wp) :: h(restart + 1, restart), cs(restart), sn(restart), s(restart + 1), y(restart)
       real(wp) :: start, beta, before, after, t
-      real(wp), allocatable :: x(:), work(:), update(:)
       integer :: n, m, j, k, cycle_, used
 
       n = system%n + system%n_forces
-      allocate(x(n), source=0.0_wp)
-      allocate(work(n), update(n))
       if (system%n_forces > 0) call prepare_border(problem, operator, system, workspace, preconditionings)
-      associate (v => workspace%basis)
-         v(:n, 1) = right_side(n)
+      associate (v => workspace%basis, z => workspace%preconditioned, x => workspace%x, b => workspace%b)
+         x = 0.0_wp
+         b(:system%n) = -reshape(workspace%residual, [system%n])
+         if (n > system%n) b(system%n + 1:n) = -system%g_norm*unbalance(:system%n_forces)
+         v(:n, 1) = b(:n)
          start = norm2(v(:n, 1))
          beta = start
          reached = 1.0_wp
@@ -465,8 +467,8 @@ contains
             s(1) = beta
             used = 0
             do j = 1, restart
-               call precondition(problem, operator, system, workspace, v(:n, j), work, preconditionings)
-               call apply_jacobian(problem, operator, system, workspace, work, v(:n, j + 1))
+               call precondition(problem, operator, system, workspace, v(:n, j), z(:n, j), preconditionings)
+               call apply_jacobian(problem, operator, system, workspace, z(:n, j), v(:n, j + 1))
                before = norm2(v(:n, j + 1))
                do k = 1, j
                   h(k, j) = dot_product(v(:n, k), v(:n, j + 1))
@@ -502,36 +504,23 @@ contains
             do k = used, 1, -1
                y(k) = (s(k) - dot_product(h(k, k + 1:used), y(k + 1:used)))/h(k, k)
             end do
-            update = 0.0_wp
             do k = 1, used
-               update = update + y(k)*v(:n, k)
+               x(:n) = x(:n) + y(k)*z(:n, k)
             end do
-            call precondition(problem, operator, system, workspace, update, work, preconditionings)
-            x = x + work
             beta = abs(s(used + 1))
             reached = beta/start
             if (beta <= tolerance*start .or. cycle_ == max_cycles) exit
-            call apply_jacobian(problem, operator, system, workspace, x, work)
-            v(:n, 1) = right_side(n) - work
+            call apply_jacobian(problem, operator, system, workspace, x(:n), workspace%work(:n))
+            v(:n, 1) = b(:n) - workspace%work(:n)
             beta = norm2(v(:n, 1))
          end do
+         m = system%n
+         workspace%step = reshape(x(:m), shape(workspace%step))
+         correction = 0.0_wp
+         do k = 1, system%n_forces
+            correction(k) = x(m + k)*system%creep_scale/system%g_norm
+         end do
       end associate
-      m = system%n
-      workspace%a = reshape(x(:m), shape(workspace%a))
-      correction = 0.0_wp
-      do k = 1, system%n_forces
-         correction(k) = x(m + k)*system%creep_scale/system%g_norm
-      end do
-
-   contains
-
-      !> Minus the residual of the contact conditions and forces
-      pure function right_side(n) result(b)
-         integer, intent(in) :: n
-         real(wp) :: b(n)
-         b(:system%n) = -reshape(workspace%residual, [system%n])
-         if (n > system%n) b(system%n + 1:) = -system%g_norm*unbalance(:n - system%n)
-      end function right_side
    end subroutine solve_linear
 
    !> out := projection of p + alpha d onto the discs
@@ -565,13 +554,16 @@ contains
 
       if (workspace%mx == mx .and. workspace%my == my) return
       if (allocated(workspace%basis)) then
-         deallocate(workspace%basis, workspace%weight, workspace%direction, workspace%trial, workspace%trial_slip)
-         deallocate(workspace%residual, workspace%a, workspace%b, workspace%border)
+         deallocate(workspace%basis, workspace%preconditioned, workspace%x, workspace%b, workspace%work)
+         deallocate(workspace%weight, workspace%direction, workspace%trial, workspace%trial_slip)
+         deallocate(workspace%residual, workspace%step, workspace%best_slip, workspace%border)
       end if
-      allocate(workspace%basis(2*mx*my + 2, restart + 1), source=0.0_wp)
+      ! memory is touched when a vector is first used
+      allocate(workspace%basis(2*mx*my + 2, restart + 1), workspace%preconditioned(2*mx*my + 2, restart))
+      allocate(workspace%x(2*mx*my + 2), workspace%b(2*mx*my + 2), workspace%work(2*mx*my + 2))
       allocate(workspace%weight(mx, my), workspace%direction(mx, my, 2), source=0.0_wp)
       allocate(workspace%trial(mx, my, 2), workspace%trial_slip(mx, my, 2), source=0.0_wp)
-      allocate(workspace%residual(mx, my, 2), workspace%a(mx, my, 2), workspace%b(mx, my, 2), source=0.0_wp)
+      allocate(workspace%residual(mx, my, 2), workspace%step(mx, my, 2), workspace%best_slip(mx, my, 2), source=0.0_wp)
       allocate(workspace%border(mx, my, 2, 2), source=0.0_wp)
       workspace%mx = mx
       workspace%my = my
