@@ -9,6 +9,7 @@
 module contact_experiment_run
    use omp_lib, only : omp_get_max_threads, omp_set_num_threads
    use contact_base_error, only : add_context, error_kind, error_type, fatal_error, full_text
+   use contact_base_kinds, only : long
    use contact_base_log, only : log_type
    use contact_cases_session, only : contact_session, solve_case
    use contact_cases_spec, only : case_spec
@@ -365,8 +366,6 @@ contains
    subroutine close_out_file(state)
       type(experiment_state), intent(inout) :: state
       type(error_type), allocatable :: error
-      character(len=200) :: reason
-      integer :: status
 
       call state%total%halt()
       call write_end(state%log, omp_get_max_threads(), [ &
@@ -377,13 +376,28 @@ contains
       if (state%unconverged > 0) call state%log%line(" Number of cases that did not reach their tolerance: " // &
          & integer_text(state%unconverged))
       call write_closing(state%log, state%errors > 0)
-      close(state%log%out, iostat=status, iomsg=reason)
+      call close_completely(state%log%out, state%place%results // ".out", error)
       state%log%out = 0
-      if (status == 0) return
-      call fatal_error(error, "the file could not be completed: " // trim(reason), error_kind%file, &
-         & state%place%results // ".out")
-      call report_error(state, error)
+      if (allocated(error)) call report_error(state, error)
    end subroutine close_out_file
+
+   !> Close a file and see whether all of it reached the disk
+   !>
+   !> The I/O library of gfortran 12 says nothing when the disk is full; lengths tell.
+   subroutine close_completely(unit, name, error)
+      integer, intent(in) :: unit
+      character(len=*), intent(in) :: name
+      type(error_type), allocatable, intent(out) :: error
+      integer(long) :: written, arrived
+      integer :: status
+
+      flush(unit, iostat=status)
+      inquire(unit=unit, size=written)
+      close(unit, iostat=status)
+      inquire(file=name, size=arrived)
+      if (status == 0 .and. arrived >= written) return
+      call fatal_error(error, "the file is not complete; is the disk full?", error_kind%file, name)
+   end subroutine close_completely
 
    !> A stopwatch as a line of the timer table
    pure function new_line_of(name, watch) result(line)
