@@ -14,6 +14,7 @@ module contact_cases_geometry
    private
 
    public :: solve_hertz, build_grid, undeformed_distance, curvature_radius, is_line_contact
+   public :: require_finite, require_positive
 
    !> Curvatures [1/mm], lengths [mm] and ratios [-] below this value are taken for missing
    real(wp), parameter :: least_value = 1.0e-20_wp
@@ -262,6 +263,10 @@ contains
       if (allocated(error)) return
       if (any(ieee_is_nan(h))) then
          call fatal_error(error, "the undeformed distance is not a number in some elements")
+         return
+      end if
+      if (any(h < -huge(1.0_wp))) then
+         call fatal_error(error, "the undeformed distance is minus infinity in some elements")
          return
       end if
       h = min(h, excluded_distance)

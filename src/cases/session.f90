@@ -6,6 +6,7 @@ module contact_cases_session
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
    use contact_cases_geometry, only : build_grid, is_line_contact, solve_hertz, undeformed_distance
+   use contact_cases_numbers, only : check_numbers
    use contact_cases_spec, only : case_spec, subsurface_block
    use contact_elastic_material, only : combine
    use contact_grid_element_division, only : element
@@ -68,6 +69,8 @@ contains
       type(error_type), allocatable, intent(out) :: error
       integer :: i
 
+      call check_numbers(spec, error)
+      if (allocated(error)) return
       associate (problem => session%problem)
          problem%material = combine(spec%material%poiss, spec%material%gg)
          call solve_hertz(spec%grid, spec%normal, spec%kinematics%fn, spec%kinematics%pen, problem%material%gg, &
