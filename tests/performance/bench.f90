@@ -3,6 +3,7 @@
 !>     performance_bench [--large] [--quick] [SECTION ...]   sections: normal rolling shift classical line table setup
 !>     performance_bench --allocations                       where repeated cases ask for memory
 !>     performance_bench --input MX FILE                     writes the cases of a table as an .inp file
+!>     performance_bench --case NAME N                       milliseconds of a rolling contact, without and with set-up
 !>     performance_bench --profile NAME                      runs one kind of case for 10 s, for a profiler:
 !>                                                           table11, table35, rolling160, normal160
 program performance_bench
@@ -45,6 +46,8 @@ program performance_bench
       call list_allocations()
    case ("--profile")
       call profile()
+   case ("--case")
+      call one_case()
    case default
       call make_table()
    end select
@@ -479,6 +482,31 @@ contains
       end do
       write(output_unit, '(a, i0, a, g0.4, a)') trim(name), k, " cases, ", 1000.0_wp*(cpu_seconds() - start)/k, " ms each"
    end subroutine profile
+
+   !> Milliseconds of one contact on n by n elements: repeated, and the first time with all set-up
+   subroutine one_case()
+      character(len=80) :: name, size_text
+      type(solve_report) :: report
+      type(measurement) :: result
+      real(wp) :: start, first
+      integer :: k, n
+
+      call get_command_argument(2, name)
+      call get_command_argument(3, size_text)
+      read(size_text, *) n
+      call clock%prepare(8, 8)
+      do k = 1, size(rolling_contacts)
+         if (rolling_contacts(k)%name /= name) cycle
+         start = cpu_seconds()
+         call new_rolling_case(rolling_contacts(k), n, 1.0e-6_wp, tangential)
+         call tangential%run(report)
+         first = cpu_seconds() - start
+         call measure(tangential, clock, 0.5_wp, result)
+         write(output_unit, '(2f14.4)') 1000.0_wp*result%seconds, 1000.0_wp*first
+         return
+      end do
+      error stop "performance_bench --case: unknown contact"
+   end subroutine one_case
 
    !> The cases of a table for the whole program
    subroutine write_input()

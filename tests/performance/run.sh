@@ -1,0 +1,68 @@
+#!/bin/sh
+# The benchmark: sh tests/performance/run.sh [--large] [--quick] [--write] [section ...]
+#
+#   --large    also 201,000 elements, and the prototype on 320 x 320
+#   --quick    smallest sizes only, tables of 100 cases
+#   --write    puts the result into doc/validation/performance.md
+#   sections   setup normal rolling shift classical line table; without any: all of them, the
+#              whole program, requests to the heap, and the comparison with the prototype
+# BENCH_BUILD names a build folder that is up to date, to be used instead of building.
+set -u
+top=$(cd "$(dirname "$0")/../.." && pwd) || exit 1
+. "$top/tests/support/setup.sh"
+here=$top/tests/performance
+prototype=${BENCH_PROTOTYPE:-$top/../shared/prototype}
+options=
+sections=
+write=no
+for argument; do
+  case $argument in
+    --large | --quick) options="$options $argument" ;;
+    --write) write=yes ;;
+    setup | normal | rolling | shift | classical | line | table) sections="$sections $argument" ;;
+    *) fail "usage: sh tests/performance/run.sh [--large] [--quick] [--write] [section ...]" ;;
+  esac
+done
+programs=${BENCH_BUILD:-}
+if [ -z "$programs" ]; then
+  install_missing
+  build release -DCONTACT_TESTS=ON
+  programs=$top/build/release
+fi
+bench=$programs/tests/performance_bench
+OMP_NUM_THREADS=1
+OPENBLAS_NUM_THREADS=1
+export OMP_NUM_THREADS OPENBLAS_NUM_THREADS
+
+# shellcheck disable=SC2086
+measure() {
+  printf '# What cases cost\n\n'
+  printf 'Written by `sh tests/performance/run.sh --write`; how to read and repeat it: [performance](../develop/performance.md).\n\n'
+  printf 'Commit %s, %s, %s processors, %s.\n\n' \
+    "$(git -C "$top" rev-parse --short HEAD 2>/dev/null || echo unknown)" "$(date -u +%Y-%m-%d)" \
+    "$(getconf _NPROCESSORS_ONLN)" "$(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo 2>/dev/null | head -1)"
+  "$bench" $options $sections || return 1
+  [ -n "$sections" ] && return 0
+  printf '\n## The whole program\n\n'
+  python3 "$here/whole_program.py" "$programs/bin/contact" "$bench"
+  printf '\n## Requests to the heap in repeated cases, 11 x 11\n\n'
+  "$bench" --allocations | python3 "$here/name_places.py" "$bench"
+  printf '\n## Against the numpy prototype\n\n'
+  case $options in
+    *--quick*) echo "Left out by --quick." ;;
+    *--large*) python3 "$here/prototype.py" --large "$bench" "$prototype" ;;
+    *) python3 "$here/prototype.py" "$bench" "$prototype" ;;
+  esac
+  return 0
+}
+
+if [ $write = no ]; then
+  measure
+  exit $?
+fi
+mkdir -p "$top/doc/validation"
+result=$(mktemp) || exit 1
+trap 'rm -f "$result"' EXIT
+measure >"$result" || fail "The benchmark failed: $(tail -3 "$result")"
+cat "$result"
+cp "$result" "$top/doc/validation/performance.md"
