@@ -158,6 +158,8 @@ contains
             end if
             if (trial < residual*(1.0_wp - 0.1_wp*alpha)) exit
          end do
+         ! a step that was cut short and still did well: the next one may go farther
+         if (longest < 1.0_wp .and. attempt == 1) creep_range = 3.0_wp*creep_range
          if (.not. best < huge(best)) then
             outcome%ended = ending%diverged
             exit
