@@ -93,7 +93,7 @@ def picture(points):
                 at = x0
                 for k, method in enumerate(methods):
                     out.append(f'<circle cx="{at + 4}" cy="35" r="4" fill="{COLOURS[k]}"/><text x="{at + 12}" y="39">{method}</text>')
-                    at += 24 + 5.6*len(method)
+                    at += 26 + 6.2*len(method)
             else:
                 out.append(f'<text x="{x0 + WIDTH/2}" y="{y0 + HEIGHT + 34}" text-anchor="middle">processor time of one case</text>')
     out.append("</svg>")
@@ -121,7 +121,9 @@ for a case that starts from zero on a grid that is already set up.
 ![error against seconds](accuracy.svg)
 
 Each dot is one grid with one tolerance; the lines join, for each method, the combinations that no
-other combination beats. Errors below 1e-8 are drawn there.
+other combination beats. Where an error changes its sign between grids it can be small by luck, so
+single points far below their neighbours mean nothing. Errors below 1e-8 are drawn there. References
+from a finest grid carry an error of their own, about half the one of the grid before.
 
 - *Normal problem*: a ball on a flat, approach prescribed; errors in the force and in the largest
   pressure against Hertz's solution.
