@@ -286,7 +286,7 @@ contains
       real(wp) :: slowest
       character(len=:), allocatable :: name
       !> A size is left out when the one before took longer
-      real(wp), parameter :: limit = 4.0_wp
+      real(wp), parameter :: limit = 1.0_wp
 
       do method = classical_method%steady_gs, classical_method%gd_steady, &
             & classical_method%gd_steady - classical_method%steady_gs
