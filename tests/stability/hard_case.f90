@@ -5,7 +5,7 @@
 !> the influence coefficients: no FFT, and nothing that a solver computed on its way.
 module hard_case
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
-   use contact_base_choices, only : force_control, motion, normal_control, pressure_model, time_link
+   use contact_base_choices, only : motion, normal_control, pressure_model, time_link
    use contact_base_constants, only : excluded_threshold
    use contact_base_error, only : error_type, full_text
    use contact_base_kinds, only : wp
@@ -478,18 +478,21 @@ contains
          write(counts(5), '(es8.1)') max(found%friction, found%gap, found%penetration)
          write(table, '(a)') "| " // name // " | " // trim(counts(1)) // " | " // trim(normal) // " | " // method // " | " // &
             & trim(counts(2)) // " | " // trim(counts(3)) // " | " // trim(adjustl(counts(4))) // " | " // &
-            & trim(adjustl(counts(5))) // " | " // endings(n, t) // " |"
+            & trim(adjustl(counts(5))) // " | " // endings(n, t, run%warnings) // " |"
          flush(table)
       end associate
    end subroutine write_row
 
    !> How both problems ended
-   function endings(normal, tangential) result(text)
+   function endings(normal, tangential, warnings) result(text)
       type(solve_report), intent(in) :: normal, tangential
+      !> A message without a fall-back or a failure is that of the outer iteration
+      integer, intent(in) :: warnings
       character(len=:), allocatable :: text
 
       if (normal%succeeded() .and. tangential%succeeded()) then
          text = "converged"
+         if (warnings > 0 .and. .not. allocated(tangential%gave_up)) text = "outer iteration at its limit (warning)"
          return
       end if
       text = ""

@@ -5,7 +5,7 @@ set -eu
 build=${1:-build/release}
 top=$(cd "$(dirname "$0")/../.." && pwd)
 out=$top/doc/validation/hard_cases.md
-names="friction shapes coupling rough sequences solvers numbers"
+names="friction shapes grids coupling rough sequences solvers numbers"
 for name in $names; do
   if [ ! -f "$build/tests/scratch/hard_$name/table.md" ]; then
     echo "hard_cases.sh: $build/tests/scratch/hard_$name/table.md is missing; run ctest -L stability first" >&2
