@@ -478,7 +478,7 @@ contains
          write(counts(5), '(es8.1)') max(found%friction, found%gap, found%penetration)
          write(table, '(a)') "| " // name // " | " // trim(counts(1)) // " | " // trim(normal) // " | " // method // " | " // &
             & trim(counts(2)) // " | " // trim(counts(3)) // " | " // trim(adjustl(counts(4))) // " | " // &
-            & trim(adjustl(counts(5))) // " | " // endings(n, t, run%warnings) // " |"
+            & trim(adjustl(counts(5))) // " | " // endings(n, t, merge(run%warnings, 0, res%outer_iterations > 1)) // " |"
          flush(table)
       end associate
    end subroutine write_row
