@@ -256,7 +256,6 @@ contains
       integer :: ix, iy
       real(wp) :: z(2), length, g
 
-      !$omp parallel do private(ix, z, length, g) if (size(problem%bound) > 20000)
       do iy = 1, problem%my
          do ix = 1, problem%mx
             workspace%weight(ix, iy) = 0.0_wp
@@ -265,7 +264,7 @@ contains
             if (.not. problem%contact(ix, iy)) cycle
             g = problem%bound(ix, iy)
             z = solution%p(ix, iy, :) - system%r*solution%slip(ix, iy, :)
-            length = hypot(z(1), z(2))
+            length = sqrt(z(1)**2 + z(2)**2)
             if (g <= 0.0_wp) then
                z = 0.0_wp
             else if (length <= g) then
@@ -287,7 +286,6 @@ contains
       integer :: ix, iy
       real(wp) :: c
 
-      !$omp parallel do private(ix, c) if (size(v) > 40000)
       do iy = 1, size(v, 2)
          do ix = 1, size(v, 1)
             c = workspace%direction(ix, iy, 1)*v(ix, iy, 1) + workspace%direction(ix, iy, 2)*v(ix, iy, 2)
@@ -316,7 +314,6 @@ contains
       do k = 1, system%n_forces
          creep(k) = problem%dq*system%creep_scale*y(system%n + k)/system%g_norm
       end do
-      !$omp parallel do private(ix, c, vx, vy) if (size(workspace%weight) > 20000)
       do iy = 1, problem%my
          do ix = 1, problem%mx
             vx = dp(ix, iy, 1) - system%r*(workspace%trial(ix, iy, 1) + creep(1))
@@ -349,7 +346,6 @@ contains
       else
          call operator%tangential_inverse(workspace%trial, u)
       end if
-      !$omp parallel do private(ix, c, vx, vy, ux, uy, w, nx, ny) if (size(u) > 40000)
       do iy = 1, problem%my
          do ix = 1, problem%mx
             w = workspace%weight(ix, iy)
@@ -534,11 +530,10 @@ contains
       integer :: ix, iy
       real(wp) :: q(2), length
 
-      !$omp parallel do private(ix, q, length) if (size(p) > 40000)
       do iy = 1, problem%my
          do ix = 1, problem%mx
             q = p(ix, iy, :) + alpha*d(ix, iy, :)
-            length = hypot(q(1), q(2))
+            length = sqrt(q(1)**2 + q(2)**2)
             if (.not. problem%contact(ix, iy)) then
                q = 0.0_wp
             else if (length > problem%bound(ix, iy)) then

@@ -134,7 +134,7 @@ contains
          do ix = 1, problem%mx
             if (.not. problem%contact(ix, iy)) cycle
             z = p(ix, iy, :) - r*slip(ix, iy, :)
-            length = hypot(z(1), z(2))
+            length = sqrt(z(1)**2 + z(2)**2)
             if (length > problem%bound(ix, iy)) z = z*(problem%bound(ix, iy)/length)
             total = total + sum((p(ix, iy, :) - z)**2)
             scale = scale + problem%bound(ix, iy)**2
