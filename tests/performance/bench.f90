@@ -105,7 +105,7 @@ contains
       type(measurement), intent(in) :: result
       type(goal_type), intent(in) :: goal
       character(len=160) :: line, heap, verdict
-      character(len=12) :: products
+      character(len=12) :: products, milliseconds
       real(wp) :: cost
       logical :: met
 
@@ -136,8 +136,10 @@ contains
       if (result%allocations >= 0) write(heap, '(i0)') result%allocations
       products = "-"
       if (result%report%products > 0) write(products, '(i0)') result%report%products
-      write(line, '(i0, 3a, f0.1, a, g0.4, a, f0.1)') result%report%iterations, " | ", trim(products), " | ", &
-         & result%report%fft_pairs, " | ", 1000.0_wp*result%seconds, " | ", cost
+      write(milliseconds, '(f12.1)') 1000.0_wp*result%seconds
+      if (result%seconds < 0.1_wp) write(milliseconds, '(f12.3)') 1000.0_wp*result%seconds
+      write(line, '(i0, 3a, f0.1, 3a, f0.1)') result%report%iterations, " | ", trim(products), " | ", &
+         & result%report%fft_pairs, " | ", trim(adjustl(milliseconds)), " | ", cost
       write(output_unit, '(5a, i0, 6a, es8.1, 3a)') "| ", name, " | ", grid, " | ", contact, " | ", trim(line), " | ", trim(heap), &
          & " | ", "", result%report%residual, " | ", trim(verdict), " |"
       flush(output_unit)
