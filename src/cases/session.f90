@@ -14,13 +14,13 @@ module contact_cases_session
    use contact_normal_estimate, only : elliptic_pressure, parabolic_pressure
    use contact_patch_problem, only : patch_problem, patch_state, traction_fields
    use contact_patch_result, only : patch_result
-   use contact_patch_solve, only : fit_fields, patch_workspace, solve_patch
+   use contact_patch_solve, only : fit_fields, patch_workspace, release_workspace, solve_patch
    use contact_subsurface_points, only : expand_points, point_block, point_selection
    use contact_subsurface_stress, only : stress_invariants, subsurface_field
    implicit none (type, external)
    private
 
-   public :: contact_session, solve_case
+   public :: contact_session, release_session, solve_case
 
    !> Memory of one problem: what the physics remembers, and scratch
    type :: contact_session
@@ -59,6 +59,12 @@ contains
       if (allocated(result%subsurface)) deallocate(result%subsurface)
       if (spec%stress /= stress_choice%none) call subsurface_stresses(spec, result)
    end subroutine solve_case
+
+   !> Free what a session holds outside Fortran's memory; call it before the session goes
+   subroutine release_session(session)
+      type(contact_session), intent(inout) :: session
+      call release_workspace(session%workspace)
+   end subroutine release_session
 
    !> From the specification to the problem of the patch
    subroutine set_problem(session, spec, log, result, error)

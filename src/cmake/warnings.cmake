@@ -32,6 +32,6 @@ endif()
 # Debug: everything the compiler can check at run time. Release: no -ffast-math, because checks for
 # NaN and reproducible sums matter.
 set(CMAKE_Fortran_FLAGS_DEBUG
-  "-O0 -g -fcheck=all -fbacktrace -finit-real=snan -ffpe-trap=invalid,zero,overflow")
+  "-O0 -g -fcheck=all,no-array-temps -fbacktrace -finit-real=snan -ffpe-trap=invalid,zero,overflow")
 set(CMAKE_Fortran_FLAGS_RELEASE "-O3 -g1")
 set(CMAKE_C_FLAGS_DEBUG "-O0 -g")

@@ -62,6 +62,8 @@ module contact_elastic_operator
       !> u_t by pressures; difference between two moments in steady rolling
       procedure :: tangential_by_normal
       procedure :: steady_by_normal
+      !> Free the plans
+      procedure :: release
       !> Pairs of forward and backward transforms so far
       procedure :: fft_pairs
       procedure, private :: make_spectra
@@ -411,6 +413,12 @@ contains
       self%products = self%products + 1
       self%transforms = self%transforms + 3
    end subroutine steady_by_normal
+
+   subroutine release(self)
+      class(elastic_operator), intent(inout) :: self
+      call self%plan%release()
+      self%mx = 0
+   end subroutine release
 
    pure real(wp) function fft_pairs(self) result(pairs)
       class(elastic_operator), intent(in) :: self

@@ -24,11 +24,19 @@ module contact_elastic_previous
    contains
       !> Set window, material and shift
       procedure :: prepare
+      !> Free the plans
+      procedure :: release
       !> Tangential displacements u_t' by all tractions
       procedure :: tangential
    end type previous_operator
 
 contains
+
+   subroutine release(self)
+      class(previous_operator), intent(inout) :: self
+      call self%plan%release()
+      self%mx = 0
+   end subroutine release
 
    subroutine prepare(self, material, dx, dy, mx, my, shift_x, shift_y)
       class(previous_operator), intent(inout) :: self

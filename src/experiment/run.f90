@@ -9,9 +9,8 @@
 module contact_experiment_run
    use omp_lib, only : omp_get_max_threads, omp_set_num_threads
    use contact_base_error, only : add_context, error_kind, error_type, fatal_error, full_text
-   use contact_base_kinds, only : long
    use contact_base_log, only : log_type
-   use contact_cases_session, only : contact_session, solve_case
+   use contact_cases_session, only : contact_session, release_session, solve_case
    use contact_cases_spec, only : case_spec
    use contact_experiment_place, only : experiment_place, locate_experiment
    use contact_experiment_progress, only : is_terminal, progress_line
@@ -19,6 +18,7 @@ module contact_experiment_run
    use contact_input_experiment_file, only : experiment_reader, input_case
    use contact_input_problems, only : problem_text, severity
    use contact_input_words, only : integer_text
+   use contact_output_finished_file, only : close_completely
    use contact_output_mat_file, only : mat_file_name, write_mat_file
    use contact_output_report, only : timer_line, write_banner, write_case, write_case_line, write_closing, write_end, &
       & write_subsurface
@@ -55,9 +55,7 @@ module contact_experiment_run
    !> The problem of one result element and contact patch
    type :: problem_slot
       integer :: reid = 0, cpid = 1
-      !> A pointer that is never freed: gfortran 12 crashes when it finalises an array of fixed size
-      !> whose elements hold FFT plans, as the workspaces of the levels are (a loss per run, not per case)
-      type(contact_session), pointer :: session => null()
+      type(contact_session), allocatable :: session
       type(patch_result), allocatable :: result
    end type problem_slot
 
@@ -165,7 +163,7 @@ contains
       type(error_type), allocatable :: error
       type(input_case) :: this
       logical :: go_on
-      integer :: status
+      integer :: status, k
 
       call state%total%start()
       call open_out_file(state, error)
@@ -193,6 +191,9 @@ contains
       end do
       call state%progress%hide()
       call close_out_file(state)
+      do k = 1, state%used
+         call release_session(state%slots(k)%session)
+      end do
    end subroutine compute_all_cases
 
    !> Check, solve and write one case
@@ -270,7 +271,7 @@ contains
          do i = 1, state%used
             longer(i)%reid = state%slots(i)%reid
             longer(i)%cpid = state%slots(i)%cpid
-            longer(i)%session => state%slots(i)%session
+            call move_alloc(state%slots(i)%session, longer(i)%session)
             call move_alloc(state%slots(i)%result, longer(i)%result)
          end do
          call move_alloc(longer, state%slots)
@@ -366,13 +367,14 @@ contains
    subroutine close_out_file(state)
       type(experiment_state), intent(inout) :: state
       type(error_type), allocatable :: error
+      type(timer_line) :: lines(4)
 
       call state%total%halt()
-      call write_end(state%log, omp_get_max_threads(), [ &
-         & new_line_of("Total", state%total), &
-         & new_line_of("Reading input", state%reading), &
-         & new_line_of("Solving cases", state%solving), &
-         & new_line_of("Writing results", state%writing)])
+      call fill_line("Total", state%total, lines(1))
+      call fill_line("Reading input", state%reading, lines(2))
+      call fill_line("Solving cases", state%solving, lines(3))
+      call fill_line("Writing results", state%writing, lines(4))
+      call write_end(state%log, omp_get_max_threads(), lines)
       if (state%unconverged > 0) call state%log%line(" Number of cases that did not reach their tolerance: " // &
          & integer_text(state%unconverged))
       call write_closing(state%log, state%errors > 0)
@@ -381,33 +383,15 @@ contains
       if (allocated(error)) call report_error(state, error)
    end subroutine close_out_file
 
-   !> Close a file and see whether all of it reached the disk
-   !>
-   !> The I/O library of gfortran 12 says nothing when the disk is full; lengths tell.
-   subroutine close_completely(unit, name, error)
-      integer, intent(in) :: unit
-      character(len=*), intent(in) :: name
-      type(error_type), allocatable, intent(out) :: error
-      integer(long) :: written, arrived
-      integer :: status
-
-      flush(unit, iostat=status)
-      inquire(unit=unit, size=written)
-      close(unit, iostat=status)
-      inquire(file=name, size=arrived)
-      if (status == 0 .and. arrived >= written) return
-      call fatal_error(error, "the file is not complete; is the disk full?", error_kind%file, name)
-   end subroutine close_completely
-
    !> A stopwatch as a line of the timer table
-   pure function new_line_of(name, watch) result(line)
+   pure subroutine fill_line(name, watch, line)
       character(len=*), intent(in) :: name
       type(stopwatch), intent(in) :: watch
-      type(timer_line) :: line
+      type(timer_line), intent(out) :: line
 
       line%name = name
       line%calls = watch%calls
       line%cpu = watch%cpu
       line%wall = watch%wall
-   end function new_line_of
+   end subroutine fill_line
 end module contact_experiment_run

@@ -16,7 +16,10 @@ module contact_fft_plan
 
    public :: fft_plan, good_size
 
-   !> Plans and buffers for one window size; not to be copied, its plans know addresses' alignment
+   !> Plans and buffers for one window size; not to be copied
+   !>
+   !> Whoever owns one calls release before it goes: a finaliser would do that by itself, but gfortran 12
+   !> makes programs crash that finalise such components inside arrays of derived types.
    type :: fft_plan
       !> Size of the window and of the padded window
       integer :: mx = 0, my = 0, px = 0, py = 0
@@ -37,7 +40,6 @@ module contact_fft_plan
       procedure :: kernel_spectrum
       !> Free the plans
       procedure :: release => release_plan
-      final :: finalise_plan
    end type fft_plan
 
 contains
@@ -173,8 +175,4 @@ contains
       if (allocated(self%rows)) deallocate(self%rows)
    end subroutine release_plan
 
-   subroutine finalise_plan(self)
-      type(fft_plan), intent(inout) :: self
-      call self%release()
-   end subroutine finalise_plan
 end module contact_fft_plan

@@ -16,7 +16,7 @@ module contact_normal_conjugate_gradient
    implicit none (type, external)
    private
 
-   public :: normal_problem, normal_workspace, solve_normal
+   public :: normal_problem, normal_workspace, release_normal, solve_normal
 
    !> Data of a normal problem on a window; constant during the solution
    type :: normal_problem
@@ -431,6 +431,17 @@ contains
          end do
       end do
    end subroutine prolong
+
+   !> Free the plans of all levels
+   subroutine release_normal(workspace)
+      type(normal_workspace), intent(inout) :: workspace
+      integer :: k
+
+      if (.not. allocated(workspace%level)) return
+      do k = 1, size(workspace%level)
+         call workspace%level(k)%operator%release()
+      end do
+   end subroutine release_normal
 
    !> Allocate scratch; keeps it when the size is the same
    subroutine fit_level(level, mx, my)

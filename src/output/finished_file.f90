@@ -2,10 +2,11 @@
 module contact_output_finished_file
    use, intrinsic :: iso_c_binding, only : c_char, c_int, c_null_char
    use contact_base_error, only : error_kind, error_type, fatal_error
+   use contact_base_kinds, only : long
    implicit none (type, external)
    private
 
-   public :: case_file_name, finished_file
+   public :: case_file_name, close_completely, finished_file
 
    !> A text file in the making
    type :: finished_file
@@ -85,11 +86,13 @@ contains
       integer, intent(in) :: status
       type(error_type), allocatable, intent(out) :: error
       integer :: closed, unit
+      type(error_type), allocatable :: incomplete
 
       if (self%unit == 0) return
       closed = status
       if (status == 0) then
-         close(self%unit, iostat=closed)
+         call close_completely(self%unit, self%temporary, incomplete)
+         closed = merge(1, 0, allocated(incomplete))
          if (closed == 0) closed = move(self%temporary, self%name)
       else
          close(self%unit, status="delete", iostat=unit)
@@ -102,6 +105,24 @@ contains
       end if
       call fatal_error(error, "the file could not be completed, it was not written", error_kind%file, file=self%name)
    end subroutine finish_file
+
+   !> Close a file and see whether all of it reached the disk
+   !>
+   !> The I/O library of gfortran 12 says nothing when the disk is full; lengths tell.
+   subroutine close_completely(unit, name, error)
+      integer, intent(in) :: unit
+      character(len=*), intent(in) :: name
+      type(error_type), allocatable, intent(out) :: error
+      integer(long) :: written, arrived
+      integer :: status
+
+      flush(unit, iostat=status)
+      inquire(unit=unit, size=written)
+      close(unit, iostat=status)
+      inquire(file=name, size=arrived)
+      if (status == 0 .and. arrived >= written) return
+      call fatal_error(error, "the file is not complete; is the disk full?", error_kind%file, name)
+   end subroutine close_completely
 
    !> Rename a file; where the system refuses to replace, the old one is deleted first
    integer function move(from, to) result(status)

@@ -13,16 +13,16 @@ module contact_patch_solve
    use contact_elastic_operator, only : elastic_operator
    use contact_elastic_previous, only : previous_operator
    use contact_grid_element_division, only : bounding_box, contact_box, element
-   use contact_normal_conjugate_gradient, only : normal_problem, normal_workspace, solve_normal
+   use contact_normal_conjugate_gradient, only : normal_problem, normal_workspace, release_normal, solve_normal
    use contact_patch_problem, only : patch_problem, patch_state, traction_fields
    use contact_patch_result, only : patch_result
    use contact_tangential_classical, only : classical_method, solve_classical
-   use contact_tangential_nested, only : nested_workspace, solve_newton_krylov
+   use contact_tangential_nested, only : nested_workspace, release_nested, solve_newton_krylov
    use contact_tangential_problem, only : prepare_solution, tangential_problem, tangential_solution
    implicit none (type, external)
    private
 
-   public :: patch_workspace, solve_patch, fit_fields
+   public :: patch_workspace, release_workspace, solve_patch, fit_fields
 
    !> Scratch of one patch: operators with their spectra, and the solvers' arrays
    type :: patch_workspace
@@ -95,6 +95,17 @@ contains
       call derive(problem, state, workspace, result)
       state%started = .true.
    end subroutine solve_patch
+
+   !> Free what the workspace holds outside Fortran's memory: plans of transforms
+   subroutine release_workspace(workspace)
+      type(patch_workspace), intent(inout) :: workspace
+
+      call workspace%window%release()
+      call workspace%box%release()
+      call workspace%previous%release()
+      call release_normal(workspace%normal_work)
+      call release_nested(workspace%tangential_work)
+   end subroutine release_workspace
 
    !> Refuse what has no solution
    subroutine check_problem(problem, error)

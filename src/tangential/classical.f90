@@ -145,7 +145,10 @@ contains
       end if
       report%residual = true_residual(problem, solution%p, solution%slip, r)
       report%products = report%products + operator%products - products_before
-      if (with_rows) report%products = report%products + rows%products()
+      if (with_rows) then
+         report%products = report%products + rows%products()
+         call rows%release()
+      end if
       report%fft_pairs = report%fft_pairs + operator%fft_pairs() - pairs_before
 
    contains

@@ -15,7 +15,7 @@ module contact_tangential_nested
    implicit none (type, external)
    private
 
-   public :: nested_workspace, solve_newton_krylov
+   public :: nested_workspace, release_nested, solve_newton_krylov
 
    !> Scratch of one level
    type :: level_type
@@ -85,6 +85,17 @@ contains
          end associate
       end do
    end subroutine solve_newton_krylov
+
+   !> Free the plans of all levels
+   subroutine release_nested(workspace)
+      type(nested_workspace), intent(inout) :: workspace
+      integer :: k
+
+      if (.not. allocated(workspace%level)) return
+      do k = 1, size(workspace%level)
+         call workspace%level(k)%operator%release()
+      end do
+   end subroutine release_nested
 
    pure logical function can_coarsen(problem)
       type(tangential_problem), intent(in) :: problem

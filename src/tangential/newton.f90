@@ -222,13 +222,18 @@ contains
       solution%creep = solution%creep - creep
    end subroutine start_values
 
-   !> Does the whole contact area slide, with more force than prescribed?
+   !> Does the whole contact area slide in one direction, with more force than prescribed?
+   !>
+   !> Where all elements slide the same way the force is at its limit and no longer depends on the
+   !> creepages. Sliding with spin or lateral motion is another thing: there the force does change.
    pure logical function slides_too_far(problem, system, workspace)
       type(tangential_problem), intent(in) :: problem
       type(linear_system), intent(in) :: system
       type(newton_workspace), intent(in) :: workspace
       integer :: ix, iy, k
-      real(wp) :: force
+      real(wp) :: force, target
+      !> Distance to the limit, relative to that of the target, below which the force counts as constant
+      real(wp), parameter :: near_limit = 0.05_wp
 
       slides_too_far = .false.
       if (problem%n_forces == 0) return
@@ -236,7 +241,9 @@ contains
       do k = 1, problem%n_forces
          force = force + sum(workspace%trial(:, :, k))**2
       end do
-      if (force <= sum(problem%target(:problem%n_forces)**2)) return
+      force = sqrt(force)
+      target = norm2(problem%target(:problem%n_forces))
+      if (force <= target .or. system%g_sum - force > near_limit*(system%g_sum - target)) return
       do iy = 1, problem%my
          do ix = 1, problem%mx
             if (problem%bound(ix, iy) <= 0.0_wp) cycle

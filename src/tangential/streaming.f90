@@ -70,6 +70,8 @@ module contact_tangential_streaming
    contains
       !> Kernels, geometry, bounds
       procedure :: prepare
+      !> Free the plans
+      procedure :: release
       !> Rigid slip and tractions for given creepages
       procedure :: start
       !> Tell that the loads of a row have changed
@@ -159,6 +161,7 @@ contains
          self%near_yy = self%near_yy(mx:-mx:-1)
          self%near_xy = -self%near_xy(mx:-mx:-1)
       end if
+      call whole_period%release()
 
    contains
 
@@ -184,6 +187,11 @@ contains
          call whole_period%forward(period, self%spectrum, 1)
       end subroutine row_spectrum
    end subroutine prepare
+
+   subroutine release(self)
+      class(streaming_rows), intent(inout) :: self
+      call self%plan%release()
+   end subroutine release
 
    !> Column of the window that belongs to a column in streaming order
    elemental integer function window_column(self, ix) result(jx)
