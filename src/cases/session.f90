@@ -195,7 +195,11 @@ contains
       problem%dq = spec%rolling%dq
       problem%veloc = spec%rolling%veloc
       problem%spin_offset = spec%rolling%facphi
-      if (spec%motion /= motion%steady_rolling) return
+      if (spec%motion /= motion%steady_rolling) then
+         if (problem%dq > (1.0_wp + step_tolerance)*problem%grid%dx) call log%warning( &
+            & "DQ is larger than DX: slip near the leading edge is less accurate, it is not corrected in this version")
+         return
+      end if
       if (abs(sin(problem%chi)) > angle_tolerance) then
          call log%warning("steady rolling goes along x: CHI is set to 0")
          problem%chi = 0.0_wp

@@ -143,7 +143,10 @@ contains
       self%near_xx = operator%table%xx(-mx:mx, 0)
       self%near_yy = operator%table%yy(-mx:mx, 0)
       self%near_xy = operator%table%xy(-mx:mx, 0)
-      if (.not. present(shifted)) return
+      if (.not. present(shifted)) then
+         call whole_period%release()
+         return
+      end if
 
       do l = 1 - my, my - 1
          call row_spectrum(operator%table%xx(-mx:mx, l) - shifted%xx(-mx:mx, l), mirror=1.0_wp)

@@ -23,9 +23,8 @@ module contact_test_case_builder
    !> A specification with the session that solves it
    type :: test_case
       type(case_spec) :: spec
-      !> Made on first use; a pointer that is never freed, because gfortran 12 crashes when it
-      !> finalises an array of fixed size whose elements hold FFT plans (workspaces of the levels)
-      type(contact_session), pointer :: session => null()
+      !> Made on first use; its plans live until the program ends
+      type(contact_session), allocatable :: session
       type(patch_result) :: result
       type(log_type) :: log
    contains
@@ -69,7 +68,7 @@ contains
       class(test_case), intent(inout) :: self
       type(error_type), allocatable, intent(out) :: error
 
-      if (.not. associated(self%session)) allocate(self%session)
+      if (.not. allocated(self%session)) allocate(self%session)
       call solve_case(self%session, self%spec, self%log, self%result, error)
    end subroutine try
 
