@@ -324,9 +324,11 @@ contains
       end do
       if (.not. allocated(problem%given_pressure)) then
          result%normal%passes = result%normal%passes + 1
-         write(line, '(a,2i7,a,i6)') "      Norm: final element division: C, E=", result%ncon, &
-            & problem%grid%npot() - result%ncon, "  ItCG=", result%normal%iterations
-         call log%trace(3, trim(line))
+         if (log%shows(3)) then
+            write(line, '(a,2i7,a,i6)') "      Norm: final element division: C, E=", result%ncon, &
+               & problem%grid%npot() - result%ncon, "  ItCG=", result%normal%iterations
+            call log%trace(3, trim(line))
+         end if
          if (.not. result%normal%succeeded()) call report_failure(log, "normal", result%normal)
       end if
       if (.not. problem%force_prescribed) result%fn = problem%grid%dx*problem%grid%dy*sum(state%now%pn)
@@ -343,9 +345,6 @@ contains
       type(log_type), intent(inout) :: log
       type(patch_result), intent(inout) :: result
       type(bounding_box) :: box
-      integer :: nadh, nslip
-      character(len=80) :: line
-      character(len=16) :: counter
 
       box = contact_box(state%now%division)
       if (box%ix0 > box%ix1) then
@@ -355,7 +354,7 @@ contains
       call workspace%box%prepare(problem%material, problem%grid%dx, problem%grid%dy, box%ix1 - box%ix0 + 1, &
          & box%iy1 - box%iy0 + 1, rolling_direction(problem))
       call set_tangential(problem, state, box, workspace, result)
-      call log%trace(2, " TANG: " // type_of_motion(problem%motion))
+      if (log%shows(2)) call log%trace(2, " TANG: " // type_of_motion(problem%motion))
       call choose_and_solve(problem, workspace, log, result%tangential)
       result%tangential%passes = result%tangential%passes + 1
 
@@ -366,19 +365,26 @@ contains
          if (problem%n_forces >= 1) result%cksi = solution%creep(1)
          if (problem%n_forces >= 2) result%ceta = solution%creep(2)
          result%sensitivity(2:3, 2:3) = solution%sensitivity
-         nadh = count(solution%division == element%adhesion)
-         nslip = count(solution%division == element%slip)
-         counter = "  ItGS="
-         if (allocated(result%tangential%method)) then
-            if (result%tangential%method == "TangCG") counter = "  ItCG="
-            if (result%tangential%method == "Newton-Krylov") counter = "  ItNK="
-         end if
-         write(line, '(a,2i7,a,i6)') "      Tang: final element division: A, S=", nadh, nslip, trim(counter) , &
-            & result%tangential%iterations
-         call log%trace(3, trim(line))
+         if (log%shows(3)) call trace_division(log, solution, result%tangential)
       end associate
       if (.not. result%tangential%succeeded()) call report_failure(log, "tangential", result%tangential)
    end subroutine tangential_step
+
+   !> Line of the flow trace about the adhesion and slip areas
+   subroutine trace_division(log, solution, report)
+      type(log_type), intent(inout) :: log
+      type(tangential_solution), intent(in) :: solution
+      type(solve_report), intent(in) :: report
+      character(len=80) :: line
+      character(len=7) :: counter
+
+      counter = "  ItGS="
+      if (report%method == "TangCG") counter = "  ItCG="
+      if (report%method == "Newton-Krylov") counter = "  ItNK="
+      write(line, '(a,2i7,a,i6)') "      Tang: final element division: A, S=", count(solution%division == element%adhesion), &
+         & count(solution%division == element%slip), counter, report%iterations
+      call log%trace(3, trim(line))
+   end subroutine trace_division
 
    !> Crop the tangential problem to the contact area
    subroutine set_tangential(problem, state, box, workspace, result)

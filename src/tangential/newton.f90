@@ -310,7 +310,7 @@ contains
       type(newton_workspace), intent(inout) :: workspace
       real(wp), contiguous, target, intent(in) :: y(:)
       real(wp), contiguous, target, intent(out) :: out(:)
-      real(wp), pointer :: dp(:, :, :), res(:, :, :)
+      real(wp), pointer, contiguous :: dp(:, :, :), res(:, :, :)
       real(wp) :: creep(2), c, vx, vy
       integer :: ix, iy, k
 
@@ -414,7 +414,7 @@ contains
       real(wp), contiguous, target, intent(in) :: v(:)
       real(wp), contiguous, target, intent(inout) :: out(:)
       integer, intent(inout) :: preconditionings
-      real(wp), pointer :: field(:, :, :), u(:, :, :)
+      real(wp), pointer, contiguous :: field(:, :, :), u(:, :, :)
       real(wp) :: rest(2), dc(2)
       integer :: k
 
@@ -459,7 +459,8 @@ contains
       if (system%n_forces > 0) call prepare_border(problem, operator, system, workspace, preconditionings)
       associate (v => workspace%basis, z => workspace%preconditioned, x => workspace%x, b => workspace%b)
          x = 0.0_wp
-         b(:system%n) = -reshape(workspace%residual, [system%n])
+         call flatten(workspace%residual, b)
+         b(:system%n) = -b(:system%n)
          if (n > system%n) b(system%n + 1:n) = -system%g_norm*unbalance(:system%n_forces)
          v(:n, 1) = b(:n)
          start = norm2(v(:n, 1))
@@ -520,13 +521,43 @@ contains
             beta = norm2(v(:n, 1))
          end do
          m = system%n
-         workspace%step = reshape(x(:m), shape(workspace%step))
+         call unfold(x, workspace%step)
          correction = 0.0_wp
          do k = 1, system%n_forces
             correction(k) = x(m + k)*system%creep_scale/system%g_norm
          end do
       end associate
    end subroutine solve_linear
+
+   !> Traction field as the first part of a vector of unknowns
+   pure subroutine flatten(field, vector)
+      real(wp), contiguous, intent(in) :: field(:, :, :)
+      real(wp), contiguous, intent(inout) :: vector(:)
+      integer :: iy, k, first
+
+      first = 0
+      do k = 1, size(field, 3)
+         do iy = 1, size(field, 2)
+            vector(first + 1:first + size(field, 1)) = field(:, iy, k)
+            first = first + size(field, 1)
+         end do
+      end do
+   end subroutine flatten
+
+   !> First part of a vector of unknowns as a traction field
+   pure subroutine unfold(vector, field)
+      real(wp), contiguous, intent(in) :: vector(:)
+      real(wp), contiguous, intent(inout) :: field(:, :, :)
+      integer :: iy, k, first
+
+      first = 0
+      do k = 1, size(field, 3)
+         do iy = 1, size(field, 2)
+            field(:, iy, k) = vector(first + 1:first + size(field, 1))
+            first = first + size(field, 1)
+         end do
+      end do
+   end subroutine unfold
 
    !> out := projection of p + alpha d onto the discs
    subroutine step_and_project(problem, p, alpha, d, out)
