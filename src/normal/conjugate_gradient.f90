@@ -9,6 +9,7 @@
 module contact_normal_conjugate_gradient
    use contact_base_constants, only : excluded_threshold
    use contact_base_kinds, only : wp
+   use contact_base_log, only : log_type
    use contact_base_solve_report, only : ending, solve_report
    use contact_elastic_material, only : combined_material
    use contact_elastic_operator, only : elastic_operator
@@ -59,7 +60,7 @@ module contact_normal_conjugate_gradient
 contains
 
    !> Solve for pressures and approach or force
-   subroutine solve_normal(problem, operator, workspace, p, pen, report)
+   subroutine solve_normal(problem, operator, workspace, p, pen, report, log)
       type(normal_problem), intent(in) :: problem
       !> Prepared for the window
       type(elastic_operator), intent(inout) :: operator
@@ -69,6 +70,8 @@ contains
       !> Approach [mm]: prescribed, or an exit value
       real(wp), intent(inout) :: pen
       type(solve_report), intent(inout) :: report
+      !> Gets a line per iteration from flow-trace level 6 on; absent: no trace
+      type(log_type), intent(inout), optional :: log
       real(wp) :: pairs_before, fine_size
       integer :: k, products_before
 
@@ -77,7 +80,7 @@ contains
       products_before = operator%products
       report%method = "NormCG"
       report%tolerance = problem%eps
-      call solve_level(problem, operator, workspace, 1, p, pen, problem%eps, report)
+      call solve_level(problem, operator, workspace, 1, p, pen, problem%eps, report, log)
       report%products = report%products + operator%products - products_before
       report%fft_pairs = report%fft_pairs + operator%fft_pairs() - pairs_before
       fine_size = real(problem%mx, wp)*problem%my
@@ -92,7 +95,7 @@ contains
    end subroutine solve_normal
 
    !> One level: estimate from the next coarser one where that pays, then iterate
-   recursive subroutine solve_level(problem, operator, workspace, k, p, pen, tolerance, report)
+   recursive subroutine solve_level(problem, operator, workspace, k, p, pen, tolerance, report, log)
       type(normal_problem), intent(in) :: problem
       type(elastic_operator), intent(inout) :: operator
       type(normal_workspace), intent(inout) :: workspace
@@ -101,6 +104,7 @@ contains
       real(wp), intent(inout) :: pen
       real(wp), intent(in) :: tolerance
       type(solve_report), intent(inout) :: report
+      type(log_type), intent(inout), optional :: log
       type(solve_report) :: coarse_report
       real(wp) :: residual
 
@@ -132,18 +136,18 @@ contains
                call fit_level(coarse, coarse%problem%mx, coarse%problem%my)
                coarse%p = 0.0_wp
                call solve_level(coarse%problem, coarse%operator, workspace, k + 1, coarse%p, pen, coarse_tolerance, &
-                  & coarse_report)
+                  & coarse_report, log)
                call prolong(coarse%p, problem, p)
                call make_admissible(problem, p)
             end associate
          end if
       end if
       if (.not. any(p > 0.0_wp)) call first_guess(problem, operator, workspace%level(k), p, pen)
-      call iterate(problem, operator, workspace%level(k), p, pen, tolerance, report)
+      call iterate(problem, operator, workspace%level(k), p, pen, tolerance, report, log)
    end subroutine solve_level
 
    !> Conjugate gradients on one level
-   subroutine iterate(problem, operator, level, p, pen, tolerance, report)
+   subroutine iterate(problem, operator, level, p, pen, tolerance, report, log)
       type(normal_problem), intent(in) :: problem
       type(elastic_operator), intent(inout) :: operator
       type(level_type), intent(inout) :: level
@@ -151,6 +155,8 @@ contains
       real(wp), intent(inout) :: pen
       real(wp), intent(in) :: tolerance
       type(solve_report), intent(inout) :: report
+      type(log_type), intent(inout), optional :: log
+      character(len=96) :: line
       real(wp) :: rz, rz_old, rz_cross, beta, alpha, dq, dr, worst, scale, h_min, total, mean, best
       integer :: it, since_best
       logical :: fresh, changed, exact_u
@@ -173,6 +179,13 @@ contains
             exit
          end if
          report%residual = worst/scale
+         if (present(log)) then
+            if (log%shows(6)) then
+               write(line, '(4x,i6,a,i5,a,i5,a,i8,a,es10.2)') it - 1, ", NormCG: grid", problem%mx, " x", problem%my, ", C=", &
+                  & count(p > 0.0_wp), ", residual :", report%residual
+               call log%trace(6, trim(line))
+            end if
+         end if
          if (worst <= tolerance*scale) then
             if (exact_u) then
                report%ended = ending%converged

@@ -306,7 +306,7 @@ contains
             normal%eps = problem%eps
             normal%maxgs = problem%maxgs
             call log%trace(4, " NORM")
-            call solve_normal(normal, workspace%window, workspace%normal_work, state%now%pn, result%pen, result%normal)
+            call solve_normal(normal, workspace%window, workspace%normal_work, state%now%pn, result%pen, result%normal, log)
          end associate
       end if
       result%ncon = 0
@@ -504,7 +504,7 @@ contains
       case (solver_choice%gd_steady)
          if (problem%motion == motion%steady_rolling) method = classical_method%gd_steady
       case default
-         call solve_newton_krylov(workspace%tangential, workspace%box, workspace%tangential_work, workspace%solution, report)
+         call solve_newton_krylov(workspace%tangential, workspace%box, workspace%tangential_work, workspace%solution, report, log)
          if (report%succeeded()) return
          call log%warning("Newton-Krylov made no further progress; a classical method takes over")
          call solve_classical(workspace%tangential, workspace%box, method, workspace%solution, report, log)

@@ -5,6 +5,7 @@
 !> extended over the edge by a few rings, and clipped to the discs.
 module contact_tangential_nested
    use contact_base_kinds, only : wp
+   use contact_base_log, only : log_type
    use contact_base_solve_report, only : ending, solve_report
    use contact_elastic_material, only : combined_material
    use contact_elastic_operator, only : elastic_operator
@@ -45,7 +46,7 @@ module contact_tangential_nested
 contains
 
    !> Solve a tangential problem by Newton-Krylov; nested iteration where that pays
-   subroutine solve_newton_krylov(problem, operator, workspace, solution, report)
+   subroutine solve_newton_krylov(problem, operator, workspace, solution, report, log)
       type(tangential_problem), intent(in) :: problem
       !> Prepared for the window and the rolling direction of the problem
       type(elastic_operator), intent(inout) :: operator
@@ -53,6 +54,8 @@ contains
       !> Estimate on entry (zero tractions when there is none)
       type(tangential_solution), intent(inout) :: solution
       type(solve_report), intent(inout) :: report
+      !> For the flow trace; absent: none
+      type(log_type), intent(inout), optional :: log
       type(newton_outcome) :: outcome
       real(wp) :: residual, pairs_before, fine_size
       integer :: k, products_before
@@ -66,10 +69,10 @@ contains
          call slip_of(problem, operator, solution%p, solution%creep, solution%slip)
          residual = true_residual(problem, solution%p, solution%slip, 1.0_wp/reference_compliance(operator))
          if (residual > good_estimate) then
-            call solve_coarse(problem, operator%material, workspace, 2, solution)
+            call solve_coarse(problem, operator%material, workspace, 2, solution, log)
          end if
       end if
-      call newton_solve(problem, operator, problem%eps, workspace%level(1)%newton, solution, outcome)
+      call newton_solve(problem, operator, problem%eps, workspace%level(1)%newton, solution, outcome, log)
       report%ended = outcome%ended
       report%iterations = outcome%steps
       report%residual = outcome%residual
@@ -103,7 +106,7 @@ contains
    end function can_coarsen
 
    !> Estimate for a problem from the next coarser level
-   recursive subroutine solve_coarse(fine, material, workspace, k, solution)
+   recursive subroutine solve_coarse(fine, material, workspace, k, solution, log)
       type(tangential_problem), intent(in) :: fine
       type(combined_material), intent(in) :: material
       type(nested_workspace), intent(inout) :: workspace
@@ -111,6 +114,7 @@ contains
       integer, intent(in) :: k
       !> Solution of the fine problem to be estimated
       type(tangential_solution), intent(inout) :: solution
+      type(log_type), intent(inout), optional :: log
       type(newton_outcome) :: outcome
 
       associate (level => workspace%level(k))
@@ -121,8 +125,8 @@ contains
          call level%operator%prepare(material, level%problem%dx, level%problem%dy, level%problem%mx, level%problem%my, &
             & fine%direction)
          if (k < size(workspace%level) .and. can_coarsen(level%problem)) &
-            & call solve_coarse(level%problem, material, workspace, k + 1, level%solution)
-         call newton_solve(level%problem, level%operator, coarse_tolerance, level%newton, level%solution, outcome)
+            & call solve_coarse(level%problem, material, workspace, k + 1, level%solution, log)
+         call newton_solve(level%problem, level%operator, coarse_tolerance, level%newton, level%solution, outcome, log)
          ! a coarse solution without success is an estimate all the same: it lies inside the discs
          if (outcome%ended == ending%diverged) return
          call prolong(level, fine, solution)

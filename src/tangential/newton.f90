@@ -9,6 +9,7 @@
 !> the circulant that belongs to B, the others are left alone; border rows by block elimination.
 module contact_tangential_newton
    use contact_base_kinds, only : wp
+   use contact_base_log, only : log_type
    use contact_base_solve_report, only : ending
    use contact_elastic_operator, only : elastic_operator
    use contact_tangential_problem, only : apply_operator, divide_elements, reference_compliance, &
@@ -63,7 +64,7 @@ module contact_tangential_newton
 contains
 
    !> Improve a solution until the true residual is below a tolerance
-   subroutine newton_solve(problem, operator, tolerance, workspace, solution, outcome)
+   subroutine newton_solve(problem, operator, tolerance, workspace, solution, outcome, log)
       type(tangential_problem), intent(in) :: problem
       !> Prepared for the window and the rolling direction of the problem
       type(elastic_operator), intent(inout) :: operator
@@ -73,6 +74,8 @@ contains
       !> Tractions inside the discs and creepages to start from
       type(tangential_solution), intent(inout) :: solution
       type(newton_outcome), intent(out) :: outcome
+      !> Gets a line per step from flow-trace level 5 on; absent: no trace
+      type(log_type), intent(inout), optional :: log
       type(linear_system) :: system
       real(wp) :: residual, previous, forcing, history(0:max_steps), alpha, best, longest, &
          & creep_range, creep(2), best_creep(2), trial
@@ -114,6 +117,7 @@ contains
          history(step) = residual
          outcome%steps = step
          outcome%residual = residual
+         if (present(log)) call trace_step(problem, step, residual, solution, log)
          if (.not. residual <= huge(residual)) then
             outcome%ended = ending%diverged
             exit
@@ -528,6 +532,21 @@ contains
          end do
       end associate
    end subroutine solve_linear
+
+   !> One line of the flow trace about a Newton step
+   subroutine trace_step(problem, step, residual, solution, log)
+      type(tangential_problem), intent(in) :: problem
+      integer, intent(in) :: step
+      real(wp), intent(in) :: residual
+      type(tangential_solution), intent(in) :: solution
+      type(log_type), intent(inout) :: log
+      character(len=128) :: line
+
+      if (.not. log%shows(5)) return
+      write(line, '(4x,i6,a,i5,a,i5,a,es10.2)') step, ", Newton: grid", problem%mx, " x", problem%my, ", residual :", residual
+      if (problem%n_forces > 0) write(line(len_trim(line) + 1:), '(a,2es14.6)') ", creepages :", solution%creep(:problem%n_forces)
+      call log%trace(5, trim(line))
+   end subroutine trace_step
 
    !> Traction field as the first part of a vector of unknowns
    pure subroutine flatten(field, vector)
