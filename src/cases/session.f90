@@ -7,7 +7,7 @@ module contact_cases_session
    use contact_base_log, only : log_type
    use contact_cases_geometry, only : build_grid, is_line_contact, solve_hertz, undeformed_distance
    use contact_cases_numbers, only : check_numbers
-   use contact_cases_spec, only : case_spec, subsurface_block
+   use contact_cases_spec, only : case_spec
    use contact_elastic_material, only : combine
    use contact_grid_element_division, only : element
    use contact_grid_potential_contact, only : potential_contact
@@ -15,7 +15,7 @@ module contact_cases_session
    use contact_patch_problem, only : patch_problem, patch_state, traction_fields
    use contact_patch_result, only : patch_result
    use contact_patch_solve, only : fit_fields, patch_workspace, release_workspace, solve_patch
-   use contact_subsurface_points, only : expand_points, point_block, point_selection
+   use contact_subsurface_points, only : expand_points
    use contact_subsurface_stress, only : stress_invariants, subsurface_field
    implicit none (type, external)
    private
@@ -391,15 +391,13 @@ contains
    subroutine subsurface_stresses(spec, result)
       type(case_spec), intent(in) :: spec
       type(patch_result), intent(inout) :: result
-      type(point_block) :: block
       integer :: k, n
 
       if (.not. allocated(spec%subsurface%blocks)) return
       allocate(result%subsurface(size(spec%subsurface%blocks)))
       do k = 1, size(result%subsurface)
          associate (points => result%subsurface(k))
-            block = block_of(spec%subsurface%blocks(k))
-            call expand_points(block, result%grid, points%nx, points%ny, points%nz, points%position)
+            call expand_points(spec%subsurface%blocks(k), result%grid, points%nx, points%ny, points%nz, points%position)
             n = size(points%position, 2)
             allocate(points%displacement(3, n), points%stress(6, n), points%sighyd(n), points%sigvm(n), points%sigtr(n), &
                & points%sigma1(n), points%sigma3(n))
@@ -409,32 +407,4 @@ contains
          end associate
       end do
    end subroutine subsurface_stresses
-
-   !> The same block in the words of the room `subsurface`
-   pure function block_of(given) result(block)
-      type(subsurface_block), intent(in) :: given
-      type(point_block) :: block
-
-      select case (given%isubs)
-      case (1, 5)
-         block%selection = point_selection%all_elements
-      case (2, 6)
-         block%selection = point_selection%ranges
-      case (3, 7)
-         block%selection = point_selection%lists
-      case default
-         block%selection = point_selection%free
-      end select
-      block%ixl = given%ixl
-      block%ixinc = given%ixinc
-      block%ixh = given%ixh
-      block%iyl = given%iyl
-      block%iyinc = given%iyinc
-      block%iyh = given%iyh
-      if (allocated(given%ix)) block%ix = given%ix
-      if (allocated(given%iy)) block%iy = given%iy
-      if (allocated(given%x)) block%x = given%x
-      if (allocated(given%y)) block%y = given%y
-      if (allocated(given%z)) block%z = given%z
-   end function block_of
 end module contact_cases_session

@@ -5,12 +5,13 @@
 !> and no room below `input` knows that keeping exists.
 module contact_cases_spec
    use contact_base_kinds, only : wp
+   use contact_subsurface_points, only : point_block
    implicit none (type, external)
    private
 
    public :: case_spec, case_digits, iteration_spec, kinematics_spec, friction_set, friction_spec
    public :: rolling_spec, material_spec, damping_spec, heat_spec, grid_spec, geometry_spec
-   public :: subsurface_block, subsurface_spec
+   public :: subsurface_spec
 
    !> Control digits exactly as the case gave them; for the echo and for checks at the door only
    type :: case_digits
@@ -132,20 +133,11 @@ module contact_cases_spec
       real(wp) :: pl(8) = 0.0_wp
    end type geometry_spec
 
-   !> One block of subsurface points, as given
-   type :: subsurface_block
-      integer :: isubs = 1
-      integer :: ixl = 1, ixinc = 1, ixh = 0, iyl = 1, iyinc = 1, iyh = 0
-      !> Columns and rows (ISUBS 3, 7), depths (5, 6, 7 and 1, 2, 3 after expansion), coordinates (9) [mm]
-      integer, allocatable :: ix(:), iy(:)
-      real(wp), allocatable :: x(:), y(:), z(:)
-   end type subsurface_block
-
    !> Subsurface request
    type :: subsurface_spec
       !> Output to .subs (0, 1, 2) and to .out (0...4)
       integer :: matfil = 0, output = 0
-      type(subsurface_block), allocatable :: blocks(:)
+      type(point_block), allocatable :: blocks(:)
    end type subsurface_spec
 
    !> One case of module 3, complete

@@ -2,10 +2,11 @@
 module contact_input_subsurface_reader
    use contact_base_error, only : add_context, error_type, fatal_error
    use contact_base_kinds, only : wp
-   use contact_cases_spec, only : case_spec, subsurface_block
+   use contact_cases_spec, only : case_spec
    use contact_input_lexer, only : input_lexer, input_value
    use contact_input_problems, only : problem_list, severity
    use contact_input_words, only : integer_text
+   use contact_subsurface_points, only : point_block, point_selection
    implicit none (type, external)
    private
 
@@ -24,7 +25,7 @@ contains
       type(case_spec), intent(inout) :: spec
       type(problem_list), intent(inout) :: problems
       type(error_type), allocatable, intent(out) :: error
-      type(subsurface_block), allocatable :: blocks(:), longer(:)
+      type(point_block), allocatable :: blocks(:), longer(:)
       type(input_value) :: v(2)
       integer :: n
 
@@ -61,21 +62,23 @@ contains
       type(input_lexer), intent(inout) :: lexer
       !> ISUBS
       type(input_value), intent(in) :: option
-      type(subsurface_block), intent(out) :: block
+      type(point_block), intent(out) :: block
       type(problem_list), intent(inout) :: problems
       type(error_type), allocatable, intent(out) :: error
       type(input_value) :: v(3)
       integer :: k
 
-      block%isubs = option%i
       select case (option%i)
       case (1, 5)
+         block%selection = point_selection%all_elements
       case (2, 6)
+         block%selection = point_selection%ranges
          call read_range("IXL IXINC IXH", block%ixl, block%ixinc, block%ixh)
          if (allocated(error)) return
          call read_range("IYL IYINC IYH", block%iyl, block%iyinc, block%iyh)
          if (allocated(error)) return
       case (3, 7)
+         block%selection = point_selection%lists
          call lexer%read_group("ii", "NX NY", v, error)
          if (allocated(error)) return
          call require_length(v(1), error)
@@ -87,6 +90,7 @@ contains
          call read_indices(lexer, v(2)%i, "IY", block%iy, problems, error)
          if (allocated(error)) return
       case (9)
+         block%selection = point_selection%free
          call lexer%read_group("iii", "NX NY NZ", v, error)
          if (allocated(error)) return
          do k = 1, 3
