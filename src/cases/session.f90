@@ -1,8 +1,8 @@
 !> One contact problem through its cases: specification in, result out
 module contact_cases_session
-   use contact_base_choices, only : estimate_choice, kernel_model, material_model, motion, normal_control, &
-      & pressure_model, slip_source, solver_choice, stress_choice, time_link
-   use contact_base_error, only : add_context, error_kind, error_type, fatal_error
+   use contact_base_choices, only : estimate_choice, motion, normal_control, pressure_model, &
+      & slip_source, solver_choice, stress_choice, time_link
+   use contact_base_error, only : error_type, fatal_error
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
    use contact_cases_geometry, only : build_grid, is_line_contact, solve_hertz, undeformed_distance

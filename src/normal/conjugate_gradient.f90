@@ -11,7 +11,6 @@ module contact_normal_conjugate_gradient
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
    use contact_base_solve_report, only : ending, solve_report
-   use contact_elastic_material, only : combined_material
    use contact_elastic_operator, only : elastic_operator
    use contact_grid_coarsening, only : coarse_neighbours, coarse_size, coarsening_factor, shortest_side
    implicit none (type, external)
