@@ -17,13 +17,13 @@ module contact_experiment_run
    use contact_experiment_stopwatch, only : stopwatch
    use contact_input_experiment_file, only : experiment_reader, input_case
    use contact_input_problems, only : problem_text, severity
-   use contact_input_words, only : integer_text
    use contact_output_finished_file, only : close_completely
    use contact_output_mat_file, only : mat_file_name, write_mat_file
    use contact_output_report, only : timer_line, write_banner, write_case, write_case_line, write_closing, write_end, &
       & write_subsurface
    use contact_output_subs_file, only : subs_file_name, write_subs_file
    use contact_patch_result, only : patch_result
+   use contact_text_words, only : integer_text
    implicit none (type, external)
    private
 

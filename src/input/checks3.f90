@@ -5,7 +5,7 @@ module contact_input_checks3
    use contact_input_control3, only : add_for_digit, control_words
    use contact_input_grid3, only : frame_of, grid_frame
    use contact_input_problems, only : problem_list, severity
-   use contact_input_words, only : integer_text, real_text
+   use contact_text_words, only : integer_text, real_text
    implicit none (type, external)
    private
 

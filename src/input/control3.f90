@@ -4,9 +4,9 @@ module contact_input_control3
    use contact_cases_spec, only : case_digits, case_spec
    use contact_control_digits, only : allowed_text, choice_of, decode_words, digit_names, digit_text, digit_value, &
       & is_built, is_known
-   use contact_input_lexer, only : input_lexer, input_value
    use contact_input_problems, only : problem_list, severity
-   use contact_input_words, only : integer_text
+   use contact_text_lexer, only : input_lexer, input_value
+   use contact_text_words, only : integer_text
    implicit none (type, external)
    private
 

@@ -3,10 +3,10 @@ module contact_input_experiment_file
    use contact_base_error, only : add_context, error_kind, error_type, fatal_error
    use contact_cases_spec, only : case_spec
    use contact_input_grid3, only : grid_frame
-   use contact_input_lexer, only : input_lexer, input_value
    use contact_input_problems, only : problem_list, severity
    use contact_input_reader3, only : read_case3
-   use contact_input_words, only : integer_text
+   use contact_text_lexer, only : input_lexer, input_value
+   use contact_text_words, only : integer_text
    implicit none (type, external)
    private
 

@@ -3,9 +3,9 @@ module contact_input_grid3
    use contact_base_error, only : error_type, fatal_error
    use contact_base_kinds, only : long, wp
    use contact_cases_spec, only : case_spec, geometry_spec, grid_spec
-   use contact_input_lexer, only : input_lexer, input_value
    use contact_input_problems, only : problem_list, severity
-   use contact_input_words, only : integer_text
+   use contact_text_lexer, only : input_lexer, input_value
+   use contact_text_words, only : integer_text
    implicit none (type, external)
    private
 

@@ -5,9 +5,9 @@ module contact_input_groups3
    use contact_base_error, only : error_type
    use contact_base_kinds, only : wp
    use contact_cases_spec, only : case_spec, friction_set, material_spec
-   use contact_input_lexer, only : input_lexer, input_value
    use contact_input_problems, only : problem_list, severity
-   use contact_input_words, only : integer_text, real_text
+   use contact_text_lexer, only : input_lexer, input_value
+   use contact_text_words, only : integer_text, real_text
    implicit none (type, external)
    private
 

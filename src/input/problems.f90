@@ -2,8 +2,8 @@
 module contact_input_problems
    use contact_base_error, only : error_kind, error_type, full_text
    use contact_base_kinds, only : wp
-   use contact_input_lexer, only : input_value
-   use contact_input_words, only : integer_text, real_text
+   use contact_text_lexer, only : input_value
+   use contact_text_words, only : integer_text, real_text
    implicit none (type, external)
    private
 

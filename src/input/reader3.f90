@@ -7,10 +7,10 @@ module contact_input_reader3
    use contact_input_grid3, only : frame_of, grid_frame, read_extra_slip, read_geometry, read_grid
    use contact_input_groups3, only : read_damping, read_friction, read_friction_rows, read_heat, read_iteration, &
       & read_kinematics, read_materials, read_rolling
-   use contact_input_lexer, only : input_lexer
    use contact_input_problems, only : problem_list
    use contact_input_subsurface_reader, only : read_subsurface
-   use contact_input_words, only : integer_text
+   use contact_text_lexer, only : input_lexer
+   use contact_text_words, only : integer_text
    implicit none (type, external)
    private
 

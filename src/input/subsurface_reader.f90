@@ -3,10 +3,10 @@ module contact_input_subsurface_reader
    use contact_base_error, only : add_context, error_type, fatal_error
    use contact_base_kinds, only : wp
    use contact_cases_spec, only : case_spec
-   use contact_input_lexer, only : input_lexer, input_value
    use contact_input_problems, only : problem_list, severity
-   use contact_input_words, only : integer_text
    use contact_subsurface_points, only : point_block, point_selection
+   use contact_text_lexer, only : input_lexer, input_value
+   use contact_text_words, only : integer_text
    implicit none (type, external)
    private
 

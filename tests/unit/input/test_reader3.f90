@@ -5,10 +5,10 @@ program test_reader3
    use contact_base_kinds, only : wp
    use contact_cases_spec, only : case_spec
    use contact_input_experiment_file, only : case_failure, experiment_reader, input_case
-   use contact_input_lexer, only : input_lexer
    use contact_input_problems, only : problem_list, problem_text, severity
    use contact_input_reader3, only : read_case3
    use contact_test_harness, only : environment, test_suite
+   use contact_text_lexer, only : input_lexer
    implicit none (type, external)
    character, parameter :: nl = achar(10)
 

@@ -3,10 +3,10 @@
 !> The file is read into memory once. A group starts on a new line and takes lines until its
 !> mandatory values are there; optional values stand on the line of the last mandatory one, and
 !> the first word that cannot be read as the next optional value ends the group silently.
-module contact_input_lexer
+module contact_text_lexer
    use contact_base_error, only : error_kind, error_type, fatal_error
    use contact_base_kinds, only : long, wp
-   use contact_input_words, only : integer_text, to_angle, to_integer, to_real, word_state
+   use contact_text_words, only : integer_text, to_angle, to_integer, to_real, word_state
    implicit none (type, external)
    private
 
@@ -439,4 +439,4 @@ contains
       longer(:size(values)) = values
       call move_alloc(longer, values)
    end subroutine lengthen
-end module contact_input_lexer
+end module contact_text_lexer

@@ -1,5 +1,5 @@
 !> One word of an input file as integer, real number or angle, and numbers as words for messages
-module contact_input_words
+module contact_text_words
    use contact_base_constants, only : pi
    use contact_base_kinds, only : long, wp
    implicit none (type, external)
@@ -229,4 +229,4 @@ contains
          text = trim(adjustl(buffer(:last)))
       end if
    end function real_text
-end module contact_input_words
+end module contact_text_words

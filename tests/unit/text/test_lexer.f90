@@ -3,9 +3,9 @@ program test_lexer
    use contact_base_constants, only : pi
    use contact_base_error, only : error_type, full_text
    use contact_base_kinds, only : wp
-   use contact_input_lexer, only : input_lexer, input_value
-   use contact_input_words, only : integer_text, real_text, to_angle, to_integer, to_real, word_state
    use contact_test_harness, only : test_suite
+   use contact_text_lexer, only : input_lexer, input_value
+   use contact_text_words, only : integer_text, real_text, to_angle, to_integer, to_real, word_state
    implicit none (type, external)
    character, parameter :: nl = achar(10), cr = achar(13), tab = achar(9)
    type(test_suite) :: suite
