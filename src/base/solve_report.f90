@@ -4,7 +4,7 @@ module contact_base_solve_report
    implicit none (type, external)
    private
 
-   public :: solve_report, ending
+   public :: solve_report, ending, failure_text
 
    type :: ending_list
       !> Nothing was iterated (empty contact, skipped problem)
@@ -53,4 +53,26 @@ contains
       class(solve_report), intent(in) :: self
       succeeded = self%ended == ending%converged .or. self%ended == ending%not_started
    end function report_succeeded
+
+   !> One sentence about an iteration that did not reach its tolerance
+   function failure_text(name, report) result(text)
+      !> Which problem was iterated, "normal" or "tangential"
+      character(len=*), intent(in) :: name
+      type(solve_report), intent(in) :: report
+      character(len=:), allocatable :: text
+      character(len=32) :: residual
+      character(len=:), allocatable :: how
+
+      write(residual, '(es10.2)') report%residual
+      select case (report%ended)
+      case (ending%iteration_limit)
+         how = "used up its iterations"
+      case (ending%stagnated)
+         how = "stagnated"
+      case default
+         how = "diverged"
+      end select
+      text = "the " // name // " problem: " // report%method // " " // how // "; relative residual " &
+         & // trim(adjustl(residual))
+   end function failure_text
 end module contact_base_solve_report

@@ -6,12 +6,14 @@ module contact_patch_problem
    implicit none (type, external)
    private
 
-   public :: patch_problem, patch_state, traction_fields
+   public :: patch_problem, patch_state, traction_fields, memory_field
 
    !> Everything that defines the problem of one step; constant from here on
    type :: patch_problem
       type(potential_contact) :: grid
       type(combined_material) :: material
+      !> Grid and undeformed distance may be reused while input of both stays what it is
+      logical :: has_geometry = .false.
       !> Undeformed distance [mm], shape (mx, my)
       real(wp), allocatable :: h(:, :)
       !> Given pressures [N/mm2], shape (mx, my); unallocated for the full solution
@@ -37,6 +39,13 @@ module contact_patch_problem
       real(wp) :: chi = 0.0_wp, dq = 1.0_wp, veloc = 1.0_wp
       !> Coefficient of friction [-]
       real(wp) :: mu = 0.3_wp
+      !> Do friction coefficients and slip, or yield limits and plastic displacements, matter for
+      !> the next moment? Only then are they carried along
+      logical :: remembers_friction = .false., remembers_yield = .false.
+      !> Static coefficient of friction per row, shape (my) [-], and initial yield limit [N/mm2]: what
+      !> particles bring along that were not in the window before; set when remembered
+      real(wp), allocatable :: static_mu(:)
+      real(wp) :: initial_yield_limit = 0.0_wp
       !> Tolerance and iteration limits
       real(wp) :: eps = 1.0e-5_wp
       integer :: maxgs = 999, maxin = 20, maxnr = 25, maxout = 1
@@ -51,6 +60,12 @@ module contact_patch_problem
       logical :: want_exterior = .false.
    end type patch_problem
 
+   !> A quantity that particles carry along from moment to moment
+   type :: memory_field
+      !> One value per element, shape (mx, my); unallocated when no effect of the case asks for it
+      real(wp), allocatable :: value(:, :)
+   end type memory_field
+
    !> Tractions and element states of one moment, on a window
    type :: traction_fields
       type(potential_contact) :: grid
@@ -58,6 +73,10 @@ module contact_patch_problem
       real(wp), allocatable :: pn(:, :), px(:, :), py(:, :)
       !> Approach [mm]
       real(wp) :: pen = 0.0_wp
+      !> Coefficient of friction [-] and slip per step [mm]
+      type(memory_field) :: mu, sx, sy
+      !> Yield limit [N/mm2] and plastic displacement difference [mm] of the interfacial layer
+      type(memory_field) :: tau_c, uplx, uply
    end type traction_fields
 
    !> What the physics remembers from case to case

@@ -1,0 +1,163 @@
+!> From the specification of a case to the problem of its patch
+module contact_cases_patch_setup
+   use contact_base_choices, only : motion, normal_control, pressure_model, slip_source, solver_choice
+   use contact_base_error, only : error_type, fatal_error
+   use contact_base_kinds, only : wp
+   use contact_base_log, only : log_type
+   use contact_cases_geometry, only : build_grid, is_line_contact, solve_hertz, undeformed_distance
+   use contact_cases_numbers, only : check_numbers
+   use contact_cases_spec, only : case_spec
+   use contact_elastic_material, only : combine
+   use contact_grid_potential_contact, only : potential_contact
+   use contact_normal_estimate, only : elliptic_pressure, parabolic_pressure
+   use contact_patch_problem, only : patch_problem
+   use contact_patch_result, only : patch_result
+   implicit none (type, external)
+   private
+
+   public :: set_problem
+
+contains
+
+   !> From the specification to the problem of the patch
+   subroutine set_problem(spec, problem, log, result, error)
+      type(case_spec), intent(in) :: spec
+      !> Of the previous case on entry
+      type(patch_problem), intent(inout) :: problem
+      type(log_type), intent(inout) :: log
+      type(patch_result), intent(inout) :: result
+      type(error_type), allocatable, intent(out) :: error
+      integer :: i
+
+      call check_numbers(spec, error)
+      if (allocated(error)) return
+      problem%material = combine(spec%material%poiss, spec%material%gg)
+      call solve_hertz(spec%grid, spec%normal, spec%kinematics%fn, spec%kinematics%pen, problem%material%gg, &
+         & problem%material%nu, result%hertz, error)
+      if (allocated(error)) return
+      problem%fn = spec%kinematics%fn
+      problem%pen = spec%kinematics%pen
+      problem%force_prescribed = spec%normal == normal_control%force
+      ! a Hertzian geometry is laid out anew when the case gives a grid, not when the load changes
+      if (spec%new_grid .or. spec%new_geometry .or. .not. problem%has_geometry) then
+         call set_geometry(spec, problem, result, error)
+         if (allocated(error)) return
+      end if
+      call set_pressures(spec, result, problem)
+      problem%motion = spec%motion
+      problem%estimate = spec%estimate
+      problem%solver = spec%solver
+      problem%n_forces = spec%force
+      problem%force = [spec%kinematics%fx, spec%kinematics%fy]
+      problem%creep = [spec%kinematics%cksi, spec%kinematics%ceta]
+      problem%spin = spec%kinematics%cphi
+      problem%spin_centre = [spec%kinematics%spinxo, spec%kinematics%spinyo]
+      problem%mu = spec%friction%sets(1)%fstat
+      problem%eps = spec%iteration%eps
+      problem%maxgs = spec%iteration%maxgs
+      problem%maxin = spec%iteration%maxin
+      problem%maxnr = spec%iteration%maxnr
+      problem%maxout = spec%iteration%maxout
+      problem%relaxation_given = spec%solver == solver_choice%convex_gs .or. spec%solver == solver_choice%gauss_seidel
+      problem%omegah = spec%iteration%omegah
+      problem%omegas = spec%iteration%omegas
+      problem%fdecay = spec%iteration%fdecay
+      problem%betath = spec%iteration%betath
+      problem%kdowfb = spec%iteration%kdowfb
+      problem%d_ifc = spec%iteration%d_ifc
+      problem%d_lin = spec%iteration%d_lin
+      problem%d_cns = spec%iteration%d_cns
+      problem%d_slp = spec%iteration%d_slp
+      problem%pow_s = spec%iteration%pow_s
+      problem%want_exterior = spec%mat_file >= 2 .or. spec%output_level >= 6
+      call set_rolling(spec, problem, log)
+      if (allocated(problem%extra_slip)) deallocate(problem%extra_slip)
+      if (spec%slip_source == slip_source%given .or. spec%slip_source == slip_source%keep) then
+         if (.not. allocated(spec%extra_slip)) then
+            call fatal_error(error, "extra rigid slip is to be kept (E=1), but none was given before")
+            return
+         end if
+         if (size(spec%extra_slip, 2) /= problem%grid%npot()) then
+            call fatal_error(error, "the extra rigid slip was given for another number of elements")
+            return
+         end if
+         allocate(problem%extra_slip(problem%grid%mx, problem%grid%my, 2))
+         do i = 1, 2
+            problem%extra_slip(:, :, i) = reshape(spec%extra_slip(i, :), [problem%grid%mx, problem%grid%my])
+         end do
+      end if
+   end subroutine set_problem
+
+   !> Potential contact and undeformed distance
+   subroutine set_geometry(spec, problem, result, error)
+      type(case_spec), intent(in) :: spec
+      type(patch_problem), intent(inout) :: problem
+      type(patch_result), intent(in) :: result
+      type(error_type), allocatable, intent(out) :: error
+      type(potential_contact) :: grid
+
+      problem%has_geometry = .false.
+      call build_grid(spec%grid, result%hertz, grid, error)
+      if (allocated(error)) return
+      problem%grid = grid
+      call undeformed_distance(spec%geometry, grid, result%hertz, problem%h, error)
+      if (allocated(error)) return
+      problem%has_geometry = .true.
+   end subroutine set_geometry
+
+   !> Given pressures, or an estimate of them, from the Hertz solution
+   subroutine set_pressures(spec, result, problem)
+      type(case_spec), intent(in) :: spec
+      type(patch_result), intent(in) :: result
+      type(patch_problem), intent(inout) :: problem
+
+      if (allocated(problem%given_pressure)) deallocate(problem%given_pressure)
+      if (.not. allocated(result%hertz)) return
+      select case (spec%pressure)
+      case (pressure_model%elliptical)
+         allocate(problem%given_pressure(problem%grid%mx, problem%grid%my))
+         call elliptic_pressure(problem%grid, result%hertz%aa, result%hertz%bb, is_line_contact(spec%grid), &
+            & result%hertz%fn, problem%given_pressure)
+      case (pressure_model%parabolical)
+         allocate(problem%given_pressure(problem%grid%mx, problem%grid%my))
+         call parabolic_pressure(problem%grid, result%hertz%aa, result%hertz%bb, is_line_contact(spec%grid), &
+            & result%hertz%fn, problem%given_pressure)
+      end select
+      if (allocated(problem%given_pressure)) then
+         problem%fn = result%hertz%fn
+         problem%pen = result%hertz%pen
+      end if
+   end subroutine set_pressures
+
+   !> Rolling direction and step; steady solvers work with steps of one element along x
+   subroutine set_rolling(spec, problem, log)
+      type(case_spec), intent(in) :: spec
+      type(patch_problem), intent(inout) :: problem
+      type(log_type), intent(inout) :: log
+      real(wp), parameter :: angle_tolerance = 0.01_wp, step_tolerance = 0.01_wp
+      logical :: rolling
+
+      rolling = spec%motion == motion%transient_rolling .or. spec%motion == motion%steady_rolling
+      problem%chi = 0.0_wp
+      problem%dq = 1.0_wp
+      problem%veloc = 1.0_wp
+      problem%spin_offset = 0.0_wp
+      if (.not. rolling) return
+      problem%chi = spec%rolling%chi
+      problem%dq = spec%rolling%dq
+      problem%veloc = spec%rolling%veloc
+      problem%spin_offset = spec%rolling%facphi
+      if (spec%motion /= motion%steady_rolling) then
+         if (problem%dq > (1.0_wp + step_tolerance)*problem%grid%dx) call log%warning( &
+            & "DQ is larger than DX: slip near the leading edge is less accurate, it is not corrected in this version")
+         return
+      end if
+      if (abs(sin(problem%chi)) > angle_tolerance) then
+         call log%warning("steady rolling goes along x: CHI is set to 0")
+         problem%chi = 0.0_wp
+      end if
+      if (abs(problem%dq - problem%grid%dx) > step_tolerance*problem%grid%dx) &
+         & call log%warning("steady rolling advances by one element per step: DQ is set to DX")
+      problem%dq = problem%grid%dx
+   end subroutine set_rolling
+end module contact_cases_patch_setup

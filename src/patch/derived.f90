@@ -1,0 +1,229 @@
+!> Totals and fields that follow from the tractions of a patch
+module contact_patch_derived
+   use contact_base_choices, only : estimate_choice, motion
+   use contact_base_kinds, only : wp
+   use contact_base_solve_report, only : solve_report
+   use contact_grid_element_division, only : bounding_box, contact_box, element
+   use contact_patch_kinematics, only : rolling_direction
+   use contact_patch_problem, only : patch_problem, patch_state
+   use contact_patch_result, only : patch_result
+   use contact_patch_workspace, only : patch_workspace
+   implicit none (type, external)
+   private
+
+   public :: reset_result, derive
+
+contains
+
+   !> Start values of a result
+   subroutine reset_result(problem, state, result)
+      type(patch_problem), intent(in) :: problem
+      type(patch_state), intent(in) :: state
+      type(patch_result), intent(inout) :: result
+      integer :: mx, my
+
+      mx = problem%grid%mx
+      my = problem%grid%my
+      result%grid = problem%grid
+      result%gg = problem%material%gg
+      result%nu = problem%material%nu
+      result%ak = problem%material%ak
+      result%chi = problem%chi
+      result%dq = problem%dq
+      result%veloc = problem%veloc
+      result%dt = problem%dq/max(1.0e-10_wp, problem%veloc)
+      result%mu_scal = problem%mu
+      result%fn = problem%fn
+      result%pen = problem%pen
+      result%cksi = problem%creep(1)
+      result%ceta = problem%creep(2)
+      result%cphi = problem%spin
+      result%fx_rel = problem%force(1)
+      result%fy_rel = problem%force(2)
+      result%sensitivity = 0.0_wp
+      result%nplast = 0
+      result%outer_iterations = 0
+      result%normal = solve_report()
+      result%tangential = solve_report()
+      result%inorm = 0
+      result%itang = 0
+      result%residual = 0.0_wp
+      if (problem%n_forces >= 1) then
+         result%cksi = 0.0_wp
+         if (problem%n_forces == 2) result%ceta = 0.0_wp
+         if (problem%estimate == estimate_choice%previous .or. problem%estimate == estimate_choice%unchanged) then
+            result%cksi = state%creep(1)
+            if (problem%n_forces == 2) result%ceta = state%creep(2)
+         end if
+      end if
+      if (allocated(result%h)) then
+         if (any(shape(result%h) /= [mx, my])) deallocate(result%h, result%division, result%mu, result%pn, result%px, &
+            & result%py, result%un, result%ux, result%uy, result%sx, result%sy, result%wx, result%wy)
+      end if
+      if (.not. allocated(result%h)) then
+         allocate(result%h(mx, my), result%mu(mx, my), result%pn(mx, my), result%px(mx, my), result%py(mx, my), &
+            & result%un(mx, my), result%ux(mx, my), result%uy(mx, my), result%sx(mx, my), result%sy(mx, my), &
+            & result%wx(mx, my), result%wy(mx, my))
+         allocate(result%division(mx, my))
+      end if
+      result%h = problem%h
+      result%mu = problem%mu
+      result%un = 0.0_wp
+      result%ux = 0.0_wp
+      result%uy = 0.0_wp
+      result%sx = 0.0_wp
+      result%sy = 0.0_wp
+      result%wx = 0.0_wp
+      result%wy = 0.0_wp
+      result%division = element%exterior
+   end subroutine reset_result
+
+   !> Totals and fields that follow from the tractions
+   subroutine derive(problem, state, workspace, result)
+      type(patch_problem), intent(in) :: problem
+      type(patch_state), intent(inout) :: state
+      type(patch_workspace), intent(inout) :: workspace
+      type(patch_result), intent(inout) :: result
+      type(bounding_box) :: box
+      real(wp) :: area, scale
+      integer :: iy, ix
+
+      area = problem%grid%dx*problem%grid%dy
+      box = contact_box(state%now%division)
+      result%inorm = merge(result%normal%passes, -1, result%normal%succeeded())
+      result%itang = merge(result%tangential%passes, -1, result%tangential%succeeded())
+      result%division = state%now%division
+      result%pn = state%now%pn
+      result%px = state%now%px
+      result%py = state%now%py
+      result%pmax = maxval(result%pn)
+      result%ncon = count(result%division > element%exterior)
+      result%nadh = count(result%division == element%adhesion)
+      result%nslip = count(result%division == element%slip)
+      scale = result%mu_scal*result%fn + tiny(scale)
+      if (problem%motion == motion%none) then
+         result%fx_rel = 0.0_wp
+         result%fy_rel = 0.0_wp
+      else
+         if (problem%n_forces < 1) result%fx_rel = area*sum(result%px)/scale
+         if (problem%n_forces < 2) result%fy_rel = area*sum(result%py)/scale
+      end if
+      result%fx = result%fx_rel*scale
+      result%fy = result%fy_rel*scale
+      result%mx = 0.0_wp
+      result%my = 0.0_wp
+      result%mz = 0.0_wp
+      do iy = 1, problem%grid%my
+         do ix = 1, problem%grid%mx
+            if (result%division(ix, iy) == element%exterior) cycle
+            result%mx = result%mx + area*result%pn(ix, iy)*problem%grid%y(iy)
+            result%my = result%my - area*result%pn(ix, iy)*problem%grid%x(ix)
+            result%mz = result%mz + area*(result%py(ix, iy)*problem%grid%x(ix) - result%px(ix, iy)*problem%grid%y(iy))
+         end do
+      end do
+      if (problem%motion /= motion%none) then
+         if (problem%n_forces >= 1) result%wx = result%wx + problem%dq*result%cksi
+         if (problem%n_forces >= 2) result%wy = result%wy + problem%dq*result%ceta
+      end if
+      result%elastic_energy = 0.0_wp
+      result%friction_power = 0.0_wp
+      result%residual = max(result%normal%residual, result%tangential%residual, 0.0_wp)
+      if (result%ncon == 0) then
+         state%now%pen = result%pen
+         state%creep = [result%cksi, result%ceta]
+         return
+      end if
+      call displacements(problem, state, box, workspace, result)
+      if (problem%motion /= motion%none) then
+         where (workspace%solution%division == element%slip)
+            result%sx(box%ix0:box%ix1, box%iy0:box%iy1) = workspace%solution%slip(:, :, 1)
+            result%sy(box%ix0:box%ix1, box%iy0:box%iy1) = workspace%solution%slip(:, :, 2)
+         end where
+         result%friction_power = area/(1000.0_wp*result%dt)*(sum(result%px*result%sx) + sum(result%py*result%sy))
+         if (problem%material%coupled()) call coupled_residual(problem, box, result)
+      end if
+      if (.not. allocated(problem%given_pressure)) then
+         result%elastic_energy = area/2000.0_wp*(sum(result%pn*result%un) + sum(result%px*result%ux) + sum(result%py*result%uy))
+      else
+         result%un = 0.0_wp
+      end if
+      state%now%pen = result%pen
+      state%creep = [result%cksi, result%ceta]
+   end subroutine derive
+
+   !> Displacement differences: on the contact area, or on the whole window when wanted
+   subroutine displacements(problem, state, box, workspace, result)
+      type(patch_problem), intent(in) :: problem
+      type(patch_state), intent(in) :: state
+      type(bounding_box), intent(in) :: box
+      type(patch_workspace), intent(inout) :: workspace
+      type(patch_result), intent(inout) :: result
+
+      if (problem%want_exterior .or. problem%motion == motion%none) then
+         call workspace%window%prepare(problem%material, problem%grid%dx, problem%grid%dy, problem%grid%mx, &
+            & problem%grid%my, rolling_direction(problem))
+         call workspace%window%normal(state%now%pn, result%un)
+         if (problem%motion /= motion%none) then
+            workspace%pt(:, :, 1) = state%now%px
+            workspace%pt(:, :, 2) = state%now%py
+            call workspace%window%tangential(workspace%pt, workspace%ut)
+            result%ux = workspace%ut(:, :, 1)
+            result%uy = workspace%ut(:, :, 2)
+         end if
+         if (problem%material%coupled()) then
+            if (problem%motion /= motion%none) then
+               call workspace%window%normal_by_tangential(workspace%pt, workspace%un)
+               result%un = result%un + workspace%un
+            end if
+            call workspace%window%tangential_by_normal(state%now%pn, workspace%ut)
+            result%ux = result%ux + workspace%ut(:, :, 1)
+            result%uy = result%uy + workspace%ut(:, :, 2)
+         end if
+         return
+      end if
+      workspace%box_pn = state%now%pn(box%ix0:box%ix1, box%iy0:box%iy1)
+      call workspace%box%normal(workspace%box_pn, workspace%box_un)
+      result%un(box%ix0:box%ix1, box%iy0:box%iy1) = workspace%box_un
+      call workspace%box%tangential(workspace%solution%p, workspace%box_ut)
+      result%ux(box%ix0:box%ix1, box%iy0:box%iy1) = workspace%box_ut(:, :, 1)
+      result%uy(box%ix0:box%ix1, box%iy0:box%iy1) = workspace%box_ut(:, :, 2)
+      if (problem%material%coupled()) then
+         call workspace%box%normal_by_tangential(workspace%solution%p, workspace%box_un)
+         call workspace%box%tangential_by_normal(workspace%box_pn, workspace%box_ut)
+         associate (un => result%un(box%ix0:box%ix1, box%iy0:box%iy1), ux => result%ux(box%ix0:box%ix1, box%iy0:box%iy1), &
+            & uy => result%uy(box%ix0:box%ix1, box%iy0:box%iy1))
+            un = un + workspace%box_un
+            ux = ux + workspace%box_ut(:, :, 1)
+            uy = uy + workspace%box_ut(:, :, 2)
+         end associate
+      end if
+      where (result%division == element%exterior)
+         result%un = 0.0_wp
+         result%ux = 0.0_wp
+         result%uy = 0.0_wp
+      end where
+   end subroutine displacements
+
+   !> Residual of the coupled conditions: normal gaps with the final tangential tractions
+   !>
+   !> The tangential problem was solved last, with the final pressures; its own residual counts.
+   subroutine coupled_residual(problem, box, result)
+      type(patch_problem), intent(in) :: problem
+      type(bounding_box), intent(in) :: box
+      type(patch_result), intent(inout) :: result
+      real(wp) :: gap, worst
+      integer :: ix, iy
+
+      worst = 0.0_wp
+      do iy = box%iy0, box%iy1
+         do ix = box%ix0, box%ix1
+            if (result%division(ix, iy) == element%exterior) cycle
+            gap = result%h(ix, iy) - result%pen + result%un(ix, iy)
+            worst = max(worst, abs(gap))
+         end do
+      end do
+      if (allocated(problem%given_pressure)) return
+      result%residual = max(result%tangential%residual, &
+         & worst/max(abs(result%pen - minval(result%h)), tiny(worst)))
+   end subroutine coupled_residual
+end module contact_patch_derived

@@ -1,0 +1,68 @@
+!> Relative motion of the bodies in a patch, and where its particles were a moment ago
+module contact_patch_kinematics
+   use contact_base_choices, only : motion
+   use contact_base_kinds, only : wp
+   use contact_grid_element_division, only : element
+   use contact_patch_problem, only : patch_problem, patch_state
+   use contact_patch_result, only : patch_result
+   use contact_patch_workspace, only : patch_workspace
+   implicit none (type, external)
+   private
+
+   public :: rolling_direction, rigid_slip, previous_displacement
+
+contains
+
+   !> Rolling towards increasing or decreasing x
+   pure integer function rolling_direction(problem)
+      type(patch_problem), intent(in) :: problem
+      rolling_direction = merge(-1, 1, problem%motion == motion%steady_rolling .and. cos(problem%chi) < 0.0_wp)
+   end function rolling_direction
+
+   !> Rigid slip per step without unknown creepages [mm], Kalker (1990)
+   !>
+   !> The offset of a sixth of the step makes the spin contribution second order accurate.
+   pure subroutine rigid_slip(problem, result)
+      type(patch_problem), intent(in) :: problem
+      type(patch_result), intent(inout) :: result
+      integer :: ix, iy
+      real(wp) :: x0, y0, cx, cy
+
+      x0 = problem%spin_centre(1) - problem%spin_offset*problem%dq*cos(problem%chi)
+      y0 = problem%spin_centre(2) - problem%spin_offset*problem%dq*sin(problem%chi)
+      cx = merge(problem%creep(1), 0.0_wp, problem%n_forces < 1)
+      cy = merge(problem%creep(2), 0.0_wp, problem%n_forces < 2)
+      do iy = 1, problem%grid%my
+         do ix = 1, problem%grid%mx
+            result%wx(ix, iy) = problem%dq*(cx - problem%spin*(problem%grid%y(iy) - y0))
+            result%wy(ix, iy) = problem%dq*(cy + problem%spin*(problem%grid%x(ix) - x0))
+         end do
+      end do
+      if (.not. allocated(problem%extra_slip)) return
+      result%wx = result%wx + problem%dq*problem%extra_slip(:, :, 1)
+      result%wy = result%wy + problem%dq*problem%extra_slip(:, :, 2)
+   end subroutine rigid_slip
+
+   !> Displacements at the previous time of the particles that are in the elements now
+   subroutine previous_displacement(problem, state, workspace)
+      type(patch_problem), intent(in) :: problem
+      type(patch_state), intent(in) :: state
+      type(patch_workspace), intent(inout) :: workspace
+      real(wp) :: shift_x, shift_y
+
+      workspace%old_displacement = 0.0_wp
+      if (.not. any(state%before%division > element%exterior)) return
+      shift_x = 0.0_wp
+      shift_y = 0.0_wp
+      if (problem%motion == motion%transient_rolling) then
+         shift_x = problem%dq*cos(problem%chi)
+         shift_y = problem%dq*sin(problem%chi)
+         if (abs(shift_y) < 1.0e-10_wp*problem%dq) shift_y = 0.0_wp
+         if (abs(shift_x) < 1.0e-10_wp*problem%dq) shift_x = 0.0_wp
+      end if
+      call workspace%previous%prepare(problem%material, problem%grid%dx, problem%grid%dy, problem%grid%mx, problem%grid%my, &
+         & shift_x, shift_y)
+      call workspace%previous%tangential(state%before%px, state%before%py, state%before%pn, &
+         & workspace%old_displacement(:, :, 1), workspace%old_displacement(:, :, 2))
+   end subroutine previous_displacement
+end module contact_patch_kinematics

@@ -1,0 +1,298 @@
+!> Moments of a patch: the present one becomes the previous one, on the window of the next case
+module contact_patch_moments
+   use contact_base_choices, only : estimate_choice, motion, time_link
+   use contact_base_error, only : error_type, fatal_error
+   use contact_base_kinds, only : wp
+   use contact_grid_element_division, only : element
+   use contact_grid_potential_contact, only : potential_contact
+   use contact_patch_problem, only : memory_field, patch_problem, patch_state, traction_fields
+   implicit none (type, external)
+   private
+
+   public :: link_moments, clear_moment
+
+contains
+
+   !> Present moment becomes the previous one, on the window of this case
+   subroutine link_moments(problem, link, state, error)
+      type(patch_problem), intent(in) :: problem
+      !> Member of time_link
+      integer, intent(in) :: link
+      type(patch_state), intent(inout) :: state
+      type(error_type), allocatable, intent(out) :: error
+      integer :: kx, ky
+      logical :: linked
+
+      kx = 0
+      ky = 0
+      linked = state%started .and. (link /= time_link%initiate .or. problem%estimate /= estimate_choice%fresh)
+      if (linked) then
+         call offset_of(state%now%grid, problem%grid, kx, ky, error)
+         if (allocated(error)) return
+         call move_window(state%now, problem%grid, kx, ky)
+         if (state%before%grid%mx > 0) call move_window(state%before, problem%grid, kx, ky)
+      else
+         call clear_moment(state%now, problem%grid)
+         state%creep = 0.0_wp
+      end if
+      select case (link)
+      case (time_link%repeat_step)
+         if (.not. state%before%grid%mx > 0) call clear_moment(state%before, problem%grid)
+      case (time_link%continue_all)
+         call copy_fields(state%now, state%before)
+      case (time_link%continue_normal)
+         call copy_fields(state%now, state%before)
+         state%before%px = 0.0_wp
+         state%before%py = 0.0_wp
+      case default
+         call clear_moment(state%before, problem%grid)
+      end select
+      if (.not. linked .or. .not. problem%remembers_friction) call forget_friction(state)
+      if (.not. linked .or. .not. problem%remembers_yield) call forget_yield(state)
+      call link_memory(problem, link, kx, ky, state)
+   end subroutine link_moments
+
+   !> What particles carry along, for the effects that ask for it
+   subroutine link_memory(problem, link, kx, ky, state)
+      type(patch_problem), intent(in) :: problem
+      !> Member of time_link
+      integer, intent(in) :: link
+      !> Elements by which the window was moved
+      integer, intent(in) :: kx, ky
+      type(patch_state), intent(inout) :: state
+      real(wp), allocatable :: zero(:)
+
+      if (.not. (problem%remembers_friction .or. problem%remembers_yield)) return
+      allocate(zero(problem%grid%my), source=0.0_wp)
+      associate (now => state%now, before => state%before)
+         if (problem%remembers_friction) then
+            call hand_over(problem, link, kx, ky, problem%static_mu, now%mu, before%mu)
+            call hand_over(problem, link, kx, ky, zero, now%sx, before%sx)
+            call hand_over(problem, link, kx, ky, zero, now%sy, before%sy)
+         end if
+         if (problem%remembers_yield) then
+            call hand_over(problem, link, kx, ky, zero + problem%initial_yield_limit, now%tau_c, before%tau_c)
+            call hand_over(problem, link, kx, ky, zero, now%uplx, before%uplx)
+            call hand_over(problem, link, kx, ky, zero, now%uply, before%uply)
+         end if
+      end associate
+   end subroutine link_memory
+
+   !> No coefficients of friction and slip are carried along
+   subroutine forget_friction(state)
+      type(patch_state), intent(inout) :: state
+      type(memory_field) :: nothing
+
+      state%now%mu = nothing
+      state%now%sx = nothing
+      state%now%sy = nothing
+      state%before%mu = nothing
+      state%before%sx = nothing
+      state%before%sy = nothing
+   end subroutine forget_friction
+
+   !> No yield limits and plastic displacements are carried along
+   subroutine forget_yield(state)
+      type(patch_state), intent(inout) :: state
+      type(memory_field) :: nothing
+
+      state%now%tau_c = nothing
+      state%now%uplx = nothing
+      state%now%uply = nothing
+      state%before%tau_c = nothing
+      state%before%uplx = nothing
+      state%before%uply = nothing
+   end subroutine forget_yield
+
+   !> The present values become those of the same particles at the previous moment
+   !>
+   !> In rolling the window moves by one step, and the particles that are in its elements now
+   !> were that far ahead in it: values in between are interpolated bilinearly.
+   subroutine hand_over(problem, link, kx, ky, fresh, now, before)
+      type(patch_problem), intent(in) :: problem
+      !> Member of time_link
+      integer, intent(in) :: link
+      !> Elements by which the window was moved
+      integer, intent(in) :: kx, ky
+      !> Value of particles without history, per row
+      real(wp), intent(in) :: fresh(:)
+      type(memory_field), intent(inout) :: now, before
+
+      call fit_memory(problem%grid, kx, ky, fresh, now)
+      call fit_memory(problem%grid, kx, ky, fresh, before)
+      select case (link)
+      case (time_link%repeat_step)
+         continue
+      case (time_link%continue_all)
+         if (problem%motion == motion%transient_rolling .or. problem%motion == motion%steady_rolling) then
+            call sample_ahead(now%value, problem%dq*cos(problem%chi)/problem%grid%dx, &
+               & problem%dq*sin(problem%chi)/problem%grid%dy, fresh, before%value)
+         else
+            before%value = now%value
+         end if
+      case default
+         before%value = spread(fresh, 1, problem%grid%mx)
+      end select
+   end subroutine hand_over
+
+   !> A remembered field on the window of this case; without history where it is new
+   subroutine fit_memory(grid, kx, ky, fresh, field)
+      type(potential_contact), intent(in) :: grid
+      !> Elements by which the window was moved
+      integer, intent(in) :: kx, ky
+      !> Value of particles without history, per row
+      real(wp), intent(in) :: fresh(:)
+      type(memory_field), intent(inout) :: field
+      real(wp), allocatable :: old(:, :)
+      integer :: ix, iy
+
+      if (allocated(field%value)) then
+         if (kx == 0 .and. ky == 0 .and. all(shape(field%value) == [grid%mx, grid%my])) return
+         call move_alloc(field%value, old)
+      end if
+      allocate(field%value(grid%mx, grid%my), source=spread(fresh, 1, grid%mx))
+      if (.not. allocated(old)) return
+      do iy = max(1, 1 - ky), min(grid%my, size(old, 2) - ky)
+         do ix = max(1, 1 - kx), min(grid%mx, size(old, 1) - kx)
+            field%value(ix, iy) = old(ix + kx, iy + ky)
+         end do
+      end do
+   end subroutine fit_memory
+
+   !> Field at places a number of elements ahead, interpolated; fresh values beyond the window
+   pure subroutine sample_ahead(field, steps_x, steps_y, fresh, sampled)
+      !> Shape (mx, my)
+      real(wp), intent(in) :: field(:, :)
+      !> Distance in elements [-]
+      real(wp), intent(in) :: steps_x, steps_y
+      !> Values beyond the window, per row
+      real(wp), intent(in) :: fresh(:)
+      !> Shape (mx, my)
+      real(wp), intent(inout) :: sampled(:, :)
+      integer :: kx, ky, ix, iy, jx, jy, i, j
+      real(wp) :: a, b, corner(0:1, 0:1)
+      !> Distances this close to a whole number of elements are whole numbers
+      real(wp), parameter :: whole = 1.0e-9_wp
+
+      kx = floor(steps_x + whole)
+      ky = floor(steps_y + whole)
+      a = max(0.0_wp, steps_x - kx)
+      b = max(0.0_wp, steps_y - ky)
+      if (a < 2.0_wp*whole) a = 0.0_wp
+      if (b < 2.0_wp*whole) b = 0.0_wp
+      do iy = 1, size(field, 2)
+         do ix = 1, size(field, 1)
+            do j = 0, 1
+               jy = iy + ky + j
+               do i = 0, 1
+                  jx = ix + kx + i
+                  if (jx >= 1 .and. jx <= size(field, 1) .and. jy >= 1 .and. jy <= size(field, 2)) then
+                     corner(i, j) = field(jx, jy)
+                  else
+                     corner(i, j) = fresh(min(max(jy, 1), size(field, 2)))
+                  end if
+               end do
+            end do
+            sampled(ix, iy) = (1.0_wp - b)*((1.0_wp - a)*corner(0, 0) + a*corner(1, 0)) &
+               & + b*((1.0_wp - a)*corner(0, 1) + a*corner(1, 1))
+         end do
+      end do
+   end subroutine sample_ahead
+
+   !> Number of elements by which a window was moved
+   subroutine offset_of(old, new, kx, ky, error)
+      type(potential_contact), intent(in) :: old, new
+      integer, intent(out) :: kx, ky
+      type(error_type), allocatable, intent(out) :: error
+      real(wp) :: x, y
+      !> Tolerances of the guide: 0.01 % of the step, 0.1 % of an element
+      real(wp), parameter :: step_tolerance = 1.0e-4_wp, place_tolerance = 1.0e-3_wp
+
+      kx = 0
+      ky = 0
+      if (abs(new%dx - old%dx) > step_tolerance*new%dx .or. abs(new%dy - old%dy) > step_tolerance*new%dy) then
+         call fatal_error(error, "the element sizes differ from those of the previous case, to which this one is linked; " // &
+            & "the same DX and DY, or P=2 with I=0")
+         return
+      end if
+      x = (new%xl - old%xl)/new%dx
+      y = (new%yl - old%yl)/new%dy
+      kx = nint(x)
+      ky = nint(y)
+      if (abs(x - kx) > place_tolerance .or. abs(y - ky) > place_tolerance) then
+         call fatal_error(error, "the potential contact is not shifted by whole elements with respect to the previous case, " // &
+            & "to which this one is linked; a shift by whole elements, or P=2 with I=0")
+      end if
+   end subroutine offset_of
+
+   !> Fields on a moved window: values of the overlap, zero where new
+   subroutine move_window(fields, grid, kx, ky)
+      type(traction_fields), intent(inout) :: fields
+      type(potential_contact), intent(in) :: grid
+      integer, intent(in) :: kx, ky
+      type(traction_fields) :: old
+      integer :: ix, iy, jx, jy
+
+      if (kx == 0 .and. ky == 0 .and. all(shape(fields%division) == [grid%mx, grid%my])) then
+         fields%grid = grid
+         return
+      end if
+      old = fields
+      deallocate(fields%division, fields%pn, fields%px, fields%py)
+      call fit_fields(fields, grid%mx, grid%my)
+      fields%grid = grid
+      do iy = 1, grid%my
+         jy = iy + ky
+         if (jy < 1 .or. jy > old%grid%my) cycle
+         do ix = 1, grid%mx
+            jx = ix + kx
+            if (jx < 1 .or. jx > old%grid%mx) cycle
+            fields%division(ix, iy) = old%division(jx, jy)
+            fields%pn(ix, iy) = old%pn(jx, jy)
+            fields%px(ix, iy) = old%px(jx, jy)
+            fields%py(ix, iy) = old%py(jx, jy)
+         end do
+      end do
+   end subroutine move_window
+
+   !> No contact
+   subroutine clear_moment(fields, grid)
+      type(traction_fields), intent(inout) :: fields
+      type(potential_contact), intent(in) :: grid
+
+      call fit_fields(fields, grid%mx, grid%my)
+      fields%grid = grid
+      fields%division = element%exterior
+      fields%pn = 0.0_wp
+      fields%px = 0.0_wp
+      fields%py = 0.0_wp
+      fields%pen = 0.0_wp
+   end subroutine clear_moment
+
+   !> Copy of the fields of a moment
+   subroutine copy_fields(from, to)
+      type(traction_fields), intent(in) :: from
+      type(traction_fields), intent(inout) :: to
+
+      call fit_fields(to, from%grid%mx, from%grid%my)
+      to%grid = from%grid
+      to%division = from%division
+      to%pn = from%pn
+      to%px = from%px
+      to%py = from%py
+      to%pen = from%pen
+   end subroutine copy_fields
+
+   !> Fields of a moment on a grid, zero where new; kept when the size is the same
+   subroutine fit_fields(fields, grid_mx, grid_my)
+      type(traction_fields), intent(inout) :: fields
+      integer, intent(in) :: grid_mx, grid_my
+
+      if (allocated(fields%division)) then
+         if (all(shape(fields%division) == [grid_mx, grid_my])) return
+         deallocate(fields%division, fields%pn, fields%px, fields%py)
+      end if
+      allocate(fields%division(grid_mx, grid_my), source=element%exterior)
+      allocate(fields%pn(grid_mx, grid_my), fields%px(grid_mx, grid_my), fields%py(grid_mx, grid_my), source=0.0_wp)
+   end subroutine fit_fields
+end module contact_patch_moments

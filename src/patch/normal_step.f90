@@ -1,0 +1,90 @@
+!> The normal problem of a patch: pressures, contact area, approach or force
+module contact_patch_normal_step
+   use contact_base_choices, only : motion
+   use contact_base_constants, only : excluded_threshold
+   use contact_base_kinds, only : wp
+   use contact_base_log, only : log_type
+   use contact_base_solve_report, only : ending, failure_text
+   use contact_grid_element_division, only : element
+   use contact_normal_conjugate_gradient, only : solve_normal
+   use contact_patch_kinematics, only : rolling_direction
+   use contact_patch_problem, only : patch_problem, patch_state
+   use contact_patch_result, only : patch_result
+   use contact_patch_workspace, only : patch_workspace
+   implicit none (type, external)
+   private
+
+   public :: normal_step
+
+contains
+
+   !> Pressures, approach or force, and the contact area
+   subroutine normal_step(problem, state, workspace, log, result)
+      type(patch_problem), intent(in) :: problem
+      type(patch_state), intent(inout) :: state
+      type(patch_workspace), intent(inout) :: workspace
+      type(log_type), intent(inout) :: log
+      type(patch_result), intent(inout) :: result
+      integer :: ix, iy
+      logical :: first
+      character(len=80) :: line
+
+      first = result%outer_iterations == 1
+      if (allocated(problem%given_pressure)) then
+         state%now%pn = problem%given_pressure
+         where (problem%h > excluded_threshold) state%now%pn = 0.0_wp
+         result%normal%ended = ending%not_started
+      else
+         if (first) then
+            if (allocated(problem%pressure_estimate)) state%now%pn = problem%pressure_estimate
+         end if
+         call workspace%window%prepare(problem%material, problem%grid%dx, problem%grid%dy, problem%grid%mx, problem%grid%my, &
+            & rolling_direction(problem))
+         associate (normal => workspace%normal)
+            normal%mx = problem%grid%mx
+            normal%my = problem%grid%my
+            normal%dx = problem%grid%dx
+            normal%dy = problem%grid%dy
+            normal%h = problem%h
+            if (problem%material%coupled() .and. problem%motion /= motion%none) then
+               workspace%pt(:, :, 1) = state%now%px
+               workspace%pt(:, :, 2) = state%now%py
+               call workspace%window%normal_by_tangential(workspace%pt, workspace%un)
+               where (normal%h < excluded_threshold) normal%h = normal%h + workspace%un
+            end if
+            normal%force_prescribed = problem%force_prescribed
+            normal%fn = problem%fn
+            normal%eps = problem%eps
+            normal%maxgs = problem%maxgs
+            call log%trace(4, " NORM")
+            call solve_normal(normal, workspace%window, workspace%normal_work, state%now%pn, result%pen, result%normal, log)
+         end associate
+      end if
+      result%ncon = 0
+      do iy = 1, problem%grid%my
+         do ix = 1, problem%grid%mx
+            if (state%now%pn(ix, iy) > 0.0_wp) then
+               result%ncon = result%ncon + 1
+               if (state%now%division(ix, iy) == element%exterior) state%now%division(ix, iy) = element%adhesion
+            else
+               state%now%division(ix, iy) = element%exterior
+               state%now%px(ix, iy) = 0.0_wp
+               state%now%py(ix, iy) = 0.0_wp
+            end if
+         end do
+      end do
+      if (.not. allocated(problem%given_pressure)) then
+         result%normal%passes = result%normal%passes + 1
+         if (log%shows(3)) then
+            write(line, '(a,2i7,a,i6)') "      Norm: final element division: C, E=", result%ncon, &
+               & problem%grid%npot() - result%ncon, "  ItCG=", result%normal%iterations
+            call log%trace(3, trim(line))
+         end if
+         if (.not. result%normal%succeeded()) call log%warning(failure_text("normal", result%normal))
+      end if
+      if (.not. problem%force_prescribed) result%fn = problem%grid%dx*problem%grid%dy*sum(state%now%pn)
+      if (problem%motion == motion%none) then
+         where (state%now%division > element%exterior) state%now%division = element%adhesion
+      end if
+   end subroutine normal_step
+end module contact_patch_normal_step

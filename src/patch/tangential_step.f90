@@ -1,0 +1,208 @@
+!> The tangential problem of a patch: shear tractions and slip on a given contact area
+module contact_patch_tangential_step
+   use contact_base_choices, only : motion, solver_choice
+   use contact_base_kinds, only : wp
+   use contact_base_log, only : log_type
+   use contact_base_solve_report, only : ending, failure_text, solve_report
+   use contact_grid_element_division, only : bounding_box, contact_box, element
+   use contact_patch_kinematics, only : rolling_direction
+   use contact_patch_problem, only : patch_problem, patch_state
+   use contact_patch_result, only : patch_result
+   use contact_patch_workspace, only : patch_workspace
+   use contact_tangential_classical, only : classical_method, solve_classical
+   use contact_tangential_nested, only : solve_newton_krylov
+   use contact_tangential_problem, only : prepare_solution, tangential_problem, tangential_solution
+   implicit none (type, external)
+   private
+
+   public :: tangential_step
+
+contains
+
+   !> Tangential tractions and slip on the given contact area
+   subroutine tangential_step(problem, state, workspace, log, result)
+      type(patch_problem), intent(in) :: problem
+      type(patch_state), intent(inout) :: state
+      type(patch_workspace), intent(inout) :: workspace
+      type(log_type), intent(inout) :: log
+      type(patch_result), intent(inout) :: result
+      type(bounding_box) :: box
+
+      box = contact_box(state%now%division)
+      if (box%ix0 > box%ix1) then
+         result%tangential%ended = ending%not_started
+         return
+      end if
+      call workspace%box%prepare(problem%material, problem%grid%dx, problem%grid%dy, box%ix1 - box%ix0 + 1, &
+         & box%iy1 - box%iy0 + 1, rolling_direction(problem))
+      call set_tangential(problem, state, box, workspace, result)
+      if (log%shows(2)) call log%trace(2, " TANG: " // type_of_motion(problem%motion))
+      call choose_and_solve(problem, workspace, log, result%tangential)
+      result%tangential%passes = result%tangential%passes + 1
+
+      associate (solution => workspace%solution)
+         state%now%px(box%ix0:box%ix1, box%iy0:box%iy1) = solution%p(:, :, 1)
+         state%now%py(box%ix0:box%ix1, box%iy0:box%iy1) = solution%p(:, :, 2)
+         state%now%division(box%ix0:box%ix1, box%iy0:box%iy1) = solution%division
+         if (problem%n_forces >= 1) result%cksi = solution%creep(1)
+         if (problem%n_forces >= 2) result%ceta = solution%creep(2)
+         result%sensitivity(2:3, 2:3) = solution%sensitivity
+         if (log%shows(3)) call trace_division(log, solution, result%tangential)
+      end associate
+      if (.not. result%tangential%succeeded()) call log%warning(failure_text("tangential", result%tangential))
+   end subroutine tangential_step
+
+   !> Crop the tangential problem to the contact area
+   subroutine set_tangential(problem, state, box, workspace, result)
+      type(patch_problem), intent(in) :: problem
+      type(patch_state), intent(in) :: state
+      type(bounding_box), intent(in) :: box
+      type(patch_workspace), intent(inout) :: workspace
+      type(patch_result), intent(in) :: result
+      integer :: ix, iy, jx, jy, mx, my
+      real(wp) :: g, length
+
+      mx = box%ix1 - box%ix0 + 1
+      my = box%iy1 - box%iy0 + 1
+      associate (t => workspace%tangential, s => workspace%solution)
+         if (allocated(t%contact)) then
+            if (any(shape(t%contact) /= [mx, my])) then
+               deallocate(t%contact, t%bound, t%shift, workspace%box_un, workspace%box_pn, workspace%box_ut)
+            end if
+         end if
+         if (.not. allocated(t%contact)) then
+            allocate(t%contact(mx, my), t%bound(mx, my), t%shift(mx, my, 2))
+            allocate(workspace%box_un(mx, my), workspace%box_pn(mx, my), workspace%box_ut(mx, my, 2))
+         end if
+         t%mx = mx
+         t%my = my
+         t%dx = problem%grid%dx
+         t%dy = problem%grid%dy
+         t%steady = problem%motion == motion%steady_rolling
+         t%direction = rolling_direction(problem)
+         t%dq = problem%dq
+         t%n_forces = problem%n_forces
+         t%target = problem%force*result%mu_scal*result%fn/(problem%grid%dx*problem%grid%dy)
+         t%eps = problem%eps
+         t%maxgs = problem%maxgs
+         t%maxin = problem%maxin
+         t%maxnr = problem%maxnr
+         call set_relaxation(problem, result%ncon, t)
+         t%fdecay = problem%fdecay
+         t%betath = problem%betath
+         t%kdowfb = problem%kdowfb
+         t%d_ifc = problem%d_ifc
+         t%d_lin = problem%d_lin
+         t%d_cns = problem%d_cns
+         t%d_slp = problem%d_slp
+         t%pow_s = problem%pow_s
+         call prepare_solution(t, s)
+         s%creep = [result%cksi, result%ceta]
+         do iy = 1, my
+            jy = box%iy0 + iy - 1
+            do ix = 1, mx
+               jx = box%ix0 + ix - 1
+               t%contact(ix, iy) = state%now%division(jx, jy) > element%exterior
+               g = 0.0_wp
+               if (t%contact(ix, iy)) g = result%mu(jx, jy)*state%now%pn(jx, jy)
+               t%bound(ix, iy) = g
+               t%shift(ix, iy, 1) = result%wx(jx, jy)
+               t%shift(ix, iy, 2) = result%wy(jx, jy)
+               s%p(ix, iy, :) = [state%now%px(jx, jy), state%now%py(jx, jy)]
+               length = hypot(s%p(ix, iy, 1), s%p(ix, iy, 2))
+               if (length > g) s%p(ix, iy, :) = s%p(ix, iy, :)*(g/length)
+            end do
+         end do
+         if (.not. t%steady) t%shift = t%shift - workspace%old_displacement(box%ix0:box%ix1, box%iy0:box%iy1, :)
+         if (problem%material%coupled()) then
+            workspace%box_pn = state%now%pn(box%ix0:box%ix1, box%iy0:box%iy1)
+            if (t%steady) then
+               call workspace%box%steady_by_normal(workspace%box_pn, workspace%box_ut)
+            else
+               call workspace%box%tangential_by_normal(workspace%box_pn, workspace%box_ut)
+            end if
+            t%shift = t%shift + workspace%box_ut
+         end if
+      end associate
+   end subroutine set_tangential
+
+   !> Relaxation of the Gauss-Seidel methods: from the input, or by the shape of the elements
+   pure subroutine set_relaxation(problem, ncon, t)
+      type(patch_problem), intent(in) :: problem
+      integer, intent(in) :: ncon
+      type(tangential_problem), intent(inout) :: t
+      real(wp) :: ratio
+
+      t%omegah = problem%omegah
+      t%omegas = problem%omegas
+      if (problem%relaxation_given) return
+      ratio = problem%grid%dx/problem%grid%dy
+      if (ncon <= 25) then
+         t%omegah = 1.0_wp
+         t%omegas = 1.0_wp
+      else if (.not. t%steady .or. problem%solver == solver_choice%convex_gs) then
+         t%omegah = 0.5_wp
+         t%omegas = 0.5_wp
+      else if (ratio <= 5.0_wp) then
+         t%omegah = 0.9_wp
+         t%omegas = 1.0_wp
+      else
+         t%omegah = 0.8_wp
+         t%omegas = merge(0.8_wp, 0.6_wp, ratio <= 15.0_wp)
+      end if
+   end subroutine set_relaxation
+
+   !> Run the solver that the case names; the default one hands over when it makes no progress
+   subroutine choose_and_solve(problem, workspace, log, report)
+      type(patch_problem), intent(in) :: problem
+      type(patch_workspace), intent(inout) :: workspace
+      type(log_type), intent(inout) :: log
+      type(solve_report), intent(inout) :: report
+      integer :: method
+
+      method = classical_method%tang_cg
+      if (problem%motion == motion%steady_rolling) method = classical_method%steady_gs
+      select case (problem%solver)
+      case (solver_choice%convex_gs)
+         method = classical_method%convex_gs
+      case (solver_choice%gauss_seidel)
+         continue
+      case (solver_choice%gd_steady)
+         if (problem%motion == motion%steady_rolling) method = classical_method%gd_steady
+      case default
+         call solve_newton_krylov(workspace%tangential, workspace%box, workspace%tangential_work, workspace%solution, report, log)
+         if (report%succeeded()) return
+         call log%warning("Newton-Krylov made no further progress; a classical method takes over")
+         call solve_classical(workspace%tangential, workspace%box, method, workspace%solution, report, log)
+         report%gave_up = "Newton-Krylov"
+         return
+      end select
+      call solve_classical(workspace%tangential, workspace%box, method, workspace%solution, report, log)
+   end subroutine choose_and_solve
+
+   !> Heading of the flow trace
+   pure function type_of_motion(choice) result(text)
+      integer, intent(in) :: choice
+      character(len=:), allocatable :: text
+
+      text = "STEADY STATE ROLLING CONTACT"
+      if (choice == motion%shift) text = "SHIFT TRANSIENT"
+      if (choice == motion%transient_rolling) text = "TRANSIENT ROLLING CONTACT"
+   end function type_of_motion
+
+   !> Line of the flow trace about the adhesion and slip areas
+   subroutine trace_division(log, solution, report)
+      type(log_type), intent(inout) :: log
+      type(tangential_solution), intent(in) :: solution
+      type(solve_report), intent(in) :: report
+      character(len=80) :: line
+      character(len=7) :: counter
+
+      counter = "  ItGS="
+      if (report%method == "TangCG") counter = "  ItCG="
+      if (report%method == "Newton-Krylov") counter = "  ItNK="
+      write(line, '(a,2i7,a,i6)') "      Tang: final element division: A, S=", count(solution%division == element%adhesion), &
+         & count(solution%division == element%slip), counter, report%iterations
+      call log%trace(3, trim(line))
+   end subroutine trace_division
+end module contact_patch_tangential_step

@@ -1,0 +1,61 @@
+!> Scratch of one contact patch: compliances with their spectra, and the arrays of the solvers
+module contact_patch_workspace
+   use contact_base_kinds, only : wp
+   use contact_elastic_operator, only : elastic_operator
+   use contact_elastic_previous, only : previous_operator
+   use contact_normal_conjugate_gradient, only : normal_problem, normal_workspace, release_normal
+   use contact_patch_problem, only : patch_problem
+   use contact_tangential_nested, only : nested_workspace, release_nested
+   use contact_tangential_problem, only : tangential_problem, tangential_solution
+   implicit none (type, external)
+   private
+
+   public :: patch_workspace, fit_workspace, release_workspace
+
+   !> Nothing in here carries meaning from one case to the next
+   type :: patch_workspace
+      !> Compliance on the whole window and on the bounding box of the contact area
+      type(elastic_operator) :: window, box
+      type(previous_operator) :: previous
+      type(normal_problem) :: normal
+      type(normal_workspace) :: normal_work
+      type(tangential_problem) :: tangential
+      type(tangential_solution) :: solution
+      type(nested_workspace) :: tangential_work
+      !> Displacements at the previous time [mm], shape (mx, my, 2)
+      real(wp), allocatable :: old_displacement(:, :, :)
+      !> Scratch on the window, shapes (mx, my) and (mx, my, 2)
+      real(wp), allocatable :: un(:, :), ut(:, :, :), pt(:, :, :), last(:, :, :)
+      !> Scratch on the box
+      real(wp), allocatable :: box_un(:, :), box_pn(:, :), box_ut(:, :, :)
+   end type patch_workspace
+
+contains
+
+   !> Scratch of the size of the window; kept when the size is the same
+   subroutine fit_workspace(problem, workspace)
+      type(patch_problem), intent(in) :: problem
+      type(patch_workspace), intent(inout) :: workspace
+      integer :: mx, my
+
+      mx = problem%grid%mx
+      my = problem%grid%my
+      if (allocated(workspace%un)) then
+         if (all(shape(workspace%un) == [mx, my])) return
+         deallocate(workspace%un, workspace%ut, workspace%pt, workspace%last, workspace%old_displacement)
+      end if
+      allocate(workspace%un(mx, my), workspace%ut(mx, my, 2), workspace%pt(mx, my, 2), workspace%last(mx, my, 3), &
+         & workspace%old_displacement(mx, my, 2), source=0.0_wp)
+   end subroutine fit_workspace
+
+   !> Free what the workspace holds outside Fortran's memory: plans of transforms
+   subroutine release_workspace(workspace)
+      type(patch_workspace), intent(inout) :: workspace
+
+      call workspace%window%release()
+      call workspace%box%release()
+      call workspace%previous%release()
+      call release_normal(workspace%normal_work)
+      call release_nested(workspace%tangential_work)
+   end subroutine release_workspace
+end module contact_patch_workspace
