@@ -1,0 +1,62 @@
+!> Friction that changes with the surface temperature
+!>
+!>     mu(T) = mu_cold + (mu_hot - mu_cold) min(1, max(0, (T - T_onset)/range))
+module contact_friction_heated
+   use contact_base_kinds, only : wp
+   use contact_friction_law, only : friction_law
+   implicit none (type, external)
+   private
+
+   public :: heated_law
+
+   type, extends(friction_law) :: heated_law
+   contains
+      procedure :: coefficient
+      !> Coefficient of elements that are heated by their own friction
+      procedure :: self_heated
+   end type heated_law
+
+contains
+
+   pure subroutine coefficient(self, cause, mu)
+      class(heated_law), intent(in) :: self
+      real(wp), contiguous, intent(in) :: cause(:, :)
+      real(wp), contiguous, intent(inout) :: mu(:, :)
+      integer :: iy
+
+      do iy = 1, size(mu, 2)
+         associate (set => self%sets(self%set_of_row(iy)))
+            mu(:, iy) = set%static + (set%kinetic - set%static) &
+               & *min(1.0_wp, max(0.0_wp, (cause(:, iy) - set%onset)/set%range))
+         end associate
+      end do
+   end subroutine coefficient
+
+   !> Coefficient of an element whose temperature rises with its own friction
+   !>
+   !> Solves mu = theta mu_before + (1 - theta) mu(temperature + rise mu), which is linear on each of
+   !> the three pieces of the law. Where friction grows with temperature so fast that two solutions
+   !> are stable, the cold one is taken.
+   pure real(wp) function self_heated(self, iy, temperature, rise, theta, mu_before) result(mu)
+      class(heated_law), intent(in) :: self
+      !> Row of the element
+      integer, intent(in) :: iy
+      !> Temperature without the heat of the element itself [degC], and what that adds per unit of mu, at least 0
+      real(wp), intent(in) :: temperature, rise
+      !> Weight of the coefficient that the particles bring with them, 0...1, and this coefficient [-]
+      real(wp), intent(in) :: theta, mu_before
+      real(wp) :: change, slope
+
+      associate (set => self%sets(self%set_of_row(iy)))
+         mu = theta*mu_before + (1.0_wp - theta)*set%static
+         if (temperature + rise*mu <= set%onset) return
+         change = (1.0_wp - theta)*(set%kinetic - set%static)
+         slope = change/set%range
+         if (temperature + rise*(mu + change) >= set%onset + set%range) then
+            mu = mu + change
+         else
+            mu = (mu + slope*(temperature - set%onset))/(1.0_wp - slope*rise)
+         end if
+      end associate
+   end function self_heated
+end module contact_friction_heated

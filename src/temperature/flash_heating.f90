@@ -1,0 +1,218 @@
+!> Surface temperatures of two rolling bodies: conduction between them and heat of friction
+!>
+!> Fast particles carry heat away before it spreads sideways: under every element there is
+!> one-dimensional conduction into a half-space, Carslaw and Jaeger (1959), Ertz and Knothe (2002).
+!> A heat flux q(x) that enters a body of effusivity beta, passed at velocity V, makes
+!>
+!>     T(x) = T_0 + 1/(beta sqrt(pi V)) * integral of q(x')/sqrt(|x - x'|) over all x' upstream.
+!>
+!> Surfaces in contact have the same temperature; that divides the heat of friction in proportion
+!> to the effusivities, so both surfaces get warmer by the same amount.
+module contact_temperature_flash_heating
+   use contact_base_constants, only : pi
+   use contact_base_kinds, only : wp
+   use contact_friction_heated, only : heated_law
+   use contact_friction_memory, only : friction_memory
+   implicit none (type, external)
+   private
+
+   public :: body_pair, heat_passage, new_body_pair
+
+   !> Particles at the centre of an element have felt the heat of half of it: factor 1. The original
+   !> program uses 2, which makes temperatures higher by a term of the order of sqrt(dx); so do we, for
+   !> agreement.
+   real(wp), parameter :: own_heat_factor = 2.0_wp
+
+   !> Thermal constants of both bodies
+   type :: body_pair
+      !> Bulk temperatures [degC]
+      real(wp) :: bulk(2) = 0.0_wp
+      !> Effusivities sqrt(lambda rho c) [N/(mm sqrt(s) degC)]
+      real(wp) :: effusivity(2) = 1.0_wp
+      !> Share of the plastic work that becomes heat [-]
+      real(wp) :: plastic_share = 1.0_wp
+   contains
+      !> Temperature at which bodies of bulk temperature touch
+      procedure :: interface_temperature
+   end type body_pair
+
+   !> What the surfaces meet on their way through the grid
+   type :: heat_passage
+      type(body_pair) :: bodies
+      !> Side of the elements along x [mm], velocity [mm/s]
+      real(wp) :: dx = 1.0_wp, veloc = 1.0_wp
+      !> Rolling towards increasing (+1) or decreasing (-1) x; particles go the other way
+      integer :: direction = 1
+      !> Multiple of the heat that an element itself has released when particles are at its centre,
+      !> see own_heat_factor
+      real(wp) :: own_factor = own_heat_factor
+      !> Elements in contact, shape (mx, my)
+      logical, allocatable :: contact(:, :)
+   contains
+      !> Temperatures without friction
+      procedure :: conduct
+      !> Temperatures with a given heat of friction
+      procedure :: surface_temperatures
+      !> Friction coefficients that agree with the temperatures they make
+      procedure :: heat_by_friction
+      procedure, private :: weights
+      procedure, private :: rise_per_heat
+   end type heat_passage
+
+contains
+
+   !> From bulk temperatures [degC], specific heats [J/(kg degC)], conductivities [W/(mm degC)], densities [kg/mm3]
+   pure function new_body_pair(bulk, specific_heat, conductivity, density, plastic_share) result(bodies)
+      real(wp), intent(in) :: bulk(2), specific_heat(2), conductivity(2), density(2)
+      !> Share of the plastic work that becomes heat [-]
+      real(wp), intent(in) :: plastic_share
+      type(body_pair) :: bodies
+      !> N mm per J
+      real(wp), parameter :: newton_millimetres = 1.0e3_wp
+
+      bodies%bulk = bulk
+      bodies%effusivity = newton_millimetres*sqrt(conductivity*density*specific_heat)
+      bodies%plastic_share = plastic_share
+   end function new_body_pair
+
+   !> Mean of the bulk temperatures, weighted by the effusivities
+   !>
+   !> Differs from the original program, which weights them the other way round; the same for equal
+   !> effusivities.
+   pure real(wp) function interface_temperature(self) result(temperature)
+      class(body_pair), intent(in) :: self
+      temperature = dot_product(self%effusivity, self%bulk)/sum(self%effusivity)
+   end function interface_temperature
+
+   !> Temperatures [degC] by conduction between bodies of different bulk temperature
+   !>
+   !> In contact both surfaces have the interface temperature. Behind it a surface cools: a surface that
+   !> was kept at T_m while it passed a length l has T_0 + (T_m - T_0)(2/pi) asin(sqrt(l/d)) at the distance
+   !> d > l from the leading edge.
+   pure subroutine conduct(self, t1, t2)
+      class(heat_passage), intent(in) :: self
+      !> Temperatures of bodies 1 and 2 [degC], shape (mx, my)
+      real(wp), contiguous, intent(inout) :: t1(:, :), t2(:, :)
+      real(wp) :: common, rest
+      integer :: ix, iy, first, last, passed, length
+
+      common = self%bodies%interface_temperature()
+      first = merge(size(t1, 1), 1, self%direction > 0)
+      last = size(t1, 1) + 1 - first
+      do iy = 1, size(t1, 2)
+         ! numbers of elements since the leading edge, and up to the end of the contact so far
+         passed = 0
+         length = 0
+         do ix = first, last, -self%direction
+            if (passed > 0 .or. self%contact(ix, iy)) passed = passed + 1
+            if (self%contact(ix, iy)) length = passed
+            rest = 0.0_wp
+            if (self%contact(ix, iy)) then
+               rest = 1.0_wp
+            else if (passed > 0) then
+               rest = 2.0_wp/pi*asin(sqrt(length/(passed - 0.5_wp)))
+            end if
+            t1(ix, iy) = self%bodies%bulk(1) + rest*(common - self%bodies%bulk(1))
+            t2(ix, iy) = self%bodies%bulk(2) + rest*(common - self%bodies%bulk(2))
+         end do
+      end do
+   end subroutine conduct
+
+   !> Temperatures [degC] with the heat of friction
+   pure subroutine surface_temperatures(self, heat, t1, t2)
+      class(heat_passage), intent(in) :: self
+      !> Heat that friction releases [N/(mm s)], shape (mx, my)
+      real(wp), contiguous, intent(in) :: heat(:, :)
+      !> Temperatures of bodies 1 and 2 [degC], shape (mx, my)
+      real(wp), contiguous, intent(inout) :: t1(:, :), t2(:, :)
+      real(wp), allocatable :: weight(:), rise(:)
+      integer :: ix, iy, jx, m, first, last
+
+      call self%conduct(t1, t2)
+      m = size(heat, 1)
+      allocate(rise(m))
+      weight = self%weights(m)
+      first = merge(m, 1, self%direction > 0)
+      last = m + 1 - first
+      do iy = 1, size(heat, 2)
+         if (.not. any(heat(:, iy) > 0.0_wp)) cycle
+         ! rise(k): k elements from where particles enter
+         rise = 0.0_wp
+         jx = 0
+         do ix = first, last, -self%direction
+            jx = jx + 1
+            if (heat(ix, iy) > 0.0_wp) rise(jx:) = rise(jx:) + heat(ix, iy)*weight(:m - jx + 1)
+         end do
+         rise = rise*self%rise_per_heat()
+         if (self%direction > 0) rise = rise(m:1:-1)
+         t1(:, iy) = t1(:, iy) + rise
+         t2(:, iy) = t2(:, iy) + rise
+      end do
+   end subroutine surface_temperatures
+
+   !> Coefficients of friction and temperatures that belong together, for a given slip velocity
+   !>
+   !> What is warm depends on what lies upstream and on the element itself, nothing else. A march
+   !> along with the particles therefore solves for both at once, where alternating between them
+   !> oscillates as soon as friction falls steeply with temperature.
+   subroutine heat_by_friction(self, law, memory, pn, speed, heat, dt, mu, t1)
+      class(heat_passage), intent(in) :: self
+      type(heated_law), intent(in) :: law
+      type(friction_memory), intent(in) :: memory
+      !> Pressure [N/mm2], and slip velocity [mm/s] of elements whose traction is mu pn, shapes (mx, my)
+      real(wp), contiguous, intent(in) :: pn(:, :), speed(:, :)
+      !> Heat from other sources [N/(mm s)], shape (mx, my)
+      real(wp), contiguous, intent(in) :: heat(:, :)
+      !> Time in which particles pass one element [s]
+      real(wp), intent(in) :: dt
+      !> Coefficients [-] and temperatures of body 1 [degC], shapes (mx, my)
+      real(wp), contiguous, intent(inout) :: mu(:, :), t1(:, :)
+      real(wp), allocatable :: weight(:), rise(:), t2(:, :)
+      real(wp) :: before, own, given, released, per_heat, cold
+      integer :: ix, iy, jx, m, first, last
+
+      m = size(pn, 1)
+      allocate(rise(m), t2(m, size(pn, 2)))
+      call self%conduct(t1, t2)
+      weight = self%weights(m)
+      per_heat = self%rise_per_heat()
+      first = merge(m, 1, self%direction > 0)
+      last = m + 1 - first
+      do iy = 1, size(pn, 2)
+         rise = 0.0_wp
+         before = law%sets(law%set_of_row(iy))%static
+         jx = 0
+         do ix = first, last, -self%direction
+            jx = jx + 1
+            given = heat(ix, iy)
+            cold = t1(ix, iy) + per_heat*(rise(jx) + weight(1)*given)
+            own = pn(ix, iy)*speed(ix, iy)
+            mu(ix, iy) = law%self_heated(iy, cold, per_heat*weight(1)*own, memory%weight(speed(ix, iy), dt), before)
+            before = mu(ix, iy)
+            released = given + mu(ix, iy)*own
+            if (released > 0.0_wp) rise(jx:) = rise(jx:) + released*weight(:m - jx + 1)
+            t1(ix, iy) = t1(ix, iy) + per_heat*rise(jx)
+         end do
+      end do
+   end subroutine heat_by_friction
+
+   !> Integrals of 1/(2 sqrt(distance)) over elements 0, 1, ... m - 1 places upstream [sqrt(mm)]
+   pure function weights(self, m) result(weight)
+      class(heat_passage), intent(in) :: self
+      integer, intent(in) :: m
+      real(wp) :: weight(m)
+      integer :: k
+
+      weight(1) = self%own_factor*sqrt(0.5_wp*self%dx)
+      do k = 2, m
+         ! the difference of two roots without cancellation
+         weight(k) = sqrt(self%dx)/(sqrt(k - 0.5_wp) + sqrt(k - 1.5_wp))
+      end do
+   end function weights
+
+   !> Temperature by heat and weight [degC/(N/(mm s))/sqrt(mm)]
+   pure real(wp) function rise_per_heat(self) result(rise)
+      class(heat_passage), intent(in) :: self
+      rise = 2.0_wp/(sum(self%bodies%effusivity)*sqrt(pi*self%veloc))
+   end function rise_per_heat
+end module contact_temperature_flash_heating

@@ -1,0 +1,241 @@
+!> Surface temperatures: uniform and elliptical sources, orders, cooling, both bodies, own friction
+program test_flash_heating
+   use contact_base_constants, only : pi
+   use contact_base_error, only : error_type
+   use contact_base_choices, only : friction_model
+   use contact_base_kinds, only : wp
+   use contact_friction_heated, only : heated_law
+   use contact_friction_law, only : friction_law, friction_parameters
+   use contact_friction_memory, only : friction_memory
+   use contact_friction_new_law, only : new_friction_law
+   use contact_temperature_flash_heating, only : body_pair, heat_passage, new_body_pair
+   use contact_test_harness, only : test_suite
+   implicit none (type, external)
+   !> Half the length of the contact [mm], velocity [mm/s], heat flux [N/(mm s)]
+   real(wp), parameter :: half_length = 4.0_wp, veloc = 2.5e4_wp, flux = 3.0e5_wp
+   type(test_suite) :: suite
+
+   call suite%start("flash heating")
+   call constants(suite)
+   call uniform_source(suite)
+   call elliptical_source(suite)
+   call factor_two(suite)
+   call conduction(suite)
+   call mirror(suite)
+   call own_friction(suite)
+   call limits(suite)
+   call suite%finish()
+
+contains
+
+   !> One row of n elements over three lengths of the contact, which takes the second third
+   type(heat_passage) function row(n) result(passage)
+      integer, intent(in) :: n
+      integer :: i
+
+      passage%bodies%effusivity = [14.0_wp, 9.0_wp]
+      passage%dx = 6.0_wp*half_length/n
+      passage%veloc = veloc
+      passage%direction = -1
+      passage%own_factor = 1.0_wp
+      allocate(passage%contact(n, 1))
+      passage%contact(:, 1) = [(3*i > n .and. 3*i <= 2*n, i=1, n)]
+   end function row
+
+   !> Distance of the centres from the leading edge [mm]
+   pure function distance(passage) result(d)
+      type(heat_passage), intent(in) :: passage
+      real(wp) :: d(size(passage%contact, 1))
+      integer :: i
+
+      d = [((i - 0.5_wp)*passage%dx - 2.0_wp*half_length, i=1, size(d))]
+   end function distance
+
+   subroutine constants(suite)
+      type(test_suite), intent(inout) :: suite
+      type(body_pair) :: bodies
+
+      bodies = new_body_pair([20.0_wp, 20.0_wp], [450.0_wp, 900.0_wp], [0.05_wp, 0.1_wp], [8.0e-6_wp, 4.0e-6_wp], 1.0_wp)
+      call suite%close_to(bodies%effusivity, 1.0e3_wp*sqrt([1.8e-4_wp, 3.6e-4_wp]), 1.0e-12_wp, "effusivities")
+      bodies%bulk = [0.0_wp, 120.0_wp]
+      bodies%effusivity = [1.0_wp, 3.0_wp]
+      call suite%close_to(bodies%interface_temperature(), 90.0_wp, 1.0e-12_wp, "the better conductor dominates")
+   end subroutine constants
+
+   !> Carslaw and Jaeger: 2 q/(beta sqrt(pi V)) (sqrt(d) - sqrt(d - l)), exact for piecewise constant heat
+   subroutine uniform_source(suite)
+      type(test_suite), intent(inout) :: suite
+      type(heat_passage) :: passage
+      real(wp), allocatable :: t1(:, :), t2(:, :), heat(:, :), exact(:), d(:)
+
+      passage = row(60)
+      allocate(t1(60, 1), t2(60, 1), heat(60, 1))
+      heat = merge(flux, 0.0_wp, passage%contact)
+      call passage%surface_temperatures(heat, t1, t2)
+      d = distance(passage)
+      exact = 2.0_wp*flux/(23.0_wp*sqrt(pi*veloc))*(sqrt(max(0.0_wp, d)) - sqrt(max(0.0_wp, d - 2.0_wp*half_length)))
+      call suite%close_to(t1(:, 1), exact, 1.0e-12_wp*maxval(exact), "uniform source, body 1")
+      call suite%close_to(t2(:, 1), exact, 1.0e-12_wp*maxval(exact), "uniform source, body 2")
+   end subroutine uniform_source
+
+   !> Heat as the root of a circle, which is steep at the edges: first order, by quadrature of the integral
+   subroutine elliptical_source(suite)
+      type(test_suite), intent(inout) :: suite
+      real(wp) :: error(3)
+      integer :: k
+
+      do k = 1, 3
+         error(k) = elliptical_error(60*2**k, 1.0_wp)
+      end do
+      call suite%close_to(error(1)/error(2), 2.0_wp, 0.1_wp, "elliptical source: first order")
+      call suite%close_to(error(2)/error(3), 2.0_wp, 0.1_wp, "elliptical source: first order")
+      call suite%check(error(3) < 2.0e-3_wp, "elliptical source: 160 elements in contact")
+   end subroutine elliptical_source
+
+   !> Largest error of the temperature in contact, relative to the largest temperature
+   real(wp) function elliptical_error(n, factor) result(error)
+      integer, intent(in) :: n
+      real(wp), intent(in) :: factor
+      type(heat_passage) :: passage
+      real(wp), allocatable :: t1(:, :), t2(:, :), heat(:, :), exact(:), d(:)
+      integer :: i
+
+      passage = row(n)
+      passage%own_factor = factor
+      allocate(t1(n, 1), t2(n, 1), heat(n, 1), exact(n))
+      d = distance(passage)
+      heat(:, 1) = flux*sqrt(max(0.0_wp, 1.0_wp - (d/half_length - 1.0_wp)**2))
+      call passage%surface_temperatures(heat, t1, t2)
+      exact = [(elliptical_temperature(d(i)), i=1, n)]
+      error = maxval(abs(t1(:, 1) - exact), passage%contact(:, 1))/maxval(exact)
+   end function elliptical_error
+
+   !> Temperature under an elliptical source by the midpoint rule in t, distance = d (1 - t**2)
+   pure real(wp) function elliptical_temperature(d) result(t)
+      real(wp), intent(in) :: d
+      integer, parameter :: n = 4000
+      real(wp) :: s, x
+      integer :: i
+
+      t = 0.0_wp
+      if (d <= 0.0_wp) return
+      do i = 1, n
+         s = (i - 0.5_wp)/n
+         x = d*(1.0_wp - s**2)
+         t = t + 2.0_wp*sqrt(d)*flux*sqrt(max(0.0_wp, 1.0_wp - (x/half_length - 1.0_wp)**2))/n
+      end do
+      t = t/(23.0_wp*sqrt(pi*veloc))
+   end function elliptical_temperature
+
+   !> The factor of the original program: an error of the order of the root of the step
+   subroutine factor_two(suite)
+      type(test_suite), intent(inout) :: suite
+      type(heat_passage) :: standard
+
+      call suite%close_to(standard%own_factor, 2.0_wp, 0.0_wp, "the default is the factor of the original program")
+      call suite%close_to(elliptical_error(240, 2.0_wp)/elliptical_error(480, 2.0_wp), sqrt(2.0_wp), 0.05_wp, &
+         & "factor two: order one half")
+   end subroutine factor_two
+
+   !> Bodies of different temperature: interface temperature, and cooling behind it
+   subroutine conduction(suite)
+      type(test_suite), intent(inout) :: suite
+      type(heat_passage) :: passage
+      real(wp), allocatable :: t1(:, :), t2(:, :), d(:)
+      integer :: i, n
+
+      n = 60
+      passage = row(n)
+      passage%bodies%bulk = [10.0_wp, 148.0_wp]
+      allocate(t1(n, 1), t2(n, 1))
+      d = distance(passage)
+      call passage%conduct(t1, t2)
+      do i = 1, n
+         if (d(i) < 0.0_wp) then
+            call suite%close_to([t1(i, 1), t2(i, 1)], passage%bodies%bulk, 0.0_wp, "bulk temperatures ahead")
+         else if (passage%contact(i, 1)) then
+            call suite%close_to([t1(i, 1), t2(i, 1)], [64.0_wp, 64.0_wp], 1.0e-12_wp, "one temperature in contact")
+         else
+            call suite%close_to((t1(i, 1) - 10.0_wp)/54.0_wp, 2.0_wp/pi*asin(sqrt(2.0_wp*half_length/d(i))), 1.0e-12_wp, &
+               & "cooling of body 1")
+            call suite%close_to((t2(i, 1) - 148.0_wp)/(-84.0_wp), 2.0_wp/pi*asin(sqrt(2.0_wp*half_length/d(i))), &
+               & 1.0e-12_wp, "warming of body 2")
+         end if
+      end do
+   end subroutine conduction
+
+   !> Rolling to the other side
+   subroutine mirror(suite)
+      type(test_suite), intent(inout) :: suite
+      type(heat_passage) :: one, two
+      real(wp) :: a1(60, 1), a2(60, 1), b1(60, 1), b2(60, 1), heat(60, 1)
+      integer :: i
+
+      one = row(60)
+      one%bodies%bulk = [-5.0_wp, 30.0_wp]
+      heat(:, 1) = [(merge(flux*i, 0.0_wp, one%contact(i, 1)), i=1, 60)]
+      call one%surface_temperatures(heat, a1, a2)
+      two = one
+      two%direction = 1
+      two%contact = one%contact(60:1:-1, :)
+      call two%surface_temperatures(heat(60:1:-1, :), b1, b2)
+      call suite%close_to(a1(:, 1), b1(60:1:-1, 1), 0.0_wp, "mirror image, body 1")
+      call suite%close_to(a2(:, 1), b2(60:1:-1, 1), 0.0_wp, "mirror image, body 2")
+   end subroutine mirror
+
+   !> The march gives coefficients and temperatures that belong together, however steep the law
+   subroutine own_friction(suite)
+      type(test_suite), intent(inout) :: suite
+      type(heat_passage) :: passage
+      type(friction_memory) :: memory
+      type(friction_parameters) :: set
+      class(friction_law), allocatable :: law
+      type(error_type), allocatable :: error
+      real(wp) :: pn(60, 1), speed(60, 1), mu(60, 1), expected(60, 1), t1(60, 1), s1(60, 1), s2(60, 1), nothing(60, 1)
+      real(wp) :: range
+      integer :: k, with
+
+      passage = row(60)
+      passage%bodies%bulk = [20.0_wp, 60.0_wp]
+      nothing = 0.0_wp
+      pn = merge(900.0_wp, 0.0_wp, passage%contact)
+      speed = merge(1500.0_wp, 0.0_wp, passage%contact)
+      do with = 0, 1
+         memory%distance = 0.2_wp*with
+         memory%lowest_speed = 1.0_wp
+         do k = 1, 4
+            range = 10.0_wp**(4 - k)
+            set = friction_parameters(static=0.4_wp, kinetic=0.1_wp, onset=50.0_wp, range=range)
+            call new_friction_law(friction_model%temperature, [set], law, error)
+            select type (law)
+            type is (heated_law)
+               call passage%heat_by_friction(law, memory, pn, speed, nothing, 1.0e-5_wp, mu, t1)
+            end select
+            call passage%surface_temperatures(mu*pn*speed, s1, s2)
+            call suite%close_to(t1(:, 1), s1(:, 1), 1.0e-9_wp, "temperatures of the march")
+            call law%coefficient(t1, expected)
+            call memory%march(speed, 1.0e-5_wp, passage%direction, [0.4_wp], expected)
+            call suite%close_to(mu(:, 1), expected(:, 1), 1.0e-10_wp, "coefficients of the march")
+         end do
+      end do
+   end subroutine own_friction
+
+   subroutine limits(suite)
+      type(test_suite), intent(inout) :: suite
+      type(heat_passage) :: passage
+      real(wp) :: t1(60, 1), t2(60, 1), heat(60, 1)
+
+      passage = row(60)
+      passage%bodies%bulk = [11.0_wp, 7.0_wp]
+      passage%contact = .false.
+      heat = 0.0_wp
+      call passage%surface_temperatures(heat, t1, t2)
+      call suite%close_to(t1(:, 1), spread(11.0_wp, 1, 60), 0.0_wp, "no contact: bulk temperature, body 1")
+      call suite%close_to(t2(:, 1), spread(7.0_wp, 1, 60), 0.0_wp, "no contact: bulk temperature, body 2")
+      passage%dx = 2.0_wp
+      passage%own_factor = 2.0_wp
+      passage%contact = reshape([.true.], [1, 1])
+      call passage%surface_temperatures(reshape([23.0_wp*sqrt(pi*veloc)], [1, 1]), t1(:1, :), t2(:1, :))
+      call suite%close_to(t1(1, 1), (14.0_wp*11.0_wp + 9.0_wp*7.0_wp)/23.0_wp + 4.0_wp, 1.0e-12_wp, "one element")
+   end subroutine limits
+end program test_flash_heating
