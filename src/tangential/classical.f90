@@ -10,7 +10,7 @@ module contact_tangential_classical
    use contact_tangential_convex_gs, only : convex_gs
    use contact_tangential_gd_steady, only : gd_steady
    use contact_tangential_prescribed_forces, only : force_iteration
-   use contact_tangential_problem, only : divide_elements, prepare_solution, reference_compliance, &
+   use contact_tangential_problem, only : divide_elements, prepare_solution, residual_scale, settle, &
       & slip_of, tangential_problem, tangential_solution, true_residual
    use contact_tangential_steady_gs, only : steady_gs
    use contact_tangential_streaming, only : streaming_rows
@@ -99,7 +99,7 @@ contains
          solution%slip = 0.0_wp
          return
       end if
-      r = 1.0_wp/reference_compliance(operator)
+      r = residual_scale(problem, operator)
       if (.not. clean_input()) then
          report%ended = ending%diverged
          report%residual = -1.0_wp
@@ -131,7 +131,8 @@ contains
             call solve_once()
             if (sum_g <= 0.0_wp .or. report%ended == ending%diverged) exit
             force = [sum(solution%p(:, :, 1)), sum(solution%p(:, :, 2))]/sum_g
-            call forces%advance(force, any(solution%division == element%adhesion), creep)
+            call forces%advance(force, any(solution%division == element%adhesion &
+               & .or. solution%division == element%plastic), creep)
             call trace_forces()
             if (forces%ended /= ending%not_started) exit
          end do
@@ -144,6 +145,7 @@ contains
          end if
       end if
       report%residual = true_residual(problem, solution%p, solution%slip, r)
+      call settle(problem, r, solution)
       report%products = report%products + operator%products - products_before
       if (with_rows) then
          report%products = report%products + rows%products()
@@ -248,6 +250,11 @@ contains
       if (problem%steady .and. choice == classical_method%tang_cg) method = classical_method%steady_gs
       if (.not. problem%steady .and. (choice == classical_method%steady_gs &
          & .or. choice == classical_method%gd_steady)) method = classical_method%tang_cg
+      ! the limit of a yielding element depends on its plastic displacement: element problems only
+      if (problem%hardens()) then
+         if (.not. problem%steady) method = classical_method%convex_gs
+         if (problem%steady .and. method /= classical_method%convex_gs) method = classical_method%steady_gs
+      end if
       if (general) method = classical_method%convex_gs
    end function suitable_method
 end module contact_tangential_classical

@@ -8,7 +8,7 @@ module contact_tangential_convex_gs
    use contact_base_log, only : log_type
    use contact_base_solve_report, only : ending, solve_report
    use contact_grid_element_division, only : element
-   use contact_tangential_element_problem, only : element_compliance, relax_element, solve_element
+   use contact_tangential_element_problem, only : element_compliance
    use contact_tangential_problem, only : tangential_problem
    use contact_tangential_streaming, only : loads, streaming_rows
    use contact_tangential_sweep, only : trace_iteration, update_watch
@@ -38,7 +38,7 @@ contains
       !> Displacements within a row by a unit change of traction, offset "receiving minus loaded"
       real(wp) :: kxx(0:rows%mx - 1), kyy(0:rows%mx - 1), kxy(0:rows%mx - 1)
       real(wp) :: slip(rows%mx, 2), s0(2), old(2), p(2), change(2)
-      integer :: i, iy, sweep, new_state, n
+      integer :: i, iy, sweep, n
       logical :: increments, skew, rest
 
       n = rows%mx
@@ -66,10 +66,8 @@ contains
                old = rows%p(i, :, iy)
                s0(1) = slip(i, 1) - own%xx*old(1) - own%xy*old(2)
                s0(2) = slip(i, 2) - own%xy*old(1) - own%yy*old(2)
-               call solve_element(own, s0, rows%bound(i, iy), p, new_state)
-               call relax_element(old, rows%bound(i, iy), problem%omegah, problem%omegas, new_state, p)
+               call rows%solve_one(i, iy, own, s0, problem%omegah, problem%omegas, p)
                change = p - old
-               rows%state(i, iy) = new_state
                rows%p(i, :, iy) = p
                call spread(change, i, rows%last(iy))
             end do

@@ -6,14 +6,20 @@
 !> disc; it exists, is unique and needs one scalar root (the "secular equation" of trust-region
 !> methods, Moré and Sorensen 1983). Differs from a search through the element states: the state
 !> follows from the exact solution, relaxation comes afterwards.
+!>
+!> In an element that yields, S0 + C p = -m p/|p| with |p| = t + k m (contact_tangential_yield), the
+!> same for the root of another scalar function. For a falling limit, k < 0, there may be several
+!> solutions; taken is the one with the smallest plastic displacement, the first one that is met
+!> when the load grows from zero.
 module contact_tangential_element_problem
    use contact_base_constants, only : pi
    use contact_base_kinds, only : wp
    use contact_grid_element_division, only : element
+   use contact_tangential_yield, only : yield_point
    implicit none (type, external)
    private
 
-   public :: element_compliance, solve_element, relax_element
+   public :: element_compliance, solve_element, solve_yielding_element, relax_element
 
    !> Symmetric compliance of one element on itself [mm/(N/mm2)]
    type :: element_compliance
@@ -22,6 +28,14 @@ module contact_tangential_element_problem
 
    !> Bounds below this value count as zero [N/mm2]
    real(wp), parameter :: no_bound = 1.0e-200_wp
+
+   !> The element problem in the principal axes of the compliance
+   type :: principal_problem
+      !> Compliances [mm/(N/mm2)], -S0 [mm] and its length
+      real(wp) :: lambda(2), b(2), length
+      !> Direction of the first axis
+      real(wp) :: cosine, sine
+   end type principal_problem
 
 contains
 
@@ -36,53 +50,135 @@ contains
       real(wp), intent(out) :: p(2)
       !> element%adhesion or element%slip
       integer, intent(out) :: state
-      real(wp) :: det, b(2), lambda(2), sigma, n, cosine, sine, angle, length, slope
-      integer :: trial
-      integer, parameter :: max_trials = 40
+      type(principal_problem) :: axes
+      logical :: found
 
       state = element%adhesion
       p = 0.0_wp
-      length = hypot(s0(1), s0(2))
-      if (.not. length > 0.0_wp) return
+      if (.not. any(abs(s0) > 0.0_wp)) return
       state = element%slip
       if (g <= no_bound) return
-
-      det = c%xx*c%yy - c%xy**2
-      if (.not. (c%xx > 0.0_wp .and. det > 0.0_wp)) then
-         p = -(g/length)*s0
+      if (.not. is_positive(c)) then
+         p = -(g/hypot(s0(1), s0(2)))*s0
          return
       end if
-      p = -[c%yy*s0(1) - c%xy*s0(2), c%xx*s0(2) - c%xy*s0(1)]/det
+      p = adhering(c, s0)
       if (hypot(p(1), p(2)) <= g) then
          state = element%adhesion
          return
       end if
+      axes = principal_axes(c, s0)
+      call find_traction(axes, g, 0.0_wp, p, found)
+   end subroutine solve_element
 
-      ! principal axes
-      cosine = 1.0_wp
-      sine = 0.0_wp
-      lambda = [c%xx, c%yy]
+   !> The same for an element that may yield
+   pure subroutine solve_yielding_element(c, s0, g, before, slope, lowest, p, point)
+      type(element_compliance), intent(in) :: c
+      !> Slip without the element's own traction [mm]
+      real(wp), intent(in) :: s0(2)
+      !> Traction bound and yield limit before the step [N/mm2]
+      real(wp), intent(in) :: g, before
+      !> As in yield_data
+      real(wp), intent(in) :: slope, lowest
+      !> Traction [N/mm2]
+      real(wp), intent(out) :: p(2)
+      !> State, plastic displacement and yield limit after the step; no derivatives
+      type(yield_point), intent(out) :: point
+      type(principal_problem) :: axes
+      real(wp) :: m
+      logical :: found
+
+      point%limit = before
+      call solve_element(c, s0, min(g, before), p, point%state)
+      if (point%state == element%adhesion .or. before >= g) return
+      if (.not. is_positive(c)) return
+
+      axes = principal_axes(c, s0)
+      point%state = element%plastic
+      call find_traction(axes, before, slope, p, found)
+      if (slope > 0.0_wp .and. hypot(p(1), p(2)) > g) then
+         ! hardened up to the friction bound, the rest is slip
+         call find_traction(axes, g, 0.0_wp, p, found)
+         point%state = element%slip
+         point%limit = g
+         point%plastic = (g - before)/slope
+         return
+      end if
+      if (slope < 0.0_wp .and. (.not. found .or. hypot(p(1), p(2)) < lowest)) &
+         & call find_traction(axes, min(lowest, before), 0.0_wp, p, found)
+      m = hypot(s0(1) + c%xx*p(1) + c%xy*p(2), s0(2) + c%xy*p(1) + c%yy*p(2))
+      point%plastic = m
+      point%limit = hypot(p(1), p(2))
+   end subroutine solve_yielding_element
+
+   pure logical function is_positive(c)
+      type(element_compliance), intent(in) :: c
+      is_positive = c%xx > 0.0_wp .and. c%xx*c%yy - c%xy**2 > 0.0_wp
+   end function is_positive
+
+   !> The traction that keeps the element from slipping [N/mm2]
+   pure function adhering(c, s0) result(p)
+      type(element_compliance), intent(in) :: c
+      real(wp), intent(in) :: s0(2)
+      real(wp) :: p(2)
+      p = -[c%yy*s0(1) - c%xy*s0(2), c%xx*s0(2) - c%xy*s0(1)]/(c%xx*c%yy - c%xy**2)
+   end function adhering
+
+   pure type(principal_problem) function principal_axes(c, s0) result(axes)
+      type(element_compliance), intent(in) :: c
+      real(wp), intent(in) :: s0(2)
+      real(wp) :: angle, n
+
+      axes%cosine = 1.0_wp
+      axes%sine = 0.0_wp
+      axes%lambda = [c%xx, c%yy]
       if (c%xy /= 0.0_wp) then
          angle = 0.5_wp*atan2(2.0_wp*c%xy, c%xx - c%yy)
-         cosine = cos(angle)
-         sine = sin(angle)
+         axes%cosine = cos(angle)
+         axes%sine = sin(angle)
          n = hypot(0.5_wp*(c%xx - c%yy), c%xy)
-         lambda = 0.5_wp*(c%xx + c%yy) + [n, -n]
+         axes%lambda = 0.5_wp*(c%xx + c%yy) + [n, -n]
       end if
-      b = -[cosine*s0(1) + sine*s0(2), cosine*s0(2) - sine*s0(1)]
+      axes%b = -[axes%cosine*s0(1) + axes%sine*s0(2), axes%cosine*s0(2) - axes%sine*s0(1)]
+      axes%length = hypot(s0(1), s0(2))
+   end function principal_axes
 
-      ! |p(sigma)| = g; Newton on 1/|p| rises monotonically from a lower bound
-      sigma = max(0.0_wp, length/g - maxval(lambda))
+   !> Traction with |p| = limit + slope*m, m = |S0 + C p|, where the adhering one is larger than the limit
+   !>
+   !> m = sigma |p| and p = -(C + sigma)**-1 S0 make it 1/|p(sigma)| + slope/limit*sigma = 1/limit. The
+   !> left side is concave and too small at sigma = 0, so that Newton's method climbs monotonically
+   !> from any lower bound to the smallest root; without a root the slope vanishes on the way.
+   pure subroutine find_traction(axes, limit, slope, p, found)
+      type(principal_problem), intent(in) :: axes
+      !> [N/mm2], above 0
+      real(wp), intent(in) :: limit
+      !> [N/mm3]
+      real(wp), intent(in) :: slope
+      !> [N/mm2]
+      real(wp), intent(out) :: p(2)
+      logical, intent(out) :: found
+      real(wp) :: sigma, n, target, rise
+      integer :: trial
+      integer, parameter :: max_trials = 40
+
+      found = .false.
+      sigma = 0.0_wp
+      ! |p| <= |S0|/(lambda + sigma) with the larger of the two lambda
+      rise = 1.0_wp + slope*axes%length/limit
+      if (rise > 0.0_wp) sigma = max(0.0_wp, axes%length/limit - maxval(axes%lambda))/rise
       do trial = 1, max_trials
-         p = b/(lambda + sigma)
+         p = axes%b/(axes%lambda + sigma)
          n = hypot(p(1), p(2))
-         if (n - g <= 1.0e-14_wp*g) exit
-         slope = sum((p/n)**2/(lambda + sigma))
-         sigma = sigma + (n - g)/(g*slope)
+         target = 1.0_wp - slope*sigma
+         found = n*target - limit <= 1.0e-14_wp*limit
+         if (found) exit
+         rise = sum((p/n)**2/(axes%lambda + sigma)) + slope*n/limit
+         if (.not. rise > 0.0_wp) exit
+         sigma = sigma + (n*target/limit - 1.0_wp)/rise
       end do
-      p = p*(g/n)
-      p = [cosine*p(1) - sine*p(2), sine*p(1) + cosine*p(2)]
-   end subroutine solve_element
+      if (slope == 0.0_wp) p = p*(limit/n)
+      p = [axes%cosine*p(1) - axes%sine*p(2), axes%sine*p(1) + axes%cosine*p(2)]
+   end subroutine find_traction
 
    !> Move from the old traction part of the way to the new one: along the line in adhesion,
    !> along the circle in slip. Admissible whenever the old traction is.

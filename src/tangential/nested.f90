@@ -11,7 +11,7 @@ module contact_tangential_nested
    use contact_elastic_operator, only : elastic_operator
    use contact_grid_coarsening, only : coarse_neighbours, coarse_size, coarsening_factor, shortest_side
    use contact_tangential_newton, only : newton_outcome, newton_solve, newton_workspace
-   use contact_tangential_problem, only : prepare_solution, reference_compliance, slip_of, &
+   use contact_tangential_problem, only : prepare_solution, residual_scale, settle, slip_of, &
       & tangential_problem, tangential_solution, true_residual
    implicit none (type, external)
    private
@@ -67,12 +67,13 @@ contains
       report%tolerance = problem%eps
       if (can_coarsen(problem)) then
          call slip_of(problem, operator, solution%p, solution%creep, solution%slip)
-         residual = true_residual(problem, solution%p, solution%slip, 1.0_wp/reference_compliance(operator))
+         residual = true_residual(problem, solution%p, solution%slip, residual_scale(problem, operator))
          if (residual > good_estimate) then
             call solve_coarse(problem, operator%material, workspace, 2, solution, log)
          end if
       end if
       call newton_solve(problem, operator, problem%eps, workspace%level(1)%newton, solution, outcome, log)
+      call settle(problem, residual_scale(problem, operator), solution)
       report%ended = outcome%ended
       report%iterations = outcome%steps
       report%residual = outcome%residual
@@ -177,6 +178,26 @@ contains
          end do
       end do
       coarse%target = fine%target/(fx*fy)
+      if (allocated(coarse%yield)) deallocate(coarse%yield)
+      if (fine%hardens()) call coarsen_limits()
+
+   contains
+
+      !> Mean yield limits; plastic displacements do not depend on the size of the elements
+      subroutine coarsen_limits()
+         allocate(coarse%yield)
+         coarse%yield%slope = fine%yield%slope
+         coarse%yield%lowest = fine%yield%lowest
+         allocate(coarse%yield%limit(mx, my))
+         do iy = 1, my
+            jy = min(fy*iy, fine%my)
+            do ix = 1, mx
+               jx = min(fx*ix, fine%mx)
+               coarse%yield%limit(ix, iy) = sum(fine%yield%limit(fx*(ix - 1) + 1:jx, fy*(iy - 1) + 1:jy)) &
+                  & /((jx - fx*(ix - 1))*(jy - fy*(iy - 1)))
+            end do
+         end do
+      end subroutine coarsen_limits
    end subroutine coarsen
 
    !> Interpolate tractions relative to their bounds to the fine grid

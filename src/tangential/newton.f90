@@ -7,13 +7,17 @@
 !> |z| <= g, z = p - r S, and (g/|z|)(1 - n n'), n = z/|z|, elsewhere; the Jacobian is
 !> J dp = dp - D(dp - r B dp). Directions in the range of D are preconditioned by the inverse of
 !> the circulant that belongs to B, the others are left alone; border rows by block elimination.
+!> Where the yield limit has a slope, the return map takes the place of the projection: D gets a
+!> radial part, and in steady rolling the limit carries changes downstream along each row.
 module contact_tangential_newton
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
    use contact_base_solve_report, only : ending
    use contact_elastic_operator, only : elastic_operator
-   use contact_tangential_problem, only : apply_operator, divide_elements, reference_compliance, &
+   use contact_grid_element_division, only : element
+   use contact_tangential_problem, only : apply_operator, divide_elements, limits_before, residual_scale, &
       & slip_of, tangential_problem, tangential_solution, true_residual
+   use contact_tangential_yield, only : return_map, yield_point
    implicit none (type, external)
    private
 
@@ -32,6 +36,8 @@ module contact_tangential_newton
       real(wp), allocatable :: trial(:, :, :), trial_slip(:, :, :), residual(:, :, :), step(:, :, :), best_slip(:, :, :)
       !> Border columns after preconditioning
       real(wp), allocatable :: border(:, :, :, :)
+      !> Linearised return map, shape (mx, my); unallocated where the yield limit has no slope
+      type(yield_point), allocatable :: point(:, :)
    end type newton_workspace
 
    !> How a solve ended
@@ -88,7 +94,7 @@ contains
       call fit_workspace(workspace, problem%mx, problem%my)
       system%n_forces = problem%n_forces
       system%n = 2*problem%mx*problem%my
-      system%r = 1.0_wp/reference_compliance(operator)
+      system%r = residual_scale(problem, operator)
       system%g_norm = sqrt(sum(problem%bound**2))
       system%g_sum = sum(problem%bound)
       if (system%g_norm <= 0.0_wp) then
@@ -267,6 +273,11 @@ contains
       integer :: ix, iy
       real(wp) :: z(2), length, g
 
+      if (allocated(workspace%point)) deallocate(workspace%point)
+      if (problem%hardens()) then
+         call linearise_return_map(problem, system, solution, workspace)
+         return
+      end if
       do iy = 1, problem%my
          do ix = 1, problem%mx
             workspace%weight(ix, iy) = 0.0_wp
@@ -290,13 +301,93 @@ contains
       end do
    end subroutine linearise
 
-   !> v := D v
-   subroutine apply_d(workspace, v)
+   !> The same where the yield limit has a slope
+   subroutine linearise_return_map(problem, system, solution, workspace)
+      type(tangential_problem), intent(in) :: problem
+      type(linear_system), intent(in) :: system
+      type(tangential_solution), intent(in) :: solution
+      type(newton_workspace), intent(inout) :: workspace
+      real(wp), allocatable :: before(:, :)
+      integer :: ix, iy
+      real(wp) :: z(2), length
+
+      before = limits_before(problem, solution%p, solution%slip, system%r)
+      allocate(workspace%point(problem%mx, problem%my))
+      workspace%weight = 0.0_wp
+      workspace%direction = 0.0_wp
+      workspace%residual = 0.0_wp
+      do iy = 1, problem%my
+         do ix = 1, problem%mx
+            if (.not. problem%contact(ix, iy)) cycle
+            z = solution%p(ix, iy, :) - system%r*solution%slip(ix, iy, :)
+            length = sqrt(z(1)**2 + z(2)**2)
+            associate (point => workspace%point(ix, iy))
+               point = return_map(length, problem%bound(ix, iy), before(ix, iy), problem%yield%slope, &
+                  & problem%yield%lowest, system%r)
+               workspace%weight(ix, iy) = 1.0_wp
+               if (point%state /= element%adhesion) then
+                  workspace%weight(ix, iy) = point%radius/length
+                  workspace%direction(ix, iy, :) = z/length
+                  z = z*(point%radius/length)
+               end if
+            end associate
+            workspace%residual(ix, iy, :) = solution%p(ix, iy, :) - z
+         end do
+      end do
+   end subroutine linearise_return_map
+
+   !> v := v + n radial n.w, what the derivative of the return map has along n
+   subroutine add_radial(workspace, w, v)
       type(newton_workspace), intent(in) :: workspace
+      real(wp), contiguous, intent(in) :: w(:, :, :)
       real(wp), contiguous, intent(inout) :: v(:, :, :)
       integer :: ix, iy
       real(wp) :: c
 
+      do iy = 1, size(v, 2)
+         do ix = 1, size(v, 1)
+            c = workspace%direction(ix, iy, 1)*w(ix, iy, 1) + workspace%direction(ix, iy, 2)*w(ix, iy, 2)
+            v(ix, iy, :) = v(ix, iy, :) + workspace%point(ix, iy)%radius_by_length*c*workspace%direction(ix, iy, :)
+         end do
+      end do
+   end subroutine add_radial
+
+   !> Radial part in the product with the Jacobian, and the changes of the limits in steady rolling
+   subroutine subtract_radial(problem, system, workspace, creep, dp, out)
+      type(tangential_problem), intent(in) :: problem
+      type(linear_system), intent(in) :: system
+      type(newton_workspace), intent(in) :: workspace
+      !> Change of the rigid slip [mm]
+      real(wp), intent(in) :: creep(2)
+      !> Change of the tractions; workspace%trial has their displacements
+      real(wp), contiguous, intent(in) :: dp(:, :, :)
+      real(wp), contiguous, intent(inout) :: out(:, :, :)
+      integer :: ix, iy, k
+      real(wp) :: c, limit, n(2)
+
+      do iy = 1, problem%my
+         limit = 0.0_wp
+         do k = 1, problem%mx
+            ix = merge(problem%mx + 1 - k, k, problem%direction > 0)
+            n = workspace%direction(ix, iy, :)
+            c = sum(n*(dp(ix, iy, :) - system%r*(workspace%trial(ix, iy, :) + creep)))
+            associate (point => workspace%point(ix, iy))
+               out(ix, iy, :) = out(ix, iy, :) - n*(point%radius_by_length*c + point%radius_by_limit*limit)
+               if (problem%steady) limit = point%limit_by_length*c + point%limit_by_limit*limit
+            end associate
+         end do
+      end do
+   end subroutine subtract_radial
+
+   !> v := D v
+   subroutine apply_d(workspace, v)
+      type(newton_workspace), intent(in) :: workspace
+      real(wp), contiguous, intent(inout) :: v(:, :, :)
+      real(wp), allocatable :: whole(:, :, :)
+      integer :: ix, iy
+      real(wp) :: c
+
+      if (allocated(workspace%point)) whole = v
       do iy = 1, size(v, 2)
          do ix = 1, size(v, 1)
             c = workspace%direction(ix, iy, 1)*v(ix, iy, 1) + workspace%direction(ix, iy, 2)*v(ix, iy, 2)
@@ -304,6 +395,7 @@ contains
             v(ix, iy, 2) = workspace%weight(ix, iy)*(v(ix, iy, 2) - workspace%direction(ix, iy, 2)*c)
          end do
       end do
+      if (allocated(workspace%point)) call add_radial(workspace, whole, v)
    end subroutine apply_d
 
    !> out := J y, y = (tractions, creepages), both scaled
@@ -334,6 +426,7 @@ contains
             res(ix, iy, 2) = dp(ix, iy, 2) - workspace%weight(ix, iy)*(vy - workspace%direction(ix, iy, 2)*c)
          end do
       end do
+      if (allocated(workspace%point)) call subtract_radial(problem, system, workspace, creep, dp, res)
       do k = 1, system%n_forces
          out(system%n + k) = sum(dp(:, :, k))*system%g_norm/system%g_sum
       end do
@@ -347,6 +440,7 @@ contains
       type(newton_workspace), intent(inout) :: workspace
       real(wp), contiguous, intent(in) :: v(:, :, :)
       real(wp), contiguous, intent(inout) :: u(:, :, :)
+      real(wp), allocatable :: whole(:, :, :)
       integer :: ix, iy
       real(wp) :: c, vx, vy, ux, uy, w, nx, ny
 
@@ -357,6 +451,7 @@ contains
       else
          call operator%tangential_inverse(workspace%trial, u)
       end if
+      if (allocated(workspace%point)) whole = u/system%r
       do iy = 1, problem%my
          do ix = 1, problem%mx
             w = workspace%weight(ix, iy)
@@ -371,6 +466,7 @@ contains
             u(ix, iy, 2) = w*(uy - ny*c) + vy
          end do
       end do
+      if (allocated(workspace%point)) call add_radial(workspace, whole, u)
    end subroutine precondition_field
 
    !> Preconditioned border columns and the inverse of their Schur complement

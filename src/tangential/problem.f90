@@ -6,16 +6,20 @@
 !>
 !>     p - P_g(p - r S(p)) = 0
 !>
-!> with P_g the projection onto the disc of radius g and any r > 0.
+!> with P_g the projection onto the disc of radius g and any r > 0. Where the surface yields
+!> (contact_tangential_yield), S stands for slip and plastic shearing together until the solution
+!> is settled, and the return map replaces the projection.
 module contact_tangential_problem
    use contact_base_kinds, only : wp
    use contact_elastic_operator, only : elastic_operator
    use contact_grid_element_division, only : element
+   use contact_tangential_yield, only : return_map, yield_data, yield_point
    implicit none (type, external)
    private
 
    public :: tangential_problem, tangential_solution, prepare_solution
-   public :: apply_operator, slip_of, true_residual, divide_elements, reference_compliance
+   public :: apply_operator, slip_of, true_residual, divide_elements
+   public :: residual_scale, limits_before, settle
 
    !> Data of a tangential problem on a window; constant during the solution
    type :: tangential_problem
@@ -24,7 +28,7 @@ module contact_tangential_problem
       real(wp) :: dx = 1.0_wp, dy = 1.0_wp
       !> Elements in contact, shape (mx, my)
       logical, allocatable :: contact(:, :)
-      !> Traction bound g [N/mm2], 0 outside contact, shape (mx, my)
+      !> Traction bound g [N/mm2], 0 outside contact, shape (mx, my); yield limits without slope included
       real(wp), allocatable :: bound(:, :)
       !> Rigid slip and other fixed contributions to the slip per step [mm], without the
       !> unknown creepages, shape (mx, my, 2)
@@ -48,6 +52,11 @@ module contact_tangential_problem
       real(wp) :: fdecay = 0.9_wp, betath = 0.1_wp
       integer :: kdowfb = 1
       real(wp) :: d_ifc = 1.0_wp, d_lin = 1.0_wp, d_cns = 1.0_wp, d_slp = 1.0_wp, pow_s = 0.9_wp
+      !> Yield limits; unallocated: the surface does not yield
+      type(yield_data), allocatable :: yield
+   contains
+      !> Does the traction of a yielding element depend on the plastic displacement?
+      procedure :: hardens
    end type tangential_problem
 
    !> Estimate on entry, solution on exit
@@ -62,15 +71,25 @@ module contact_tangential_problem
       integer, allocatable :: division(:, :)
       !> Sensitivities of relative forces sum(p)/sum(g) to the unknown creepages, 0 when unknown
       real(wp) :: sensitivity(2, 2) = 0.0_wp
+      !> Increase of the plastic displacement [mm], shape (mx, my, 2), and yield limit after the
+      !> step [N/mm2], shape (mx, my); unallocated where the surface does not yield
+      real(wp), allocatable :: plastic(:, :, :), limit(:, :)
    end type tangential_solution
 
 contains
+
+   pure logical function hardens(self)
+      class(tangential_problem), intent(in) :: self
+      hardens = .false.
+      if (allocated(self%yield)) hardens = self%yield%slope /= 0.0_wp
+   end function hardens
 
    !> Allocate a solution for a problem, zero; keeps arrays of the right size and their values
    subroutine prepare_solution(problem, solution)
       type(tangential_problem), intent(in) :: problem
       type(tangential_solution), intent(inout) :: solution
 
+      if (allocated(solution%plastic)) deallocate(solution%plastic, solution%limit)
       if (allocated(solution%p)) then
          if (all(shape(solution%division) == [problem%mx, problem%my])) return
          deallocate(solution%p, solution%slip, solution%division)
@@ -110,23 +129,30 @@ contains
       end do
    end subroutine slip_of
 
-   !> The factor 1/r that turns slip into traction: diagonal compliance of A [mm/(N/mm2)]
-   pure real(wp) function reference_compliance(operator) result(c)
+   !> Scale r of the slip in the residual [(N/mm2)/mm]: the stiffness of an element, 1/A_xx(0), but
+   !> enough for the return map when the yield limit falls
+   pure real(wp) function residual_scale(problem, operator) result(r)
+      type(tangential_problem), intent(in) :: problem
       type(elastic_operator), intent(in) :: operator
-      c = operator%diagonal(2)
-   end function reference_compliance
+
+      r = 1.0_wp/operator%diagonal(2)
+      if (allocated(problem%yield)) r = max(r, -2.0_wp*problem%yield%slope)
+   end function residual_scale
 
    !> Relative residual of the contact conditions and of the prescribed forces
    !>
-   !> sqrt(|p - P_g(p - r S)|^2/|g|^2 + |sum p - target|^2/(sum g)^2), r = 1/A_xx(0)
+   !> sqrt(|p - P_g(p - r S)|^2/|g|^2 + |sum p - target|^2/(sum g)^2)
    pure real(wp) function true_residual(problem, p, slip, r) result(residual)
       type(tangential_problem), intent(in) :: problem
       real(wp), intent(in) :: p(:, :, :), slip(:, :, :)
-      !> Scale of the slip, 1/reference_compliance [(N/mm2)/mm]
+      !> Scale of the slip, see residual_scale [(N/mm2)/mm]
       real(wp), intent(in) :: r
+      real(wp), allocatable :: before(:, :)
+      type(yield_point) :: point
       integer :: ix, iy, k
       real(wp) :: z(2), length, total, scale, sum_g
 
+      if (problem%hardens()) before = limits_before(problem, p, slip, r)
       total = 0.0_wp
       scale = 0.0_wp
       sum_g = 0.0_wp
@@ -135,7 +161,12 @@ contains
             if (.not. problem%contact(ix, iy)) cycle
             z = p(ix, iy, :) - r*slip(ix, iy, :)
             length = sqrt(z(1)**2 + z(2)**2)
-            if (length > problem%bound(ix, iy)) z = z*(problem%bound(ix, iy)/length)
+            if (allocated(before)) then
+               point = returned(problem, length, ix, iy, before(ix, iy), r)
+               if (point%state /= element%adhesion) z = z*(point%radius/length)
+            else if (length > problem%bound(ix, iy)) then
+               z = z*(problem%bound(ix, iy)/length)
+            end if
             total = total + sum((p(ix, iy, :) - z)**2)
             scale = scale + problem%bound(ix, iy)**2
             sum_g = sum_g + problem%bound(ix, iy)
@@ -149,25 +180,111 @@ contains
       residual = sqrt(residual)
    end function true_residual
 
+   !> Return map of an element
+   pure type(yield_point) function returned(problem, length, ix, iy, before, r) result(point)
+      type(tangential_problem), intent(in) :: problem
+      !> |p - r S|, yield limit before the step [N/mm2]
+      real(wp), intent(in) :: length, before
+      integer, intent(in) :: ix, iy
+      real(wp), intent(in) :: r
+      point = return_map(length, problem%bound(ix, iy), before, problem%yield%slope, problem%yield%lowest, r)
+   end function returned
+
+   !> Yield limits before the step [N/mm2], shape (mx, my)
+   !>
+   !> In steady rolling these are the limits of the next elements upstream after the step: every
+   !> row is followed from its leading side. Material keeps its limit in gaps between contact areas.
+   pure function limits_before(problem, p, slip, r) result(before)
+      type(tangential_problem), intent(in) :: problem
+      real(wp), intent(in) :: p(:, :, :), slip(:, :, :)
+      real(wp), intent(in) :: r
+      real(wp), allocatable :: before(:, :)
+      type(yield_point) :: point
+      real(wp) :: limit
+      integer :: ix, iy, k
+
+      before = problem%yield%limit
+      if (.not. problem%steady) return
+      do iy = 1, problem%my
+         limit = problem%yield%limit(merge(problem%mx, 1, problem%direction > 0), iy)
+         do k = 1, problem%mx
+            ix = merge(problem%mx + 1 - k, k, problem%direction > 0)
+            before(ix, iy) = limit
+            if (.not. problem%contact(ix, iy)) cycle
+            point = returned(problem, hypot(p(ix, iy, 1) - r*slip(ix, iy, 1), p(ix, iy, 2) - r*slip(ix, iy, 2)), &
+               & ix, iy, limit, r)
+            limit = point%limit
+         end do
+      end do
+   end function limits_before
+
    !> Element states that belong to tractions and slip: slip where |p - r S| > g
    subroutine divide_elements(problem, p, slip, r, division)
       type(tangential_problem), intent(in) :: problem
       real(wp), intent(in) :: p(:, :, :), slip(:, :, :)
       real(wp), intent(in) :: r
       integer, intent(inout) :: division(:, :)
+      real(wp), allocatable :: before(:, :)
+      type(yield_point) :: point
+      real(wp) :: length
       integer :: ix, iy
 
+      if (problem%hardens()) before = limits_before(problem, p, slip, r)
       do iy = 1, problem%my
          do ix = 1, problem%mx
-            if (.not. problem%contact(ix, iy)) then
-               division(ix, iy) = element%exterior
-            else if (hypot(p(ix, iy, 1) - r*slip(ix, iy, 1), p(ix, iy, 2) - r*slip(ix, iy, 2)) &
-               & > problem%bound(ix, iy)) then
-               division(ix, iy) = element%slip
+            division(ix, iy) = element%exterior
+            if (.not. problem%contact(ix, iy)) cycle
+            length = hypot(p(ix, iy, 1) - r*slip(ix, iy, 1), p(ix, iy, 2) - r*slip(ix, iy, 2))
+            if (allocated(before)) then
+               point = returned(problem, length, ix, iy, before(ix, iy), r)
+               division(ix, iy) = point%state
             else
-               division(ix, iy) = element%adhesion
+               division(ix, iy) = merge(element%slip, element%adhesion, length > problem%bound(ix, iy))
             end if
          end do
       end do
    end subroutine divide_elements
+
+   !> Tell plastic shearing and slip apart, in a solution whose slip holds both
+   !>
+   !> Without slope an element yields when its limit is the bound. Nothing happens where the
+   !> surface does not yield.
+   subroutine settle(problem, r, solution)
+      type(tangential_problem), intent(in) :: problem
+      !> Scale of the slip, see residual_scale [(N/mm2)/mm]
+      real(wp), intent(in) :: r
+      type(tangential_solution), intent(inout) :: solution
+      real(wp), allocatable :: before(:, :)
+      type(yield_point) :: point
+      real(wp) :: z(2), length
+      integer :: ix, iy
+
+      if (.not. allocated(problem%yield)) return
+      if (allocated(solution%plastic)) deallocate(solution%plastic, solution%limit)
+      allocate(solution%plastic(problem%mx, problem%my, 2), source=0.0_wp)
+      before = problem%yield%limit
+      if (problem%hardens()) before = limits_before(problem, solution%p, solution%slip, r)
+      allocate(solution%limit, source=before)
+      do iy = 1, problem%my
+         do ix = 1, problem%mx
+            if (.not. problem%contact(ix, iy)) cycle
+            if (problem%hardens()) then
+               z = solution%p(ix, iy, :) - r*solution%slip(ix, iy, :)
+               length = hypot(z(1), z(2))
+               point = returned(problem, length, ix, iy, before(ix, iy), r)
+               solution%division(ix, iy) = point%state
+               solution%limit(ix, iy) = point%limit
+               if (point%state == element%slip) solution%plastic(ix, iy, :) = (point%plastic/length)*z
+            else if (solution%division(ix, iy) == element%slip .and. before(ix, iy) <= problem%bound(ix, iy)) then
+               solution%division(ix, iy) = element%plastic
+            end if
+            if (solution%division(ix, iy) == element%plastic) then
+               solution%plastic(ix, iy, :) = -solution%slip(ix, iy, :)
+               solution%slip(ix, iy, :) = 0.0_wp
+            else
+               solution%slip(ix, iy, :) = solution%slip(ix, iy, :) + solution%plastic(ix, iy, :)
+            end if
+         end do
+      end do
+   end subroutine settle
 end module contact_tangential_problem

@@ -10,7 +10,6 @@ module contact_tangential_steady_gs
    use contact_base_log, only : log_type
    use contact_base_solve_report, only : ending, solve_report
    use contact_grid_element_division, only : element
-   use contact_tangential_element_problem, only : relax_element, solve_element
    use contact_tangential_problem, only : tangential_problem
    use contact_tangential_streaming, only : streaming_rows
    use contact_tangential_sweep, only : trace_iteration, update_watch
@@ -61,8 +60,8 @@ contains
       real(wp), intent(in) :: omegah, omegas
       !> Slip of the row [mm]; kept up to date for the elements still to come
       real(wp), contiguous, intent(inout) :: slip(:, :)
-      integer :: i, landing, new_state, behind
-      real(wp) :: p(2), old(2), s0(2), g
+      integer :: i, landing, behind
+      real(wp) :: p(2), old(2), s0(2)
 
       behind = rows%last(iy)
       do i = rows%first(iy), rows%last(iy)
@@ -72,13 +71,10 @@ contains
             landing = landing - 1
          end do
          old = rows%p(i, :, iy)
-         g = rows%bound(i, iy)
          associate (c => rows%landing_compliance(i - landing))
             s0 = slip(i, :) - [c%xx*old(1), c%yy*old(2)]
-            call solve_element(c, s0, g, p, new_state)
+            call rows%solve_one(i, iy, c, s0, omegah, omegas, p)
          end associate
-         call relax_element(old, g, omegah, omegas, new_state, p)
-         rows%state(i, iy) = new_state
          rows%p(i, :, iy) = p
          call change_increment(rows, iy, i, p - old, i, behind, slip)
          call carry_downstream(rows, iy, i, behind, slip)
@@ -91,14 +87,15 @@ contains
       integer, intent(in) :: iy, i, last
       real(wp), contiguous, intent(inout) :: slip(:, :)
       integer :: k
-      real(wp) :: p(2), length
+      real(wp) :: p(2), length, bound
 
       do k = i - 1, 0, -1
          if (rows%state(k, iy) /= element%adhesion) exit
          p = rows%p(k + 1, :, iy) + rows%dp(k, :, iy)
          length = hypot(p(1), p(2))
-         if (length > rows%bound(k, iy)) then
-            p = p*(rows%bound(k, iy)/length)
+         bound = rows%largest(k, iy)
+         if (length > bound) then
+            p = p*(bound/length)
             rows%p(k, :, iy) = p
             call change_increment(rows, iy, k, p - rows%p(k + 1, :, iy) - rows%dp(k, :, iy), i, last, slip)
          else

@@ -15,8 +15,9 @@ module contact_tangential_streaming
    use contact_elastic_operator, only : elastic_operator
    use contact_fft_plan, only : fft_plan, good_size
    use contact_grid_element_division, only : element
-   use contact_tangential_element_problem, only : element_compliance
+   use contact_tangential_element_problem, only : element_compliance, relax_element, solve_element, solve_yielding_element
    use contact_tangential_problem, only : tangential_problem
+   use contact_tangential_yield, only : yield_data, yield_point
    implicit none (type, external)
    private
 
@@ -54,6 +55,12 @@ module contact_tangential_streaming
       real(wp), allocatable :: near_xx(:), near_yy(:), near_xy(:)
       !> Rolling direction +1 or -1
       integer :: direction = 1
+      !> Yield limits before the step, with the same columns; unallocated unless they have a slope
+      type(yield_data), allocatable :: yield
+      !> Yield limits [N/mm2] and plastic displacements [mm] at present, shape (mx + 1, my)
+      real(wp), allocatable :: limit(:, :), plastic(:, :)
+      !> Is the limit before the step that of the next element upstream?
+      logical :: steady = .false.
       !> Row products since the rows were made
       integer, private :: row_products = 0
       type(fft_plan), private :: plan
@@ -82,6 +89,10 @@ module contact_tangential_streaming
       procedure :: landing_compliance
       !> Compliance of an element on itself
       procedure :: own_compliance
+      !> New traction and state of an element
+      procedure :: solve_one
+      !> Largest traction of an adhering element
+      procedure :: largest
       !> Tractions in window order
       procedure :: get_tractions
       !> Slip of all rows in window order
@@ -110,7 +121,14 @@ contains
       self%load = loads%tractions
       if (problem%steady .and. .not. present(shifted)) self%load = loads%increments
       self%row_products = 0
+      self%steady = problem%steady
       call reshape_rows(self, mx, my)
+      if (allocated(self%yield)) deallocate(self%yield, self%limit, self%plastic)
+      if (problem%hardens()) then
+         self%yield = problem%yield
+         allocate(self%limit(mx + 1, my), self%plastic(mx + 1, my))
+         if (self%direction < 0) self%yield%limit = problem%yield%limit(mx:1:-1, :)
+      end if
       do iy = 1, my
          self%first(iy) = mx + 1
          self%last(iy) = 0
@@ -270,7 +288,75 @@ contains
          end do
          call self%renew_row(iy)
       end do
+      if (.not. allocated(self%yield)) return
+      self%plastic = 0.0_wp
+      self%limit(:self%mx, :) = self%yield%limit
+      self%limit(self%mx + 1, :) = self%yield%limit(self%mx, :)
+      if (.not. self%steady) return
+      do iy = 1, self%my
+         call follow_limits(self, iy, self%mx)
+      end do
    end subroutine start
+
+   !> Yield limits from a column downstream, in steady rolling
+   subroutine follow_limits(self, iy, from)
+      class(streaming_rows), intent(inout) :: self
+      integer, intent(in) :: iy, from
+      real(wp) :: limit
+      integer :: k
+
+      do k = from, 1, -1
+         limit = self%limit(k + 1, iy)
+         select case (self%state(k, iy))
+         case (element%slip)
+            if (self%yield%slope > 0.0_wp) limit = max(limit, self%bound(k, iy))
+         case (element%plastic)
+            limit = max(self%yield%lowest, limit + self%yield%slope*self%plastic(k, iy))
+            if (self%yield%slope > 0.0_wp) limit = max(self%limit(k + 1, iy), min(limit, self%bound(k, iy)))
+         end select
+         self%limit(k, iy) = limit
+      end do
+   end subroutine follow_limits
+
+   !> Solve an element problem; the state becomes that of the element, the traction is relaxed
+   subroutine solve_one(self, i, iy, c, s0, omegah, omegas, p)
+      class(streaming_rows), intent(inout) :: self
+      integer, intent(in) :: i, iy
+      type(element_compliance), intent(in) :: c
+      !> Slip without the element's own traction [mm]
+      real(wp), intent(in) :: s0(2)
+      !> Relaxation in adhesion and in slip [-]
+      real(wp), intent(in) :: omegah, omegas
+      !> New traction [N/mm2]
+      real(wp), intent(out) :: p(2)
+      type(yield_point) :: point
+      real(wp) :: before
+
+      if (.not. allocated(self%yield)) then
+         call solve_element(c, s0, self%bound(i, iy), p, self%state(i, iy))
+         call relax_element(self%p(i, :, iy), self%bound(i, iy), omegah, omegas, self%state(i, iy), p)
+         return
+      end if
+      if (self%steady) then
+         before = self%limit(i + 1, iy)
+      else
+         before = self%yield%limit(i, iy)
+      end if
+      call solve_yielding_element(c, s0, self%bound(i, iy), before, self%yield%slope, self%yield%lowest, p, point)
+      self%state(i, iy) = point%state
+      self%plastic(i, iy) = point%plastic
+      self%limit(i, iy) = point%limit
+      if (point%state /= element%plastic) call relax_element(self%p(i, :, iy), self%largest(i, iy), omegah, omegas, &
+         & point%state, p)
+      if (self%steady) call follow_limits(self, iy, i - 1)
+   end subroutine solve_one
+
+   pure real(wp) function largest(self, i, iy)
+      class(streaming_rows), intent(in) :: self
+      integer, intent(in) :: i, iy
+      largest = self%bound(i, iy)
+      if (allocated(self%yield)) largest = min(largest, self%limit(i, iy))
+   end function largest
 
    subroutine renew_row(self, iy)
       class(streaming_rows), intent(inout) :: self
