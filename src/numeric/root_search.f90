@@ -1,0 +1,142 @@
+!> Root of a function of one variable that mostly falls, by questions and answers
+!>
+!> The caller owns the function; the search says where it wants to know it next:
+!>
+!>     call search%start(x, step, tolerance)
+!>     do while (.not. search%finished)
+!>        call search%answer(f(search%x), saturated)
+!>     end do
+!>
+!> From the start it walks downhill in growing steps until the sign changes, then it keeps the
+!> root between two points (regula falsi with the Illinois rule, Dowell and Jarratt 1971, and
+!> halving when three steps of it did not halve the interval). It always ends: with a root, with a jump across zero, or without a change of sign.
+module contact_numeric_root_search
+   use contact_base_kinds, only : wp
+   implicit none (type, external)
+   private
+
+   public :: root_search
+
+   type :: root_search
+      !> Where the function is wanted next
+      real(wp) :: x = 0.0_wp
+      !> The best point so far and the value there
+      real(wp) :: best = 0.0_wp, best_value = huge(1.0_wp)
+      !> No more questions; a root was found within the tolerance; the sign changed
+      logical :: finished = .false., found = .false., bracketed = .false.
+      !> Number of answers
+      integer :: evaluations = 0
+      !> Two points with values of different sign once bracketed; before, the last one is a
+      real(wp), private :: a = 0.0_wp, fa = 0.0_wp, b = 0.0_wp, fb = 0.0_wp
+      real(wp), private :: step = 1.0_wp, tolerance = 0.0_wp
+      !> Length of the interval some steps ago, and how many
+      real(wp), private :: length = 0.0_wp
+      integer, private :: steps = 0
+   contains
+      procedure :: start
+      procedure :: answer
+   end type root_search
+
+   !> Growth of the steps of the walk
+   real(wp), parameter :: growth = 1.6_wp
+   integer, parameter :: most_evaluations = 200
+
+contains
+
+   !> Begin anew
+   pure subroutine start(self, x, step, tolerance)
+      class(root_search), intent(inout) :: self
+      !> First point, length of the first step (positive), value that counts as zero
+      real(wp), intent(in) :: x, step, tolerance
+
+      self%x = x
+      self%best = x
+      self%best_value = huge(x)
+      self%finished = .false.
+      self%found = .false.
+      self%bracketed = .false.
+      self%evaluations = 0
+      self%step = max(step, tiny(x))
+      self%tolerance = tolerance
+   end subroutine start
+
+   !> Take the value of the function at x, and think of the next question
+   pure subroutine answer(self, f, saturated)
+      class(root_search), intent(inout) :: self
+      real(wp), intent(in) :: f
+      !> Can the function only change slowly from here on? The walk then ends when it does
+      logical, intent(in) :: saturated
+
+      self%evaluations = self%evaluations + 1
+      if (abs(f) <= self%best_value .or. self%evaluations == 1) then
+         self%best = self%x
+         self%best_value = abs(f)
+      end if
+      self%found = abs(f) <= self%tolerance
+      self%finished = self%found .or. self%evaluations >= most_evaluations .or. f /= f
+      if (self%finished) return
+      if (self%bracketed) then
+         call narrow(self, f)
+      else
+         call walk(self, f, saturated)
+      end if
+   end subroutine answer
+
+   !> Look for a change of sign
+   pure subroutine walk(self, f, saturated)
+      class(root_search), intent(inout) :: self
+      real(wp), intent(in) :: f
+      logical, intent(in) :: saturated
+
+      if (self%evaluations > 1) then
+         if ((f > 0.0_wp) .neqv. (self%fa > 0.0_wp)) then
+            self%bracketed = .true.
+            self%b = self%x
+            self%fb = f
+            self%length = abs(self%b - self%a)
+            self%steps = 0
+            call next_inside(self)
+            return
+         end if
+         if (saturated .and. abs(f) > abs(self%fa) - 0.1_wp*self%tolerance) then
+            self%finished = .true.
+            return
+         end if
+         self%step = growth*self%step
+      end if
+      self%a = self%x
+      self%fa = f
+      self%x = self%a + sign(self%step, f)
+   end subroutine walk
+
+   !> Keep the root between a and b
+   pure subroutine narrow(self, f)
+      class(root_search), intent(inout) :: self
+      real(wp), intent(in) :: f
+
+      if ((f > 0.0_wp) .neqv. (self%fb > 0.0_wp)) then
+         self%a = self%b
+         self%fa = self%fb
+      else
+         self%fa = 0.5_wp*self%fa
+      end if
+      self%b = self%x
+      self%fb = f
+      call next_inside(self)
+   end subroutine narrow
+
+   !> Where the chord crosses zero, or half way; finished when no number is left in between
+   pure subroutine next_inside(self)
+      class(root_search), intent(inout) :: self
+
+      self%steps = self%steps + 1
+      self%x = self%b - self%fb*((self%b - self%a)/(self%fb - self%fa))
+      if (self%steps > 3) then
+         if (abs(self%b - self%a) > 0.5_wp*self%length) self%x = 0.5_wp*(self%a + self%b)
+         self%length = abs(self%b - self%a)
+         self%steps = 0
+      end if
+      if ((self%x - self%a)*(self%b - self%x) <= 0.0_wp) self%x = 0.5_wp*(self%a + self%b)
+      if (abs(self%b - self%a) <= 4.0_wp*epsilon(1.0_wp)*max(abs(self%a), abs(self%b))) self%finished = .true.
+   end subroutine next_inside
+end module contact_numeric_root_search

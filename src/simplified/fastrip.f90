@@ -1,0 +1,197 @@
+!> FaStrip: adhesion by strip theory, direction of slip by Fastsim (Sichani, Enblom and Berg 2016)
+!>
+!> Each row of an elliptic contact is taken for a strip of a line contact. In its adhesion area,
+!> at the leading edge, the tractions are those of strip theory (Haines and Ollerton 1963, Kalker
+!> 1967), with creepages scaled such that the forces at vanishing creepage are Kalker's. In the
+!> slip area the tractions are on the bound, in the direction that Fastsim finds.
+module contact_simplified_fastrip
+   use contact_base_constants, only : pi
+   use contact_base_kinds, only : wp
+   use contact_grid_element_division, only : element
+   use contact_simplified_flexibility, only : ellipse
+   use contact_simplified_kalker, only : creepage_coefficients, kalker_coefficients
+   implicit none (type, external)
+   private
+
+   public :: strip_data, apply_strip_theory, slip_half_length, scaled_creepages
+
+   !> What strip theory knows of the contact
+   type :: strip_data
+      !> Ellipse that stands for the contact area, coordinates of its centre [mm]
+      type(ellipse) :: area
+      real(wp) :: centre(2) = 0.0_wp
+      !> Combined modulus of rigidity [N/mm2] and Poisson ratio [-]
+      real(wp) :: gg = 1.0_wp, nu = 0.0_wp
+      !> Normal force [N]
+      real(wp) :: fn = 0.0_wp
+      !> Factor of the stiffness for contaminated surfaces [-]
+      real(wp) :: slope = 1.0_wp
+      !> Creepages at the origin [-], spin [rad/mm], point with these creepages [mm]
+      real(wp) :: creep(2) = 0.0_wp, spin = 0.0_wp, spin_centre(2) = 0.0_wp
+      !> Rolling towards increasing (+1) or decreasing (-1) x
+      integer :: direction = 1
+   end type strip_data
+
+contains
+
+   !> Replace Fastsim's tractions, row by row and there in each run of neighbours in contact
+   pure subroutine apply_strip_theory(data, x, y, dx, mu, contact, bound, p, slip, division)
+      type(strip_data), intent(in) :: data
+      !> Centres of the columns and rows [mm], shapes (mx) and (my); width of the elements [mm]
+      real(wp), intent(in) :: x(:), y(:), dx
+      !> Coefficient of friction of each row [-], shape (my)
+      real(wp), intent(in) :: mu(:)
+      !> Elements in contact, shape (mx, my)
+      logical, contiguous, intent(in) :: contact(:, :)
+      !> Traction bound [N/mm2], shape (mx, my)
+      real(wp), contiguous, intent(in) :: bound(:, :)
+      !> Fastsim's answer on entry: tractions [N/mm2], slip per step [mm], element states
+      real(wp), contiguous, intent(inout) :: p(:, :, :), slip(:, :, :)
+      integer, contiguous, intent(inout) :: division(:, :)
+      integer :: mx, iy, first, last
+
+      mx = size(contact, 1)
+      do iy = 1, size(contact, 2)
+         if (mu(iy)*data%fn <= 0.0_wp) cycle
+         last = 0
+         do
+            first = last + 1
+            do while (first <= mx)
+               if (contact(first, iy)) exit
+               first = first + 1
+            end do
+            if (first > mx) exit
+            last = first
+            do while (last < mx)
+               if (.not. contact(last + 1, iy)) exit
+               last = last + 1
+            end do
+            call one_strip(data, x(first:last), y(iy), dx, mu(iy), bound(first:last, iy), p(first:last, iy, :), &
+               & slip(first:last, iy, :), division(first:last, iy))
+         end do
+      end do
+   end subroutine apply_strip_theory
+
+   !> One strip: adhesion from strip theory where that is possible
+   pure subroutine one_strip(data, x, y, dx, mu, bound, p, slip, division)
+      type(strip_data), intent(in) :: data
+      real(wp), intent(in) :: x(:), y, dx, mu, bound(:)
+      real(wp), intent(inout) :: p(:, :), slip(:, :)
+      integer, intent(inout) :: division(:)
+      real(wp) :: creep(2), spin, q, a, half, middle, d, size_, kappa, lambda, whole, stick, xi, length
+      real(wp) :: f(size(x), 2)
+      integer :: i, n
+
+      n = size(x)
+      a = data%area%aa
+      half = 0.5_wp*n*dx
+      middle = 0.5_wp*(x(1) + x(n))
+      creep(1) = data%creep(1) - data%spin*(data%centre(2) - data%spin_centre(2))
+      creep(2) = data%creep(2) + data%spin*(middle - data%spin_centre(1))
+      call scaled_creepages(data, mu, creep, spin)
+      ! seen from the leading edge: rolling towards decreasing x is a mirror image
+      creep(1) = data%direction*creep(1)
+      spin = data%direction*spin
+      q = creep(1) - spin*(y - data%centre(2))/a
+      d = slip_half_length(a, data%nu, q, creep(2), spin)
+      kappa = q
+      lambda = creep(2) + spin*min(d, half)/a
+      size_ = hypot(kappa, lambda)
+      if (size_ > 0.0_wp) then
+         kappa = kappa/size_
+         lambda = lambda/size_
+      end if
+      f = 0.0_wp
+      if (d <= half) then
+         do i = 1, n
+            xi = data%direction*(x(i) - middle)
+            if (xi <= 2.0_wp*d - half) cycle
+            whole = sqrt(max(0.0_wp, half**2 - xi**2))/a
+            stick = sqrt(max(0.0_wp, (half - d)**2 - (xi - d)**2))/a
+            f(i, 1) = kappa*(whole - stick)
+            f(i, 2) = lambda*whole - (lambda - spin)*stick
+         end do
+         if (maxval(f(:, 1)**2 + f(:, 2)**2) > 1.0_wp) return
+      end if
+      do i = 1, n
+         xi = data%direction*(x(i) - middle)
+         if (d <= half .and. xi > 2.0_wp*d - half) then
+            p(i, 1) = data%direction*f(i, 1)*mu*peak_pressure(data)
+            p(i, 2) = f(i, 2)*mu*peak_pressure(data)
+            slip(i, :) = 0.0_wp
+            division(i) = element%adhesion
+            ! strip theory may ask for more than the pressures of this contact allow
+            length = hypot(p(i, 1), p(i, 2))
+            if (length > bound(i)) p(i, :) = p(i, :)*(bound(i)/length)
+            cycle
+         end if
+         length = hypot(p(i, 1), p(i, 2))
+         if (length > 0.0_wp) then
+            p(i, :) = p(i, :)*(bound(i)/length)
+         else
+            p(i, :) = [data%direction*kappa, lambda]*bound(i)
+         end if
+         division(i) = element%slip
+      end do
+   end subroutine one_strip
+
+   !> Creepages and spin in units of what strip theory can stand, changed in place
+   !>
+   !> Kalker's coefficients over those of a strip, pi**2/(4 (1 - nu)) and so on.
+   pure subroutine scaled_creepages(data, mu, creep, spin)
+      type(strip_data), intent(in) :: data
+      real(wp), intent(in) :: mu
+      !> Creepages [-] on entry, scaled on exit
+      real(wp), intent(inout) :: creep(2)
+      !> Scaled spin [-]
+      real(wp), intent(out) :: spin
+      type(creepage_coefficients) :: c
+      real(wp) :: unit
+
+      c = kalker_coefficients(data%area%aa, data%area%bb, data%nu)
+      unit = -data%slope*data%gg/(mu*peak_pressure(data))
+      creep(1) = unit*2.0_wp*(1.0_wp - data%nu)*c%c11/pi**2*creep(1)
+      creep(2) = unit*2.0_wp*(1.0_wp - data%nu)*c%c22/pi**2*creep(2)
+      spin = unit*3.0_wp*sqrt(data%area%aa*data%area%bb)*c%c23/(2.0_wp*pi)*data%spin
+   end subroutine scaled_creepages
+
+   !> Half the length of the slip area by strip theory [mm]; huge for full sliding
+   !>
+   !> Root of a quadratic equation, in the form without cancellation.
+   elemental real(wp) function slip_half_length(a, nu, q, eta, spin) result(d)
+      !> Semi-axis of the ellipse along x [mm], Poisson ratio
+      real(wp), intent(in) :: a, nu
+      !> Scaled creepages of the strip: longitudinal with its share of the spin, lateral; scaled spin
+      real(wp), intent(in) :: q, eta, spin
+      !> Spin beyond which nothing sticks [-]
+      real(wp), parameter :: excessive = 1.0e8_wp
+      real(wp) :: size_, q1, eta1, discriminant, root
+
+      d = huge(d)
+      if (abs(spin) > excessive) return
+      size_ = max(abs(q), abs(eta))
+      if (size_ <= 0.0_wp) then
+         d = 0.0_wp
+         return
+      end if
+      q1 = q/size_
+      eta1 = eta/size_
+      discriminant = eta1**2 + (1.0_wp - spin**2)*q1**2
+      if (discriminant < 0.0_wp) return
+      root = sqrt(discriminant)
+      if (eta1*spin > 0.0_wp) then
+         if (1.0_wp - spin**2 < 1.0e-12_wp) return
+         d = size_*(a/(1.0_wp - nu))*((root + eta1*spin)/(1.0_wp - spin**2))
+      else
+         if (root - eta1*spin < 1.0e-12_wp) return
+         d = size_*(a/(1.0_wp - nu))*((eta1**2 + q1**2)/(root - eta1*spin))
+      end if
+   end function slip_half_length
+
+   !> Largest pressure of Hertz's distribution over the ellipse [N/mm2]
+   pure real(wp) function peak_pressure(data) result(p0)
+      type(strip_data), intent(in) :: data
+
+      p0 = 1.5_wp*data%fn/(pi*data%area%aa*data%area%bb)
+   end function peak_pressure
+end module contact_simplified_fastrip

@@ -1,0 +1,188 @@
+!> A tangential problem of the simplified theory, and the tractions for given creepages
+module contact_simplified_problem
+   use contact_base_choices, only : material_model
+   use contact_base_kinds, only : wp
+   use contact_grid_element_division, only : element
+   use contact_simplified_fastrip, only : apply_strip_theory, strip_data
+   use contact_simplified_fastsim, only : march_fastsim, step_fastsim
+   use contact_simplified_flexibility, only : blended_flexibilities, ellipse, equivalent_ellipse, slope_factor, &
+      & slope_reduction, three_flexibilities
+   implicit none (type, external)
+   private
+
+   public :: simplified_problem, simplified_solution, complete_problem, tractions_at
+
+   !> Data on a window; constant during the solution
+   type :: simplified_problem
+      !> Member of material_model: fastsim_single, fastsim or fastrip
+      integer :: model = material_model%fastsim
+      !> Centres of columns and rows [mm], shapes (mx) and (my); sides of the elements [mm]
+      real(wp), allocatable :: x(:), y(:)
+      real(wp) :: dx = 1.0_wp, dy = 1.0_wp
+      !> Elements in contact and pressures [N/mm2], shape (mx, my)
+      logical, allocatable :: contact(:, :)
+      real(wp), allocatable :: pn(:, :)
+      !> Coefficient of friction of each row, shape (my) [-]
+      real(wp), allocatable :: mu(:)
+      !> Coefficient of friction that scales forces [-], normal force [N]
+      real(wp) :: mu_scal = 0.3_wp, fn = 0.0_wp
+      !> Combined modulus of rigidity [N/mm2] and Poisson ratio [-]
+      real(wp) :: gg = 1.0_wp, nu = 0.0_wp
+      !> Flexibility [mm3/N] of the model with a single one
+      real(wp) :: flx = 0.0_wp
+      type(slope_reduction) :: reduction
+      !> Ellipse of the Hertz solution; unallocated for other geometries
+      type(ellipse), allocatable :: hertz
+      !> Steady rolling, or one step in time from the tractions before
+      logical :: steady = .true.
+      !> Are creepages lengths (shift), so that they cannot be compared with creepages of rolling?
+      logical :: shift = .false.
+      !> Rolling towards increasing (+1) or decreasing (-1) x; distance per step [mm]
+      integer :: direction = 1
+      real(wp) :: dq = 1.0_wp
+      !> Tractions of the same particles one step before [N/mm2], shape (mx, my, 2); not for steady rolling
+      real(wp), allocatable :: before(:, :, :)
+      !> Creepages [-] (shifts [mm] for dq = 1), spin [rad/mm], spin centre and offset of its effect [mm]
+      real(wp) :: creep(2) = 0.0_wp, spin = 0.0_wp, spin_centre(2) = 0.0_wp, spin_offset(2) = 0.0_wp
+      !> Extra rigid slip per unit distance [-], shape (mx, my, 2); unallocated: none
+      real(wp), allocatable :: extra_slip(:, :, :)
+      !> Number of prescribed forces: 0, 1 (Fx), 2 (Fx, Fy), and the forces relative to mu_scal fn [-]
+      integer :: n_forces = 0
+      real(wp) :: force(2) = 0.0_wp
+      !> Tolerance on the relative forces
+      real(wp) :: eps = 1.0e-6_wp
+      !> From here on set by complete_problem: ellipse with the area of the contact, and the one that
+      !> determines flexibilities; flexibilities at vanishing creepage [mm3/N]
+      type(ellipse) :: area, reference
+      !> Centre of the bounding box of the contact area [mm]
+      real(wp) :: centre(2) = 0.0_wp
+      real(wp) :: flx0(3) = 0.0_wp
+   end type simplified_problem
+
+   !> Tractions and what belongs to them
+   type :: simplified_solution
+      !> Tractions [N/mm2], slip and rigid slip per step [mm], all of shape (mx, my, 2)
+      real(wp), allocatable :: p(:, :, :), slip(:, :, :), shift(:, :, :)
+      !> Traction bound [N/mm2], element states, shape (mx, my)
+      real(wp), allocatable :: bound(:, :)
+      integer, allocatable :: division(:, :)
+      !> Creepages as used [-]
+      real(wp) :: creep(2) = 0.0_wp
+      !> Flexibilities [mm3/N] before slope reduction, its factor [-], flexibilities after it
+      real(wp) :: flx(3) = 0.0_wp, slope = 1.0_wp, compliance(2) = 0.0_wp
+      !> Forces relative to mu_scal fn [-]
+      real(wp) :: force(2) = 0.0_wp
+      !> Does every element in contact slip?
+      logical :: sliding = .false.
+   end type simplified_solution
+
+contains
+
+   !> Derive areas and flexibilities, and give the solution its arrays
+   subroutine complete_problem(problem, solution)
+      type(simplified_problem), intent(inout) :: problem
+      type(simplified_solution), intent(inout) :: solution
+      integer :: mx, my
+      logical, allocatable :: columns(:), rows(:)
+
+      mx = size(problem%contact, 1)
+      my = size(problem%contact, 2)
+      columns = any(problem%contact, dim=2)
+      rows = any(problem%contact, dim=1)
+      if (any(rows)) then
+         problem%centre(1) = 0.5_wp*(problem%x(findloc(columns, .true., dim=1)) &
+            & + problem%x(findloc(columns, .true., dim=1, back=.true.)))
+         problem%centre(2) = 0.5_wp*(problem%y(findloc(rows, .true., dim=1)) &
+            & + problem%y(findloc(rows, .true., dim=1, back=.true.)))
+      end if
+      problem%area = equivalent_ellipse(problem%contact, problem%dx, problem%dy)
+      problem%reference = problem%area
+      if (allocated(problem%hertz)) then
+         if (min(problem%hertz%aa, problem%hertz%bb) > 0.0_wp) problem%reference = problem%hertz
+      end if
+      if (problem%model == material_model%fastsim_single) then
+         problem%flx0 = problem%flx
+      else
+         problem%flx0 = three_flexibilities(problem%reference, problem%gg, problem%nu)
+      end if
+      if (allocated(solution%division)) then
+         if (all(shape(solution%division) == [mx, my])) return
+         deallocate(solution%p, solution%slip, solution%shift, solution%bound, solution%division)
+      end if
+      allocate(solution%p(mx, my, 2), solution%slip(mx, my, 2), solution%shift(mx, my, 2), solution%bound(mx, my))
+      allocate(solution%division(mx, my))
+   end subroutine complete_problem
+
+   !> Tractions, slip and forces for given creepages
+   subroutine tractions_at(problem, creep, solution)
+      !> Completed
+      type(simplified_problem), intent(in) :: problem
+      !> [-]
+      real(wp), intent(in) :: creep(2)
+      type(simplified_solution), intent(inout) :: solution
+      real(wp) :: spread
+      integer :: iy
+
+      solution%creep = creep
+      solution%flx = problem%flx0
+      if (problem%model /= material_model%fastsim_single .and. problem%n_forces == 0 .and. .not. problem%shift) &
+         & solution%flx = blended_flexibilities(problem%flx0, problem%reference, problem%gg, problem%nu, &
+         & problem%mu_scal*problem%fn, creep, problem%spin)
+      spread = sum(problem%mu)/size(problem%mu)
+      solution%slope = slope_factor(problem%reduction, problem%area, problem%gg, problem%nu, spread*problem%fn, creep, &
+         & problem%spin)
+      solution%compliance = solution%flx(1:2)/solution%slope
+      call rigid_slip(problem, solution)
+      do iy = 1, size(problem%mu)
+         solution%bound(:, iy) = problem%mu(iy)*problem%pn(:, iy)
+      end do
+      if (problem%steady) then
+         call march_fastsim(problem%contact, solution%bound, solution%shift, solution%compliance, problem%direction, &
+            & solution%p, solution%slip, solution%division)
+      else
+         call step_fastsim(problem%contact, solution%bound, solution%shift, solution%compliance, problem%before, &
+            & solution%p, solution%slip, solution%division)
+      end if
+      if (problem%model == material_model%fastrip) call apply_strip_theory(strips_of(problem, solution), problem%x, problem%y, &
+         & problem%dx, problem%mu, problem%contact, solution%bound, solution%p, solution%slip, solution%division)
+      solution%force = problem%dx*problem%dy*[sum(solution%p(:, :, 1)), sum(solution%p(:, :, 2))] &
+         & /(problem%mu_scal*problem%fn + tiny(1.0_wp))
+      solution%sliding = .not. any(solution%division == element%adhesion)
+   end subroutine tractions_at
+
+   !> Rigid slip per step [mm]; the spin is weighed such that a spring of flexibility L1 or L2 feels
+   !> what one of flexibility L3 should feel
+   subroutine rigid_slip(problem, solution)
+      type(simplified_problem), intent(in) :: problem
+      type(simplified_solution), intent(inout) :: solution
+      real(wp) :: turn(2), x0, y0
+      integer :: iy
+
+      turn = problem%dq*problem%spin*solution%flx(1:2)/solution%flx(3)
+      x0 = problem%spin_centre(1) - problem%spin_offset(1)
+      y0 = problem%spin_centre(2) - problem%spin_offset(2)
+      do iy = 1, size(problem%y)
+         solution%shift(:, iy, 1) = problem%dq*solution%creep(1) - turn(1)*(problem%y(iy) - y0)
+         solution%shift(:, iy, 2) = problem%dq*solution%creep(2) + turn(2)*(problem%x - x0)
+      end do
+      if (allocated(problem%extra_slip)) solution%shift = solution%shift + problem%dq*problem%extra_slip
+   end subroutine rigid_slip
+
+   !> What strip theory needs to know
+   pure function strips_of(problem, solution) result(strips)
+      type(simplified_problem), intent(in) :: problem
+      type(simplified_solution), intent(in) :: solution
+      type(strip_data) :: strips
+
+      strips%area = problem%area
+      strips%centre = problem%centre
+      strips%gg = problem%gg
+      strips%nu = problem%nu
+      strips%fn = problem%fn
+      strips%slope = solution%slope
+      strips%creep = solution%creep
+      strips%spin = problem%spin
+      strips%spin_centre = problem%spin_centre
+      strips%direction = problem%direction
+   end function strips_of
+end module contact_simplified_problem
