@@ -2,6 +2,7 @@
 module contact_simplified_problem
    use contact_base_choices, only : material_model
    use contact_base_kinds, only : wp
+   use contact_friction_law, only : friction_driver, friction_law
    use contact_grid_element_division, only : element
    use contact_simplified_fastrip, only : apply_strip_theory, strip_data
    use contact_simplified_fastsim, only : march_fastsim, step_fastsim
@@ -10,7 +11,7 @@ module contact_simplified_problem
    implicit none (type, external)
    private
 
-   public :: simplified_problem, simplified_solution, complete_problem, tractions_at
+   public :: simplified_problem, simplified_solution, complete_problem, tractions_at, mean
 
    !> Data on a window; constant during the solution
    type :: simplified_problem
@@ -22,8 +23,12 @@ module contact_simplified_problem
       !> Elements in contact and pressures [N/mm2], shape (mx, my)
       logical, allocatable :: contact(:, :)
       real(wp), allocatable :: pn(:, :)
-      !> Coefficient of friction of each row, shape (my) [-]
+      !> Coefficient of friction at rest of each row, shape (my) [-]
       real(wp), allocatable :: mu(:)
+      !> Law for friction in sliding, with one set of parameters or one per row of this window;
+      !> unallocated for Coulomb friction. Its slip velocity is the rigid one, without spin [mm/s]
+      class(friction_law), allocatable :: law
+      real(wp) :: velocity = 0.0_wp
       !> Coefficient of friction that scales forces [-], normal force [N]
       real(wp) :: mu_scal = 0.3_wp, fn = 0.0_wp
       !> Combined modulus of rigidity [N/mm2] and Poisson ratio [-]
@@ -66,6 +71,8 @@ module contact_simplified_problem
       !> Traction bound [N/mm2], element states, shape (mx, my)
       real(wp), allocatable :: bound(:, :)
       integer, allocatable :: division(:, :)
+      !> Coefficient of friction as used, shape (my) [-]
+      real(wp), allocatable :: mu(:)
       !> Creepages as used [-]
       real(wp) :: creep(2) = 0.0_wp
       !> Flexibilities [mm3/N] before slope reduction, its factor [-], flexibilities after it
@@ -107,10 +114,10 @@ contains
       end if
       if (allocated(solution%division)) then
          if (all(shape(solution%division) == [mx, my])) return
-         deallocate(solution%p, solution%slip, solution%shift, solution%bound, solution%division)
+         deallocate(solution%p, solution%slip, solution%shift, solution%bound, solution%division, solution%mu)
       end if
       allocate(solution%p(mx, my, 2), solution%slip(mx, my, 2), solution%shift(mx, my, 2), solution%bound(mx, my))
-      allocate(solution%division(mx, my))
+      allocate(solution%division(mx, my), solution%mu(my))
    end subroutine complete_problem
 
    !> Tractions, slip and forces for given creepages
@@ -120,21 +127,20 @@ contains
       !> [-]
       real(wp), intent(in) :: creep(2)
       type(simplified_solution), intent(inout) :: solution
-      real(wp) :: spread
       integer :: iy
 
       solution%creep = creep
       solution%flx = problem%flx0
       if (problem%model /= material_model%fastsim_single .and. problem%n_forces == 0 .and. .not. problem%shift) &
          & solution%flx = blended_flexibilities(problem%flx0, problem%reference, problem%gg, problem%nu, &
-         & problem%mu_scal*problem%fn, creep, problem%spin)
-      spread = sum(problem%mu)/size(problem%mu)
-      solution%slope = slope_factor(problem%reduction, problem%area, problem%gg, problem%nu, spread*problem%fn, creep, &
-         & problem%spin)
+         & mean(problem%mu)*problem%fn, creep, problem%spin)
+      call friction_of_rows(problem, norm2(creep), solution%mu)
+      solution%slope = slope_factor(problem%reduction, problem%area, problem%gg, problem%nu, mean(solution%mu)*problem%fn, &
+         & creep, problem%spin)
       solution%compliance = solution%flx(1:2)/solution%slope
       call rigid_slip(problem, solution)
-      do iy = 1, size(problem%mu)
-         solution%bound(:, iy) = problem%mu(iy)*problem%pn(:, iy)
+      do iy = 1, size(solution%mu)
+         solution%bound(:, iy) = solution%mu(iy)*problem%pn(:, iy)
       end do
       if (problem%steady) then
          call march_fastsim(problem%contact, solution%bound, solution%shift, solution%compliance, problem%direction, &
@@ -144,11 +150,34 @@ contains
             & solution%p, solution%slip, solution%division)
       end if
       if (problem%model == material_model%fastrip) call apply_strip_theory(strips_of(problem, solution), problem%x, problem%y, &
-         & problem%dx, problem%mu, problem%contact, solution%bound, solution%p, solution%slip, solution%division)
+         & problem%dx, solution%mu, problem%contact, solution%bound, solution%p, solution%slip, solution%division)
       solution%force = problem%dx*problem%dy*[sum(solution%p(:, :, 1)), sum(solution%p(:, :, 2))] &
          & /(problem%mu_scal*problem%fn + tiny(1.0_wp))
       solution%sliding = .not. any(solution%division == element%adhesion)
    end subroutine tractions_at
+
+   !> Coefficient of friction of each row for the rigid slip velocity: no iteration, no memory
+   subroutine friction_of_rows(problem, creepage, mu)
+      type(simplified_problem), intent(in) :: problem
+      !> Size of the creepage [-]
+      real(wp), intent(in) :: creepage
+      real(wp), intent(inout) :: mu(:)
+      real(wp), allocatable :: speed(:, :), field(:, :)
+
+      mu = problem%mu
+      if (.not. allocated(problem%law)) return
+      if (problem%law%driver /= friction_driver%slip_speed) return
+      allocate(speed(1, size(mu)), source=problem%velocity*creepage)
+      allocate(field(1, size(mu)))
+      call problem%law%coefficient(speed, field)
+      mu = field(1, :)
+   end subroutine friction_of_rows
+
+   pure real(wp) function mean(values)
+      real(wp), intent(in) :: values(:)
+
+      mean = sum(values)/size(values)
+   end function mean
 
    !> Rigid slip per step [mm]; the spin is weighed such that a spring of flexibility L1 or L2 feels
    !> what one of flexibility L3 should feel

@@ -8,7 +8,8 @@ module contact_simplified_solve
    use contact_base_solve_report, only : ending, solve_report
    use contact_numeric_root_search, only : root_search
    use contact_simplified_kalker, only : creepage_coefficients, kalker_coefficients
-   use contact_simplified_problem, only : complete_problem, simplified_problem, simplified_solution, tractions_at
+   use contact_simplified_problem, only : complete_problem, simplified_problem, simplified_solution, mean, &
+      & tractions_at
    implicit none (type, external)
    private
 
@@ -39,7 +40,7 @@ contains
          return
       end if
       creep(:n) = 0.0_wp
-      if (problem%mu_scal*problem%fn <= 0.0_wp) then
+      if (min(mean(problem%mu), problem%mu_scal)*problem%fn <= 0.0_wp) then
          ! without friction there is no force to be found
          call tractions_at(problem, creep, solution)
          report%residual = maxval(abs(problem%force(:n)))
@@ -62,7 +63,7 @@ contains
       type(creepage_coefficients) :: c
 
       c = kalker_coefficients(problem%area%aa, problem%area%bb, problem%nu)
-      creep = problem%mu_scal*problem%fn/(problem%gg*problem%area%aa*problem%area%bb*problem%reduction%k0*[c%c11, c%c22])
+      creep = mean(problem%mu)*problem%fn/(problem%gg*problem%area%aa*problem%area%bb*problem%reduction%k0*[c%c11, c%c22])
       ! a shift [mm] is this strain over the length of the contact
       if (problem%shift) creep = creep*problem%area%aa
    end function characteristic_creep

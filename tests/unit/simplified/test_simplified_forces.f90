@@ -1,10 +1,14 @@
 !> Prescribed forces in the simplified theory: there and back, near and beyond what friction can give
 program test_simplified_forces
-   use contact_base_choices, only : material_model
+   use contact_base_choices, only : friction_model, material_model
+   use contact_base_error, only : error_type
    use contact_base_kinds, only : wp
    use contact_base_solve_report, only : ending, solve_report
+   use contact_friction_law, only : friction_law, friction_parameters
+   use contact_friction_new_law, only : new_friction_law
    use contact_simplified_flexibility, only : slope_reduction
    use contact_simplified_problem, only : simplified_problem, simplified_solution
+   use contact_simplified_solve, only : solve_simplified
    use contact_test_elliptic_problem, only : claim_sound, elliptic_problem, solved
    use contact_test_harness, only : test_suite
    implicit none (type, external)
@@ -16,6 +20,7 @@ program test_simplified_forces
    call two_forces(suite)
    call strips(suite)
    call out_of_reach(suite)
+   call falling_friction(suite)
    call suite%finish()
 
 contains
@@ -121,4 +126,38 @@ contains
          call suite%check(report%ended == ending%stagnated, "no friction, no force")
       end do
    end subroutine out_of_reach
+
+   !> Friction that falls with the creepage: the search finds the rising branch, or says that there is none
+   subroutine falling_friction(suite)
+      type(test_suite), intent(inout) :: suite
+      type(simplified_problem) :: problem
+      type(simplified_solution) :: solution
+      type(solve_report) :: report
+      class(friction_law), allocatable :: law
+      type(error_type), allocatable :: error
+      real(wp) :: expected
+      integer :: j
+
+      call new_friction_law(friction_model%exponential, [friction_parameters(static=0.3_wp, kinetic=0.1_wp, &
+         & term=[0.2_wp, 0.0_wp], half_speed=[500.0_wp, 1.0_wp])], law, error)
+      call suite%check(.not. allocated(error), "a law of friction")
+      problem = elliptic_problem(6.0_wp, 3.0_wp, 41, 31, [0.05_wp, 0.0_wp], 0.0_wp)
+      allocate(problem%law, source=law)
+      problem%velocity = 2.0e4_wp
+      call solve_simplified(problem, solution, report)
+      expected = 0.1_wp + 0.2_wp*2.0_wp**(-0.05_wp*2.0e4_wp/500.0_wp)
+      call suite%close_to(solution%mu, spread(expected, 1, 31), 1.0e-12_wp, "friction of the rigid slip velocity")
+      call suite%close_to(maxval(solution%bound), expected*maxval(problem%pn), 1.0e-9_wp, "bound", relative=.true.)
+      problem%n_forces = 1
+      do j = 1, 9
+         problem%force(1) = -0.1_wp*j
+         call solve_simplified(problem, solution, report)
+         call claim_sound(suite, problem, solution, "falling friction")
+         if (j <= 7) then
+            call suite%check(report%succeeded(), "below the maximum a force is found")
+            call suite%check(solution%creep(1) < 0.01_wp, "on the rising branch")
+         end if
+         if (j == 9) call suite%check(report%ended == ending%stagnated, "above the maximum there is none")
+      end do
+   end subroutine falling_friction
 end program test_simplified_forces
