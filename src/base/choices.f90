@@ -8,7 +8,7 @@ module contact_base_choices
 
    public :: time_link, pressure_model, motion, normal_control, force_control, friction_model
    public :: kernel_model, material_model, solver_choice, estimate_choice, slip_source, heat_model
-   public :: variation, stress_choice
+   public :: variation, stress_choice, contact_location
 
    !> How a case is linked to the previous one (P)
    type :: time_link_list
@@ -37,6 +37,8 @@ module contact_base_choices
    !> What is prescribed in tangential direction (F)
    type :: force_control_list
       integer :: creepages = 0, fx_and_ceta = 1, fx_and_fy = 2
+      !> Module 1: longitudinal force in place of the pitch rate; rail on springs
+      integer :: longitudinal_force = 1, massless_rail = 3
    end type force_control_list
    type(force_control_list), parameter :: force_control = force_control_list()
 
@@ -102,4 +104,17 @@ module contact_base_choices
       integer :: none = 0, keep = 1, new_output = 2, new_points = 3
    end type stress_choice_list
    type(stress_choice_list), parameter :: stress_choice = stress_choice_list()
+
+   !> How the contact of wheel and rail is located and described (D of module 1)
+   type :: contact_location_list
+      !> Contact locus, flat patches; also with extended rigid slip; curved patches
+      integer :: locus = 2, locus_extended = 3, conformal = 4
+      !> Search over a grid; with a finer one for steep slopes
+      integer :: grid = 5, steep_grid = 6
+      !> Contact locus with the first point of contact as reference
+      integer :: first_contact = 7
+      !> Locus and grid in a fixed oblique view
+      integer :: oblique_locus = 8, oblique_grid = 9
+   end type contact_location_list
+   type(contact_location_list), parameter :: contact_location = contact_location_list()
 end module contact_base_choices

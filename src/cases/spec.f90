@@ -5,6 +5,7 @@
 !> and no room below `input` knows that keeping exists.
 module contact_cases_spec
    use contact_base_kinds, only : wp
+   use contact_cases_wheel_rail_spec, only : wheel_rail_spec
    use contact_subsurface_points, only : point_block
    implicit none (type, external)
    private
@@ -15,6 +16,8 @@ module contact_cases_spec
 
    !> Control digits exactly as the case gave them; for the echo and for checks at the door only
    type :: case_digits
+      !> Configuration, module 1 only
+      integer :: c1 = 0
       integer :: p = 2, b = 0, t = 0, n = 0, f = 0, s = 0
       integer :: v = 0, l = 0, d = 0, c = 0, m = 0, z = 0, e = 0, m2 = 1, gapwgt = 0
       integer :: x = 0, h = 0, g = 0, i = 0, a = 0, o = 0, w = 0, r = 0
@@ -140,7 +143,7 @@ module contact_cases_spec
       type(point_block), allocatable :: blocks(:)
    end type subsurface_spec
 
-   !> One case of module 3, complete
+   !> One case, complete
    type :: case_spec
       type(case_digits) :: digits
       !> Named choices, see contact_base_choices
@@ -166,5 +169,7 @@ module contact_cases_spec
       !> Extra rigid slip, x and y per element, shape (2, npot); unallocated when never given
       real(wp), allocatable :: extra_slip(:, :)
       type(subsurface_spec) :: subsurface
+      !> Wheel on rail (module 1); unallocated for a contact problem of its own (module 3)
+      type(wheel_rail_spec), allocatable :: wheel_rail
    end type case_spec
 end module contact_cases_spec

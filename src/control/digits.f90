@@ -215,6 +215,7 @@ contains
       character(len=*), intent(in) :: name
 
       select case (name)
+      case ("C1"); digit = digits%c1
       case ("P"); digit = digits%p
       case ("B"); digit = digits%b
       case ("T"); digit = digits%t

@@ -242,7 +242,7 @@ contains
       character(len=*), intent(in) :: message
 
       select case (name)
-      case ("P", "B", "T", "N", "F", "S")
+      case ("C1", "P", "B", "T", "N", "F", "S")
          call problems%add(kind, message, words%word(1)%line, words%word(1)%column)
       case ("V", "L", "D", "C", "M", "Z", "E")
          call problems%add(kind, message, words%word(2)%line, words%word(2)%column)

@@ -4,6 +4,7 @@ module contact_input_experiment_file
    use contact_cases_spec, only : case_spec
    use contact_input_grid3, only : grid_frame
    use contact_input_problems, only : problem_list, severity
+   use contact_input_reader1, only : read_case1
    use contact_input_reader3, only : read_case3
    use contact_text_lexer, only : input_lexer, input_value
    use contact_text_words, only : integer_text
@@ -110,8 +111,15 @@ contains
          this%reid = store%reid
          this%cpid = store%cpid
          this%number = store%cases + 1
-         call read_case3(self%lexer, store%spec, store%cases > 0, this%number, this%spec, this%problems, error, &
-            & store%coefficients, this%first_line)
+         if (self%module_number == 1) then
+            call read_case1(self%lexer, store%spec, store%cases > 0, this%number, this%spec, this%problems, error, &
+               & this%first_line)
+            if (.not. allocated(error)) call this%problems%add(severity%unsupported, "MODULE = 1, wheel-rail contact, is " // &
+               & "known but not built in this version", this%first_line)
+         else
+            call read_case3(self%lexer, store%spec, store%cases > 0, this%number, this%spec, this%problems, error, &
+               & store%coefficients, this%first_line)
+         end if
          if (allocated(error)) return
          store%spec = this%spec
          store%cases = this%number
@@ -143,11 +151,7 @@ contains
       select case (v(1)%i)
       case (0)
          return
-      case (1)
-         call fatal_error(error, "MODULE = 1, wheel-rail contact, is known but not built in this version", &
-            & error_kind%unsupported, self%lexer%file, v(1)%line, v(1)%column)
-         return
-      case (3)
+      case (1, 3)
          continue
       case default
          call fatal_error(error, "MODULE = " // v(1)%word // " is not a known module; allowed are 0, 1 and 3", &

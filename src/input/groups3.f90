@@ -12,7 +12,7 @@ module contact_input_groups3
    private
 
    public :: read_iteration, read_kinematics, read_friction, read_friction_rows, read_rolling, read_materials
-   public :: read_damping, read_heat, difference_parameter
+   public :: read_damping, read_heat, difference_parameter, read_friction_set, read_friction_memory
 
    !> Coefficients of friction terms below this value switch the term off [-]
    real(wp), parameter :: no_term = 1.0e-8_wp
@@ -188,28 +188,51 @@ contains
    end subroutine read_friction_rows
 
    !> The values of one set
-   subroutine read_friction_set(lexer, law, set, problems, error)
+   subroutine read_friction_set(lexer, law, set, problems, error, control)
       type(input_lexer), intent(inout) :: lexer
       !> L
       integer, intent(in) :: law
       type(friction_set), intent(inout) :: set
       type(problem_list), intent(inout) :: problems
       type(error_type), allocatable, intent(out) :: error
-      type(input_value) :: v(5)
-      integer :: k
+      !> Control point that stands before the values: on entry its name, an angle when that is ALPHA
+      type(input_value), intent(inout), optional :: control
+      type(input_value) :: v(5), all_values(6)
+      character(len=:), allocatable :: types, names
+      integer :: k, first
 
       select case (law)
       case (0)
-         call lexer%read_group("rr", "FSTAT FKIN", v, error)
-         if (allocated(error)) return
+         types = "rr"
+         names = "FSTAT FKIN"
+      case (2, 3, 4)
+         types = "rrrrr"
+         names = law_names(law)
+      case (6)
+         types = "rrrr"
+         names = "FREF TREF DFHEAT DTHEAT"
+      case default
+         return
+      end select
+      first = 1
+      if (present(control)) then
+         first = 2
+         names = control%name // " " // names
+         types = merge("a", "r", control%name == "ALPHA") // types
+      end if
+      call lexer%read_group(types, names, all_values, error)
+      if (allocated(error)) return
+      if (present(control)) control = all_values(1)
+      v = all_values(first:first + 4)
+
+      select case (law)
+      case (0)
          call problems%check_real(v(1), 1.0e-4_wp)
          if (abs(v(1)%r - v(2)%r) > 1.0e-3_wp*abs(v(1)%r)) call problems%add(severity%warning, "FKIN = " // v(2)%word // &
             & " differs from FSTAT; Coulomb friction uses FSTAT = " // v(1)%word // " only", v(2)%line, v(2)%column)
          set%fstat = v(1)%r
          set%fkin = v(1)%r
       case (2, 3, 4)
-         call lexer%read_group("rrrrr", law_names(law), v, error)
-         if (allocated(error)) return
          do k = 2, 4, 2
             if (v(k)%r < no_term) v(k + 1)%r = max(smallest_unused, v(k + 1)%r)
          end do
@@ -225,8 +248,6 @@ contains
          set%sabsh2 = v(5)%r
          set%fstat = set%fkin + set%coef1 + set%coef2
       case (6)
-         call lexer%read_group("rrrr", "FREF TREF DFHEAT DTHEAT", v, error)
-         if (allocated(error)) return
          call problems%check_real(v(1), 0.0_wp)
          if (v(1)%r + v(3)%r < 0.0_wp) call problems%add(severity%error, "DFHEAT = " // v(3)%word // &
             & ": FREF + DFHEAT = " // real_text(v(1)%r + v(3)%r) // " is below its lower bound 0", v(3)%line, v(3)%column)
@@ -310,7 +331,11 @@ contains
       associate (material => spec%material)
          select case (spec%digits%c)
          case (4)
-            call read_inclinations(lexer, material, problems, error)
+            if (allocated(spec%wheel_rail)) then
+               call read_conformal_method(lexer, material, problems, error)
+            else
+               call read_inclinations(lexer, material, problems, error)
+            end if
             if (allocated(error)) return
          case (9)
             call lexer%read_group("s", "CFNAME", v, error)
@@ -337,6 +362,22 @@ contains
          call read_material_model(lexer, spec%digits%m, material, problems, error)
       end associate
    end subroutine read_materials
+
+   !> Conformal contact of wheel and rail (C = 4 of module 1): the inclinations are those of the profiles
+   subroutine read_conformal_method(lexer, material, problems, error)
+      type(input_lexer), intent(inout) :: lexer
+      type(material_spec), intent(inout) :: material
+      type(problem_list), intent(inout) :: problems
+      type(error_type), allocatable, intent(out) :: error
+      type(input_value) :: v(2)
+
+      call lexer%read_group("ii", "IF_METH VARIANT", v, error)
+      if (allocated(error)) return
+      call problems%check_integer(v(1), 0, 1)
+      call problems%check_integer(v(2), 1, 4)
+      material%if_meth = v(1)%i
+      material%variant = v(2)%i
+   end subroutine read_conformal_method
 
    !> Table of surface inclinations for conformal contact (C = 4)
    subroutine read_inclinations(lexer, material, problems, error)

@@ -745,8 +745,8 @@ contains
       call sequence(suite, "", [integer ::], "the end of the file is reached; expected MODULE", "an empty file")
       call sequence(suite, "2", [integer ::], "MODULE = 2 is not a known module", "a wrong module")
       call sequence(suite, "x", [integer ::], """x"" is not an integer; expected MODULE", "no module")
-      call sequence(suite, nl // " 1", [integer ::], "test:2:2: MODULE = 1, wheel-rail contact, is known but not built", &
-         & "wheel-rail contact")
+      call sequence(suite, nl // " 1", [integer ::], "the end of the file is reached; expected CPBTNFS", &
+         & "wheel-rail contact without a case")
       call sequence(suite, "3 0", [integer ::], "REID = 0 is outside its range 1 to 999", "a wrong element")
       call sequence(suite, "3 1000", [integer ::], "REID = 1000 is outside its range 1 to 999", "another wrong element")
       call sequence(suite, "3 1 10", [integer ::], "CPID = 10 is outside its range 1 to 9", "a wrong patch")

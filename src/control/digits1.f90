@@ -1,0 +1,149 @@
+!> The control digits of module 1 where they differ from those of module 3
+!>
+!> Digits that mean the same in both modules are looked up in contact_control_digits.
+module contact_control_digits1
+   use contact_base_choices, only : contact_location, force_control, kernel_model, pressure_model, variation
+   use contact_cases_spec, only : case_digits
+   use contact_control_digits, only : common_names => digit_names, common_allowed => allowed_text, &
+      & common_choice => choice_of, common_known => is_known, common_text => digit_text, decode_words, digit_row
+   implicit none (type, external)
+   private
+
+   public :: digit1_names, digit1_table, digit1_value_is_known, choice1_of, digit1_text, allowed1_text, decode_words1
+
+   type(digit_row), parameter :: digit1_table(*) = [ &
+      & digit_row("C1", 0, 0, .false., "left wheel on the track"), &
+      & digit_row("C1", 1, 1, .false., "right wheel on the track"), &
+      & digit_row("C1", 4, 4, .false., "left wheel on a roller"), &
+      & digit_row("C1", 5, 5, .false., "right wheel on a roller"), &
+      & digit_row("B", 0, pressure_model%full, .false., "full solution of the normal problem"), &
+      & digit_row("B", 1, pressure_model%thin_sheet, .false., "elastic thin sheet with a vertical flexibility"), &
+      & digit_row("B", 5, pressure_model%kpec, .false., "Kik-Piotrowski approach with ellipse correction (KPEC)"), &
+      & digit_row("B", 6, pressure_model%analyn, .false., "modified ANALYN approach"), &
+      & digit_row("F", 0, force_control%creepages, .false., "velocities prescribed"), &
+      & digit_row("F", 1, force_control%longitudinal_force, .false., "longitudinal force in place of the pitch velocity"), &
+      & digit_row("F", 3, force_control%massless_rail, .false., "rail without mass on springs"), &
+      & digit_row("V", 0, variation%none, .false., "one set of friction parameters"), &
+      & digit_row("V", 1, variation%by_angle, .false., "friction parameters by the inclination of the rail surface"), &
+      & digit_row("V", 2, variation%by_position, .false., "friction parameters by the position along the track"), &
+      & digit_row("D", 0, 0, .false., "keep the settings of search and discretisation"), &
+      & digit_row("D", 1, 1, .false., "keep the settings of search and discretisation"), &
+      & digit_row("D", 2, contact_location%locus, .false., "flat contact, contact locus"), &
+      & digit_row("D", 3, contact_location%locus_extended, .false., "flat contact, contact locus, extended rigid slip"), &
+      & digit_row("D", 4, contact_location%conformal, .false., "conformal contact, contact locus"), &
+      & digit_row("D", 5, contact_location%grid, .false., "flat contact, search over a grid"), &
+      & digit_row("D", 6, contact_location%steep_grid, .false., "flat contact, search over a finer grid"), &
+      & digit_row("D", 7, contact_location%first_contact, .false., "flat contact, first point of contact as reference"), &
+      & digit_row("D", 8, contact_location%oblique_locus, .false., "contact locus in a fixed oblique view"), &
+      & digit_row("D", 9, contact_location%oblique_grid, .false., "grid search in a fixed oblique view"), &
+      & digit_row("C", 0, 0, .false., "as 1"), &
+      & digit_row("C", 1, 1, .false., "form the influence coefficients from the values in store"), &
+      & digit_row("C", 2, kernel_model%piecewise_constant, .false., "half-space, piecewise constant; read materials"), &
+      & digit_row("C", 3, kernel_model%bilinear, .false., "half-space with bilinear tractions"), &
+      & digit_row("C", 4, kernel_model%conformal, .false., "half-space with angle correction for conformal contact"), &
+      & digit_row("Z", 0, 0, .false., "keep track and rail"), &
+      & digit_row("Z", 1, 1, .false., "read the track dimensions"), &
+      & digit_row("Z", 2, 2, .false., "read the deviations of the rail"), &
+      & digit_row("Z", 3, 3, .false., "read track dimensions, rail profile and deviations"), &
+      & digit_row("E", 0, 0, .false., "keep wheelset, position and velocity"), &
+      & digit_row("E", 1, 1, .false., "read the position of the wheelset"), &
+      & digit_row("E", 2, 2, .false., "read position and velocity"), &
+      & digit_row("E", 3, 3, .false., "read wheelset dimensions, wheel profile, position and velocity"), &
+      & digit_row("E", 4, 4, .false., "as 2, with the flexible deviations of the wheelset"), &
+      & digit_row("E", 5, 5, .false., "as 3, with the flexible deviations of the wheelset")]
+
+   !> All digits in the order of the control words
+   character(len=2), parameter :: digit1_names(*) = ["C1", common_names]
+
+contains
+
+   !> Row of the table of this module, 0 when there is none
+   pure integer function row_of(name, digit) result(row)
+      character(len=*), intent(in) :: name
+      integer, intent(in) :: digit
+
+      do row = 1, size(digit1_table)
+         if (digit1_table(row)%name == name .and. digit1_table(row)%digit == digit) return
+      end do
+      row = 0
+   end function row_of
+
+   !> Does the digit mean something else than in module 3?
+   pure logical function is_own(name)
+      character(len=*), intent(in) :: name
+      is_own = any(digit1_table%name == name)
+   end function is_own
+
+   !> Does the format know this value of the digit?
+   pure logical function digit1_value_is_known(name, digit) result(known)
+      character(len=*), intent(in) :: name
+      integer, intent(in) :: digit
+
+      if (is_own(name)) then
+         known = row_of(name, digit) > 0
+      else
+         known = common_known(name, digit)
+      end if
+   end function digit1_value_is_known
+
+   !> Named choice behind a digit; an unknown digit is handed back as it is
+   pure integer function choice1_of(name, digit) result(choice)
+      character(len=*), intent(in) :: name
+      integer, intent(in) :: digit
+      integer :: row
+
+      if (.not. is_own(name)) then
+         choice = common_choice(name, digit)
+         return
+      end if
+      row = row_of(name, digit)
+      choice = digit
+      if (row > 0) choice = digit1_table(row)%choice
+   end function choice1_of
+
+   !> What the digit means, in words
+   pure function digit1_text(name, digit) result(text)
+      character(len=*), intent(in) :: name
+      integer, intent(in) :: digit
+      character(len=:), allocatable :: text
+      integer :: row
+
+      if (.not. is_own(name)) then
+         text = common_text(name, digit)
+         return
+      end if
+      row = row_of(name, digit)
+      text = "unknown"
+      if (row > 0) text = trim(digit1_table(row)%text)
+   end function digit1_text
+
+   !> The known values of a digit, "0, 1, 4, 5", for messages
+   pure function allowed1_text(name) result(text)
+      character(len=*), intent(in) :: name
+      character(len=:), allocatable :: text
+      integer :: row
+
+      if (.not. is_own(name)) then
+         text = common_allowed(name)
+         return
+      end if
+      text = ""
+      do row = 1, size(digit1_table)
+         if (digit1_table(row)%name /= name) cycle
+         if (len(text) > 0) text = text // ", "
+         text = text // achar(iachar("0") + digit1_table(row)%digit)
+      end do
+   end function allowed1_text
+
+   !> Take the control words of module 1 apart, from the right; see decode_words
+   pure subroutine decode_words1(word1, word2, word3, digits, second)
+      !> C1 P B T N F S; V L D C M Z E; X H G I A O W R
+      integer, intent(in) :: word1, word2, word3
+      type(case_digits), intent(inout) :: digits
+      !> Second number of word 2, 10 GAPWGT + M2; absent means that the damping is kept
+      integer, intent(in), optional :: second
+
+      call decode_words(word1, word2, word3, digits, second)
+      digits%c1 = abs(word1)/1000000
+   end subroutine decode_words1
+end module contact_control_digits1

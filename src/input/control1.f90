@@ -1,0 +1,220 @@
+!> The control words of a case of module 1 and the checks of its digits
+module contact_input_control1
+   use contact_base_choices, only : kernel_model, slip_source
+   use contact_base_error, only : error_type
+   use contact_cases_spec, only : case_digits, case_spec
+   use contact_cases_wheel_rail_spec, only : wheel_rail_spec
+   use contact_control_digits, only : digit_value
+   use contact_control_digits1, only : allowed1_text, choice1_of, decode_words1, digit1_names, digit1_value_is_known
+   use contact_input_control3, only : add_for_digit, control_words
+   use contact_input_problems, only : problem_list, severity
+   use contact_text_lexer, only : input_lexer, input_value
+   use contact_text_words, only : integer_text
+   implicit none (type, external)
+   private
+
+   public :: read_control_words1, check_digits1
+
+contains
+
+   !> Read the words and make named choices of their digits
+   subroutine read_control_words1(lexer, words, spec, error)
+      type(input_lexer), intent(inout) :: lexer
+      type(control_words), intent(out) :: words
+      !> On entry the previous case; its effective choices stay where a digit says "keep"
+      type(case_spec), intent(inout) :: spec
+      type(error_type), allocatable, intent(out) :: error
+      type(input_value) :: values(2)
+
+      call lexer%read_group("i", "CPBTNFS", values, error)
+      if (allocated(error)) return
+      words%word(1) = values(1)
+      call lexer%read_group("iI", "VLDCMZE M2", values, error)
+      if (allocated(error)) return
+      words%word(2) = values(1)
+      words%second = values(2)
+      call lexer%read_group("i", "XHGIAOWR", values, error)
+      if (allocated(error)) return
+      words%word(3) = values(1)
+
+      associate (word => words%word%i)
+         if (words%second%given) then
+            call decode_words1(word(1), word(2), word(3), spec%digits, words%second%i)
+         else
+            call decode_words1(word(1), word(2), word(3), spec%digits)
+         end if
+      end associate
+      if (spec%digits%x > 0) then
+         call lexer%read_group("iI", "PSFLCIN READLN", values, error)
+         if (allocated(error)) return
+      end if
+      call name_choices1(spec)
+   end subroutine read_control_words1
+
+   !> Digits to names; effective values of the digits that can say "keep"
+   subroutine name_choices1(spec)
+      type(case_spec), intent(inout) :: spec
+
+      if (.not. allocated(spec%wheel_rail)) allocate(spec%wheel_rail, source=wheel_rail_spec())
+      associate (digits => spec%digits)
+         spec%wheel_rail%left = digits%c1 == 0 .or. digits%c1 == 4
+         spec%wheel_rail%roller = digits%c1 == 4 .or. digits%c1 == 5
+         spec%wheel_rail%new_rail_profile = .false.
+         spec%wheel_rail%new_wheel_profile = .false.
+         spec%link = choice1_of("P", digits%p)
+         spec%pressure = choice1_of("B", digits%b)
+         spec%motion = choice1_of("T", digits%t)
+         spec%normal = choice1_of("N", digits%n)
+         spec%force = choice1_of("F", digits%f)
+         spec%stress = choice1_of("S", digits%s)
+         spec%variation = choice1_of("V", digits%v)
+         spec%material_model = choice1_of("M", digits%m)
+         spec%estimate = choice1_of("I", digits%i)
+         spec%mat_file = digits%a
+         spec%output_level = digits%o
+         spec%flow_level = digits%w
+         spec%solve = digits%r <= 1
+         if (digits%l /= 1) spec%friction_law = choice1_of("L", digits%l)
+         if (digits%c >= 2) spec%kernel = choice1_of("C", digits%c)
+         if (digits%g /= 1) spec%solver = choice1_of("G", digits%g)
+         if (digits%h /= 1) spec%heat_model = choice1_of("H", digits%h)
+         if (digits%m2 /= 1) spec%has_damping = digits%m2 >= 2
+         spec%slip_source = slip_source%none
+         spec%new_grid = digits%d >= 2
+         spec%new_geometry = .true.
+         spec%new_kernel = digits%c >= 2
+      end associate
+   end subroutine name_choices1
+
+   !> Range of each digit, and what digits demand of each other and of the previous case
+   subroutine check_digits1(words, previous, has_previous, spec, problems)
+      type(control_words), intent(in) :: words
+      !> The previous case of this result element
+      type(case_spec), intent(in) :: previous
+      !> Is there one?
+      logical, intent(in) :: has_previous
+      type(case_spec), intent(inout) :: spec
+      type(problem_list), intent(inout) :: problems
+
+      call check_ranges(words, spec%digits, problems)
+      if (spec%digits%c == 0) then
+         if (has_previous) call add_for_digit(problems, words, severity%warning, "C", "C = 0 is replaced by 1: the grids of " // &
+            & "wheel-rail contact change, and coefficients are formed when they are needed")
+         spec%digits%c = 1
+      end if
+      if (has_previous) then
+         call check_later_case(words, previous, spec, problems)
+      else
+         call check_first_case(words, spec, problems)
+      end if
+      call check_combinations(words, spec, problems)
+   end subroutine check_digits1
+
+   !> Each digit must be one that the format knows
+   subroutine check_ranges(words, digits, problems)
+      type(control_words), intent(in) :: words
+      type(case_digits), intent(in) :: digits
+      type(problem_list), intent(inout) :: problems
+      character(len=:), allocatable :: name
+      integer :: k
+
+      do k = 1, 3
+         associate (word => words%word(k))
+            if (word%i < 0) call problems%add(severity%error, "the control word " // word%name // " = " // word%word // &
+               & " is negative; it must consist of digits", word%line, word%column)
+         end associate
+      end do
+      do k = 1, size(digit1_names)
+         name = trim(digit1_names(k))
+         if (digit1_value_is_known(name, digit_value(digits, name))) cycle
+         call add_for_digit(problems, words, severity%error, name, name // " = " // &
+            & integer_text(digit_value(digits, name)) // " is not a known digit of module 1; allowed are " // allowed1_text(name))
+      end do
+      if (digits%gapwgt > 2) call problems%add(severity%error, "GAPWGT = " // integer_text(digits%gapwgt) // &
+         & " is outside its range 0 to 2", words%second%line, words%second%column)
+   end subroutine check_ranges
+
+   !> A first case has nothing to continue and nothing to keep
+   subroutine check_first_case(words, spec, problems)
+      type(control_words), intent(in) :: words
+      type(case_spec), intent(inout) :: spec
+      type(problem_list), intent(inout) :: problems
+
+      associate (digits => spec%digits)
+         if (digits%p /= 2) then
+            call add_for_digit(problems, words, severity%warning, "P", "P = " // integer_text(digits%p) // &
+               & " is replaced by 2: the first case has no previous tractions")
+            digits%p = 2
+            spec%link = choice1_of("P", 2)
+         end if
+         if (digits%i /= 0) then
+            call add_for_digit(problems, words, severity%warning, "I", "I = " // integer_text(digits%i) // &
+               & " is replaced by 0: the first case has no previous solution")
+            digits%i = 0
+            spec%estimate = choice1_of("I", 0)
+         end if
+         if (digits%c < 2) then
+            call add_for_digit(problems, words, severity%warning, "C", "C = " // integer_text(digits%c) // &
+               & " in the first case: the default materials are used, GG = 1 and POISS = 0.28")
+            spec%kernel = kernel_model%piecewise_constant
+         end if
+         if (digits%l == 1) call add_for_digit(problems, words, severity%error, "L", &
+            & "L = 1 keeps the friction law of the previous case, but this is the first case")
+         if (digits%d < 2) call add_for_digit(problems, words, severity%error, "D", "D = " // integer_text(digits%d) // &
+            & " keeps the settings of the contact search, but this is the first case")
+         if (digits%z /= 3) call add_for_digit(problems, words, severity%error, "Z", "Z = " // integer_text(digits%z) // &
+            & " in the first case: no rail profile has been given; Z = 3 is needed")
+         if (digits%e /= 3 .and. digits%e /= 5) call add_for_digit(problems, words, severity%error, "E", "E = " // &
+            & integer_text(digits%e) // " in the first case: no wheel profile has been given; E = 3 or 5 is needed")
+         if (digits%s == 1 .or. digits%s == 2) call add_for_digit(problems, words, severity%error, "S", &
+            & "S = " // integer_text(digits%s) // " keeps the subsurface points, but this is the first case")
+      end associate
+   end subroutine check_first_case
+
+   !> What a later case keeps must be there
+   subroutine check_later_case(words, previous, spec, problems)
+      type(control_words), intent(in) :: words
+      type(case_spec), intent(in) :: previous, spec
+      type(problem_list), intent(inout) :: problems
+
+      associate (digits => spec%digits)
+         if ((digits%s == 1 .or. digits%s == 2) .and. .not. allocated(spec%subsurface%blocks)) &
+            & call add_for_digit(problems, words, severity%error, "S", &
+            & "S = " // integer_text(digits%s) // " keeps the subsurface points, but no case has given any")
+         if (digits%l == 1 .and. digits%v /= previous%digits%v) call add_for_digit(problems, words, severity%error, "L", &
+            & "L = 1 keeps the friction law, but V changes from " // integer_text(previous%digits%v) // " to " // &
+            & integer_text(digits%v) // ": new friction input is needed")
+         if (digits%e == 0 .and. digits%n /= previous%digits%n) call add_for_digit(problems, words, severity%error, "E", &
+            & "E = 0 keeps the position of the wheelset, but N changes from " // integer_text(previous%digits%n) // " to " // &
+            & integer_text(digits%n) // ": a new position is needed")
+         if (digits%c1 /= previous%digits%c1 .and. (digits%z == 0 .or. digits%e == 0)) call add_for_digit(problems, words, &
+            & severity%warning, "C1", "C1 changes from " // integer_text(previous%digits%c1) // " to " // &
+            & integer_text(digits%c1) // ", but track or wheelset are kept")
+      end associate
+   end subroutine check_later_case
+
+   !> What digits demand of each other
+   subroutine check_combinations(words, spec, problems)
+      type(control_words), intent(in) :: words
+      type(case_spec), intent(in) :: spec
+      type(problem_list), intent(inout) :: problems
+
+      associate (digits => spec%digits)
+         if (digits%f == 1 .and. digits%n /= 1) call add_for_digit(problems, words, severity%error, "F", &
+            & "F = 1, longitudinal force prescribed, needs the vertical force too, N = 1")
+         if (digits%f /= 0 .and. digits%t == 0) call add_for_digit(problems, words, severity%error, "F", "F = " // &
+            & integer_text(digits%f) // " needs a tangential problem, T = 1, 2 or 3")
+         if (digits%m == 1 .and. digits%t /= 3) call add_for_digit(problems, words, severity%error, "M", &
+            & "M = 1, viscoelastic material, needs steady rolling, T = 3, not T = " // integer_text(digits%t))
+         if (digits%h >= 1 .and. digits%t /= 3) call add_for_digit(problems, words, severity%error, "H", &
+            & "H = " // integer_text(digits%h) // ", surface temperatures, needs steady rolling, T = 3, not T = " // &
+            & integer_text(digits%t))
+         if (spec%friction_law == 6) then
+            if (digits%h == 0) call add_for_digit(problems, words, severity%error, "L", &
+               & "L = 6, friction falling with temperature, needs surface temperatures, H = 1 or 3")
+            if (any(digits%m == [2, 3, 5, 6, 7])) call add_for_digit(problems, words, severity%error, "L", &
+               & "L = 6, friction falling with temperature, cannot be used with M = " // integer_text(digits%m))
+         end if
+      end associate
+   end subroutine check_combinations
+end module contact_input_control1
