@@ -306,9 +306,28 @@ class Failures(Cli):
         self.assertNotIn("TOTAL FORCES", self.read("ball.out"))
 
     def test_wheel_rail(self):
-        self.write("ball.inp", "1\n")
+        """Cases of wheel-rail contact are read and checked, and refused before anything is computed"""
+        first = """1
+            1203100
+            0022033
+            0000321
+            999 100 30 1 1e-5
+            0.3 0.3
+            0.28 0.28 82000. 82000.
+            0.2 0.2 1. 90d %s 4.
+            14. 0 1435. 0.
+            'rail.prr' 0 1. 0.
+            0. 0. 0. 0. 0. 0.
+            1360. -70. 460.
+            'wheel.prw' 0 1. 0.
+            0. 0. 10000. 0. 0. 0.
+            2000. 0. 0. 0. 0. -4.3
+            0\n"""
+        self.write("ball.inp", first % "8.")
         for mode in "2", "3":
-            self.fails(self.run_program(mode, "ball"), "ball.inp:1:1: ", "MODULE = 1", "not built in this version")
+            self.fails(self.run_program(mode, "ball"), "ball.inp:2: ", "MODULE = 1", "not built in this version")
+        self.write("ball.inp", first % "3.")
+        self.fails(self.run_program("3", "ball"), "D_SEP = 3. is smaller than D_COMB = 4.")
 
     def test_unknown_module(self):
         self.write("ball.inp", "5\n")
