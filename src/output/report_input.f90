@@ -10,7 +10,7 @@ module contact_output_report_input
    implicit none (type, external)
    private
 
-   public :: write_input
+   public :: write_input, write_friction
 
    !> Digits from which on a group of the input is new and therefore echoed
    integer, parameter :: new_kernel = 2, new_damping = 2, kept_friction = 1, kept_geometry = 1, with_heat = 1

@@ -1,0 +1,72 @@
+!> What is known of one wheel on one rail after the solution
+!>
+!> Right-hand pair throughout: for a wheel on the left side of the track this is the mirror
+!> image, and output mirrors it back. Track coordinates: x along the track, y to the right, z down.
+module contact_wheelrail_result
+   use contact_base_kinds, only : wp
+   use contact_patch_result, only : patch_result
+   implicit none (type, external)
+   private
+
+   public :: pair_result, pair_patch, profile_points
+
+   !> One contact patch of the pair
+   type :: pair_patch
+      !> Contact reference in track coordinates [mm], contact angle [rad]
+      real(wp) :: x = 0.0_wp, y = 0.0_wp, z = 0.0_wp, delta = 0.0_wp
+      !> The same in the rail profile's coordinates [mm], angle relative to the rail [rad]
+      real(wp) :: y_rail = 0.0_wp, z_rail = 0.0_wp, delta_rail = 0.0_wp
+      !> The same in the wheel profile's coordinates [mm]
+      real(wp) :: x_wheel = 0.0_wp, y_wheel = 0.0_wp, z_wheel = 0.0_wp
+      !> Patches of the previous case from which this one continues; empty for a new one
+      integer, allocatable :: previous(:)
+      !> Curved reference of conformal contact: y, z [mm] and angle [rad] per grid row in track coordinates,
+      !> shape (3, my); unallocated for flat contact
+      real(wp), allocatable :: curve(:, :)
+      !> Sum of the local normal tractions of conformal contact [N]
+      real(wp) :: tilde_fn = 0.0_wp
+      !> Does friction vary inside the patch?
+      logical :: friction_varies = .false.
+      !> Forces on the rail in the axes x, s, n of the reference [N]: those of `contact` for flat patches,
+      !> rotated row by row for conformal ones
+      real(wp) :: force(3) = 0.0_wp
+      !> Tractions, slip, totals in the axes of the patch
+      type(patch_result) :: contact
+   end type pair_patch
+
+   !> Points of a profile in track coordinates
+   type :: profile_points
+      !> Arc length and x, y, z [mm], each of shape (n)
+      real(wp), allocatable :: s(:), x(:), y(:), z(:)
+   end type profile_points
+
+   !> The pair
+   type :: pair_result
+      !> Is there a solution? False when positions or forces cannot be reached
+      logical :: solved = .false.
+      !> Combined modulus [N/mm2], Poisson ratio [-], difference parameter [-]
+      real(wp) :: gg = 1.0_wp, nu = 0.0_wp, ak = 0.0_wp
+      !> Height of the wheelset [mm] and pitch rate [rad/s], prescribed or found
+      real(wp) :: z_ws = 0.0_wp, vpitch = 0.0_wp
+      !> Deflection of a massless rail [mm]
+      real(wp) :: dy_defl = 0.0_wp, dz_defl = 0.0_wp
+      !> Smallest gap in vertical direction [mm]; negative: penetration
+      real(wp) :: smallest_gap = 0.0_wp
+      !> Total force on the rail [N] in track and wheelset axes
+      real(wp) :: force_track(3) = 0.0_wp, force_wheelset(3) = 0.0_wp
+      !> Total moment on the rail [N mm] about the rail marker in track axes, about the wheel marker in wheelset axes
+      real(wp) :: moment_rail(3) = 0.0_wp, moment_wheel(3) = 0.0_wp
+      !> Rail marker in the track: y, z [mm], roll [rad]
+      real(wp) :: rail_y = 0.0_wp, rail_z = 0.0_wp, rail_roll = 0.0_wp
+      !> Wheel marker in the track: x, y, z [mm], roll, yaw [rad]; lateral place of the wheel profile in the wheelset [mm]
+      real(wp) :: wheel_x = 0.0_wp, wheel_y = 0.0_wp, wheel_z = 0.0_wp, wheel_roll = 0.0_wp, wheel_yaw = 0.0_wp
+      real(wp) :: wheel_offset = 0.0_wp
+      !> Contact patches, field side first; of size zero without contact
+      type(pair_patch), allocatable :: patches(:)
+      !> Profiles as used; filled when the output level asks for them
+      type(profile_points) :: rail_profile, wheel_profile
+      !> Evaluations of the total force, and how far it is from the prescribed one [N]
+      integer :: force_evaluations = 0
+      real(wp) :: force_error = 0.0_wp
+   end type pair_result
+end module contact_wheelrail_result
