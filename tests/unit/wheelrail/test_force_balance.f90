@@ -1,0 +1,121 @@
+!> Search for the height of a wheel: smooth forces, kinks, jumps, folds, and forces out of reach
+program test_force_balance
+   use contact_base_kinds, only : wp
+   use contact_test_harness, only : test_suite
+   use contact_wheelrail_force_balance, only : balance_ending, force_balance
+   implicit none (type, external)
+   !> Shapes of the force as a function of the penetration
+   integer, parameter :: hertz = 1, second_patch = 2, jump_down = 3, jump_up = 4, fold = 5, bounded = 6, broken = 7
+   type(test_suite) :: suite
+   real(wp) :: target
+   integer :: k
+
+   call suite%start("force balance")
+   do k = -3, 6
+      target = 10.0_wp**k
+      call reaches(suite, hertz, target, 0.1_wp, .true., 5)
+      call reaches(suite, hertz, target, 0.1_wp, .false., 14)
+      call reaches(suite, hertz, target, 1.0e-6_wp, .false., 25)
+      call reaches(suite, second_patch, target, 0.02_wp, .true., 9)
+      call reaches(suite, second_patch, target, 0.02_wp, .false., 16)
+      call reaches(suite, jump_up, 1.0e3_wp*target, 0.1_wp, .false., 60)
+   end do
+   call reaches(suite, fold, 5.0e3_wp, 0.1_wp, .false., 40)
+   call over_a_jump(suite)
+   call out_of_reach(suite)
+   call suite%finish()
+
+contains
+
+   !> Force [N] and slope [N/mm] at a penetration [mm]
+   pure subroutine force_at(shape, d, force, slope)
+      integer, intent(in) :: shape
+      real(wp), intent(in) :: d
+      real(wp), intent(out) :: force, slope
+
+      force = 1.0e5_wp*max(0.0_wp, d)**1.5_wp
+      slope = 1.5e5_wp*sqrt(max(0.0_wp, d))
+      select case (shape)
+      case (second_patch)
+         force = force + 3.0e5_wp*max(0.0_wp, d - 0.05_wp)**1.5_wp
+         slope = slope + 4.5e5_wp*sqrt(max(0.0_wp, d - 0.05_wp))
+      case (jump_down)
+         if (d > 0.1_wp) force = force - 1.0e3_wp
+      case (jump_up)
+         if (d > 0.1_wp) force = force + 1.0e3_wp
+      case (fold)
+         force = force + 2.0e3_wp*sin(60.0_wp*d)
+      case (bounded)
+         force = 1.0e3_wp*tanh(max(0.0_wp, d))
+      case (broken)
+         force = force - force
+         if (d > 0.1_wp) force = force/force
+      end select
+   end subroutine force_at
+
+   !> Run a search
+   subroutine search(shape, target, guess, with_slope, most, balance)
+      integer, intent(in) :: shape
+      real(wp), intent(in) :: target, guess
+      logical, intent(in) :: with_slope
+      integer, intent(in) :: most
+      type(force_balance), intent(inout) :: balance
+      real(wp), parameter :: touch = 0.7_wp
+      real(wp) :: z, force, slope
+
+      call balance%start(target, 1.0e-8_wp, touch, 500.0_wp, most)
+      do while (balance%ended == balance_ending%running)
+         z = balance%next_trial(touch + guess)
+         call force_at(shape, z - touch, force, slope)
+         if (.not. with_slope) slope = 0.0_wp
+         call balance%record(z, force, slope)
+      end do
+   end subroutine search
+
+   subroutine reaches(suite, shape, target, guess, with_slope, most)
+      type(test_suite), intent(inout) :: suite
+      integer, intent(in) :: shape
+      real(wp), intent(in) :: target, guess
+      logical, intent(in) :: with_slope
+      integer, intent(in) :: most
+      type(force_balance) :: balance
+      character(len=60) :: what
+      real(wp) :: force, slope
+
+      call search(shape, target, guess, with_slope, most, balance)
+      call force_at(shape, balance%z - 0.7_wp, force, slope)
+      write(what, '(a,i0,a,es9.2,a,i0,a,i0)') "shape ", shape, ", force ", target, ": trials ", balance%trials, ", ended ", &
+         & balance%ended
+      if (shape == jump_up .and. target > 1.0e5_wp*0.1_wp**1.5_wp .and. target < 1.0e5_wp*0.1_wp**1.5_wp + 1.0e3_wp) then
+         call suite%check(balance%ended == balance_ending%jump, trim(what) // ", inside the jump")
+         return
+      end if
+      call suite%check(balance%ended == balance_ending%reached, trim(what))
+      call suite%close_to(force, target, 2.0e-8_wp, trim(what) // ", the force", relative=.true.)
+   end subroutine reaches
+
+   !> The prescribed force lies in a downward jump: both branches have solutions, one is found
+   subroutine over_a_jump(suite)
+      type(test_suite), intent(inout) :: suite
+      type(force_balance) :: balance
+
+      call search(jump_down, 1.0e5_wp*0.1_wp**1.5_wp - 5.0e2_wp, 0.2_wp, .false., 40, balance)
+      call suite%check(balance%ended == balance_ending%reached, "two solutions: one is found")
+      call search(jump_up, 1.0e5_wp*0.1_wp**1.5_wp + 3.0e2_wp, 0.2_wp, .false., 80, balance)
+      call suite%check(balance%ended == balance_ending%jump, "a force inside an upward jump is stated")
+      call suite%close_to(balance%z, 0.8_wp, 1.0e-9_wp, "with the place of the jump")
+      call suite%close_to(balance%force, 1.0e5_wp*0.1_wp**1.5_wp, 1.0_wp, "and the closer side")
+   end subroutine over_a_jump
+
+   subroutine out_of_reach(suite)
+      type(test_suite), intent(inout) :: suite
+      type(force_balance) :: balance
+
+      call search(bounded, 2.0e3_wp, 0.1_wp, .false., 60, balance)
+      call suite%check(balance%ended == balance_ending%out_of_reach, "a force that is never reached")
+      call search(broken, 1.0e3_wp, 0.05_wp, .false., 60, balance)
+      call suite%check(balance%ended == balance_ending%out_of_reach, "a force that is not a number")
+      call search(second_patch, 1.0e4_wp, 0.02_wp, .false., 2, balance)
+      call suite%check(balance%ended == balance_ending%trial_limit, "too few trials")
+   end subroutine out_of_reach
+end program test_force_balance
