@@ -5,7 +5,7 @@
 !> and no room below `input` knows that keeping exists.
 module contact_cases_spec
    use contact_base_kinds, only : wp
-   use contact_cases_wheel_rail_spec, only : wheel_rail_spec
+   use contact_wheelrail_spec, only : wheel_rail_spec
    use contact_subsurface_points, only : point_block
    implicit none (type, external)
    private

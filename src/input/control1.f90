@@ -3,7 +3,7 @@ module contact_input_control1
    use contact_base_choices, only : kernel_model, slip_source
    use contact_base_error, only : error_type
    use contact_cases_spec, only : case_digits, case_spec
-   use contact_cases_wheel_rail_spec, only : wheel_rail_spec
+   use contact_wheelrail_spec, only : wheel_rail_spec
    use contact_control_digits, only : digit_value
    use contact_control_digits1, only : allowed1_text, choice1_of, decode_words1, digit1_names, digit1_value_is_known
    use contact_input_control3, only : add_for_digit, control_words

@@ -6,7 +6,7 @@ module contact_input_groups1
    use contact_base_error, only : error_type
    use contact_base_kinds, only : wp
    use contact_cases_spec, only : case_spec, friction_set
-   use contact_cases_wheel_rail_spec, only : profile_spec, wheelset_spec
+   use contact_wheelrail_spec, only : profile_spec, wheelset_spec
    use contact_control_digits1, only : choice1_of
    use contact_input_groups3, only : read_friction_memory, read_friction_set
    use contact_input_problems, only : problem_list, severity

@@ -8,7 +8,7 @@ module contact_output_report_pair
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
    use contact_cases_spec, only : case_digits, case_spec, material_spec
-   use contact_cases_wheel_rail_spec, only : profile_spec, wheel_rail_spec
+   use contact_wheelrail_spec, only : profile_spec, wheel_rail_spec
    use contact_output_element_table, only : write_element_table
    use contact_output_formats, only : fixed, general, generals, heading, smart, smarts, whole
    use contact_output_picture, only : write_picture

@@ -2,7 +2,7 @@
 !>
 !> Numbers as the input gives them, in internal units, with the signs of the input: nothing is
 !> mirrored here. Right-hand systems with x along the track, y to the right and z downwards.
-module contact_cases_wheel_rail_spec
+module contact_wheelrail_spec
    use contact_base_constants, only : pi
    use contact_base_kinds, only : wp
    implicit none (type, external)
@@ -103,4 +103,4 @@ module contact_cases_wheel_rail_spec
       type(wheelset_spec) :: wheelset
       type(profile_spec) :: rail_profile, wheel_profile
    end type wheel_rail_spec
-end module contact_cases_wheel_rail_spec
+end module contact_wheelrail_spec
