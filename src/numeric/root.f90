@@ -1,0 +1,89 @@
+!> Roots of low polynomials on an interval
+module contact_numeric_root
+   use contact_base_kinds, only : wp
+   implicit none (type, external)
+   private
+
+   public :: quadratic_roots, monotone_cubic_root
+
+contains
+
+   !> Real roots of c + b x + a x**2 strictly inside an interval, in rising order
+   pure subroutine quadratic_roots(a, b, c, low, high, roots, n)
+      real(wp), intent(in) :: a, b, c
+      !> Ends of the interval
+      real(wp), intent(in) :: low, high
+      real(wp), intent(out) :: roots(2)
+      !> Number of roots found, 0 to 2; a double root counts once
+      integer, intent(out) :: n
+      real(wp) :: discriminant, q, candidates(2)
+      integer :: k
+
+      roots = 0.0_wp
+      n = 0
+      discriminant = b**2 - 4.0_wp*a*c
+      if (discriminant < 0.0_wp) return
+      ! Without cancellation: the larger root first, the other from the product of both
+      q = -0.5_wp*(b + sign(sqrt(discriminant), b))
+      candidates = high
+      if (abs(a) > 1.0e-200_wp*abs(q)) candidates(1) = q/a
+      if (q /= 0.0_wp) candidates(2) = c/q
+      if (candidates(1) > candidates(2)) candidates = candidates([2, 1])
+      do k = 1, 2
+         if (candidates(k) <= low .or. candidates(k) >= high) cycle
+         if (n == 1) then
+            if (candidates(k) == roots(1)) cycle
+         end if
+         n = n + 1
+         roots(n) = candidates(k)
+      end do
+   end subroutine quadratic_roots
+
+   !> Where a cubic that rises or falls on [low, high] takes a value: Newton's method inside a bracket
+   !>
+   !> A step that leaves the bracket, or does not halve the one before, is replaced by bisection. When
+   !> the value is not between those at the ends, the nearer end is the answer.
+   pure real(wp) function monotone_cubic_root(c, low, high, value) result(x)
+      !> Coefficients of the powers 0 to 3
+      real(wp), intent(in) :: c(0:3)
+      real(wp), intent(in) :: low, high, value
+      real(wp) :: a, b, residual, slope, step, direction
+      integer :: k
+      !> Bisection alone halves the bracket 60 times; Newton's method needs about five steps
+      integer, parameter :: most = 60
+
+      a = low
+      b = high
+      direction = sign(1.0_wp, cubic(c, high) - cubic(c, low))
+      if (direction*(cubic(c, low) - value) >= 0.0_wp) then
+         x = low
+         return
+      else if (direction*(cubic(c, high) - value) <= 0.0_wp) then
+         x = high
+         return
+      end if
+      x = low + (high - low)*(value - cubic(c, low))/(cubic(c, high) - cubic(c, low))
+      do k = 1, most
+         residual = direction*(cubic(c, x) - value)
+         if (residual == 0.0_wp) return
+         if (residual > 0.0_wp) then
+            b = x
+         else
+            a = x
+         end if
+         slope = direction*(c(1) + x*(2.0_wp*c(2) + 3.0_wp*x*c(3)))
+         step = 0.5_wp*(a + b) - x
+         if (abs(residual) < slope*(b - a)) then
+            if (x - residual/slope > a .and. x - residual/slope < b) step = -residual/slope
+         end if
+         x = x + step
+         if (abs(step) <= 4.0_wp*epsilon(1.0_wp)*max(abs(low), abs(high))) return
+      end do
+   end function monotone_cubic_root
+
+   pure real(wp) function cubic(c, x)
+      real(wp), intent(in) :: c(0:3), x
+
+      cubic = c(0) + x*(c(1) + x*(c(2) + x*c(3)))
+   end function cubic
+end module contact_numeric_root

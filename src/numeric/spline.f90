@@ -1,0 +1,204 @@
+!> Cubic splines in pieces of polynomials: interpolation and smoothing of one or several functions
+!>
+!> Debian holds no Fortran library of smoothing splines with weights and kinks, so the few lines that
+!> set up the systems are our own; the banded systems are solved by LAPACK. doc/theory/profiles.md.
+module contact_numeric_spline
+   use contact_base_kinds, only : wp
+   implicit none (type, external)
+   private
+
+   public :: cubic_spline, smoothing_splines, natural_splines, piece_of
+
+   !> A function of s in cubic pieces
+   type :: cubic_spline
+      !> Ends of the pieces [mm], strictly increasing
+      real(wp), allocatable :: s(:)
+      !> Coefficients (0:3, piece) of powers of s - s(piece)
+      real(wp), allocatable :: c(:, :)
+   contains
+      !> Value, first and second derivative; beyond the ends those of the nearest end
+      procedure :: value => spline_value
+      procedure :: slope => spline_slope
+      procedure :: bend => spline_bend
+      !> Values at all ends of pieces
+      procedure :: nodes => spline_nodes
+   end type cubic_spline
+
+   interface
+      !> LAPACK: factors of a symmetric positive definite band matrix and the solution of a system
+      subroutine dpbsv(uplo, n, kd, nrhs, ab, ldab, b, ldb, info)
+         import :: wp
+         implicit none (type, external)
+         character, intent(in) :: uplo
+         integer, intent(in) :: n, kd, nrhs, ldab, ldb
+         real(wp), intent(inout) :: ab(ldab, *), b(ldb, *)
+         integer, intent(out) :: info
+      end subroutine dpbsv
+   end interface
+
+contains
+
+   !> Number of the piece that holds s, by bisection; the first and the last reach to infinity
+   pure integer function piece_of(breaks, s) result(piece)
+      !> Ends of the pieces, increasing; at least two
+      real(wp), intent(in) :: breaks(:)
+      real(wp), intent(in) :: s
+      integer :: high, middle
+
+      piece = 1
+      high = size(breaks)
+      do while (high - piece > 1)
+         middle = (piece + high)/2
+         if (s < breaks(middle)) then
+            high = middle
+         else
+            piece = middle
+         end if
+      end do
+   end function piece_of
+
+   elemental real(wp) function spline_value(self, s) result(value)
+      class(cubic_spline), intent(in) :: self
+      real(wp), intent(in) :: s
+      real(wp) :: t
+      integer :: j
+
+      call place(self, s, j, t)
+      value = self%c(0, j) + t*(self%c(1, j) + t*(self%c(2, j) + t*self%c(3, j)))
+   end function spline_value
+
+   elemental real(wp) function spline_slope(self, s) result(slope)
+      class(cubic_spline), intent(in) :: self
+      real(wp), intent(in) :: s
+      real(wp) :: t
+      integer :: j
+
+      call place(self, s, j, t)
+      slope = self%c(1, j) + t*(2.0_wp*self%c(2, j) + t*3.0_wp*self%c(3, j))
+   end function spline_slope
+
+   elemental real(wp) function spline_bend(self, s) result(bend)
+      class(cubic_spline), intent(in) :: self
+      real(wp), intent(in) :: s
+      real(wp) :: t
+      integer :: j
+
+      call place(self, s, j, t)
+      bend = 2.0_wp*self%c(2, j) + 6.0_wp*t*self%c(3, j)
+   end function spline_bend
+
+   pure function spline_nodes(self) result(values)
+      class(cubic_spline), intent(in) :: self
+      real(wp) :: values(size(self%s))
+
+      values(:size(self%s) - 1) = self%c(0, :)
+      values(size(self%s)) = self%value(self%s(size(self%s)))
+   end function spline_nodes
+
+   !> Piece and place in it, the place kept between the ends of the spline
+   pure subroutine place(self, s, piece, t)
+      type(cubic_spline), intent(in) :: self
+      real(wp), intent(in) :: s
+      integer, intent(out) :: piece
+      real(wp), intent(out) :: t
+
+      piece = piece_of(self%s, s)
+      t = min(max(s, self%s(1)), self%s(size(self%s))) - self%s(piece)
+   end subroutine place
+
+   !> Natural splines through all points: smoothing splines without smoothing
+   subroutine natural_splines(s, f, splines, solved, is_kink)
+      real(wp), intent(in) :: s(:), f(:, :)
+      type(cubic_spline), allocatable, intent(out) :: splines(:)
+      logical, intent(out) :: solved
+      logical, intent(in), optional :: is_kink(:)
+      real(wp) :: weights(size(s))
+
+      weights = 1.0_wp
+      call smoothing_splines(s, f, weights, 0.0_wp, splines, solved, is_kink)
+   end subroutine natural_splines
+
+   !> Smoothing splines of several functions on the same points
+   !>
+   !> Each minimises sum(w (f(s_i) - f_i)**2) + lambda integral(f''**2) with natural ends (Reinsch
+   !> 1967). Unknowns are half the second derivatives b; the equations are
+   !> (R + 2/3 lambda Q' W**-1 Q) b = Q' f and the smoothed values f - 2/3 lambda W**-1 Q b, with five
+   !> diagonals. At a kink the second derivative is zero from both sides and the slope is free, so
+   !> that sections between kinks share nothing but the point; its equation is b = 0.
+   subroutine smoothing_splines(s, f, weights, lambda, splines, solved, is_kink)
+      !> Places of the points [mm], strictly increasing, at least two
+      real(wp), intent(in) :: s(:)
+      !> Values (point, function)
+      real(wp), intent(in) :: f(:, :)
+      !> Weights of the points, positive
+      real(wp), intent(in) :: weights(:)
+      !> Weight of the bending, not negative
+      real(wp), intent(in) :: lambda
+      !> One spline per function
+      type(cubic_spline), allocatable, intent(out) :: splines(:)
+      !> False when the matrix is not positive definite within the precision of the machine
+      logical, intent(out) :: solved
+      !> Points where the slope may jump; the ends need not be marked
+      logical, intent(in), optional :: is_kink(:)
+      !> Band of the matrix, diagonal in row 3
+      real(wp), allocatable :: band(:, :), b(:, :), a(:, :), q(:, :)
+      real(wp) :: h(size(s) - 1), strength(size(s))
+      logical :: free(size(s))
+      integer :: n, j, k, info
+
+      n = size(s)
+      h = s(2:) - s(:n - 1)
+      free = .true.
+      free(1) = .false.
+      free(n) = .false.
+      if (present(is_kink)) free = free .and. .not. is_kink
+      strength = 2.0_wp/3.0_wp*lambda/weights
+
+      ! Column j of Q: rows j-1, j, j+1
+      allocate(q(-1:1, n), band(3, n), b(n, size(f, 2)))
+      q = 0.0_wp
+      band = 0.0_wp
+      b = 0.0_wp
+      do j = 2, n - 1
+         if (.not. free(j)) cycle
+         q(:, j) = [3.0_wp/h(j - 1), -3.0_wp/h(j - 1) - 3.0_wp/h(j), 3.0_wp/h(j)]
+         b(j, :) = q(-1, j)*f(j - 1, :) + q(0, j)*f(j, :) + q(1, j)*f(j + 1, :)
+      end do
+      band(3, :) = merge(0.0_wp, 1.0_wp, free)
+      do j = 2, n - 1
+         if (.not. free(j)) cycle
+         band(3, j) = 2.0_wp*(h(j - 1) + h(j)) + sum(strength(j - 1:j + 1)*q(:, j)**2)
+         if (free(j - 1)) band(2, j) = h(j - 1) + strength(j - 1)*q(0, j - 1)*q(-1, j) + strength(j)*q(1, j - 1)*q(0, j)
+         if (free(max(1, j - 2))) band(1, j) = strength(j - 1)*q(1, j - 2)*q(-1, j)
+      end do
+      call dpbsv("U", n, 2, size(f, 2), band, 3, b, n, info)
+      solved = info == 0
+      if (.not. solved) return
+
+      a = f
+      do j = 2, n - 1
+         do k = -1, 1
+            a(j + k, :) = a(j + k, :) - strength(j + k)*q(k, j)*b(j, :)
+         end do
+      end do
+      allocate(splines(size(f, 2)))
+      do k = 1, size(splines)
+         call make_pieces(s, h, a(:, k), b(:, k), splines(k))
+      end do
+   end subroutine smoothing_splines
+
+   !> Pieces from values and half second derivatives
+   pure subroutine make_pieces(s, h, a, b, spline)
+      real(wp), intent(in) :: s(:), h(:), a(:), b(:)
+      type(cubic_spline), intent(out) :: spline
+      integer :: n
+
+      n = size(s)
+      allocate(spline%s(n), spline%c(0:3, n - 1))
+      spline%s(:) = s
+      spline%c(0, :) = a(:n - 1)
+      spline%c(1, :) = (a(2:) - a(:n - 1))/h - (2.0_wp*b(:n - 1) + b(2:))*h/3.0_wp
+      spline%c(2, :) = b(:n - 1)
+      spline%c(3, :) = (b(2:) - b(:n - 1))/(3.0_wp*h)
+   end subroutine make_pieces
+end module contact_numeric_spline
