@@ -10,7 +10,7 @@ module contact_text_lexer
    implicit none (type, external)
    private
 
-   public :: input_lexer, input_value
+   public :: input_lexer, input_value, printable
 
    !> One value of a group
    type :: input_value
@@ -43,6 +43,8 @@ module contact_text_lexer
       procedure :: read_group
       procedure :: read_array
       procedure :: at_end
+      procedure :: count_lines
+      procedure :: line_text
       procedure, private :: next_line
       procedure, private :: parse
       procedure, private :: refuse_word
@@ -139,6 +141,27 @@ contains
          if (start > len(text) + 1) exit
       end do
    end subroutine open_text
+
+   !> Number of lines, for files with another grammar than groups of values
+   pure integer function count_lines(self) result(n)
+      class(input_lexer), intent(in) :: self
+
+      n = size(self%first)
+   end function count_lines
+
+   !> A line without its end, control characters (tabs as well) as blanks
+   pure function line_text(self, k) result(text)
+      class(input_lexer), intent(in) :: self
+      !> 1...count_lines()
+      integer, intent(in) :: k
+      character(len=:), allocatable :: text
+      integer :: i
+
+      text = self%text(self%first(k):self%last(k))
+      do i = 1, len(text)
+         if (iachar(text(i:i)) < 32) text(i:i) = " "
+      end do
+   end function line_text
 
    !> Are there no more words?
    logical function at_end(self)

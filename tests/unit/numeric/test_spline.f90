@@ -3,7 +3,7 @@ program test_spline
    use contact_base_constants, only : pi
    use contact_base_kinds, only : wp
    use contact_numeric_b_spline, only : basis_values, knot_interval, not_a_knot_splines, smooth_b_splines
-   use contact_numeric_root, only : monotone_cubic_root, quadratic_roots
+   use contact_numeric_polynomial, only : monotone_cubic_root, quadratic_roots
    use contact_numeric_spline, only : cubic_spline, natural_splines, smoothing_splines
    use contact_test_harness, only : test_suite
    implicit none (type, external)

@@ -1,5 +1,5 @@
 !> Roots of low polynomials on an interval
-module contact_numeric_root
+module contact_numeric_polynomial
    use contact_base_kinds, only : wp
    implicit none (type, external)
    private
@@ -86,4 +86,4 @@ contains
 
       cubic = c(0) + x*(c(1) + x*(c(2) + x*c(3)))
    end function cubic
-end module contact_numeric_root
+end module contact_numeric_polynomial

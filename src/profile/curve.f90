@@ -1,0 +1,365 @@
+!> A prepared profile: smooth functions y(s), z(s) of the length along the curve, and the way back from y
+!>
+!> Lateral coordinate y, z down, canonical order (contact_profile_points). Rails are looked at from above,
+!> wheels from below: of several places with the same y only the one that is seen counts.
+module contact_profile_curve
+   use contact_base_kinds, only : wp
+   use contact_numeric_polynomial, only : monotone_cubic_root, quadratic_roots
+   use contact_numeric_spline, only : cubic_spline, piece_of
+   use contact_profile_request, only : profile_side
+   implicit none (type, external)
+   private
+
+   public :: profile_curve, new_curve
+
+   !> A visible part between two values of y on which y rises or falls with s
+   type :: visible_part
+      !> Its ends in y, the lower first
+      real(wp) :: low, high
+      !> The monotone stretch of s that it is cut from
+      real(wp) :: s_low, s_high
+   end type visible_part
+
+   !> One profile of a rail or a wheel
+   type :: profile_curve
+      !> Member of profile_side
+      integer :: side = profile_side%rail
+      !> Coordinates [mm] as functions of s [mm]; both have the same pieces
+      type(cubic_spline) :: y, z
+      !> What is seen, in rising order of y, without overlap
+      type(visible_part), allocatable, private :: parts(:)
+   contains
+      !> Ends of the range of s, and of the visible range of y
+      procedure :: s_range
+      procedure :: y_range
+      !> Place s of the visible point with a given y
+      procedure :: s_at => place_at
+      !> Is there a visible point with this y?
+      procedure :: has => has_point
+      !> Height of the visible point
+      procedure :: height
+      !> Inclination of the surface [rad], positive where it falls towards larger y
+      procedure :: inclination
+      !> Unit normal (y, z) out of the body
+      procedure :: normal
+      !> Part of the length that is not seen, 0...1
+      procedure :: hidden_part
+      !> The same curve in axes that are moved and rotated
+      procedure :: seen_from
+      !> The point with the smallest z of a rail
+      procedure :: top
+   end type profile_curve
+
+   !> Stretches of y shorter than this are vertical [mm]
+   real(wp), parameter :: vertical = 1.0e-9_wp
+
+contains
+
+   !> A curve from its coordinates
+   function new_curve(side, y, z) result(curve)
+      !> Member of profile_side
+      integer, intent(in) :: side
+      !> With the same ends of pieces
+      type(cubic_spline), intent(in) :: y, z
+      type(profile_curve) :: curve
+
+      curve%side = side
+      curve%y = y
+      curve%z = z
+      call find_visible(curve)
+   end function new_curve
+
+   !> Cut the curve where y turns round, and keep at each y what is seen
+   subroutine find_visible(curve)
+      type(profile_curve), intent(inout) :: curve
+      real(wp), allocatable :: turns(:), ends(:), low(:), high(:)
+      real(wp) :: middle, best, here
+      integer :: i, j, n, chosen, previous
+
+      call find_turns(curve%y, turns)
+      n = size(turns) - 1
+      allocate(low(n), high(n))
+      low = min(curve%y%value(turns(:n)), curve%y%value(turns(2:)))
+      high = max(curve%y%value(turns(:n)), curve%y%value(turns(2:)))
+      ends = sorted([low, high])
+      allocate(curve%parts(0))
+      previous = 0
+      do i = 1, size(ends) - 1
+         if (ends(i + 1) - ends(i) <= vertical) cycle
+         middle = 0.5_wp*(ends(i) + ends(i + 1))
+         chosen = 0
+         best = 0.0_wp
+         do j = 1, n
+            if (low(j) > middle .or. high(j) < middle) cycle
+            here = curve%z%value(place_in_stretch(curve%y, turns(j), turns(j + 1), middle))
+            if (curve%side == profile_side%wheel) here = -here
+            if (chosen /= 0 .and. here >= best) cycle
+            chosen = j
+            best = here
+         end do
+         if (chosen == 0) then
+            previous = 0
+            cycle
+         end if
+         if (chosen == previous) then
+            curve%parts(size(curve%parts))%high = ends(i + 1)
+         else
+            curve%parts = [curve%parts, visible_part(ends(i), ends(i + 1), turns(chosen), turns(chosen + 1))]
+            call close_gap(curve%parts)
+         end if
+         previous = chosen
+      end do
+   end subroutine find_visible
+
+   !> Close a gap in y before the last part that is no wider than vertical stretches are
+   pure subroutine close_gap(parts)
+      type(visible_part), intent(inout) :: parts(:)
+      integer :: n
+
+      n = size(parts)
+      if (n < 2) return
+      if (parts(n)%low - parts(n - 1)%high <= 100.0_wp*vertical) parts(n)%low = parts(n - 1)%high
+   end subroutine close_gap
+
+   !> Ends of the stretches of s in which y rises or falls throughout
+   subroutine find_turns(y, turns)
+      type(cubic_spline), intent(in) :: y
+      real(wp), allocatable, intent(out) :: turns(:)
+      real(wp) :: roots(2), h, before, behind
+      integer :: i, k, n, pieces, count
+      real(wp), allocatable :: found(:)
+
+      pieces = size(y%s) - 1
+      allocate(found(3*pieces + 1))
+      found(1) = y%s(1)
+      count = 1
+      do i = 1, pieces
+         h = y%s(i + 1) - y%s(i)
+         call quadratic_roots(3.0_wp*y%c(3, i), 2.0_wp*y%c(2, i), y%c(1, i), 0.0_wp, h, roots, n)
+         do k = 1, n
+            count = count + 1
+            found(count) = y%s(i) + roots(k)
+         end do
+         if (i == pieces) exit
+         ! At an end of pieces y turns round in a corner, or where the slope is exactly zero
+         before = y%c(1, i) + h*(2.0_wp*y%c(2, i) + 3.0_wp*h*y%c(3, i))
+         behind = y%c(1, i + 1)
+         if (before*behind > 0.0_wp) cycle
+         count = count + 1
+         found(count) = y%s(i + 1)
+      end do
+      turns = [found(:count), y%s(pieces + 1)]
+   end subroutine find_turns
+
+   !> Place with a given y in a stretch where y is monotone; the nearer end when there is none
+   pure real(wp) function place_in_stretch(y, s_low, s_high, target) result(s)
+      type(cubic_spline), intent(in) :: y
+      real(wp), intent(in) :: s_low, s_high, target
+      integer :: first, last, middle
+      logical :: rises
+
+      rises = y%value(s_high) > y%value(s_low)
+      first = piece_of(y%s, s_low)
+      last = piece_of(y%s, s_high)
+      do while (last > first)
+         middle = (first + last + 1)/2
+         if (y%c(0, middle) < target .eqv. rises) then
+            first = middle
+         else
+            last = middle - 1
+         end if
+      end do
+      associate (start => y%s(first))
+         s = start + monotone_cubic_root(y%c(:, first), max(s_low, start) - start, min(s_high, y%s(first + 1)) - start, target)
+      end associate
+   end function place_in_stretch
+
+   pure function s_range(self) result(range)
+      class(profile_curve), intent(in) :: self
+      real(wp) :: range(2)
+
+      range = [self%y%s(1), self%y%s(size(self%y%s))]
+   end function s_range
+
+   pure function y_range(self) result(range)
+      class(profile_curve), intent(in) :: self
+      real(wp) :: range(2)
+
+      range = [self%parts(1)%low, self%parts(size(self%parts))%high]
+   end function y_range
+
+   !> Number of the visible part with a given y; 0 when there is none
+   pure integer function part_of(self, y) result(part)
+      type(profile_curve), intent(in) :: self
+      real(wp), intent(in) :: y
+      integer :: low, high, middle
+
+      low = 1
+      high = size(self%parts)
+      part = 0
+      do while (low <= high)
+         middle = (low + high)/2
+         if (y < self%parts(middle)%low) then
+            high = middle - 1
+         else if (y > self%parts(middle)%high) then
+            low = middle + 1
+         else
+            part = middle
+            return
+         end if
+      end do
+   end function part_of
+
+   !> Beyond the visible range of y that of its nearer end; in a gap between visible parts that of the part below
+   elemental real(wp) function place_at(self, y) result(s)
+      class(profile_curve), intent(in) :: self
+      real(wp), intent(in) :: y
+      integer :: part, k
+
+      part = part_of(self, y)
+      if (part == 0) then
+         part = 1
+         do k = 2, size(self%parts)
+            if (self%parts(k)%low > y) exit
+            part = k
+         end do
+      end if
+      associate (p => self%parts(part))
+         s = place_in_stretch(self%y, p%s_low, p%s_high, min(max(y, p%low), p%high))
+      end associate
+   end function place_at
+
+   elemental logical function has_point(self, y) result(has)
+      class(profile_curve), intent(in) :: self
+      real(wp), intent(in) :: y
+
+      has = part_of(self, y) > 0
+   end function has_point
+
+   elemental real(wp) function height(self, y)
+      class(profile_curve), intent(in) :: self
+      real(wp), intent(in) :: y
+
+      height = self%z%value(self%s_at(y))
+   end function height
+
+   elemental real(wp) function inclination(self, s)
+      class(profile_curve), intent(in) :: self
+      real(wp), intent(in) :: s
+
+      if (self%side == profile_side%rail) then
+         inclination = atan2(self%z%slope(s), self%y%slope(s))
+      else
+         inclination = atan2(-self%z%slope(s), -self%y%slope(s))
+      end if
+   end function inclination
+
+   pure function normal(self, s) result(n)
+      class(profile_curve), intent(in) :: self
+      real(wp), intent(in) :: s
+      !> Components along y and z
+      real(wp) :: n(2)
+
+      n = [self%z%slope(s), -self%y%slope(s)]
+      n = n/norm2(n)
+   end function normal
+
+   pure real(wp) function hidden_part(self) result(hidden)
+      class(profile_curve), intent(in) :: self
+      real(wp) :: range(2), seen
+      integer :: k
+
+      seen = 0.0_wp
+      do k = 1, size(self%parts)
+         associate (p => self%parts(k))
+            seen = seen + abs(place_in_stretch(self%y, p%s_low, p%s_high, p%high) - &
+               & place_in_stretch(self%y, p%s_low, p%s_high, p%low))
+         end associate
+      end do
+      range = self%s_range()
+      hidden = max(0.0_wp, 1.0_wp - seen/(range(2) - range(1)))
+   end function hidden_part
+
+   !> The curve in axes with another origin that are rolled by an angle; lateral coordinate along the rolled
+   !> y axis, height along the rolled z axis. The pieces are transformed, not fitted again.
+   function seen_from(self, origin, angle, range) result(curve)
+      class(profile_curve), intent(in) :: self
+      !> Origin (y, z) [mm] and roll angle [rad] of the new axes in those of the curve
+      real(wp), intent(in) :: origin(2), angle
+      !> Only the pieces that this range of s touches
+      real(wp), intent(in), optional :: range(2)
+      type(profile_curve) :: curve
+      type(cubic_spline) :: y, z
+      integer :: first, last
+
+      first = 1
+      last = size(self%y%s) - 1
+      if (present(range)) then
+         first = piece_of(self%y%s, range(1))
+         last = piece_of(self%y%s, range(2))
+      end if
+      y%s = self%y%s(first:last + 1)
+      z%s = y%s
+      allocate(y%c(0:3, last - first + 1), z%c(0:3, last - first + 1))
+      y%c(:, :) = cos(angle)*self%y%c(:, first:last) + sin(angle)*self%z%c(:, first:last)
+      z%c(:, :) = cos(angle)*self%z%c(:, first:last) - sin(angle)*self%y%c(:, first:last)
+      y%c(0, :) = y%c(0, :) - (cos(angle)*origin(1) + sin(angle)*origin(2))
+      z%c(0, :) = z%c(0, :) - (cos(angle)*origin(2) - sin(angle)*origin(1))
+      curve = new_curve(self%side, y, z)
+   end function seen_from
+
+   !> Place s and height z of the point with the smallest z
+   pure subroutine top(self, s, z)
+      class(profile_curve), intent(in) :: self
+      real(wp), intent(out) :: s, z
+      real(wp) :: roots(2), places(3)
+      integer :: i, k, n
+
+      s = self%z%s(size(self%z%s))
+      z = self%z%value(s)
+      do i = 1, size(self%z%s) - 1
+         call quadratic_roots(3.0_wp*self%z%c(3, i), 2.0_wp*self%z%c(2, i), self%z%c(1, i), 0.0_wp, &
+            & self%z%s(i + 1) - self%z%s(i), roots, n)
+         places = self%z%s(i) + [0.0_wp, roots]
+         do k = 1, n + 1
+            if (self%z%value(places(k)) >= z) cycle
+            s = places(k)
+            z = self%z%value(s)
+         end do
+      end do
+   end subroutine top
+
+   !> Numbers in rising order (heap sort)
+   pure function sorted(values) result(order)
+      real(wp), intent(in) :: values(:)
+      real(wp) :: order(size(values))
+      integer :: n, i
+
+      order = values
+      n = size(order)
+      do i = n/2, 1, -1
+         call sift(order, i, n)
+      end do
+      do i = n, 2, -1
+         order([1, i]) = order([i, 1])
+         call sift(order, 1, i - 1)
+      end do
+   end function sorted
+
+   pure subroutine sift(heap, top, n)
+      real(wp), intent(inout) :: heap(:)
+      integer, intent(in) :: top, n
+      integer :: parent, child
+
+      parent = top
+      do while (2*parent <= n)
+         child = 2*parent
+         if (child < n) then
+            if (heap(child + 1) > heap(child)) child = child + 1
+         end if
+         if (heap(parent) >= heap(child)) exit
+         heap([parent, child]) = heap([child, parent])
+         parent = child
+      end do
+   end subroutine sift
+end module contact_profile_curve

@@ -1,0 +1,160 @@
+!> Lines of profile files: comments, `key = value`, and rows of numbers
+module contact_profile_line
+   use contact_base_error, only : error_type, fatal_error
+   use contact_base_kinds, only : wp
+   use contact_text_lexer, only : printable
+   use contact_text_words, only : to_real, word_state
+   implicit none (type, external)
+   private
+
+   public :: without_comment, split_assignment, is_numeric, read_row, file_place, most_columns, point_list
+
+   !> Numbers of a row that are looked at
+   integer, parameter :: most_columns = 12
+   character(len=*), parameter :: blanks = " ,"
+
+   !> Where a row stands
+   type :: file_place
+      character(len=:), allocatable :: file
+      integer :: line = 0
+   end type file_place
+
+   !> Points that are being collected
+   type :: point_list
+      integer :: n = 0
+      real(wp), allocatable :: y(:), z(:)
+   contains
+      procedure :: add => add_point
+   end type point_list
+
+contains
+
+   !> A line up to the first comment mark outside of single quotes
+   pure function without_comment(line, marks) result(text)
+      character(len=*), intent(in) :: line
+      !> Characters that begin a comment
+      character(len=*), intent(in) :: marks
+      character(len=:), allocatable :: text
+      logical :: quoted
+      integer :: i
+
+      quoted = .false.
+      do i = 1, len(line)
+         if (line(i:i) == "'") quoted = .not. quoted
+         if (.not. quoted .and. scan(line(i:i), marks) == 1) exit
+      end do
+      text = line(:i - 1)
+   end function without_comment
+
+   !> Parts before and behind the first equals sign, without blanks around; is there one?
+   pure subroutine split_assignment(line, key, value, found)
+      character(len=*), intent(in) :: line
+      character(len=:), allocatable, intent(out) :: key, value
+      logical, intent(out) :: found
+      integer :: i
+
+      i = index(line, "=")
+      found = i > 0
+      key = trim(adjustl(line(:max(0, i - 1))))
+      value = trim(adjustl(line(i + 1:)))
+   end subroutine split_assignment
+
+   !> Does a line consist of numbers only?
+   pure logical function is_numeric(line) result(numeric)
+      character(len=*), intent(in) :: line
+      real(wp) :: value
+      integer :: first, last, state
+
+      numeric = .false.
+      last = 0
+      do
+         call next_word(line, last + 1, first, last)
+         if (first == 0) return
+         call to_real(line(first:last), value, state)
+         numeric = state /= word_state%malformed
+         if (.not. numeric) return
+      end do
+   end function is_numeric
+
+   !> All numbers of a line; a word that is none is an error
+   subroutine read_row(line, place, expected, row, n, error)
+      character(len=*), intent(in) :: line
+      type(file_place), intent(in) :: place
+      !> What should stand here, for messages
+      character(len=*), intent(in) :: expected
+      !> The first numbers
+      real(wp), intent(out) :: row(most_columns)
+      !> How many there are, also beyond the last that is kept
+      integer, intent(out) :: n
+      type(error_type), allocatable, intent(out) :: error
+      real(wp) :: value
+      integer :: first, last, state
+
+      row = 0.0_wp
+      n = 0
+      last = 0
+      do
+         call next_word(line, last + 1, first, last)
+         if (first == 0) exit
+         call to_real(line(first:last), value, state)
+         if (state /= word_state%good) then
+            call fatal_error(error, '"' // printable(line(first:last)) // '" ' // complaint(state) // "; expected " // &
+               & expected // '; the line reads "' // printable(line) // '"', file=place%file, line=place%line, column=first)
+            return
+         end if
+         n = n + 1
+         if (n <= most_columns) row(n) = value
+      end do
+   end subroutine read_row
+
+   pure function complaint(state) result(text)
+      !> Member of word_state
+      integer, intent(in) :: state
+      character(len=:), allocatable :: text
+
+      select case (state)
+      case (word_state%too_large)
+         text = "is too large for a number"
+      case (word_state%not_finite)
+         text = "is not a finite number"
+      case default
+         text = "is not a number"
+      end select
+   end function complaint
+
+   !> The next word from a position on; first = 0 when there is none
+   pure subroutine next_word(line, from, first, last)
+      character(len=*), intent(in) :: line
+      integer, intent(in) :: from
+      integer, intent(out) :: first, last
+      integer :: length
+
+      first = 0
+      last = len(line)
+      if (from > len(line)) return
+      first = verify(line(from:), blanks)
+      if (first == 0) return
+      first = first + from - 1
+      length = scan(line(first:), blanks) - 1
+      if (length >= 0) last = first + length - 1
+   end subroutine next_word
+
+   pure subroutine add_point(self, y, z)
+      class(point_list), intent(inout) :: self
+      real(wp), intent(in) :: y, z
+      real(wp), allocatable :: longer(:)
+
+      if (.not. allocated(self%y)) allocate(self%y(256), self%z(256))
+      if (self%n == size(self%y)) then
+         allocate(longer(2*self%n))
+         longer(:self%n) = self%y
+         call move_alloc(longer, self%y)
+         allocate(longer(2*self%n))
+         longer(:self%n) = self%z
+         call move_alloc(longer, self%z)
+      end if
+      self%n = self%n + 1
+      self%y(self%n) = y
+      self%z(self%n) = z
+   end subroutine add_point
+end module contact_profile_line

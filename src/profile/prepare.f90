@@ -1,0 +1,272 @@
+!> From a file to a prepared profile
+module contact_profile_prepare
+   use contact_base_constants, only : pi
+   use contact_base_error, only : error_type, fatal_error
+   use contact_base_kinds, only : wp
+   use contact_base_log, only : log_type
+   use contact_numeric_b_spline, only : not_a_knot_splines, smooth_b_splines
+   use contact_numeric_spline, only : cubic_spline, smoothing_splines
+   use contact_profile_curve, only : new_curve, profile_curve
+   use contact_profile_miniprof, only : read_miniprof
+   use contact_profile_points, only : chord_lengths, drop_close_points, find_kinks, find_loop, keep_points, &
+      & needs_mirror_z, needs_reversal, remove_zig_zags, runs_backwards
+   use contact_profile_request, only : profile_file, profile_request, profile_side, smoothing_method
+   use contact_profile_simpack, only : read_simpack
+   use contact_text_lexer, only : input_lexer
+   use contact_text_words, only : integer_text, real_text
+   implicit none (type, external)
+   private
+
+   public :: read_profile, prepare_points, extension_of, length_origin
+
+   !> Lengths [mm] that a profile in millimetres can have
+   real(wp), parameter :: shortest = 5.0_wp, longest = 500.0_wp
+   !> Corners of a profile
+   integer, parameter :: most_kinks = 99
+
+contains
+
+   !> Read, clean and smooth the profile of a file
+   subroutine read_profile(request, curve, log, error)
+      type(profile_request), intent(in) :: request
+      type(profile_curve), intent(out) :: curve
+      type(log_type), intent(inout) :: log
+      type(error_type), allocatable, intent(out) :: error
+      type(input_lexer) :: text
+      type(profile_file) :: file
+      real(wp), allocatable :: y(:), z(:)
+
+      call refuse_extension(request, error)
+      if (.not. allocated(error)) call text%open_file(request%file, error)
+      if (allocated(error)) return
+      select case (extension_of(request%file))
+      case ("prr", "prw")
+         call read_simpack(text, request%side, file, log, error)
+      case default
+         call read_miniprof(text, file, log, error)
+      end select
+      if (.not. allocated(error)) call normalise(file, request, y, z, log, error)
+      if (.not. allocated(error)) call prepare_points(request, y, z, curve, error)
+   end subroutine read_profile
+
+   !> Small letters behind the last dot of the file name, at most four, of known kinds three
+   pure function extension_of(file) result(extension)
+      character(len=*), intent(in) :: file
+      character(len=:), allocatable :: extension
+      integer :: i
+
+      i = index(file, ".", back=.true.)
+      extension = ""
+      if (i == 0 .or. scan(file(i + 1:), "/\") > 0) return
+      extension = file(i + 1:min(len(file), i + 4))
+      do i = 1, len(extension)
+         if (extension(i:i) >= "A" .and. extension(i:i) <= "Z") extension(i:i) = achar(iachar(extension(i:i)) + 32)
+      end do
+      if (len(extension) == 4 .and. any(extension(:min(3, len(extension))) == ["prr", "prw", "ban", "whl"])) then
+         extension = extension(:3)
+      end if
+   end function extension_of
+
+   !> A file whose extension names the other body is a mistake of the user
+   subroutine refuse_extension(request, error)
+      type(profile_request), intent(in) :: request
+      type(error_type), allocatable, intent(out) :: error
+
+      select case (extension_of(request%file))
+      case ("prr", "ban")
+         if (request%side == profile_side%wheel) call fatal_error(error, "this is the file of a rail, but a wheel is &
+            &wanted; accepted are .prw, .whl, .slcw, and tables with any other extension", file=request%file)
+      case ("prw", "whl")
+         if (request%side == profile_side%rail) call fatal_error(error, "this is the file of a wheel, but a rail is &
+            &wanted; accepted are .prr, .ban, .slcs, and tables with any other extension", file=request%file)
+      end select
+   end subroutine refuse_extension
+
+   !> Points in millimetres and canonical order
+   subroutine normalise(file, request, y, z, log, error)
+      type(profile_file), intent(in) :: file
+      type(profile_request), intent(in) :: request
+      real(wp), allocatable, intent(out) :: y(:), z(:)
+      type(log_type), intent(inout) :: log
+      type(error_type), allocatable, intent(out) :: error
+      integer :: zig_zags, first, second
+      logical :: reverse
+      real(wp) :: length
+      character(len=:), allocatable :: expected
+
+      y = file%y
+      z = file%z
+      call drop_close_points(y, z, file%nearest)
+      call remove_zig_zags(y, z, request%zig_zag, zig_zags)
+      if (zig_zags > 0) then
+         call log%warning(request%file // ": " // integer_text(zig_zags) // " zig-zag(s) removed.")
+         call drop_close_points(y, z, file%nearest)
+      end if
+      y = y + file%shift_y
+      z = z + file%shift_z
+      if (file%lower_y < file%upper_y) call keep_points(y, z, y >= file%lower_y .and. y <= file%upper_y)
+      if (file%lower_z < file%upper_z) then
+         z = min(max(z, file%lower_z), file%upper_z)
+         call drop_close_points(y, z, file%nearest)
+      end if
+      if (size(y) < 2) then
+         call fatal_error(error, "there are " // integer_text(size(y)) // " different points; a profile needs at least two", &
+            & file=request%file)
+         return
+      end if
+      if (mirrors_y(file, request)) y = -y
+      if (mirrors_z(file, request, z)) z = -z
+      y = y*request%scale/file%units_per_mm
+      z = z*request%scale/file%units_per_mm
+      length = sum(hypot(y(2:) - y(:size(y) - 1), z(2:) - z(:size(y) - 1)))
+      if (length < shortest .or. length > longest) then
+         call fatal_error(error, "the profile is " // real_text(length) // " mm long; accepted are " // real_text(shortest) // &
+            & " to " // real_text(longest) // " mm (is the scale factor right?)", file=request%file)
+         return
+      end if
+
+      reverse = file%inversion == 1
+      if (file%inversion < 0) reverse = needs_reversal(request%side, y, z)
+      if (reverse) then
+         y = y(size(y):1:-1)
+         z = z(size(z):1:-1)
+      end if
+      if (runs_backwards(request%side, y) .or. needs_reversal(request%side, y, z)) then
+         expected = "that of a wheel must fall with the flange down"
+         if (request%side == profile_side%rail) expected = "that of a rail must rise with the surface on top"
+         call fatal_error(error, "the lateral coordinate runs from " // real_text(y(1)) // " to " // real_text(y(size(y))) // &
+            & " mm; " // expected // " (mirror y or z, or change the inversion in the file)", file=request%file)
+         return
+      end if
+      call find_loop(y, z, first, second)
+      if (first > 0) then
+         call fatal_error(error, "the profile crosses itself: segment " // integer_text(first) // " at y = " // &
+            & real_text(y(first)) // " mm and segment " // integer_text(second) // " at y = " // real_text(y(second)) // &
+            & " mm; a curve without loops is needed", file=request%file)
+      end if
+   end subroutine normalise
+
+   !> Two requests cancel each other, and "no" of the user cancels that of the file
+   pure logical function mirrors_y(file, request) result(mirror)
+      type(profile_file), intent(in) :: file
+      type(profile_request), intent(in) :: request
+
+      mirror = request%mirror_y + merge(1, 0, file%mirror_y) == 1
+   end function mirrors_y
+
+   !> As for y; where the file cannot tell, the shape decides unless the user does
+   pure logical function mirrors_z(file, request, z) result(mirror)
+      type(profile_file), intent(in) :: file
+      type(profile_request), intent(in) :: request
+      real(wp), intent(in) :: z(:)
+
+      mirror = request%mirror_z + merge(1, 0, file%mirror_z) == 1
+      if (file%guess_z .and. request%mirror_z == 0) mirror = needs_mirror_z(request%side, z)
+   end function mirrors_z
+
+   !> Smooth points in canonical order and find out what is seen of the curve
+   subroutine prepare_points(request, y, z, curve, error)
+      type(profile_request), intent(in) :: request
+      !> Coordinates [mm]
+      real(wp), intent(in) :: y(:), z(:)
+      type(profile_curve), intent(out) :: curve
+      type(error_type), allocatable, intent(out) :: error
+      type(cubic_spline), allocatable :: splines(:)
+      real(wp), allocatable :: s(:)
+      logical, allocatable :: is_kink(:)
+      logical :: solved
+      character(len=:), allocatable :: file
+
+      file = "profile"
+      if (allocated(request%file)) file = request%file
+      s = chord_lengths(y, z)
+      s = s - length_origin(s, y, z)
+      is_kink = find_kinks(y, z, request%kink_high, request%kink_low, request%kink_width)
+      if (count(is_kink) > most_kinks) then
+         call fatal_error(error, "there are " // integer_text(count(is_kink)) // " kinks; accepted are at most " // &
+            & integer_text(most_kinks) // " (raise KINKHIGH)", file=file)
+         return
+      end if
+      call smooth_points(request, s, y, z, is_kink, splines, solved)
+      if (.not. solved) then
+         call fatal_error(error, "smoothing with " // real_text(request%smooth) // " fails on points that are " // &
+            & real_text(minval(s(2:) - s(:size(s) - 1))) // " mm apart; smooth less or drop close points", file=file)
+         return
+      end if
+      curve = new_curve(request%side, splines(1), splines(2))
+      if (curve%hidden_part() > min(request%most_hidden, 0.999_wp)) then
+         call fatal_error(error, real_text(100.0_wp*curve%hidden_part()) // " % of the profile are hidden behind the rest; &
+            &accepted are at most " // real_text(100.0_wp*request%most_hidden) // " % (is it upside down?)", file=file)
+      end if
+   end subroutine prepare_points
+
+   !> The chosen smoothing of both coordinates
+   subroutine smooth_points(request, s, y, z, is_kink, splines, solved)
+      type(profile_request), intent(in) :: request
+      real(wp), intent(in) :: s(:), y(:), z(:)
+      logical, intent(in) :: is_kink(:)
+      type(cubic_spline), allocatable, intent(out) :: splines(:)
+      logical, intent(out) :: solved
+      !> Weights of kinks, and of ends for the weighted methods
+      real(wp), parameter :: kink_weight = 100.0_wp, end_weight = 20.0_wp
+      !> Less smoothing than this is none [mm4], [mm6]
+      real(wp), parameter :: least_fourth = 1.0e-10_wp, least_sixth = 1.0e-6_wp
+      !> Of the largest to the smallest eigenvalue of smoothing by B-splines
+      real(wp), parameter :: conditioning = 20.0e-6_wp
+      real(wp) :: weights(size(s)), points(size(s), 2), lambda, spacing
+      integer :: n
+      integer, parameter :: most_intervals = 4998
+
+      n = size(s)
+      points(:, 1) = y
+      points(:, 2) = z
+      if (request%method == smoothing_method%ordinary) then
+         weights = 1.0_wp
+         lambda = request%smooth
+      else
+         weights(1) = end_weight*(s(2) - s(1))
+         weights(2:n - 1) = 0.5_wp*(s(3:) - s(:n - 2))
+         weights(n) = end_weight*(s(n) - s(n - 1))
+         lambda = (request%smooth/(2.0_wp*pi))**4
+      end if
+      where (is_kink) weights = kink_weight*weights
+      if (request%method == smoothing_method%b_spline) then
+         if (request%smooth <= 0.0_wp) then
+            call not_a_knot_splines(s, points, splines, solved, is_kink)
+            return
+         end if
+         lambda = max(least_sixth, (request%smooth/(2.0_wp*pi))**6)
+         spacing = max(0.001_wp, 0.25_wp*request%smooth, (conditioning*lambda)**(1.0_wp/6.0_wp), &
+            & (s(n) - s(1))/most_intervals)
+         call smooth_b_splines(s, points, weights, lambda, spacing, splines, solved, is_kink)
+      else
+         if (lambda <= least_fourth) lambda = 0.0_wp
+         call smoothing_splines(s, points, weights, lambda, splines, solved, is_kink)
+      end if
+   end subroutine smooth_points
+
+   !> Where s is to be zero: at y = 0 when y is monotone, otherwise at the point nearest to the origin
+   pure real(wp) function length_origin(s, y, z) result(origin)
+      real(wp), intent(in) :: s(:), y(:), z(:)
+      integer :: n, i
+      logical :: rises
+
+      n = size(s)
+      rises = y(n) > y(1)
+      if (all((y(2:) > y(:n - 1)) .eqv. rises) .and. all(y(2:) /= y(:n - 1))) then
+         if (rises .eqv. y(1) >= 0.0_wp) then
+            origin = s(1)
+            return
+         else if (rises .eqv. y(n) <= 0.0_wp) then
+            origin = s(n)
+            return
+         end if
+         do i = 1, n - 2
+            if ((y(i + 1) >= 0.0_wp) .eqv. rises) exit
+         end do
+         origin = s(i) - y(i)*(s(i + 1) - s(i))/(y(i + 1) - y(i))
+      else
+         origin = s(minloc(y**2 + z**2, 1))
+      end if
+   end function length_origin
+end module contact_profile_prepare
