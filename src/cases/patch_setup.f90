@@ -31,9 +31,9 @@ contains
 
       call check_numbers(spec, error)
       if (allocated(error)) return
-      problem%material = combine(spec%material%poiss, spec%material%gg)
-      call solve_hertz(spec%grid, spec%normal, spec%kinematics%fn, spec%kinematics%pen, problem%material%gg, &
-         & problem%material%nu, result%hertz, error)
+      problem%model%material = combine(spec%material%poiss, spec%material%gg)
+      call solve_hertz(spec%grid, spec%normal, spec%kinematics%fn, spec%kinematics%pen, problem%model%material%gg, &
+         & problem%model%material%nu, result%hertz, error)
       if (allocated(error)) return
       problem%fn = spec%kinematics%fn
       problem%pen = spec%kinematics%pen

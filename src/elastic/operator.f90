@@ -7,29 +7,17 @@
 module contact_elastic_operator
    use contact_base_constants, only : pi
    use contact_base_kinds, only : wp
-   use contact_elastic_halfspace, only : fill_table, kernel_table
-   use contact_elastic_material, only : combined_material
+   use contact_elastic_compliance, only : compliance
+   use contact_elastic_halfspace, only : fill_table
+   use contact_elastic_model, only : elastic_model
    use contact_fft_plan, only : fft_plan, good_size
    implicit none (type, external)
    private
 
    public :: elastic_operator
 
-   !> Compliance on a window of mx by my elements; holds plans, spectra and scratch
-   type :: elastic_operator
-      !> Size of the window
-      integer :: mx = 0, my = 0
-      !> Sides of the elements [mm]
-      real(wp) :: dx = 0.0_wp, dy = 0.0_wp
-      type(combined_material) :: material
-      !> Products with the full operator since it was made
-      integer :: products = 0
-      !> Real transforms of the padded window, forward and backward, since it was made
-      integer :: transforms = 0
-      !> Diagonal coefficients at zero offset: nn, xx, yy [mm/(N/mm2)]
-      real(wp) :: diagonal(3) = 0.0_wp
-      !> Coefficients in space; offsets up to half the padded window
-      type(kernel_table) :: table
+   !> Holds plans, spectra and scratch; its table reaches to offsets of half the padded window
+   type, extends(compliance) :: elastic_operator
       type(fft_plan) :: plan
       !> Spectra over padded size, real parts; xn, yn: imaginary parts [mm/(N/mm2)]
       real(wp), allocatable, private :: nn(:, :), xx(:, :), yy(:, :), xy(:, :), xn(:, :), yn(:, :)
@@ -43,58 +31,46 @@ module contact_elastic_operator
       integer, private :: direction = 0
       logical, private :: has_normal = .false., has_tangential = .false., has_coupling = .false.
    contains
-      !> Set window, material and rolling direction; everything is kept when nothing changed
       procedure :: prepare
-      !> u_n = A_nn p_n
       procedure :: normal
-      !> u_t = A_tt p_t
       procedure :: tangential
-      !> u_t - u_t' = (A - A') p_t in steady rolling
       procedure :: steady
-      !> z = approximate inverse of A_nn applied to r
       procedure :: normal_inverse
-      !> z = approximate inverse of A_tt applied to r
       procedure :: tangential_inverse
-      !> z = approximate inverse of A - A' applied to r
       procedure :: steady_inverse
-      !> u_n by tangential tractions
       procedure :: normal_by_tangential
-      !> u_t by pressures; difference between two moments in steady rolling
       procedure :: tangential_by_normal
       procedure :: steady_by_normal
-      !> Free the plans
       procedure :: release
-      !> Pairs of forward and backward transforms so far
-      procedure :: fft_pairs
       procedure, private :: make_spectra
       procedure, private :: pair_product
    end type elastic_operator
 
 contains
 
-   subroutine prepare(self, material, dx, dy, mx, my, direction)
+   subroutine prepare(self, model, dx, dy, mx, my, direction, y_first)
       class(elastic_operator), intent(inout) :: self
-      type(combined_material), intent(in) :: material
+      type(elastic_model), intent(in) :: model
       !> Sides of the elements [mm]
       real(wp), intent(in) :: dx, dy
       !> Size of the window
       integer, intent(in) :: mx, my
       !> Rolling in direction of increasing (+1) or decreasing (-1) x
       integer, intent(in) :: direction
+      !> Lateral position of the centres of the first row [mm]; default 0
+      real(wp), intent(in), optional :: y_first
       integer :: px, py, k
       complex(wp) :: turn
       logical :: same
       !> Decay of the preconditioner per element is this over sqrt(mx), chosen by measurement
       real(wp), parameter :: decay = 0.5_wp
 
-      same = self%mx == mx .and. self%my == my .and. self%dx == dx .and. self%dy == dy &
-         & .and. self%material%gg == material%gg .and. self%material%nu == material%nu &
-         & .and. self%material%ak == material%ak
+      same = self%mx == mx .and. self%my == my .and. self%dx == dx .and. self%dy == dy .and. self%model%same_as(model)
       if (.not. same) then
          ! one element more than a plain product needs: the shifted kernel of steady rolling
          px = good_size(2*mx + 1)
          py = merge(1, good_size(2*my), my == 1)
-         call fill_table(self%table, material, dx, dy, px/2, py/2)
+         call fill_table(self%table, model%material, dx, dy, px/2, py/2)
          self%diagonal = [self%table%nn(0, 0), self%table%xx(0, 0), self%table%yy(0, 0)]
          call self%plan%prepare(mx, my, px, py)
          self%has_normal = .false.
@@ -110,7 +86,9 @@ contains
       self%my = my
       self%dx = dx
       self%dy = dy
-      self%material = material
+      self%y_first = 0.0_wp
+      if (present(y_first)) self%y_first = y_first
+      if (.not. same) self%model = model
       if (self%direction /= direction) then
          self%direction = direction
          if (allocated(self%difference)) deallocate(self%difference, self%sum_up)
@@ -419,11 +397,6 @@ contains
       call self%plan%release()
       self%mx = 0
    end subroutine release
-
-   pure real(wp) function fft_pairs(self) result(pairs)
-      class(elastic_operator), intent(in) :: self
-      pairs = 0.5_wp*self%transforms
-   end function fft_pairs
 
    subroutine scale_spectrum(factor, spectrum)
       real(wp), contiguous, intent(in) :: factor(:, :)

@@ -5,7 +5,7 @@
 module contact_elastic_previous
    use contact_base_kinds, only : wp
    use contact_elastic_halfspace, only : fill_shifted_table, kernel_table
-   use contact_elastic_material, only : combined_material
+   use contact_elastic_model, only : elastic_model
    use contact_fft_plan, only : fft_plan, good_size
    implicit none (type, external)
    private
@@ -16,13 +16,13 @@ module contact_elastic_previous
    type :: previous_operator
       integer :: mx = 0, my = 0
       real(wp) :: dx = 0.0_wp, dy = 0.0_wp, shift_x = 0.0_wp, shift_y = 0.0_wp
-      type(combined_material) :: material
+      type(elastic_model) :: model
       integer :: transforms = 0
       type(fft_plan), private :: plan
       complex(wp), allocatable, private :: xx(:, :), yy(:, :), xy(:, :), xn(:, :), yn(:, :)
       complex(wp), allocatable, private :: sx(:, :), sy(:, :), sn(:, :), s(:, :)
    contains
-      !> Set window, material and shift
+      !> Set window, model and shift
       procedure :: prepare
       !> Free the plans
       procedure :: release
@@ -38,9 +38,9 @@ contains
       self%mx = 0
    end subroutine release
 
-   subroutine prepare(self, material, dx, dy, mx, my, shift_x, shift_y)
+   subroutine prepare(self, model, dx, dy, mx, my, shift_x, shift_y)
       class(previous_operator), intent(inout) :: self
-      type(combined_material), intent(in) :: material
+      type(elastic_model), intent(in) :: model
       !> Sides of the elements [mm]
       real(wp), intent(in) :: dx, dy
       !> Size of the window
@@ -50,14 +50,13 @@ contains
       type(kernel_table) :: table
 
       if (self%mx == mx .and. self%my == my .and. self%dx == dx .and. self%dy == dy .and. self%shift_x == shift_x &
-         & .and. self%shift_y == shift_y .and. self%material%gg == material%gg .and. self%material%nu == material%nu &
-         & .and. self%material%ak == material%ak) return
+         & .and. self%shift_y == shift_y .and. self%model%same_as(model)) return
       call self%plan%prepare(mx, my, good_size(2*mx), merge(1, good_size(2*my), my == 1))
-      call fill_shifted_table(table, material, dx, dy, self%plan%px/2, self%plan%py/2, shift_x, shift_y)
+      call fill_shifted_table(table, model%material, dx, dy, self%plan%px/2, self%plan%py/2, shift_x, shift_y)
       call spectrum_of(self%plan, table, table%xx, self%xx)
       call spectrum_of(self%plan, table, table%yy, self%yy)
       call spectrum_of(self%plan, table, table%xy, self%xy)
-      if (material%coupled()) then
+      if (model%coupled()) then
          call spectrum_of(self%plan, table, table%xn, self%xn)
          call spectrum_of(self%plan, table, table%yn, self%yn)
       end if
@@ -69,7 +68,7 @@ contains
       self%dy = dy
       self%shift_x = shift_x
       self%shift_y = shift_y
-      self%material = material
+      self%model = model
    end subroutine prepare
 
    !> Spectrum of one shifted kernel, scaled for the back transform
@@ -109,7 +108,7 @@ contains
       self%s = self%xx*self%sx + self%xy*self%sy
       self%sy = self%xy*self%sx + self%yy*self%sy
       self%transforms = self%transforms + 4
-      if (self%material%coupled()) then
+      if (self%model%coupled()) then
          call self%plan%forward(pn, self%sn, 1)
          self%s = self%s + self%xn*self%sn
          self%sy = self%sy + self%yn*self%sn

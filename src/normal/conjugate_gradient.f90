@@ -11,7 +11,8 @@ module contact_normal_conjugate_gradient
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
    use contact_base_solve_report, only : ending, solve_report
-   use contact_elastic_operator, only : elastic_operator
+   use contact_elastic_compliance, only : compliance
+   use contact_elastic_new_compliance, only : new_compliance
    use contact_grid_coarsening, only : coarse_neighbours, coarse_size, coarsening_factor, shortest_side
    implicit none (type, external)
    private
@@ -38,7 +39,7 @@ module contact_normal_conjugate_gradient
    !> Scratch of one level of nested iteration
    type :: level_type
       type(normal_problem) :: problem
-      type(elastic_operator) :: operator
+      class(compliance), allocatable :: operator
       real(wp), allocatable :: p(:, :)
       real(wp), allocatable :: u(:, :), r(:, :), z(:, :), d(:, :), q(:, :), previous(:, :)
       logical, allocatable :: free(:, :)
@@ -62,7 +63,7 @@ contains
    subroutine solve_normal(problem, operator, workspace, p, pen, report, log)
       type(normal_problem), intent(in) :: problem
       !> Prepared for the window
-      type(elastic_operator), intent(inout) :: operator
+      class(compliance), intent(inout) :: operator
       type(normal_workspace), intent(inout) :: workspace
       !> Estimate on entry (zero when there is none), pressures on exit [N/mm2], shape (mx, my)
       real(wp), contiguous, intent(inout) :: p(:, :)
@@ -85,6 +86,7 @@ contains
       fine_size = real(problem%mx, wp)*problem%my
       do k = 2, size(workspace%level)
          associate (level => workspace%level(k))
+            if (.not. allocated(level%operator)) cycle
             if (level%operator%transforms == 0) cycle
             report%fft_pairs = report%fft_pairs + level%operator%fft_pairs()*level%problem%mx*level%problem%my/fine_size
             level%operator%transforms = 0
@@ -96,7 +98,7 @@ contains
    !> One level: estimate from the next coarser one where that pays, then iterate
    recursive subroutine solve_level(problem, operator, workspace, k, p, pen, tolerance, report, log)
       type(normal_problem), intent(in) :: problem
-      type(elastic_operator), intent(inout) :: operator
+      class(compliance), intent(inout) :: operator
       type(normal_workspace), intent(inout) :: workspace
       integer, intent(in) :: k
       real(wp), contiguous, intent(inout) :: p(:, :)
@@ -121,7 +123,8 @@ contains
       end if
       call fit_level(workspace%level(k), problem%mx, problem%my)
       call make_admissible(problem, p)
-      if (k < size(workspace%level) .and. problem%mx*problem%my >= smallest .and. max(problem%mx, problem%my) >= shortest_side) then
+      if (k < size(workspace%level) .and. operator%can_coarsen() .and. problem%mx*problem%my >= smallest &
+         & .and. max(problem%mx, problem%my) >= shortest_side) then
          residual = huge(residual)
          if (any(p > 0.0_wp)) then
             call operator%normal(p, workspace%level(k)%u)
@@ -130,8 +133,9 @@ contains
          if (residual > good_estimate) then
             associate (coarse => workspace%level(k + 1))
                call coarsen(problem, coarse%problem)
-               call coarse%operator%prepare(operator%material, coarse%problem%dx, coarse%problem%dy, coarse%problem%mx, &
-                  & coarse%problem%my, 1)
+               call new_compliance(operator%model, coarse%operator)
+               call coarse%operator%prepare(operator%model, coarse%problem%dx, coarse%problem%dy, coarse%problem%mx, &
+                  & coarse%problem%my, 1, operator%y_first + 0.5_wp*(coarse%problem%dy - problem%dy))
                call fit_level(coarse, coarse%problem%mx, coarse%problem%my)
                coarse%p = 0.0_wp
                call solve_level(coarse%problem, coarse%operator, workspace, k + 1, coarse%p, pen, coarse_tolerance, &
@@ -148,7 +152,7 @@ contains
    !> Conjugate gradients on one level
    subroutine iterate(problem, operator, level, p, pen, tolerance, report, log)
       type(normal_problem), intent(in) :: problem
-      type(elastic_operator), intent(inout) :: operator
+      class(compliance), intent(inout) :: operator
       type(level_type), intent(inout) :: level
       real(wp), contiguous, intent(inout) :: p(:, :)
       real(wp), intent(inout) :: pen
@@ -358,7 +362,7 @@ contains
    !> First pressures without any estimate
    subroutine first_guess(problem, operator, level, p, pen)
       type(normal_problem), intent(in) :: problem
-      type(elastic_operator), intent(inout) :: operator
+      class(compliance), intent(inout) :: operator
       type(level_type), intent(inout) :: level
       real(wp), contiguous, intent(inout) :: p(:, :)
       real(wp), intent(in) :: pen
@@ -451,7 +455,7 @@ contains
 
       if (.not. allocated(workspace%level)) return
       do k = 1, size(workspace%level)
-         call workspace%level(k)%operator%release()
+         if (allocated(workspace%level(k)%operator)) call workspace%level(k)%operator%release()
       end do
    end subroutine release_normal
 

@@ -4,10 +4,9 @@ module contact_patch_derived
    use contact_base_kinds, only : wp
    use contact_base_solve_report, only : solve_report
    use contact_grid_element_division, only : bounding_box, contact_box, element
-   use contact_patch_kinematics, only : rolling_direction
    use contact_patch_problem, only : patch_problem, patch_state
    use contact_patch_result, only : patch_result
-   use contact_patch_workspace, only : patch_workspace
+   use contact_patch_workspace, only : patch_workspace, prepare_window
    implicit none (type, external)
    private
 
@@ -25,9 +24,9 @@ contains
       mx = problem%grid%mx
       my = problem%grid%my
       result%grid = problem%grid
-      result%gg = problem%material%gg
-      result%nu = problem%material%nu
-      result%ak = problem%material%ak
+      result%gg = problem%model%material%gg
+      result%nu = problem%model%material%nu
+      result%ak = problem%model%material%ak
       result%chi = problem%chi
       result%dq = problem%dq
       result%veloc = problem%veloc
@@ -140,7 +139,7 @@ contains
             result%sy(box%ix0:box%ix1, box%iy0:box%iy1) = workspace%solution%slip(:, :, 2)
          end where
          result%friction_power = area/(1000.0_wp*result%dt)*(sum(result%px*result%sx) + sum(result%py*result%sy))
-         if (problem%material%coupled()) call coupled_residual(problem, box, result)
+         if (problem%model%coupled()) call coupled_residual(problem, box, result)
       end if
       if (.not. allocated(problem%given_pressure)) then
          result%elastic_energy = area/2000.0_wp*(sum(result%pn*result%un) + sum(result%px*result%ux) + sum(result%py*result%uy))
@@ -160,8 +159,7 @@ contains
       type(patch_result), intent(inout) :: result
 
       if (problem%want_exterior .or. problem%motion == motion%none) then
-         call workspace%window%prepare(problem%material, problem%grid%dx, problem%grid%dy, problem%grid%mx, &
-            & problem%grid%my, rolling_direction(problem))
+         call prepare_window(problem, workspace)
          call workspace%window%normal(state%now%pn, result%un)
          if (problem%motion /= motion%none) then
             workspace%pt(:, :, 1) = state%now%px
@@ -170,7 +168,7 @@ contains
             result%ux = workspace%ut(:, :, 1)
             result%uy = workspace%ut(:, :, 2)
          end if
-         if (problem%material%coupled()) then
+         if (problem%model%coupled()) then
             if (problem%motion /= motion%none) then
                call workspace%window%normal_by_tangential(workspace%pt, workspace%un)
                result%un = result%un + workspace%un
@@ -187,7 +185,7 @@ contains
       call workspace%box%tangential(workspace%solution%p, workspace%box_ut)
       result%ux(box%ix0:box%ix1, box%iy0:box%iy1) = workspace%box_ut(:, :, 1)
       result%uy(box%ix0:box%ix1, box%iy0:box%iy1) = workspace%box_ut(:, :, 2)
-      if (problem%material%coupled()) then
+      if (problem%model%coupled()) then
          call workspace%box%normal_by_tangential(workspace%solution%p, workspace%box_un)
          call workspace%box%tangential_by_normal(workspace%box_pn, workspace%box_ut)
          associate (un => result%un(box%ix0:box%ix1, box%iy0:box%iy1), ux => result%ux(box%ix0:box%ix1, box%iy0:box%iy1), &

@@ -9,15 +9,9 @@ module contact_patch_kinematics
    implicit none (type, external)
    private
 
-   public :: rolling_direction, rigid_slip, previous_displacement
+   public :: rigid_slip, previous_displacement
 
 contains
-
-   !> Rolling towards increasing or decreasing x
-   pure integer function rolling_direction(problem)
-      type(patch_problem), intent(in) :: problem
-      rolling_direction = merge(-1, 1, problem%motion == motion%steady_rolling .and. cos(problem%chi) < 0.0_wp)
-   end function rolling_direction
 
    !> Rigid slip per step without unknown creepages [mm], Kalker (1990)
    !>
@@ -60,7 +54,7 @@ contains
          if (abs(shift_y) < 1.0e-10_wp*problem%dq) shift_y = 0.0_wp
          if (abs(shift_x) < 1.0e-10_wp*problem%dq) shift_x = 0.0_wp
       end if
-      call workspace%previous%prepare(problem%material, problem%grid%dx, problem%grid%dy, problem%grid%mx, problem%grid%my, &
+      call workspace%previous%prepare(problem%model, problem%grid%dx, problem%grid%dy, problem%grid%mx, problem%grid%my, &
          & shift_x, shift_y)
       call workspace%previous%tangential(state%before%px, state%before%py, state%before%pn, &
          & workspace%old_displacement(:, :, 1), workspace%old_displacement(:, :, 2))

@@ -7,10 +7,9 @@ module contact_patch_normal_step
    use contact_base_solve_report, only : ending, failure_text
    use contact_grid_element_division, only : element
    use contact_normal_conjugate_gradient, only : solve_normal
-   use contact_patch_kinematics, only : rolling_direction
    use contact_patch_problem, only : patch_problem, patch_state
    use contact_patch_result, only : patch_result
-   use contact_patch_workspace, only : patch_workspace
+   use contact_patch_workspace, only : patch_workspace, prepare_window
    implicit none (type, external)
    private
 
@@ -38,15 +37,14 @@ contains
          if (first) then
             if (allocated(problem%pressure_estimate)) state%now%pn = problem%pressure_estimate
          end if
-         call workspace%window%prepare(problem%material, problem%grid%dx, problem%grid%dy, problem%grid%mx, problem%grid%my, &
-            & rolling_direction(problem))
+         call prepare_window(problem, workspace)
          associate (normal => workspace%normal)
             normal%mx = problem%grid%mx
             normal%my = problem%grid%my
             normal%dx = problem%grid%dx
             normal%dy = problem%grid%dy
             normal%h = problem%h
-            if (problem%material%coupled() .and. problem%motion /= motion%none) then
+            if (problem%model%coupled() .and. problem%motion /= motion%none) then
                workspace%pt(:, :, 1) = state%now%px
                workspace%pt(:, :, 2) = state%now%py
                call workspace%window%normal_by_tangential(workspace%pt, workspace%un)

@@ -1,17 +1,18 @@
 !> One contact patch: what is asked, what is remembered from case to case
 module contact_patch_problem
+   use contact_base_choices, only : motion
    use contact_base_kinds, only : wp
-   use contact_elastic_material, only : combined_material
+   use contact_elastic_model, only : elastic_model
    use contact_grid_potential_contact, only : potential_contact
    implicit none (type, external)
    private
 
-   public :: patch_problem, patch_state, traction_fields, memory_field
+   public :: patch_problem, patch_state, traction_fields, memory_field, rolling_direction
 
    !> Everything that defines the problem of one step; constant from here on
    type :: patch_problem
       type(potential_contact) :: grid
-      type(combined_material) :: material
+      type(elastic_model) :: model
       !> Grid and undeformed distance may be reused while input of both stays what it is
       logical :: has_geometry = .false.
       !> Undeformed distance [mm], shape (mx, my)
@@ -88,4 +89,12 @@ module contact_patch_problem
       !> Creepages found last [-]
       real(wp) :: creep(2) = 0.0_wp
    end type patch_state
+
+contains
+
+   !> Rolling towards increasing or decreasing x
+   pure integer function rolling_direction(problem)
+      type(patch_problem), intent(in) :: problem
+      rolling_direction = merge(-1, 1, problem%motion == motion%steady_rolling .and. cos(problem%chi) < 0.0_wp)
+   end function rolling_direction
 end module contact_patch_problem

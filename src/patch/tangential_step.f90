@@ -5,10 +5,9 @@ module contact_patch_tangential_step
    use contact_base_log, only : log_type
    use contact_base_solve_report, only : ending, failure_text, solve_report
    use contact_grid_element_division, only : bounding_box, contact_box, element
-   use contact_patch_kinematics, only : rolling_direction
-   use contact_patch_problem, only : patch_problem, patch_state
+   use contact_patch_problem, only : patch_problem, patch_state, rolling_direction
    use contact_patch_result, only : patch_result
-   use contact_patch_workspace, only : patch_workspace
+   use contact_patch_workspace, only : patch_workspace, prepare_box
    use contact_tangential_classical, only : classical_method, solve_classical
    use contact_tangential_nested, only : solve_newton_krylov
    use contact_tangential_problem, only : prepare_solution, tangential_problem, tangential_solution
@@ -33,8 +32,7 @@ contains
          result%tangential%ended = ending%not_started
          return
       end if
-      call workspace%box%prepare(problem%material, problem%grid%dx, problem%grid%dy, box%ix1 - box%ix0 + 1, &
-         & box%iy1 - box%iy0 + 1, rolling_direction(problem))
+      call prepare_box(problem, box, workspace)
       call set_tangential(problem, state, box, workspace, result)
       if (log%shows(2)) call log%trace(2, " TANG: " // type_of_motion(problem%motion))
       call choose_and_solve(problem, workspace, log, result%tangential)
@@ -114,7 +112,7 @@ contains
             end do
          end do
          if (.not. t%steady) t%shift = t%shift - workspace%old_displacement(box%ix0:box%ix1, box%iy0:box%iy1, :)
-         if (problem%material%coupled()) then
+         if (problem%model%coupled()) then
             workspace%box_pn = state%now%pn(box%ix0:box%ix1, box%iy0:box%iy1)
             if (t%steady) then
                call workspace%box%steady_by_normal(workspace%box_pn, workspace%box_ut)

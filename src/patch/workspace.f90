@@ -1,21 +1,23 @@
 !> Scratch of one contact patch: compliances with their spectra, and the arrays of the solvers
 module contact_patch_workspace
    use contact_base_kinds, only : wp
-   use contact_elastic_operator, only : elastic_operator
+   use contact_elastic_compliance, only : compliance
+   use contact_elastic_new_compliance, only : new_compliance
    use contact_elastic_previous, only : previous_operator
+   use contact_grid_element_division, only : bounding_box
    use contact_normal_conjugate_gradient, only : normal_problem, normal_workspace, release_normal
-   use contact_patch_problem, only : patch_problem
+   use contact_patch_problem, only : patch_problem, rolling_direction
    use contact_tangential_nested, only : nested_workspace, release_nested
    use contact_tangential_problem, only : tangential_problem, tangential_solution
    implicit none (type, external)
    private
 
-   public :: patch_workspace, fit_workspace, release_workspace
+   public :: patch_workspace, fit_workspace, prepare_window, prepare_box, release_workspace
 
    !> Nothing in here carries meaning from one case to the next
    type :: patch_workspace
       !> Compliance on the whole window and on the bounding box of the contact area
-      type(elastic_operator) :: window, box
+      class(compliance), allocatable :: window, box
       type(previous_operator) :: previous
       type(normal_problem) :: normal
       type(normal_workspace) :: normal_work
@@ -48,12 +50,33 @@ contains
          & workspace%old_displacement(mx, my, 2), source=0.0_wp)
    end subroutine fit_workspace
 
+   !> Compliance on the whole window
+   subroutine prepare_window(problem, workspace)
+      type(patch_problem), intent(in) :: problem
+      type(patch_workspace), intent(inout) :: workspace
+
+      call new_compliance(problem%model, workspace%window)
+      call workspace%window%prepare(problem%model, problem%grid%dx, problem%grid%dy, problem%grid%mx, problem%grid%my, &
+         & rolling_direction(problem), problem%grid%y(1))
+   end subroutine prepare_window
+
+   !> Compliance on the bounding box of the contact area
+   subroutine prepare_box(problem, box, workspace)
+      type(patch_problem), intent(in) :: problem
+      type(bounding_box), intent(in) :: box
+      type(patch_workspace), intent(inout) :: workspace
+
+      call new_compliance(problem%model, workspace%box)
+      call workspace%box%prepare(problem%model, problem%grid%dx, problem%grid%dy, box%ix1 - box%ix0 + 1, &
+         & box%iy1 - box%iy0 + 1, rolling_direction(problem), problem%grid%y(box%iy0))
+   end subroutine prepare_box
+
    !> Free what the workspace holds outside Fortran's memory: plans of transforms
    subroutine release_workspace(workspace)
       type(patch_workspace), intent(inout) :: workspace
 
-      call workspace%window%release()
-      call workspace%box%release()
+      if (allocated(workspace%window)) call workspace%window%release()
+      if (allocated(workspace%box)) call workspace%box%release()
       call workspace%previous%release()
       call release_normal(workspace%normal_work)
       call release_nested(workspace%tangential_work)

@@ -5,7 +5,7 @@ module contact_tangential_classical
    use contact_base_log, only : log_type
    use contact_base_solve_report, only : ending, solve_report
    use contact_elastic_halfspace, only : kernel_table
-   use contact_elastic_operator, only : elastic_operator
+   use contact_elastic_compliance, only : compliance
    use contact_grid_element_division, only : element
    use contact_tangential_convex_gs, only : convex_gs
    use contact_tangential_gd_steady, only : gd_steady
@@ -65,7 +65,7 @@ contains
    subroutine solve_classical(problem, operator, choice, solution, report, log, shifted)
       type(tangential_problem), intent(in) :: problem
       !> Prepared for the window of the problem
-      type(elastic_operator), intent(inout) :: operator
+      class(compliance), intent(inout) :: operator
       !> Member of classical_method
       integer, intent(in) :: choice
       type(tangential_solution), intent(inout) :: solution

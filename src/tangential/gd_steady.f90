@@ -11,7 +11,7 @@ module contact_tangential_gd_steady
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
    use contact_base_solve_report, only : ending, solve_report
-   use contact_elastic_operator, only : elastic_operator
+   use contact_elastic_compliance, only : compliance
    use contact_grid_element_division, only : element
    use contact_tangential_problem, only : tangential_problem
    use contact_tangential_sweep, only : trace_iteration, update_watch
@@ -42,7 +42,7 @@ contains
    !> Iterate from given tractions; they stay admissible whatever happens
    subroutine gd_steady(problem, operator, eps, creep, p, state, report, log)
       type(tangential_problem), intent(in) :: problem
-      type(elastic_operator), intent(inout) :: operator
+      class(compliance), intent(inout) :: operator
       !> Tolerance of the updates
       real(wp), intent(in) :: eps
       real(wp), intent(in) :: creep(2)

@@ -7,8 +7,9 @@ module contact_tangential_nested
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
    use contact_base_solve_report, only : ending, solve_report
-   use contact_elastic_material, only : combined_material
-   use contact_elastic_operator, only : elastic_operator
+   use contact_elastic_compliance, only : compliance
+   use contact_elastic_model, only : elastic_model
+   use contact_elastic_new_compliance, only : new_compliance
    use contact_grid_coarsening, only : coarse_neighbours, coarse_size, coarsening_factor, shortest_side
    use contact_tangential_newton, only : newton_outcome, newton_solve, newton_workspace
    use contact_tangential_problem, only : prepare_solution, residual_scale, settle, slip_of, &
@@ -22,7 +23,7 @@ module contact_tangential_nested
    type :: level_type
       type(tangential_problem) :: problem
       type(tangential_solution) :: solution
-      type(elastic_operator) :: operator
+      class(compliance), allocatable :: operator
       type(newton_workspace) :: newton
       !> Relative tractions for interpolation, shape (mx, my, 2), and elements that have them
       real(wp), allocatable :: relative(:, :, :), smooth(:, :, :)
@@ -49,7 +50,7 @@ contains
    subroutine solve_newton_krylov(problem, operator, workspace, solution, report, log)
       type(tangential_problem), intent(in) :: problem
       !> Prepared for the window and the rolling direction of the problem
-      type(elastic_operator), intent(inout) :: operator
+      class(compliance), intent(inout) :: operator
       type(nested_workspace), intent(inout) :: workspace
       !> Estimate on entry (zero tractions when there is none)
       type(tangential_solution), intent(inout) :: solution
@@ -65,11 +66,11 @@ contains
       products_before = operator%products
       report%method = "Newton-Krylov"
       report%tolerance = problem%eps
-      if (can_coarsen(problem)) then
+      if (operator%can_coarsen() .and. is_large(problem)) then
          call slip_of(problem, operator, solution%p, solution%creep, solution%slip)
          residual = true_residual(problem, solution%p, solution%slip, residual_scale(problem, operator))
          if (residual > good_estimate) then
-            call solve_coarse(problem, operator%material, workspace, 2, solution, log)
+            call solve_coarse(problem, operator, workspace, 2, solution, log)
          end if
       end if
       call newton_solve(problem, operator, problem%eps, workspace%level(1)%newton, solution, outcome, log)
@@ -82,6 +83,7 @@ contains
       fine_size = real(problem%mx, wp)*problem%my
       do k = 2, size(workspace%level)
          associate (level => workspace%level(k))
+            if (.not. allocated(level%operator)) cycle
             if (level%operator%transforms == 0) cycle
             report%fft_pairs = report%fft_pairs + level%operator%fft_pairs()*level%problem%mx*level%problem%my/fine_size
             level%operator%transforms = 0
@@ -97,19 +99,20 @@ contains
 
       if (.not. allocated(workspace%level)) return
       do k = 1, size(workspace%level)
-         call workspace%level(k)%operator%release()
+         if (allocated(workspace%level(k)%operator)) call workspace%level(k)%operator%release()
       end do
    end subroutine release_nested
 
-   pure logical function can_coarsen(problem)
+   !> Do coarse grids pay?
+   pure logical function is_large(problem)
       type(tangential_problem), intent(in) :: problem
-      can_coarsen = problem%mx*problem%my >= smallest .and. max(problem%mx, problem%my) >= shortest_side
-   end function can_coarsen
+      is_large = problem%mx*problem%my >= smallest .and. max(problem%mx, problem%my) >= shortest_side
+   end function is_large
 
    !> Estimate for a problem from the next coarser level
-   recursive subroutine solve_coarse(fine, material, workspace, k, solution, log)
+   recursive subroutine solve_coarse(fine, fine_operator, workspace, k, solution, log)
       type(tangential_problem), intent(in) :: fine
-      type(combined_material), intent(in) :: material
+      class(compliance), intent(in) :: fine_operator
       type(nested_workspace), intent(inout) :: workspace
       !> Number of the coarse level
       integer, intent(in) :: k
@@ -123,10 +126,11 @@ contains
          call prepare_solution(level%problem, level%solution)
          level%solution%p = 0.0_wp
          level%solution%creep = solution%creep
-         call level%operator%prepare(material, level%problem%dx, level%problem%dy, level%problem%mx, level%problem%my, &
-            & fine%direction)
-         if (k < size(workspace%level) .and. can_coarsen(level%problem)) &
-            & call solve_coarse(level%problem, material, workspace, k + 1, level%solution, log)
+         call new_compliance(fine_operator%model, level%operator)
+         call level%operator%prepare(fine_operator%model, level%problem%dx, level%problem%dy, level%problem%mx, &
+            & level%problem%my, fine%direction, fine_operator%y_first + 0.5_wp*(level%problem%dy - fine%dy))
+         if (k < size(workspace%level) .and. is_large(level%problem)) &
+            & call solve_coarse(level%problem, level%operator, workspace, k + 1, level%solution, log)
          call newton_solve(level%problem, level%operator, coarse_tolerance, level%newton, level%solution, outcome, log)
          ! a coarse solution without success is an estimate all the same: it lies inside the discs
          if (outcome%ended == ending%diverged) return

@@ -13,7 +13,7 @@ module contact_tangential_newton
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
    use contact_base_solve_report, only : ending
-   use contact_elastic_operator, only : elastic_operator
+   use contact_elastic_compliance, only : compliance
    use contact_grid_element_division, only : element
    use contact_tangential_problem, only : apply_operator, divide_elements, limits_before, residual_scale, &
       & slip_of, tangential_problem, tangential_solution, true_residual
@@ -73,7 +73,7 @@ contains
    subroutine newton_solve(problem, operator, tolerance, workspace, solution, outcome, log)
       type(tangential_problem), intent(in) :: problem
       !> Prepared for the window and the rolling direction of the problem
-      type(elastic_operator), intent(inout) :: operator
+      class(compliance), intent(inout) :: operator
       !> On the true residual [-]
       real(wp), intent(in) :: tolerance
       type(newton_workspace), intent(inout) :: workspace
@@ -190,7 +190,7 @@ contains
    !> far from their bound replace the given ones when the residual gets smaller by it.
    subroutine start_values(problem, operator, system, solution, workspace, residual)
       type(tangential_problem), intent(in) :: problem
-      type(elastic_operator), intent(inout) :: operator
+      class(compliance), intent(inout) :: operator
       type(linear_system), intent(in) :: system
       type(tangential_solution), intent(inout) :: solution
       type(newton_workspace), intent(inout) :: workspace
@@ -401,7 +401,7 @@ contains
    !> out := J y, y = (tractions, creepages), both scaled
    subroutine apply_jacobian(problem, operator, system, workspace, y, out)
       type(tangential_problem), intent(in) :: problem
-      type(elastic_operator), intent(inout) :: operator
+      class(compliance), intent(inout) :: operator
       type(linear_system), intent(in) :: system
       type(newton_workspace), intent(inout) :: workspace
       real(wp), contiguous, target, intent(in) :: y(:)
@@ -435,7 +435,7 @@ contains
    !> u := (D C^-1 D / r + 1 - D) v for traction fields
    subroutine precondition_field(problem, operator, system, workspace, v, u)
       type(tangential_problem), intent(in) :: problem
-      type(elastic_operator), intent(inout) :: operator
+      class(compliance), intent(inout) :: operator
       type(linear_system), intent(in) :: system
       type(newton_workspace), intent(inout) :: workspace
       real(wp), contiguous, intent(in) :: v(:, :, :)
@@ -472,7 +472,7 @@ contains
    !> Preconditioned border columns and the inverse of their Schur complement
    subroutine prepare_border(problem, operator, system, workspace, preconditionings)
       type(tangential_problem), intent(in) :: problem
-      type(elastic_operator), intent(inout) :: operator
+      class(compliance), intent(inout) :: operator
       type(linear_system), intent(inout) :: system
       type(newton_workspace), intent(inout) :: workspace
       integer, intent(inout) :: preconditionings
@@ -508,7 +508,7 @@ contains
    !> out := M^-1 v, bordered
    subroutine precondition(problem, operator, system, workspace, v, out, preconditionings)
       type(tangential_problem), intent(in) :: problem
-      type(elastic_operator), intent(inout) :: operator
+      class(compliance), intent(inout) :: operator
       type(linear_system), intent(in) :: system
       type(newton_workspace), intent(inout) :: workspace
       real(wp), contiguous, target, intent(in) :: v(:)
@@ -539,7 +539,7 @@ contains
    !> On exit workspace%step holds the correction of the tractions [N/mm2].
    subroutine solve_linear(problem, operator, system, workspace, unbalance, tolerance, correction, preconditionings, reached)
       type(tangential_problem), intent(in) :: problem
-      type(elastic_operator), intent(inout) :: operator
+      class(compliance), intent(inout) :: operator
       type(linear_system), intent(inout) :: system
       type(newton_workspace), target, intent(inout) :: workspace
       !> Errors of the prescribed forces, relative

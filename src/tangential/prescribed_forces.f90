@@ -11,7 +11,7 @@
 module contact_tangential_prescribed_forces
    use contact_base_kinds, only : wp
    use contact_base_solve_report, only : ending
-   use contact_elastic_operator, only : elastic_operator
+   use contact_elastic_compliance, only : compliance
    use contact_tangential_problem, only : tangential_problem
    implicit none (type, external)
    private
@@ -77,7 +77,7 @@ contains
    subroutine start(self, problem, operator, sensitivity)
       class(force_iteration), intent(inout) :: self
       type(tangential_problem), intent(in) :: problem
-      type(elastic_operator), intent(inout) :: operator
+      class(compliance), intent(inout) :: operator
       !> Sensitivities of the previous case, 0 when unknown
       real(wp), intent(in) :: sensitivity(2, 2)
       real(wp), allocatable :: g(:, :, :), u(:, :, :)

@@ -11,7 +11,7 @@
 !> is settled, and the return map replaces the projection.
 module contact_tangential_problem
    use contact_base_kinds, only : wp
-   use contact_elastic_operator, only : elastic_operator
+   use contact_elastic_compliance, only : compliance
    use contact_grid_element_division, only : element
    use contact_tangential_yield, only : return_map, yield_data, yield_point
    implicit none (type, external)
@@ -102,7 +102,7 @@ contains
    !> B p, on the whole window
    subroutine apply_operator(problem, operator, p, u)
       type(tangential_problem), intent(in) :: problem
-      type(elastic_operator), intent(inout) :: operator
+      class(compliance), intent(inout) :: operator
       real(wp), contiguous, intent(in) :: p(:, :, :)
       real(wp), contiguous, intent(inout) :: u(:, :, :)
 
@@ -116,7 +116,7 @@ contains
    !> Slip per step S = W + dq c + B p [mm], on the whole window
    subroutine slip_of(problem, operator, p, creep, slip)
       type(tangential_problem), intent(in) :: problem
-      type(elastic_operator), intent(inout) :: operator
+      class(compliance), intent(inout) :: operator
       real(wp), contiguous, intent(in) :: p(:, :, :)
       real(wp), intent(in) :: creep(2)
       real(wp), contiguous, intent(inout) :: slip(:, :, :)
@@ -133,7 +133,7 @@ contains
    !> enough for the return map when the yield limit falls
    pure real(wp) function residual_scale(problem, operator) result(r)
       type(tangential_problem), intent(in) :: problem
-      type(elastic_operator), intent(in) :: operator
+      class(compliance), intent(in) :: operator
 
       r = 1.0_wp/operator%diagonal(2)
       if (allocated(problem%yield)) r = max(r, -2.0_wp*problem%yield%slope)

@@ -12,7 +12,7 @@
 module contact_tangential_streaming
    use contact_base_kinds, only : wp
    use contact_elastic_halfspace, only : kernel_table
-   use contact_elastic_operator, only : elastic_operator
+   use contact_elastic_compliance, only : compliance
    use contact_fft_plan, only : fft_plan, good_size
    use contact_grid_element_division, only : element
    use contact_tangential_element_problem, only : element_compliance, relax_element, solve_element, solve_yielding_element
@@ -106,7 +106,7 @@ contains
    subroutine prepare(self, problem, operator, shifted)
       class(streaming_rows), intent(inout) :: self
       type(tangential_problem), intent(in) :: problem
-      type(elastic_operator), intent(in) :: operator
+      class(compliance), intent(in) :: operator
       !> Coefficients of the same particles at the previous moment, if that is not one element
       type(kernel_table), intent(in), optional :: shifted
       type(fft_plan) :: whole_period

@@ -16,6 +16,7 @@ program performance_bench
    use contact_bench_problems, only : new_line_case, new_normal_case, new_rolling_case, new_shift_case, new_table_case, &
       & normal_case, rolling_contact, rolling_contacts, session_case, solve_one, table_creepage, table_size, tangential_case
    use contact_elastic_material, only : combine
+   use contact_elastic_model, only : elastic_model
    use contact_elastic_operator, only : elastic_operator
    use contact_tangential_classical, only : classical_method, method_name
    implicit none (type, external)
@@ -176,7 +177,7 @@ contains
          p = 1.0_wp
          u = 0.0_wp
          start = cpu_seconds()
-         call operator%prepare(combine([0.28_wp, 0.28_wp], [82000.0_wp, 82000.0_wp]), 0.1_wp, 0.1_wp, n, n, 1)
+         call operator%prepare(elastic_model(combine([0.28_wp, 0.28_wp], [82000.0_wp, 82000.0_wp])), 0.1_wp, 0.1_wp, n, n, 1)
          call operator%steady(p, u)
          result%seconds = cpu_seconds() - start
          call clock%prepare(operator%plan%px, operator%plan%py)
@@ -359,7 +360,10 @@ contains
       call new_table_case(mx, case)
       call solve_one(case)
       case%spec%estimate = start
-      call clock%prepare(case%session%workspace%box%plan%px, case%session%workspace%box%plan%py)
+      select type (box => case%session%workspace%box)
+      type is (elastic_operator)
+         call clock%prepare(box%plan%px, box%plan%py)
+      end select
       result%pair = 0.0_wp
       before = 0
       worst = 0.0_wp

@@ -10,6 +10,7 @@ module contact_bench_problems
    use contact_cases_session, only : contact_session, solve_case
    use contact_cases_spec, only : case_spec
    use contact_elastic_material, only : combine, combined_material
+   use contact_elastic_model, only : elastic_model
    use contact_elastic_operator, only : elastic_operator
    use contact_normal_conjugate_gradient, only : normal_problem, normal_workspace, solve_normal
    use contact_patch_result, only : patch_result
@@ -121,7 +122,7 @@ contains
          end do
       end associate
       case%pen = a**2
-      call case%operator%prepare(material, 1.0_wp/n, 1.0_wp/n, n, n, 1)
+      call case%operator%prepare(elastic_model(material), 1.0_wp/n, 1.0_wp/n, n, n, 1)
    end subroutine new_normal_case
 
    subroutine run_normal(self, report)
@@ -195,8 +196,8 @@ contains
       type(tangential_case), intent(inout) :: case
 
       associate (problem => case%problem)
-         call case%operator%prepare(combine([poisson, poisson], [modulus, modulus]), problem%dx, problem%dy, problem%mx, &
-            & problem%my, problem%direction)
+         call case%operator%prepare(elastic_model(combine([poisson, poisson], [modulus, modulus])), problem%dx, problem%dy, &
+            & problem%mx, problem%my, problem%direction)
          if (allocated(case%solution%p)) deallocate(case%solution%p, case%solution%slip, case%solution%division)
          call prepare_solution(problem, case%solution)
       end associate

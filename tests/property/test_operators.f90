@@ -4,6 +4,7 @@ program test_operators
    use contact_base_kinds, only : wp
    use contact_elastic_halfspace, only : fill_shifted_table, fill_table, kernel_table
    use contact_elastic_material, only : combine, combined_material
+   use contact_elastic_model, only : elastic_model
    use contact_elastic_operator, only : elastic_operator
    use contact_elastic_previous, only : previous_operator
    use contact_test_case_builder, only : random_numbers
@@ -57,7 +58,7 @@ contains
       call fill_shifted_table(table, material, dx, dy, mx, my, 0.0_wp, 0.0_wp)
       allocate(operator, previous)
       do direction = -1, 1, 2
-         call operator%prepare(material, dx, dy, mx, my, direction)
+         call operator%prepare(elastic_model(material), dx, dy, mx, my, direction)
          call fill_shifted_table(ahead, material, dx, dy, mx, my, direction*dx, 0.0_wp)
          call operator%normal(pn, un)
          call direct(table%nn, pn, vn)
@@ -86,7 +87,7 @@ contains
       sx = random%uniform(-2.0_wp, 2.0_wp)*dx
       sy = random%uniform(-2.0_wp, 2.0_wp)*dy
       if (my == 1) sy = 0.0_wp
-      call previous%prepare(material, dx, dy, mx, my, sx, sy)
+      call previous%prepare(elastic_model(material), dx, dy, mx, my, sx, sy)
       call previous%tangential(pt(:, :, 1), pt(:, :, 2), pn, ut(:, :, 1), ut(:, :, 2))
       call fill_shifted_table(old, material, dx, dy, mx, my, sx, sy)
       call direct_pair(old, pt, vt)
@@ -161,7 +162,7 @@ contains
       integer :: i, j, k, trial
 
       allocate(operator)
-      call operator%prepare(combine([0.3_wp, 0.45_wp], [3.0_wp, 1.0_wp]), 0.3_wp, 0.2_wp, mx, my, 1)
+      call operator%prepare(elastic_model(combine([0.3_wp, 0.45_wp], [3.0_wp, 1.0_wp])), 0.3_wp, 0.2_wp, mx, my, 1)
       do trial = 1, 10
          do k = 1, 2
             do j = 1, my

@@ -6,6 +6,7 @@ program test_classical
    use contact_base_solve_report, only : ending, solve_report
    use contact_elastic_halfspace, only : fill_shifted_table, kernel_table
    use contact_elastic_material, only : combined_material
+   use contact_elastic_model, only : elastic_model
    use contact_elastic_operator, only : elastic_operator
    use contact_grid_element_division, only : element
    use contact_tangential_classical, only : classical_method, method_name, solve_classical
@@ -90,7 +91,7 @@ contains
                & + problem%dq*creep(3)*direction*problem%dq/6.0_wp
          end do
       end do
-      call operator%prepare(combined_material(82000.0_wp, 0.28_wp, 0.0_wp), problem%dx, problem%dy, &
+      call operator%prepare(elastic_model(combined_material(82000.0_wp, 0.28_wp, 0.0_wp)), problem%dx, problem%dy, &
          & problem%mx, problem%my, direction)
    end subroutine ellipse
 

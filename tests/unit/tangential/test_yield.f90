@@ -4,6 +4,7 @@ program test_yield
    use contact_base_log, only : log_type
    use contact_base_solve_report, only : solve_report
    use contact_elastic_material, only : combined_material
+   use contact_elastic_model, only : elastic_model
    use contact_elastic_operator, only : elastic_operator
    use contact_grid_element_division, only : element
    use contact_tangential_classical, only : classical_method, solve_classical
@@ -215,7 +216,8 @@ contains
          m = problem%mx
          problem%shift = problem%shift(m:1:-1, :, :)
          problem%shift(:, :, 1) = -problem%shift(:, :, 1)
-         call operator%prepare(combined_material(modulus, 0.28_wp, 0.0_wp), problem%dx, problem%dy, problem%mx, problem%my, -1)
+         call operator%prepare(elastic_model(combined_material(modulus, 0.28_wp, 0.0_wp)), problem%dx, problem%dy, problem%mx, &
+            & problem%my, -1)
          call solve(problem, operator, methods(method), other, "mirrored")
          other%p = other%p(m:1:-1, :, :)
          other%p(:, :, 1) = -other%p(:, :, 1)
@@ -328,7 +330,8 @@ contains
             problem%shift(ix, iy, :) = problem%dq*[creep(1) - creep(3)*y, creep(2) + creep(3)*x]
          end do
       end do
-      call operator%prepare(combined_material(modulus, 0.28_wp, 0.0_wp), problem%dx, problem%dy, n, problem%my, direction)
+      call operator%prepare(elastic_model(combined_material(modulus, 0.28_wp, 0.0_wp)), problem%dx, problem%dy, n, &
+         & problem%my, direction)
    end subroutine ellipse
 
    !> Rigid slip without the creepages that are to be found

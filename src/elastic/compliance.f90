@@ -1,0 +1,151 @@
+!> The compliance of a surface as all iterative methods see it: products, and approximate inverses
+!>
+!> Displacement differences are u = A p. In steady rolling the particles that are in the elements
+!> now were one element further ahead in the frame of the same tractions one step before,
+!> with displacements A' p; the slip needs (A - A') p. What A is made of is known to the
+!> children alone.
+module contact_elastic_compliance
+   use contact_base_kinds, only : wp
+   use contact_elastic_halfspace, only : kernel_table
+   use contact_elastic_model, only : elastic_model
+   implicit none (type, external)
+   private
+
+   public :: compliance
+
+   !> Compliance on a window of mx by my elements
+   type, abstract :: compliance
+      !> Size of the window
+      integer :: mx = 0, my = 0
+      !> Sides of the elements [mm]
+      real(wp) :: dx = 0.0_wp, dy = 0.0_wp
+      !> Lateral position of the centres of the first row [mm]; counts where rows differ
+      real(wp) :: y_first = 0.0_wp
+      type(elastic_model) :: model
+      !> Products with the full operator since it was made
+      integer :: products = 0
+      !> Real transforms of the padded window, forward and backward, since it was made
+      integer :: transforms = 0
+      !> Diagonal coefficients at zero offset: nn, xx, yy [mm/(N/mm2)]
+      real(wp) :: diagonal(3) = 0.0_wp
+      !> Coefficients in space, at least for all offsets that occur in the window
+      type(kernel_table) :: table
+   contains
+      !> Set window, model and rolling direction; everything is kept when nothing changed
+      procedure(prepare_interface), deferred :: prepare
+      !> u_n = A_nn p_n
+      procedure(normal_interface), deferred :: normal
+      !> u_t = A_tt p_t
+      procedure(tangential_interface), deferred :: tangential
+      !> u_t - u_t' = (A - A') p_t in steady rolling
+      procedure(tangential_interface), deferred :: steady
+      !> z = approximate inverse of A_nn applied to r
+      procedure(normal_inverse_interface), deferred :: normal_inverse
+      !> z = approximate inverse of A_tt applied to r
+      procedure(tangential_inverse_interface), deferred :: tangential_inverse
+      !> z = approximate inverse of A - A' applied to r
+      procedure(tangential_inverse_interface), deferred :: steady_inverse
+      !> u_n by tangential tractions
+      procedure(to_normal_interface), deferred :: normal_by_tangential
+      !> u_t by pressures; difference between two moments in steady rolling
+      procedure(from_normal_interface), deferred :: tangential_by_normal
+      procedure(from_normal_interface), deferred :: steady_by_normal
+      !> Free what is held outside Fortran's memory
+      procedure(release_interface), deferred :: release
+      !> Is there a compliance for larger elements, for a first estimate on a coarse grid?
+      procedure :: can_coarsen
+      !> Pairs of forward and backward transforms so far
+      procedure :: fft_pairs
+   end type compliance
+
+   abstract interface
+      subroutine prepare_interface(self, model, dx, dy, mx, my, direction, y_first)
+         import :: compliance, elastic_model, wp
+         implicit none (type, external)
+         class(compliance), intent(inout) :: self
+         type(elastic_model), intent(in) :: model
+         !> Sides of the elements [mm]
+         real(wp), intent(in) :: dx, dy
+         !> Size of the window
+         integer, intent(in) :: mx, my
+         !> Rolling in direction of increasing (+1) or decreasing (-1) x
+         integer, intent(in) :: direction
+         !> Lateral position of the centres of the first row [mm]; default 0
+         real(wp), intent(in), optional :: y_first
+      end subroutine prepare_interface
+
+      !> Between fields of one component, shape (mx, my)
+      subroutine normal_interface(self, p, u)
+         import :: compliance, wp
+         implicit none (type, external)
+         class(compliance), intent(inout) :: self
+         real(wp), contiguous, intent(in) :: p(:, :)
+         real(wp), contiguous, intent(inout) :: u(:, :)
+      end subroutine normal_interface
+
+      !> Between fields of two components, shape (mx, my, 2)
+      subroutine tangential_interface(self, p, u)
+         import :: compliance, wp
+         implicit none (type, external)
+         class(compliance), intent(inout) :: self
+         real(wp), contiguous, intent(in) :: p(:, :, :)
+         real(wp), contiguous, intent(inout) :: u(:, :, :)
+      end subroutine tangential_interface
+
+      subroutine normal_inverse_interface(self, r, z)
+         import :: compliance, wp
+         implicit none (type, external)
+         class(compliance), intent(inout) :: self
+         !> Displacements [mm]
+         real(wp), contiguous, intent(in) :: r(:, :)
+         !> Tractions [N/mm2]
+         real(wp), contiguous, intent(inout) :: z(:, :)
+      end subroutine normal_inverse_interface
+
+      subroutine tangential_inverse_interface(self, r, z)
+         import :: compliance, wp
+         implicit none (type, external)
+         class(compliance), intent(inout) :: self
+         !> Displacements [mm]
+         real(wp), contiguous, intent(in) :: r(:, :, :)
+         !> Tractions [N/mm2]
+         real(wp), contiguous, intent(inout) :: z(:, :, :)
+      end subroutine tangential_inverse_interface
+
+      !> Tractions of shape (mx, my, 2) to displacements of shape (mx, my)
+      subroutine to_normal_interface(self, p, u)
+         import :: compliance, wp
+         implicit none (type, external)
+         class(compliance), intent(inout) :: self
+         real(wp), contiguous, intent(in) :: p(:, :, :)
+         real(wp), contiguous, intent(inout) :: u(:, :)
+      end subroutine to_normal_interface
+
+      !> Pressures of shape (mx, my) to displacements of shape (mx, my, 2)
+      subroutine from_normal_interface(self, p, u)
+         import :: compliance, wp
+         implicit none (type, external)
+         class(compliance), intent(inout) :: self
+         real(wp), contiguous, intent(in) :: p(:, :)
+         real(wp), contiguous, intent(inout) :: u(:, :, :)
+      end subroutine from_normal_interface
+
+      subroutine release_interface(self)
+         import :: compliance
+         implicit none (type, external)
+         class(compliance), intent(inout) :: self
+      end subroutine release_interface
+   end interface
+
+contains
+
+   pure logical function can_coarsen(self)
+      class(compliance), intent(in) :: self
+      can_coarsen = self%mx > 0
+   end function can_coarsen
+
+   pure real(wp) function fft_pairs(self) result(pairs)
+      class(compliance), intent(in) :: self
+      pairs = 0.5_wp*self%transforms
+   end function fft_pairs
+end module contact_elastic_compliance

@@ -1,0 +1,38 @@
+!> The compliance that suits an elastic model
+module contact_elastic_new_compliance
+   use contact_elastic_compliance, only : compliance
+   use contact_elastic_model, only : elastic_model
+   use contact_elastic_operator, only : elastic_operator
+   implicit none (type, external)
+   private
+
+   public :: new_compliance
+
+contains
+
+   !> Make an operator of the kind that a model needs; one that is of this kind already is kept
+   subroutine new_compliance(model, operator)
+      type(elastic_model), intent(in) :: model
+      class(compliance), allocatable, intent(inout) :: operator
+      class(compliance), allocatable :: wanted
+
+      call make_kind(model, wanted)
+      if (allocated(operator)) then
+         if (same_type_as(operator, wanted)) return
+         call operator%release()
+         deallocate(operator)
+      end if
+      call move_alloc(wanted, operator)
+   end subroutine new_compliance
+
+   !> An empty operator
+   subroutine make_kind(model, operator)
+      type(elastic_model), intent(in) :: model
+      class(compliance), allocatable, intent(out) :: operator
+
+      select case (model%kernel)
+      case default
+         allocate(elastic_operator :: operator)
+      end select
+   end subroutine make_kind
+end module contact_elastic_new_compliance
