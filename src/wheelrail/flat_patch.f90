@@ -1,0 +1,230 @@
+!> Grid and undeformed distance of a flat contact patch
+!>
+!> The plane goes through the contact reference on the rail and is rolled by the contact angle:
+!> coordinates x along the track, s in the plane, n into the rail. The undeformed distance is the
+!> difference of the two surfaces along n. Wheel points are found directly, by Newton's method for
+!> place on the profile and height above the plane, so that the distance is as smooth as the profiles.
+module contact_wheelrail_flat_patch
+   use contact_base_kinds, only : wp
+   use contact_grid_potential_contact, only : potential_contact
+   use contact_profile_curve, only : profile_curve
+   use contact_wheelrail_frame, only : frame, new_frame
+   use contact_wheelrail_placement, only : pair_placement
+   use contact_wheelrail_regions, only : contact_region
+   use contact_wheelrail_spec, only : search_spec
+   implicit none (type, external)
+   private
+
+   public :: patch_frame, patch_grid, undeformed_distance
+
+   !> Distance where rail or wheel is missing [mm]
+   real(wp), parameter :: nothing_there = 999.0_wp
+
+contains
+
+   !> The plane of a patch in track coordinates
+   function patch_frame(rail, placement, region) result(plane)
+      !> The rail in track coordinates
+      type(profile_curve), intent(in) :: rail
+      type(pair_placement), intent(in) :: placement
+      type(contact_region), intent(in) :: region
+      type(frame) :: plane
+      real(wp) :: z, rho
+
+      z = rail%height(region%y)
+      if (placement%roller_radius > 0.0_wp) then
+         rho = placement%roller_radius - z
+         z = placement%roller_radius - sqrt(max(0.0_wp, rho**2 - region%x**2))
+      end if
+      plane = new_frame([region%x, region%y, z], region%alpha, 0.0_wp)
+   end function patch_frame
+
+   !> Elements that cover a region, with one more on each side; the origin is the centre of an element
+   subroutine patch_grid(rail, search, region, plane, most_elements, grid)
+      !> The rail in track coordinates
+      type(profile_curve), intent(in) :: rail
+      type(search_spec), intent(in) :: search
+      type(contact_region), intent(in) :: region
+      type(frame), intent(in) :: plane
+      !> Elements are doubled in size until there are fewer than this
+      integer, intent(in) :: most_elements
+      type(potential_contact), intent(out) :: grid
+      real(wp) :: x(2), s(2), dx, ds
+      integer :: ix(2), iy(2), doubling
+
+      x = region%box%x - plane%origin(1)
+      s = rail%s_at(region%box%y) - rail%s_at(plane%origin(2))
+      if (s(1) > s(2)) s = s([2, 1])
+      ! beyond the ends of the profile the surface is taken to go on straight
+      s(1) = min(s(1), region%box%y(1) - plane%origin(2))
+      s(2) = max(s(2), region%box%y(2) - plane%origin(2))
+      dx = search%dx
+      ds = search%ds
+      do doubling = 1, 40
+         ix = [floor(x(1)/dx) - 1, ceiling(x(2)/dx) + 1]
+         iy = [floor(s(1)/ds) - 1, ceiling(s(2)/ds) + 1]
+         grid%mx = ix(2) - ix(1) + 1
+         grid%my = iy(2) - iy(1) + 1
+         if (real(grid%mx, wp)*grid%my < most_elements) exit
+         if (grid%mx <= 10 .and. grid%my <= 10) exit
+         if (grid%mx > 10) dx = 2.0_wp*dx
+         if (grid%my > 10) ds = 2.0_wp*ds
+      end do
+      grid%dx = dx
+      grid%dy = ds
+      grid%xl = (ix(1) - 0.5_wp)*dx
+      grid%yl = (iy(1) - 0.5_wp)*ds
+   end subroutine patch_grid
+
+   !> Distance of the undeformed bodies [mm], shifted so that its minimum is zero, and the approach
+   subroutine undeformed_distance(rail, wheel, placement, plane, grid, h, approach)
+      !> The rail in track coordinates
+      type(profile_curve), intent(in) :: rail
+      !> The wheel in its own coordinates
+      type(profile_curve), intent(in) :: wheel
+      type(pair_placement), intent(in) :: placement
+      type(frame), intent(in) :: plane
+      type(potential_contact), intent(in) :: grid
+      !> Shape (mx, my)
+      real(wp), allocatable, intent(inout) :: h(:, :)
+      !> Largest interpenetration along n [mm]; negative when the bodies do not touch
+      real(wp), intent(out) :: approach
+      type(profile_curve) :: section
+      type(frame) :: seen
+      real(wp) :: delta, s, n_rail, n_wheel, start_s, start_n, row_s, row_n, place
+      logical :: found
+      integer :: ix, iy
+
+      if (allocated(h)) then
+         if (any(shape(h) /= [grid%mx, grid%my])) deallocate(h)
+      end if
+      if (.not. allocated(h)) allocate(h(grid%mx, grid%my))
+      delta = plane%roll()
+      section = rail%seen_from(plane%origin(2:3) - [0.0_wp, roller_lift()], delta)
+      ! the plane seen from the wheel
+      seen = placement%wheel%seen_from_here(plane)
+      row_s = wheel%s_at(seen%origin(2))
+      row_n = 0.0_wp
+      do iy = 1, grid%my
+         s = grid%y(iy)
+         start_s = row_s
+         start_n = row_n
+         do ix = 1, grid%mx
+            n_rail = rail_height(grid%x(ix), s)
+            place = start_s
+            n_wheel = start_n
+            call wheel_height(wheel, placement%wheel_radius, seen, grid%x(ix), s, place, n_wheel, found)
+            if (found) then
+               start_s = place
+               start_n = n_wheel
+               if (ix == 1) then
+                  row_s = place
+                  row_n = n_wheel
+               end if
+            else
+               n_wheel = -nothing_there
+            end if
+            h(ix, iy) = n_rail - n_wheel
+         end do
+      end do
+      approach = -minval(h)
+      h = h + approach
+
+   contains
+
+      !> Height of the roller's top above the section at the reference
+      pure real(wp) function roller_lift()
+         roller_lift = 0.0_wp
+         if (placement%roller_radius > 0.0_wp) roller_lift = plane%origin(3) - rail%height(plane%origin(2))
+      end function roller_lift
+
+      !> Height n of the rail's surface
+      real(wp) function rail_height(x, s) result(n)
+         real(wp), intent(in) :: x, s
+
+         n = nothing_there
+         if (placement%roller_radius > 0.0_wp) then
+            call roller_height(plane, rail, placement%roller_radius, x, s, n)
+         else if (section%has(s)) then
+            n = section%height(s)
+         end if
+      end function rail_height
+   end subroutine undeformed_distance
+
+   !> Height of a roller's surface over the plane: fixed point of n = distance to the surface below the track point
+   subroutine roller_height(plane, rail, radius, x, s, n)
+      type(frame), intent(in) :: plane
+      type(profile_curve), intent(in) :: rail
+      real(wp), intent(in) :: radius, x, s
+      !> Unchanged where there is no surface
+      real(wp), intent(inout) :: n
+      real(wp) :: point(3), rho, z, trial, correction, slope
+      integer :: step
+
+      trial = 0.0_wp
+      do step = 1, 30
+         point = plane%to_parent([x, s, trial])
+         if (.not. rail%has(point(2))) return
+         rho = radius - rail%height(point(2))
+         if (abs(point(1)) >= rho) return
+         z = radius - sqrt(rho**2 - point(1)**2)
+         ! the surface lies below the trial point by z - point(3); its slope across the track turns the way along n
+         slope = tan(rail%inclination(rail%s_at(point(2))))
+         correction = (z - point(3))/(plane%axes(3, 3) - slope*plane%axes(2, 3))
+         trial = trial + correction
+         if (abs(correction) < 1.0e-12_wp*radius) then
+            n = trial
+            return
+         end if
+      end do
+   end subroutine roller_height
+
+   !> Height n of the wheel's surface over a point (x, s) of the plane
+   !>
+   !> Unknown are the place on the profile and n: the point lies at the profile's lateral position, and
+   !> on the circle that this place describes.
+   pure subroutine wheel_height(wheel, radius, seen, x, s, place, n, found)
+      type(profile_curve), intent(in) :: wheel
+      !> Of the wheel at the origin of its profile [mm]
+      real(wp), intent(in) :: radius
+      !> The plane seen from the wheel
+      type(frame), intent(in) :: seen
+      real(wp), intent(in) :: x, s
+      !> Estimates on entry, solution on exit
+      real(wp), intent(inout) :: place, n
+      logical, intent(out) :: found
+      real(wp) :: q(3), k(3), z, r, f(2), j(2, 2), det, step(2), range(2)
+      integer :: iteration
+      real(wp), parameter :: tolerance = 1.0e-12_wp
+
+      found = .false.
+      range = wheel%s_range()
+      k = seen%axes(:, 3)
+      place = min(max(place, range(1)), range(2))
+      do iteration = 1, 30
+         q = seen%to_parent([x, s, n])
+         z = wheel%z%value(place)
+         r = radius + z
+         if (abs(q(1)) >= r) return
+         f(1) = q(2) - wheel%y%value(place)
+         f(2) = q(3) + radius - sqrt(r**2 - q(1)**2)
+         j(1, 1) = -wheel%y%slope(place)
+         j(1, 2) = k(2)
+         j(2, 1) = -r*wheel%z%slope(place)/sqrt(r**2 - q(1)**2)
+         j(2, 2) = k(3) + q(1)*k(1)/sqrt(r**2 - q(1)**2)
+         det = j(1, 1)*j(2, 2) - j(1, 2)*j(2, 1)
+         if (.not. abs(det) > 0.0_wp) return
+         step = [f(1)*j(2, 2) - j(1, 2)*f(2), j(1, 1)*f(2) - f(1)*j(2, 1)]/det
+         ! not further than profiles bend
+         step(1) = min(max(step(1), -5.0_wp), 5.0_wp)
+         place = place - step(1)
+         n = n - step(2)
+         if (place < range(1) - 1.0_wp .or. place > range(2) + 1.0_wp) return
+         place = min(max(place, range(1)), range(2))
+         if (abs(step(1)) + abs(step(2)) <= tolerance*radius) then
+            found = abs(wheel%y%value(place) - (seen%origin(2) + seen%axes(2, 1)*x + seen%axes(2, 2)*s + k(2)*n)) < 1.0e-6_wp
+            return
+         end if
+      end do
+   end subroutine wheel_height
+end module contact_wheelrail_flat_patch

@@ -1,0 +1,225 @@
+!> The vertical gap between wheel and rail along the contact locus
+!>
+!> A rail (or roller) that is prismatic along the track touches a wheel only where the wheel's surface
+!> is level along the track. These points, one for each lateral position, are the contact locus. In
+!> vertical view the gap there is g(y) = z_rail(y) - z_wheel(y), z down, negative for interpenetration;
+!> a wheel that sinks by dz loses that gap everywhere, so that one gap curve serves all heights.
+module contact_wheelrail_gap
+   use contact_base_kinds, only : wp
+   use contact_profile_curve, only : profile_curve
+   use contact_wheelrail_placement, only : pair_placement
+   implicit none (type, external)
+   private
+
+   public :: gap_curve, measure_gap, rail_in_track, locus_point, roller_drop
+
+   !> Gap on an even mesh over the rail, track coordinates
+   type :: gap_curve
+      !> Number of points, and their distance [mm]
+      integer :: n = 0
+      real(wp) :: dy = 0.0_wp
+      !> Lateral position, longitudinal position of the locus, gap [mm]; shape (n)
+      real(wp), allocatable :: y(:), x(:), gap(:)
+      !> Height of the rail [mm] and its inclination [rad]
+      real(wp), allocatable :: z(:), alpha(:)
+      !> 1/(2 r): curvature of wheel and roller along the track [1/mm]
+      real(wp) :: kappa = 0.0_wp
+   end type gap_curve
+
+   !> Gap where rail or wheel is missing [mm]
+   real(wp), parameter, public :: no_surface = 999.0_wp
+   !> Mesh width relative to the elements
+   real(wp), parameter :: mesh_share = 0.3_wp
+   !> The locus is at most this part of the radius away from the lowest point of the wheel
+   real(wp), parameter :: furthest = 0.5_wp
+
+contains
+
+   !> The rail's profile in track coordinates
+   function rail_in_track(rail, placement) result(curve)
+      type(profile_curve), intent(in) :: rail
+      type(pair_placement), intent(in) :: placement
+      type(profile_curve) :: curve
+      real(wp) :: angle, origin(2)
+
+      angle = placement%rail%roll()
+      ! the origin of the track in rail coordinates
+      origin = [-cos(angle)*placement%rail%origin(2) - sin(angle)*placement%rail%origin(3), &
+         & sin(angle)*placement%rail%origin(2) - cos(angle)*placement%rail%origin(3)]
+      curve = rail%seen_from(origin, -angle)
+   end function rail_in_track
+
+   !> Point of the locus at a place of the wheel's profile, in track coordinates [mm]
+   !>
+   !> The normal of the surface of revolution is perpendicular to the track there.
+   function locus_point(wheel, placement, s) result(point)
+      type(profile_curve), intent(in) :: wheel
+      type(pair_placement), intent(in) :: placement
+      !> Place on the profile [mm]
+      real(wp), intent(in) :: s
+      real(wp) :: point(3)
+      real(wp) :: radius, slope, x, z
+      !> A profile that is steeper than this counts as vertical [-]
+      real(wp), parameter :: steepest = -1.0e-6_wp
+
+      z = wheel%z%value(s)
+      radius = placement%wheel_radius + z
+      slope = wheel%z%slope(s)/min(steepest, wheel%y%slope(s))
+      associate (axes => placement%wheel%axes)
+         x = (radius*slope*axes(1, 2) - placement%wheel_radius*axes(1, 3))/axes(1, 1)
+      end associate
+      x = max(-furthest*placement%wheel_radius, min(furthest*placement%wheel_radius, x))
+      if (placement%roller_radius > 0.0_wp) x = roller_locus(x)
+      point = placement%wheel%to_parent([x, wheel%y%value(s), sqrt(radius**2 - x**2) - placement%wheel_radius])
+
+   contains
+
+      !> On a roller the surface below slopes along the track, too: z = x/rho
+      real(wp) function roller_locus(start) result(place)
+         real(wp), intent(in) :: start
+         real(wp) :: d, here(3)
+         integer :: step
+
+         place = start
+         associate (axes => placement%wheel%axes)
+            do step = 1, 3
+               d = place*axes(3, 1) - radius*slope*axes(3, 2) + placement%wheel_radius*axes(3, 3)
+               here = placement%wheel%to_parent([place, wheel%y%value(s), sqrt(radius**2 - place**2) - placement%wheel_radius])
+               place = (-d*here(1)/placement%roller_radius + d*place/placement%roller_radius + radius*slope*axes(1, 2) &
+                  & - (placement%wheel_radius + z)*axes(1, 3))/(axes(1, 1) + d/placement%roller_radius)
+               place = max(-furthest*placement%wheel_radius, min(furthest*placement%wheel_radius, place))
+            end do
+         end associate
+      end function roller_locus
+   end function locus_point
+
+   !> How much lower a roller is at a distance from its top [mm]; 0 on a track
+   pure real(wp) function roller_drop(placement, x, z) result(drop)
+      type(pair_placement), intent(in) :: placement
+      !> Longitudinal position and height of its profile there [mm]
+      real(wp), intent(in) :: x, z
+      real(wp) :: rho
+
+      drop = 0.0_wp
+      if (.not. placement%roller_radius > 0.0_wp) return
+      rho = placement%roller_radius - z
+      drop = rho - sqrt(max(0.0_wp, rho**2 - x**2))
+   end function roller_drop
+
+   !> Gap between a rail and a wheel in their present places
+   subroutine measure_gap(rail, wheel, placement, ds, gap)
+      !> The rail in track coordinates
+      type(profile_curve), intent(in) :: rail
+      !> The wheel in its own coordinates
+      type(profile_curve), intent(in) :: wheel
+      type(pair_placement), intent(in) :: placement
+      !> Lateral size of the elements [mm]
+      real(wp), intent(in) :: ds
+      type(gap_curve), intent(inout) :: gap
+      real(wp), allocatable :: places(:), lateral(:)
+      real(wp) :: range(2), s, point(3)
+      integer :: i, cell
+
+      call trim_wheel(wheel, placement, places, lateral)
+      range = rail%y_range()
+      gap%dy = mesh_share*ds
+      gap%n = ceiling((range(2) - range(1))/gap%dy) + 1
+      if (allocated(gap%y)) then
+         if (size(gap%y) /= gap%n) deallocate(gap%y, gap%x, gap%gap, gap%z, gap%alpha)
+      end if
+      if (.not. allocated(gap%y)) allocate(gap%y(gap%n), gap%x(gap%n), gap%gap(gap%n), gap%z(gap%n), gap%alpha(gap%n))
+      gap%kappa = 0.5_wp/placement%wheel_radius
+      if (placement%roller_radius > 0.0_wp) gap%kappa = gap%kappa + 0.5_wp/placement%roller_radius
+      cell = size(places) - 1
+      do i = 1, gap%n
+         gap%y(i) = range(1) + (i - 1)*gap%dy
+         gap%x(i) = 0.0_wp
+         gap%gap(i) = no_surface
+         gap%z(i) = 0.0_wp
+         gap%alpha(i) = 0.0_wp
+         if (.not. rail%has(gap%y(i))) cycle
+         s = rail%s_at(gap%y(i))
+         gap%z(i) = rail%z%value(s)
+         gap%alpha(i) = rail%inclination(s)
+         if (cell < 1) cycle
+         ! places run with decreasing y, the mesh with increasing y
+         if (gap%y(i) < lateral(size(lateral)) .or. gap%y(i) > lateral(1)) cycle
+         do while (cell > 1 .and. lateral(cell) < gap%y(i))
+            cell = cell - 1
+         end do
+         point = locus_at(wheel, placement, gap%y(i), places(cell), places(cell + 1), lateral(cell), lateral(cell + 1))
+         gap%x(i) = point(1)
+         gap%gap(i) = gap%z(i) + roller_drop(placement, point(1), gap%z(i)) - point(3)
+      end do
+   end subroutine measure_gap
+
+   !> Places of the wheel's profile between which y in the track falls steadily, around its middle
+   subroutine trim_wheel(wheel, placement, places, lateral)
+      type(profile_curve), intent(in) :: wheel
+      type(pair_placement), intent(in) :: placement
+      !> Nodes [mm] and their lateral positions in the track [mm], the latter falling
+      real(wp), allocatable, intent(out) :: places(:), lateral(:)
+      real(wp), allocatable :: nodes(:), y(:)
+      real(wp) :: point(3), middle
+      integer :: i, first, last, start
+
+      nodes = wheel%y%s
+      allocate(y(size(nodes)))
+      do i = 1, size(nodes)
+         point = locus_point(wheel, placement, nodes(i))
+         y(i) = point(2)
+      end do
+      middle = 0.5_wp*(minval(y) + maxval(y))
+      start = minloc(abs(y - middle), dim=1)
+      first = start
+      do while (first > 1)
+         if (.not. y(first - 1) > y(first)) exit
+         first = first - 1
+      end do
+      last = start
+      do while (last < size(y))
+         if (.not. y(last + 1) < y(last)) exit
+         last = last + 1
+      end do
+      places = nodes(first:last)
+      lateral = y(first:last)
+   end subroutine trim_wheel
+
+   !> Point of the locus with a given lateral position between two places, by the Illinois method
+   function locus_at(wheel, placement, y, s_high, s_low, y_high, y_low) result(point)
+      type(profile_curve), intent(in) :: wheel
+      type(pair_placement), intent(in) :: placement
+      real(wp), intent(in) :: y
+      !> Places and their lateral positions, y_low <= y <= y_high
+      real(wp), intent(in) :: s_high, s_low, y_high, y_low
+      real(wp) :: point(3)
+      real(wp) :: a, b, fa, fb, s, f
+      integer :: step, side
+      real(wp), parameter :: tolerance = 1.0e-11_wp
+
+      a = s_high
+      b = s_low
+      fa = y_high - y
+      fb = y_low - y
+      side = 0
+      s = a
+      if (abs(fb) < abs(fa)) s = b
+      do step = 1, 60
+         if (abs(fa - fb) > 0.0_wp) s = (a*fb - b*fa)/(fb - fa)
+         point = locus_point(wheel, placement, s)
+         f = point(2) - y
+         if (abs(f) <= tolerance) exit
+         if ((f > 0.0_wp) .eqv. (fa > 0.0_wp)) then
+            a = s
+            fa = f
+            if (side == 1) fb = 0.5_wp*fb
+            side = 1
+         else
+            b = s
+            fb = f
+            if (side == -1) fa = 0.5_wp*fa
+            side = -1
+         end if
+      end do
+   end function locus_at
+end module contact_wheelrail_gap

@@ -1,0 +1,188 @@
+!> Where rail and wheel are in the track, and how they move
+!>
+!> Everything is that of a right-hand pair: for the left side of the track lateral positions, roll
+!> and yaw and their rates change sign on the way in.
+module contact_wheelrail_placement
+   use contact_base_kinds, only : wp
+   use contact_profile_curve, only : profile_curve
+   use contact_wheelrail_creepage, only : rigid_motion
+   use contact_wheelrail_frame, only : frame, new_frame
+   use contact_wheelrail_spec, only : wheel_rail_spec
+   implicit none (type, external)
+   private
+
+   public :: pair_placement, gauge_point, place_pair, rail_motion, wheel_motion, side_sign
+
+   !> Frames in track coordinates
+   type :: pair_placement
+      !> Rail (or roller profile), wheelset and wheel
+      type(frame) :: rail, wheelset, wheel
+      !> Nominal radius of the wheel at the origin of its profile [mm]
+      real(wp) :: wheel_radius = 460.0_wp
+      !> Nominal radius of the roller [mm]; 0 on a track
+      real(wp) :: roller_radius = 0.0_wp
+   end type pair_placement
+
+   !> From this value on YTAPE says that there is no tape line [mm]
+   real(wp), parameter :: no_tape = 999.0_wp
+
+contains
+
+   !> -1 for the left side of the track, 1 for the right one
+   pure real(wp) function side_sign(pair)
+      type(wheel_rail_spec), intent(in) :: pair
+      side_sign = merge(-1.0_wp, 1.0_wp, pair%left)
+   end function side_sign
+
+   !> Top of the canted rail and its gauge point
+   !>
+   !> The gauge face is where the profile, from its gauge end on, comes to lie less than the gauge height
+   !> below the top; the gauge point is the innermost point above that.
+   subroutine gauge_point(rail, cant, height, top_z, gauge_y)
+      type(profile_curve), intent(in) :: rail
+      !> Cant [rad] and gauge height [mm]
+      real(wp), intent(in) :: cant, height
+      !> z of the top and y of the gauge point in axes through the profile's origin that are parallel to the track [mm]
+      real(wp), intent(out) :: top_z, gauge_y
+      type(profile_curve) :: canted
+      real(wp) :: s_top, s, low, high, y
+      integer :: i, first
+
+      canted = rail%seen_from([0.0_wp, 0.0_wp], cant)
+      call canted%top(s_top, top_z)
+      associate (nodes => canted%z%s)
+         first = size(nodes)
+         do i = 1, size(nodes)
+            if (canted%z%value(nodes(i)) - top_z <= height .or. nodes(i) >= s_top) then
+               first = i
+               exit
+            end if
+         end do
+         s = nodes(first)
+         if (first > 1) then
+            ! the crossing of the gauge line, by bisection: z falls monotonically enough between two points
+            low = nodes(first - 1)
+            high = nodes(first)
+            do while (high - low > 4.0_wp*spacing(max(abs(low), abs(high))))
+               s = 0.5_wp*(low + high)
+               if (s <= low .or. s >= high) exit
+               if (canted%z%value(s) - top_z <= height) then
+                  high = s
+               else
+                  low = s
+               end if
+            end do
+            s = high
+         end if
+         gauge_y = canted%y%value(s)
+         do i = first, size(nodes)
+            if (nodes(i) > s_top) exit
+            y = innermost(canted, nodes(i), s)
+            gauge_y = min(gauge_y, y)
+         end do
+      end associate
+   end subroutine gauge_point
+
+   !> Smallest y around a point of the profile, not before a given place
+   pure real(wp) function innermost(curve, s, start) result(y)
+      type(profile_curve), intent(in) :: curve
+      real(wp), intent(in) :: s, start
+      real(wp) :: place, slope
+      integer :: step
+
+      place = max(s, start)
+      do step = 1, 20
+         slope = curve%y%bend(place)
+         if (.not. slope > 0.0_wp) exit
+         place = place - curve%y%slope(place)/slope
+         if (abs(place - s) > 1.0_wp .or. place < start) exit
+      end do
+      y = curve%y%value(max(s, start))
+      if (abs(place - s) <= 1.0_wp .and. place >= start) y = min(y, curve%y%value(place))
+   end function innermost
+
+   !> Frames of a pair for a height of the wheelset
+   subroutine place_pair(pair, wheel, top_z, gauge_y, z_ws, deflection, placement)
+      type(wheel_rail_spec), intent(in) :: pair
+      type(profile_curve), intent(in) :: wheel
+      !> From gauge_point; not used with absolute placement
+      real(wp), intent(in) :: top_z, gauge_y
+      !> Height of the wheelset [mm], z down
+      real(wp), intent(in) :: z_ws
+      !> Lateral and vertical deflection of a massless rail [mm], right-hand pair
+      real(wp), intent(in) :: deflection(2)
+      type(pair_placement), intent(out) :: placement
+      type(frame) :: wheel_in_set
+      real(wp) :: s, y, z, tape
+
+      s = side_sign(pair)
+      associate (track => pair%track, deviation => pair%rail, w => pair%wheelset)
+         if (track%gaught > 0.0_wp) then
+            y = 0.5_wp*track%gaugwd - gauge_y + s*deviation%dy
+            z = deviation%dz
+            if (.not. pair%roller) z = z - top_z
+         else
+            y = s*(track%raily0 + deviation%dy)
+            z = track%railz0 + deviation%dz
+         end if
+         placement%rail = new_frame([0.0_wp, y + deflection(1), z + deflection(2)], -track%cant + s*deviation%roll, 0.0_wp)
+         if (pair%roller) placement%roller_radius = track%nomradr
+
+         placement%wheelset = new_frame([w%x, s*w%y, z_ws - w%nomradw], s*w%roll, s*w%yaw)
+         tape = 0.0_wp
+         if (abs(w%ytape) < no_tape) tape = wheel%height(w%ytape)
+         wheel_in_set = new_frame([w%flexible(1), 0.5_wp*w%fbdist - w%fbpos + s*w%flexible(2), &
+            & w%nomradw - tape + w%flexible(3)], s*w%flexible(4), s*w%flexible(5))
+         placement%wheel = placement%wheelset%of(wheel_in_set)
+         placement%wheel_radius = w%nomradw - tape
+      end associate
+   end subroutine place_pair
+
+   !> Motion of the rail, or of the roller about its axle
+   pure function rail_motion(pair, placement) result(motion)
+      type(wheel_rail_spec), intent(in) :: pair
+      type(pair_placement), intent(in) :: placement
+      type(rigid_motion) :: motion
+      real(wp) :: s, yaw_rate
+
+      s = side_sign(pair)
+      associate (rail => pair%rail)
+         if (pair%roller) then
+            yaw_rate = -s*placement%roller_radius*pair%wheelset%rpitch*pair%track%curvature
+            motion%origin = [0.0_wp, placement%rail%origin(2), placement%roller_radius]
+            motion%rotation = [s*rail%vroll, pair%wheelset%rpitch, yaw_rate]
+            motion%velocity = [0.0_wp, s*rail%vy, rail%vz]
+         else
+            yaw_rate = -s*pair%wheelset%vs*pair%track%curvature
+            motion%origin = placement%rail%origin
+            motion%rotation = [s*rail%vroll, 0.0_wp, yaw_rate]
+            motion%velocity = [-yaw_rate*placement%rail%origin(2), s*rail%vy, rail%vz]
+         end if
+      end associate
+   end function rail_motion
+
+   !> Motion of the wheel: that of the wheelset, and its flexible deviations
+   pure function wheel_motion(pair, placement, pitch_rate) result(motion)
+      type(wheel_rail_spec), intent(in) :: pair
+      type(pair_placement), intent(in) :: placement
+      !> Pitch rate of the wheelset [rad/s]
+      real(wp), intent(in) :: pitch_rate
+      type(rigid_motion) :: motion
+      real(wp) :: s, lever(3), flexible(3)
+
+      s = side_sign(pair)
+      associate (w => pair%wheelset, axes => placement%wheelset%axes)
+         motion%origin = placement%wheelset%origin
+         motion%rotation = matmul(axes, [s*w%vroll, pitch_rate, s*w%vyaw])
+         motion%velocity = [merge(0.0_wp, w%vs, pair%roller), s*w%vy, w%vz]
+         if (.not. any(abs(w%flexible_rate) > 0.0_wp)) return
+         ! the flexible rotation is about the centre of the wheel
+         lever = matmul(axes, [w%flexible(1), 0.5_wp*w%fbdist - w%fbpos + s*w%flexible(2), w%flexible(3)])
+         flexible = matmul(axes, [s*w%flexible_rate(4), w%flexible_rate(6), s*w%flexible_rate(5)])
+         motion%rotation = motion%rotation + flexible
+         motion%velocity = motion%velocity + matmul(axes, [w%flexible_rate(1), s*w%flexible_rate(2), w%flexible_rate(3)]) &
+            & - [flexible(2)*lever(3) - flexible(3)*lever(2), flexible(3)*lever(1) - flexible(1)*lever(3), &
+            & flexible(1)*lever(2) - flexible(2)*lever(1)]
+      end associate
+   end function wheel_motion
+end module contact_wheelrail_placement

@@ -1,0 +1,417 @@
+!> From the gap between wheel and rail to contact patches
+!>
+!> Every stretch where the bodies interpenetrate becomes a region with a reference: the mean of position
+!> and surface angle, weighted by the square of the interpenetration (contact model of a wheel that is
+!> round along the track). Regions close to each other are joined: combined to one patch, blended to one
+!> patch with several parts, or turned towards a common angle.
+module contact_wheelrail_regions
+   use contact_base_constants, only : pi
+   use contact_base_kinds, only : wp
+   use contact_wheelrail_gap, only : gap_curve, no_surface
+   use contact_wheelrail_spec, only : search_spec
+   implicit none (type, external)
+   private
+
+   public :: contact_region, region_box, find_regions, smallest_gap
+
+   !> Bounds in track coordinates [mm]
+   type :: region_box
+      real(wp) :: x(2) = 0.0_wp, y(2) = 0.0_wp, z(2) = 0.0_wp
+   end type region_box
+
+   !> One contact problem, or a near miss
+   type :: contact_region
+      type(region_box) :: box
+      !> Reference: position [mm] in track coordinates and surface angle [rad]
+      real(wp) :: x = 0.0_wp, y = 0.0_wp, alpha = 0.0_wp
+      !> Sum of weights
+      real(wp) :: weight = 0.0_wp
+      !> Smallest gap [mm], negative for interpenetration
+      real(wp) :: gap = 0.0_wp
+      !> Do the bodies interpenetrate?
+      logical :: touches = .false.
+      !> Parts of a blended patch with their bounds; of size 1 otherwise
+      type(region_box), allocatable :: part(:)
+      !> How much pressures of one part act on another, 0...1, shape (parts, parts)
+      real(wp), allocatable :: interaction(:, :)
+   end type contact_region
+
+   !> Gaps beyond this value do not take part in the search [mm]
+   real(wp), parameter :: far_away = 777.0_wp
+   !> Least weight of a mesh point
+   real(wp), parameter :: least_weight = 1.0e-10_wp
+   !> Exponent of the decrease of interaction with the distance of blended parts
+   real(wp), parameter :: blend_exponent = 0.8_wp
+   !> Angles nearer than this to a vertical plane are moved away from it [rad]
+   real(wp), parameter :: upright = 1.0e-3_wp
+   !> Near misses that are kept
+   integer, parameter :: most_misses = 2
+
+contains
+
+   !> Smallest gap of all mesh points [mm]
+   pure real(wp) function smallest_gap(gap)
+      type(gap_curve), intent(in) :: gap
+      smallest_gap = no_surface
+      if (gap%n > 0) smallest_gap = minval(gap%gap)
+   end function smallest_gap
+
+   !> Patches for a wheel that is lower by dz than where the gap was measured, field side first
+   subroutine find_regions(gap, dz, search, weight_power, regions, misses)
+      type(gap_curve), intent(in) :: gap
+      !> [mm]
+      real(wp), intent(in) :: dz
+      type(search_spec), intent(in) :: search
+      !> Weights by the square (2) or the first power (1) of the interpenetration
+      integer, intent(in) :: weight_power
+      type(contact_region), allocatable, intent(out) :: regions(:)
+      !> Near misses by rising gap
+      type(contact_region), allocatable, intent(out) :: misses(:)
+      real(wp), allocatable :: g(:)
+
+      g = gap%gap - dz
+      where (gap%gap > far_away) g = no_surface
+      call preliminary_regions(gap, g, weight_power, regions, misses)
+      call sort_regions(regions)
+      call join_regions(search, regions)
+      call shift_near_misses(search, misses, regions)
+      call turn_regions(search, regions)
+      call avoid_vertical(regions)
+   end subroutine find_regions
+
+   !> One region per stretch of interpenetration, and the nearest misses
+   subroutine preliminary_regions(gap, g, weight_power, regions, misses)
+      type(gap_curve), intent(in) :: gap
+      !> Gap at the present height [mm]
+      real(wp), intent(in) :: g(:)
+      integer, intent(in) :: weight_power
+      type(contact_region), allocatable, intent(out) :: regions(:), misses(:)
+      type(contact_region) :: region
+      integer :: i, first, last, n
+
+      n = size(g)
+      allocate(regions(0), misses(0))
+      i = 1
+      do while (i <= n)
+         if (g(i) < 0.0_wp) then
+            first = i
+            last = i
+            do while (last < n)
+               if (.not. g(last + 1) < 0.0_wp) exit
+               last = last + 1
+            end do
+            call describe(gap, g, first, last, weight_power, region)
+            regions = [regions, region]
+            i = last + 1
+         else
+            if (is_minimum(g, i)) then
+               call describe_miss(gap, g, i, region)
+               call keep_miss(region, misses)
+            end if
+            i = i + 1
+         end if
+      end do
+   end subroutine preliminary_regions
+
+   !> Is the gap lower here than on both sides?
+   pure logical function is_minimum(g, i)
+      real(wp), intent(in) :: g(:)
+      integer, intent(in) :: i
+
+      is_minimum = .false.
+      if (i <= 1 .or. i >= size(g) .or. g(i) > far_away) return
+      is_minimum = g(i) <= g(i - 1) .and. g(i) < g(i + 1) .and. g(i - 1) >= 0.0_wp .and. g(i + 1) >= 0.0_wp
+   end function is_minimum
+
+   !> Keep the nearest ones, by rising gap
+   subroutine keep_miss(region, misses)
+      type(contact_region), intent(in) :: region
+      type(contact_region), allocatable, intent(inout) :: misses(:)
+      integer :: place
+
+      place = count(misses%gap <= region%gap) + 1
+      if (place > most_misses) return
+      misses = [misses(:place - 1), region, misses(place:)]
+      if (size(misses) > most_misses) misses = misses(:most_misses)
+   end subroutine keep_miss
+
+   !> Reference, weight and bounds of a stretch of interpenetration
+   pure subroutine describe(gap, g, first, last, weight_power, region)
+      type(gap_curve), intent(in) :: gap
+      real(wp), intent(in) :: g(:)
+      !> The points with g < 0
+      integer, intent(in) :: first, last
+      integer, intent(in) :: weight_power
+      type(contact_region), intent(out) :: region
+      real(wp) :: c, t, w, total, x_low, x_high
+      integer :: i
+
+      region%touches = .true.
+      total = 0.0_wp
+      x_low = huge(x_low)
+      x_high = -huge(x_high)
+      do i = first, last
+         c = -g(i)
+         t = sqrt(c/gap%kappa)
+         if (weight_power == 1) then
+            w = 4.0_wp/3.0_wp*c*t
+         else
+            w = 16.0_wp/15.0_wp*c**2*t
+         end if
+         w = max(least_weight, w)
+         total = total + w
+         region%x = region%x + w*gap%x(i)
+         region%y = region%y + w*gap%y(i)
+         region%alpha = region%alpha + w*gap%alpha(i)
+         x_low = min(x_low, gap%x(i) - t)
+         x_high = max(x_high, gap%x(i) + t)
+      end do
+      region%x = region%x/total
+      region%y = region%y/total
+      region%alpha = region%alpha/total
+      region%weight = total*gap%dy
+      region%box%x = [x_low, x_high]
+      region%box%y(1) = zero_crossing(gap, g, first, first - 1)
+      region%box%y(2) = zero_crossing(gap, g, last, last + 1)
+      region%box%z(1) = height_at(gap, region%box%y(1), first)
+      region%box%z(2) = height_at(gap, region%box%y(2), last)
+      ! a patch that reaches the end of the profile: as long on that side as on the other one
+      if (first == 1) region%box%y(1) = 2.0_wp*region%y - region%box%y(2)
+      if (last == gap%n) region%box%y(2) = 2.0_wp*region%y - region%box%y(1)
+      region%gap = deepest(g, first, last)
+      allocate(region%part(1), source=region%box)
+      allocate(region%interaction(1, 1), source=1.0_wp)
+   end subroutine describe
+
+   !> Lateral position where the gap vanishes between a point inside and its neighbour outside
+   pure real(wp) function zero_crossing(gap, g, inside, outside) result(y)
+      type(gap_curve), intent(in) :: gap
+      real(wp), intent(in) :: g(:)
+      integer, intent(in) :: inside, outside
+
+      if (outside < 1 .or. outside > gap%n) then
+         y = gap%y(inside)
+      else if (g(outside) > far_away) then
+         y = gap%y(outside)
+      else
+         y = gap%y(inside) + (gap%y(outside) - gap%y(inside))*g(inside)/(g(inside) - g(outside))
+      end if
+   end function zero_crossing
+
+   !> Height of the rail at a lateral position next to a mesh point
+   pure real(wp) function height_at(gap, y, i) result(z)
+      type(gap_curve), intent(in) :: gap
+      real(wp), intent(in) :: y
+      integer, intent(in) :: i
+      integer :: j
+
+      j = i
+      if (y > gap%y(i)) j = i + 1
+      if (y < gap%y(i)) j = i - 1
+      z = gap%z(i)
+      if (j < 1 .or. j > gap%n .or. j == i) return
+      if (gap%gap(j) > far_away) return
+      z = gap%z(i) + (gap%z(j) - gap%z(i))*(y - gap%y(i))/(gap%y(j) - gap%y(i))
+   end function height_at
+
+   !> Smallest gap of a stretch, between mesh points by a parabola
+   pure real(wp) function deepest(g, first, last) result(lowest)
+      real(wp), intent(in) :: g(:)
+      integer, intent(in) :: first, last
+      integer :: i
+      real(wp) :: bend
+
+      i = first - 1 + minloc(g(first:last), dim=1)
+      lowest = g(i)
+      if (i <= 1 .or. i >= size(g)) return
+      if (abs(g(i - 1) - g(i)) > 1.0_wp .or. abs(g(i + 1) - g(i)) > 1.0_wp) return
+      bend = g(i - 1) - 2.0_wp*g(i) + g(i + 1)
+      if (bend > 0.0_wp) lowest = g(i) - 0.125_wp*(g(i + 1) - g(i - 1))**2/bend
+   end function deepest
+
+   !> A place where the bodies nearly touch
+   pure subroutine describe_miss(gap, g, i, region)
+      type(gap_curve), intent(in) :: gap
+      real(wp), intent(in) :: g(:)
+      integer, intent(in) :: i
+      type(contact_region), intent(out) :: region
+
+      region%x = gap%x(i)
+      region%y = gap%y(i)
+      region%alpha = gap%alpha(i)
+      region%weight = least_weight
+      ! a miss does not become a contact by interpolation
+      region%gap = max(1.0e-10_wp, deepest(g, i, i))
+      region%box%x = gap%x(i)
+      region%box%y = gap%y(i)
+      region%box%z = gap%z(i)
+      allocate(region%part(1), source=region%box)
+      allocate(region%interaction(1, 1), source=1.0_wp)
+   end subroutine describe_miss
+
+   !> Field side (large y) first
+   subroutine sort_regions(regions)
+      type(contact_region), allocatable, intent(inout) :: regions(:)
+      type(contact_region) :: moved
+      integer :: i, j
+
+      do i = 2, size(regions)
+         moved = regions(i)
+         j = i - 1
+         do while (j >= 1)
+            if (regions(j)%y >= moved%y) exit
+            regions(j + 1) = regions(j)
+            j = j - 1
+         end do
+         regions(j + 1) = moved
+      end do
+   end subroutine sort_regions
+
+   !> Distance of two regions, the first one on the field side [mm]
+   pure real(wp) function distance(field, gauge, along_track)
+      type(region_box), intent(in) :: field, gauge
+      !> Count the distance along the track, too?
+      logical, intent(in) :: along_track
+      real(wp) :: d(3)
+
+      d = 0.0_wp
+      if (along_track) d(1) = max(0.0_wp, field%x(1) - gauge%x(2), gauge%x(1) - field%x(2))
+      d(2) = max(0.0_wp, field%y(1) - gauge%y(2))
+      d(3) = field%z(1) - gauge%z(2)
+      distance = norm2(d)
+   end function distance
+
+   !> First combine what is near, then blend what is not far
+   subroutine join_regions(search, regions)
+      type(search_spec), intent(in) :: search
+      type(contact_region), allocatable, intent(inout) :: regions(:)
+      logical :: joined
+      integer :: i
+
+      joined = .true.
+      do while (joined)
+         joined = .false.
+         do i = 1, size(regions) - 1
+            if (distance(regions(i)%box, regions(i + 1)%box, .true.) > search%d_comb) cycle
+            if (abs(regions(i)%alpha - regions(i + 1)%alpha) > search%a_sep) cycle
+            call join(i, .false.)
+            joined = .true.
+            exit
+         end do
+      end do
+      joined = .true.
+      do while (joined)
+         joined = .false.
+         do i = 1, size(regions) - 1
+            if (distance(regions(i)%box, regions(i + 1)%box, .true.) > search%d_sep) cycle
+            if (abs(regions(i)%alpha - regions(i + 1)%alpha) > search%a_sep) cycle
+            call join(i, .true.)
+            joined = .true.
+            exit
+         end do
+      end do
+
+   contains
+
+      !> Make one region of a neighbouring pair
+      subroutine join(i, blend)
+         integer, intent(in) :: i
+         !> Do the parts stay known?
+         logical, intent(in) :: blend
+         type(contact_region) :: both
+         real(wp) :: w(2)
+
+         associate (a => regions(i), b => regions(i + 1))
+            w = [a%weight, b%weight]/(a%weight + b%weight)
+            both = a
+            both%x = w(1)*a%x + w(2)*b%x
+            both%y = w(1)*a%y + w(2)*b%y
+            both%alpha = w(1)*a%alpha + w(2)*b%alpha
+            both%weight = a%weight + b%weight
+            both%gap = min(a%gap, b%gap)
+            both%box%x = [min(a%box%x(1), b%box%x(1)), max(a%box%x(2), b%box%x(2))]
+            both%box%y = [b%box%y(1), a%box%y(2)]
+            both%box%z = [b%box%z(1), a%box%z(2)]
+            deallocate(both%part, both%interaction)
+            if (blend) then
+               both%part = [a%part, b%part]
+               both%interaction = interactions(both%part, search)
+            else
+               allocate(both%part(1), source=both%box)
+               allocate(both%interaction(1, 1), source=1.0_wp)
+            end if
+         end associate
+         regions = [regions(:i - 1), both, regions(i + 2:)]
+      end subroutine join
+   end subroutine join_regions
+
+   !> How much pressures of one part act on the others: fully when near, not at all when far
+   pure function interactions(part, search) result(factor)
+      type(region_box), intent(in) :: part(:)
+      type(search_spec), intent(in) :: search
+      real(wp) :: factor(size(part), size(part))
+      real(wp) :: d
+      integer :: i, j
+
+      factor = 1.0_wp
+      do i = 1, size(part)
+         do j = i + 1, size(part)
+            d = distance(part(i), part(j), .true.)
+            if (search%d_sep > search%d_comb) factor(i, j) = &
+               & min(1.0_wp, max(0.0_wp, (search%d_sep - d)/(search%d_sep - search%d_comb)))**blend_exponent
+            factor(j, i) = factor(i, j)
+         end do
+      end do
+   end function interactions
+
+   !> A patch grows towards a place that is about to touch, so that a second contact opens smoothly
+   subroutine shift_near_misses(search, misses, regions)
+      type(search_spec), intent(in) :: search
+      type(contact_region), intent(in) :: misses(:)
+      type(contact_region), intent(inout) :: regions(:)
+      real(wp) :: share
+      integer :: i, k
+
+      if (.not. search%g_miss > 0.0_wp) return
+      do k = 1, size(misses)
+         if (misses(k)%gap >= search%g_miss) cycle
+         share = 1.0_wp - misses(k)%gap/search%g_miss
+         do i = 1, size(regions)
+            associate (box => regions(i)%box, y => misses(k)%y)
+               if (y < box%y(1) .and. box%y(1) - y <= search%d_comb) box%y(1) = box%y(1) + share*(y - box%y(1))
+               if (y > box%y(2) .and. y - box%y(2) <= search%d_comb) box%y(2) = box%y(2) + share*(y - box%y(2))
+            end associate
+         end do
+      end do
+   end subroutine shift_near_misses
+
+   !> Planes of neighbouring patches turn towards a common one as they come closer
+   subroutine turn_regions(search, regions)
+      type(search_spec), intent(in) :: search
+      type(contact_region), intent(inout) :: regions(:)
+      real(wp) :: d, common, share
+      integer :: i
+
+      do i = 1, size(regions) - 1
+         associate (a => regions(i), b => regions(i + 1))
+            d = distance(a%box, b%box, .false.)
+            if (d < search%d_sep .or. d > search%d_turn .or. abs(a%alpha - b%alpha) > search%a_sep) cycle
+            common = (a%weight*a%alpha + b%weight*b%alpha)/(a%weight + b%weight)
+            share = (search%d_turn - d)/max(search%d_turn - search%d_sep, tiny(d))
+            a%alpha = a%alpha + share*(common - a%alpha)
+            b%alpha = b%alpha + share*(common - b%alpha)
+         end associate
+      end do
+   end subroutine turn_regions
+
+   !> Planes that are nearly vertical are turned away from it
+   subroutine avoid_vertical(regions)
+      type(contact_region), intent(inout) :: regions(:)
+      integer :: i
+
+      do i = 1, size(regions)
+         if (abs(abs(regions(i)%alpha) - 0.5_wp*pi) < upright) &
+            & regions(i)%alpha = sign(0.5_wp*pi - upright, regions(i)%alpha)
+      end do
+   end subroutine avoid_vertical
+end module contact_wheelrail_regions

@@ -1,0 +1,222 @@
+!> Contact search of wheel and rail: patches, references, grids, approach
+!>
+!> Against the published figures of the Manchester contact benchmark (case A-2.2, right wheel; original
+!> program, revision 2707), with its profile files where they are at hand; and a sphere on a plane.
+program test_search
+   use contact_base_error, only : error_type
+   use contact_base_kinds, only : wp
+   use contact_base_log, only : log_type
+   use contact_grid_potential_contact, only : potential_contact
+   use contact_profile_curve, only : profile_curve
+   use contact_profile_prepare, only : read_profile
+   use contact_profile_request, only : profile_request, profile_side
+   use contact_test_harness, only : environment, test_suite
+   use contact_wheelrail_flat_patch, only : patch_frame, patch_grid, undeformed_distance
+   use contact_wheelrail_frame, only : frame
+   use contact_wheelrail_gap, only : gap_curve, measure_gap, rail_in_track
+   use contact_wheelrail_placement, only : gauge_point, pair_placement, place_pair
+   use contact_wheelrail_regions, only : contact_region, find_regions, smallest_gap
+   use contact_wheelrail_spec, only : wheel_rail_spec
+   implicit none (type, external)
+   type(test_suite) :: suite
+
+   call suite%start("contact search")
+   call sphere_on_plane(suite)
+   call mirrored_wheel(suite)
+   call benchmark(suite)
+   call suite%finish()
+
+contains
+
+   !> A profile given by points in a file
+   subroutine profile_of(file, side, curve, error)
+      character(len=*), intent(in) :: file
+      integer, intent(in) :: side
+      type(profile_curve), intent(out) :: curve
+      type(error_type), allocatable, intent(out) :: error
+      type(profile_request) :: request
+      type(log_type) :: log
+
+      request%file = file
+      request%side = side
+      call read_profile(request, curve, log, error)
+   end subroutine profile_of
+
+   !> Write a profile z(y) as a table
+   subroutine write_profile(file, y, z)
+      character(len=*), intent(in) :: file
+      real(wp), intent(in) :: y(:), z(:)
+      integer :: unit, i
+
+      open(newunit=unit, file=file, action="write", status="replace")
+      do i = 1, size(y)
+         write(unit, '(2f24.14)') y(i), z(i)
+      end do
+      close(unit)
+   end subroutine write_profile
+
+   !> A ball of 500 mm on a plane: the gap is that of a sphere
+   subroutine sphere_on_plane(suite)
+      type(test_suite), intent(inout) :: suite
+      real(wp), parameter :: radius = 500.0_wp, pen = 0.1_wp
+      type(profile_curve) :: rail, wheel, in_track
+      type(error_type), allocatable :: error
+      type(wheel_rail_spec) :: pair
+      type(pair_placement) :: placement
+      type(gap_curve) :: gap
+      type(contact_region), allocatable :: regions(:), misses(:)
+      type(frame) :: plane
+      type(potential_contact) :: grid
+      real(wp), allocatable :: h(:, :), y(:)
+      real(wp) :: approach, exact, worst
+      integer :: i, ix, iy
+
+      y = [(real(i, wp), i=-60, 60)]*0.5_wp
+      call write_profile("plane.txt", y, 0.0_wp*y)
+      call write_profile("ball.txt", -y, sqrt(radius**2 - y**2) - radius)
+      call profile_of("plane.txt", profile_side%rail, rail, error)
+      if (.not. allocated(error)) call profile_of("ball.txt", profile_side%wheel, wheel, error)
+      call suite%check(.not. allocated(error), "profiles of a plane and a ball")
+      if (allocated(error)) return
+      pair%track%gaught = 0.0_wp
+      pair%wheelset%fbdist = 0.0_wp
+      pair%wheelset%fbpos = 0.0_wp
+      pair%wheelset%nomradw = radius
+      pair%wheelset%yaw = 0.01_wp
+      pair%search%dx = 0.2_wp
+      pair%search%ds = 0.2_wp
+      call place_pair(pair, wheel, 0.0_wp, 0.0_wp, pen, [0.0_wp, 0.0_wp], placement)
+      in_track = rail_in_track(rail, placement)
+      call measure_gap(in_track, wheel, placement, pair%search%ds, gap)
+      call suite%close_to(smallest_gap(gap), -pen, 1.0e-5_wp, "smallest gap")
+      call find_regions(gap, 0.0_wp, pair%search, 2, regions, misses)
+      call suite%equal(size(regions), 1, "one patch")
+      if (size(regions) /= 1) return
+      call suite%close_to([regions(1)%x, regions(1)%y, regions(1)%alpha], [0.0_wp, 0.0_wp, 0.0_wp], 1.0e-6_wp, "reference")
+      call suite%close_to(regions(1)%box%y, [-1.0_wp, 1.0_wp]*sqrt(2.0_wp*radius*pen - pen**2), 1.0e-3_wp, "lateral extent")
+      call suite%close_to(regions(1)%box%x, [-1.0_wp, 1.0_wp]*sqrt(2.0_wp*radius*pen), 1.0e-3_wp, "longitudinal extent")
+      plane = patch_frame(in_track, placement, regions(1))
+      call patch_grid(in_track, pair%search, regions(1), plane, 20000, grid)
+      call undeformed_distance(in_track, wheel, placement, plane, grid, h, approach)
+      worst = 0.0_wp
+      do iy = 1, grid%my
+         do ix = 1, grid%mx
+            exact = radius - sqrt(radius**2 - grid%x(ix)**2 - grid%y(iy)**2)
+            worst = max(worst, abs(h(ix, iy) - approach + pen - exact))
+         end do
+      end do
+      call suite%close_to(approach, pen, 1.0e-5_wp, "approach")
+      call suite%close_to(worst, 0.0_wp, 1.0e-6_wp, "undeformed distance of a sphere")
+      call suite%check(patch_is_covered(grid, regions(1)), "one element more than the patch on each side")
+
+      call patch_grid(in_track, pair%search, regions(1), plane, 2000, grid)
+      call suite%check(grid%npot() < 2000 .and. grid%dx >= 0.4_wp, "larger elements where there would be too many")
+      call find_regions(gap, -2.0_wp*pen, pair%search, 2, regions, misses)
+      call suite%check(size(regions) == 0 .and. size(misses) == 1, "a lifted wheel: a near miss")
+      if (size(misses) == 1) call suite%close_to(misses(1)%gap, pen, 1.0e-5_wp, "its gap")
+   end subroutine sphere_on_plane
+
+   pure logical function patch_is_covered(grid, region)
+      type(potential_contact), intent(in) :: grid
+      type(contact_region), intent(in) :: region
+
+      patch_is_covered = grid%xl + grid%dx <= region%box%x(1) .and. grid%xl + (grid%mx - 1)*grid%dx >= region%box%x(2) &
+         & .and. grid%yl + grid%dy <= region%box%y(1) .and. grid%yl + (grid%my - 1)*grid%dy >= region%box%y(2)
+   end function patch_is_covered
+
+   !> Left and right are mirror images: the same numbers from mirrored input
+   subroutine mirrored_wheel(suite)
+      type(test_suite), intent(inout) :: suite
+      type(profile_curve) :: wheel
+      type(error_type), allocatable :: error
+      type(wheel_rail_spec) :: pair
+      type(pair_placement) :: right, left
+
+      call profile_of("ball.txt", profile_side%wheel, wheel, error)
+      if (allocated(error)) return
+      pair%wheelset%y = 3.0_wp
+      pair%wheelset%roll = -0.01_wp
+      pair%wheelset%yaw = 0.02_wp
+      pair%rail%dy = 0.5_wp
+      pair%rail%roll = 0.003_wp
+      call place_pair(pair, wheel, 0.0_wp, -40.0_wp, 0.1_wp, [0.0_wp, 0.0_wp], right)
+      pair%left = .true.
+      pair%wheelset%y = -3.0_wp
+      pair%wheelset%roll = 0.01_wp
+      pair%wheelset%yaw = -0.02_wp
+      pair%rail%dy = -0.5_wp
+      pair%rail%roll = -0.003_wp
+      call place_pair(pair, wheel, 0.0_wp, -40.0_wp, 0.1_wp, [0.0_wp, 0.0_wp], left)
+      call suite%check(all(right%wheel%origin == left%wheel%origin) .and. all(right%wheel%axes == left%wheel%axes) &
+         & .and. all(right%rail%origin == left%rail%origin) .and. all(right%rail%axes == left%rail%axes), &
+         & "mirrored input gives the same pair, to the last bit")
+   end subroutine mirrored_wheel
+
+   subroutine benchmark(suite)
+      type(test_suite), intent(inout) :: suite
+      character(len=:), allocatable :: folder
+      type(profile_curve) :: rail, wheel, in_track
+      type(error_type), allocatable :: error
+      type(wheel_rail_spec) :: pair
+      type(pair_placement) :: placement
+      type(gap_curve) :: gap
+      type(contact_region), allocatable :: regions(:), misses(:)
+      type(frame) :: plane
+      type(potential_contact) :: grid
+      real(wp), allocatable :: h(:, :)
+      real(wp) :: top_z, gauge_y, approach
+      character(len=16) :: what
+      logical :: there
+      integer :: k
+      !> Lateral position, roll, yaw, height of the wheelset; then published: reference x, y, z, contact angle, approach
+      !> (an inclined one hangs on the height of 4 decimals), number of elements
+      real(wp), parameter :: cases(10, 8) = reshape([ &
+         & 0.0_wp, 0.0_wp, 0.0_wp, 0.1981_wp, 0.0_wp, 751.8726_wp, 0.1252_wp, -0.0290_wp, 0.01596_wp, 3999.0_wp, &
+         & 0.5_wp, -0.00002304_wp, 0.0012_wp, 0.1938_wp, -0.8614_wp, 744.5026_wp, 0.4289_wp, -0.0568_wp, 0.01948_wp, 3995.0_wp, &
+         & 1.0_wp, -0.00005049_wp, 0.0024_wp, 0.1839_wp, -1.7013_wp, 741.9908_wp, 0.5753_wp, -0.0696_wp, 0.02448_wp, 2550.0_wp, &
+         & 3.0_wp, -0.0001803_wp, 0.0072_wp, 0.1143_wp, -4.999_wp, 739.9698_wp, 0.7367_wp, -0.0923_wp, 0.02439_wp, 1632.0_wp, &
+         & 5.0_wp, -0.0003554_wp, 0.012_wp, 0.0015_wp, -6.9999_wp, 727.0855_wp, 3.0041_wp, -0.2905_wp, 0.02719_wp, 3960.0_wp, &
+         & 5.5_wp, -0.0004777_wp, 0.0132_wp, -0.0866_wp, -7.37_wp, 726.1169_wp, 3.3006_wp, -0.3363_wp, 0.02926_wp, 969.0_wp, &
+         & 6.5_wp, -0.004376_wp, 0.0156_wp, -3.0468_wp, 5.801_wp, 718.4931_wp, 10.3654_wp, -1.1591_wp, 0.03623_wp, 1164.0_wp, &
+         & 10.0_wp, -0.01126431_wp, 0.024_wp, -8.2668_wp, -5.2821_wp, 721.088_wp, 6.5066_wp, -0.7992_wp, 0.03411_wp, 781.0_wp], &
+         & [10, 8])
+
+      folder = environment("CONTACT_REFERENCE")
+      there = len(folder) > 0
+      if (there) inquire(file=folder // "/examples/MBench_UIC60_v3.prr", exist=there)
+      if (.not. there) then
+         call suite%skip("benchmark", "the profiles of the reference folder are not at hand")
+         return
+      end if
+      call profile_of(folder // "/examples/MBench_UIC60_v3.prr", profile_side%rail, rail, error)
+      if (.not. allocated(error)) call profile_of(folder // "/examples/MBench_S1002_v3.prw", profile_side%wheel, wheel, error)
+      call suite%check(.not. allocated(error), "profiles of the benchmark")
+      if (allocated(error)) return
+      call gauge_point(rail, 0.0_wp, 14.0_wp, top_z, gauge_y)
+      call suite%close_to(gauge_y, -43.0326_wp, 1.0e-4_wp, "gauge point")
+      pair%search%dx = 0.2_wp
+      pair%search%ds = 0.2_wp
+      do k = 1, size(cases, 2)
+         write(what, '(a,f5.1)') "y =", cases(1, k)
+         pair%wheelset%y = cases(1, k)
+         pair%wheelset%roll = cases(2, k)
+         pair%wheelset%yaw = cases(3, k)
+         call place_pair(pair, wheel, top_z, gauge_y, cases(4, k), [0.0_wp, 0.0_wp], placement)
+         in_track = rail_in_track(rail, placement)
+         call measure_gap(in_track, wheel, placement, pair%search%ds, gap)
+         call find_regions(gap, 0.0_wp, pair%search, 2, regions, misses)
+         call suite%equal(size(regions), 1, trim(what) // ": one patch")
+         if (size(regions) /= 1) cycle
+         plane = patch_frame(in_track, placement, regions(1))
+         call suite%close_to(plane%origin, cases(5:7, k), 3.5e-3_wp, trim(what) // ": contact reference")
+         call suite%close_to(plane%roll(), cases(8, k), 1.0e-4_wp, trim(what) // ": contact angle")
+         call patch_grid(in_track, pair%search, regions(1), plane, 20000, grid)
+         call suite%equal(grid%npot(), nint(cases(10, k)), trim(what) // ": elements")
+         call undeformed_distance(in_track, wheel, placement, plane, grid, h, approach)
+         call suite%close_to(approach, cases(9, k), 2.5e-4_wp, trim(what) // ": approach")
+         call suite%check(size(regions(1)%part) == merge(2, 1, k == 5), trim(what) // ": blended parts")
+         if (k == 5 .and. size(regions(1)%part) == 2) call suite%close_to(regions(1)%interaction(1, 2), 0.389_wp, 1.0e-3_wp, &
+            & "interaction of blended parts")
+      end do
+   end subroutine benchmark
+end program test_search
