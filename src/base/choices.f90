@@ -9,6 +9,7 @@ module contact_base_choices
    public :: time_link, pressure_model, motion, normal_control, force_control, friction_model
    public :: kernel_model, material_model, solver_choice, estimate_choice, slip_source, heat_model
    public :: variation, stress_choice, contact_location
+   public :: sensitivity_choice
 
    !> How a case is linked to the previous one (P)
    type :: time_link_list
@@ -117,4 +118,12 @@ module contact_base_choices
       integer :: oblique_locus = 8, oblique_grid = 9
    end type contact_location_list
    type(contact_location_list), parameter :: contact_location = contact_location_list()
+
+   !> Sensitivities that are computed; each one includes those before it
+   type :: sensitivity_choice_list
+      !> forces: of the tangential forces to the creepages that belong to prescribed forces;
+      !> normal: and of the normal force to the approach; all: and of all forces to all inputs
+      integer :: none = 0, forces = 1, normal = 2, all = 3
+   end type sensitivity_choice_list
+   type(sensitivity_choice_list), parameter :: sensitivity_choice = sensitivity_choice_list()
 end module contact_base_choices

@@ -1,6 +1,7 @@
 !> From the specification of a case to the problem of its patch
 module contact_cases_patch_setup
-   use contact_base_choices, only : motion, normal_control, pressure_model, slip_source, solver_choice
+   use contact_base_choices, only : motion, normal_control, pressure_model, sensitivity_choice, slip_source, &
+      & solver_choice
    use contact_base_error, only : error_type, fatal_error
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
@@ -69,6 +70,12 @@ contains
       problem%d_cns = spec%iteration%d_cns
       problem%d_slp = spec%iteration%d_slp
       problem%pow_s = spec%iteration%pow_s
+      problem%sensitivity = spec%iteration%sensitivity
+      ! what nobody asked for is computed only if it gets printed
+      if (problem%sensitivity == sensitivity_choice%forces .and. spec%output_level < 2) &
+         & problem%sensitivity = sensitivity_choice%none
+      problem%mxsens = spec%iteration%mxsens
+      problem%epsens = spec%iteration%epsens
       problem%want_exterior = spec%mat_file >= 2 .or. spec%output_level >= 6
       call set_rolling(spec, problem, log)
       if (allocated(problem%extra_slip)) deallocate(problem%extra_slip)

@@ -29,6 +29,9 @@ module contact_cases_spec
       integer :: maxgs = 999, maxin = 20, maxnr = 25, maxout = 1
       !> Relative tolerance [-]
       real(wp) :: eps = 1.0e-5_wp
+      !> Member of sensitivity_choice; tolerance and largest number of iterations for sensitivities
+      integer :: sensitivity = 1, mxsens = 30
+      real(wp) :: epsens = 1.0e-4_wp
       !> Largest number of elements (wheel-rail contact)
       integer :: npot_max = 20000
       !> Relaxation in adhesion and slip areas, used by ConvexGS/SteadyGS when given by the input [-]

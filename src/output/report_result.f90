@@ -113,6 +113,7 @@ contains
       type(patch_result), intent(in) :: result
       character(len=2), parameter :: force_name(3) = ["FN", "FX", "FY"]
       character(len=:), allocatable :: row
+      real(wp) :: table(3, 4)
       integer :: i, j
 
       call log%result("")
@@ -130,10 +131,14 @@ contains
       end if
       call log%result(" ZERO MEANS: NOT COMPUTED.")
       call log%result("         DF/DPEN     DF/DKSI     DF/DETA     DF/DPHI")
+      table = result%sensitivity(1:3, :)
+      do j = 1, 4
+         table(2:3, j) = clean(table(2:3, j), spec%iteration%epsens*maxval(abs(table(2:3, j))))
+      end do
       do i = 1, 3
          row = "   " // force_name(i) // " "
          do j = 1, 4
-            row = row // smart(result%sensitivity(i, j), 12, 3, 3)
+            row = row // smart(table(i, j), 12, 3, 3)
          end do
          call log%result(row)
       end do

@@ -57,6 +57,9 @@ module contact_patch_problem
       real(wp) :: fdecay = 0.9_wp, betath = 0.1_wp
       integer :: kdowfb = 1
       real(wp) :: d_ifc = 1.0_wp, d_lin = 1.0_wp, d_cns = 1.0_wp, d_slp = 1.0_wp, pow_s = 0.9_wp
+      !> Member of sensitivity_choice; tolerance and largest number of iterations for them
+      integer :: sensitivity = 0, mxsens = 30
+      real(wp) :: epsens = 1.0e-4_wp
       !> Are displacements of exterior elements wanted?
       logical :: want_exterior = .false.
    end type patch_problem

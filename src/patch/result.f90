@@ -52,8 +52,9 @@ module contact_patch_result
       real(wp) :: cksi = 0.0_wp, ceta = 0.0_wp, cphi = 0.0_wp
       !> Elastic energy [J], frictional power [W] or work [J], dissipation negative
       real(wp) :: elastic_energy = 0.0_wp, friction_power = 0.0_wp
-      !> Sensitivities: rows FN FX FY, columns PEN KSI ETA PHI; 0 when not computed
-      real(wp) :: sensitivity(3, 4) = 0.0_wp
+      !> Sensitivities, rows FN, FX/(mu_scal FN), FY/(mu_scal FN), MZ, columns PEN KSI ETA PHI, in N, mm, rad;
+      !> 0 when not computed
+      real(wp) :: sensitivity(4, 4) = 0.0_wp
       !> Numbers of elements: contact, adhesion, slip, plastic
       integer :: ncon = 0, nadh = 0, nslip = 0, nplast = 0
       !> Passes of NORM and TANG, added up over the outer iterations, -1 for failure

@@ -13,6 +13,7 @@ module contact_patch_solve
    use contact_patch_normal_step, only : normal_step
    use contact_patch_problem, only : patch_problem, patch_state
    use contact_patch_result, only : patch_result
+   use contact_patch_sensitivities, only : find_sensitivities
    use contact_patch_tangential_step, only : tangential_step
    use contact_patch_workspace, only : fit_workspace, patch_workspace
    implicit none (type, external)
@@ -71,6 +72,7 @@ contains
          if (outer == problem%maxout) call log%warning("the outer iteration did not reach its tolerance in MAXOUT passes")
       end do
       call derive(problem, state, workspace, result)
+      call find_sensitivities(problem, workspace, result)
       state%started = .true.
    end subroutine solve_patch
 

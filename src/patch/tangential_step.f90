@@ -44,7 +44,6 @@ contains
          state%now%division(box%ix0:box%ix1, box%iy0:box%iy1) = solution%division
          if (problem%n_forces >= 1) result%cksi = solution%creep(1)
          if (problem%n_forces >= 2) result%ceta = solution%creep(2)
-         result%sensitivity(2:3, 2:3) = solution%sensitivity
          if (log%shows(3)) call trace_division(log, solution, result%tangential)
       end associate
       if (.not. result%tangential%succeeded()) call log%warning(failure_text("tangential", result%tangential))

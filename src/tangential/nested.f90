@@ -11,13 +11,13 @@ module contact_tangential_nested
    use contact_elastic_model, only : elastic_model
    use contact_elastic_new_compliance, only : new_compliance
    use contact_grid_coarsening, only : coarse_neighbours, coarse_size, coarsening_factor, shortest_side
-   use contact_tangential_newton, only : newton_outcome, newton_solve, newton_workspace
+   use contact_tangential_newton, only : newton_derivative, newton_outcome, newton_solve, newton_workspace
    use contact_tangential_problem, only : prepare_solution, residual_scale, settle, slip_of, &
       & tangential_problem, tangential_solution, true_residual
    implicit none (type, external)
    private
 
-   public :: nested_workspace, release_nested, solve_newton_krylov
+   public :: nested_workspace, release_nested, solve_newton_krylov, traction_derivative
 
    !> Scratch of one level
    type :: level_type
@@ -91,6 +91,21 @@ contains
          end associate
       end do
    end subroutine solve_newton_krylov
+
+   !> Derivative of the tractions at a solution, whatever method found it; see newton_derivative
+   subroutine traction_derivative(problem, operator, tolerance, workspace, solution, shift, bound, derivative, reached)
+      type(tangential_problem), intent(in) :: problem
+      class(compliance), intent(inout) :: operator
+      real(wp), intent(in) :: tolerance
+      type(nested_workspace), intent(inout) :: workspace
+      type(tangential_solution), intent(in) :: solution
+      real(wp), contiguous, intent(in) :: shift(:, :, :), bound(:, :)
+      real(wp), contiguous, intent(inout) :: derivative(:, :, :)
+      real(wp), intent(out) :: reached
+
+      if (.not. allocated(workspace%level)) allocate(workspace%level(levels))
+      call newton_derivative(problem, operator, tolerance, workspace%level(1)%newton, solution, shift, bound, derivative, reached)
+   end subroutine traction_derivative
 
    !> Free the plans of all levels
    subroutine release_nested(workspace)

@@ -21,7 +21,7 @@ module contact_tangential_newton
    implicit none (type, external)
    private
 
-   public :: newton_workspace, newton_outcome, newton_solve
+   public :: newton_workspace, newton_outcome, newton_derivative, newton_solve
 
    !> Scratch of one window size; no meaning between calls
    type :: newton_workspace
@@ -182,6 +182,53 @@ contains
       end do
       call divide_elements(problem, solution%p, solution%slip, system%r, solution%division)
    end subroutine newton_solve
+
+   !> Derivative of the tractions at a solution, while rigid slip and bounds change and creepages do not
+   !>
+   !> One more system with the Jacobian of the method: J dp = -r D dS + n dg in slip, where n is the direction
+   !> of the tractions. In adhesion the bound has no influence. Where an element is about to
+   !> change between adhesion and slip, it is the derivative to the side on which the element is.
+   subroutine newton_derivative(problem, operator, tolerance, workspace, solution, shift, bound, derivative, reached)
+      type(tangential_problem), intent(in) :: problem
+      !> Prepared for the window and the rolling direction of the problem
+      class(compliance), intent(inout) :: operator
+      !> Relative to the right-hand side
+      real(wp), intent(in) :: tolerance
+      type(newton_workspace), intent(inout) :: workspace
+      type(tangential_solution), intent(in) :: solution
+      !> Derivatives of the rigid slip per step, shape (mx, my, 2), and of the bound, shape (mx, my)
+      real(wp), contiguous, intent(in) :: shift(:, :, :), bound(:, :)
+      !> Derivative of the tractions, shape (mx, my, 2)
+      real(wp), contiguous, intent(inout) :: derivative(:, :, :)
+      !> Relative residual that was reached
+      real(wp), intent(out) :: reached
+      type(linear_system) :: system
+      type(tangential_solution) :: at
+      real(wp) :: correction(2)
+      integer :: preconditionings, k
+
+      derivative = 0.0_wp
+      reached = 0.0_wp
+      if (.not. any(problem%bound > 0.0_wp)) return
+      call fit_workspace(workspace, problem%mx, problem%my)
+      system%n = 2*problem%mx*problem%my
+      system%r = residual_scale(problem, operator)
+      system%g_norm = sqrt(sum(problem%bound**2))
+      system%g_sum = sum(problem%bound)
+      ! the slip of a settled solution has no plastic part
+      at = solution
+      call slip_of(problem, operator, at%p, at%creep, at%slip)
+      call linearise(problem, system, at, workspace)
+      workspace%residual = system%r*shift
+      call apply_d(workspace, workspace%residual)
+      do k = 1, 2
+         workspace%residual(:, :, k) = workspace%residual(:, :, k) - bound*workspace%direction(:, :, k)
+      end do
+      if (.not. any(abs(workspace%residual) > 0.0_wp)) return
+      preconditionings = 0
+      call solve_linear(problem, operator, system, workspace, [0.0_wp, 0.0_wp], tolerance, correction, preconditionings, reached)
+      derivative = workspace%step
+   end subroutine newton_derivative
 
    !> Slip and residual of the estimate, with creepages that suit its tractions
    !>

@@ -1,0 +1,87 @@
+!> Normal pressures by an approximate method instead of the full solution
+!>
+!> One procedure for the methods that need a prescribed approach; closed-form pressures for a
+!> prescribed force are in contact_normal_estimate.
+module contact_normal_approximate
+   use contact_base_choices, only : pressure_model
+   use contact_base_kinds, only : wp
+   use contact_base_log, only : log_type
+   use contact_base_solve_report, only : ending, solve_report
+   use contact_elastic_compliance, only : compliance
+   use contact_grid_potential_contact, only : potential_contact
+   use contact_normal_analyn, only : analyn_pressure
+   use contact_normal_kpec, only : kpec_shape
+   implicit none (type, external)
+   private
+
+   public :: approximate_pressure
+
+contains
+
+   !> Pressures for a prescribed approach.
+   !>
+   !> The report ends as "converged" after one pass, without iterations; its residual stays unknown,
+   !> since these methods do not fulfil the contact conditions to any tolerance.
+   subroutine approximate_pressure(model, grid, gap, modulus, operator, pn, report, log)
+      !> Member of pressure_model: kpec or analyn
+      integer, intent(in) :: model
+      type(potential_contact), intent(in) :: grid
+      !> Distance of the surfaces less the approach, with displacements by tangential tractions [mm],
+      !> shape (mx, my); negative where they overlap, above excluded_threshold: no contact possible
+      real(wp), contiguous, intent(in) :: gap(:, :)
+      !> Contact modulus G/(1 - nu) of the combined material [N/mm2]
+      real(wp), intent(in) :: modulus
+      !> Prepared for the window
+      class(compliance), intent(inout) :: operator
+      !> Pressures [N/mm2], shape (mx, my)
+      real(wp), contiguous, intent(inout) :: pn(:, :)
+      type(solve_report), intent(inout) :: report
+      type(log_type), intent(inout) :: log
+
+      if (overlaps_at_edge(gap)) call log%warning("the surfaces overlap at the edge of the potential contact area; " &
+         & // "the approximate normal method is less accurate there")
+      select case (model)
+      case (pressure_model%kpec)
+         report%method = "KPEC"
+         call scaled_kpec(grid, gap, operator, pn, report)
+      case (pressure_model%analyn)
+         report%method = "ANALYN"
+         call analyn_pressure(grid, gap, modulus, pn)
+      end select
+      report%ended = ending%converged
+      report%iterations = 0
+   end subroutine approximate_pressure
+
+   !> KPEC with the factor by which the displacement equals the largest overlap
+   subroutine scaled_kpec(grid, gap, operator, pn, report)
+      type(potential_contact), intent(in) :: grid
+      real(wp), contiguous, intent(in) :: gap(:, :)
+      class(compliance), intent(inout) :: operator
+      real(wp), contiguous, intent(inout) :: pn(:, :)
+      type(solve_report), intent(inout) :: report
+      real(wp), allocatable :: un(:, :)
+      integer :: place(2)
+
+      call kpec_shape(grid, gap, pn, place)
+      if (.not. any(pn > 0.0_wp)) return
+      allocate(un, mold=pn)
+      call operator%normal(pn, un)
+      pn = pn*(-gap(place(1), place(2))/un(place(1), place(2)))
+      report%products = report%products + 1
+      report%fft_pairs = report%fft_pairs + 1.0_wp
+   end subroutine scaled_kpec
+
+   !> Do the surfaces overlap in an element at the edge of the window?
+   pure logical function overlaps_at_edge(gap)
+      real(wp), intent(in) :: gap(:, :)
+      integer :: mx, my
+
+      mx = size(gap, 1)
+      my = size(gap, 2)
+      overlaps_at_edge = .false.
+      if (size(gap) == 0) return
+      ! a window of one row or column is a line contact, which has no edge on that side
+      if (my > 1) overlaps_at_edge = any(gap(:, [1, my]) < 0.0_wp)
+      if (mx > 1) overlaps_at_edge = overlaps_at_edge .or. any(gap([1, mx], :) < 0.0_wp)
+   end function overlaps_at_edge
+end module contact_normal_approximate

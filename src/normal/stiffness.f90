@@ -1,0 +1,63 @@
+!> Derivative of the pressures to the approach at a solution of the normal problem
+!>
+!> On the contact area the pressures fulfil A p = pen - h, so that A q = 1 for their derivative q while
+!> the area is kept, and dFn/dpen is dx dy times the sum of q. Elements that come into contact do so
+!> with zero pressure and add nothing to first order. (Of q the sum is known best: its error is
+!> quadratic in that of q.)
+module contact_normal_stiffness
+   use contact_base_kinds, only : wp
+   use contact_elastic_compliance, only : compliance
+   implicit none (type, external)
+   private
+
+   public :: pressure_derivative
+
+contains
+
+   !> Solve A q = 1 on the contact area by preconditioned conjugate gradients
+   subroutine pressure_derivative(operator, contact, tolerance, most_iterations, q, reached)
+      !> Prepared for the window
+      class(compliance), intent(inout) :: operator
+      !> Elements in contact, shape (mx, my)
+      logical, contiguous, intent(in) :: contact(:, :)
+      !> On the residual relative to 1, root of the mean square over the contact area
+      real(wp), intent(in) :: tolerance
+      integer, intent(in) :: most_iterations
+      !> Derivative of the pressures [N/mm3], zero outside the contact area
+      real(wp), contiguous, intent(inout) :: q(:, :)
+      !> Residual that was reached
+      real(wp), intent(out) :: reached
+      real(wp), allocatable :: r(:, :), z(:, :), d(:, :), u(:, :)
+      real(wp) :: rz, previous, curvature, start
+      integer :: k
+
+      q = 0.0_wp
+      reached = 0.0_wp
+      if (.not. any(contact)) return
+      allocate(r(size(q, 1), size(q, 2)), z(size(q, 1), size(q, 2)), d(size(q, 1), size(q, 2)), u(size(q, 1), size(q, 2)))
+      r = merge(1.0_wp, 0.0_wp, contact)
+      start = norm2(r)
+      reached = 1.0_wp
+      previous = 0.0_wp
+      do k = 1, most_iterations
+         call operator%normal_inverse(r, z)
+         where (.not. contact) z = 0.0_wp
+         rz = sum(r*z)
+         if (.not. rz > 0.0_wp) exit
+         if (k == 1) then
+            d = z
+         else
+            d = z + (rz/previous)*d
+         end if
+         previous = rz
+         call operator%normal(d, u)
+         curvature = sum(d*u)
+         if (.not. curvature > 0.0_wp) exit
+         q = q + (rz/curvature)*d
+         r = r - (rz/curvature)*u
+         where (.not. contact) r = 0.0_wp
+         reached = norm2(r)/start
+         if (reached <= tolerance) exit
+      end do
+   end subroutine pressure_derivative
+end module contact_normal_stiffness

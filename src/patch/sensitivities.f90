@@ -1,0 +1,136 @@
+!> Sensitivities of the forces to approach, creepages and spin at the solution of a patch
+!>
+!> Exact derivatives of the discrete solution: one linear system per input, with the operator of the normal
+!> problem on the contact area, and with the Jacobian of the tangential one. What the program
+!> solves one after the other stays so: the contact area is kept, normal displacements by tangential tractions
+!> are kept, and so is the coefficient of friction in each element.
+module contact_patch_sensitivities
+   use contact_base_choices, only : motion, sensitivity_choice
+   use contact_base_kinds, only : wp
+   use contact_elastic_compliance, only : compliance
+   use contact_grid_element_division, only : bounding_box, contact_box, element
+   use contact_normal_stiffness, only : pressure_derivative
+   use contact_patch_problem, only : patch_problem
+   use contact_patch_result, only : patch_result
+   use contact_patch_workspace, only : patch_workspace
+   use contact_tangential_nested, only : traction_derivative
+   implicit none (type, external)
+   private
+
+   public :: find_sensitivities
+
+   !> Rows and columns of the table
+   integer, parameter :: row_fn = 1, row_fx = 2, row_fy = 3, row_mz = 4
+   integer, parameter :: to_pen = 1, to_ksi = 2, to_eta = 3, to_phi = 4
+
+contains
+
+   !> Fill the table of sensitivities as far as the problem asks for it
+   subroutine find_sensitivities(problem, workspace, result)
+      type(patch_problem), intent(in) :: problem
+      !> Compliances, and the tangential problem with its solution
+      type(patch_workspace), intent(inout) :: workspace
+      !> Totals are known
+      type(patch_result), intent(inout) :: result
+      real(wp), allocatable :: q(:, :)
+      logical :: wanted(4)
+
+      if (problem%sensitivity == sensitivity_choice%none .or. result%ncon == 0) return
+      if (problem%sensitivity >= sensitivity_choice%normal .and. has_stiffness(problem)) &
+         & call normal_stiffness(problem, workspace%window, result, q)
+      if (problem%motion == motion%none) return
+      wanted = [.false., problem%n_forces >= 1, problem%n_forces >= 2, .false.]
+      if (problem%sensitivity >= sensitivity_choice%all) wanted = [allocated(q), .true., .true., .true.]
+      if (any(wanted)) call force_changes(problem, wanted, q, workspace, result)
+   end subroutine find_sensitivities
+
+   !> Do the pressures follow from a full solution of the normal problem?
+   pure logical function has_stiffness(problem)
+      type(patch_problem), intent(in) :: problem
+      has_stiffness = .not. allocated(problem%given_pressure)
+   end function has_stiffness
+
+   !> dFn/dpen [N/mm] and the derivative of the pressures
+   subroutine normal_stiffness(problem, operator, result, q)
+      type(patch_problem), intent(in) :: problem
+      class(compliance), intent(inout) :: operator
+      type(patch_result), intent(inout) :: result
+      !> [N/mm3], shape (mx, my)
+      real(wp), allocatable, intent(out) :: q(:, :)
+      logical, allocatable :: contact(:, :)
+      real(wp) :: reached
+
+      contact = result%division > element%exterior
+      allocate(q, mold=result%pn)
+      call pressure_derivative(operator, contact, problem%epsens, problem%mxsens, q, reached)
+      result%sensitivity(row_fn, to_pen) = problem%grid%dx*problem%grid%dy*sum(q)
+   end subroutine normal_stiffness
+
+   !> Changes of the tangential forces by the wanted inputs
+   subroutine force_changes(problem, wanted, q, workspace, result)
+      type(patch_problem), intent(in) :: problem
+      !> Columns of the table to fill
+      logical, intent(in) :: wanted(4)
+      !> Derivative of the pressures to the approach [N/mm3] on the window; unallocated: unknown
+      real(wp), allocatable, intent(in) :: q(:, :)
+      type(patch_workspace), intent(inout) :: workspace
+      type(patch_result), intent(inout) :: result
+      type(bounding_box) :: box
+      real(wp), allocatable :: shift(:, :, :), bound(:, :), change(:, :, :), box_q(:, :)
+      real(wp) :: x0, y0, scale, moment, reached
+      integer :: input, ix, iy
+
+      box = contact_box(result%division)
+      x0 = problem%spin_centre(1) - problem%spin_offset*problem%dq*cos(problem%chi)
+      y0 = problem%spin_centre(2) - problem%spin_offset*problem%dq*sin(problem%chi)
+      scale = problem%grid%dx*problem%grid%dy/(result%mu_scal*result%fn + tiny(scale))
+      associate (t => workspace%tangential, operator => workspace%box)
+         allocate(shift(t%mx, t%my, 2), change(t%mx, t%my, 2), bound(t%mx, t%my))
+         do input = to_pen, to_phi
+            if (.not. wanted(input)) cycle
+            shift = 0.0_wp
+            bound = 0.0_wp
+            select case (input)
+            case (to_pen)
+               box_q = q(box%ix0:box%ix1, box%iy0:box%iy1)
+               bound = result%mu(box%ix0:box%ix1, box%iy0:box%iy1)*box_q
+               where (workspace%solution%division == element%plastic) bound = 0.0_wp
+               if (problem%model%coupled()) then
+                  if (t%steady) then
+                     call operator%steady_by_normal(box_q, shift)
+                  else
+                     call operator%tangential_by_normal(box_q, shift)
+                  end if
+               end if
+            case (to_ksi)
+               shift(:, :, 1) = problem%dq
+            case (to_eta)
+               shift(:, :, 2) = problem%dq
+            case (to_phi)
+               do iy = 1, t%my
+                  do ix = 1, t%mx
+                     shift(ix, iy, 1) = -problem%dq*(problem%grid%y(box%iy0 + iy - 1) - y0)
+                     shift(ix, iy, 2) = problem%dq*(problem%grid%x(box%ix0 + ix - 1) - x0)
+                  end do
+               end do
+            end select
+            call traction_derivative(t, operator, problem%epsens, workspace%tangential_work, workspace%solution, shift, bound, &
+               & change, reached)
+            result%sensitivity(row_fx, input) = scale*sum(change(:, :, 1))
+            result%sensitivity(row_fy, input) = scale*sum(change(:, :, 2))
+            moment = 0.0_wp
+            do iy = 1, t%my
+               do ix = 1, t%mx
+                  moment = moment + problem%grid%x(box%ix0 + ix - 1)*change(ix, iy, 2) &
+                     & - problem%grid%y(box%iy0 + iy - 1)*change(ix, iy, 1)
+               end do
+            end do
+            result%sensitivity(row_mz, input) = problem%grid%dx*problem%grid%dy*moment
+         end do
+      end associate
+      if (.not. wanted(to_pen)) return
+      ! of forces relative to the normal force, which changes too
+      result%sensitivity([row_fx, row_fy], to_pen) = result%sensitivity([row_fx, row_fy], to_pen) &
+         & - [result%fx_rel, result%fy_rel]*result%sensitivity(row_fn, to_pen)/result%fn
+   end subroutine force_changes
+end module contact_patch_sensitivities
