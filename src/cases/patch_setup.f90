@@ -1,11 +1,11 @@
 !> From the specification of a case to the problem of its patch
 module contact_cases_patch_setup
-   use contact_base_choices, only : motion, normal_control, pressure_model, sensitivity_choice, slip_source, &
-      & solver_choice
+   use contact_base_choices, only : material_model, motion, normal_control, pressure_model, sensitivity_choice, &
+      & slip_source, solver_choice
    use contact_base_error, only : error_type, fatal_error
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
-   use contact_cases_geometry, only : build_grid, is_line_contact, solve_hertz, undeformed_distance
+   use contact_cases_geometry, only : build_grid, is_line_contact, require_positive, solve_hertz, undeformed_distance
    use contact_cases_numbers, only : check_numbers
    use contact_cases_spec, only : case_spec
    use contact_elastic_material, only : combine
@@ -13,6 +13,7 @@ module contact_cases_patch_setup
    use contact_normal_estimate, only : elliptic_pressure, parabolic_pressure
    use contact_patch_problem, only : patch_problem
    use contact_patch_result, only : patch_result
+   use contact_simplified_flexibility, only : ellipse, slope_reduction
    implicit none (type, external)
    private
 
@@ -136,6 +137,50 @@ contains
       end if
    end subroutine set_pressures
 
+   !> Simplified theory for the tangential problem, if the material model asks for it
+   subroutine set_simplified_theory(spec, result, problem, log, error)
+      type(case_spec), intent(in) :: spec
+      type(patch_result), intent(in) :: result
+      type(patch_problem), intent(inout) :: problem
+      type(log_type), intent(inout) :: log
+      type(error_type), allocatable, intent(out) :: error
+
+      if (allocated(problem%simplified)) deallocate(problem%simplified)
+      if (spec%motion == motion%none) return
+      select case (spec%material_model)
+      case (material_model%fastsim_single, material_model%fastsim)
+         continue
+      case (material_model%fastrip)
+         if (spec%motion /= motion%steady_rolling) then
+            call fatal_error(error, "FaStrip needs steady rolling; Fastsim, M = 2 or 3, can do shifts and transient rolling")
+            return
+         end if
+         if (spec%slip_source /= slip_source%none) then
+            call fatal_error(error, "FaStrip cannot take an extra rigid slip: strip theory knows creepages and spin only; " // &
+               & "Fastsim, M = 2 or 3, can")
+            return
+         end if
+      case default
+         return
+      end select
+      if (spec%motion == motion%shift .and. spec%material%alfamf < 1.0_wp .and. spec%material%betamf > 0.0_wp) then
+         call fatal_error(error, "slope reduction depends on creepages of rolling, a shift has none: ALFAMF must be 1 or " // &
+            & "BETAMF 0 with T = 1")
+         return
+      end if
+      allocate(problem%simplified)
+      associate (model => problem%simplified)
+         model%choice = spec%material_model
+         model%flx = spec%material%flx
+         model%reduction = slope_reduction(spec%material%k0_mf, spec%material%alfamf, spec%material%betamf)
+         if (allocated(result%hertz)) model%hertz = ellipse(result%hertz%aa, result%hertz%bb)
+         call require_positive("slope reduction factor K0_MF", model%reduction%k0, error)
+         if (model%choice == material_model%fastsim_single) call require_positive("flexibility FLX", model%flx, error)
+      end associate
+      if (problem%model%coupled()) call log%warning("simplified theory leaves out how pressures and shear tractions of " // &
+         & "dissimilar bodies act on each other")
+   end subroutine set_simplified_theory
+
    !> Rolling direction and step; steady solvers work with steps of one element along x
    subroutine set_rolling(spec, problem, log)
       type(case_spec), intent(in) :: spec
@@ -155,6 +200,7 @@ contains
       problem%veloc = spec%rolling%veloc
       problem%spin_offset = spec%rolling%facphi
       if (spec%motion /= motion%steady_rolling) then
+         if (allocated(problem%simplified)) return
          if (problem%dq > (1.0_wp + step_tolerance)*problem%grid%dx) call log%warning( &
             & "DQ is larger than DX: slip near the leading edge is less accurate, it is not corrected in this version")
          return
@@ -163,7 +209,7 @@ contains
          call log%warning("steady rolling goes along x: CHI is set to 0")
          problem%chi = 0.0_wp
       end if
-      if (abs(problem%dq - problem%grid%dx) > step_tolerance*problem%grid%dx) &
+      if (abs(problem%dq - problem%grid%dx) > step_tolerance*problem%grid%dx .and. .not. allocated(problem%simplified)) &
          & call log%warning("steady rolling advances by one element per step: DQ is set to DX")
       problem%dq = problem%grid%dx
    end subroutine set_rolling

@@ -113,10 +113,12 @@ contains
       text = "elastic half-spaces"
       if (allocated(problem%given_pressure)) text = text // ", Hertzian pressure"
       if (result%ncon > 0) then
+         if (allocated(problem%simplified)) text = text // ", simplified theory (" // result%tangential%method // ")"
          if (problem%motion == motion%shift) text = text // ", Coulomb friction in a shift"
          if (problem%motion == motion%transient_rolling) text = text // ", Coulomb friction in transient rolling"
          if (problem%motion == motion%steady_rolling) text = text // ", Coulomb friction in steady rolling"
-         if (problem%motion /= motion%none .and. problem%model%coupled()) text = text // ", dissimilar bodies"
+         if (problem%motion /= motion%none .and. problem%model%coupled() .and. .not. allocated(problem%simplified)) &
+            & text = text // ", dissimilar bodies"
          if (allocated(problem%extra_slip) .and. problem%motion /= motion%none) text = text // ", extra rigid slip"
          if (spec%stress /= stress_choice%none) text = text // ", subsurface stresses"
       end if

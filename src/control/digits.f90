@@ -78,10 +78,10 @@ module contact_control_digits
       & digit_row("C", 9, kernel_model%tabulated, .false., "numerical influence coefficients from a file"), &
       & digit_row("M", 0, material_model%elastic, .true., "elastic"), &
       & digit_row("M", 1, material_model%viscoelastic, .false., "viscoelastic"), &
-      & digit_row("M", 2, material_model%fastsim_single, .false., "simplified theory, one flexibility (modified Fastsim)"), &
-      & digit_row("M", 3, material_model%fastsim, .false., "simplified theory, three flexibilities (modified Fastsim)"), &
+      & digit_row("M", 2, material_model%fastsim_single, .true., "simplified theory, one flexibility (modified Fastsim)"), &
+      & digit_row("M", 3, material_model%fastsim, .true., "simplified theory, three flexibilities (modified Fastsim)"), &
       & digit_row("M", 4, material_model%interfacial_layer, .false., "interfacial layer with near-surface plasticity"), &
-      & digit_row("M", 5, material_model%fastrip, .false., "modified FaStrip"), &
+      & digit_row("M", 5, material_model%fastrip, .true., "modified FaStrip"), &
       & digit_row("M", 6, 6, .false., "experimental variant of FaStrip, not supported"), &
       & digit_row("M", 7, 7, .false., "experimental variant of FaStrip, not supported"), &
       & digit_row("Z", 0, 0, .true., "keep the undeformed distance and planform"), &

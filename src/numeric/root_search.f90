@@ -9,7 +9,8 @@
 !>
 !> From the start it walks downhill in growing steps until the sign changes, then it keeps the
 !> root between two points (regula falsi with the Illinois rule, Dowell and Jarratt 1971, and
-!> halving when three steps of it did not halve the interval). It always ends: with a root, with a jump across zero, or without a change of sign.
+!> halving when three steps of it did not halve the interval). It always ends: with a root, with
+!> a jump across zero, or without a change of sign.
 module contact_numeric_root_search
    use contact_base_kinds, only : wp
    implicit none (type, external)

@@ -50,9 +50,8 @@ contains
       type(finished_file) :: file
       integer :: status
 
-      if (has_plasticity(spec) .or. spec%digits%h >= 1 .or. spec%material_model == material_model%fastsim &
-         & .or. spec%material_model == material_model%fastrip) then
-         call fatal_error(error, "the .mat file cannot hold plasticity, temperature or simplified theory in this version", &
+      if (has_plasticity(spec) .or. spec%digits%h >= 1) then
+         call fatal_error(error, "the .mat file cannot hold plasticity or temperature in this version", &
             & error_kind%unsupported, file=file_name)
          return
       end if
@@ -94,7 +93,7 @@ contains
       lines(8) = two_integers(result%grid%mx, result%grid%my) // reals([result%grid%xl, result%grid%yl, result%grid%dx, &
          & result%grid%dy, chi, dq]) // integers([0, 2]) // reals(zeros(1))
       lines(9) = name_line(completed("   T    M", material_names(spec%material_model), 2))
-      values = material_values(spec)
+      values = material_values(spec, result)
       lines(10) = two_integers(spec%digits%t, spec%digits%m) // reals([values, zeros(columns - 2 - size(values))])
       lines(11) = name_line(completed("   L    H", friction_names(spec%friction_law), 2))
       values = [spec%rolling%veloc, friction_values(spec)]
@@ -147,7 +146,7 @@ contains
       select case (model)
       case (material_model%viscoelastic)
          names = [character(len=11) :: "GG1", "GG2", "POISS1", "POISS2", "FG1", "FG2", "TC1", "TC2"]
-      case (material_model%fastsim_single)
+      case (material_model%fastsim_single, material_model%fastsim, material_model%fastrip)
          names = [character(len=11) :: "GG1", "GG2", "POISS1", "FLX1", "FLX2", "FLX3", "K0_MF", "ALFAMF", "BETAMF"]
       case (material_model%interfacial_layer)
          names = [character(len=11) :: "GG1", "GG2", "POISS1", "POISS2", "GG3", "LAYTHK", "TAU_C0", "K_TAU"]
@@ -157,17 +156,18 @@ contains
    end function material_names
 
    !> Values that belong to material_names
-   pure function material_values(spec) result(values)
+   pure function material_values(spec, solved) result(values)
       type(case_spec), intent(in) :: spec
+      !> For the flexibilities of simplified theory
+      type(patch_result), intent(in) :: solved
       real(wp), allocatable :: values(:)
 
       associate (material => spec%material)
          select case (spec%material_model)
          case (material_model%viscoelastic)
             values = [material%gg, material%poiss, material%fg, material%tc]
-         case (material_model%fastsim_single)
-            values = [material%gg, material%poiss(1), spread(material%flx, 1, 3), material%k0_mf, material%alfamf, &
-               & material%betamf]
+         case (material_model%fastsim_single, material_model%fastsim, material_model%fastrip)
+            values = [material%gg, material%poiss(1), solved%flx, material%k0_mf, material%alfamf, material%betamf]
          case (material_model%interfacial_layer)
             values = [material%gg, material%poiss, material%gg3, material%laythk, material%tau_c0, material%k_tau]
          case default

@@ -4,7 +4,7 @@ module contact_output_report_input
       & pressure_model, solver_choice, variation
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
-   use contact_cases_spec, only : case_digits, case_spec, friction_set, kinematics_spec, material_spec
+   use contact_cases_spec, only : case_digits, case_spec, friction_set, kinematics_spec
    use contact_output_formats, only : fixed, general, generals, heading, smart, smarts, whole
    use contact_patch_result, only : hertz_result, patch_result
    implicit none (type, external)
@@ -211,43 +211,65 @@ contains
                & spec%heat%dens(body)]))
          end do
       end if
-      call write_material_model(log, spec%material, spec%material_model, spec%rolling%veloc)
+      call write_material_model(log, spec, result)
    end subroutine write_materials
 
    !> Constants of other than elastic behaviour
-   subroutine write_material_model(log, material, model, velocity)
+   subroutine write_material_model(log, spec, result)
       type(log_type), intent(inout) :: log
-      type(material_spec), intent(in) :: material
-      !> Member of material_model
-      integer, intent(in) :: model
-      !> Rolling velocity [mm/s]
-      real(wp), intent(in) :: velocity
+      type(case_spec), intent(in) :: spec
+      !> For the flexibilities of simplified theory
+      type(patch_result), intent(in) :: result
+
+      if (spec%material_model == material_model%elastic) return
+      call log%result("")
+      associate (material => spec%material)
+         select case (spec%material_model)
+         case (material_model%viscoelastic)
+            call log%result(" VISCOELASTIC MATERIAL CONSTANTS")
+            call log%result(heading([character(len=9) :: "FG(1)", "FG(2)", "TC(1)", "TC(2)", "VT(1)", "VT(2)"]))
+            call log%result("  " // generals(material%fg) // smarts([material%tc, spec%rolling%veloc*material%tc]))
+         case (material_model%interfacial_layer)
+            call log%result(" INTERFACIAL LAYER PARAMETERS")
+            call log%result(heading([character(len=9) :: "GG3", "LAYTHK", "TAU_C0", "K_TAU"]))
+            call log%result("  " // generals([material%gg3, material%laythk, material%tau_c0, material%k_tau]))
+         case default
+            call write_simplified_theory(log, spec, result)
+         end select
+      end associate
+   end subroutine write_material_model
+
+   !> Flexibilities, and slope reduction with the factor that it came to
+   subroutine write_simplified_theory(log, spec, result)
+      type(log_type), intent(inout) :: log
+      type(case_spec), intent(in) :: spec
+      type(patch_result), intent(in) :: result
       character(len=7) :: method
 
-      if (model == material_model%elastic) return
-      call log%result("")
-      if (model == material_model%viscoelastic) then
-         call log%result(" VISCOELASTIC MATERIAL CONSTANTS")
-         call log%result(heading([character(len=9) :: "FG(1)", "FG(2)", "TC(1)", "TC(2)", "VT(1)", "VT(2)"]))
-         call log%result("  " // generals(material%fg) // smarts([material%tc, velocity*material%tc]))
-      else if (model == material_model%interfacial_layer) then
-         call log%result(" INTERFACIAL LAYER PARAMETERS")
-         call log%result(heading([character(len=9) :: "GG3", "LAYTHK", "TAU_C0", "K_TAU"]))
-         call log%result("  " // generals([material%gg3, material%laythk, material%tau_c0, material%k_tau]))
-      else
-         if (model == material_model%fastsim_single) then
-            call log%result(" SIMPLIFIED THEORY MATERIAL CONSTANTS")
-            call log%result(heading([character(len=9) :: "FLX"]))
-            call log%result("  " // generals([material%flx]))
-            call log%result("")
-         end if
-         method = "FASTSIM"
-         if (model == material_model%fastrip) method = "FASTRIP"
-         call log%result(" MODIFIED " // method // " SLOPE REDUCTION PARAMETERS")
-         call log%result(heading([character(len=9) :: "K0_MF", "ALFAMF", "BETAMF"]))
-         call log%result("  " // generals([material%k0_mf, material%alfamf, material%betamf]))
+      if (spec%material_model == material_model%fastsim_single) then
+         call log%result(" SIMPLIFIED THEORY MATERIAL CONSTANTS")
+         call log%result(heading([character(len=9) :: "FLX"]))
+         call log%result("  " // generals([spec%material%flx]))
+         call log%result("")
+      else if (spec%motion /= motion%none) then
+         call log%result(" SIMPLIFIED THEORY MATERIAL CONSTANTS")
+         call log%result(heading([character(len=9) :: "FLX1", "FLX2", "FLX3"]))
+         call log%result("  " // generals(result%flx))
+         call log%result("")
       end if
-   end subroutine write_material_model
+      method = "FASTSIM"
+      if (spec%material_model == material_model%fastrip) method = "FASTRIP"
+      call log%result(" MODIFIED " // method // " SLOPE REDUCTION PARAMETERS")
+      associate (material => spec%material)
+         if (spec%motion == motion%none) then
+            call log%result(heading([character(len=9) :: "K0_MF", "ALFAMF", "BETAMF"]))
+            call log%result("  " // generals([material%k0_mf, material%alfamf, material%betamf]))
+         else
+            call log%result(heading([character(len=9) :: "K0_MF", "ALFAMF", "BETAMF", "K_EFF"]))
+            call log%result("  " // generals([material%k0_mf, material%alfamf, material%betamf, result%k_eff]))
+         end if
+      end associate
+   end subroutine write_simplified_theory
 
    !> Friction law: one line, or one per control point or grid row
    subroutine write_friction(log, spec)

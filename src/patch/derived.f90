@@ -39,6 +39,8 @@ contains
       result%cphi = problem%spin
       result%fx_rel = problem%force(1)
       result%fy_rel = problem%force(2)
+      result%flx = 0.0_wp
+      result%k_eff = 0.0_wp
       result%sensitivity = 0.0_wp
       result%nplast = 0
       result%outer_iterations = 0
@@ -132,8 +134,13 @@ contains
          state%creep = [result%cksi, result%ceta]
          return
       end if
-      call displacements(problem, state, box, workspace, result)
-      if (problem%motion /= motion%none) then
+      if (allocated(problem%simplified)) then
+         call spring_displacements(problem, state, workspace, result)
+         result%friction_power = area/(1000.0_wp*result%dt)*(sum(result%px*result%sx) + sum(result%py*result%sy))
+      else
+         call displacements(problem, state, box, workspace, result)
+      end if
+      if (problem%motion /= motion%none .and. .not. allocated(problem%simplified)) then
          where (workspace%solution%division == element%slip)
             result%sx(box%ix0:box%ix1, box%iy0:box%iy1) = workspace%solution%slip(:, :, 1)
             result%sy(box%ix0:box%ix1, box%iy0:box%iy1) = workspace%solution%slip(:, :, 2)
@@ -149,6 +156,23 @@ contains
       state%now%pen = result%pen
       state%creep = [result%cksi, result%ceta]
    end subroutine derive
+
+   !> Displacement differences in simplified theory: tangential ones by springs, normal ones by half-spaces
+   subroutine spring_displacements(problem, state, workspace, result)
+      type(patch_problem), intent(in) :: problem
+      type(patch_state), intent(in) :: state
+      type(patch_workspace), intent(inout) :: workspace
+      type(patch_result), intent(inout) :: result
+
+      result%ux = workspace%simplified_solution%compliance(1)*result%px
+      result%uy = workspace%simplified_solution%compliance(2)*result%py
+      if (allocated(problem%given_pressure)) return
+      call prepare_window(problem, workspace)
+      call workspace%window%normal(state%now%pn, result%un)
+      if (.not. problem%want_exterior) then
+         where (result%division == element%exterior) result%un = 0.0_wp
+      end if
+   end subroutine spring_displacements
 
    !> Displacement differences: on the contact area, or on the whole window when wanted
    subroutine displacements(problem, state, box, workspace, result)

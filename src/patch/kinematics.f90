@@ -16,20 +16,24 @@ contains
    !> Rigid slip per step without unknown creepages [mm], Kalker (1990)
    !>
    !> The offset of a sixth of the step makes the spin contribution second order accurate.
-   pure subroutine rigid_slip(problem, result)
+   pure subroutine rigid_slip(problem, result, spin_weight)
       type(patch_problem), intent(in) :: problem
       type(patch_result), intent(inout) :: result
+      !> Weight of the spin in x and y, for simplified theory [-]; default 1
+      real(wp), intent(in), optional :: spin_weight(2)
       integer :: ix, iy
-      real(wp) :: x0, y0, cx, cy
+      real(wp) :: x0, y0, cx, cy, spin(2)
 
       x0 = problem%spin_centre(1) - problem%spin_offset*problem%dq*cos(problem%chi)
       y0 = problem%spin_centre(2) - problem%spin_offset*problem%dq*sin(problem%chi)
       cx = merge(problem%creep(1), 0.0_wp, problem%n_forces < 1)
       cy = merge(problem%creep(2), 0.0_wp, problem%n_forces < 2)
+      spin = problem%spin
+      if (present(spin_weight)) spin = spin_weight*problem%spin
       do iy = 1, problem%grid%my
          do ix = 1, problem%grid%mx
-            result%wx(ix, iy) = problem%dq*(cx - problem%spin*(problem%grid%y(iy) - y0))
-            result%wy(ix, iy) = problem%dq*(cy + problem%spin*(problem%grid%x(ix) - x0))
+            result%wx(ix, iy) = problem%dq*(cx - spin(1)*(problem%grid%y(iy) - y0))
+            result%wy(ix, iy) = problem%dq*(cy + spin(2)*(problem%grid%x(ix) - x0))
          end do
       end do
       if (.not. allocated(problem%extra_slip)) return

@@ -44,7 +44,7 @@ contains
             normal%dx = problem%grid%dx
             normal%dy = problem%grid%dy
             normal%h = problem%h
-            if (problem%model%coupled() .and. problem%motion /= motion%none) then
+            if (problem%model%coupled() .and. problem%motion /= motion%none .and. .not. allocated(problem%simplified)) then
                workspace%pt(:, :, 1) = state%now%px
                workspace%pt(:, :, 2) = state%now%py
                call workspace%window%normal_by_tangential(workspace%pt, workspace%un)

@@ -4,6 +4,7 @@ module contact_patch_problem
    use contact_base_kinds, only : wp
    use contact_elastic_model, only : elastic_model
    use contact_grid_potential_contact, only : potential_contact
+   use contact_simplified_problem, only : simplified_model
    implicit none (type, external)
    private
 
@@ -13,6 +14,8 @@ module contact_patch_problem
    type :: patch_problem
       type(potential_contact) :: grid
       type(elastic_model) :: model
+      !> Simplified theory for the tangential problem; unallocated: half-spaces
+      type(simplified_model), allocatable :: simplified
       !> Grid and undeformed distance may be reused while input of both stays what it is
       logical :: has_geometry = .false.
       !> Undeformed distance [mm], shape (mx, my)

@@ -52,6 +52,8 @@ module contact_patch_result
       real(wp) :: cksi = 0.0_wp, ceta = 0.0_wp, cphi = 0.0_wp
       !> Elastic energy [J], frictional power [W] or work [J], dissipation negative
       real(wp) :: elastic_energy = 0.0_wp, friction_power = 0.0_wp
+      !> Simplified theory: flexibilities [mm3/N] and the factor of slope reduction [-]; 0 without it
+      real(wp) :: flx(3) = 0.0_wp, k_eff = 0.0_wp
       !> Sensitivities, rows FN, FX/(mu_scal FN), FY/(mu_scal FN), MZ, columns PEN KSI ETA PHI, in N, mm, rad;
       !> 0 when not computed
       real(wp) :: sensitivity(4, 4) = 0.0_wp

@@ -38,7 +38,7 @@ contains
       if (problem%sensitivity == sensitivity_choice%none .or. result%ncon == 0) return
       if (problem%sensitivity >= sensitivity_choice%normal .and. has_stiffness(problem)) &
          & call normal_stiffness(problem, workspace%window, result, q)
-      if (problem%motion == motion%none) return
+      if (problem%motion == motion%none .or. allocated(problem%simplified)) return
       wanted = [.false., problem%n_forces >= 1, problem%n_forces >= 2, .false.]
       if (problem%sensitivity >= sensitivity_choice%all) wanted = [allocated(q), .true., .true., .true.]
       if (any(wanted)) call force_changes(problem, wanted, q, workspace, result)

@@ -14,6 +14,7 @@ module contact_patch_solve
    use contact_patch_problem, only : patch_problem, patch_state
    use contact_patch_result, only : patch_result
    use contact_patch_sensitivities, only : find_sensitivities
+   use contact_patch_simplified_step, only : simplified_step
    use contact_patch_tangential_step, only : tangential_step
    use contact_patch_workspace, only : fit_workspace, patch_workspace
    implicit none (type, external)
@@ -47,7 +48,7 @@ contains
       if (problem%motion == motion%none) then
          state%now%px = 0.0_wp
          state%now%py = 0.0_wp
-      else if (problem%motion /= motion%steady_rolling) then
+      else if (problem%motion /= motion%steady_rolling .and. .not. allocated(problem%simplified)) then
          call previous_displacement(problem, state, workspace)
       end if
 
@@ -60,6 +61,11 @@ contains
          end if
          call normal_step(problem, state, workspace, log, result)
          if (problem%motion == motion%none) exit
+         if (allocated(problem%simplified)) then
+            ! pressures do not feel the tractions of simplified theory
+            call simplified_step(problem, state, workspace, log, result)
+            exit
+         end if
          call tangential_step(problem, state, workspace, log, result)
          if (problem%maxout <= 1 .or. result%ncon == 0) exit
          if (.not. (result%normal%succeeded() .and. result%tangential%succeeded())) exit

@@ -7,6 +7,7 @@ module contact_patch_workspace
    use contact_grid_element_division, only : bounding_box
    use contact_normal_conjugate_gradient, only : normal_problem, normal_workspace, release_normal
    use contact_patch_problem, only : patch_problem, rolling_direction
+   use contact_simplified_problem, only : simplified_problem, simplified_solution
    use contact_tangential_nested, only : nested_workspace, release_nested
    use contact_tangential_problem, only : tangential_problem, tangential_solution
    implicit none (type, external)
@@ -24,6 +25,9 @@ module contact_patch_workspace
       type(tangential_problem) :: tangential
       type(tangential_solution) :: solution
       type(nested_workspace) :: tangential_work
+      !> The tangential problem and its solution where simplified theory is asked for
+      type(simplified_problem) :: simplified
+      type(simplified_solution) :: simplified_solution
       !> Displacements at the previous time [mm], shape (mx, my, 2)
       real(wp), allocatable :: old_displacement(:, :, :)
       !> Scratch on the window, shapes (mx, my) and (mx, my, 2)

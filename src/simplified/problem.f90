@@ -11,12 +11,22 @@ module contact_simplified_problem
    implicit none (type, external)
    private
 
-   public :: simplified_problem, simplified_solution, complete_problem, tractions_at, mean
+   public :: simplified_model, simplified_problem, simplified_solution, complete_problem, tractions_at, mean
+
+   !> What a case asks for
+   type :: simplified_model
+      !> Member of material_model: fastsim_single, fastsim or fastrip
+      integer :: choice = material_model%fastsim
+      !> Flexibility [mm3/N] of the model with a single one
+      real(wp) :: flx = 0.0_wp
+      type(slope_reduction) :: reduction
+      !> Ellipse of the Hertz solution; unallocated for other geometries
+      type(ellipse), allocatable :: hertz
+   end type simplified_model
 
    !> Data on a window; constant during the solution
    type :: simplified_problem
-      !> Member of material_model: fastsim_single, fastsim or fastrip
-      integer :: model = material_model%fastsim
+      type(simplified_model) :: model
       !> Centres of columns and rows [mm], shapes (mx) and (my); sides of the elements [mm]
       real(wp), allocatable :: x(:), y(:)
       real(wp) :: dx = 1.0_wp, dy = 1.0_wp
@@ -33,11 +43,6 @@ module contact_simplified_problem
       real(wp) :: mu_scal = 0.3_wp, fn = 0.0_wp
       !> Combined modulus of rigidity [N/mm2] and Poisson ratio [-]
       real(wp) :: gg = 1.0_wp, nu = 0.0_wp
-      !> Flexibility [mm3/N] of the model with a single one
-      real(wp) :: flx = 0.0_wp
-      type(slope_reduction) :: reduction
-      !> Ellipse of the Hertz solution; unallocated for other geometries
-      type(ellipse), allocatable :: hertz
       !> Steady rolling, or one step in time from the tractions before
       logical :: steady = .true.
       !> Are creepages lengths (shift), so that they cannot be compared with creepages of rolling?
@@ -104,11 +109,11 @@ contains
       end if
       problem%area = equivalent_ellipse(problem%contact, problem%dx, problem%dy)
       problem%reference = problem%area
-      if (allocated(problem%hertz)) then
-         if (min(problem%hertz%aa, problem%hertz%bb) > 0.0_wp) problem%reference = problem%hertz
+      if (allocated(problem%model%hertz)) then
+         if (min(problem%model%hertz%aa, problem%model%hertz%bb) > 0.0_wp) problem%reference = problem%model%hertz
       end if
-      if (problem%model == material_model%fastsim_single) then
-         problem%flx0 = problem%flx
+      if (problem%model%choice == material_model%fastsim_single) then
+         problem%flx0 = problem%model%flx
       else
          problem%flx0 = three_flexibilities(problem%reference, problem%gg, problem%nu)
       end if
@@ -131,11 +136,11 @@ contains
 
       solution%creep = creep
       solution%flx = problem%flx0
-      if (problem%model /= material_model%fastsim_single .and. problem%n_forces == 0 .and. .not. problem%shift) &
+      if (problem%model%choice /= material_model%fastsim_single .and. problem%n_forces == 0 .and. .not. problem%shift) &
          & solution%flx = blended_flexibilities(problem%flx0, problem%reference, problem%gg, problem%nu, &
          & mean(problem%mu)*problem%fn, creep, problem%spin)
       call friction_of_rows(problem, norm2(creep), solution%mu)
-      solution%slope = slope_factor(problem%reduction, problem%area, problem%gg, problem%nu, mean(solution%mu)*problem%fn, &
+      solution%slope = slope_factor(problem%model%reduction, problem%area, problem%gg, problem%nu, mean(solution%mu)*problem%fn, &
          & creep, problem%spin)
       solution%compliance = solution%flx(1:2)/solution%slope
       call rigid_slip(problem, solution)
@@ -149,8 +154,10 @@ contains
          call step_fastsim(problem%contact, solution%bound, solution%shift, solution%compliance, problem%before, &
             & solution%p, solution%slip, solution%division)
       end if
-      if (problem%model == material_model%fastrip) call apply_strip_theory(strips_of(problem, solution), problem%x, problem%y, &
-         & problem%dx, solution%mu, problem%contact, solution%bound, solution%p, solution%slip, solution%division)
+      if (problem%model%choice == material_model%fastrip) then
+         call apply_strip_theory(strips_of(problem, solution), problem%x, problem%y, problem%dx, solution%mu, &
+            & problem%contact, solution%bound, solution%p, solution%slip, solution%division)
+      end if
       solution%force = problem%dx*problem%dy*[sum(solution%p(:, :, 1)), sum(solution%p(:, :, 2))] &
          & /(problem%mu_scal*problem%fn + tiny(1.0_wp))
       solution%sliding = .not. any(solution%division == element%adhesion)

@@ -27,7 +27,7 @@ contains
       integer :: n
 
       report%method = "Fastsim"
-      if (problem%model == material_model%fastrip) report%method = "FaStrip"
+      if (problem%model%choice == material_model%fastrip) report%method = "FaStrip"
       report%iterations = 0
       report%tolerance = problem%eps
       report%ended = ending%converged
@@ -63,7 +63,7 @@ contains
       type(creepage_coefficients) :: c
 
       c = kalker_coefficients(problem%area%aa, problem%area%bb, problem%nu)
-      creep = mean(problem%mu)*problem%fn/(problem%gg*problem%area%aa*problem%area%bb*problem%reduction%k0*[c%c11, c%c22])
+      creep = mean(problem%mu)*problem%fn/(problem%gg*problem%area%aa*problem%area%bb*problem%model%reduction%k0*[c%c11, c%c22])
       ! a shift [mm] is this strain over the length of the contact
       if (problem%shift) creep = creep*problem%area%aa
    end function characteristic_creep

@@ -31,13 +31,12 @@ contains
       real(wp) :: shape_
       integer :: ix, iy
 
-      problem%model = material_model%fastsim
-      if (present(model)) problem%model = model
+      if (present(model)) problem%model%choice = model
       if (present(direction)) problem%direction = direction
       problem%gg = 82000.0_wp
       problem%nu = 0.28_wp
       problem%fn = 1.0e5_wp
-      problem%flx = 1.0e-4_wp
+      problem%model%flx = 1.0e-4_wp
       problem%dx = 2.0_wp*aa/mx
       problem%dy = 2.0_wp*bb/my
       problem%dq = problem%dx
@@ -46,7 +45,7 @@ contains
       allocate(problem%contact(mx, my), source=.false.)
       allocate(problem%pn(mx, my), source=0.0_wp)
       allocate(problem%mu(my), source=0.3_wp)
-      problem%hertz = ellipse(aa, bb)
+      problem%model%hertz = ellipse(aa, bb)
       problem%creep = creep
       problem%spin = spin
       problem%spin_offset = [problem%direction*problem%dq/6.0_wp, 0.0_wp]

@@ -215,7 +215,7 @@ contains
       do i = 1, size(models)
          problem = elliptic_problem(6.0_wp, 3.0_wp, 100, 60, [1.0e-9_wp, 0.0_wp], 0.0_wp, models(i))
          full = solved(problem)
-         problem%reduction = slope_reduction(0.5_wp, 0.1_wp, 0.6_wp)
+         problem%model%reduction = slope_reduction(0.5_wp, 0.1_wp, 0.6_wp)
          reduced = solved(problem)
          call suite%close_to(reduced%force(1)/full%force(1), 0.5_wp, 0.02_wp, "initial slope")
          problem%creep(1) = 50.0_wp
@@ -265,7 +265,7 @@ contains
 
       problem = elliptic_problem(3.0_wp*sqrt(ratio), 3.0_wp/sqrt(ratio), mx, my, [3.0e-4_wp, 5.0e-4_wp], 2.0e-4_wp, model)
       call claim_sound(suite, problem, solved(problem), "few elements, narrow ellipses")
-      deallocate(problem%hertz)
+      deallocate(problem%model%hertz)
       call claim_sound(suite, problem, solved(problem), "without Hertz's ellipse")
    end subroutine shapes
 end program test_simplified

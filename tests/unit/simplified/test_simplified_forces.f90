@@ -40,7 +40,7 @@ contains
             problem%n_forces = 1
             problem%force(1) = forces(j)
             problem%eps = 1.0e-9_wp
-            if (mod(j, 2) == 0) problem%reduction = slope_reduction(0.5_wp, 0.1_wp, 0.6_wp)
+            if (mod(j, 2) == 0) problem%model%reduction = slope_reduction(0.5_wp, 0.1_wp, 0.6_wp)
             solution = solved(problem, report)
             call suite%check(report%succeeded(), "force reached")
             call suite%close_to(solution%force(1), forces(j), 1.0e-9_wp, "the longitudinal force")

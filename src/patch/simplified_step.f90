@@ -1,0 +1,166 @@
+!> The tangential problem of a patch in simplified theory, instead of half-spaces
+module contact_patch_simplified_step
+   use contact_base_choices, only : motion
+   use contact_base_kinds, only : wp
+   use contact_base_log, only : log_type
+   use contact_base_solve_report, only : ending, failure_text
+   use contact_grid_element_division, only : bounding_box, contact_box, element
+   use contact_patch_kinematics, only : rigid_slip
+   use contact_patch_problem, only : patch_problem, patch_state, rolling_direction, traction_fields
+   use contact_patch_result, only : patch_result
+   use contact_patch_workspace, only : patch_workspace
+   use contact_simplified_problem, only : simplified_problem
+   use contact_simplified_solve, only : solve_simplified
+   implicit none (type, external)
+   private
+
+   public :: simplified_step
+
+contains
+
+   !> Tangential tractions and slip on the given contact area
+   subroutine simplified_step(problem, state, workspace, log, result)
+      type(patch_problem), intent(in) :: problem
+      type(patch_state), intent(inout) :: state
+      type(patch_workspace), intent(inout) :: workspace
+      type(log_type), intent(inout) :: log
+      type(patch_result), intent(inout) :: result
+      type(bounding_box) :: box
+      integer :: iy
+
+      box = contact_box(state%now%division)
+      if (box%ix0 > box%ix1) then
+         result%tangential%ended = ending%not_started
+         return
+      end if
+      call set_window(problem, state, box, result, workspace%simplified)
+      associate (solution => workspace%simplified_solution, report => result%tangential, ix0 => box%ix0, ix1 => box%ix1, &
+         & iy0 => box%iy0, iy1 => box%iy1)
+         call solve_simplified(workspace%simplified, solution, report)
+         report%passes = report%passes + 1
+         call trace(log, solution%division, report%iterations, report%method)
+         state%now%px(ix0:ix1, iy0:iy1) = solution%p(:, :, 1)
+         state%now%py(ix0:ix1, iy0:iy1) = solution%p(:, :, 2)
+         state%now%division(ix0:ix1, iy0:iy1) = solution%division
+         result%sx(ix0:ix1, iy0:iy1) = solution%slip(:, :, 1)
+         result%sy(ix0:ix1, iy0:iy1) = solution%slip(:, :, 2)
+         do iy = iy0, iy1
+            result%mu(:, iy) = solution%mu(iy - iy0 + 1)
+         end do
+         result%flx = solution%flx
+         result%k_eff = solution%slope
+         if (problem%n_forces >= 1) then
+            result%cksi = solution%creep(1)
+            result%fx_rel = solution%force(1)
+         end if
+         if (problem%n_forces >= 2) then
+            result%ceta = solution%creep(2)
+            result%fy_rel = solution%force(2)
+         end if
+         call rigid_slip(problem, result, spin_weight=solution%flx(1:2)/solution%flx(3))
+         if (report%succeeded()) return
+         if (solution%sliding) then
+            call log%warning("the prescribed tangential force is not reached: all elements slide")
+         else
+            call log%warning(failure_text("tangential", report))
+         end if
+      end associate
+   end subroutine simplified_step
+
+   !> The problem on the bounding box of the contact area
+   subroutine set_window(problem, state, box, result, window)
+      type(patch_problem), intent(in) :: problem
+      type(patch_state), intent(in) :: state
+      type(bounding_box), intent(in) :: box
+      type(patch_result), intent(in) :: result
+      type(simplified_problem), intent(inout) :: window
+      integer :: ix, iy
+
+      window%model = problem%simplified
+      window%x = [(problem%grid%x(ix), ix = box%ix0, box%ix1)]
+      window%y = [(problem%grid%y(iy), iy = box%iy0, box%iy1)]
+      window%dx = problem%grid%dx
+      window%dy = problem%grid%dy
+      window%contact = state%now%division(box%ix0:box%ix1, box%iy0:box%iy1) > element%exterior
+      window%pn = state%now%pn(box%ix0:box%ix1, box%iy0:box%iy1)
+      window%mu = result%mu(box%ix0, box%iy0:box%iy1)
+      window%velocity = problem%veloc
+      window%mu_scal = result%mu_scal
+      window%fn = result%fn
+      window%gg = problem%model%material%gg
+      window%nu = problem%model%material%nu
+      window%steady = problem%motion == motion%steady_rolling
+      window%shift = problem%motion == motion%shift
+      window%direction = rolling_direction(problem)
+      window%dq = problem%dq
+      window%creep = problem%creep
+      window%spin = problem%spin
+      window%spin_centre = problem%spin_centre
+      window%spin_offset = problem%spin_offset*problem%dq*[cos(problem%chi), sin(problem%chi)]
+      window%n_forces = problem%n_forces
+      window%force = problem%force
+      window%eps = problem%eps
+      if (allocated(window%extra_slip)) deallocate(window%extra_slip)
+      if (allocated(problem%extra_slip)) window%extra_slip = problem%extra_slip(box%ix0:box%ix1, box%iy0:box%iy1, :)
+      if (allocated(window%before)) deallocate(window%before)
+      if (.not. window%steady) then
+         allocate(window%before(size(window%x), size(window%y), 2))
+         call sample_before(problem, state%before, box, window%before)
+      end if
+   end subroutine set_window
+
+   !> Tractions that particles had one step before, where they are now
+   !>
+   !> Linear between the centres of elements where a step is not a whole number of elements.
+   pure subroutine sample_before(problem, before, box, p)
+      type(patch_problem), intent(in) :: problem
+      type(traction_fields), intent(in) :: before
+      type(bounding_box), intent(in) :: box
+      real(wp), intent(inout) :: p(:, :, :)
+      real(wp), parameter :: rounding = 1.0e-9_wp
+      real(wp) :: distance(2), share(2), weight
+      integer :: whole(2), ix, iy, jx, jy, k, l
+
+      p = 0.0_wp
+      distance = 0.0_wp
+      if (problem%motion == motion%transient_rolling) distance = problem%dq*[cos(problem%chi)/problem%grid%dx, &
+         & sin(problem%chi)/problem%grid%dy]
+      whole = floor(distance + rounding)
+      share = max(0.0_wp, distance - whole)
+      where (share < rounding) share = 0.0_wp
+      do l = 0, 1
+         do k = 0, 1
+            weight = merge(share(1), 1.0_wp - share(1), k == 1)*merge(share(2), 1.0_wp - share(2), l == 1)
+            if (weight <= 0.0_wp) cycle
+            do iy = box%iy0, box%iy1
+               jy = iy + whole(2) + l
+               if (jy < 1 .or. jy > problem%grid%my) cycle
+               do ix = box%ix0, box%ix1
+                  jx = ix + whole(1) + k
+                  if (jx < 1 .or. jx > problem%grid%mx) cycle
+                  p(ix - box%ix0 + 1, iy - box%iy0 + 1, 1) = p(ix - box%ix0 + 1, iy - box%iy0 + 1, 1) + weight*before%px(jx, jy)
+                  p(ix - box%ix0 + 1, iy - box%iy0 + 1, 2) = p(ix - box%ix0 + 1, iy - box%iy0 + 1, 2) + weight*before%py(jx, jy)
+               end do
+            end do
+         end do
+      end do
+   end subroutine sample_before
+
+   !> Lines of the flow trace
+   subroutine trace(log, division, iterations, method)
+      type(log_type), intent(inout) :: log
+      integer, intent(in) :: division(:, :), iterations
+      character(len=*), intent(in) :: method
+      character(len=80) :: line
+
+      if (log%shows(2)) then
+         line = " TANG: STEADY STATE ROLLING BY THE FASTSIM APPROACH"
+         if (method == "FaStrip") line = " TANG: STEADY STATE ROLLING BY THE FASTRIP APPROACH"
+         call log%trace(2, trim(line))
+      end if
+      if (.not. log%shows(3)) return
+      write(line, '(a,2i7,a,i6)') "      Tang: final element division: A, S=", count(division == element%adhesion), &
+         & count(division == element%slip), "  ItGS=", iterations
+      call log%trace(3, trim(line))
+   end subroutine trace
+end module contact_patch_simplified_step
