@@ -77,6 +77,8 @@ contains
          & problem%sensitivity = sensitivity_choice%none
       problem%mxsens = spec%iteration%mxsens
       problem%epsens = spec%iteration%epsens
+      call set_simplified_theory(spec, result, problem, log, error)
+      if (allocated(error)) return
       problem%want_exterior = spec%mat_file >= 2 .or. spec%output_level >= 6
       call set_rolling(spec, problem, log)
       if (allocated(problem%extra_slip)) deallocate(problem%extra_slip)
