@@ -5,6 +5,7 @@ module contact_cases_patch_setup
    use contact_base_error, only : error_type, fatal_error
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
+   use contact_cases_friction_setup, only : set_friction, set_thermal
    use contact_cases_geometry, only : build_grid, is_line_contact, require_positive, solve_hertz, undeformed_distance
    use contact_cases_numbers, only : check_numbers
    use contact_cases_spec, only : case_spec
@@ -54,7 +55,6 @@ contains
       problem%creep = [spec%kinematics%cksi, spec%kinematics%ceta]
       problem%spin = spec%kinematics%cphi
       problem%spin_centre = [spec%kinematics%spinxo, spec%kinematics%spinyo]
-      problem%mu = spec%friction%sets(1)%fstat
       problem%eps = spec%iteration%eps
       problem%maxgs = spec%iteration%maxgs
       problem%maxin = spec%iteration%maxin
@@ -77,6 +77,10 @@ contains
          & problem%sensitivity = sensitivity_choice%none
       problem%mxsens = spec%iteration%mxsens
       problem%epsens = spec%iteration%epsens
+      call set_friction(spec, problem, error)
+      if (allocated(error)) return
+      call set_thermal(spec, problem, error)
+      if (allocated(error)) return
       call set_simplified_theory(spec, result, problem, log, error)
       if (allocated(error)) return
       problem%want_exterior = spec%mat_file >= 2 .or. spec%output_level >= 6

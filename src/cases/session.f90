@@ -108,18 +108,25 @@ contains
       type(case_spec), intent(in) :: spec
       type(patch_problem), intent(in) :: problem
       type(patch_result), intent(inout) :: result
-      character(len=:), allocatable :: text
+      character(len=:), allocatable :: text, law
 
+      law = "Coulomb friction"
+      if (allocated(problem%friction)) then
+         law = problem%friction%name
+         if (problem%friction%varies_by_row()) law = law // " by row"
+         if (problem%friction_memory%acts() .and. problem%remembers_friction) law = law // " with memory"
+      end if
       text = "elastic half-spaces"
       if (allocated(problem%given_pressure)) text = text // ", Hertzian pressure"
       if (result%ncon > 0) then
          if (allocated(problem%simplified)) text = text // ", simplified theory (" // result%tangential%method // ")"
-         if (problem%motion == motion%shift) text = text // ", Coulomb friction in a shift"
-         if (problem%motion == motion%transient_rolling) text = text // ", Coulomb friction in transient rolling"
-         if (problem%motion == motion%steady_rolling) text = text // ", Coulomb friction in steady rolling"
+         if (problem%motion == motion%shift) text = text // ", " // law // " in a shift"
+         if (problem%motion == motion%transient_rolling) text = text // ", " // law // " in transient rolling"
+         if (problem%motion == motion%steady_rolling) text = text // ", " // law // " in steady rolling"
          if (problem%motion /= motion%none .and. problem%model%coupled() .and. .not. allocated(problem%simplified)) &
             & text = text // ", dissimilar bodies"
          if (allocated(problem%extra_slip) .and. problem%motion /= motion%none) text = text // ", extra rigid slip"
+         if (allocated(problem%thermal)) text = text // ", surface temperatures"
          if (spec%stress /= stress_choice%none) text = text // ", subsurface stresses"
       end if
       result%effects = text

@@ -60,13 +60,13 @@ module contact_control_digits
 
    type(digit_row), parameter :: word2_rows(*) = [ &
       & digit_row("V", 0, variation%none, .true., "one set of friction parameters"), &
-      & digit_row("V", 3, variation%by_row, .false., "friction parameters for each row of the grid"), &
+      & digit_row("V", 3, variation%by_row, .true., "friction parameters for each row of the grid"), &
       & digit_row("L", 0, friction_model%coulomb, .true., "Coulomb friction"), &
       & digit_row("L", 1, 1, .true., "keep the friction law of the previous case"), &
-      & digit_row("L", 2, friction_model%linear, .false., "friction falling with slip velocity, piecewise linear"), &
-      & digit_row("L", 3, friction_model%rational, .false., "friction falling with slip velocity, rational"), &
-      & digit_row("L", 4, friction_model%exponential, .false., "friction falling with slip velocity, exponential"), &
-      & digit_row("L", 6, friction_model%temperature, .false., "friction falling with surface temperature"), &
+      & digit_row("L", 2, friction_model%linear, .true., "friction falling with slip velocity, piecewise linear"), &
+      & digit_row("L", 3, friction_model%rational, .true., "friction falling with slip velocity, rational"), &
+      & digit_row("L", 4, friction_model%exponential, .true., "friction falling with slip velocity, exponential"), &
+      & digit_row("L", 6, friction_model%temperature, .true., "friction changing with surface temperature"), &
       & digit_row("D", 0, 0, .true., "keep the potential contact area"), &
       & digit_row("D", 1, 1, .true., "form the potential contact area from the values in store"), &
       & digit_row("D", 2, 2, .true., "read the potential contact area"), &
@@ -100,8 +100,8 @@ module contact_control_digits
       & digit_row("X", 0, 0, .true., "no fourth control word"), &
       & digit_row("X", 1, 1, .true., "a fourth control word follows, which is read and ignored"), &
       & digit_row("H", 0, heat_model%none, .true., "no surface temperatures"), &
-      & digit_row("H", 1, heat_model%keep, .false., "surface temperatures with the values in store"), &
-      & digit_row("H", 3, heat_model%given, .false., "surface temperatures with new values"), &
+      & digit_row("H", 1, heat_model%keep, .true., "surface temperatures with the values in store"), &
+      & digit_row("H", 3, heat_model%given, .true., "surface temperatures with new values"), &
       & digit_row("G", 0, solver_choice%default, .true., "default solvers"), &
       & digit_row("G", 1, 1, .true., "keep the solver settings of the previous case"), &
       & digit_row("G", 2, solver_choice%convex_gs, .true., "ConvexGS always, relaxation is read"), &

@@ -200,8 +200,8 @@ contains
          if (digits%m == 5 .and. digits%t == 3 .and. (digits%e == 1 .or. digits%e == 9)) call add_for_digit(problems, words, &
             & severity%error, "E", "E = " // integer_text(digits%e) // ", an extra term in the rigid slip, cannot be used " // &
             & "with M = 5, FaStrip, whose strips know creepages and spin only; Fastsim, M = 2 or 3, can do it")
-         if (digits%h >= 1 .and. digits%t /= 3) call add_for_digit(problems, words, severity%error, "H", &
-            & "H = " // integer_text(digits%h) // ", surface temperatures, needs steady rolling, T = 3, not T = " // &
+         if (digits%h >= 1 .and. (digits%t == 1 .or. digits%t == 2)) call add_for_digit(problems, words, severity%error, "H", &
+            & "H = " // integer_text(digits%h) // ", surface temperatures, needs steady rolling, T = 3, or T = 0, not T = " // &
             & integer_text(digits%t))
          if (spec%friction_law == 6) then
             if (digits%h == 0) call add_for_digit(problems, words, severity%error, "L", &

@@ -24,7 +24,7 @@ contains
       integer :: ix, iy
 
       all_elements = spec%output_level >= 6
-      call write_table_head(log, spec%motion)
+      call write_table_head(log, spec%motion, allocated(result%temp1))
       do iy = 1, result%grid%my
          new_row = .true.
          do ix = 1, result%grid%mx
@@ -42,11 +42,16 @@ contains
    end subroutine write_element_table
 
    !> Title, explanation and column heading
-   subroutine write_table_head(log, motion_kind)
+   subroutine write_table_head(log, motion_kind, has_temperatures)
       type(log_type), intent(inout) :: log
       !> Member of motion
       integer, intent(in) :: motion_kind
+      !> Are surface temperatures known?
+      logical, intent(in) :: has_temperatures
+      character(len=:), allocatable :: more
 
+      more = ""
+      if (has_temperatures) more = "       TEMP1      TEMP2"
       call log%result("")
       call log%result(" QUANTITIES DISTRIBUTED OVER THE CONTACT AREA:")
       call log%result(" H-PEN: UNDEFORMED DISTANCE MINUS APPROACH [MM], X [MM], PN: NORMAL PRESSURE [N/MM2],")
@@ -66,7 +71,7 @@ contains
          call log%result(" S: RELATIVE SLIP VELOCITY [-], OPPOSITE TO PT, RIGID SLIP: THE SAME WITHOUT DEFORMATION.")
          call log%result("")
          call log%result("     X         H-PEN        PN      TRCBND    ABS(PT)     ARG(PT;-S)  ABS(S)      " &
-            & // "RIGID SLIP(X, Y)")
+            & // "RIGID SLIP(X, Y)" // more)
       end if
    end subroutine write_table_head
 
@@ -92,6 +97,7 @@ contains
             & // general(result%mu(ix, iy)*result%pn(ix, iy), 11, 3) // general(traction, 11, 3) // fixed(angle, 10, 1) &
             & // "  " // general(hypot(result%sx(ix, iy), result%sy(ix, iy))/result%dq, 11, 3) &
             & // general(result%wx(ix, iy)/result%dq, 11, 3) // general(result%wy(ix, iy)/result%dq, 11, 3)
+         if (allocated(result%temp1)) line = line // general(result%temp1(ix, iy), 11, 4) // general(result%temp2(ix, iy), 11, 4)
       end if
    end function element_line
 end module contact_output_element_table

@@ -19,9 +19,9 @@ module contact_output_mat_file
    !> Number of the layout; readers refuse larger numbers
    integer, parameter :: layout = 2410
    !> Number of columns without plasticity and heat
-   integer, parameter :: columns = 11
+   integer, parameter :: basic_columns = 11
    !> Length of a line that holds all columns
-   integer, parameter :: width = 14*columns
+   integer, parameter :: width = 14*(basic_columns + 5)
    !> Value of A from which on all elements are written
    integer, parameter :: all_elements = 2
 
@@ -50,8 +50,8 @@ contains
       type(finished_file) :: file
       integer :: status
 
-      if (has_plasticity(spec) .or. spec%digits%h >= 1) then
-         call fatal_error(error, "the .mat file cannot hold plasticity or temperature in this version", &
+      if (has_plasticity(spec)) then
+         call fatal_error(error, "the .mat file cannot hold plasticity in this version", &
             & error_kind%unsupported, file=file_name)
          return
       end if
@@ -72,34 +72,39 @@ contains
       integer, intent(out) :: status
       character(len=width) :: lines(13)
       real(wp), allocatable :: values(:)
+      character(len=11), allocatable :: more(:)
       real(wp) :: chi, dq
       logical :: rolling
-      integer :: i
+      integer :: i, columns
 
+      more = extra_names(result)
+      columns = basic_columns + size(more)
       rolling = spec%motion == motion%transient_rolling .or. spec%motion == motion%steady_rolling
       chi = merge(result%chi, 0.0_wp, rolling)
       dq = merge(result%dq, 1.0_wp, rolling)
 
       lines(1) = name_line([character(len=11) :: "TIM", "S_WS(FC)", "TH_WS(FC)", "Y_R(TR)", "Z_R(TR)", "ROLL_R(TR)", &
-         & "RNOM_ROL", "-", "-", "-", "FMT"])
-      lines(2) = reals(zeros(7)) // integers([0, 0, 0, layout])
+         & "RNOM_ROL", ("-", i = 9, columns), "FMT"])
+      lines(2) = reals(zeros(7)) // integers([(0, i = 9, columns), layout])
       lines(3) = name_line([character(len=11) :: "X_W(TR)", "Y_W(TR)", "Z_W(TR)", "ROLL_W(TR)", "YAW_W(TR)", &
-         & "RNOM_WHL", "-", "-", "-", "-", "-"])
+         & "RNOM_WHL", ("-", i = 7, columns)])
       lines(4) = reals(zeros(columns))
       lines(5) = name_line([character(len=11) :: "X_CP(R)", "Y_CP(R)", "Z_CP(R)", "DELT_CP(R)", "X_CP(W)", "Y_CP(W)", &
-         & "Z_CP(W)", "NPATCH", "IPATCH", "SPINXO", "SPINYO"])
-      lines(6) = reals(zeros(7)) // integers([0, 0]) // reals([spec%kinematics%spinxo, spec%kinematics%spinyo])
-      lines(7) = name_line([character(len=11) :: "  MX   MY", "XL", "YL", "DX", "DY", "CHI", "DQ", "C1", "D", "YNOM_WHL"])
+         & "Z_CP(W)", "NPATCH", "IPATCH", "SPINXO", "SPINYO", ("-", i = 12, columns)])
+      lines(6) = reals(zeros(7)) // integers([0, 0]) // reals([spec%kinematics%spinxo, spec%kinematics%spinyo, &
+         & zeros(columns - 11)])
+      lines(7) = name_line([character(len=11) :: "  MX   MY", "XL", "YL", "DX", "DY", "CHI", "DQ", "C1", "D", "YNOM_WHL", &
+         & ("-", i = 12, columns)])
       lines(8) = two_integers(result%grid%mx, result%grid%my) // reals([result%grid%xl, result%grid%yl, result%grid%dx, &
-         & result%grid%dy, chi, dq]) // integers([0, 2]) // reals(zeros(1))
-      lines(9) = name_line(completed("   T    M", material_names(spec%material_model), 2))
+         & result%grid%dy, chi, dq]) // integers([0, 2]) // reals(zeros(columns - 10))
+      lines(9) = name_line(completed("   T    M", material_names(spec%material_model), columns))
       values = material_values(spec, result)
       lines(10) = two_integers(spec%digits%t, spec%digits%m) // reals([values, zeros(columns - 2 - size(values))])
-      lines(11) = name_line(completed("   L    H", friction_names(spec%friction_law), 2))
+      lines(11) = name_line(completed("   L    H", friction_names(spec%friction_law), columns))
       values = [spec%rolling%veloc, friction_values(spec)]
       lines(12) = two_integers(spec%friction_law, spec%digits%h) // reals([values, zeros(columns - 2 - size(values))])
       lines(13) = name_line([character(len=11) :: "   I  IGS", "H", "MU", "PN", "PX", "PY", "UN", "UX", "UY", &
-         & merge("SREL", "SHFT", rolling)])
+         & merge("SREL", "SHFT", rolling), more])
       do i = 1, size(lines)
          write(unit, '(a)', iostat=status) trim(lines(i))
          if (status /= 0) return
@@ -130,12 +135,31 @@ contains
             slip = hypot(result%sx(ix, iy), result%sy(ix, iy))/distance
             line = two_integers(number, result%division(ix, iy)) // reals([result%h(ix, iy), result%mu(ix, iy), &
                & result%pn(ix, iy), result%px(ix, iy), result%py(ix, iy), result%un(ix, iy), result%ux(ix, iy), &
-               & result%uy(ix, iy), slip])
+               & result%uy(ix, iy), slip, extra_values(result, ix, iy)])
             write(unit, '(a)', iostat=status) trim(line)
             if (status /= 0) return
          end do
       end do
    end subroutine write_elements
+
+   !> Names of the columns that the effects of a case add
+   pure function extra_names(result) result(names)
+      type(patch_result), intent(in) :: result
+      character(len=11), allocatable :: names(:)
+
+      allocate(names(0))
+      if (allocated(result%temp1)) names = [character(len=11) :: names, "TEMP1", "TEMP2"]
+   end function extra_names
+
+   !> Values of an element that belong to extra_names
+   pure function extra_values(result, ix, iy) result(values)
+      type(patch_result), intent(in) :: result
+      integer, intent(in) :: ix, iy
+      real(wp), allocatable :: values(:)
+
+      allocate(values(0))
+      if (allocated(result%temp1)) values = [values, result%temp1(ix, iy), result%temp2(ix, iy)]
+   end function extra_values
 
    !> Names of the material constants that the model has
    pure function material_names(model) result(names)
@@ -216,15 +240,16 @@ contains
    end function friction_values
 
    !> The names with one in front and a dash for each unused column behind
-   pure function completed(first, names, used) result(all_names)
-      !> Name that stands above the first columns, their number
+   pure function completed(first, names, columns) result(all_names)
+      !> Name that stands above the first two columns
       character(len=*), intent(in) :: first
-      integer, intent(in) :: used
       character(len=11), intent(in) :: names(:)
+      !> Number of columns of the table
+      integer, intent(in) :: columns
       character(len=11), allocatable :: all_names(:)
       integer :: i
 
-      all_names = [character(len=11) :: first, names, [("-", i = 1, columns - used - size(names))]]
+      all_names = [character(len=11) :: first, names, [("-", i = 1, columns - 2 - size(names))]]
    end function completed
 
    !> Line of names that loaders skip: a name at the fourth place of every 14 columns

@@ -5,6 +5,7 @@ module contact_output_report_result
    use contact_base_log, only : log_type
    use contact_base_solve_report, only : ending, solve_report
    use contact_cases_spec, only : case_spec
+   use contact_grid_element_division, only : element
    use contact_output_formats, only : scientific, smart, smarts, whole
    use contact_patch_result, only : patch_result
    implicit none (type, external)
@@ -73,7 +74,14 @@ contains
       character(len=12) :: first_name, second_name
       logical :: rolling, by_row
       real(wp) :: first, second
+      character(len=:), allocatable :: last_name, last
 
+      last_name = ""
+      last = ""
+      if (allocated(result%temp1)) then
+         last_name = "  MAX(T1,T2)"
+         last = smart(highest_temperature(result), 12, 4, 4)
+      end if
       totals = without_noise(spec, result)
       rolling = spec%motion == motion%transient_rolling .or. spec%motion == motion%steady_rolling
       by_row = spec%variation == variation%by_row
@@ -101,10 +109,21 @@ contains
          & // trim(merge("POWER", "WORK ", rolling)))
       call log%result("  " // smarts([result%fn, totals%fx, totals%fy, totals%mz, totals%elastic_energy, &
          & result%friction_power]))
-      call log%result("     FN/G      " // first_name // " " // second_name // " APPROACH     PMAX    ")
+      call log%result("     FN/G      " // first_name // " " // second_name // " APPROACH     PMAX    " // last_name)
       call log%result("  " // smarts([result%fn/result%gg, first, second]) // smart(result%pen, 12, 6, 4) &
-         & // smart(result%pmax, 12, 4, 4))
+         & // smart(result%pmax, 12, 4, 4) // last)
    end subroutine write_totals
+
+   !> Highest surface temperature in contact [degC]; anywhere without contact
+   pure real(wp) function highest_temperature(result) result(highest)
+      !> With temperatures
+      type(patch_result), intent(in) :: result
+
+      highest = max(maxval(result%temp1), maxval(result%temp2))
+      if (result%ncon == 0) return
+      highest = max(maxval(result%temp1, result%division > element%exterior), &
+         & maxval(result%temp2, result%division > element%exterior))
+   end function highest_temperature
 
    !> Derivatives of the forces to approach, creepages and spin
    subroutine write_sensitivities(log, spec, result)
@@ -198,6 +217,10 @@ contains
 
       trouble = fall_back_text(result%normal)
       if (has_tangential) trouble = trouble // fall_back_text(result%tangential)
+      if (allocated(result%friction)) then
+         line = line // ", " // whole(result%friction%iterations, 1) // " friction"
+         trouble = trouble // ending_text(result%friction, "friction")
+      end if
       trouble = trouble // ending_text(result%normal, "normal")
       if (has_tangential) trouble = trouble // ending_text(result%tangential, "tangential")
       call log%result(line // trouble)

@@ -10,7 +10,7 @@ module contact_patch_derived
    implicit none (type, external)
    private
 
-   public :: reset_result, derive
+   public :: reset_result, derive, remember_friction
 
 contains
 
@@ -69,6 +69,8 @@ contains
       end if
       result%h = problem%h
       result%mu = problem%mu
+      if (allocated(problem%friction)) call problem%friction%at_rest(result%mu)
+      if (allocated(result%friction)) deallocate(result%friction)
       result%un = 0.0_wp
       result%ux = 0.0_wp
       result%uy = 0.0_wp
@@ -173,6 +175,18 @@ contains
          where (result%division == element%exterior) result%un = 0.0_wp
       end if
    end subroutine spring_displacements
+
+   !> What particles carry along of friction, where it matters
+   subroutine remember_friction(problem, result, state)
+      type(patch_problem), intent(in) :: problem
+      type(patch_result), intent(in) :: result
+      type(patch_state), intent(inout) :: state
+
+      if (.not. problem%remembers_friction) return
+      state%now%mu%value = result%mu
+      state%now%sx%value = result%sx
+      state%now%sy%value = result%sy
+   end subroutine remember_friction
 
    !> Displacement differences: on the contact area, or on the whole window when wanted
    subroutine displacements(problem, state, box, workspace, result)

@@ -3,8 +3,11 @@ module contact_patch_problem
    use contact_base_choices, only : motion
    use contact_base_kinds, only : wp
    use contact_elastic_model, only : elastic_model
+   use contact_friction_law, only : friction_law
+   use contact_friction_memory, only : friction_memory
    use contact_grid_potential_contact, only : potential_contact
    use contact_simplified_problem, only : simplified_model
+   use contact_temperature_flash_heating, only : body_pair
    implicit none (type, external)
    private
 
@@ -41,8 +44,19 @@ module contact_patch_problem
       real(wp), allocatable :: extra_slip(:, :, :)
       !> Rolling direction [rad], step [mm], velocity [mm/s]
       real(wp) :: chi = 0.0_wp, dq = 1.0_wp, veloc = 1.0_wp
-      !> Coefficient of friction [-]
+      !> Coefficient of friction [-]: the static one, 1 when it differs between rows; scales forces
       real(wp) :: mu = 0.3_wp
+      !> Friction law; unallocated: Coulomb friction with the coefficient above
+      class(friction_law), allocatable :: friction
+      type(friction_memory) :: friction_memory
+      !> Slip velocity that the friction iteration starts from: the one of the previous case (0), none (1),
+      !> the velocity of rolling (-1)
+      integer :: slip_start = 0
+      !> Factor of changes of the slip velocity where the coefficient is above the one that particles
+      !> bring along [-]
+      real(wp) :: slip_relaxation = 1.0_wp
+      !> Thermal constants; unallocated: no temperatures
+      type(body_pair), allocatable :: thermal
       !> Do friction coefficients and slip, or yield limits and plastic displacements, matter for
       !> the next moment? Only then are they carried along
       logical :: remembers_friction = .false., remembers_yield = .false.

@@ -64,6 +64,8 @@ module contact_patch_result
       !> Outer (Panagiotopoulos) iterations
       integer :: outer_iterations = 0
       type(solve_report) :: normal, tangential
+      !> Iteration of friction with slip velocity or temperature; unallocated: none
+      type(solve_report), allocatable :: friction
       !> True residual of the coupled contact conditions after the outer iteration, relative
       real(wp) :: residual = 0.0_wp
       !> Names of the effects that acted, separated by ", "
@@ -80,6 +82,8 @@ module contact_patch_result
       real(wp), allocatable :: sx(:, :), sy(:, :)
       !> Rigid slip per step [mm], computed creepages included, shape (mx, my)
       real(wp), allocatable :: wx(:, :), wy(:, :)
+      !> Surface temperatures of bodies 1 and 2 [degC], shape (mx, my); unallocated when not asked for
+      real(wp), allocatable :: temp1(:, :), temp2(:, :)
       !> Subsurface blocks; unallocated when not asked for
       type(subsurface_result), allocatable :: subsurface(:)
    end type patch_result

@@ -84,6 +84,11 @@ contains
       window%contact = state%now%division(box%ix0:box%ix1, box%iy0:box%iy1) > element%exterior
       window%pn = state%now%pn(box%ix0:box%ix1, box%iy0:box%iy1)
       window%mu = result%mu(box%ix0, box%iy0:box%iy1)
+      if (allocated(window%law)) deallocate(window%law)
+      if (allocated(problem%friction)) then
+         allocate(window%law, source=problem%friction)
+         if (window%law%varies_by_row()) window%law%sets = problem%friction%sets(box%iy0:box%iy1)
+      end if
       window%velocity = problem%veloc
       window%mu_scal = result%mu_scal
       window%fn = result%fn

@@ -8,7 +8,8 @@ module contact_patch_solve
    use contact_base_error, only : error_kind, error_type, fatal_error
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
-   use contact_patch_derived, only : derive, reset_result
+   use contact_patch_derived, only : derive, remember_friction, reset_result
+   use contact_patch_heat, only : derive_temperatures
    use contact_patch_kinematics, only : previous_displacement, rigid_slip
    use contact_patch_normal_step, only : normal_step
    use contact_patch_problem, only : patch_problem, patch_state
@@ -79,6 +80,8 @@ contains
       end do
       call derive(problem, state, workspace, result)
       call find_sensitivities(problem, workspace, result)
+      call remember_friction(problem, result, state)
+      call derive_temperatures(problem, result)
       state%started = .true.
    end subroutine solve_patch
 

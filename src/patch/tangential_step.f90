@@ -4,6 +4,7 @@ module contact_patch_tangential_step
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
    use contact_base_solve_report, only : ending, failure_text, solve_report
+   use contact_friction_law, only : friction_driver
    use contact_grid_element_division, only : bounding_box, contact_box, element
    use contact_patch_problem, only : patch_problem, patch_state, rolling_direction
    use contact_patch_result, only : patch_result
@@ -33,10 +34,16 @@ contains
          return
       end if
       call prepare_box(problem, box, workspace)
+      if (iterates_friction(problem)) call workspace%friction%start(problem, state, result%dt, &
+         & result%outer_iterations == 1, result%mu)
       call set_tangential(problem, state, box, workspace, result)
       if (log%shows(2)) call log%trace(2, " TANG: " // type_of_motion(problem%motion))
-      call choose_and_solve(problem, workspace, log, result%tangential)
-      result%tangential%passes = result%tangential%passes + 1
+      if (iterates_friction(problem)) then
+         call solve_with_friction(problem, state, box, workspace, log, result)
+      else
+         call choose_and_solve(problem, workspace, log, result%tangential)
+         result%tangential%passes = result%tangential%passes + 1
+      end if
 
       associate (solution => workspace%solution)
          state%now%px(box%ix0:box%ix1, box%iy0:box%iy1) = solution%p(:, :, 1)
@@ -48,6 +55,60 @@ contains
       end associate
       if (.not. result%tangential%succeeded()) call log%warning(failure_text("tangential", result%tangential))
    end subroutine tangential_step
+
+   !> Do coefficients of friction depend on the solution?
+   pure logical function iterates_friction(problem)
+      type(patch_problem), intent(in) :: problem
+
+      iterates_friction = .false.
+      if (allocated(problem%friction)) iterates_friction = problem%friction%driver /= friction_driver%none
+   end function iterates_friction
+
+   !> Alternate between tractions and the coefficients of friction that depend on their slip
+   subroutine solve_with_friction(problem, state, box, workspace, log, result)
+      type(patch_problem), intent(in) :: problem
+      type(patch_state), intent(in) :: state
+      type(bounding_box), intent(in) :: box
+      type(patch_workspace), intent(inout) :: workspace
+      type(log_type), intent(inout) :: log
+      type(patch_result), intent(inout) :: result
+
+      do
+         call choose_and_solve(problem, workspace, log, result%tangential)
+         result%tangential%passes = result%tangential%passes + 1
+         call workspace%friction%advance(problem, state, box, workspace%solution, log, result%mu)
+         if (workspace%friction%ended /= ending%not_started) exit
+         call set_bound(state, box, result%mu, workspace%tangential, workspace%solution)
+      end do
+      if (.not. allocated(result%friction)) allocate(result%friction)
+      call workspace%friction%report(problem, result%friction)
+      if (.not. result%friction%succeeded()) call log%warning(failure_text("friction", result%friction))
+   end subroutine solve_with_friction
+
+   !> New traction bounds; tractions on the old bound move to the new one, so that little is left to do
+   pure subroutine set_bound(state, box, mu, t, s)
+      type(patch_state), intent(in) :: state
+      type(bounding_box), intent(in) :: box
+      !> Coefficients of friction [-], shape of the grid
+      real(wp), intent(in) :: mu(:, :)
+      type(tangential_problem), intent(inout) :: t
+      type(tangential_solution), intent(inout) :: s
+      integer :: ix, iy, jx, jy
+      real(wp) :: g, length
+
+      do iy = 1, t%my
+         jy = box%iy0 + iy - 1
+         do ix = 1, t%mx
+            jx = box%ix0 + ix - 1
+            if (.not. t%contact(ix, iy)) cycle
+            g = mu(jx, jy)*state%now%pn(jx, jy)
+            t%bound(ix, iy) = g
+            length = hypot(s%p(ix, iy, 1), s%p(ix, iy, 2))
+            if (length <= 0.0_wp) cycle
+            if (length > g .or. s%division(ix, iy) == element%slip) s%p(ix, iy, :) = s%p(ix, iy, :)*(g/length)
+         end do
+      end do
+   end subroutine set_bound
 
    !> Crop the tangential problem to the contact area
    subroutine set_tangential(problem, state, box, workspace, result)

@@ -6,6 +6,7 @@ module contact_patch_workspace
    use contact_elastic_previous, only : previous_operator
    use contact_grid_element_division, only : bounding_box
    use contact_normal_conjugate_gradient, only : normal_problem, normal_workspace, release_normal
+   use contact_patch_friction_iteration, only : friction_iteration
    use contact_patch_problem, only : patch_problem, rolling_direction
    use contact_simplified_problem, only : simplified_problem, simplified_solution
    use contact_tangential_nested, only : nested_workspace, release_nested
@@ -25,6 +26,7 @@ module contact_patch_workspace
       type(tangential_problem) :: tangential
       type(tangential_solution) :: solution
       type(nested_workspace) :: tangential_work
+      type(friction_iteration) :: friction
       !> The tangential problem and its solution where simplified theory is asked for
       type(simplified_problem) :: simplified
       type(simplified_solution) :: simplified_solution

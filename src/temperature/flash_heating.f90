@@ -154,7 +154,8 @@ contains
    !>
    !> What is warm depends on what lies upstream and on the element itself, nothing else. A march
    !> along with the particles therefore solves for both at once, where alternating between them
-   !> oscillates as soon as friction falls steeply with temperature.
+   !> oscillates as soon as friction falls steeply with temperature. Memory does not follow the slip
+   !> velocity here but its lower bound, as in the original program.
    subroutine heat_by_friction(self, law, memory, pn, speed, heat, dt, mu, t1)
       class(heat_passage), intent(in) :: self
       type(heated_law), intent(in) :: law
@@ -168,7 +169,7 @@ contains
       !> Coefficients [-] and temperatures of body 1 [degC], shapes (mx, my)
       real(wp), contiguous, intent(inout) :: mu(:, :), t1(:, :)
       real(wp), allocatable :: weight(:), rise(:), t2(:, :)
-      real(wp) :: before, own, given, released, per_heat, cold
+      real(wp) :: before, own, given, released, per_heat, cold, theta
       integer :: ix, iy, jx, m, first, last
 
       m = size(pn, 1)
@@ -176,6 +177,7 @@ contains
       call self%conduct(t1, t2)
       weight = self%weights(m)
       per_heat = self%rise_per_heat()
+      theta = memory%weight(0.0_wp, dt)
       first = merge(m, 1, self%direction > 0)
       last = m + 1 - first
       do iy = 1, size(pn, 2)
@@ -187,7 +189,7 @@ contains
             given = heat(ix, iy)
             cold = t1(ix, iy) + per_heat*(rise(jx) + weight(1)*given)
             own = pn(ix, iy)*speed(ix, iy)
-            mu(ix, iy) = law%self_heated(iy, cold, per_heat*weight(1)*own, memory%weight(speed(ix, iy), dt), before)
+            mu(ix, iy) = law%self_heated(iy, cold, per_heat*weight(1)*own, theta, before)
             before = mu(ix, iy)
             released = given + mu(ix, iy)*own
             if (released > 0.0_wp) rise(jx:) = rise(jx:) + released*weight(:m - jx + 1)

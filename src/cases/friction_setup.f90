@@ -1,0 +1,98 @@
+!> From the specification of a case to its friction law and thermal constants
+module contact_cases_friction_setup
+   use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
+   use contact_base_choices, only : friction_model, heat_model, motion
+   use contact_base_error, only : error_kind, error_type, fatal_error
+   use contact_base_kinds, only : wp
+   use contact_cases_spec, only : case_spec, friction_set, heat_spec
+   use contact_friction_law, only : friction_driver, friction_law, friction_parameters
+   use contact_friction_memory, only : friction_memory
+   use contact_friction_new_law, only : new_friction_law
+   use contact_patch_problem, only : patch_problem
+   use contact_temperature_flash_heating, only : new_body_pair
+   implicit none (type, external)
+   private
+
+   public :: set_friction, set_thermal
+
+contains
+
+   !> Friction law; Coulomb friction with one coefficient needs none
+   subroutine set_friction(spec, problem, error)
+      type(case_spec), intent(in) :: spec
+      !> With its grid
+      type(patch_problem), intent(inout) :: problem
+      type(error_type), allocatable, intent(out) :: error
+      class(friction_law), allocatable :: law
+      integer :: iy
+
+      if (allocated(problem%friction)) deallocate(problem%friction)
+      problem%remembers_friction = .false.
+      problem%mu = spec%friction%sets(1)%fstat
+      if (spec%motion == motion%none) return
+      if (spec%friction_law == friction_model%coulomb .and. size(spec%friction%sets) == 1) return
+      if (size(spec%friction%sets) /= 1 .and. size(spec%friction%sets) /= problem%grid%my) then
+         call fatal_error(error, "friction parameters per row were given for another number of rows")
+         return
+      end if
+      call new_friction_law(spec%friction_law, [parameters_of(spec%friction%sets)], law, error)
+      if (allocated(error)) return
+      if (law%driver == friction_driver%temperature .and. spec%heat_model == heat_model%none) then
+         call fatal_error(error, "friction that changes with temperature needs thermal constants (H = 3)")
+         return
+      end if
+      if (law%varies_by_row()) problem%mu = 1.0_wp
+      problem%slip_start = sign(1, spec%iteration%inislp)
+      if (spec%iteration%inislp == 0) problem%slip_start = 0
+      problem%slip_relaxation = spec%iteration%omgslp
+      problem%friction_memory = friction_memory(spec%friction%memdst, spec%friction%mem_s0)
+      if (law%driver /= friction_driver%none) then
+         if (.not. all(ieee_is_finite([spec%friction%memdst, spec%friction%mem_s0, spec%iteration%omgslp])) &
+            & .or. min(spec%friction%memdst, spec%friction%mem_s0) < 0.0_wp) then
+            call fatal_error(error, "the distance and the velocity of friction memory must not be negative, and OMGSLP finite")
+            return
+         end if
+         problem%remembers_friction = .true.
+      end if
+      problem%static_mu = law%sets([(law%set_of_row(iy), iy=1, problem%grid%my)])%static
+      call move_alloc(law, problem%friction)
+   end subroutine set_friction
+
+   !> The parameters in the words of the friction room
+   elemental function parameters_of(set) result(parameters)
+      type(friction_set), intent(in) :: set
+      type(friction_parameters) :: parameters
+
+      parameters = friction_parameters(static=set%fstat, kinetic=set%fkin, term=[set%coef1, set%coef2], &
+         & half_speed=[set%sabsh1, set%sabsh2], onset=set%tref, range=set%dtheat)
+   end function parameters_of
+
+   !> Thermal constants, when temperatures are asked for
+   subroutine set_thermal(spec, problem, error)
+      type(case_spec), intent(in) :: spec
+      type(patch_problem), intent(inout) :: problem
+      type(error_type), allocatable, intent(out) :: error
+
+      if (allocated(problem%thermal)) deallocate(problem%thermal)
+      if (spec%heat_model == heat_model%none) return
+      if (spec%motion == motion%shift .or. spec%motion == motion%transient_rolling) then
+         call fatal_error(error, "surface temperatures are known for steady rolling (T = 3) and without motion (T = 0) only", &
+            & error_kind%unsupported)
+         return
+      end if
+      associate (heat => spec%heat)
+         if (.not. is_usable(heat)) then
+            call fatal_error(error, "bulk temperatures must be finite, heat capacities, conductivities and densities positive")
+            return
+         end if
+         allocate(problem%thermal, source=new_body_pair(heat%bktemp, heat%heatcp, heat%lambda, heat%dens, heat%betapl))
+      end associate
+   end subroutine set_thermal
+
+   pure logical function is_usable(heat)
+      type(heat_spec), intent(in) :: heat
+
+      is_usable = all(ieee_is_finite([heat%bktemp, heat%heatcp, heat%lambda, heat%dens, heat%betapl])) &
+         & .and. all([heat%heatcp, heat%lambda, heat%dens] > 0.0_wp) .and. heat%betapl >= 0.0_wp
+   end function is_usable
+end module contact_cases_friction_setup

@@ -1,0 +1,257 @@
+!> Friction that depends on slip velocity or temperature: iteration around the tangential problem
+!>
+!> Coefficients give slip, slip gives coefficients. The caller solves with given coefficients, hands
+!> over the slip and gets new coefficients, until the slip velocities (or temperatures) no longer
+!> change. Falling friction may have several solutions. More slip makes less friction, which makes
+!> more slip: started without slip, the iteration climbs to the solution with the least slip; started with
+!> the velocity of rolling, it descends to the one with the most. Hence nothing here may overshoot.
+module contact_patch_friction_iteration
+   use contact_base_choices, only : motion
+   use contact_base_kinds, only : wp
+   use contact_base_log, only : log_type
+   use contact_base_solve_report, only : ending, solve_report
+   use contact_friction_heated, only : heated_law
+   use contact_friction_law, only : friction_driver
+   use contact_grid_element_division, only : bounding_box, element
+   use contact_patch_heat, only : new_heat_passage
+   use contact_patch_problem, only : patch_problem, patch_state, rolling_direction
+   use contact_tangential_problem, only : tangential_solution
+   use contact_temperature_flash_heating, only : heat_passage
+   implicit none (type, external)
+   private
+
+   public :: friction_iteration
+
+   !> State of the iteration
+   type :: friction_iteration
+      !> Member of ending; not_started while the iteration goes on
+      integer :: ended = 0
+      !> Solutions handed over so far
+      integer :: passes = 0
+      !> Last change of slip velocity [mm/s] or temperature [degC], and its size; root mean squares
+      real(wp) :: change = 0.0_wp, size = 0.0_wp
+      !> Slip velocity of the present coefficients [mm/s], shape (mx, my)
+      real(wp), allocatable, private :: speed(:, :)
+      !> Temperature of body 1 with the present coefficients [degC], shape (mx, my)
+      real(wp), allocatable, private :: temperature(:, :)
+      !> Time step [s]
+      real(wp), private :: dt = 1.0_wp
+      !> Factor of the changes where friction has risen, see problem%slip_relaxation
+      real(wp), private :: omega = 1.0_wp
+      !> Number of slip elements of the last solution, -1 before
+      integer, private :: slipping = -1
+   contains
+      procedure :: start
+      procedure :: advance
+      procedure :: report => report_iteration
+      procedure, private :: set_coefficients
+   end type friction_iteration
+
+   !> Relative change of slip velocities or temperatures at which the iteration ends
+   real(wp), parameter :: speed_tolerance = 1.0e-3_wp, temperature_tolerance = 1.0e-4_wp
+   !> The relaxation is reduced by this factor every so many passes in which elements still change state
+   real(wp), parameter :: reduction = 0.8_wp
+   integer, parameter :: speed_patience = 20, temperature_patience = 15
+   !> Passes that MAXIN allows in excess of those of the friction iteration
+   integer, parameter :: spare_passes = 10
+
+contains
+
+   !> First coefficients of a case, or those on a contact area that has changed
+   subroutine start(self, problem, state, dt, is_first, mu)
+      class(friction_iteration), intent(inout) :: self
+      type(patch_problem), intent(in) :: problem
+      type(patch_state), intent(in) :: state
+      !> Time step [s]
+      real(wp), intent(in) :: dt
+      !> First outer iteration of a case? Later ones continue
+      logical, intent(in) :: is_first
+      !> Coefficients of friction [-], shape (mx, my)
+      real(wp), contiguous, intent(inout) :: mu(:, :)
+
+      self%ended = ending%not_started
+      self%passes = 0
+      self%slipping = -1
+      self%dt = dt
+      self%omega = problem%slip_relaxation
+      if (is_first) then
+         if (problem%slip_start < 0) then
+            self%speed = spread(spread(problem%veloc, 1, size(mu, 1)), 2, size(mu, 2))
+         else if (problem%slip_start > 0) then
+            self%speed = spread(spread(0.0_wp, 1, size(mu, 1)), 2, size(mu, 2))
+         else
+            self%speed = hypot(state%before%sx%value, state%before%sy%value)/dt
+         end if
+      end if
+      where (state%now%division == element%exterior) self%speed = 0.0_wp
+      call self%set_coefficients(problem, state, mu)
+   end subroutine start
+
+   !> Take a solution; choose the next coefficients or end
+   subroutine advance(self, problem, state, box, solution, log, mu)
+      class(friction_iteration), intent(inout) :: self
+      type(patch_problem), intent(in) :: problem
+      type(patch_state), intent(in) :: state
+      !> Part of the grid on which the solution is
+      type(bounding_box), intent(in) :: box
+      type(tangential_solution), intent(in) :: solution
+      type(log_type), intent(inout) :: log
+      !> Coefficients of the solution on entry, the next ones on exit [-], shape (mx, my)
+      real(wp), contiguous, intent(inout) :: mu(:, :)
+      real(wp), allocatable :: speed(:, :), last(:, :), last_mu(:, :)
+      real(wp) :: tolerance
+      integer :: slipping, patience
+      logical :: by_temperature
+
+      by_temperature = problem%friction%driver == friction_driver%temperature
+      self%passes = self%passes + 1
+      allocate(speed(size(mu, 1), size(mu, 2)), source=0.0_wp)
+      where (solution%division == element%slip) speed(box%ix0:box%ix1, box%iy0:box%iy1) = &
+         & hypot(solution%slip(:, :, 1), solution%slip(:, :, 2))/self%dt
+      slipping = count(solution%division == element%slip)
+      last = self%speed
+      last_mu = mu
+      if (by_temperature) then
+         last = self%temperature
+         self%speed = speed
+         call self%set_coefficients(problem, state, mu)
+         speed = self%temperature
+      end if
+      call measure(speed, last, state%now%division, self%change, self%size)
+      tolerance = merge(temperature_tolerance, speed_tolerance, by_temperature)
+      call trace_pass(log, self, by_temperature, count(solution%division == element%adhesion), slipping, tolerance)
+      patience = merge(temperature_patience, speed_patience, by_temperature)
+      if (mod(self%passes, patience) == 0 .and. slipping /= self%slipping) self%omega = reduction*self%omega
+      self%slipping = slipping
+
+      if (self%change <= tolerance*self%size .or. slipping == 0) then
+         self%ended = ending%converged
+      else if (self%passes >= max(1, problem%maxin - spare_passes)) then
+         self%ended = ending%iteration_limit
+      end if
+      if (by_temperature) then
+         ! the tractions are those of the coefficients that they were computed with
+         if (self%ended /= ending%not_started .and. slipping > 0) mu = last_mu
+         return
+      end if
+      if (self%ended /= ending%not_started) then
+         self%speed = speed
+         if (slipping == 0) call self%set_coefficients(problem, state, mu)
+         return
+      end if
+      if (self%passes > 1) then
+         call bring_along(problem, state, mu, last_mu)
+         where (speed > 0.0_wp .and. mu > last_mu) speed = max(0.0_wp, speed + (self%omega - 1.0_wp)*(speed - last))
+      end if
+      self%speed = speed
+      call self%set_coefficients(problem, state, mu)
+   end subroutine advance
+
+   !> Coefficients for the present slip velocities
+   subroutine set_coefficients(self, problem, state, mu)
+      class(friction_iteration), intent(inout) :: self
+      type(patch_problem), intent(in) :: problem
+      type(patch_state), intent(in) :: state
+      real(wp), contiguous, intent(inout) :: mu(:, :)
+
+      if (problem%friction%driver == friction_driver%temperature) then
+         call heat_up(self, problem, state, mu)
+         return
+      end if
+      call problem%friction%coefficient(self%speed, mu)
+      if (.not. problem%friction_memory%acts()) return
+      if (problem%motion == motion%steady_rolling) then
+         call problem%friction_memory%march(self%speed, self%dt, rolling_direction(problem), problem%static_mu, mu)
+      else
+         call problem%friction_memory%step(self%speed, self%dt, state%before%mu%value, mu)
+      end if
+   end subroutine set_coefficients
+
+   !> Coefficients that particles bring along: of the previous time, in steady rolling of the previous element
+   subroutine bring_along(problem, state, mu, before)
+      type(patch_problem), intent(in) :: problem
+      type(patch_state), intent(in) :: state
+      !> Present coefficients [-], shape (mx, my)
+      real(wp), contiguous, intent(in) :: mu(:, :)
+      !> Shape (mx, my)
+      real(wp), contiguous, intent(inout) :: before(:, :)
+      integer :: mx
+
+      mx = size(mu, 1)
+      if (problem%motion /= motion%steady_rolling) then
+         before = state%before%mu%value
+      else if (rolling_direction(problem) > 0) then
+         before(:mx - 1, :) = mu(2:, :)
+         before(mx, :) = problem%static_mu
+      else
+         before(2:, :) = mu(:mx - 1, :)
+         before(1, :) = problem%static_mu
+      end if
+   end subroutine bring_along
+
+   !> Coefficients and temperatures that belong together, for the present slip velocities
+   subroutine heat_up(self, problem, state, mu)
+      class(friction_iteration), intent(inout) :: self
+      type(patch_problem), intent(in) :: problem
+      type(patch_state), intent(in) :: state
+      real(wp), contiguous, intent(inout) :: mu(:, :)
+      type(heat_passage) :: passage
+      real(wp), allocatable :: heat(:, :)
+
+      allocate(heat(size(mu, 1), size(mu, 2)), source=0.0_wp)
+      self%temperature = heat
+      passage = new_heat_passage(problem, state%now%division)
+      select type (law => problem%friction)
+      type is (heated_law)
+         call passage%heat_by_friction(law, problem%friction_memory, state%now%pn, self%speed, heat, self%dt, mu, &
+            & self%temperature)
+      end select
+   end subroutine heat_up
+
+   !> Root mean squares over the contact area of a change and of the new values
+   pure subroutine measure(new, old, division, change, size_)
+      real(wp), intent(in) :: new(:, :), old(:, :)
+      integer, intent(in) :: division(:, :)
+      real(wp), intent(out) :: change, size_
+      integer :: n
+
+      n = max(1, count(division > element%exterior))
+      change = sqrt(sum((new - old)**2, mask=division > element%exterior)/n)
+      size_ = sqrt(sum(new**2, mask=division > element%exterior)/n)
+   end subroutine measure
+
+   !> How the iteration ended
+   subroutine report_iteration(self, problem, report)
+      class(friction_iteration), intent(in) :: self
+      type(patch_problem), intent(in) :: problem
+      type(solve_report), intent(out) :: report
+
+      report%method = "friction iteration"
+      report%ended = self%ended
+      report%iterations = self%passes
+      report%passes = self%passes
+      report%residual = self%change/max(self%size, tiny(self%size))
+      report%tolerance = merge(temperature_tolerance, speed_tolerance, &
+         & problem%friction%driver == friction_driver%temperature)
+   end subroutine report_iteration
+
+   !> Line of the flow trace about a pass
+   subroutine trace_pass(log, iteration, by_temperature, adhering, slipping, tolerance)
+      type(log_type), intent(inout) :: log
+      type(friction_iteration), intent(in) :: iteration
+      logical, intent(in) :: by_temperature
+      integer, intent(in) :: adhering, slipping
+      real(wp), intent(in) :: tolerance
+      character(len=120) :: line
+
+      if (.not. log%shows(2)) return
+      if (by_temperature) then
+         write(line, '(i5,a,2i6,a,2es12.3)') iteration%passes, ", Temp-dep: A, S=", adhering, slipping, &
+            & ", |Tk-Tk-1|, .0001 |Tk| : ", iteration%change, tolerance*iteration%size
+      else
+         write(line, '(i5,a,2i6,a,2es12.3)') iteration%passes, ", Vel-dep: A, S=", adhering, slipping, &
+            & ", |Sk-Sk-1|, .001 |Sk| : ", iteration%change, tolerance*iteration%size
+      end if
+      call log%trace(2, trim(line))
+   end subroutine trace_pass
+end module contact_patch_friction_iteration

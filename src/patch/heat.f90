@@ -1,0 +1,49 @@
+!> Surface temperatures of a patch
+module contact_patch_heat
+   use contact_base_choices, only : motion
+   use contact_base_kinds, only : wp
+   use contact_grid_element_division, only : element
+   use contact_patch_problem, only : patch_problem, rolling_direction
+   use contact_patch_result, only : patch_result
+   use contact_temperature_flash_heating, only : heat_passage
+   implicit none (type, external)
+   private
+
+   public :: derive_temperatures, new_heat_passage
+
+contains
+
+   !> The way of the surfaces through the contact area
+   pure function new_heat_passage(problem, division) result(passage)
+      !> Must have thermal constants
+      type(patch_problem), intent(in) :: problem
+      !> Element states, shape (mx, my)
+      integer, intent(in) :: division(:, :)
+      type(heat_passage) :: passage
+
+      passage%bodies = problem%thermal
+      passage%dx = problem%grid%dx
+      passage%veloc = problem%veloc
+      passage%direction = rolling_direction(problem)
+      allocate(passage%contact(size(division, 1), size(division, 2)))
+      passage%contact = division > element%exterior
+   end function new_heat_passage
+
+   !> Temperatures of both surfaces from slip and tractions; bulk temperatures where nothing moves
+   subroutine derive_temperatures(problem, result)
+      type(patch_problem), intent(in) :: problem
+      !> Solved, with element states, slip and tractions
+      type(patch_result), intent(inout) :: result
+      type(heat_passage) :: passage
+      real(wp), allocatable :: heat(:, :)
+
+      if (allocated(result%temp1)) deallocate(result%temp1, result%temp2)
+      if (.not. allocated(problem%thermal)) return
+      allocate(result%temp1(problem%grid%mx, problem%grid%my), source=problem%thermal%bulk(1))
+      allocate(result%temp2(problem%grid%mx, problem%grid%my), source=problem%thermal%bulk(2))
+      if (problem%motion /= motion%steady_rolling) return
+      passage = new_heat_passage(problem, result%division)
+      heat = hypot(result%sx, result%sy)*hypot(result%px, result%py)/result%dt
+      call passage%surface_temperatures(heat, result%temp1, result%temp2)
+   end subroutine derive_temperatures
+end module contact_patch_heat
