@@ -45,6 +45,7 @@ module contact_text_lexer
       procedure :: at_end
       procedure :: count_lines
       procedure :: line_text
+      procedure :: fingerprint
       procedure, private :: next_line
       procedure, private :: parse
       procedure, private :: refuse_word
@@ -162,6 +163,19 @@ contains
          if (iachar(text(i:i)) < 32) text(i:i) = " "
       end do
    end function line_text
+
+   !> A number that differs, almost certainly, when the text does (FNV-1a with 32 bits, and the length)
+   pure integer(long) function fingerprint(self) result(hash)
+      class(input_lexer), intent(in) :: self
+      integer(long), parameter :: offset = 2166136261_long, prime = 16777619_long, mask = 4294967295_long
+      integer :: i
+
+      hash = offset
+      do i = 1, len(self%text)
+         hash = iand(ieor(hash, int(iachar(self%text(i:i)), long))*prime, mask)
+      end do
+      hash = ieor(hash, int(len(self%text), long))
+   end function fingerprint
 
    !> Are there no more words?
    logical function at_end(self)

@@ -1,0 +1,168 @@
+!> Profiles that are ready for use, each prepared once
+!>
+!> Whoever runs the cases owns one store. A profile stays until the store is released or, when more than
+!> `most_profiles` are in use, until it is the one that was asked for longest ago. A file that has
+!> changed since is read again: the text is compared by its length and a hash, which needs no clock.
+module contact_profile_store
+   use contact_base_error, only : add_context, error_type
+   use contact_base_kinds, only : long, wp
+   use contact_base_log, only : log_type
+   use contact_profile_curve, only : profile_curve
+   use contact_profile_prepare, only : extension_of, read_profile
+   use contact_profile_request, only : profile_request, same_request
+   use contact_profile_slices_file, only : read_slices_file, slices_list
+   use contact_profile_surface, only : new_surface, profile_surface
+   use contact_text_lexer, only : input_lexer
+   use contact_text_words, only : integer_text
+   implicit none (type, external)
+   private
+
+   public :: profile_store, prepared_profile, load_profile
+
+   !> What a file holds: one curve, or a surface through slices
+   type :: prepared_profile
+      type(profile_request) :: request
+      !> The curve; of a surface the first slice
+      type(profile_curve) :: curve
+      !> Allocated for slices files
+      type(profile_surface), allocatable :: surface
+   end type prepared_profile
+
+   type :: store_entry
+      !> Owned by the store, stays in its place while the list of entries grows
+      type(prepared_profile), pointer :: profile => null()
+      integer(long) :: fingerprint = 0
+      integer(long) :: last_use = 0
+   end type store_entry
+
+   type :: profile_store
+      !> Profiles that are kept
+      integer :: most_profiles = 20
+      !> Files that were read, for tests and timing
+      integer :: loads = 0
+      type(store_entry), allocatable, private :: entries(:)
+      integer(long), private :: clock = 0
+   contains
+      procedure :: get
+      procedure :: release
+   end type profile_store
+
+contains
+
+   !> The profile for a request, from the store or from its file
+   subroutine get(self, request, profile, log, error)
+      class(profile_store), intent(inout) :: self
+      type(profile_request), intent(in) :: request
+      !> Belongs to the store; valid until `most_profiles` others were asked for. Null on errors
+      type(prepared_profile), pointer, intent(out) :: profile
+      type(log_type), intent(inout) :: log
+      type(error_type), allocatable, intent(out) :: error
+      integer(long) :: fingerprint
+      integer :: k, slot
+
+      profile => null()
+      call fingerprint_of(request, fingerprint, error)
+      if (allocated(error)) return
+      if (.not. allocated(self%entries)) allocate(self%entries(max(1, self%most_profiles)))
+      self%clock = self%clock + 1
+      slot = 0
+      do k = 1, size(self%entries)
+         if (.not. associated(self%entries(k)%profile)) cycle
+         if (.not. same_request(self%entries(k)%profile%request, request)) cycle
+         if (self%entries(k)%fingerprint == fingerprint) then
+            self%entries(k)%last_use = self%clock
+            profile => self%entries(k)%profile
+            return
+         end if
+         slot = k
+      end do
+      if (slot == 0) slot = minloc(self%entries%last_use, 1)
+      if (associated(self%entries(slot)%profile)) deallocate(self%entries(slot)%profile)
+      self%entries(slot)%last_use = 0
+      allocate(profile)
+      call load_profile(request, profile, log, error)
+      self%loads = self%loads + 1
+      if (allocated(error)) then
+         deallocate(profile)
+         return
+      end if
+      self%entries(slot)%profile => profile
+      self%entries(slot)%fingerprint = fingerprint
+      self%entries(slot)%last_use = self%clock
+   end subroutine get
+
+   !> Forget all profiles
+   subroutine release(self)
+      class(profile_store), intent(inout) :: self
+      integer :: k
+
+      if (.not. allocated(self%entries)) return
+      do k = 1, size(self%entries)
+         if (associated(self%entries(k)%profile)) deallocate(self%entries(k)%profile)
+      end do
+      deallocate(self%entries)
+   end subroutine release
+
+   !> Read a profile or all slices of a variable one
+   subroutine load_profile(request, profile, log, error)
+      type(profile_request), intent(in) :: request
+      type(prepared_profile), intent(out) :: profile
+      type(log_type), intent(inout) :: log
+      type(error_type), allocatable, intent(out) :: error
+      type(input_lexer) :: text
+      type(slices_list) :: list
+      type(profile_request) :: slice
+      type(profile_curve), allocatable :: curves(:)
+      integer :: k
+
+      profile%request = request
+      if (.not. is_slices_file(request)) then
+         call read_profile(request, profile%curve, log, error)
+         return
+      end if
+      call text%open_file(request%file, error)
+      if (.not. allocated(error)) call read_slices_file(text, request%side, list, error)
+      if (allocated(error)) return
+      allocate(curves(size(list%slices)))
+      slice = request
+      do k = 1, size(curves)
+         slice%file = list%slices(k)%file
+         call read_profile(slice, curves(k), log, error)
+         call add_context(error, "slice " // integer_text(k) // " of " // request%file)
+         if (allocated(error)) return
+      end do
+      allocate(profile%surface)
+      call new_surface(request%side, list, curves, request%file, profile%surface, error)
+      profile%curve = curves(1)
+   end subroutine load_profile
+
+   pure logical function is_slices_file(request)
+      type(profile_request), intent(in) :: request
+
+      is_slices_file = extension_of(request%file) == "slcs" .or. extension_of(request%file) == "slcw"
+   end function is_slices_file
+
+   !> Hash of the file, and of all slices when it names some
+   subroutine fingerprint_of(request, fingerprint, error)
+      type(profile_request), intent(in) :: request
+      integer(long), intent(out) :: fingerprint
+      type(error_type), allocatable, intent(out) :: error
+      type(input_lexer) :: text, slice
+      type(slices_list) :: list
+      integer(long), parameter :: modulus = 2147483647_long
+      integer :: k
+
+      call text%open_file(request%file, error)
+      if (allocated(error)) return
+      fingerprint = text%fingerprint()
+      if (.not. is_slices_file(request)) return
+      call read_slices_file(text, request%side, list, error)
+      if (allocated(error)) return
+      do k = 1, size(list%slices)
+         call slice%open_file(list%slices(k)%file, error)
+         call add_context(error, "slice " // integer_text(k) // " of " // request%file)
+         if (allocated(error)) return
+         fingerprint = modulo(31_long*fingerprint + slice%fingerprint(), modulus)
+      end do
+   end subroutine fingerprint_of
+end module contact_profile_store

@@ -1,0 +1,325 @@
+!> A variable profile: a surface through slices, cut at any position along the track or around the wheel
+!>
+!> Each slice is divided at its features into parts, each part evenly into the same number of intervals in
+!> all slices. Points with the same number lie on one line along u; a line is a cubic spline in u over the
+!> slices that have it. A cut gathers the lines that exist at its position and makes a curve of them. As
+!> interpolation along the lines and across them commute, this is the tensor-product spline.
+module contact_profile_surface
+   use contact_base_constants, only : pi
+   use contact_base_error, only : error_type, fatal_error
+   use contact_base_kinds, only : wp
+   use contact_numeric_b_spline, only : basis_values, interpolate_sites, interpolation_knots, knot_interval
+   use contact_numeric_spline, only : cubic_spline, natural_splines
+   use contact_profile_curve, only : new_curve, profile_curve
+   use contact_profile_points, only : chord_lengths
+   use contact_profile_request, only : profile_side
+   use contact_profile_slices_file, only : slices_list
+   use contact_text_words, only : integer_text, real_text
+   implicit none (type, external)
+   private
+
+   public :: profile_surface, surface_cut, new_surface
+
+   !> Lines that exist in one unbroken row of slices
+   type :: line_group
+      !> Range of u, and of line numbers
+      real(wp) :: low, high
+      integer :: first, last
+      !> Knots in u, and coefficients of y and z (coefficient, line)
+      real(wp), allocatable :: t(:), y(:, :), z(:, :)
+   end type line_group
+
+   !> The surface
+   type :: profile_surface
+      !> Member of profile_side
+      integer :: side = profile_side%rail
+      !> First and last position: [mm] along the track, [rad] around the wheel
+      real(wp) :: u_range(2) = 0.0_wp
+      !> Lines; those at kinks
+      integer :: lines = 0
+      logical, allocatable, private :: is_kink(:)
+      type(line_group), allocatable, private :: groups(:)
+   contains
+      procedure :: cut
+   end type profile_surface
+
+   !> A section of the surface across u
+   type :: surface_cut
+      !> Is there any surface at this position?
+      logical :: present = .false.
+      type(profile_curve) :: curve
+      !> Derivatives along u on the lines, as functions of the curve's s
+      type(cubic_spline), private :: y_u, z_u
+   contains
+      !> Derivative of the height along u at a fixed lateral position
+      procedure :: slope_along
+   end type surface_cut
+
+   !> Distance of lines across the profile [mm]
+   real(wp), parameter :: line_distance = 0.5_wp
+   !> What rounding may do to the ends of the range, of its length
+   real(wp), parameter :: rounding = 1.0e-9_wp
+   !> Slices that a spline along u needs
+   integer, parameter :: fewest_slices = 4
+
+contains
+
+   !> Build the surface from prepared slices
+   subroutine new_surface(side, list, curves, file, surface, error)
+      !> Member of profile_side
+      integer, intent(in) :: side
+      type(slices_list), intent(in) :: list
+      !> One per slice
+      type(profile_curve), intent(in) :: curves(:)
+      !> Name of the slices file, for messages
+      character(len=*), intent(in) :: file
+      type(profile_surface), intent(out) :: surface
+      type(error_type), allocatable, intent(out) :: error
+      real(wp), allocatable :: features(:, :), y(:, :), z(:, :), u(:)
+      integer, allocatable :: first_line(:)
+      integer :: slices, parts, f, k
+
+      slices = size(curves)
+      if (slices < fewest_slices) then
+         call fatal_error(error, "there are " // integer_text(slices) // " slices; a surface needs at least " // &
+            & integer_text(fewest_slices), file=file)
+         return
+      end if
+      parts = size(list%features, 1) - 1
+      u = [(list%slices(k)%u, k=1, slices)]
+      surface%side = side
+      surface%u_range = [u(1), u(slices)]
+      call limit_features(list, curves, file, features, error)
+      if (allocated(error)) return
+
+      ! Numbers of the lines at features
+      allocate(first_line(parts + 1))
+      first_line(1) = 1
+      do f = 1, parts
+         first_line(f + 1) = first_line(f) + 1 + int(longest_part(features, f)/line_distance)
+      end do
+      surface%lines = first_line(parts + 1)
+      allocate(surface%is_kink(surface%lines), y(slices, surface%lines), z(slices, surface%lines))
+      surface%is_kink = .false.
+      surface%is_kink(pack(first_line, list%is_kink)) = .true.
+      do k = 1, slices
+         call sample(curves(k), features(:, k), first_line, y(k, :), z(k, :))
+      end do
+
+      allocate(surface%groups(0))
+      do f = 1, parts + 1
+         call add_groups(surface, features(f, :) >= 0.0_wp, first_line(f), first_line(f))
+         if (allocated(error)) return
+         if (f > parts) exit
+         if (first_line(f + 1) - first_line(f) < 2) cycle
+         call add_groups(surface, features(f, :) >= 0.0_wp .and. features(f + 1, :) >= 0.0_wp, first_line(f) + 1, &
+            & first_line(f + 1) - 1)
+         if (allocated(error)) return
+      end do
+
+   contains
+
+      !> A group for each unbroken row of slices that have the lines
+      subroutine add_groups(surface, there, first, last)
+         type(profile_surface), intent(inout) :: surface
+         logical, intent(in) :: there(:)
+         integer, intent(in) :: first, last
+         type(line_group) :: group
+         integer :: a, b
+
+         a = 1
+         do while (a <= slices)
+            if (.not. there(a)) then
+               a = a + 1
+               cycle
+            end if
+            b = a
+            do while (b < slices)
+               if (.not. there(b + 1)) exit
+               b = b + 1
+            end do
+            if (b - a + 1 < fewest_slices) then
+               call fatal_error(error, "a part of the profile exists in the slices " // integer_text(a) // " to " // &
+                  & integer_text(b) // " only; it must exist in at least " // integer_text(fewest_slices) // &
+                  & " slices one after the other", file=file, line=list%slices(a)%line)
+               return
+            end if
+            group%low = u(a)
+            group%high = u(b)
+            group%first = first
+            group%last = last
+            group%y = y(a:b, first:last)
+            group%z = z(a:b, first:last)
+            call spline_along(u(a:b), list%approximating, group)
+            surface%groups = [surface%groups, group]
+            a = b + 1
+         end do
+      end subroutine add_groups
+   end subroutine new_surface
+
+   !> Features cut off at the end of each slice; -1 where a feature is absent
+   subroutine limit_features(list, curves, file, features, error)
+      type(slices_list), intent(in) :: list
+      type(profile_curve), intent(in) :: curves(:)
+      character(len=*), intent(in) :: file
+      real(wp), allocatable, intent(out) :: features(:, :)
+      type(error_type), allocatable, intent(out) :: error
+      real(wp) :: range(2)
+      integer :: k, last
+
+      features = list%features
+      do k = 1, size(curves)
+         range = curves(k)%s_range()
+         last = findloc(features(:, k) > -1.0e-6_wp, .true., 1, back=.true.)
+         where (features(:, k) > -1.0e-6_wp)
+            features(:, k) = max(0.0_wp, features(:, k))
+         elsewhere
+            features(:, k) = -1.0_wp
+         end where
+         features(last, k) = min(features(last, k), range(2) - range(1))
+         if (features(last, k) > features(last - 1, k)) cycle
+         call fatal_error(error, "slice " // integer_text(k) // " is " // real_text(range(2) - range(1)) // " mm long, but the &
+            &last but one of its features stands at " // real_text(features(last - 1, k)) // " mm", file=file, &
+            & line=list%slices(k)%line)
+         return
+      end do
+   end subroutine limit_features
+
+   pure real(wp) function longest_part(features, part) result(length)
+      real(wp), intent(in) :: features(:, :)
+      integer, intent(in) :: part
+      integer :: k
+
+      length = 0.0_wp
+      do k = 1, size(features, 2)
+         if (min(features(part, k), features(part + 1, k)) < 0.0_wp) cycle
+         length = max(length, features(part + 1, k) - features(part, k))
+      end do
+   end function longest_part
+
+   !> Points of a slice on all lines that it has
+   pure subroutine sample(curve, features, first_line, y, z)
+      type(profile_curve), intent(in) :: curve
+      real(wp), intent(in) :: features(:)
+      integer, intent(in) :: first_line(:)
+      real(wp), intent(out) :: y(:), z(:)
+      real(wp) :: range(2), s
+      integer :: p, j
+
+      y = 0.0_wp
+      z = 0.0_wp
+      range = curve%s_range()
+      do p = 1, size(features) - 1
+         if (min(features(p), features(p + 1)) < 0.0_wp) cycle
+         do j = first_line(p), first_line(p + 1)
+            s = features(p) + (features(p + 1) - features(p))*real(j - first_line(p), wp)/(first_line(p + 1) - first_line(p))
+            y(j) = curve%y%value(range(1) + s)
+            z(j) = curve%z%value(range(1) + s)
+         end do
+      end do
+   end subroutine sample
+
+   !> Coefficients along u from the points of the slices
+   !>
+   !> Approximating, the points are the control points themselves, with one more at each end on the straight
+   !> line through the last two: a slice counts one sixth for its neighbours, four sixths for itself.
+   subroutine spline_along(u, approximating, group)
+      real(wp), intent(in) :: u(:)
+      logical, intent(in) :: approximating
+      !> On entry the points, on exit the coefficients
+      type(line_group), intent(inout) :: group
+      logical :: solved
+      integer :: n, k
+
+      n = size(u)
+      if (.not. approximating) then
+         group%t = interpolation_knots(u)
+         ! Sites rise and the knots are made of them: the systems are not singular
+         call interpolate_sites(group%t, u, group%y, solved)
+         call interpolate_sites(group%t, u, group%z, solved)
+         return
+      end if
+      group%t = [u(1) - [(k*(u(2) - u(1)), k=3, 1, -1)], u, u(n) + [(k*(u(n) - u(n - 1)), k=1, 3)]]
+      group%y = with_phantoms(u, group%y)
+      group%z = with_phantoms(u, group%z)
+   end subroutine spline_along
+
+   pure function with_phantoms(u, points) result(longer)
+      real(wp), intent(in) :: u(:), points(:, :)
+      real(wp) :: longer(size(points, 1) + 2, size(points, 2))
+      integer :: n
+
+      n = size(u)
+      longer(2:n + 1, :) = points
+      longer(1, :) = 2.0_wp*points(1, :) - points(2, :)
+      longer(n + 2, :) = 2.0_wp*points(n, :) - points(n - 1, :)
+   end function with_phantoms
+
+   !> The section at a position; without surface there when `section%present` is false
+   !>
+   !> Angles around a wheel are taken modulo one turn. A wheel that is not given all around goes on beyond
+   !> its first and last slice as it is there; a rail ends.
+   subroutine cut(self, position, section)
+      class(profile_surface), intent(in) :: self
+      !> [mm] or [rad]
+      real(wp), intent(in) :: position
+      type(surface_cut), intent(out) :: section
+      real(wp) :: u
+      real(wp) :: points(self%lines, 4), b(4), slope(4)
+      real(wp), allocatable :: s(:)
+      type(cubic_spline), allocatable :: splines(:)
+      logical :: there(self%lines), solved
+      integer :: g, j, l, first, last
+
+      u = position
+      if (self%side == profile_side%wheel) u = u - 2.0_wp*pi*nint(u/(2.0_wp*pi))
+      if (self%side == profile_side%wheel .or. abs(u - min(max(u, self%u_range(1)), self%u_range(2))) <= &
+         & rounding*(self%u_range(2) - self%u_range(1))) u = min(max(u, self%u_range(1)), self%u_range(2))
+      there = .false.
+      do g = 1, size(self%groups)
+         associate (group => self%groups(g))
+            if (u < group%low .or. u > group%high) cycle
+            j = knot_interval(group%t, u)
+            call basis_values(group%t, j, u, b, slope)
+            do l = group%first, group%last
+               points(l, 1) = dot_product(b, group%y(j - 3:j, l - group%first + 1))
+               points(l, 2) = dot_product(b, group%z(j - 3:j, l - group%first + 1))
+               points(l, 3) = dot_product(slope, group%y(j - 3:j, l - group%first + 1))
+               points(l, 4) = dot_product(slope, group%z(j - 3:j, l - group%first + 1))
+            end do
+            there(group%first:group%last) = .true.
+         end associate
+      end do
+      first = findloc(there, .true., 1)
+      if (first == 0) return
+      ! A feature line may go on where both parts beside it have ended
+      last = first
+      do while (last < self%lines)
+         if (.not. there(last + 1)) exit
+         last = last + 1
+      end do
+      if (last - first < 1) return
+
+      s = chord_lengths(points(first:last, 1), points(first:last, 2))
+      if (any(s(2:) <= s(:size(s) - 1))) return
+      call natural_splines(s, points(first:last, :), splines, solved, self%is_kink(first:last))
+      if (.not. solved) return
+      section%curve = new_curve(self%side, splines(1), splines(2))
+      section%y_u = splines(3)
+      section%z_u = splines(4)
+      section%present = .true.
+   end subroutine cut
+
+   !> dz/du at fixed y of the visible point, from the derivatives on the lines: z_u - z_s y_u / y_s
+   elemental real(wp) function slope_along(self, y) result(slope)
+      class(surface_cut), intent(in) :: self
+      real(wp), intent(in) :: y
+      real(wp) :: s, across
+
+      s = self%curve%s_at(y)
+      across = self%curve%y%slope(s)
+      ! Vertical walls have no such slope; it is bounded there
+      across = sign(max(abs(across), 1.0e-6_wp), across)
+      slope = self%z_u%value(s) - self%curve%z%slope(s)*self%y_u%value(s)/across
+   end function slope_along
+end module contact_profile_surface
