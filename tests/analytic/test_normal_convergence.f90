@@ -46,6 +46,7 @@ contains
       associate (hertz => case%result%hertz)
          call refine(suite, trim(name), hertz%a1, hertz%b1, fn, hertz%pen, 1.5_wp*fn*ratio/pi, 1.0_wp, 1.0_wp/ratio)
       end associate
+      call case%release()
    end subroutine ellipse
 
    !> Errors on a sequence of grids, and their order
@@ -80,6 +81,7 @@ contains
       call observed(suite, name // ", peak pressure", h, e_peak, 2.0_wp, 0.4_wp, 1.0e-5_wp)
       call observed(suite, name // ", contact radius", h(2:), e_area(2:), 1.0_wp, 0.25_wp, 2.0e-3_wp)
       call observed(suite, name // ", pressures (L1)", h, e_field, 1.5_wp, 0.2_wp, 4.0e-4_wp)
+      call case%release()
    end subroutine refine
 
    !> a**2 = 4 P R/(pi E*), p0 = 2 P/(pi a); Johnson (1985), 4.2(c)
@@ -108,6 +110,7 @@ contains
       call observed(suite, "cylinder, peak pressure", h, e_peak, 2.0_wp, 0.4_wp, 1.0e-5_wp)
       call observed(suite, "cylinder, half width", h(2:), e_width(2:), 1.3_wp, 0.4_wp, 1.0e-2_wp)
       call observed(suite, "cylinder, pressures (L1)", h, e_field, 1.5_wp, 0.3_wp, 4.0e-4_wp)
+      call case%release()
    end subroutine cylinder
 
    !> Love (1929): displacement in the centre of a uniformly loaded rectangle
@@ -127,5 +130,6 @@ contains
          expected = 2.0_wp*fn/(dx*dy*pi*modulus)*(dx*asinh(dy/dx) + dy*asinh(dx/dy))
          call suite%close_to(case%result%pen, expected, 1.0e-12_wp, "approach of one element", relative=.true.)
       end do
+      call case%release()
    end subroutine single_element
 end program test_normal_convergence

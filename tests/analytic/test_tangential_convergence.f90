@@ -74,6 +74,7 @@ contains
       end do
       call observed(suite, trim(name) // ", shift", h, e_shift, 1.75_wp, 0.5_wp, 4.0e-5_wp)
       call observed(suite, trim(name) // ", tractions (L1)", h, e_field, 1.5_wp, 0.2_wp, 1.5e-3_wp)
+      call case%release()
    end subroutine cattaneo
 
    !> With nu > 0 the closed form neglects lateral tractions: the shift is right within a percent,
@@ -98,6 +99,7 @@ contains
          call suite%close_to(sqrt(real(case%result%nadh, wp)/case%result%ncon), 0.5_wp, 0.03_wp, &
             & "Mindlin, stick radius", relative=.true.)
       end do
+      call case%release()
    end subroutine mindlin
 
    !> Cylinders in steady rolling: Q = mu P (1 - c**2/a**2) at the creepage mu (a - c) kappa;
@@ -145,6 +147,7 @@ contains
       call observed(suite, trim(name) // ", force", h, e_force, 1.0_wp, 0.1_wp, 1.0e-3_wp)
       call observed(suite, trim(name) // ", creepage", h, e_creep, 1.0_wp, 0.1_wp, 1.0e-3_wp)
       call observed(suite, trim(name) // ", tractions (L1)", h, e_field, 1.0_wp, 0.2_wp, 1.0e-3_wp)
+      call case%release()
    end subroutine carter
 
    !> Large creepages: F = -mu Fn s/|s| to rounding, power -mu Fn |s| V to first order in the step
@@ -181,6 +184,7 @@ contains
       call case%run(suite, "full sliding along x")
       call suite%close_to([case%result%fx_rel, case%result%fy_rel], [1.0_wp, 0.0_wp], 1.0e-13_wp, "full sliding along x")
       call observed(suite, "full sliding, power", h, e_power, 1.0_wp, 0.3_wp, 1.0e-3_wp)
+      call case%release()
    end subroutine sliding
 
    !> Ratio c/a of stick and contact radius when a rigid sphere is pressed into a half-space
@@ -301,6 +305,7 @@ contains
       do step = n/5, n/2
          call suite%close_to(ratios(step), ratio, width*(n/2)/step, "Spence: same ratio at all loads, within an element")
       end do
+      call case%release()
    end subroutine press
 
    subroutine spence_limits(suite)

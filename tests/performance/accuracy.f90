@@ -28,16 +28,16 @@ program performance_accuracy
    !> A classical method is not run on the next size when it took longer than this [s]
    real(wp), parameter :: longest = 1.0_wp
    type(pair_clock) :: clock
-   ! never deallocated: gfortran 12 finalises components of components wrongly
-   type(normal_case), pointer :: normal
-   type(tangential_case), pointer :: tangential
+   type(normal_case) :: normal
+   type(tangential_case) :: tangential
 
-   allocate(normal, tangential)
    call clock%prepare(8, 8)
    call normal_group()
    call tangential_group(.true.)
    call tangential_group(.false.)
    call complete_group()
+   call normal%release()
+   call tangential%release()
 
 contains
 
@@ -131,11 +131,10 @@ contains
       integer, parameter :: models(*) = [pressure_model%full, pressure_model%elliptical, pressure_model%parabolical]
       character(len=*), parameter :: names(*) = [character(len=24) :: "full (B=0)", "elliptical (B=2)", "parabolical (B=3)"]
       type(figures) :: exact
-      type(session_case), pointer :: case
+      type(session_case) :: case
       type(measurement) :: result
       integer :: k, l, m
 
-      allocate(case)
       call make_complete(case, widest, tight, pressure_model%full)
       call solve_one(case)
       exact = complete_figures(case)
@@ -150,6 +149,7 @@ contains
             end do
          end do
       end do
+      call case%release()
    end subroutine complete_group
 
    subroutine make_complete(case, mx, eps, pressures)

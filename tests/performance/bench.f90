@@ -27,14 +27,12 @@ program performance_bench
    end type goal_type
 
    type(pair_clock) :: clock
-   ! never deallocated: gfortran 12 finalises components of components wrongly
-   type(normal_case), pointer :: normal
-   type(tangential_case), pointer :: tangential
+   type(normal_case) :: normal
+   type(tangential_case) :: tangential
    logical :: large, quick
    integer :: goals, missed
    character(len=80) :: word
 
-   allocate(normal, tangential)
    goals = 0
    missed = 0
    large = has_word("--large")
@@ -52,6 +50,8 @@ program performance_bench
    case default
       call make_table()
    end select
+   call normal%release()
+   call tangential%release()
 
 contains
 
@@ -186,6 +186,7 @@ contains
          result%report%products = 1
          result%report%fft_pairs = operator%fft_pairs()
          call row("set-up of a tangential problem, once per grid", square(n), 0, result, goal_type())
+         call operator%release()
          deallocate(operator, p, u)
       end do
    end subroutine setup_rows
@@ -322,15 +323,15 @@ contains
 
    !> Problems of one row
    subroutine line_rows()
-      type(session_case), pointer :: case
+      type(session_case) :: case
       type(measurement) :: result
 
-      allocate(case)
       call new_line_case(case)
       call solve_one(case)
       call clock%prepare(2*case%spec%grid%mx + 2, 1)
       call measure(case, clock, 1.0_wp, result)
       call row("2-D rolling (Carter), normal and tangential", "840 x 1", case%result%ncon, result, goal_type(milliseconds=10.0_wp))
+      call case%release()
    end subroutine line_rows
 
    !> Creep-force tables through the session, with and without the previous case as a start
@@ -349,14 +350,13 @@ contains
    subroutine table_row(mx, start, cases, goal)
       integer, intent(in) :: mx, start, cases
       type(goal_type), intent(in) :: goal
-      type(session_case), pointer :: case
+      type(session_case) :: case
       type(measurement) :: result
       real(wp) :: begun, worst, pairs, products, steps
       integer(long) :: before
       integer :: k, failed, handed_over
       character(len=:), allocatable :: name
 
-      allocate(case)
       call new_table_case(mx, case)
       call solve_one(case)
       case%spec%estimate = start
@@ -405,6 +405,7 @@ contains
       if (failed > 0) name = name // ", " // number(failed) // " without success"
       if (handed_over > 0) name = name // ", " // number(handed_over) // " handed over"
       call row(name, square(mx), case%result%ncon, result, goal)
+      call case%release()
    end subroutine table_row
 
    subroutine set_creepage(case, k)
@@ -429,10 +430,9 @@ contains
 
    !> Where 50 repeated cases ask for memory: PLACE count addresses, to be named by addr2line
    subroutine list_allocations()
-      type(session_case), pointer :: case
+      type(session_case) :: case
       integer :: k
 
-      allocate(case)
       call new_table_case(11, case)
       case%spec%estimate = estimate_choice%previous
       do k = 1, 20
@@ -446,19 +446,19 @@ contains
       end do
       call trace_allocations(.false.)
       call print_places()
+      call case%release()
    end subroutine list_allocations
 
    !> Ten seconds of one kind of case
    subroutine profile()
       real(wp), parameter :: duration = 10.0_wp
-      type(session_case), pointer :: table
+      type(session_case) :: table
       type(solve_report) :: report
       character(len=80) :: name
       real(wp) :: start
       integer :: k
 
       call get_command_argument(2, name)
-      allocate(table)
       select case (name)
       case ("table11")
          call new_table_case(11, table)
@@ -487,6 +487,7 @@ contains
          end select
       end do
       write(output_unit, '(a, i0, a, g0.4, a)') trim(name), k, " cases, ", 1000.0_wp*(cpu_seconds() - start)/k, " ms each"
+      call table%release()
    end subroutine profile
 
    !> Milliseconds of one contact on n by n elements: repeated, and the first time with all set-up
@@ -517,13 +518,12 @@ contains
    !> The cases of a table for the whole program
    subroutine write_input()
       character(len=240) :: file, size_text
-      type(session_case), pointer :: case
+      type(session_case) :: case
       integer :: unit, k, mx
 
       call get_command_argument(2, size_text)
       call get_command_argument(3, file)
       read(size_text, *) mx
-      allocate(case)
       call new_table_case(mx, case)
       open(newunit=unit, file=trim(file), status="replace", action="write")
       write(unit, '(a)') "3    MODULE"
@@ -544,5 +544,6 @@ contains
       end do
       write(unit, '(a)') "0    MODULE: end"
       close(unit)
+      call case%release()
    end subroutine write_input
 end program performance_bench

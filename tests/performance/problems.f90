@@ -7,15 +7,15 @@ module contact_bench_problems
    use contact_base_log, only : log_type
    use contact_base_solve_report, only : solve_report
    use contact_bench_measure, only : timed_case
-   use contact_cases_session, only : contact_session, solve_case
+   use contact_cases_session, only : contact_session, release_session, solve_case
    use contact_cases_spec, only : case_spec
    use contact_elastic_material, only : combine, combined_material
    use contact_elastic_model, only : elastic_model
    use contact_elastic_operator, only : elastic_operator
-   use contact_normal_conjugate_gradient, only : normal_problem, normal_workspace, solve_normal
+   use contact_normal_conjugate_gradient, only : normal_problem, normal_workspace, release_normal, solve_normal
    use contact_patch_result, only : patch_result
    use contact_tangential_classical, only : solve_classical
-   use contact_tangential_nested, only : nested_workspace, solve_newton_krylov
+   use contact_tangential_nested, only : nested_workspace, release_nested, solve_newton_krylov
    use contact_tangential_problem, only : prepare_solution, tangential_problem, tangential_solution
    implicit none (type, external)
    private
@@ -36,6 +36,7 @@ module contact_bench_problems
       integer :: contact = 0
    contains
       procedure :: run => run_normal
+      procedure :: release => release_normal_case
    end type normal_case
 
    !> Tangential problem with given bounds, from zero
@@ -48,16 +49,18 @@ module contact_bench_problems
       integer :: method = 0
    contains
       procedure :: run => run_tangential
+      procedure :: release => release_tangential_case
    end type tangential_case
 
    !> Cases through a session as the driver does it
    type, extends(timed_case) :: session_case
-      type(contact_session), pointer :: session => null()
+      type(contact_session), allocatable :: session
       type(case_spec) :: spec
       type(patch_result) :: result
       type(log_type) :: log
    contains
       procedure :: run => run_session
+      procedure :: release => release_session_case
    end type session_case
 
    !> A contact of newton.md
@@ -137,6 +140,12 @@ contains
       call solve_normal(self%problem, self%operator, self%workspace, self%p, pen, report)
       self%contact = count(self%p > 0.0_wp)
    end subroutine run_normal
+
+   subroutine release_normal_case(self)
+      class(normal_case), intent(inout) :: self
+      call self%operator%release()
+      call release_normal(self%workspace)
+   end subroutine release_normal_case
 
    !> Steady rolling with Hertz's pressures, n by n elements in a window of 1.1 semi-axes each way
    subroutine new_rolling_case(contact, n, eps, case)
@@ -220,6 +229,12 @@ contains
       end if
    end subroutine run_tangential
 
+   subroutine release_tangential_case(self)
+      class(tangential_case), intent(inout) :: self
+      call self%operator%release()
+      call release_nested(self%workspace)
+   end subroutine release_tangential_case
+
    !> A contact of 6 by 4 mm for a creep-force table on mx by mx elements
    subroutine new_table_case(mx, case)
       integer, intent(in) :: mx
@@ -264,7 +279,7 @@ contains
       type(session_case), intent(inout) :: case
       type(case_spec) :: fresh
 
-      ! a session that was there is left alone: gfortran 12 finalises components of components wrongly
+      call case%release()
       allocate(case%session)
       case%spec = fresh
       associate (spec => case%spec)
@@ -316,6 +331,13 @@ contains
       report = self%result%tangential
       report%fft_pairs = report%fft_pairs + self%result%normal%fft_pairs
    end subroutine run_session
+
+   subroutine release_session_case(self)
+      class(session_case), intent(inout) :: self
+      if (.not. allocated(self%session)) return
+      call release_session(self%session)
+      deallocate(self%session)
+   end subroutine release_session_case
 
    !> One case; the grid is new in the first one only
    subroutine solve_one(case)

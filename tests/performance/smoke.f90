@@ -12,16 +12,14 @@ program performance_smoke
    !> Requests to the heap of one case of a table that are accepted
    integer(long), parameter :: most_requests = 400_long
    type(test_suite) :: suite
-   ! never deallocated: gfortran 12 finalises components of components wrongly
-   type(normal_case), pointer :: normal
-   type(tangential_case), pointer :: tangential
-   type(session_case), pointer :: session
+   type(normal_case) :: normal
+   type(tangential_case) :: tangential
+   type(session_case) :: session
    type(solve_report) :: report
    integer :: k, control
    logical :: by_force
 
    call suite%start("performance")
-   allocate(normal, tangential, session)
 
    ! on a free boundary: 20 pairs to 1e-4, 45 to 1e-8, independent of the grid
    do k = 1, 2
@@ -52,6 +50,9 @@ program performance_smoke
       & "problem of one row in 100 products " // found(real(session%result%tangential%products, wp)))
 
    call table_cases()
+   call normal%release()
+   call tangential%release()
+   call session%release()
    call suite%finish()
 
 contains

@@ -122,6 +122,7 @@ contains
          call suite%check(all(hypot(sx - r%sx, sy - r%sy) <= tol_slip .or. r%division /= element%slip), "slip of the result")
          call suite%check(r%friction_power <= 1.0e-9_wp*abs(r%elastic_energy), "friction dissipates")
       end associate
+      call case%release()
    end subroutine conditions
 
    !> Mirrored surfaces and motions
@@ -163,6 +164,8 @@ contains
          call near(suite, -b%px(mx:1:-1, :), a%px, a%mu_scal*a%pmax, "mirror in x: longitudinal tractions")
          call near(suite, b%py(mx:1:-1, :), a%py, a%mu_scal*a%pmax, "mirror in x: lateral tractions")
       end associate
+      call case%release()
+      call mirror%release()
    end subroutine symmetries
 
    !> Modulus and load by one factor; all lengths by one factor
@@ -209,6 +212,8 @@ contains
          call near(suite, b%py, a%py, a%mu_scal*a%pmax, "lengths scaled: tractions y")
          call suite%close_to(b%pen/c, a%pen, same, "lengths scaled: approach", relative=.true.)
       end associate
+      call case%release()
+      call scaled%release()
    end subroutine scaling
 
    !> What has no strength changes no bit
@@ -237,6 +242,8 @@ contains
       other%spec%rolling%veloc = 7.0_wp
       call other%run(suite, "velocity")
       call suite%check(all(other%result%px == case%result%px), "the velocity does not matter for Coulomb friction")
+      call case%release()
+      call other%release()
    end subroutine no_effect
 
    !> A little more load: a little more of everything
@@ -258,6 +265,8 @@ contains
          call suite%close_to(b%pmax, a%pmax, 10.0_wp*delta, "peak pressure continuous in the load", relative=.true.)
          call suite%close_to([b%fx, b%fy], [a%fx, a%fy], 10.0_wp*delta*a%mu_scal*a%fn, "forces continuous in the load")
       end associate
+      call case%release()
+      call other%release()
    end subroutine continuity
 
    !> The same bits from the same problem and state, whatever was computed before in the session
@@ -280,6 +289,8 @@ contains
       other%spec = case%spec
       call other%run(suite, "run after another problem")
       call bitwise(suite, other%result, first, "run after another problem in the same session")
+      call case%release()
+      call other%release()
    end subroutine repetition
 
    !> Two sequences in turn and one after the other
@@ -313,6 +324,10 @@ contains
          call bitwise(suite, b2%result, b_alone(step), "second sequence, alone and in turn")
       end do
       call suite%check(any(a_alone(4)%px /= a_alone(1)%px), "the sequence goes on")
+      call a%release()
+      call b%release()
+      call a2%release()
+      call b2%release()
    end subroutine interleaved
 
    !> The next step of a sequence
@@ -349,6 +364,8 @@ contains
          call suite%close_to([b%fx, b%fy, b%pen], [a%fx, a%fy, a%pen], 1.0e-10_wp, "threads: totals", relative=.true.)
          call suite%close_to([b%px, b%py, b%pn], [a%px, a%py, a%pn], 1.0e-10_wp*a%pmax, "threads: tractions")
       end associate
+      call one%release()
+      call two%release()
    end subroutine threads
 
    !> Root mean square of the difference relative to a scale

@@ -36,8 +36,8 @@ contains
       type(test_suite), intent(inout) :: suite
       type(random_numbers), intent(inout) :: random
       integer, intent(in) :: mx, my
-      type(elastic_operator), allocatable :: operator
-      type(previous_operator), allocatable :: previous
+      type(elastic_operator) :: operator
+      type(previous_operator) :: previous
       type(combined_material) :: material
       type(kernel_table) :: table, ahead, old
       real(wp) :: pn(mx, my), pt(mx, my, 2), un(mx, my), ut(mx, my, 2), vn(mx, my), vt(mx, my, 2), dx, dy, sx, sy
@@ -56,7 +56,6 @@ contains
          end do
       end do
       call fill_shifted_table(table, material, dx, dy, mx, my, 0.0_wp, 0.0_wp)
-      allocate(operator, previous)
       do direction = -1, 1, 2
          call operator%prepare(elastic_model(material), dx, dy, mx, my, direction)
          call fill_shifted_table(ahead, material, dx, dy, mx, my, direction*dx, 0.0_wp)
@@ -94,6 +93,8 @@ contains
       call direct(old%xn, pn, un, vt(:, :, 1))
       call direct(old%yn, pn, un, vt(:, :, 2))
       call near(suite, [ut], [vt], name // ": previous moment")
+      call operator%release()
+      call previous%release()
    end subroutine products
 
    !> Equal up to rounding, relative to the largest value
@@ -157,11 +158,10 @@ contains
       type(test_suite), intent(inout) :: suite
       type(random_numbers), intent(inout) :: random
       integer, parameter :: mx = 11, my = 6
-      type(elastic_operator), allocatable :: operator
+      type(elastic_operator) :: operator
       real(wp), dimension(mx, my, 2) :: p, q, ap, aq
       integer :: i, j, k, trial
 
-      allocate(operator)
       call operator%prepare(elastic_model(combine([0.3_wp, 0.45_wp], [3.0_wp, 1.0_wp])), 0.3_wp, 0.2_wp, mx, my, 1)
       do trial = 1, 10
          do k = 1, 2
@@ -182,6 +182,7 @@ contains
             & rounding*sum(abs(q))*maxval(abs(ap(:, :, 1))), "normal influence is symmetric")
          call suite%check(sum(p(:, :, 1)*ap(:, :, 1)) > 0.0_wp, "normal influence is positive")
       end do
+      call operator%release()
    end subroutine symmetry
 
    !> Point kernels of Boussinesq and Cerruti integrated over the element by Gauss's rule

@@ -79,6 +79,7 @@ contains
          call suite%close_to(table(:, input)/scale, numerical(:, 1)/scale, 1.0e-4_wp*maxval(abs(numerical(:, 1)/scale)), &
             & what // ", column " // input_name(input))
       end do
+      call case%release()
    end subroutine differences
 
    !> Change one input
@@ -106,6 +107,7 @@ contains
       call suite%close_to(case%result%sensitivity(1, 1), 1.5_wp*case%result%fn/case%result%pen, 0.01_wp, &
          & "stiffness of Hertz's contact", relative=.true.)
       call suite%check(all(abs(case%result%sensitivity(2:, :)) <= 0.0_wp), "nothing but dFn/dpen without friction")
+      call case%release()
    end subroutine frictionless
 
    !> Mindlin's circular contact: dF/dS along a shift of a circular contact
@@ -133,6 +135,7 @@ contains
          call suite%close_to(case%result%sensitivity(3, 3), -share(k)/case%result%cksi, 0.02_wp, &
             & "stiffness across", relative=.true.)
       end do
+      call case%release()
    end subroutine mindlin
 
    !> What is not asked for stays zero
@@ -171,5 +174,6 @@ contains
       case%spec%kinematics%cksi = 1.0_wp
       call case%run(suite, "full sliding")
       call suite%check(all(abs(case%result%sensitivity(2:3, 2)) < 10.0_wp), "full sliding: forces hardly change")
+      call case%release()
    end subroutine levels
 end program test_sensitivities

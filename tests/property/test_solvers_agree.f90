@@ -103,11 +103,13 @@ contains
       call case%try(error)
       if (allocated(error)) then
          call suite%check(.false., name // ": " // full_text(error))
+         call case%release()
          return
       end if
       if (.not. case%result%tangential%succeeded()) then
          refused(0) = refused(0) + 1
          call suite%check(.false., name // ": no solution to compare with")
+         call case%release()
          return
       end if
       if (allocated(case%result%tangential%gave_up)) write(*, '(2a)') "FALL-BACK  ", name
@@ -149,5 +151,6 @@ contains
             call suite%close_to(r%ceta, ceta, 1.0e-3_wp*rough, name // ": eta by " // r%tangential%method)
          end associate
       end do
+      call case%release()
    end subroutine one_problem
 end program test_solvers_agree

@@ -11,7 +11,7 @@ module hard_case
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
    use contact_base_solve_report, only : ending, solve_report
-   use contact_cases_session, only : contact_session, solve_case
+   use contact_cases_session, only : contact_session, release_session, solve_case
    use contact_cases_spec, only : case_spec
    use contact_elastic_halfspace, only : fill_shifted_table, fill_table, kernel_table
    use contact_elastic_material, only : combine, combined_material
@@ -26,9 +26,7 @@ module hard_case
 
    !> One problem through its cases
    type :: hard_run
-      !> A pointer that is never freed: gfortran 12 crashes when it finalises an array of fixed size
-      !> whose elements hold FFT plans, as the workspaces of the levels are
-      type(contact_session), pointer :: session => null()
+      type(contact_session) :: session
       type(log_type) :: log
       !> Present and previous moment
       type(patch_result) :: result, before
@@ -38,6 +36,9 @@ module hard_case
       !> Seconds of the last case, warnings of the last case
       real(wp) :: seconds = 0.0_wp
       integer :: warnings = 0
+   contains
+      !> Free what the session holds
+      procedure :: release
    end type hard_run
 
    !> Violations of the contact conditions, all relative
@@ -136,7 +137,6 @@ contains
       type(case_spec), intent(in) :: spec
       integer :: start, finish, rate, warnings
 
-      if (.not. associated(run%session)) allocate(run%session)
       run%linked = spec%link /= time_link%initiate
       if (run%linked) run%before = run%result
       warnings = run%log%warnings
@@ -147,6 +147,11 @@ contains
       run%seconds = real(finish - start, wp)/rate
       run%warnings = run%log%warnings - warnings
    end subroutine run_case
+
+   subroutine release(self)
+      class(hard_run), intent(inout) :: self
+      call release_session(self%session)
+   end subroutine release
 
    !> The case must converge, and its result must satisfy the contact conditions
    subroutine expect_solution(suite, run, spec, name, slack, silent)

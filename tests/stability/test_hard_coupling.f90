@@ -71,6 +71,7 @@ contains
             call expect_solution(suite, run, spec, trim(label))
          end do
       end do
+      call run%release()
    end subroutine extremes
 
    !> The outer iteration either reaches its tolerance or says that it did not

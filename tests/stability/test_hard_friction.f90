@@ -91,6 +91,7 @@ contains
          spec%iteration%eps = 1.0e-12_wp
          call expect_solution(suite, run, spec, "EPS 1e-12, " // trim(label), slack=3.0_wp)
       end do
+      call run%release()
    end subroutine creepages
 
    !> Forces near the limit
@@ -147,6 +148,7 @@ contains
       spec%kinematics%ceta = 0.1_wp
       spec%kinematics%fx = -0.9_wp
       call expect_solution(suite, run, spec, "F=1 0.9 with eta 0.1 (sliding)")
+      call run%release()
    end subroutine forces
 
    !> Friction coefficients and Poisson ratios at their ends
@@ -183,6 +185,7 @@ contains
       spec%kinematics%fx = 1.0e-4_wp
       spec%kinematics%fy = -1.0e-3_wp
       call expect_solution(suite, run, spec, "mu 10, F=2 small")
+      call run%release()
    end subroutine parameters
 
    !> Rolling towards decreasing x is the mirror image of rolling towards increasing x
@@ -212,5 +215,7 @@ contains
             & reshape(run%result%py(mx:1:-1, :), [size(mirrored%result%py)]), &
             & 1.0e-6_wp*maxval(abs(run%result%px)), "mirrored py, " // label)
       end do
+      call run%release()
+      call mirrored%release()
    end subroutine mirror
 end program test_hard_friction

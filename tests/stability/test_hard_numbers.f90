@@ -45,6 +45,7 @@ contains
             call expect_solution(suite, run, spec, trim(label))
          end do
       end do
+      call run%release()
    end subroutine hostile
 
    !> Is this number used by the case at all?

@@ -56,6 +56,7 @@ contains
             end do
          end do
       end do
+      call run%release()
    end subroutine draws
 
    !> Undeformed distance: white noise on a sphere, white noise on a plane, smooth bumps on a sphere

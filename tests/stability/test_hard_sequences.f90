@@ -72,6 +72,7 @@ contains
          if (step == 970) last = run%result%cksi
       end do
       call suite%close_to(last, first, 1.0e-3_wp, "the cycle of a swinging force repeats itself", relative=.true.)
+      call run%release()
    end subroutine oscillating_force
 
    !> The normal force swings as well: the contact area grows and shrinks
@@ -91,6 +92,7 @@ contains
          spec%new_grid = .false.
          spec%new_geometry = .false.
       end do
+      call run%release()
    end subroutine growing_load
 
    !> 1000 steps of transient rolling, the window moves with the contact
@@ -116,6 +118,7 @@ contains
          spec%link = time_link%continue_all
          spec%estimate = estimate_choice%previous
       end do
+      call run%release()
    end subroutine rolling_windows
 
    !> Two bumps under a sphere that presses harder and softer: one patch, two, three, one
@@ -147,6 +150,7 @@ contains
          end do
          deallocate(spec%geometry%h)
       end do
+      call run%release()
    end subroutine split_and_merge
 
    !> Two problems in turn give what each gives alone, bit for bit
@@ -184,6 +188,10 @@ contains
       end do
       call examine(turn(1), a, found)
       call suite%close_to(found%friction, 0.0_wp, 1.05e-6_wp, "the first of two problems in turn is solved")
+      do k = 1, 2
+         call alone(k)%release()
+         call turn(k)%release()
+      end do
    end subroutine two_sessions
 
    !> Step of both problems

@@ -65,6 +65,7 @@ contains
             end do
          end do
       end do
+      call run%release()
    end subroutine single_elements
 
    !> One row, one column, few rows
@@ -104,6 +105,7 @@ contains
          spec%kinematics%fx = -0.999_wp
          call expect_solution(suite, run, spec, trim(label) // ", F=1 0.999")
       end do
+      call run%release()
    end subroutine strips
 
    !> Contact cut off by the edge of the window, and windows that are in contact everywhere
@@ -147,6 +149,7 @@ contains
          spec%geometry%b(6) = -1.0_wp
          call expect_solution(suite, run, spec, trim(label) // ", moved by 1 mm")
       end do
+      call run%release()
    end subroutine edges
 
    !> No contact, no force
@@ -195,6 +198,7 @@ contains
          spec%kinematics%fn = 1.0e12_wp
          call expect_solution(suite, run, spec, trim(label) // ", Hertz, FN 1e12")
       end do
+      call run%release()
    end subroutine nothing
 
    !> Slender ellipses and slender elements
@@ -228,6 +232,7 @@ contains
             call expect_solution(suite, run, spec, trim(label) // ", F=1")
          end do
       end do
+      call run%release()
    end subroutine slender
 
    !> Elements that a planform excludes
@@ -259,5 +264,6 @@ contains
          spec%geometry%pl(6) = 1.0_wp
          call expect_refusal(suite, run, spec, trim(label) // ", empty planform", "planform")
       end do
+      call run%release()
    end subroutine planforms
 end program test_hard_shapes

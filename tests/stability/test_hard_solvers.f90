@@ -44,6 +44,7 @@ contains
             end do
          end do
       end do
+      call run%release()
    end subroutine all_solvers
 
    subroutine hard_example(t, k, spec, what)

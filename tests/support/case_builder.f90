@@ -10,7 +10,7 @@ module contact_test_case_builder
    use contact_base_error, only : error_type, full_text
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
-   use contact_cases_session, only : contact_session, solve_case
+   use contact_cases_session, only : contact_session, release_session, solve_case
    use contact_cases_spec, only : case_spec, friction_set
    use contact_patch_result, only : patch_result
    use contact_test_harness, only : test_suite
@@ -23,8 +23,7 @@ module contact_test_case_builder
    !> A specification with the session that solves it
    type :: test_case
       type(case_spec) :: spec
-      !> Made on first use; its plans live until the program ends
-      type(contact_session), allocatable :: session
+      type(contact_session) :: session
       type(patch_result) :: result
       type(log_type) :: log
    contains
@@ -32,6 +31,8 @@ module contact_test_case_builder
       procedure :: run
       !> Solve without any claim about convergence
       procedure :: try
+      !> Free what the session holds
+      procedure :: release
    end type test_case
 
    !> Reproducible random numbers (xorshift, Marsaglia 2003)
@@ -68,9 +69,13 @@ contains
       class(test_case), intent(inout) :: self
       type(error_type), allocatable, intent(out) :: error
 
-      if (.not. allocated(self%session)) allocate(self%session)
       call solve_case(self%session, self%spec, self%log, self%result, error)
    end subroutine try
+
+   subroutine release(self)
+      class(test_case), intent(inout) :: self
+      call release_session(self%session)
+   end subroutine release
 
    !> Normal compression with tight tolerance, what all cases below begin with
    function base_case(fn, eps) result(spec)

@@ -185,6 +185,7 @@ contains
          call suite%check(abs(count(solution%division == element%adhesion) - 348) <= 2, &
             & "fastsim: adhering elements by " // method_name(rolling(k)))
       end do
+      call operator%release()
    end subroutine known_values
 
    subroutine steady_solvers_agree()
@@ -225,6 +226,7 @@ contains
       call solve_classical(problem, operator, classical_method%convex_gs, solution, report, log, shifted)
       print '(a, i5, es10.2)', '   oblique', report%iterations, report%residual
       call suite%check(report%ended == ending%converged .and. report%residual < 1.0e-4_wp, "ConvexGS, oblique direction")
+      call operator%release()
    end subroutine steady_solvers_agree
 
    subroutine shift_solvers_agree()
@@ -249,6 +251,7 @@ contains
          call suite%close_to(reshape(solution%p, [size(solution%p)]), reshape(reference%p, [size(solution%p)]), &
             & 2.0e-3_wp, "TangCG as ConvexGS, " // what)
       end do
+      call operator%release()
    end subroutine shift_solvers_agree
 
    !> One element, one row, one column, rows with gaps, bounds of zero
@@ -290,6 +293,7 @@ contains
       problem%bound = 0.0_wp
       call solve(problem, operator, 2, solution, report, "nothing")
       call suite%check(report%ended == ending%not_started .and. all(solution%p == 0.0_wp), "no contact")
+      call operator%release()
    end subroutine shapes
 
    !> Rolling towards decreasing x is the mirror image
@@ -310,6 +314,7 @@ contains
          call suite%close_to(reshape(other%p(image%mx:1:-1, :, 2), [size(problem%bound)]), &
             & reshape(solution%p(:, :, 2), [size(problem%bound)]), 1.0e-6_wp, method_name(k) // ": py mirrored")
       end do
+      call operator%release()
    end subroutine mirrored
 
    !> Prescribed forces in rolling
@@ -342,6 +347,7 @@ contains
             end do
          end do
       end do
+      call operator%release()
    end subroutine forces_rolling
 
    !> Prescribed forces in a shift: Cattaneo and Mindlin's solution for an ellipse
@@ -374,6 +380,7 @@ contains
             end do
          end do
       end do
+      call operator%release()
    end subroutine forces_shift
 
    !> Full sliding, full adhesion, no creepage
@@ -411,6 +418,7 @@ contains
          call solve(problem, operator, k, solution, report, "no creepage")
          call suite%check(report%succeeded() .and. all(solution%p == 0.0_wp), method_name(k) // ": nothing without creepage")
       end do
+      call operator%release()
    end subroutine limits
 
    !> Infinite input ends at once, finite and admissible
@@ -431,5 +439,6 @@ contains
          call solve_classical(problem, operator, k, solution, report, log)
          call suite%check(.not. report%succeeded(), method_name(k) // ": iteration limit is told")
       end do
+      call operator%release()
    end subroutine hostile_input
 end program test_classical
