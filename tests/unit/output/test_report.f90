@@ -33,13 +33,16 @@ contains
       integer, intent(in) :: case_number
       type(text_line), allocatable, intent(out) :: lines(:)
       type(log_type) :: log
+      type(timer_line) :: timers(2)
 
+      timers(1) = timer_line("total", 1, 2.0_wp, 4.0_wp)
+      timers(2) = timer_line("part", 3, 1.0_wp, 1.0_wp)
       open(newunit=log%out, file="report.out", status="replace", action="write")
       call write_banner(log, "0.0")
       call write_case_line(log, case_number, 0)
       call write_case(log, spec, result)
       call write_subsurface(log, spec, result)
-      call write_end(log, 2, [timer_line("total", 1, 2.0_wp, 4.0_wp), timer_line("part", 3, 1.0_wp, 1.0_wp)])
+      call write_end(log, 2, timers)
       call write_closing(log, .false.)
       close(log%out)
       call read_lines("report.out", lines)
