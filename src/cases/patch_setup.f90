@@ -2,7 +2,7 @@
 module contact_cases_patch_setup
    use contact_base_choices, only : material_model, motion, normal_control, pressure_model, sensitivity_choice, &
       & slip_source, solver_choice
-   use contact_base_error, only : error_type, fatal_error
+   use contact_base_error, only : error_kind, error_type, fatal_error
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
    use contact_cases_friction_setup, only : set_friction, set_thermal
@@ -83,6 +83,8 @@ contains
       if (allocated(error)) return
       call set_simplified_theory(spec, result, problem, log, error)
       if (allocated(error)) return
+      call set_yield_limit(spec, problem, error)
+      if (allocated(error)) return
       problem%want_exterior = spec%mat_file >= 2 .or. spec%output_level >= 6
       call set_rolling(spec, problem, log)
       if (allocated(problem%extra_slip)) deallocate(problem%extra_slip)
@@ -101,6 +103,20 @@ contains
          end do
       end if
    end subroutine set_problem
+
+   !> Near-surface plasticity: a yield limit that is neither nothing nor out of reach
+   subroutine set_yield_limit(spec, problem, error)
+      type(case_spec), intent(in) :: spec
+      type(patch_problem), intent(inout) :: problem
+      type(error_type), allocatable, intent(out) :: error
+
+      problem%remembers_yield = spec%has_plasticity()
+      problem%initial_yield_limit = merge(spec%material%tau_c0, 0.0_wp, problem%remembers_yield)
+      problem%yield_slope = merge(spec%material%k_tau, 0.0_wp, problem%remembers_yield)
+      if (spec%material_model == material_model%interfacial_layer .and. spec%material%laythk/spec%material%gg3 >= 1.0e-10_wp) &
+         & call fatal_error(error, "the elastic flexibility of an interfacial layer (M=4) is not built in this version; " // &
+         & "plasticity alone acts with LAYTHK = 0", error_kind%unsupported)
+   end subroutine set_yield_limit
 
    !> Potential contact and undeformed distance
    subroutine set_geometry(spec, problem, result, error)
@@ -193,7 +209,8 @@ contains
       type(patch_problem), intent(inout) :: problem
       type(log_type), intent(inout) :: log
       real(wp), parameter :: angle_tolerance = 0.01_wp, step_tolerance = 0.01_wp
-      logical :: rolling
+      character(len=:), allocatable :: what
+      logical :: rolling, layer
 
       rolling = spec%motion == motion%transient_rolling .or. spec%motion == motion%steady_rolling
       problem%chi = 0.0_wp
@@ -205,18 +222,22 @@ contains
       problem%dq = spec%rolling%dq
       problem%veloc = spec%rolling%veloc
       problem%spin_offset = spec%rolling%facphi
-      if (spec%motion /= motion%steady_rolling) then
+      ! particles of a layer are followed from element to element
+      layer = spec%material_model == material_model%interfacial_layer
+      if (spec%motion /= motion%steady_rolling .and. .not. layer) then
          if (allocated(problem%simplified)) return
          if (problem%dq > (1.0_wp + step_tolerance)*problem%grid%dx) call log%warning( &
             & "DQ is larger than DX: slip near the leading edge is less accurate, it is not corrected in this version")
          return
       end if
+      what = "steady rolling"
+      if (spec%motion /= motion%steady_rolling) what = "rolling with an interfacial layer"
       if (abs(sin(problem%chi)) > angle_tolerance) then
-         call log%warning("steady rolling goes along x: CHI is set to 0")
+         call log%warning(what // " goes along x: CHI is set to 0")
          problem%chi = 0.0_wp
       end if
       if (abs(problem%dq - problem%grid%dx) > step_tolerance*problem%grid%dx .and. .not. allocated(problem%simplified)) &
-         & call log%warning("steady rolling advances by one element per step: DQ is set to DX")
+         & call log%warning(what // " advances by one element per step: DQ is set to DX")
       problem%dq = problem%grid%dx
    end subroutine set_rolling
 end module contact_cases_patch_setup

@@ -4,6 +4,7 @@
 !> the groups that are read; what a "keep" digit leaves alone is therefore already there,
 !> and no room below `input` knows that keeping exists.
 module contact_cases_spec
+   use contact_base_choices, only : material_model
    use contact_base_kinds, only : wp
    use contact_wheelrail_spec, only : wheel_rail_spec
    use contact_subsurface_points, only : point_block
@@ -174,5 +175,19 @@ module contact_cases_spec
       type(subsurface_spec) :: subsurface
       !> Wheel on rail (module 1); unallocated for a contact problem of its own (module 3)
       type(wheel_rail_spec), allocatable :: wheel_rail
+   contains
+      !> Is there an interfacial layer with a yield limit that can be reached?
+      procedure :: has_plasticity
    end type case_spec
+
+   !> Yield limits outside these bounds mean that there is no plasticity [N/mm2]
+   real(wp), parameter :: least_yield_limit = 1.0e-10_wp, largest_yield_limit = 1.0e10_wp
+
+contains
+
+   pure logical function has_plasticity(self)
+      class(case_spec), intent(in) :: self
+      has_plasticity = self%material_model == material_model%interfacial_layer .and. &
+         & self%material%tau_c0 > least_yield_limit .and. self%material%tau_c0 <= largest_yield_limit
+   end function has_plasticity
 end module contact_cases_spec

@@ -80,7 +80,7 @@ module contact_control_digits
       & digit_row("M", 1, material_model%viscoelastic, .false., "viscoelastic"), &
       & digit_row("M", 2, material_model%fastsim_single, .true., "simplified theory, one flexibility (modified Fastsim)"), &
       & digit_row("M", 3, material_model%fastsim, .true., "simplified theory, three flexibilities (modified Fastsim)"), &
-      & digit_row("M", 4, material_model%interfacial_layer, .false., "interfacial layer with near-surface plasticity"), &
+      & digit_row("M", 4, material_model%interfacial_layer, .true., "interfacial layer with near-surface plasticity"), &
       & digit_row("M", 5, material_model%fastrip, .true., "modified FaStrip"), &
       & digit_row("M", 6, 6, .false., "experimental variant of FaStrip, not supported"), &
       & digit_row("M", 7, 7, .false., "experimental variant of FaStrip, not supported"), &

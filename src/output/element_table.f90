@@ -82,7 +82,7 @@ contains
       type(patch_result), intent(in) :: result
       integer, intent(in) :: ix, iy
       character(len=:), allocatable :: line
-      real(wp) :: px, py, traction, angle, gap
+      real(wp) :: px, py, traction, angle, gap, bound
 
       px = result%px(ix, iy)
       py = result%py(ix, iy)
@@ -90,11 +90,13 @@ contains
       angle = 0.0_wp
       if (traction > 0.0_wp) angle = atan2(py + 0.0_wp, px)*180.0_wp/pi
       gap = result%h(ix, iy) - result%pen
+      bound = result%mu(ix, iy)*result%pn(ix, iy)
+      if (allocated(result%tau_c)) bound = min(bound, result%tau_c(ix, iy))
       if (motion_kind == motion%none) then
          line = " " // generals([result%grid%x(ix), gap, result%pn(ix, iy), traction]) // fixed(angle, 10, 1)
       else
          line = " " // general(result%grid%x(ix), 12, 4) // general(gap, 11, 3) // general(result%pn(ix, iy), 11, 3) &
-            & // general(result%mu(ix, iy)*result%pn(ix, iy), 11, 3) // general(traction, 11, 3) // fixed(angle, 10, 1) &
+            & // general(bound, 11, 3) // general(traction, 11, 3) // fixed(angle, 10, 1) &
             & // "  " // general(hypot(result%sx(ix, iy), result%sy(ix, iy))/result%dq, 11, 3) &
             & // general(result%wx(ix, iy)/result%dq, 11, 3) // general(result%wy(ix, iy)/result%dq, 11, 3)
          if (allocated(result%temp1)) line = line // general(result%temp1(ix, iy), 11, 4) // general(result%temp2(ix, iy), 11, 4)

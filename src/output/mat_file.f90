@@ -3,13 +3,12 @@
 !> Loaders skip lines that start with % and need the same number of columns on all others.
 module contact_output_mat_file
    use contact_base_choices, only : friction_model, material_model, motion
-   use contact_base_error, only : add_context, error_kind, error_type, fatal_error
+   use contact_base_error, only : add_context, error_type
    use contact_base_kinds, only : wp
    use contact_cases_spec, only : case_spec, friction_set
    use contact_grid_element_division, only : element
    use contact_output_finished_file, only : case_file_name, finished_file
    use contact_output_formats, only : general, whole
-   use contact_output_report_result, only : has_plasticity
    use contact_patch_result, only : patch_result
    implicit none (type, external)
    private
@@ -50,11 +49,6 @@ contains
       type(finished_file) :: file
       integer :: status
 
-      if (has_plasticity(spec)) then
-         call fatal_error(error, "the .mat file cannot hold plasticity in this version", &
-            & error_kind%unsupported, file=file_name)
-         return
-      end if
       call file%start(file_name, error)
       if (allocated(error)) return
       call write_header(file%unit, spec, result, status)
@@ -148,6 +142,7 @@ contains
       character(len=11), allocatable :: names(:)
 
       allocate(names(0))
+      if (allocated(result%tau_c)) names = [character(len=11) :: names, "TAUCRT", "UPLSX", "UPLSY"]
       if (allocated(result%temp1)) names = [character(len=11) :: names, "TEMP1", "TEMP2"]
    end function extra_names
 
@@ -158,6 +153,7 @@ contains
       real(wp), allocatable :: values(:)
 
       allocate(values(0))
+      if (allocated(result%tau_c)) values = [values, result%tau_c(ix, iy), result%uplx(ix, iy), result%uply(ix, iy)]
       if (allocated(result%temp1)) values = [values, result%temp1(ix, iy), result%temp2(ix, iy)]
    end function extra_values
 

@@ -1,6 +1,6 @@
 !> Results of a case in the .out file: totals, sensitivities, statistics, how it was solved
 module contact_output_report_result
-   use contact_base_choices, only : force_control, material_model, motion, pressure_model, variation
+   use contact_base_choices, only : force_control, motion, pressure_model, variation
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
    use contact_base_solve_report, only : ending, solve_report
@@ -11,7 +11,7 @@ module contact_output_report_result
    implicit none (type, external)
    private
 
-   public :: has_plasticity, shown_totals, without_noise
+   public :: shown_totals, without_noise
    public :: write_sensitivities, write_solution_line, write_statistics, write_totals
 
    !> Totals as they are printed: what is below the solver tolerance is zero
@@ -27,14 +27,6 @@ module contact_output_report_result
    end type shown_totals
 
 contains
-
-   !> Does the interfacial layer have a yield limit?
-   pure logical function has_plasticity(spec)
-      type(case_spec), intent(in) :: spec
-
-      has_plasticity = spec%material_model == material_model%interfacial_layer .and. &
-         & spec%material%tau_c0 > 1.0e-10_wp .and. spec%material%tau_c0 <= 1.0e10_wp
-   end function has_plasticity
 
    !> Totals with values below the tolerance of the solution set to zero
    pure function without_noise(spec, result) result(totals)
@@ -173,7 +165,7 @@ contains
       names = "    NPOT   NCON   NADH  NSLIP"
       numbers = " " // whole(result%grid%npot(), 7) // whole(result%ncon, 7) // whole(result%nadh, 7) &
          & // whole(result%nslip, 7)
-      if (has_plasticity(spec)) then
+      if (spec%has_plasticity()) then
          names = names // "  NPLAST"
          numbers = numbers // whole(result%nplast, 7)
          names = names // " INORM  ITANG"

@@ -7,6 +7,7 @@ module contact_patch_derived
    use contact_patch_problem, only : patch_problem, patch_state
    use contact_patch_result, only : patch_result
    use contact_patch_workspace, only : patch_workspace, prepare_window
+   use contact_patch_yield, only : derive_yield
    implicit none (type, external)
    private
 
@@ -132,6 +133,7 @@ contains
       result%friction_power = 0.0_wp
       result%residual = max(result%normal%residual, result%tangential%residual, 0.0_wp)
       if (result%ncon == 0) then
+         call derive_yield(problem, state, workspace%solution, result)
          state%now%pen = result%pen
          state%creep = [result%cksi, result%ceta]
          return
@@ -150,6 +152,7 @@ contains
          result%friction_power = area/(1000.0_wp*result%dt)*(sum(result%px*result%sx) + sum(result%py*result%sy))
          if (problem%model%coupled()) call coupled_residual(problem, box, result)
       end if
+      call derive_yield(problem, state, workspace%solution, result)
       if (.not. allocated(problem%given_pressure)) then
          result%elastic_energy = area/2000.0_wp*(sum(result%pn*result%un) + sum(result%px*result%ux) + sum(result%py*result%uy))
       else

@@ -64,6 +64,8 @@ module contact_patch_problem
       !> particles bring along that were not in the window before; set when remembered
       real(wp), allocatable :: static_mu(:)
       real(wp) :: initial_yield_limit = 0.0_wp
+      !> Slope of the yield limit with the plastic displacement [N/mm3]
+      real(wp) :: yield_slope = 0.0_wp
       !> Tolerance and iteration limits
       real(wp) :: eps = 1.0e-5_wp
       integer :: maxgs = 999, maxin = 20, maxnr = 25, maxout = 1

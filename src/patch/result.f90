@@ -82,6 +82,8 @@ module contact_patch_result
       real(wp), allocatable :: sx(:, :), sy(:, :)
       !> Rigid slip per step [mm], computed creepages included, shape (mx, my)
       real(wp), allocatable :: wx(:, :), wy(:, :)
+      !> Yield limit [N/mm2] and plastic displacement [mm], shape (mx, my); unallocated where nothing yields
+      real(wp), allocatable :: tau_c(:, :), uplx(:, :), uply(:, :)
       !> Surface temperatures of bodies 1 and 2 [degC], shape (mx, my); unallocated when not asked for
       real(wp), allocatable :: temp1(:, :), temp2(:, :)
       !> Subsurface blocks; unallocated when not asked for

@@ -9,6 +9,7 @@ module contact_patch_tangential_step
    use contact_patch_problem, only : patch_problem, patch_state, rolling_direction
    use contact_patch_result, only : patch_result
    use contact_patch_workspace, only : patch_workspace, prepare_box
+   use contact_patch_yield, only : carry_yield, set_yield
    use contact_tangential_classical, only : classical_method, solve_classical
    use contact_tangential_nested, only : solve_newton_krylov
    use contact_tangential_problem, only : prepare_solution, tangential_problem, tangential_solution
@@ -30,6 +31,7 @@ contains
 
       box = contact_box(state%now%division)
       if (box%ix0 > box%ix1) then
+         if (problem%remembers_yield) call carry_yield(problem, box, workspace%solution, state)
          result%tangential%ended = ending%not_started
          return
       end if
@@ -53,6 +55,7 @@ contains
          if (problem%n_forces >= 2) result%ceta = solution%creep(2)
          if (log%shows(3)) call trace_division(log, solution, result%tangential)
       end associate
+      if (problem%remembers_yield) call carry_yield(problem, box, workspace%solution, state)
       if (.not. result%tangential%succeeded()) call log%warning(failure_text("tangential", result%tangential))
    end subroutine tangential_step
 
@@ -154,6 +157,7 @@ contains
          t%d_cns = problem%d_cns
          t%d_slp = problem%d_slp
          t%pow_s = problem%pow_s
+         if (allocated(t%yield)) deallocate(t%yield)
          call prepare_solution(t, s)
          s%creep = [result%cksi, result%ceta]
          do iy = 1, my
@@ -171,6 +175,7 @@ contains
                if (length > g) s%p(ix, iy, :) = s%p(ix, iy, :)*(g/length)
             end do
          end do
+         if (problem%remembers_yield) call set_yield(problem, state%before, box, t)
          if (.not. t%steady) t%shift = t%shift - workspace%old_displacement(box%ix0:box%ix1, box%iy0:box%iy1, :)
          if (problem%model%coupled()) then
             workspace%box_pn = state%now%pn(box%ix0:box%ix1, box%iy0:box%iy1)
@@ -255,12 +260,16 @@ contains
       type(solve_report), intent(in) :: report
       character(len=80) :: line
       character(len=7) :: counter
+      character(len=14) :: plastic
 
       counter = "  ItGS="
       if (report%method == "TangCG") counter = "  ItCG="
       if (report%method == "Newton-Krylov") counter = "  ItNK="
-      write(line, '(a,2i7,a,i6)') "      Tang: final element division: A, S=", count(solution%division == element%adhesion), &
-         & count(solution%division == element%slip), counter, report%iterations
+      plastic = ""
+      if (allocated(solution%plastic)) write(plastic, '(i7)') count(solution%division == element%plastic)
+      write(line, '(2a,2i7,2a,i6)') "      Tang: final element division: A, S", &
+         & trim(merge(", P=", "=   ", allocated(solution%plastic))), count(solution%division == element%adhesion), &
+         & count(solution%division == element%slip), trim(plastic), counter, report%iterations
       call log%trace(3, trim(line))
    end subroutine trace_division
 end module contact_patch_tangential_step

@@ -20,6 +20,7 @@ program test_mat_file
    call suite%equal(mat_file_name("run", 1, 0, 2), "run.0001b.mat", "contact patch")
    call check_contents()
    call check_failures()
+   call check_plasticity()
    call suite%finish()
 
 contains
@@ -104,12 +105,35 @@ contains
       if (allocated(error)) call suite%equal(error%kind, error_kind%file, "kind of the error")
       inquire(file="sample.mat.tmp", exist=there)
       call suite%check(.not. there, "no temporary file is left")
+   end subroutine check_failures
 
+   !> Three more columns where the surface yields
+   subroutine check_plasticity()
+      type(case_spec) :: spec
+      type(patch_result) :: result
+      type(error_type), allocatable :: error
+      type(text_line), allocatable :: lines(:)
+      real(wp), allocatable :: values(:)
+      integer :: i
+
+      call fill_sample(spec, result, 12, 10)
+      spec%mat_file = 2
       spec%material_model = 4
       spec%material%tau_c0 = 560.0_wp
+      allocate(result%tau_c(12, 10), source=570.0_wp)
+      allocate(result%uplx(12, 10), result%uply(12, 10), source=-0.25_wp)
+      result%uplx(2, 1) = 0.5_wp
       call write_mat_file("plastic.mat", spec, result, error)
-      call suite%check(allocated(error), "plasticity is refused")
-      inquire(file="plastic.mat", exist=there)
-      call suite%check(.not. there, "nothing is written then")
-   end subroutine check_failures
+      call suite%check(.not. allocated(error), "plasticity: the file is written")
+      call read_lines("plastic.mat", lines)
+      do i = 1, size(lines)
+         if (lines(i)%text(1:1) == "%") cycle
+         call suite%equal(size(numbers_on(lines(i)%text)), 14, "plasticity: number of columns")
+      end do
+      values = numbers_on(lines(2)%text)
+      call suite%close_to(values(14), 2410.0_wp, 0.0_wp, "plasticity: number of the layout in the last column")
+      call suite%check(index(lines(13)%text, "TAUCRT        UPLSX         UPLSY") > 0, "plasticity: names")
+      values = numbers_on(lines(15)%text)
+      call suite%close_to(values(12:14), [570.0_wp, 0.5_wp, -0.25_wp], 0.0_wp, "plasticity: limit and displacements")
+   end subroutine check_plasticity
 end program test_mat_file

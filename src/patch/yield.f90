@@ -1,0 +1,118 @@
+!> The yield limit of the layer between the bodies, from the material of a patch to its tangential problem
+module contact_patch_yield
+   use contact_base_choices, only : motion
+   use contact_base_kinds, only : wp
+   use contact_grid_element_division, only : bounding_box, element
+   use contact_patch_problem, only : patch_problem, patch_state, rolling_direction, traction_fields
+   use contact_patch_result, only : patch_result
+   use contact_tangential_problem, only : tangential_problem, tangential_solution
+   implicit none (type, external)
+   private
+
+   public :: set_yield, carry_yield, derive_yield
+
+   !> Softening ends at this part of the initial limit [-]
+   real(wp), parameter :: lowest_share = 0.1_wp
+   !> Slopes below this value count as zero [N/mm3]
+   real(wp), parameter :: no_slope = 1.0e-6_wp
+
+contains
+
+   !> Yield limits in the tangential problem
+   !>
+   !> Without slope they are just another bound of the tractions.
+   subroutine set_yield(problem, before, box, tangential)
+      type(patch_problem), intent(in) :: problem
+      !> The previous moment
+      type(traction_fields), intent(in) :: before
+      type(bounding_box), intent(in) :: box
+      !> Bounds of friction on entry
+      type(tangential_problem), intent(inout) :: tangential
+
+      allocate(tangential%yield)
+      associate (yield => tangential%yield)
+         yield%lowest = lowest_share*problem%initial_yield_limit
+         if (abs(problem%yield_slope) >= no_slope) yield%slope = problem%yield_slope
+         if (tangential%steady) then
+            allocate(yield%limit(tangential%mx, tangential%my), source=problem%initial_yield_limit)
+         else
+            yield%limit = before%tau_c%value(box%ix0:box%ix1, box%iy0:box%iy1)
+         end if
+         if (.not. tangential%hardens()) tangential%bound = min(tangential%bound, yield%limit)
+      end associate
+   end subroutine set_yield
+
+   !> Limits and plastic displacements after the step; material out of contact keeps them
+   subroutine carry_yield(problem, box, solution, state)
+      type(patch_problem), intent(in) :: problem
+      !> Place of the solution in the window; empty without contact
+      type(bounding_box), intent(in) :: box
+      type(tangential_solution), intent(in) :: solution
+      type(patch_state), intent(inout) :: state
+      integer :: ix, iy, k, jx, jy
+      logical :: upwards
+      real(wp) :: limit, displacement(2)
+
+      associate (now => state%now, before => state%before, mx => problem%grid%mx)
+         if (problem%motion /= motion%steady_rolling) then
+            now%tau_c = before%tau_c
+            now%uplx = before%uplx
+            now%uply = before%uply
+            if (box%ix0 > box%ix1) return
+            now%tau_c%value(box%ix0:box%ix1, box%iy0:box%iy1) = solution%limit
+            call add(now%uplx%value(box%ix0:box%ix1, box%iy0:box%iy1), solution%plastic(:, :, 1))
+            call add(now%uply%value(box%ix0:box%ix1, box%iy0:box%iy1), solution%plastic(:, :, 2))
+            return
+         end if
+         ! what an element has is what flows in from the next one upstream, and the change in the step
+         upwards = rolling_direction(problem) < 0
+         do iy = 1, problem%grid%my
+            limit = problem%initial_yield_limit
+            displacement = 0.0_wp
+            jy = iy - box%iy0 + 1
+            do k = 1, mx
+               ix = merge(k, mx + 1 - k, upwards)
+               if (ix >= box%ix0 .and. ix <= box%ix1 .and. iy >= box%iy0 .and. iy <= box%iy1) then
+                  jx = ix - box%ix0 + 1
+                  limit = solution%limit(jx, jy)
+                  displacement = displacement + solution%plastic(jx, jy, :)
+               end if
+               now%tau_c%value(ix, iy) = limit
+               now%uplx%value(ix, iy) = displacement(1)
+               now%uply%value(ix, iy) = displacement(2)
+            end do
+         end do
+      end associate
+
+   contains
+
+      pure subroutine add(total, change)
+         real(wp), intent(inout) :: total(:, :)
+         real(wp), intent(in) :: change(:, :)
+         total = total + change
+      end subroutine add
+   end subroutine carry_yield
+
+   !> Fields, number of plastic elements and the work of plastic shearing
+   subroutine derive_yield(problem, state, solution, result)
+      type(patch_problem), intent(in) :: problem
+      type(patch_state), intent(inout) :: state
+      type(tangential_solution), intent(in) :: solution
+      type(patch_result), intent(inout) :: result
+
+      if (allocated(result%tau_c)) deallocate(result%tau_c, result%uplx, result%uply)
+      result%nplast = count(result%division == element%plastic)
+      if (.not. problem%remembers_yield) return
+      if (problem%motion == motion%none) then
+         state%now%tau_c = state%before%tau_c
+         state%now%uplx = state%before%uplx
+         state%now%uply = state%before%uply
+      end if
+      result%tau_c = state%now%tau_c%value
+      result%uplx = state%now%uplx%value
+      result%uply = state%now%uply%value
+      if (problem%motion == motion%none .or. result%ncon == 0) return
+      result%friction_power = result%friction_power &
+         & - problem%grid%dx*problem%grid%dy/(1000.0_wp*result%dt)*sum(solution%p*solution%plastic)
+   end subroutine derive_yield
+end module contact_patch_yield
