@@ -1,6 +1,6 @@
 !> From the specification of a case to the problem of its patch
 module contact_cases_patch_setup
-   use contact_base_choices, only : material_model, motion, normal_control, pressure_model, sensitivity_choice, &
+   use contact_base_choices, only : friction_model, material_model, motion, normal_control, pressure_model, sensitivity_choice, &
       & slip_source, solver_choice
    use contact_base_error, only : error_kind, error_type, fatal_error
    use contact_base_kinds, only : wp
@@ -113,6 +113,12 @@ contains
       problem%remembers_yield = spec%has_plasticity()
       problem%initial_yield_limit = merge(spec%material%tau_c0, 0.0_wp, problem%remembers_yield)
       problem%yield_slope = merge(spec%material%k_tau, 0.0_wp, problem%remembers_yield)
+      if (problem%remembers_yield .and. spec%friction_law == friction_model%temperature) then
+         call fatal_error(error, "friction that depends on temperature (L=6) cannot be combined with plasticity (M=4, " // &
+            & "TAU_C0 > 0): the heat of plastic work is not part of its iteration; TAU_C0 = 0, or another friction law", &
+            & error_kind%unsupported)
+         return
+      end if
       if (spec%material_model == material_model%interfacial_layer .and. spec%material%laythk/spec%material%gg3 >= 1.0e-10_wp) &
          & call fatal_error(error, "the elastic flexibility of an interfacial layer (M=4) is not built in this version; " // &
          & "plasticity alone acts with LAYTHK = 0", error_kind%unsupported)

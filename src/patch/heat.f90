@@ -35,7 +35,8 @@ contains
       !> Solved, with element states, slip and tractions
       type(patch_result), intent(inout) :: result
       type(heat_passage) :: passage
-      real(wp), allocatable :: heat(:, :)
+      real(wp), allocatable :: heat(:, :), way(:, :)
+      integer :: ahead
 
       if (allocated(result%temp1)) deallocate(result%temp1, result%temp2)
       if (.not. allocated(problem%thermal)) return
@@ -43,7 +44,14 @@ contains
       allocate(result%temp2(problem%grid%mx, problem%grid%my), source=problem%thermal%bulk(2))
       if (problem%motion /= motion%steady_rolling) return
       passage = new_heat_passage(problem, result%division)
-      heat = hypot(result%sx, result%sy)*hypot(result%px, result%py)/result%dt
+      way = hypot(result%sx, result%sy)
+      if (allocated(result%uplx)) then
+         ! plastic displacement of the step: what the next element upstream does not have yet
+         ahead = rolling_direction(problem)
+         way = way + problem%thermal%plastic_share*hypot(result%uplx - eoshift(result%uplx, ahead), &
+            & result%uply - eoshift(result%uply, ahead))
+      end if
+      heat = way*hypot(result%px, result%py)/result%dt
       call passage%surface_temperatures(heat, result%temp1, result%temp2)
    end subroutine derive_temperatures
 end module contact_patch_heat

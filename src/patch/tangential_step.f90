@@ -98,13 +98,16 @@ contains
       type(tangential_solution), intent(inout) :: s
       integer :: ix, iy, jx, jy
       real(wp) :: g, length
+      logical :: yields_at_bound
 
+      yields_at_bound = allocated(t%yield) .and. .not. t%hardens()
       do iy = 1, t%my
          jy = box%iy0 + iy - 1
          do ix = 1, t%mx
             jx = box%ix0 + ix - 1
             if (.not. t%contact(ix, iy)) cycle
             g = mu(jx, jy)*state%now%pn(jx, jy)
+            if (yields_at_bound) g = min(g, t%yield%limit(ix, iy))
             t%bound(ix, iy) = g
             length = hypot(s%p(ix, iy, 1), s%p(ix, iy, 2))
             if (length <= 0.0_wp) cycle
