@@ -11,7 +11,8 @@ module contact_cases_patch_setup
    use contact_cases_spec, only : case_spec
    use contact_elastic_material, only : combine
    use contact_grid_potential_contact, only : potential_contact
-   use contact_normal_estimate, only : elliptic_pressure, parabolic_pressure
+   use contact_normal_estimate, only : elliptic_pressure, parabolic_pressure, sdec_pressure
+   use contact_patch_damping, only : damping_law
    use contact_patch_problem, only : patch_problem
    use contact_patch_result, only : patch_result
    use contact_simplified_flexibility, only : ellipse, slope_reduction
@@ -46,7 +47,8 @@ contains
          call set_geometry(spec, problem, result, error)
          if (allocated(error)) return
       end if
-      call set_pressures(spec, result, problem)
+      call set_pressures(spec, result, problem, error)
+      if (allocated(error)) return
       problem%motion = spec%motion
       problem%estimate = spec%estimate
       problem%solver = spec%solver
@@ -77,6 +79,12 @@ contains
          & problem%sensitivity = sensitivity_choice%none
       problem%mxsens = spec%iteration%mxsens
       problem%epsens = spec%iteration%epsens
+      if (allocated(problem%damping)) deallocate(problem%damping)
+      if (spec%has_damping) then
+         allocate(problem%damping)
+         problem%damping = damping_law(coefficient=[spec%damping%cdampn, spec%damping%cdampt], &
+            & largest_rate=[spec%damping%dfnmax, spec%damping%dftmax])
+      end if
       call set_friction(spec, problem, error)
       if (allocated(error)) return
       call set_thermal(spec, problem, error)
@@ -141,15 +149,24 @@ contains
       problem%has_geometry = .true.
    end subroutine set_geometry
 
-   !> Given pressures, or an estimate of them, from the Hertz solution
-   subroutine set_pressures(spec, result, problem)
+   !> Where pressures come from; pressures that are given in closed form
+   subroutine set_pressures(spec, result, problem, error)
       type(case_spec), intent(in) :: spec
       type(patch_result), intent(in) :: result
       type(patch_problem), intent(inout) :: problem
+      type(error_type), allocatable, intent(out) :: error
 
       if (allocated(problem%given_pressure)) deallocate(problem%given_pressure)
-      if (.not. allocated(result%hertz)) return
+      problem%pressure = spec%pressure
+      call check_pressure_model(spec, allocated(result%hertz), error)
+      if (allocated(error)) return
       select case (spec%pressure)
+      case (pressure_model%sdec)
+         allocate(problem%given_pressure(problem%grid%mx, problem%grid%my))
+         call sdec_pressure(problem%grid, spec%grid%aa, spec%grid%bneg, spec%grid%bpos, problem%fn, problem%given_pressure)
+         ! the undeformed distance, and with it the approach, is not computed
+         problem%pen = 0.0_wp
+         return
       case (pressure_model%elliptical)
          allocate(problem%given_pressure(problem%grid%mx, problem%grid%my))
          call elliptic_pressure(problem%grid, result%hertz%aa, result%hertz%bb, is_line_contact(spec%grid), &
@@ -208,6 +225,36 @@ contains
       if (problem%model%coupled()) call log%warning("simplified theory leaves out how pressures and shear tractions of " // &
          & "dissimilar bodies act on each other")
    end subroutine set_simplified_theory
+
+   !> Refuse a method for the pressures that does not go with grid and load
+   subroutine check_pressure_model(spec, is_hertzian, error)
+      type(case_spec), intent(in) :: spec
+      !> Is there a Hertz solution?
+      logical, intent(in) :: is_hertzian
+      type(error_type), allocatable, intent(out) :: error
+      logical :: by_force
+
+      by_force = spec%normal == normal_control%force
+      select case (spec%pressure)
+      case (pressure_model%full)
+         if (spec%grid%ipotcn == -6) call fatal_error(error, "the double-elliptical geometry (IPOTCN = -6) has no undeformed " &
+            & // "distance to solve the normal problem for; it needs the pressures of SDEC, B = 4")
+      case (pressure_model%elliptical, pressure_model%parabolical)
+         if (.not. is_hertzian) call fatal_error(error, "an elliptical or parabolical pressure needs a Hertzian geometry, " &
+            & // "IPOTCN = -5 to -1; B = 0 solves the normal problem for any geometry")
+      case (pressure_model%sdec)
+         if (spec%grid%ipotcn /= -6) then
+            call fatal_error(error, "SDEC needs the double-elliptical geometry IPOTCN = -6")
+         else if (.not. by_force) then
+            call fatal_error(error, "SDEC needs the normal force (N = 1), its pressures do not follow from an approach")
+         end if
+      case (pressure_model%kpec, pressure_model%analyn)
+         if (by_force) call fatal_error(error, "KPEC and ANALYN need the approach (N = 0); a prescribed force goes with " &
+            & // "the full solution, B = 0, or with Hertzian pressures, B = 2 or 3")
+      case default
+         call fatal_error(error, "the normal problem of an elastic thin sheet is not built; B = 0 solves it for half-spaces")
+      end select
+   end subroutine check_pressure_model
 
    !> Rolling direction and step; steady solvers work with steps of one element along x
    subroutine set_rolling(spec, problem, log)

@@ -1,6 +1,6 @@
 !> One contact problem through its cases: specification in, result out
 module contact_cases_session
-   use contact_base_choices, only : estimate_choice, motion, stress_choice
+   use contact_base_choices, only : estimate_choice, motion, pressure_model, stress_choice
    use contact_base_error, only : error_type
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
@@ -89,7 +89,7 @@ contains
             now%pn = 0.0_wp
             now%division = element%exterior
             session%state%creep = 0.0_wp
-            if (allocated(result%hertz) .and. .not. allocated(problem%given_pressure)) then
+            if (allocated(result%hertz) .and. problem%pressure == pressure_model%full) then
                allocate(problem%pressure_estimate(problem%grid%mx, problem%grid%my))
                call elliptic_pressure(problem%grid, result%hertz%aa, result%hertz%bb, is_line_contact(spec%grid), &
                   & result%hertz%fn, problem%pressure_estimate)
@@ -117,7 +117,14 @@ contains
          if (problem%friction_memory%acts() .and. problem%remembers_friction) law = law // " with memory"
       end if
       text = "elastic half-spaces"
-      if (allocated(problem%given_pressure)) text = text // ", Hertzian pressure"
+      select case (spec%pressure)
+      case (pressure_model%elliptical, pressure_model%parabolical)
+         text = text // ", Hertzian pressure"
+      case (pressure_model%sdec)
+         text = text // ", double-elliptical pressure"
+      case (pressure_model%kpec, pressure_model%analyn)
+         text = text // ", approximate pressure"
+      end select
       if (result%ncon > 0) then
          if (allocated(problem%simplified)) text = text // ", simplified theory (" // result%tangential%method // ")"
          if (problem%motion == motion%shift) text = text // ", " // law // " in a shift"
@@ -130,6 +137,7 @@ contains
          if (allocated(problem%thermal)) text = text // ", surface temperatures"
          if (spec%stress /= stress_choice%none) text = text // ", subsurface stresses"
       end if
+      if (allocated(problem%damping)) text = text // ", damping forces"
       result%effects = text
    end subroutine name_effects
 

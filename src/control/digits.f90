@@ -41,9 +41,9 @@ module contact_control_digits
       & digit_row("B", 1, pressure_model%thin_sheet, .false., "elastic thin sheet with a vertical flexibility"), &
       & digit_row("B", 2, pressure_model%elliptical, .true., "Hertzian: elliptical pressure and traction bound"), &
       & digit_row("B", 3, pressure_model%parabolical, .true., "Hertzian ellipse with a parabolical traction bound"), &
-      & digit_row("B", 4, pressure_model%sdec, .false., "simple double-elliptical contact (SDEC)"), &
-      & digit_row("B", 5, pressure_model%kpec, .false., "Kik-Piotrowski approach with ellipse correction (KPEC)"), &
-      & digit_row("B", 6, pressure_model%analyn, .false., "modified ANALYN approach"), &
+      & digit_row("B", 4, pressure_model%sdec, .true., "simple double-elliptical contact (SDEC)"), &
+      & digit_row("B", 5, pressure_model%kpec, .true., "Kik-Piotrowski approach with ellipse correction (KPEC)"), &
+      & digit_row("B", 6, pressure_model%analyn, .true., "modified ANALYN approach"), &
       & digit_row("T", 0, motion%none, .true., "frictionless compression"), &
       & digit_row("T", 1, motion%shift, .true., "shift, or rolling with material-fixed coordinates"), &
       & digit_row("T", 2, motion%transient_rolling, .true., "transient rolling, moving coordinates"), &
@@ -94,7 +94,7 @@ module contact_control_digits
       & digit_row("E", 9, slip_source%given, .true., "read an extra term for each element"), &
       & digit_row("M2", 0, 0, .true., "no damping"), &
       & digit_row("M2", 1, 1, .true., "keep the damping of the previous case"), &
-      & digit_row("M2", 2, 2, .false., "force-based proportional damping")]
+      & digit_row("M2", 2, 2, .true., "force-based proportional damping")]
 
    type(digit_row), parameter :: word3_rows(*) = [ &
       & digit_row("X", 0, 0, .true., "no fourth control word"), &

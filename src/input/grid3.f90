@@ -116,8 +116,6 @@ contains
          call problems%check_real(v(4), smallest_side)
          call problems%check_real(v(5), smallest_side)
          call problems%check_above(v(6))
-         call problems%add(severity%unsupported, "IPOTCN = -6, simple double-elliptical contact (SDEC), " // &
-            & "is known but not built in this version", option(1)%line, option(1)%column)
       case (1, 3)
          call problems%check_real(v(5), smallest_side)
          call problems%check_real(v(6), smallest_side)

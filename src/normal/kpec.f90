@@ -2,7 +2,7 @@
 !>
 !> Kik and Piotrowski (1996) let the surfaces overlap by a fixed part of the approach and take the
 !> overlap for the contact area. Here the part varies from row to row as it does for an ellipse
-!> (Vollebregt 2018), so that Hertz's area comes out where the surfaces are quadratic. Pressures
+!> (Vollebregt, in the guide of CONTACT), so that Hertz's area comes out where the surfaces are quadratic. Pressures
 !> are semi-ellipses along each row, all with the same quotient of height and length.
 !> Equations: doc/theory/approximate_normal.md
 module contact_normal_kpec

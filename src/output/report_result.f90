@@ -104,6 +104,11 @@ contains
       call log%result("     FN/G      " // first_name // " " // second_name // " APPROACH     PMAX    " // last_name)
       call log%result("  " // smarts([result%fn/result%gg, first, second]) // smart(result%pen, 12, 6, 4) &
          & // smart(result%pmax, 12, 4, 4) // last)
+      if (allocated(result%damping)) then
+         if (spec%output_level >= 2) call log%result("")
+         call log%result(" DAMPING FORCES, NOT INCLUDED ABOVE:    FN          FX          FY")
+         call log%result("                                  " // smarts(result%damping))
+      end if
    end subroutine write_totals
 
    !> Highest surface temperature in contact [degC]; anywhere without contact

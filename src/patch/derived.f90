@@ -261,7 +261,7 @@ contains
             worst = max(worst, abs(gap))
          end do
       end do
-      if (allocated(problem%given_pressure)) return
+      if (.not. problem%solves_for_pressure()) return
       result%residual = max(result%tangential%residual, &
          & worst/max(abs(result%pen - minval(result%h)), tiny(worst)))
    end subroutine coupled_residual

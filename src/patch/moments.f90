@@ -44,6 +44,7 @@ contains
          call copy_fields(state%now, state%before)
          state%before%px = 0.0_wp
          state%before%py = 0.0_wp
+         state%before%force(2:3) = 0.0_wp
       case default
          call clear_moment(state%before, problem%grid)
       end select
@@ -267,6 +268,8 @@ contains
       fields%px = 0.0_wp
       fields%py = 0.0_wp
       fields%pen = 0.0_wp
+      fields%is_solved = .false.
+      fields%force = 0.0_wp
    end subroutine clear_moment
 
    !> Copy of the fields of a moment
@@ -281,6 +284,8 @@ contains
       to%px = from%px
       to%py = from%py
       to%pen = from%pen
+      to%is_solved = from%is_solved
+      to%force = from%force
    end subroutine copy_fields
 
    !> Fields of a moment on a grid, zero where new; kept when the size is the same

@@ -1,11 +1,12 @@
 !> The normal problem of a patch: pressures, contact area, approach or force
 module contact_patch_normal_step
-   use contact_base_choices, only : motion
+   use contact_base_choices, only : motion, pressure_model
    use contact_base_constants, only : excluded_threshold
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
    use contact_base_solve_report, only : ending, failure_text
    use contact_grid_element_division, only : element
+   use contact_normal_approximate, only : approximate_pressure
    use contact_normal_conjugate_gradient, only : solve_normal
    use contact_patch_problem, only : patch_problem, patch_state
    use contact_patch_result, only : patch_result
@@ -54,8 +55,17 @@ contains
             normal%fn = problem%fn
             normal%eps = problem%eps
             normal%maxgs = problem%maxgs
-            call log%trace(4, " NORM")
-            call solve_normal(normal, workspace%window, workspace%normal_work, state%now%pn, result%pen, result%normal, log)
+            if (problem%pressure == pressure_model%full) then
+               call log%trace(4, " NORM")
+               call solve_normal(normal, workspace%window, workspace%normal_work, state%now%pn, result%pen, result%normal, log)
+            else
+               ! overlap of the surfaces instead of their distance; excluded elements stay excluded
+               where (normal%h < excluded_threshold) normal%h = normal%h - problem%pen
+               associate (material => problem%model%material)
+                  call approximate_pressure(problem%pressure, problem%grid, normal%h, material%gg/(1.0_wp - material%nu), &
+                     & workspace%window, state%now%pn, result%normal, log)
+               end associate
+            end if
          end associate
       end if
       result%ncon = 0
@@ -71,7 +81,7 @@ contains
             end if
          end do
       end do
-      if (.not. allocated(problem%given_pressure)) then
+      if (problem%solves_for_pressure()) then
          result%normal%passes = result%normal%passes + 1
          if (log%shows(3)) then
             write(line, '(a,2i7,a,i6)') "      Norm: final element division: C, E=", result%ncon, &

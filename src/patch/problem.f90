@@ -1,11 +1,12 @@
 !> One contact patch: what is asked, what is remembered from case to case
 module contact_patch_problem
-   use contact_base_choices, only : motion
+   use contact_base_choices, only : motion, pressure_model
    use contact_base_kinds, only : wp
    use contact_elastic_model, only : elastic_model
    use contact_friction_law, only : friction_law
    use contact_friction_memory, only : friction_memory
    use contact_grid_potential_contact, only : potential_contact
+   use contact_patch_damping, only : damping_law
    use contact_simplified_problem, only : simplified_model
    use contact_temperature_flash_heating, only : body_pair
    implicit none (type, external)
@@ -27,6 +28,8 @@ module contact_patch_problem
       real(wp), allocatable :: given_pressure(:, :)
       !> Estimate of the pressures [N/mm2] where the previous ones are not to be used; unallocated: none
       real(wp), allocatable :: pressure_estimate(:, :)
+      !> Where pressures come from, member of pressure_model: solver or approximate method
+      integer :: pressure = 0
       !> Named choices, see contact_base_choices
       integer :: motion = 0, estimate = 0, solver = 0
       !> Is the normal force prescribed, or the approach?
@@ -79,8 +82,13 @@ module contact_patch_problem
       !> Member of sensitivity_choice; tolerance and largest number of iterations for them
       integer :: sensitivity = 0, mxsens = 30
       real(wp) :: epsens = 1.0e-4_wp
+      !> Damping in proportion to the rate of forces; unallocated: none
+      type(damping_law), allocatable :: damping
       !> Are displacements of exterior elements wanted?
       logical :: want_exterior = .false.
+   contains
+      !> Do the pressures fulfil the contact conditions, or are they given or approximate?
+      procedure :: solves_for_pressure
    end type patch_problem
 
    !> A quantity that particles carry along from moment to moment
@@ -96,6 +104,9 @@ module contact_patch_problem
       real(wp), allocatable :: pn(:, :), px(:, :), py(:, :)
       !> Approach [mm]
       real(wp) :: pen = 0.0_wp
+      !> Does the moment belong to a solved case? Its forces Fn, Fx, Fy, without damping [N]
+      logical :: is_solved = .false.
+      real(wp) :: force(3) = 0.0_wp
       !> Coefficient of friction [-] and slip per step [mm]
       type(memory_field) :: mu, sx, sy
       !> Yield limit [N/mm2] and plastic displacement difference [mm] of the interfacial layer
@@ -119,4 +130,9 @@ contains
       type(patch_problem), intent(in) :: problem
       rolling_direction = merge(-1, 1, problem%motion == motion%steady_rolling .and. cos(problem%chi) < 0.0_wp)
    end function rolling_direction
+
+   pure logical function solves_for_pressure(self) result(solves)
+      class(patch_problem), intent(in) :: self
+      solves = self%pressure == pressure_model%full .and. .not. allocated(self%given_pressure)
+   end function solves_for_pressure
 end module contact_patch_problem

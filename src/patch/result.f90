@@ -46,6 +46,8 @@ module contact_patch_result
       real(wp) :: fn = 0.0_wp, pen = 0.0_wp, pmax = 0.0_wp
       !> Relative tangential forces Fx/(mu_scal Fn) [-] and tangential forces on body 1 [N]
       real(wp) :: fx_rel = 0.0_wp, fy_rel = 0.0_wp, fx = 0.0_wp, fy = 0.0_wp
+      !> Damping forces Fn, Fx, Fy on body 1 [N], not part of the forces above; unallocated without damping
+      real(wp), allocatable :: damping(:)
       !> Moments [N mm]
       real(wp) :: mx = 0.0_wp, my = 0.0_wp, mz = 0.0_wp
       !> Creepages [-] or shifts [mm] as used, prescribed or found; spin [rad/mm]

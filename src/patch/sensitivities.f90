@@ -36,19 +36,13 @@ contains
       logical :: wanted(4)
 
       if (problem%sensitivity == sensitivity_choice%none .or. result%ncon == 0) return
-      if (problem%sensitivity >= sensitivity_choice%normal .and. has_stiffness(problem)) &
+      if (problem%sensitivity >= sensitivity_choice%normal .and. problem%solves_for_pressure()) &
          & call normal_stiffness(problem, workspace%window, result, q)
       if (problem%motion == motion%none .or. allocated(problem%simplified)) return
       wanted = [.false., problem%n_forces >= 1, problem%n_forces >= 2, .false.]
       if (problem%sensitivity >= sensitivity_choice%all) wanted = [allocated(q), .true., .true., .true.]
       if (any(wanted)) call force_changes(problem, wanted, q, workspace, result)
    end subroutine find_sensitivities
-
-   !> Do the pressures follow from a full solution of the normal problem?
-   pure logical function has_stiffness(problem)
-      type(patch_problem), intent(in) :: problem
-      has_stiffness = .not. allocated(problem%given_pressure)
-   end function has_stiffness
 
    !> dFn/dpen [N/mm] and the derivative of the pressures
    subroutine normal_stiffness(problem, operator, result, q)

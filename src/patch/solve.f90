@@ -8,6 +8,7 @@ module contact_patch_solve
    use contact_base_error, only : error_kind, error_type, fatal_error
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
+   use contact_patch_damping, only : damping_forces
    use contact_patch_derived, only : derive, remember_friction, reset_result
    use contact_patch_heat, only : derive_temperatures
    use contact_patch_kinematics, only : previous_displacement, rigid_slip
@@ -79,11 +80,26 @@ contains
          if (outer == problem%maxout) call log%warning("the outer iteration did not reach its tolerance in MAXOUT passes")
       end do
       call derive(problem, state, workspace, result)
+      call remember_forces(problem, state, result)
       call find_sensitivities(problem, workspace, result)
       call remember_friction(problem, result, state)
       call derive_temperatures(problem, result)
       state%started = .true.
    end subroutine solve_patch
+
+   !> Forces of this moment for the next one, and damping by their change since the previous one
+   subroutine remember_forces(problem, state, result)
+      type(patch_problem), intent(in) :: problem
+      type(patch_state), intent(inout) :: state
+      type(patch_result), intent(inout) :: result
+
+      state%now%is_solved = .true.
+      state%now%force = [result%fn, result%fx, result%fy]
+      if (allocated(result%damping)) deallocate(result%damping)
+      if (.not. allocated(problem%damping)) return
+      allocate(result%damping(3), source=0.0_wp)
+      if (state%before%is_solved) result%damping = damping_forces(problem%damping, state%before%force, state%now%force, result%dt)
+   end subroutine remember_forces
 
    !> Refuse what has no solution
    subroutine check_problem(problem, error)

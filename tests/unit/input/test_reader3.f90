@@ -672,15 +672,12 @@ contains
       type(test_suite), intent(inout) :: suite
 
       call refused(suite, "1=213100|8=.3 .3 1 1;1", "B = 1, elastic thin sheet")
-      call refused(suite, "1=253000", "B = 5, Kik-Piotrowski")
       call refused(suite, "2=0023020", "C = 3, half-space with bilinear tractions, is known but not built in this version")
       call refused(suite, "2=0022120|8=.3 .3 1 1;0 0 0 0", "M = 1, viscoelastic")
       call refused(suite, "2=0022720", "M = 7, experimental")
-      call refused(suite, "2=0022020 2|8=.3 .3 1 1;0 0 0 0", "M2 = 2, force-based proportional damping")
       call refused(suite, "2=0022022", "E = 2, extra term")
       call refused(suite, "11=1 4|12=0 0 0 0 0 0;1;0 1 0 1", "IPLAN = 4, weighted")
       call refused_second(suite, "2=0023020", "2=0020020|7=|8=", "C = 3, half-space with bilinear")
-      call refused_second(suite, "2=0022020 2|8=.3 .3 1 1;0 0 0 0", "", "M2 = 2, force-based")
    end subroutine unbuilt
 
    subroutine refused(suite, changes, phrase)
