@@ -19,7 +19,7 @@ module contact_cases_patch_setup
    implicit none (type, external)
    private
 
-   public :: set_problem
+   public :: set_method, set_problem
 
 contains
 
@@ -49,30 +49,13 @@ contains
       end if
       call set_pressures(spec, result, problem, error)
       if (allocated(error)) return
-      problem%motion = spec%motion
       problem%estimate = spec%estimate
-      problem%solver = spec%solver
       problem%n_forces = spec%force
       problem%force = [spec%kinematics%fx, spec%kinematics%fy]
       problem%creep = [spec%kinematics%cksi, spec%kinematics%ceta]
       problem%spin = spec%kinematics%cphi
       problem%spin_centre = [spec%kinematics%spinxo, spec%kinematics%spinyo]
-      problem%eps = spec%iteration%eps
-      problem%maxgs = spec%iteration%maxgs
-      problem%maxin = spec%iteration%maxin
-      problem%maxnr = spec%iteration%maxnr
-      problem%maxout = spec%iteration%maxout
-      problem%relaxation_given = spec%solver == solver_choice%convex_gs .or. spec%solver == solver_choice%gauss_seidel
-      problem%omegah = spec%iteration%omegah
-      problem%omegas = spec%iteration%omegas
-      problem%fdecay = spec%iteration%fdecay
-      problem%betath = spec%iteration%betath
-      problem%kdowfb = spec%iteration%kdowfb
-      problem%d_ifc = spec%iteration%d_ifc
-      problem%d_lin = spec%iteration%d_lin
-      problem%d_cns = spec%iteration%d_cns
-      problem%d_slp = spec%iteration%d_slp
-      problem%pow_s = spec%iteration%pow_s
+      call set_method(spec, problem)
       problem%sensitivity = spec%iteration%sensitivity
       ! what nobody asked for is computed only if it gets printed
       if (problem%sensitivity == sensitivity_choice%forces .and. spec%output_level < 2) &
@@ -131,6 +114,31 @@ contains
          & call fatal_error(error, "the elastic flexibility of an interfacial layer (M=4) is not built in this version; " // &
          & "plasticity alone acts with LAYTHK = 0", error_kind%unsupported)
    end subroutine set_yield_limit
+
+   !> Motion, solvers and their tolerances
+   subroutine set_method(spec, problem)
+      type(case_spec), intent(in) :: spec
+      type(patch_problem), intent(inout) :: problem
+
+      problem%motion = spec%motion
+      problem%solver = spec%solver
+      problem%eps = spec%iteration%eps
+      problem%maxgs = spec%iteration%maxgs
+      problem%maxin = spec%iteration%maxin
+      problem%maxnr = spec%iteration%maxnr
+      problem%maxout = spec%iteration%maxout
+      problem%relaxation_given = spec%solver == solver_choice%convex_gs .or. spec%solver == solver_choice%gauss_seidel
+      problem%omegah = spec%iteration%omegah
+      problem%omegas = spec%iteration%omegas
+      problem%fdecay = spec%iteration%fdecay
+      problem%betath = spec%iteration%betath
+      problem%kdowfb = spec%iteration%kdowfb
+      problem%d_ifc = spec%iteration%d_ifc
+      problem%d_lin = spec%iteration%d_lin
+      problem%d_cns = spec%iteration%d_cns
+      problem%d_slp = spec%iteration%d_slp
+      problem%pow_s = spec%iteration%pow_s
+   end subroutine set_method
 
    !> Potential contact and undeformed distance
    subroutine set_geometry(spec, problem, result, error)

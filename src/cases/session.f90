@@ -19,7 +19,7 @@ module contact_cases_session
    implicit none (type, external)
    private
 
-   public :: contact_session, release_session, solve_case
+   public :: contact_session, release_session, solve_case, subsurface_stresses
 
    !> Memory of one problem: what the physics remembers, and scratch
    type :: contact_session

@@ -10,6 +10,7 @@ module contact_experiment_run
    use omp_lib, only : omp_get_max_threads, omp_set_num_threads
    use contact_base_error, only : add_context, error_kind, error_type, fatal_error, full_text
    use contact_base_log, only : log_type
+   use contact_cases_pair_session, only : pair_session, release_pair_session, solve_pair_case
    use contact_cases_session, only : contact_session, release_session, solve_case
    use contact_cases_spec, only : case_spec
    use contact_experiment_place, only : experiment_place, locate_experiment
@@ -21,9 +22,11 @@ module contact_experiment_run
    use contact_output_mat_file, only : mat_file_name, write_mat_file
    use contact_output_report, only : timer_line, write_banner, write_case, write_case_line, write_closing, write_end, &
       & write_subsurface
+   use contact_output_report_pair, only : write_pair
    use contact_output_subs_file, only : subs_file_name, write_subs_file
    use contact_patch_result, only : patch_result
    use contact_text_words, only : integer_text
+   use contact_wheelrail_result, only : pair_result
    implicit none (type, external)
    private
 
@@ -57,6 +60,9 @@ module contact_experiment_run
       integer :: reid = 0, cpid = 1
       type(contact_session), allocatable :: session
       type(patch_result), allocatable :: result
+      !> The same for wheel on rail; unallocated until the result element is used in module 1
+      type(pair_session), allocatable :: pair
+      type(pair_result), allocatable :: pair_result
    end type problem_slot
 
    !> Everything that a run keeps from case to case
@@ -193,6 +199,7 @@ contains
       call close_out_file(state)
       do k = 1, state%used
          call release_session(state%slots(k)%session)
+         if (allocated(state%slots(k)%pair)) call release_pair_session(state%slots(k)%pair)
       end do
    end subroutine compute_all_cases
 
@@ -219,12 +226,22 @@ contains
       associate (slot => state%slots(k))
          call state%solving%start()
          state%log%level = this%spec%flow_level
-         call solve_case(slot%session, this%spec, state%log, slot%result, error)
+         if (this%module_number == 1) then
+            if (.not. allocated(slot%pair)) allocate(slot%pair, slot%pair_result)
+            call solve_pair_case(slot%pair, this%spec, state%place%folder, state%log, slot%pair_result, error)
+         else
+            call solve_case(slot%session, this%spec, state%log, slot%result, error)
+         end if
          call state%solving%halt()
          if (allocated(error)) then
             call add_context(error, "case " // integer_text(this%number))
             if (this%reid > 0) call add_context(error, "result element " // integer_text(this%reid))
             call report_error(state, error)
+         else if (this%module_number == 1) then
+            if (this%spec%solve .and. .not. slot%pair_result%solved) state%unconverged = state%unconverged + 1
+            call state%writing%start()
+            if (this%spec%solve) call write_pair(state%log, this%spec, slot%pair_result)
+            call state%writing%halt()
          else if (this%spec%solve) then
             if (.not. (slot%result%normal%succeeded() .and. slot%result%tangential%succeeded())) &
                & state%unconverged = state%unconverged + 1
@@ -273,6 +290,8 @@ contains
             longer(i)%cpid = state%slots(i)%cpid
             call move_alloc(state%slots(i)%session, longer(i)%session)
             call move_alloc(state%slots(i)%result, longer(i)%result)
+            call move_alloc(state%slots(i)%pair, longer(i)%pair)
+            call move_alloc(state%slots(i)%pair_result, longer(i)%pair_result)
          end do
          call move_alloc(longer, state%slots)
       end if

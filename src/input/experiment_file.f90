@@ -114,8 +114,6 @@ contains
          if (self%module_number == 1) then
             call read_case1(self%lexer, store%spec, store%cases > 0, this%number, this%spec, this%problems, error, &
                & this%first_line)
-            if (.not. allocated(error)) call this%problems%add(severity%unsupported, "MODULE = 1, wheel-rail contact, is " // &
-               & "known but not built in this version", this%first_line)
          else
             call read_case3(self%lexer, store%spec, store%cases > 0, this%number, this%spec, this%problems, error, &
                & store%coefficients, this%first_line)

@@ -1,0 +1,176 @@
+!> Wheel on rail through its cases: specification in, result out
+module contact_cases_pair_session
+   use contact_base_choices, only : contact_location, estimate_choice, force_control, kernel_model, material_model, motion, &
+      & normal_control, pressure_model, sensitivity_choice, stress_choice, time_link, variation
+   use contact_base_error, only : add_context, error_kind, error_type, fatal_error
+   use contact_base_kinds, only : wp
+   use contact_base_log, only : log_type
+   use contact_cases_patch_setup, only : set_method
+   use contact_cases_session, only : subsurface_stresses
+   use contact_cases_spec, only : case_spec
+   use contact_elastic_material, only : combine
+   use contact_profile_curve, only : profile_curve
+   use contact_profile_prepare, only : read_profile
+   use contact_profile_request, only : profile_request, profile_side, same_request
+   use contact_wheelrail_pair, only : pair_memory, pair_problem, release_pair, solve_pair
+   use contact_wheelrail_result, only : pair_result
+   use contact_wheelrail_spec, only : profile_spec
+   implicit none (type, external)
+   private
+
+   public :: pair_session, release_pair_session, solve_pair_case
+
+   !> Memory of one wheel on one rail
+   type :: pair_session
+      type(pair_problem) :: problem
+      type(pair_memory) :: memory
+      !> What the profiles in the problem were made from
+      type(profile_request) :: rail_request, wheel_request
+   end type pair_session
+
+contains
+
+   !> Solve one case, or only take note of its input (R = 2, 3)
+   subroutine solve_pair_case(session, spec, folder, log, result, error)
+      type(pair_session), intent(inout) :: session
+      !> Complete specification of a case of module 1
+      type(case_spec), intent(in) :: spec
+      !> Folder to which names of profile files are relative, "" for the current one
+      character(len=*), intent(in) :: folder
+      type(log_type), intent(inout) :: log
+      type(pair_result), intent(inout) :: result
+      type(error_type), allocatable, intent(out) :: error
+      integer :: k
+
+      log%level = spec%flow_level
+      call refuse_unbuilt(spec, error)
+      if (allocated(error)) return
+      call set_pair(session, spec, folder, log, error)
+      if (allocated(error)) return
+      call solve_pair(session%problem, session%memory, log, result, error)
+      if (allocated(error)) return
+      do k = 1, size(result%patches)
+         associate (contact => result%patches(k)%contact)
+            contact%effects = "elastic half-spaces"
+            if (allocated(contact%subsurface)) deallocate(contact%subsurface)
+            if (spec%stress /= stress_choice%none) call subsurface_stresses(spec, contact)
+         end associate
+      end do
+   end subroutine solve_pair_case
+
+   !> Free what a session holds outside Fortran's memory; call it before the session goes
+   subroutine release_pair_session(session)
+      type(pair_session), intent(inout) :: session
+      call release_pair(session%memory)
+   end subroutine release_pair_session
+
+   !> Refuse by name what module 1 knows but this version does not compute
+   subroutine refuse_unbuilt(spec, error)
+      type(case_spec), intent(in) :: spec
+      type(error_type), allocatable, intent(out) :: error
+
+      if (spec%motion == motion%shift .or. spec%motion == motion%transient_rolling) then
+         call refuse("T = 1, 2, transient contact of wheel and rail")
+      else if (spec%force /= force_control%creepages) then
+         call refuse("F = 1, 3, prescribed longitudinal force or rail on springs, in wheel-rail contact")
+      else if (spec%wheel_rail%search%location /= contact_location%locus) then
+         call refuse("D other than 2, other ways to locate the contact of wheel and rail than the planar contact locus,")
+      else if (spec%variation /= variation%none) then
+         call refuse("V = 1, 2, friction that varies over the rail,")
+      else if (spec%friction_law /= 0) then
+         call refuse("L other than 0, friction laws other than Coulomb's in wheel-rail contact,")
+      else if (spec%material_model /= material_model%elastic) then
+         call refuse("M other than 0, materials other than elastic in wheel-rail contact,")
+      else if (spec%kernel /= kernel_model%piecewise_constant) then
+         call refuse("C other than 2, other influence coefficients in wheel-rail contact,")
+      else if (spec%pressure /= pressure_model%full) then
+         call refuse("B other than 0, approximate normal solutions in wheel-rail contact,")
+      else if (spec%heat_model /= 0) then
+         call refuse("H = 1, 3, surface temperatures in wheel-rail contact,")
+      else if (spec%has_damping) then
+         call refuse("M2 = 2, damping in wheel-rail contact,")
+      end if
+
+   contains
+
+      subroutine refuse(what)
+         character(len=*), intent(in) :: what
+         call fatal_error(error, what // " is known but not built in this version", error_kind%unsupported)
+      end subroutine refuse
+   end subroutine refuse_unbuilt
+
+   !> From the specification to the problem of the pair
+   subroutine set_pair(session, spec, folder, log, error)
+      type(pair_session), intent(inout) :: session
+      type(case_spec), intent(in) :: spec
+      character(len=*), intent(in) :: folder
+      type(log_type), intent(inout) :: log
+      type(error_type), allocatable, intent(out) :: error
+
+      associate (problem => session%problem, template => session%problem%template)
+         problem%spec = spec%wheel_rail
+         call load_profile(spec%wheel_rail%rail_profile, profile_side%rail, folder, session%rail_request, problem%rail, log, error)
+         if (.not. allocated(error)) call load_profile(spec%wheel_rail%wheel_profile, profile_side%wheel, folder, &
+            & session%wheel_request, problem%wheel, log, error)
+         if (allocated(error)) return
+         problem%force_prescribed = spec%normal == normal_control%force
+         problem%geometry_only = .not. spec%solve
+         problem%use_previous = spec%estimate /= estimate_choice%fresh .and. spec%link /= time_link%initiate
+         problem%weight_power = merge(1, 2, spec%digits%gapwgt == 1)
+         problem%most_elements = spec%iteration%npot_max
+         template%model%material = combine(spec%material%poiss, spec%material%gg)
+         call set_method(spec, template)
+         template%mu = spec%friction%sets(1)%fstat
+         template%want_exterior = spec%mat_file >= 2 .or. spec%output_level >= 6
+         ! the contact stiffness leads the search for the height
+         template%sensitivity = merge(sensitivity_choice%normal, sensitivity_choice%none, problem%force_prescribed)
+         template%mxsens = spec%iteration%mxsens
+         template%epsens = spec%iteration%epsens
+      end associate
+   end subroutine set_pair
+
+   !> Read and prepare a profile unless it is the one at hand
+   subroutine load_profile(profile, side, folder, request, curve, log, error)
+      type(profile_spec), intent(in) :: profile
+      !> Member of profile_side
+      integer, intent(in) :: side
+      character(len=*), intent(in) :: folder
+      !> That of the curve at hand
+      type(profile_request), intent(inout) :: request
+      type(profile_curve), intent(inout) :: curve
+      type(log_type), intent(inout) :: log
+      type(error_type), allocatable, intent(out) :: error
+      type(profile_request) :: wanted
+      character(len=5) :: body
+      integer :: i
+
+      wanted%file = profile%name
+      do i = 1, len(wanted%file)
+         if (wanted%file(i:i) == "\") wanted%file(i:i) = "/"
+      end do
+      if (wanted%file(:1) /= "/" .and. len(folder) > 0) wanted%file = folder // "/" // wanted%file
+      wanted%side = side
+      wanted%mirror_y = profile%mirror_y
+      wanted%mirror_z = profile%mirror_z
+      wanted%scale = profile%scale
+      wanted%method = profile%smoothing_method
+      wanted%smooth = profile%smoothing
+      wanted%zig_zag = profile%zigzag
+      wanted%kink_high = profile%kink_high
+      wanted%kink_low = profile%kink_low
+      wanted%kink_width = profile%kink_width
+      wanted%most_hidden = profile%largest_omission
+      if (allocated(request%file)) then
+         if (same_request(request, wanted)) return
+      end if
+      body = merge("rail ", "wheel", side == profile_side%rail)
+      call log%line(" reading " // body // " profile """ // profile%name // """")
+      call read_profile(wanted, curve, log, error)
+      if (allocated(error)) then
+         call add_context(error, trim(body) // " profile")
+         if (allocated(request%file)) deallocate(request%file)
+         return
+      end if
+      request = wanted
+   end subroutine load_profile
+end module contact_cases_pair_session

@@ -1,0 +1,553 @@
+!> One wheel on one rail: contact patches, their solutions, total forces
+!>
+!> With a prescribed vertical force the height of the wheelset is searched (contact_wheelrail_force_balance).
+!> Where tangential tractions do not change the pressures, only normal problems are solved on the way,
+!> with the tangential forces in a fixed ratio to the normal ones; the tangential problem comes last
+!> and corrects that ratio. References and grids belong to the height of each trial.
+module contact_wheelrail_pair
+   use contact_base_choices, only : estimate_choice, motion, time_link
+   use contact_base_error, only : add_context, error_type
+   use contact_base_kinds, only : wp
+   use contact_base_log, only : log_type
+   use contact_patch_moments, only : link_moments
+   use contact_patch_problem, only : patch_problem, patch_state
+   use contact_patch_result, only : patch_result
+   use contact_patch_solve, only : solve_patch
+   use contact_patch_workspace, only : patch_workspace, release_workspace
+   use contact_profile_curve, only : profile_curve
+   use contact_wheelrail_creepage, only : contact_motion, flat_creepage, flat_shift, rigid_motion
+   use contact_wheelrail_flat_patch, only : patch_frame, patch_grid, undeformed_distance
+   use contact_wheelrail_force_balance, only : balance_ending, force_balance
+   use contact_wheelrail_frame, only : frame
+   use contact_wheelrail_gap, only : gap_curve, measure_gap, rail_in_track
+   use contact_wheelrail_placement, only : gauge_point, pair_placement, place_pair, rail_motion, side_sign, wheel_motion
+   use contact_wheelrail_regions, only : contact_region, find_regions, smallest_gap
+   use contact_wheelrail_result, only : pair_patch, pair_result
+   use contact_wheelrail_spec, only : wheel_rail_spec
+   implicit none (type, external)
+   private
+
+   public :: pair_problem, pair_memory, solve_pair, release_pair
+
+   !> What is asked for a pair
+   type :: pair_problem
+      type(wheel_rail_spec) :: spec
+      !> Prepared profiles in their own coordinates
+      type(profile_curve) :: rail, wheel
+      !> Settings that all patches share: material, friction, motion, solvers
+      type(patch_problem) :: template
+      !> Is the vertical force prescribed? Otherwise the height of the wheelset
+      logical :: force_prescribed = .false.
+      !> Only search for contact?
+      logical :: geometry_only = .false.
+      !> Start from the previous case?
+      logical :: use_previous = .false.
+      !> Power of the interpenetration in the weights of the contact reference
+      integer :: weight_power = 2
+      !> Elements of a patch at most
+      integer :: most_elements = 20000
+   end type pair_problem
+
+   !> One patch with its memory
+   type :: patch_slot
+      type(patch_problem) :: problem
+      type(patch_state) :: state
+      type(patch_workspace) :: workspace
+      type(patch_result) :: result
+      type(contact_region) :: region
+      type(frame) :: plane
+      type(contact_motion) :: motion
+      !> Lateral to normal force of the last tangential solution [-]
+      real(wp) :: ratio = 0.0_wp
+      logical :: has_ratio = .false.
+   end type patch_slot
+
+   !> What a pair remembers from case to case, and scratch
+   type :: pair_memory
+      !> Height of the wheelset in the previous case [mm]
+      real(wp) :: z_ws = 0.0_wp
+      logical :: started = .false.
+      !> Patches 1...used are those of the last evaluation
+      integer :: used = 0
+      type(patch_slot), allocatable :: slot(:)
+      type(gap_curve) :: gap
+      type(profile_curve) :: rail_in_track
+      type(pair_placement) :: placement
+      !> Height at which the gap was measured [mm]
+      real(wp) :: gap_height = 0.0_wp
+      !> Top of the canted rail and its gauge point [mm]
+      real(wp) :: top_z = 0.0_wp, gauge_y = 0.0_wp
+   end type pair_memory
+
+   !> Most patches of a pair
+   integer, parameter :: most_patches = 10
+   !> Rounds of tangential solutions with a new search for the height
+   integer, parameter :: most_rounds = 8
+   !> Forces below this value ask for a wheel that just touches [N]
+   real(wp), parameter :: no_force = 1.0e-9_wp
+
+contains
+
+   !> Solve one case of a pair
+   subroutine solve_pair(problem, memory, log, result, error)
+      type(pair_problem), intent(in) :: problem
+      type(pair_memory), intent(inout) :: memory
+      type(log_type), intent(inout) :: log
+      type(pair_result), intent(inout) :: result
+      type(error_type), allocatable, intent(out) :: error
+      real(wp) :: z, touch
+
+      if (.not. allocated(memory%slot)) allocate(memory%slot(most_patches))
+      result%solved = .false.
+      result%force_evaluations = 0
+      result%vpitch = problem%spec%wheelset%vpitch
+      if (problem%spec%track%gaught > 0.0_wp) &
+         & call gauge_point(problem%rail, problem%spec%track%cant, problem%spec%track%gaught, memory%top_z, memory%gauge_y)
+      z = problem%spec%wheelset%z
+      if (problem%force_prescribed) then
+         z = 0.0_wp
+         if (memory%started) z = memory%z_ws
+      end if
+      call place(problem, memory, z)
+      memory%rail_in_track = rail_in_track(problem%rail, memory%placement)
+      call measure_gap(memory%rail_in_track, problem%wheel, memory%placement, problem%spec%search%ds, memory%gap)
+      memory%gap_height = z
+      touch = z + smallest_gap(memory%gap)
+
+      if (.not. problem%force_prescribed) then
+         call evaluate(problem, memory, z, with_friction=.true., log=log, error=error)
+         result%solved = .not. allocated(error)
+      else if (problem%spec%wheelset%fz <= no_force .or. touch - z > 500.0_wp) then
+         memory%used = 0
+         z = touch
+         if (touch - z > 500.0_wp) call log%warning("wheel and rail do not meet: their lateral positions are apart")
+      else
+         call balance_forces(problem, memory, touch, z, log, result, error)
+      end if
+      if (allocated(error)) return
+      call place(problem, memory, z)
+      memory%z_ws = z
+      memory%started = .true.
+      result%z_ws = z
+      result%smallest_gap = touch - z
+      call gather(problem, memory, result)
+   end subroutine solve_pair
+
+   !> Free what the memory holds outside Fortran's own
+   subroutine release_pair(memory)
+      type(pair_memory), intent(inout) :: memory
+      integer :: k
+
+      if (.not. allocated(memory%slot)) return
+      do k = 1, size(memory%slot)
+         call release_workspace(memory%slot(k)%workspace)
+      end do
+   end subroutine release_pair
+
+   !> Put the wheelset at a height
+   subroutine place(problem, memory, z)
+      type(pair_problem), intent(in) :: problem
+      type(pair_memory), intent(inout) :: memory
+      real(wp), intent(in) :: z
+
+      call place_pair(problem%spec, problem%wheel, memory%top_z, memory%gauge_y, z, [0.0_wp, 0.0_wp], memory%placement)
+   end subroutine place
+
+   !> Search the height at which the prescribed vertical force acts
+   subroutine balance_forces(problem, memory, touch, z, log, result, error)
+      type(pair_problem), intent(in) :: problem
+      type(pair_memory), intent(inout) :: memory
+      !> Height of first touch [mm]
+      real(wp), intent(in) :: touch
+      !> Height: estimate on entry, found on exit [mm]
+      real(wp), intent(inout) :: z
+      type(log_type), intent(inout) :: log
+      type(pair_result), intent(inout) :: result
+      type(error_type), allocatable, intent(out) :: error
+      type(force_balance) :: balance
+      real(wp) :: target, force, trial, guess
+      logical :: separate
+      integer :: round
+
+      target = problem%spec%wheelset%fz
+      ! friction decouples from the pressures for bodies that are alike
+      separate = problem%template%motion /= motion%none .and. .not. problem%template%model%coupled()
+      guess = touch + penetration_guess(problem, memory, touch, target)
+      if (problem%use_previous .and. memory%started .and. memory%z_ws > touch) guess = memory%z_ws
+      do round = 1, most_rounds
+         call balance%start(target, problem%template%eps, touch, touch + 1.1_wp*memory%placement%wheel_radius, &
+            & problem%template%maxnr)
+         do while (balance%ended == balance_ending%running)
+            trial = balance%next_trial(guess)
+            call evaluate(problem, memory, trial, with_friction=.not. separate, log=log, error=error)
+            if (allocated(error)) return
+            force = vertical_force(memory)
+            call balance%record(trial, force, vertical_slope(memory))
+            result%force_evaluations = result%force_evaluations + 1
+            call trace_trial(log, result%force_evaluations, trial, force, vertical_slope(memory))
+         end do
+         z = balance%z
+         if (.not. separate) exit
+         ! the tangential problem at the height found corrects the lateral forces
+         call evaluate(problem, memory, z, with_friction=.true., log=log, error=error)
+         if (allocated(error)) return
+         force = vertical_force(memory)
+         result%force_evaluations = result%force_evaluations + 1
+         call trace_trial(log, result%force_evaluations, z, force, vertical_slope(memory))
+         balance%force = force
+         if (abs(force - target) <= balance%tolerance) exit
+         if (balance%ended /= balance_ending%reached) exit
+         guess = z + (target - force)/max(vertical_slope(memory), 0.1_wp*target/max(z - touch, 1.0e-6_wp))
+         if (guess <= touch) guess = z
+      end do
+      if (.not. separate .and. abs(balance%force - vertical_force(memory)) > 0.0_wp) then
+         ! the last trial need not be the best one
+         call evaluate(problem, memory, z, with_friction=.true., log=log, error=error)
+         if (allocated(error)) return
+      end if
+      result%force_error = vertical_force(memory) - target
+      result%solved = abs(result%force_error) <= balance%tolerance
+      if (.not. result%solved) call complain(balance, target, result%force_error, log)
+   end subroutine balance_forces
+
+   !> Line of the flow trace
+   subroutine trace_trial(log, number, z, force, slope)
+      type(log_type), intent(inout) :: log
+      integer, intent(in) :: number
+      real(wp), intent(in) :: z, force, slope
+      character(len=100) :: line
+
+      if (.not. log%shows(1)) return
+      write(line, '(4x,i6,a,f12.4,es12.4,a,es12.3)') number, ", NR,  z_ws, Fz: ", z, force, ", dFz/dz:", slope
+      call log%trace(1, trim(line))
+   end subroutine trace_trial
+
+   !> Say why the force was not reached
+   subroutine complain(balance, target, force_error, log)
+      type(force_balance), intent(in) :: balance
+      real(wp), intent(in) :: target, force_error
+      type(log_type), intent(inout) :: log
+      character(len=12) :: wanted, missed
+      character(len=:), allocatable :: why
+
+      write(wanted, '(es10.3)') target
+      write(missed, '(es10.2)') force_error
+      select case (balance%ended)
+      case (balance_ending%jump)
+         why = "the force jumps over it where contact patches join or separate"
+      case (balance_ending%out_of_reach)
+         why = "it is out of reach"
+      case (balance_ending%trial_limit)
+         why = "all MAXNR trials were used"
+      case default
+         why = "the lateral forces do not settle"
+      end select
+      call log%warning("the vertical force " // trim(adjustl(wanted)) // " N is missed by " // trim(adjustl(missed)) // &
+         & " N: " // why)
+   end subroutine complain
+
+   !> Penetration by Hertz's theory for the place of first touch [mm]
+   real(wp) function penetration_guess(problem, memory, touch, force) result(pen)
+      type(pair_problem), intent(in) :: problem
+      type(pair_memory), intent(in) :: memory
+      real(wp), intent(in) :: touch, force
+      real(wp) :: a, b, bend, modulus
+      integer :: i, k
+
+      associate (gap => memory%gap)
+         i = minloc(gap%gap, dim=1)
+         a = gap%kappa
+         b = a
+         ! the curvature over a width as large as a patch
+         k = max(1, nint(2.0_wp/gap%dy))
+         if (i - k >= 1 .and. i + k <= gap%n) then
+            bend = (gap%gap(i - k) - 2.0_wp*gap%gap(i) + gap%gap(i + k))/(k*gap%dy)**2
+            if (bend > 0.0_wp .and. bend < 10.0_wp) b = 0.5_wp*bend
+         end if
+      end associate
+      modulus = problem%template%model%material%gg/(1.0_wp - problem%template%model%material%nu)
+      ! a sphere with the mean of the curvatures
+      pen = (0.75_wp*force*sqrt(2.0_wp*max(sqrt(a*b), 1.0e-8_wp))/modulus)**(2.0_wp/3.0_wp)
+      pen = min(max(pen, 1.0e-6_wp), 5.0_wp + 0.0_wp*touch)
+   end function penetration_guess
+
+   !> Vertical force on the rail [N], lateral forces from the last tangential solution
+   pure real(wp) function vertical_force(memory) result(force)
+      type(pair_memory), intent(in) :: memory
+      integer :: k
+
+      force = 0.0_wp
+      do k = 1, memory%used
+         associate (slot => memory%slot(k))
+            force = force + (cos(slot%plane%roll()) + slot%ratio*sin(slot%plane%roll()))*slot%result%fn
+         end associate
+      end do
+   end function vertical_force
+
+   !> Derivative of the vertical force to the height, from the contact stiffness where it is known [N/mm]
+   pure real(wp) function vertical_slope(memory) result(slope)
+      type(pair_memory), intent(in) :: memory
+      integer :: k
+
+      slope = 0.0_wp
+      do k = 1, memory%used
+         associate (slot => memory%slot(k))
+            slope = slope + (cos(slot%plane%roll()) + slot%ratio*sin(slot%plane%roll()))*cos(slot%plane%roll()) &
+               & *slot%result%sensitivity(1, 1)
+         end associate
+      end do
+   end function vertical_slope
+
+   !> Patches and their solutions at a height
+   subroutine evaluate(problem, memory, z, with_friction, log, error)
+      type(pair_problem), intent(in) :: problem
+      type(pair_memory), intent(inout) :: memory
+      real(wp), intent(in) :: z
+      !> Solve the tangential problems, too?
+      logical, intent(in) :: with_friction
+      type(log_type), intent(inout) :: log
+      type(error_type), allocatable, intent(out) :: error
+      type(contact_region), allocatable :: regions(:), misses(:)
+      integer :: k, n
+
+      call place(problem, memory, z)
+      call find_regions(memory%gap, z - memory%gap_height, problem%spec%search, problem%weight_power, regions, misses)
+      n = size(regions)
+      if (n > most_patches) then
+         call log%warning("more than 10 contact patches; the ones with the smallest weight are left out")
+         do while (n > most_patches)
+            k = minloc(regions%weight, dim=1)
+            regions = [regions(:k - 1), regions(k + 1:)]
+            n = n - 1
+         end do
+      end if
+      call match_slots(memory, regions)
+      memory%used = n
+      do k = 1, n
+         memory%slot(k)%region = regions(k)
+         call solve_slot(problem, memory, memory%slot(k), with_friction, log, error)
+         if (allocated(error)) then
+            call add_context(error, "contact patch " // achar(iachar("0") + mod(k, 10)))
+            return
+         end if
+      end do
+   end subroutine evaluate
+
+   !> Bring the slots into the order of the regions, so that each one continues its own solution
+   subroutine match_slots(memory, regions)
+      type(pair_memory), intent(inout) :: memory
+      type(contact_region), intent(in) :: regions(:)
+      integer :: k, j, best
+      real(wp) :: overlap, largest
+
+      do k = 1, size(regions)
+         best = 0
+         largest = 0.0_wp
+         do j = k, memory%used
+            associate (old => memory%slot(j)%region%box%y, new => regions(k)%box%y)
+               overlap = min(old(2), new(2)) - max(old(1), new(1))
+            end associate
+            if (overlap <= largest) cycle
+            largest = overlap
+            best = j
+         end do
+         if (best > k) then
+            call exchange(memory%slot(k)%state, memory%slot(best)%state, memory%slot(k)%ratio, memory%slot(best)%ratio, &
+               & memory%slot(k)%has_ratio, memory%slot(best)%has_ratio)
+         else if (best == 0) then
+            memory%slot(k)%state%started = .false.
+            memory%slot(k)%has_ratio = .false.
+         end if
+      end do
+   end subroutine match_slots
+
+   !> Two slots change their memories
+   subroutine exchange(a, b, ratio_a, ratio_b, has_a, has_b)
+      type(patch_state), intent(inout) :: a, b
+      real(wp), intent(inout) :: ratio_a, ratio_b
+      logical, intent(inout) :: has_a, has_b
+      type(patch_state) :: c
+      real(wp) :: ratio
+      logical :: has
+
+      c = a
+      a = b
+      b = c
+      ratio = ratio_a
+      ratio_a = ratio_b
+      ratio_b = ratio
+      has = has_a
+      has_a = has_b
+      has_b = has
+   end subroutine exchange
+
+   !> Grid, undeformed distance, creepages and solution of one patch
+   subroutine solve_slot(problem, memory, slot, with_friction, log, error)
+      type(pair_problem), intent(in) :: problem
+      type(pair_memory), intent(in) :: memory
+      type(patch_slot), intent(inout) :: slot
+      logical, intent(in) :: with_friction
+      type(log_type), intent(inout) :: log
+      type(error_type), allocatable, intent(out) :: error
+      real(wp), allocatable :: h(:, :)
+      real(wp) :: approach
+      logical :: continues
+
+      slot%plane = patch_frame(memory%rail_in_track, memory%placement, slot%region)
+      call move_alloc(slot%problem%h, h)
+      slot%problem = problem%template
+      call patch_grid(memory%rail_in_track, problem%spec%search, slot%region, slot%plane, problem%most_elements, &
+         & slot%problem%grid)
+      call undeformed_distance(memory%rail_in_track, problem%wheel, memory%placement, slot%plane, slot%problem%grid, h, approach)
+      call move_alloc(h, slot%problem%h)
+      slot%problem%force_prescribed = .false.
+      slot%problem%pen = approach
+      slot%problem%n_forces = 0
+      if (problem%geometry_only) slot%problem%motion = motion%none
+      call set_motion(problem, memory, slot, approach)
+      if (.not. with_friction) slot%problem%motion = motion%none
+      if (.not. slot%has_ratio) then
+         slot%ratio = 0.0_wp
+         if (problem%template%motion /= motion%none) slot%ratio = slot%problem%mu*sin(slot%plane%roll())
+      end if
+      if (problem%geometry_only) return
+
+      ! within a case, and from a previous case when asked for, the last solution is the estimate
+      continues = slot%state%started .and. same_elements(slot)
+      slot%problem%estimate = merge(estimate_choice%previous, estimate_choice%fresh, continues)
+      if (.not. continues) slot%state%started = .false.
+      call link_moments(slot%problem, time_link%initiate, slot%state, error)
+      if (allocated(error)) return
+      call solve_patch(slot%problem, slot%state, slot%workspace, log, slot%result, error)
+      if (allocated(error)) return
+      if (with_friction .and. problem%template%motion /= motion%none .and. slot%result%fn > 0.0_wp) then
+         slot%ratio = slot%result%fy/slot%result%fn
+         slot%has_ratio = .true.
+      end if
+   end subroutine solve_slot
+
+   !> Were the elements of the last solution of the same size?
+   pure logical function same_elements(slot)
+      type(patch_slot), intent(in) :: slot
+      real(wp), parameter :: same = 1.0e-6_wp
+
+      associate (old => slot%state%now%grid, new => slot%problem%grid)
+         same_elements = abs(old%dx - new%dx) < same*new%dx .and. abs(old%dy - new%dy) < same*new%dy
+      end associate
+   end function same_elements
+
+   !> Creepages of a patch from the motion of the bodies
+   subroutine set_motion(problem, memory, slot, approach)
+      type(pair_problem), intent(in) :: problem
+      type(pair_memory), intent(in) :: memory
+      type(patch_slot), intent(inout) :: slot
+      real(wp), intent(in) :: approach
+      type(rigid_motion) :: rail, wheel
+      real(wp) :: on_wheel(3), pitch_rate
+
+      pitch_rate = problem%spec%wheelset%vpitch
+      rail = rail_motion(problem%spec, memory%placement)
+      wheel = wheel_motion(problem%spec, memory%placement, pitch_rate)
+      associate (plane => slot%plane)
+         on_wheel = plane%origin + approach*plane%axes(:, 3)
+         if (problem%template%motion == motion%shift) then
+            slot%motion = flat_shift(rail, wheel, plane%origin, on_wheel, plane%roll())
+         else
+            slot%motion = flat_creepage(rail, wheel, memory%placement%wheelset%axes(:, 2), pitch_rate, plane%origin, on_wheel, &
+               & plane%roll(), problem%spec%roller)
+         end if
+      end associate
+      associate (patch => slot%problem)
+         patch%creep = [slot%motion%cksi, slot%motion%ceta]
+         patch%spin = slot%motion%cphi
+         patch%spin_centre = 0.0_wp
+         patch%chi = 0.0_wp
+         patch%dq = 1.0_wp
+         patch%veloc = 1.0_wp
+         patch%spin_offset = 0.0_wp
+         if (patch%motion == motion%transient_rolling .or. patch%motion == motion%steady_rolling) then
+            patch%chi = slot%motion%chi
+            patch%veloc = max(slot%motion%veloc, tiny(1.0_wp))
+            patch%dq = problem%spec%search%dqrel*patch%grid%dx
+            if (patch%motion == motion%steady_rolling) patch%dq = patch%grid%dx
+            patch%spin_offset = 1.0_wp/6.0_wp
+         end if
+      end associate
+   end subroutine set_motion
+
+   !> Collect the patches and sum up their forces
+   subroutine gather(problem, memory, result)
+      type(pair_problem), intent(in) :: problem
+      type(pair_memory), intent(in) :: memory
+      type(pair_result), intent(inout) :: result
+      real(wp) :: force(3), moment(3), axes(3, 3), local(3)
+      integer :: k
+
+      associate (p => memory%placement, material => problem%template%model%material)
+         result%gg = material%gg
+         result%nu = material%nu
+         result%ak = material%ak
+         result%rail_y = p%rail%origin(2)
+         result%rail_z = p%rail%origin(3)
+         result%rail_roll = p%rail%roll()
+         result%wheel_x = p%wheel%origin(1)
+         result%wheel_y = p%wheel%origin(2)
+         result%wheel_z = p%wheel%origin(3)
+         result%wheel_roll = p%wheel%roll()
+         result%wheel_yaw = p%wheel%yaw()
+         local = p%wheelset%to_local(p%wheel%origin)
+         result%wheel_offset = local(2)
+         result%force_track = 0.0_wp
+         result%moment_rail = 0.0_wp
+         result%moment_wheel = 0.0_wp
+         if (allocated(result%patches)) then
+            if (size(result%patches) /= memory%used) deallocate(result%patches)
+         end if
+         if (.not. allocated(result%patches)) allocate(result%patches(memory%used))
+         do k = 1, memory%used
+            call describe_patch(memory, memory%slot(k), result%patches(k))
+            axes = memory%slot(k)%plane%axes
+            force = matmul(axes, result%patches(k)%force)
+            associate (contact => result%patches(k)%contact)
+               moment = matmul(axes, [contact%mx, contact%my, contact%mz])
+            end associate
+            result%force_track = result%force_track + force
+            result%moment_rail = result%moment_rail + moment + cross(memory%slot(k)%plane%origin - p%rail%origin, force)
+            result%moment_wheel = result%moment_wheel + moment + cross(memory%slot(k)%plane%origin - p%wheel%origin, force)
+         end do
+         result%force_wheelset = matmul(result%force_track, p%wheelset%axes)
+         result%moment_wheel = matmul(result%moment_wheel, p%wheelset%axes)
+      end associate
+   end subroutine gather
+
+   pure function cross(a, b) result(c)
+      real(wp), intent(in) :: a(3), b(3)
+      real(wp) :: c(3)
+      c = [a(2)*b(3) - a(3)*b(2), a(3)*b(1) - a(1)*b(3), a(1)*b(2) - a(2)*b(1)]
+   end function cross
+
+   !> Place and forces of one patch
+   subroutine describe_patch(memory, slot, patch)
+      type(pair_memory), intent(in) :: memory
+      type(patch_slot), intent(in) :: slot
+      type(pair_patch), intent(inout) :: patch
+      real(wp) :: local(3)
+      type(frame) :: seen
+
+      patch%x = slot%plane%origin(1)
+      patch%y = slot%plane%origin(2)
+      patch%z = slot%plane%origin(3)
+      patch%delta = slot%plane%roll()
+      seen = memory%placement%rail%seen_from_here(slot%plane)
+      patch%y_rail = seen%origin(2)
+      patch%z_rail = seen%origin(3)
+      patch%delta_rail = seen%roll()
+      local = memory%placement%wheel%to_local(slot%plane%origin)
+      patch%x_wheel = local(1)
+      patch%y_wheel = local(2)
+      patch%z_wheel = local(3)
+      patch%contact = slot%result
+      patch%force = [slot%result%fx, slot%result%fy, slot%result%fn]
+      patch%tilde_fn = slot%result%fn
+   end subroutine describe_patch
+end module contact_wheelrail_pair
