@@ -118,8 +118,9 @@ contains
          if (right == 0 .and. abs(z(n + 1 - i) - z(n)) > difference) right = merge(1, -1, z(n + 1 - i) < z(n))
       end do
       if (left == 0 .and. right == 0) then
+         ! Nothing but the place of the lowest z is left to tell; a plane is taken as it is
          lowest = minloc(z, 1)
-         mirror = lowest <= near .or. lowest > n - near
+         mirror = (lowest <= near .or. lowest > n - near) .and. difference > 0.0_wp
       else
          mirror = left + right < 0
       end if

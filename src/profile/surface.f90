@@ -53,10 +53,16 @@ module contact_profile_surface
    contains
       !> Derivative of the height along u at a fixed lateral position
       procedure :: slope_along
+      !> Height of the visible point and its derivatives across and along
+      procedure :: at
+      !> The same section in axes that are moved and rolled
+      procedure :: seen_from
    end type surface_cut
 
    !> Distance of lines across the profile [mm]
    real(wp), parameter :: line_distance = 0.5_wp
+   !> Least dy/ds where slopes are asked for; vertical walls have none
+   real(wp), parameter :: vertical = 1.0e-6_wp
    !> What rounding may do to the ends of the range, of its length
    real(wp), parameter :: rounding = 1.0e-9_wp
    !> Slices that a spline along u needs
@@ -310,16 +316,52 @@ contains
       section%present = .true.
    end subroutine cut
 
-   !> dz/du at fixed y of the visible point, from the derivatives on the lines: z_u - z_s y_u / y_s
+   !> Height z of the visible point at y, dz/dy and dz/du
+   pure subroutine at(self, y, z, z_y, z_u, found)
+      class(surface_cut), intent(in) :: self
+      real(wp), intent(in) :: y
+      real(wp), intent(out) :: z, z_y, z_u
+      !> False where the section has no point with this y
+      logical, intent(out) :: found
+      real(wp) :: s, across
+
+      z = 0.0_wp
+      z_y = 0.0_wp
+      z_u = 0.0_wp
+      found = self%present
+      if (found) found = self%curve%has(y)
+      if (.not. found) return
+      s = self%curve%s_at(y)
+      z = self%curve%z%value(s)
+      across = self%curve%y%slope(s)
+      across = sign(max(abs(across), vertical), across)
+      z_y = self%curve%z%slope(s)/across
+      z_u = self%z_u%value(s) - z_y*self%y_u%value(s)
+   end subroutine at
+
+   !> As for curves: origin (y, z) and roll angle of the new axes in those of the section
+   function seen_from(self, origin, angle) result(section)
+      class(surface_cut), intent(in) :: self
+      !> [mm], [rad]
+      real(wp), intent(in) :: origin(2), angle
+      type(surface_cut) :: section
+
+      section%present = self%present
+      if (.not. self%present) return
+      section%curve = self%curve%seen_from(origin, angle)
+      section%y_u = self%y_u
+      section%z_u = self%z_u
+      section%y_u%c(:, :) = cos(angle)*self%y_u%c + sin(angle)*self%z_u%c
+      section%z_u%c(:, :) = cos(angle)*self%z_u%c - sin(angle)*self%y_u%c
+   end function seen_from
+
+   !> dz/du at fixed y of the visible point, from the derivatives on the lines: z_u - z_s y_u / y_s; 0 where there is none
    elemental real(wp) function slope_along(self, y) result(slope)
       class(surface_cut), intent(in) :: self
       real(wp), intent(in) :: y
-      real(wp) :: s, across
+      real(wp) :: z, z_y
+      logical :: found
 
-      s = self%curve%s_at(y)
-      across = self%curve%y%slope(s)
-      ! Vertical walls have no such slope; it is bounded there
-      across = sign(max(abs(across), 1.0e-6_wp), across)
-      slope = self%z_u%value(s) - self%curve%z%slope(s)*self%y_u%value(s)/across
+      call self%at(y, z, z_y, slope, found)
    end function slope_along
 end module contact_profile_surface

@@ -15,7 +15,7 @@ module contact_wheelrail_flat_patch
    implicit none (type, external)
    private
 
-   public :: patch_frame, patch_grid, undeformed_distance
+   public :: patch_frame, patch_grid, undeformed_distance, wheel_height
 
    !> Distance where rail or wheel is missing [mm]
    real(wp), parameter :: nothing_there = 999.0_wp

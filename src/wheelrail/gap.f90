@@ -24,6 +24,9 @@ module contact_wheelrail_gap
       real(wp), allocatable :: z(:), alpha(:)
       !> 1/(2 r): curvature of wheel and roller along the track [1/mm]
       real(wp) :: kappa = 0.0_wp
+      !> Gap over an even mesh along the track as well, shape (x_table, y), when a body varies along it;
+      !> unallocated otherwise
+      real(wp), allocatable :: x_table(:), table(:, :)
    end type gap_curve
 
    !> Gap where rail or wheel is missing [mm]
@@ -120,6 +123,7 @@ contains
       real(wp) :: range(2), s, point(3)
       integer :: i, cell
 
+      if (allocated(gap%table)) deallocate(gap%table, gap%x_table)
       call trim_wheel(wheel, placement, places, lateral)
       range = rail%y_range()
       gap%dy = mesh_share*ds

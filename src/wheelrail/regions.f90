@@ -143,7 +143,7 @@ contains
       integer, intent(in) :: first, last
       integer, intent(in) :: weight_power
       type(contact_region), intent(out) :: region
-      real(wp) :: c, t, w, total, x_low, x_high
+      real(wp) :: w, x, total, extent(2), x_low, x_high
       integer :: i
 
       region%touches = .true.
@@ -151,20 +151,18 @@ contains
       x_low = huge(x_low)
       x_high = -huge(x_high)
       do i = first, last
-         c = -g(i)
-         t = sqrt(c/gap%kappa)
-         if (weight_power == 1) then
-            w = 4.0_wp/3.0_wp*c*t
+         if (allocated(gap%table)) then
+            call weigh_table(gap%x_table, gap%table(:, i) + (g(i) - gap%gap(i)), gap%x(i), weight_power, w, x, extent)
          else
-            w = 16.0_wp/15.0_wp*c**2*t
+            call weigh_parabola(gap, i, -g(i), weight_power, w, x, extent)
          end if
          w = max(least_weight, w)
          total = total + w
-         region%x = region%x + w*gap%x(i)
+         region%x = region%x + w*x
          region%y = region%y + w*gap%y(i)
          region%alpha = region%alpha + w*gap%alpha(i)
-         x_low = min(x_low, gap%x(i) - t)
-         x_high = max(x_high, gap%x(i) + t)
+         x_low = min(x_low, extent(1))
+         x_high = max(x_high, extent(2))
       end do
       region%x = region%x/total
       region%y = region%y/total
@@ -182,6 +180,67 @@ contains
       allocate(region%part(1), source=region%box)
       allocate(region%interaction(1, 1), source=1.0_wp)
    end subroutine describe
+
+   !> Weight of the interpenetration along the track at one lateral position, round wheel: c - kappa (x - x_locus)**2
+   pure subroutine weigh_parabola(gap, i, c, power, weight, x, extent)
+      type(gap_curve), intent(in) :: gap
+      integer, intent(in) :: i
+      !> Largest interpenetration [mm]
+      real(wp), intent(in) :: c
+      !> Power of the interpenetration that is integrated, 1 or 2
+      integer, intent(in) :: power
+      real(wp), intent(out) :: weight
+      !> Its centre, and where it begins and ends [mm]
+      real(wp), intent(out) :: x, extent(2)
+      real(wp) :: t
+
+      t = sqrt(c/gap%kappa)
+      if (power == 1) then
+         weight = 4.0_wp/3.0_wp*c*t
+      else
+         weight = 16.0_wp/15.0_wp*c**2*t
+      end if
+      x = gap%x(i)
+      extent = x + [-t, t]
+   end subroutine weigh_parabola
+
+   !> The same from a table of gaps along the track, by its sum; ends between points on straight lines
+   pure subroutine weigh_table(places, g, locus, power, weight, x, extent)
+      real(wp), intent(in) :: places(:), g(:)
+      !> Place of the smallest gap [mm], for a stretch too short for the table
+      real(wp), intent(in) :: locus
+      integer, intent(in) :: power
+      real(wp), intent(out) :: weight, x, extent(2)
+      real(wp) :: depth, moment, step
+      integer :: i
+
+      weight = 0.0_wp
+      moment = 0.0_wp
+      x = locus
+      extent = locus
+      step = places(2) - places(1)
+      do i = 1, size(g)
+         if (.not. g(i) < 0.0_wp) cycle
+         depth = abs(g(i))**power
+         weight = weight + depth*step
+         moment = moment + depth*(places(i) - locus)*step
+         extent(1) = min(extent(1), end_of_stretch(i, i - 1))
+         extent(2) = max(extent(2), end_of_stretch(i, i + 1))
+      end do
+      if (weight > 0.0_wp) x = locus + moment/weight
+
+   contains
+
+      !> Where the gap vanishes between a point inside and its neighbour
+      pure real(wp) function end_of_stretch(inside, outside) result(place)
+         integer, intent(in) :: inside, outside
+
+         place = places(inside)
+         if (outside < 1 .or. outside > size(g)) return
+         if (g(outside) < 0.0_wp .or. g(outside) > far_away) return
+         place = place + (places(outside) - place)*g(inside)/(g(inside) - g(outside))
+      end function end_of_stretch
+   end subroutine weigh_table
 
    !> Lateral position where the gap vanishes between a point inside and its neighbour outside
    pure real(wp) function zero_crossing(gap, g, inside, outside) result(y)

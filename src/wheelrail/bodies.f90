@@ -1,0 +1,192 @@
+!> The surfaces of a pair where one of them varies: a rail along the track, a wheel around its axle
+!>
+!> Sections of the variable profile on an even mesh along the track (rail) or around the axle (wheel) are made
+!> once per case, with their derivatives along the mesh; between two sections heights are cubic (Hermite).
+!> Bodies that do not vary are evaluated from their profile.
+module contact_wheelrail_bodies
+   use contact_base_constants, only : pi
+   use contact_base_kinds, only : wp
+   use contact_profile_curve, only : profile_curve
+   use contact_profile_surface, only : profile_surface, surface_cut
+   use contact_wheelrail_flat_patch, only : wheel_height
+   use contact_wheelrail_frame, only : frame
+   use contact_wheelrail_placement, only : pair_placement
+   implicit none (type, external)
+   private
+
+   public :: pair_bodies, strip, place_bodies, find_rail, find_wheel
+
+   !> Sections on an even mesh
+   type :: strip
+      !> Place of the first section and distance of sections: x in the track [mm], or angle from the bottom [rad]
+      real(wp) :: first = 0.0_wp, step = 1.0_wp
+      type(surface_cut), allocatable :: sections(:)
+   contains
+      procedure :: at => strip_at
+   end type strip
+
+   !> Both surfaces in their present places
+   type :: pair_bodies
+      !> The rail in track coordinates, the wheel in its own
+      type(profile_curve) :: rail, wheel
+      type(pair_placement) :: placement
+      !> Sections of a variable rail in track coordinates; unallocated when it is prismatic
+      type(strip), allocatable :: rail_strip
+      !> Sections of a wheel that is out of round, in its own coordinates, by the angle from its bottom
+      type(strip), allocatable :: wheel_strip
+   end type pair_bodies
+
+   !> Distance of sections along the surface [mm]
+   real(wp), parameter :: section_distance = 1.0_wp
+   !> How far sections reach to both sides, of the wheel's radius
+   real(wp), parameter :: reach = 0.16_wp
+
+contains
+
+   !> Make the sections for a case. `bodies%rail`, `bodies%wheel` and `bodies%placement` are there already
+   subroutine place_bodies(bodies, s_ws, pitch, rail_surface, wheel_surface)
+      type(pair_bodies), intent(inout) :: bodies
+      !> Position of the wheelset along the track [mm]; pitch angle of the wheel [rad]
+      real(wp), intent(in) :: s_ws, pitch
+      !> Allocated for bodies that vary
+      type(profile_surface), intent(in), allocatable :: rail_surface, wheel_surface
+      type(surface_cut) :: section
+      real(wp) :: half, angle, origin(2)
+      integer :: n, k
+
+      if (allocated(bodies%rail_strip)) deallocate(bodies%rail_strip)
+      if (allocated(bodies%wheel_strip)) deallocate(bodies%wheel_strip)
+      half = reach*bodies%placement%wheel_radius
+      n = ceiling(half/section_distance)
+      if (allocated(rail_surface)) then
+         allocate(bodies%rail_strip)
+         bodies%rail_strip%first = bodies%placement%wheel%origin(1) - n*section_distance
+         bodies%rail_strip%step = section_distance
+         allocate(bodies%rail_strip%sections(2*n + 1))
+         ! The origin of the track in rail coordinates
+         angle = bodies%placement%rail%roll()
+         associate (o => bodies%placement%rail%origin)
+            origin = [-cos(angle)*o(2) - sin(angle)*o(3), sin(angle)*o(2) - cos(angle)*o(3)]
+         end associate
+         do k = 1, 2*n + 1
+            call rail_surface%cut(s_ws + bodies%rail_strip%first + (k - 1)*section_distance, section)
+            bodies%rail_strip%sections(k) = section%seen_from(origin, -angle)
+         end do
+      end if
+      if (allocated(wheel_surface)) then
+         allocate(bodies%wheel_strip)
+         bodies%wheel_strip%step = section_distance/bodies%placement%wheel_radius
+         bodies%wheel_strip%first = -n*bodies%wheel_strip%step
+         allocate(bodies%wheel_strip%sections(2*n + 1))
+         do k = 1, 2*n + 1
+            ! With positive pitch the bottom shows what was in front of it, at a negative angle
+            call wheel_surface%cut(bodies%wheel_strip%first + (k - 1)*bodies%wheel_strip%step - pitch, &
+               & bodies%wheel_strip%sections(k))
+         end do
+      end if
+   end subroutine place_bodies
+
+   !> Height and slope across at a place between two sections
+   pure subroutine strip_at(self, place, y, z, z_y, found)
+      class(strip), intent(in) :: self
+      !> Along the mesh, and lateral position [mm]
+      real(wp), intent(in) :: place, y
+      real(wp), intent(out) :: z, z_y
+      !> Do both sections have this point?
+      logical, intent(out) :: found
+      real(wp) :: t, low, low_y, low_u, high, high_y, high_u
+      integer :: k
+
+      z = 0.0_wp
+      z_y = 0.0_wp
+      k = floor((place - self%first)/self%step) + 1
+      found = k >= 1 .and. k < size(self%sections)
+      if (.not. found) return
+      t = (place - self%first)/self%step - (k - 1)
+      call self%sections(k)%at(y, low, low_y, low_u, found)
+      if (.not. found) return
+      if (t <= 0.0_wp) then
+         z = low
+         z_y = low_y
+         return
+      end if
+      call self%sections(k + 1)%at(y, high, high_y, high_u, found)
+      if (.not. found) return
+      z = low*(1.0_wp + 2.0_wp*t)*(1.0_wp - t)**2 + high*t**2*(3.0_wp - 2.0_wp*t) &
+         & + self%step*t*(1.0_wp - t)*(low_u*(1.0_wp - t) - high_u*t)
+      z_y = (1.0_wp - t)*low_y + t*high_y
+   end subroutine strip_at
+
+   !> Height n of the rail over a point (x, s) of a plane; of the track itself when the plane is the default frame
+   !>
+   !> On the line along n the surface is found by Newton's method, with the slope across the rail.
+   pure subroutine find_rail(bodies, plane, x, s, n, found)
+      type(pair_bodies), intent(in) :: bodies
+      !> In track coordinates
+      type(frame), intent(in) :: plane
+      real(wp), intent(in) :: x, s
+      !> Estimate on entry, solution on exit [mm]
+      real(wp), intent(inout) :: n
+      logical, intent(out) :: found
+      real(wp) :: point(3), z, z_y, correction, rho
+      integer :: step
+      real(wp), parameter :: tolerance = 1.0e-10_wp
+
+      do step = 1, 30
+         point = plane%to_parent([x, s, n])
+         if (allocated(bodies%rail_strip)) then
+            call bodies%rail_strip%at(point(1), point(2), z, z_y, found)
+         else
+            found = bodies%rail%has(point(2))
+            if (found) then
+               z = bodies%rail%height(point(2))
+               z_y = tan(bodies%rail%inclination(bodies%rail%s_at(point(2))))
+            end if
+         end if
+         if (.not. found) return
+         if (bodies%placement%roller_radius > 0.0_wp) then
+            rho = bodies%placement%roller_radius - z
+            found = abs(point(1)) < rho
+            if (.not. found) return
+            z = bodies%placement%roller_radius - sqrt(rho**2 - point(1)**2)
+         end if
+         correction = (z - point(3))/(plane%axes(3, 3) - z_y*plane%axes(2, 3))
+         n = n + correction
+         if (abs(correction) <= tolerance) return
+      end do
+      found = .false.
+   end subroutine find_rail
+
+   !> Height n of the wheel over a point (x, s) of a plane
+   pure subroutine find_wheel(bodies, seen, x, s, place, n, found)
+      type(pair_bodies), intent(in) :: bodies
+      !> The plane seen from the wheel
+      type(frame), intent(in) :: seen
+      real(wp), intent(in) :: x, s
+      !> Place on the profile of a round wheel, and height [mm]: estimates on entry, solution on exit
+      real(wp), intent(inout) :: place, n
+      logical, intent(out) :: found
+      real(wp) :: q(3), k(3), rho, z, z_y, correction
+      integer :: step
+      real(wp), parameter :: tolerance = 1.0e-10_wp
+
+      associate (radius => bodies%placement%wheel_radius)
+         if (.not. allocated(bodies%wheel_strip)) then
+            call wheel_height(bodies%wheel, radius, seen, x, s, place, n, found)
+            return
+         end if
+         k = seen%axes(:, 3)
+         do step = 1, 30
+            q = seen%to_parent([x, s, n])
+            rho = hypot(q(1), q(3) + radius)
+            call bodies%wheel_strip%at(atan2(q(1), q(3) + radius), q(2), z, z_y, found)
+            if (.not. found) return
+            ! radius + z - rho = 0; the slope around the wheel hardly matters for a step along n
+            correction = (radius + z - rho)/((k(1)*q(1) + k(3)*(q(3) + radius))/rho - z_y*k(2))
+            n = n + correction
+            if (abs(correction) <= tolerance) return
+         end do
+         found = .false.
+      end associate
+   end subroutine find_wheel
+end module contact_wheelrail_bodies

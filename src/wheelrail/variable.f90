@@ -1,0 +1,231 @@
+!> Contact search and undeformed distance for a rail that varies along the track or a wheel that is out of round
+!>
+!> The gap is a function of two coordinates. At each lateral position its smallest value along the track, and the
+!> place where it is, take the part of the contact locus; what remains of the search is the same. The
+!> table of gaps also tells how far regions extend along the track.
+module contact_wheelrail_variable
+   use contact_base_kinds, only : wp
+   use contact_grid_potential_contact, only : potential_contact
+   use contact_wheelrail_bodies, only : find_rail, find_wheel, pair_bodies
+   use contact_wheelrail_frame, only : frame
+   use contact_wheelrail_gap, only : gap_curve, no_surface
+   implicit none (type, external)
+   private
+
+   public :: measure_variable_gap, variable_distance
+
+   !> Coarse mesh: distance along the track [mm], and lateral one in fine steps
+   real(wp), parameter :: coarse_x = 4.0_wp
+   integer, parameter :: coarse_y = 8
+   !> Fine mesh along the track [mm]
+   real(wp), parameter :: fine_x = 0.5_wp
+   !> Gaps are found on the fine mesh where the coarse one is within this of the smallest [mm]
+   real(wp), parameter :: margin = 2.0_wp
+   !> Lateral mesh relative to the elements, and search along the track to both sides, of the radius
+   real(wp), parameter :: mesh_share = 0.3_wp, reach = 0.125_wp
+   !> Distance where a surface is missing [mm]
+   real(wp), parameter :: nothing_there = 999.0_wp
+
+contains
+
+   !> Gap table and, for each lateral position, its smallest value
+   subroutine measure_variable_gap(bodies, ds, gap)
+      type(pair_bodies), intent(in) :: bodies
+      !> Lateral size of the elements [mm]
+      real(wp), intent(in) :: ds
+      type(gap_curve), intent(inout) :: gap
+      real(wp), allocatable :: coarse(:, :), xc(:), yc(:)
+      real(wp) :: range(2), limit
+      integer :: nx, nxc, nyc, i, j, ic, jc, ratio
+
+      range = lateral_range(bodies)
+      gap%dy = mesh_share*ds
+      gap%n = ceiling((range(2) - range(1))/gap%dy) + 1
+      gap%y = [(range(1) + (j - 1)*gap%dy, j=1, gap%n)]
+      gap%x = 0.0_wp*gap%y
+      gap%gap = no_surface + 0.0_wp*gap%y
+      gap%z = 0.0_wp*gap%y
+      gap%alpha = 0.0_wp*gap%y
+      gap%kappa = 0.5_wp/bodies%placement%wheel_radius
+
+      nxc = 2*ceiling(reach*bodies%placement%wheel_radius/coarse_x) + 1
+      nyc = (gap%n - 1 + coarse_y - 1)/coarse_y + 1
+      xc = bodies%placement%wheel%origin(1) + [(coarse_x*(i - (nxc + 1)/2), i=1, nxc)]
+      yc = gap%y(1) + [(gap%dy*coarse_y*(j - 1), j=1, nyc)]
+      allocate(coarse(nxc, nyc))
+      call fill(bodies, xc, yc, coarse)
+      limit = minval(coarse) + margin
+
+      ratio = nint(coarse_x/fine_x)
+      nx = (nxc - 1)*ratio + 1
+      gap%x_table = xc(1) + [(fine_x*(i - 1), i=1, nx)]
+      if (allocated(gap%table)) deallocate(gap%table)
+      allocate(gap%table(nx, gap%n), source=no_surface)
+      if (limit > no_surface) return
+      do jc = 1, nyc - 1
+         do ic = 1, nxc - 1
+            if (minval(coarse(ic:ic + 1, jc:jc + 1)) > limit) cycle
+            i = (ic - 1)*ratio + 1
+            j = (jc - 1)*coarse_y + 1
+            call fill(bodies, gap%x_table(i:i + ratio), gap%y(j:min(j + coarse_y, gap%n)), &
+               & gap%table(i:i + ratio, j:min(j + coarse_y, gap%n)))
+         end do
+      end do
+      do j = 1, gap%n
+         call smallest_along(bodies, j, gap)
+      end do
+   end subroutine measure_variable_gap
+
+   !> Lateral range of all sections of the rail
+   pure function lateral_range(bodies) result(range)
+      type(pair_bodies), intent(in) :: bodies
+      real(wp) :: range(2), one(2)
+      integer :: k
+
+      if (.not. allocated(bodies%rail_strip)) then
+         range = bodies%rail%y_range()
+         return
+      end if
+      range = [huge(1.0_wp), -huge(1.0_wp)]
+      do k = 1, size(bodies%rail_strip%sections)
+         if (.not. bodies%rail_strip%sections(k)%present) cycle
+         one = bodies%rail_strip%sections(k)%curve%y_range()
+         range = [min(range(1), one(1)), max(range(2), one(2))]
+      end do
+      if (range(1) > range(2)) range = 0.0_wp
+   end function lateral_range
+
+   !> Vertical gap on a mesh
+   pure subroutine fill(bodies, x, y, table)
+      type(pair_bodies), intent(in) :: bodies
+      real(wp), intent(in) :: x(:), y(:)
+      !> Shape (x, y)
+      real(wp), intent(out) :: table(:, :)
+      type(frame) :: track, seen
+      real(wp) :: place, start, rail, wheel
+      logical :: found
+      integer :: i, j
+
+      seen = bodies%placement%wheel%seen_from_here(track)
+      rail = 0.0_wp
+      wheel = 0.0_wp
+      do j = 1, size(y)
+         start = bodies%wheel%s_at(y(j) - bodies%placement%wheel%origin(2))
+         place = start
+         do i = 1, size(x)
+            table(i, j) = no_surface
+            call find_rail(bodies, track, x(i), y(j), rail, found)
+            if (.not. found) cycle
+            call find_wheel(bodies, seen, x(i), y(j), place, wheel, found)
+            if (.not. found) then
+               place = start
+               wheel = 0.0_wp
+               cycle
+            end if
+            table(i, j) = rail - wheel
+         end do
+      end do
+   end subroutine fill
+
+   !> Place and value of the smallest gap along the track, by a parabola; the rail there
+   !>
+   !> The inclination is that of the rail's section at the wheelset, not at the place of the smallest gap: the
+   !> established program does so, and published results depend on it where a rail changes quickly (0.025 rad for
+   !> a wing rail that moves sideways 1:10).
+   pure subroutine smallest_along(bodies, j, gap)
+      type(pair_bodies), intent(in) :: bodies
+      integer, intent(in) :: j
+      type(gap_curve), intent(inout) :: gap
+      type(frame) :: track
+      real(wp) :: bend, shift
+      logical :: found
+      integer :: i
+
+      i = minloc(gap%table(:, j), 1)
+      gap%gap(j) = gap%table(i, j)
+      gap%x(j) = gap%x_table(i)
+      if (gap%gap(j) >= no_surface) return
+      if (i > 1 .and. i < size(gap%x_table)) then
+         if (max(gap%table(i - 1, j), gap%table(i + 1, j)) < no_surface) then
+            bend = gap%table(i - 1, j) - 2.0_wp*gap%table(i, j) + gap%table(i + 1, j)
+            shift = 0.0_wp
+            if (bend > 0.0_wp) shift = 0.5_wp*(gap%table(i - 1, j) - gap%table(i + 1, j))/bend
+            gap%x(j) = gap%x(j) + shift*fine_x
+            gap%gap(j) = gap%gap(j) - 0.5_wp*bend*shift**2
+         end if
+      end if
+      call find_rail(bodies, track, gap%x(j), gap%y(j), gap%z(j), found)
+      if (.not. found) return
+      call find_inclination(bodies, bodies%placement%wheel%origin(1), gap%y(j), gap%dy, gap%alpha(j), found)
+      if (.not. found) call find_inclination(bodies, gap%x(j), gap%y(j), gap%dy, gap%alpha(j), found)
+   end subroutine smallest_along
+
+   !> Inclination of the rail across the track [rad], by a difference; one-sided at ends
+   pure subroutine find_inclination(bodies, x, y, dy, alpha, found)
+      type(pair_bodies), intent(in) :: bodies
+      !> Place in the track and distance of the two points [mm]
+      real(wp), intent(in) :: x, y, dy
+      !> Unchanged where there is no surface
+      real(wp), intent(inout) :: alpha
+      !> Is there any surface?
+      logical, intent(out) :: found
+      type(frame) :: track
+      real(wp) :: height(3)
+      logical :: there(3)
+      integer :: k, low, high
+
+      height = 0.0_wp
+      do k = 1, 3
+         call find_rail(bodies, track, x, y + 0.5_wp*(k - 2)*dy, height(k), there(k))
+      end do
+      low = findloc(there, .true., 1)
+      high = findloc(there, .true., 1, back=.true.)
+      found = high > low
+      if (found) alpha = atan((height(high) - height(low))/(0.5_wp*(high - low)*dy))
+   end subroutine find_inclination
+
+   !> Distance of the undeformed bodies over a plane [mm], shifted so that its minimum is zero, and the approach
+   subroutine variable_distance(bodies, plane, grid, h, approach)
+      type(pair_bodies), intent(in) :: bodies
+      type(frame), intent(in) :: plane
+      type(potential_contact), intent(in) :: grid
+      !> Shape (mx, my)
+      real(wp), allocatable, intent(inout) :: h(:, :)
+      !> Largest interpenetration along n [mm]; negative when the bodies do not touch
+      real(wp), intent(out) :: approach
+      type(frame) :: seen
+      real(wp) :: s, n_rail, n_wheel, place, start
+      logical :: found
+      integer :: ix, iy
+
+      if (allocated(h)) then
+         if (any(shape(h) /= [grid%mx, grid%my])) deallocate(h)
+      end if
+      if (.not. allocated(h)) allocate(h(grid%mx, grid%my))
+      seen = bodies%placement%wheel%seen_from_here(plane)
+      start = bodies%wheel%s_at(seen%origin(2))
+      do iy = 1, grid%my
+         s = grid%y(iy)
+         place = start
+         n_rail = 0.0_wp
+         n_wheel = 0.0_wp
+         do ix = 1, grid%mx
+            h(ix, iy) = nothing_there
+            call find_rail(bodies, plane, grid%x(ix), s, n_rail, found)
+            if (.not. found) then
+               n_rail = 0.0_wp
+               cycle
+            end if
+            call find_wheel(bodies, seen, grid%x(ix), s, place, n_wheel, found)
+            if (.not. found) then
+               place = start
+               n_wheel = 0.0_wp
+               cycle
+            end if
+            h(ix, iy) = n_rail - n_wheel
+         end do
+      end do
+      approach = -minval(h)
+      h = h + approach
+   end subroutine variable_distance
+end module contact_wheelrail_variable

@@ -1,0 +1,379 @@
+!> Rails that vary along the track, wheels that are out of round: gap, patches, undeformed distance
+!>
+!> A prismatic rail and a round wheel written as slices give what the profiles themselves give; a tilted plane
+!> and a wheel with a wave have known gaps.
+program test_variable
+   use contact_base_error, only : error_type, full_text
+   use contact_base_kinds, only : wp
+   use contact_base_log, only : log_type
+   use contact_grid_potential_contact, only : potential_contact
+   use contact_profile_request, only : profile_request, profile_side
+   use contact_profile_store, only : load_profile, prepared_profile
+   use contact_test_harness, only : environment, reference_folder, test_suite
+   use contact_wheelrail_bodies, only : find_rail, pair_bodies, place_bodies
+   use contact_wheelrail_flat_patch, only : patch_frame, patch_grid, undeformed_distance
+   use contact_wheelrail_frame, only : frame
+   use contact_wheelrail_gap, only : gap_curve, measure_gap, rail_in_track
+   use contact_wheelrail_placement, only : place_pair
+   use contact_wheelrail_regions, only : contact_region, find_regions, smallest_gap
+   use contact_wheelrail_spec, only : wheel_rail_spec
+   use contact_wheelrail_variable, only : measure_variable_gap, variable_distance
+   implicit none (type, external)
+   character(len=*), parameter :: nl = new_line("a")
+   type(test_suite) :: suite
+   type(prepared_profile) :: rail, wheel, rail_slices, wheel_slices
+   logical :: ready
+
+   call suite%start("variable")
+   call prepare(suite)
+   if (ready) call same_as_profiles(suite)
+   if (ready) call ramp(suite)
+   if (ready) call wave(suite)
+   call published(suite)
+   call suite%finish()
+
+contains
+
+   subroutine write_file(name, text)
+      character(len=*), intent(in) :: name, text
+      integer :: unit
+
+      open(newunit=unit, file=name, access="stream", form="unformatted", status="replace")
+      write(unit) text
+      close(unit)
+   end subroutine write_file
+
+   !> A slices file; the same profile file in all slices
+   function same_slices(file, first, step, n) result(text)
+      character(len=*), intent(in) :: file
+      real(wp), intent(in) :: first, step
+      integer, intent(in) :: n
+      character(len=:), allocatable :: text
+      character(len=30) :: number
+      integer :: i
+
+      write(number, '(i0)') n
+      text = "0 1 U_OFFSET" // nl // trim(number) // nl // "0 0 0" // nl // "1" // nl
+      do i = 1, n
+         write(number, '(f20.12)') first + (i - 1)*step
+         text = text // number // " '" // file // "'" // nl
+      end do
+   end function same_slices
+
+   subroutine load(suite, file, side, profile, scale, mirror_z)
+      type(test_suite), intent(inout) :: suite
+      character(len=*), intent(in) :: file
+      integer, intent(in) :: side
+      type(prepared_profile), intent(out) :: profile
+      real(wp), intent(in), optional :: scale
+      integer, intent(in), optional :: mirror_z
+      type(profile_request) :: request
+      type(error_type), allocatable :: error
+      type(log_type) :: log
+
+      request%file = file
+      if (present(scale)) request%scale = scale
+      if (present(mirror_z)) request%mirror_z = mirror_z
+      request%side = side
+      call load_profile(request, profile, log, error)
+      if (.not. allocated(error)) return
+      call suite%check(.false., full_text(error))
+      ready = .false.
+   end subroutine load
+
+   subroutine prepare(suite)
+      type(test_suite), intent(inout) :: suite
+      character(len=:), allocatable :: folder
+
+      ready = .true.
+      folder = environment("CONTACT_SOURCE") // "/examples/profiles/"
+      call load(suite, folder // "60E1.prr", profile_side%rail, rail)
+      call load(suite, folder // "S1002.prw", profile_side%wheel, wheel)
+      call write_file("rail.slcs", same_slices(folder // "60E1.prr", -200.0_wp, 80.0_wp, 6))
+      call load(suite, "rail.slcs", profile_side%rail, rail_slices)
+      call write_file("wheel.slcw", same_slices(folder // "S1002.prw", -0.5_wp, 0.2_wp, 6))
+      call load(suite, "wheel.slcw", profile_side%wheel, wheel_slices)
+   end subroutine prepare
+
+   !> A wheelset with lateral position and yaw on a rail placed absolutely
+   function pair_at(y, yaw) result(pair)
+      real(wp), intent(in) :: y, yaw
+      type(wheel_rail_spec) :: pair
+
+      pair%track%gaught = -1.0_wp
+      pair%track%raily0 = 755.0_wp
+      pair%track%cant = 0.025_wp
+      pair%wheelset%y = y
+      pair%wheelset%yaw = yaw
+      pair%search%dx = 0.5_wp
+      pair%search%ds = 0.5_wp
+   end function pair_at
+
+   !> Tread and flange contact of S1002 on 60E1: both descriptions agree
+   subroutine same_as_profiles(suite)
+      type(test_suite), intent(inout) :: suite
+      real(wp), parameter :: y(3) = [0.0_wp, 3.0_wp, 6.5_wp], yaw(3) = [0.0_wp, 0.007_wp, 0.0156_wp]
+      type(wheel_rail_spec) :: pair
+      integer :: k
+
+      do k = 1, 3
+         pair = pair_at(y(k), yaw(k))
+         call compare(suite, pair, "rail of slices", with_rail=.true., with_wheel=.false.)
+         call compare(suite, pair, "wheel of slices", with_rail=.false., with_wheel=.true.)
+         call compare(suite, pair, "both of slices", with_rail=.true., with_wheel=.true.)
+      end do
+   end subroutine same_as_profiles
+
+   subroutine compare(suite, pair, what, with_rail, with_wheel)
+      type(test_suite), intent(inout) :: suite
+      type(wheel_rail_spec), intent(in) :: pair
+      character(len=*), intent(in) :: what
+      logical, intent(in) :: with_rail, with_wheel
+      type(pair_bodies) :: bodies
+      type(gap_curve) :: one, two
+      type(contact_region), allocatable :: first(:), second(:), misses(:)
+      type(frame) :: plane
+      type(potential_contact) :: grid
+      real(wp), allocatable :: h(:, :), same(:, :)
+      real(wp) :: z, pen, same_pen
+
+      call place_pair(pair, wheel%curve, 0.0_wp, 0.0_wp, 0.0_wp, [0.0_wp, 0.0_wp], bodies%placement)
+      bodies%rail = rail_in_track(rail%curve, bodies%placement)
+      bodies%wheel = wheel%curve
+      call measure_gap(bodies%rail, bodies%wheel, bodies%placement, pair%search%ds, one)
+      call put_sections(bodies, pair, with_rail, with_wheel)
+      call measure_variable_gap(bodies, pair%search%ds, two)
+      call suite%close_to(smallest_gap(two), smallest_gap(one), 2.0e-5_wp, what // ": smallest gap")
+
+      z = smallest_gap(one) + 0.05_wp
+      call find_regions(one, z, pair%search, 2, first, misses)
+      call find_regions(two, z, pair%search, 2, second, misses)
+      call suite%equal(size(second), size(first), what // ": number of patches")
+      if (size(second) /= 1 .or. size(first) /= 1) return
+      call suite%close_to([second%x, second%y], [first%x, first%y], 1.0e-2_wp, what // ": place of the patch")
+      call suite%close_to(second%alpha, first%alpha, 1.0e-3_wp, what // ": its angle")
+      call suite%close_to(second(1)%box%x, first(1)%box%x, 0.3_wp, what // ": its length")
+      call suite%close_to(second(1)%box%y, first(1)%box%y, 0.1_wp, what // ": its width")
+      call suite%close_to(second%weight/first%weight, [1.0_wp], 2.0e-2_wp, what // ": its weight")
+
+      call place_pair(pair, wheel%curve, 0.0_wp, 0.0_wp, z, [0.0_wp, 0.0_wp], bodies%placement)
+      plane = patch_frame(bodies%rail, bodies%placement, first(1))
+      call patch_grid(bodies%rail, pair%search, first(1), plane, 20000, grid)
+      call undeformed_distance(bodies%rail, bodies%wheel, bodies%placement, plane, grid, h, pen)
+      call variable_distance(bodies, plane, grid, same, same_pen)
+      call suite%close_to(same_pen, pen, 2.0e-5_wp, what // ": approach")
+      ! Slices are sampled every 0.5 mm, which shows at the jumps of curvature between arcs
+      call suite%close_to(pack(same - h, h < 2.0_wp*pen), 0.0_wp*pack(h, h < 2.0_wp*pen), 1.0e-4_wp, &
+         & what // ": undeformed distance")
+   end subroutine compare
+
+   subroutine put_sections(bodies, pair, with_rail, with_wheel)
+      type(pair_bodies), intent(inout) :: bodies
+      type(wheel_rail_spec), intent(in) :: pair
+      logical, intent(in) :: with_rail, with_wheel
+
+      if (with_rail .and. with_wheel) then
+         call place_bodies(bodies, pair%wheelset%s, pair%wheelset%pitch, rail_slices%surface, wheel_slices%surface)
+      else if (with_rail) then
+         call place_bodies(bodies, pair%wheelset%s, pair%wheelset%pitch, rail_slices%surface, wheel%surface)
+      else
+         call place_bodies(bodies, pair%wheelset%s, pair%wheelset%pitch, rail%surface, wheel_slices%surface)
+      end if
+   end subroutine put_sections
+
+   !> A plane that rises 1:10 along the track, and a cylinder: contact behind the middle where slopes agree
+   subroutine ramp(suite)
+      type(test_suite), intent(inout) :: suite
+      type(prepared_profile) :: plane, cylinder
+      type(wheel_rail_spec) :: pair
+      type(pair_bodies) :: bodies
+      type(gap_curve) :: gap
+      type(contact_region), allocatable :: regions(:), misses(:)
+      character(len=:), allocatable :: text
+      character(len=1) :: k
+      real(wp) :: angle, exact
+      integer :: i, j
+
+      text = "0 1" // nl // "5" // nl // "0 0 0" // nl // "1" // nl
+      do i = 1, 5
+         write(k, '(i0)') i
+         text = text // "  " // trim(number(100.0_wp*(i - 3))) // " 'plane" // k // ".txt'" // nl
+         call write_file("plane" // k // ".txt", plane_table(-10.0_wp*(i - 3)))
+      end do
+      call write_file("plane.slcs", text)
+      text = ""
+      do j = -40, 40
+         text = text // trim(number(-real(j, wp))) // " 0" // nl
+      end do
+      call write_file("cylinder.txt", text)
+      call load(suite, "plane.slcs", profile_side%rail, plane)
+      call load(suite, "cylinder.txt", profile_side%wheel, cylinder)
+      if (.not. ready) return
+
+      pair = pair_at(0.0_wp, 0.0_wp)
+      pair%track%cant = 0.0_wp
+      pair%track%raily0 = 750.0_wp
+      call place_pair(pair, cylinder%curve, 0.0_wp, 0.0_wp, 0.0_wp, [0.0_wp, 0.0_wp], bodies%placement)
+      bodies%rail = rail_in_track(plane%curve, bodies%placement)
+      bodies%wheel = cylinder%curve
+      call place_bodies(bodies, 37.0_wp, 0.0_wp, plane%surface, cylinder%surface)
+      call measure_variable_gap(bodies, 0.5_wp, gap)
+      ! On the slope z = -(37 + x)/10: nearest where the circle has it, too
+      angle = atan(0.1_wp)
+      exact = -3.7_wp - (460.0_wp/cos(angle) - 460.0_wp)
+      call suite%close_to(smallest_gap(gap), exact, 1.0e-6_wp, "gap over a ramp")
+      i = gap%n/2
+      call suite%close_to(gap%x(i), 460.0_wp*sin(angle), 1.0e-3_wp, "where it is smallest")
+      call find_regions(gap, smallest_gap(gap) + 0.1_wp, pair%search, 2, regions, misses)
+      call suite%equal(size(regions), 1, "one patch on the ramp")
+      if (size(regions) /= 1) return
+      call suite%close_to(regions(1)%x, 460.0_wp*sin(angle), 1.0e-2_wp, "its place along the track")
+      call suite%close_to(regions(1)%y, 750.0_wp, 0.6_wp, "its lateral place")
+   end subroutine ramp
+
+   function number(value) result(text)
+      real(wp), intent(in) :: value
+      character(len=24) :: text
+
+      write(text, '(f18.10)') value
+   end function number
+
+   !> A flat profile at a height, 80 mm wide
+   function plane_table(z) result(text)
+      real(wp), intent(in) :: z
+      character(len=:), allocatable :: text
+      integer :: j
+
+      text = ""
+      do j = -40, 40
+         text = text // number(real(j, wp)) // " " // number(z) // nl
+      end do
+   end function plane_table
+
+   !> A wheel with a flat spot, turned by the pitch: symmetric in the angle, deepest gap at the spot
+   subroutine wave(suite)
+      type(test_suite), intent(inout) :: suite
+      type(prepared_profile) :: plane, spot
+      type(wheel_rail_spec) :: pair
+      type(pair_bodies) :: bodies
+      type(gap_curve) :: gap(3)
+      character(len=:), allocatable :: text, points
+      character(len=2) :: k
+      real(wp) :: theta, dr
+      real(wp), parameter :: pitch(3) = [0.0_wp, 0.03_wp, -0.03_wp]
+      integer :: i, j
+
+      call write_file("flat.txt", plane_table(0.0_wp))
+      call load(suite, "flat.txt", profile_side%rail, plane)
+      text = "0 1" // nl // "41" // nl // "0 0 0" // nl // "1" // nl
+      do i = 1, 41
+         write(k, '(i0)') i
+         theta = 0.01_wp*(i - 21)
+         dr = -0.4_wp*exp(-(theta/0.05_wp)**2)
+         points = ""
+         do j = -40, 40
+            points = points // number(-real(j, wp)) // " " // number(dr) // nl
+         end do
+         call write_file("spot" // trim(k) // ".txt", points)
+         text = text // number(theta) // " 'spot" // trim(k) // ".txt'" // nl
+      end do
+      call write_file("spot.slcw", text)
+      call load(suite, "spot.slcw", profile_side%wheel, spot)
+      if (.not. ready) return
+      pair = pair_at(0.0_wp, 0.0_wp)
+      pair%track%cant = 0.0_wp
+      pair%track%raily0 = 750.0_wp
+      call place_pair(pair, spot%curve, 0.0_wp, 0.0_wp, 0.0_wp, [0.0_wp, 0.0_wp], bodies%placement)
+      bodies%rail = rail_in_track(plane%curve, bodies%placement)
+      bodies%wheel = spot%curve
+      do i = 1, 3
+         call place_bodies(bodies, 0.0_wp, pitch(i), plane%surface, spot%surface)
+         call measure_variable_gap(bodies, 0.5_wp, gap(i))
+      end do
+      j = gap(1)%n/2
+      ! Lowest point of r(theta) cos(theta + pitch), by brute force
+      ! Slices are 0.01 rad apart: h**4/384 times the fourth derivative is 2e-5 mm
+      call suite%close_to(gap(1)%gap(j), smallest_by_hand(0.0_wp), 2.0e-5_wp, "gap under the spot")
+      call suite%close_to(gap(2)%gap(j), smallest_by_hand(0.03_wp), 2.0e-5_wp, "gap beside the spot")
+      call suite%close_to(gap(3)%gap(j), gap(2)%gap(j), 1.0e-8_wp, "symmetric in the pitch")
+      call suite%close_to(gap(3)%x(j), -gap(2)%x(j), 1.0e-6_wp, "and the place along the track")
+   end subroutine wave
+
+   !> Contact references of the published tests of crossings and of wheels with a flat (original program,
+   !> revision 2707; the vertical position is given)
+   subroutine published(suite)
+      type(test_suite), intent(inout) :: suite
+      character(len=:), allocatable :: folder
+
+      folder = reference_folder()
+      if (folder == "") then
+         call suite%skip("published crossings", "CONTACT_REFERENCE is not there")
+         return
+      end if
+      folder = folder // "/testbank/profiles/"
+      call crossing(suite, folder, "cross_nose.slcs", 1.0_wp, 0.0_wp, 0.0_wp, -2.1275_wp, &
+         & [45.7571_wp, 755.1271_wp, -4.5765_wp, -0.0199_wp])
+      call crossing(suite, folder, "wing_rail.slcs", 1.0_wp, 100.0_wp, 0.0_wp, 0.6589_wp, &
+         & [-2.4205_wp, 779.2310_wp, 0.0138_wp, -0.0768_wp])
+      call crossing(suite, folder, "uk_interrupt_v2.slcs", 1000.0_wp, 110.0_wp, 0.78_wp, -0.87_wp, &
+         & [0.001_wp, 779.4804_wp, -1.4751_wp, -0.05_wp])
+      call crossing(suite, folder, "uk_crossing.slcs", 1000.0_wp, 239.0_wp, 0.81_wp, -0.2255_wp, &
+         & [-3.2075_wp, 788.6406_wp, -1.4259_wp, -0.0961_wp])
+   end subroutine published
+
+   subroutine crossing(suite, folder, name, scale, s_ws, y_ws, z_ws, expected)
+      type(test_suite), intent(inout) :: suite
+      character(len=*), intent(in) :: folder, name
+      real(wp), intent(in) :: scale, s_ws, y_ws, z_ws
+      !> Reference x, y, z [mm] and angle [rad]
+      real(wp), intent(in) :: expected(4)
+      type(prepared_profile) :: nose, round
+      type(wheel_rail_spec) :: pair
+      type(pair_bodies) :: bodies
+      type(gap_curve) :: gap
+      type(contact_region), allocatable :: regions(:), misses(:)
+      type(frame) :: track
+      real(wp) :: z, start, end
+      logical :: found
+
+      ready = .true.
+      call load(suite, folder // name, profile_side%rail, nose, scale, mirror_z=-1)
+      call load(suite, folder // "MBench_S1002_v3.prw", profile_side%wheel, round)
+      if (.not. ready) return
+      pair = pair_at(y_ws, 0.0_wp)
+      pair%track%cant = 0.0_wp
+      pair%track%raily0 = 750.0_wp
+      pair%search%ds = 0.2_wp
+      pair%search%dx = 0.2_wp
+      call cpu_time(start)
+      call place_pair(pair, round%curve, 0.0_wp, 0.0_wp, z_ws, [0.0_wp, 0.0_wp], bodies%placement)
+      bodies%wheel = round%curve
+      call place_bodies(bodies, s_ws, 0.0_wp, nose%surface, round%surface)
+      call cpu_time(end)
+      print '(2a, f8.3, a)', name, ": sections in", end - start, " s"
+      call measure_variable_gap(bodies, pair%search%ds, gap)
+      call cpu_time(start)
+      print '(2a, f8.3, a)', name, ": gap in", start - end, " s"
+      call find_regions(gap, 0.0_wp, pair%search, 2, regions, misses)
+      call suite%check(size(regions) > 0, name // ": contact is found")
+      if (size(regions) == 0) return
+      z = 0.0_wp
+      call find_rail(bodies, track, regions(1)%x, regions(1)%y, z, found)
+      print '(a, i0, a, 4f12.4, a, 4f12.4)', "  patches ", size(regions), ", first", regions(1)%x, regions(1)%y, z, &
+         & regions(1)%alpha, ", published", expected
+      call suite%close_to([regions(1)%x, regions(1)%y, z], expected(:3), 1.0e-3_wp, name // ": place of the contact reference")
+      call suite%close_to(regions(1)%alpha, expected(4), 1.0e-3_wp, name // ": contact angle")
+   end subroutine crossing
+
+   real(wp) function smallest_by_hand(pitch) result(gap)
+      real(wp), intent(in) :: pitch
+      real(wp) :: theta
+      integer :: i
+
+      gap = huge(gap)
+      do i = -150000, 150000
+         theta = 1.0e-6_wp*i
+         gap = min(gap, 460.0_wp - (460.0_wp - 0.4_wp*exp(-(theta/0.05_wp)**2))*cos(theta + pitch))
+      end do
+   end function smallest_by_hand
+end program test_variable
