@@ -6,8 +6,8 @@ module contact_cases_pair_session
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
    use contact_cases_patch_setup, only : set_method
-   use contact_cases_session, only : subsurface_stresses
    use contact_cases_spec, only : case_spec
+   use contact_cases_subsurface, only : subsurface_stresses
    use contact_elastic_material, only : combine
    use contact_profile_curve, only : profile_curve
    use contact_profile_prepare, only : read_profile
@@ -53,8 +53,9 @@ contains
          associate (contact => result%patches(k)%contact)
             contact%effects = "elastic half-spaces"
             if (allocated(contact%subsurface)) deallocate(contact%subsurface)
-            if (spec%stress /= stress_choice%none) call subsurface_stresses(spec, contact)
+            if (spec%stress /= stress_choice%none) call subsurface_stresses(spec, contact, error)
          end associate
+         if (allocated(error)) return
       end do
    end subroutine solve_pair_case
 

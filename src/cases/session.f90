@@ -7,6 +7,7 @@ module contact_cases_session
    use contact_cases_geometry, only : is_line_contact
    use contact_cases_patch_setup, only : set_problem
    use contact_cases_spec, only : case_spec
+   use contact_cases_subsurface, only : subsurface_stresses
    use contact_grid_element_division, only : element
    use contact_normal_estimate, only : elliptic_pressure
    use contact_patch_moments, only : clear_moment, link_moments
@@ -14,12 +15,10 @@ module contact_cases_session
    use contact_patch_result, only : patch_result
    use contact_patch_solve, only : solve_patch
    use contact_patch_workspace, only : patch_workspace, release_workspace
-   use contact_subsurface_points, only : expand_points
-   use contact_subsurface_stress, only : stress_invariants, subsurface_field
    implicit none (type, external)
    private
 
-   public :: contact_session, release_session, solve_case, subsurface_stresses
+   public :: contact_session, release_session, solve_case
 
    !> Memory of one problem: what the physics remembers, and scratch
    type :: contact_session
@@ -54,7 +53,7 @@ contains
       if (allocated(error)) return
       call name_effects(spec, session%problem, result)
       if (allocated(result%subsurface)) deallocate(result%subsurface)
-      if (spec%stress /= stress_choice%none) call subsurface_stresses(spec, result)
+      if (spec%stress /= stress_choice%none) call subsurface_stresses(spec, result, error)
    end subroutine solve_case
 
    !> Free what a session holds outside Fortran's memory; call it before the session goes
@@ -140,25 +139,4 @@ contains
       if (allocated(problem%damping)) text = text // ", damping forces"
       result%effects = text
    end subroutine name_effects
-
-   !> Displacements and stresses in the blocks of points
-   subroutine subsurface_stresses(spec, result)
-      type(case_spec), intent(in) :: spec
-      type(patch_result), intent(inout) :: result
-      integer :: k, n
-
-      if (.not. allocated(spec%subsurface%blocks)) return
-      allocate(result%subsurface(size(spec%subsurface%blocks)))
-      do k = 1, size(result%subsurface)
-         associate (points => result%subsurface(k))
-            call expand_points(spec%subsurface%blocks(k), result%grid, points%nx, points%ny, points%nz, points%position)
-            n = size(points%position, 2)
-            allocate(points%displacement(3, n), points%stress(6, n), points%sighyd(n), points%sigvm(n), points%sigtr(n), &
-               & points%sigma1(n), points%sigma3(n))
-            call subsurface_field(result%grid, result%pn, result%px, result%py, spec%material%gg, spec%material%poiss, &
-               & points%position, points%displacement, points%stress)
-            call stress_invariants(points%stress, points%sighyd, points%sigvm, points%sigtr, points%sigma1, points%sigma3)
-         end associate
-      end do
-   end subroutine subsurface_stresses
 end module contact_cases_session

@@ -43,14 +43,14 @@ contains
       type(log_type), intent(inout) :: log
       type(subsurface_result), intent(in) :: block
 
-      call extreme("ABSMAX SIGHYD", block%sighyd, maxloc(abs(block%sighyd), dim=1))
-      call extreme("MAX     SIGVM", block%sigvm, maxloc(abs(block%sigvm), dim=1))
-      call extreme("MAX     SIGTR", block%sigtr, maxloc(abs(block%sigtr), dim=1))
-      call extreme("MAX    SIGMA1", block%sigma1, maxloc(block%sigma1, dim=1))
-      call extreme("MIN    SIGMA3", block%sigma3, minloc(block%sigma3, dim=1))
-      call extreme("ABSMAX  SIGXX", block%stress(1, :), maxloc(abs(block%stress(1, :)), dim=1))
-      call extreme("ABSMAX  SIGYY", block%stress(4, :), maxloc(abs(block%stress(4, :)), dim=1))
-      call extreme("ABSMAX  SIGZZ", block%stress(6, :), maxloc(abs(block%stress(6, :)), dim=1))
+      call extreme("ABSMAX SIGHYD", block%sighyd, first_largest(abs(block%sighyd)))
+      call extreme("MAX     SIGVM", block%sigvm, first_largest(block%sigvm))
+      call extreme("MAX     SIGTR", block%sigtr, first_largest(block%sigtr))
+      call extreme("MAX    SIGMA1", block%sigma1, first_largest(block%sigma1))
+      call extreme("MIN    SIGMA3", block%sigma3, first_largest(-block%sigma3))
+      call extreme("ABSMAX  SIGXX", block%stress(1, :), first_largest(abs(block%stress(1, :))))
+      call extreme("ABSMAX  SIGYY", block%stress(4, :), first_largest(abs(block%stress(4, :))))
+      call extreme("ABSMAX  SIGZZ", block%stress(6, :), first_largest(abs(block%stress(6, :))))
 
    contains
 
@@ -64,6 +64,20 @@ contains
             & // fixed(block%position(3, point), 8, 3) // ")")
       end subroutine extreme
    end subroutine write_extremes
+
+   !> First of the points whose values are the largest up to rounding: in a symmetrical contact the last
+   !> digits would choose among equal points
+   pure integer function first_largest(values) result(point)
+      real(wp), intent(in) :: values(:)
+      real(wp), parameter :: rounding = 1.0e-10_wp
+      integer :: largest
+
+      largest = maxloc(values, dim=1)
+      do point = 1, largest - 1
+         if (values(point) >= values(largest) - rounding*abs(values(largest))) return
+      end do
+      point = largest
+   end function first_largest
 
    !> Displacements and stress tensor of every point
    subroutine write_points(log, block)

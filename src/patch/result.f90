@@ -27,8 +27,8 @@ module contact_patch_result
       real(wp), allocatable :: displacement(:, :)
       !> Stresses [N/mm2], tension positive: xx, xy, xz, yy, yz, zz, shape (6, n)
       real(wp), allocatable :: stress(:, :)
-      !> Mean stress, von Mises, Tresca, largest and smallest principal stress [N/mm2], shape (n)
-      real(wp), allocatable :: sighyd(:), sigvm(:), sigtr(:), sigma1(:), sigma3(:)
+      !> Mean stress, von Mises, Tresca, principal stresses in descending order [N/mm2], shape (n)
+      real(wp), allocatable :: sighyd(:), sigvm(:), sigtr(:), sigma1(:), sigma2(:), sigma3(:)
    end type subsurface_result
 
    !> Totals, fields and reports of a solved patch

@@ -1,11 +1,11 @@
 !> Blocks of points below the surface
 module contact_subsurface_points
-   use contact_base_kinds, only : wp
+   use contact_base_kinds, only : long, wp
    use contact_grid_potential_contact, only : potential_contact
    implicit none (type, external)
    private
 
-   public :: point_selection, point_block, expand_points, depth_range
+   public :: point_selection, point_block, point_set, expand_points, list_points, depth_range
 
    type :: point_selection_list
       !> Centres of all elements
@@ -34,51 +34,66 @@ module contact_subsurface_points
       real(wp), allocatable :: z(:)
    end type point_block
 
+   !> All points with an x, a y and a z of three lists
+   type :: point_set
+      !> Coordinates [mm], ascending
+      real(wp), allocatable :: x(:), y(:), z(:)
+   contains
+      !> Number of points
+      procedure :: n => number_of_points
+   end type point_set
+
 contains
 
-   !> Positions of the points of a block, x fastest, then y, then z
+   !> The coordinates of a block, clipped to the grid and sorted
    !>
-   !> Lists are sorted; repeated columns and rows count once, repeated coordinates do not
-   !> disturb and stay.
-   pure subroutine expand_points(block, grid, nx, ny, nz, position)
+   !> Repeated columns and rows count once, repeated coordinates do not disturb and stay.
+   pure subroutine expand_points(block, grid, points)
       type(point_block), intent(in) :: block
       type(potential_contact), intent(in) :: grid
-      !> Numbers of points that remain after clipping, possibly 0
-      integer, intent(out) :: nx, ny, nz
-      !> Points [mm], shape (3, nx*ny*nz)
-      real(wp), allocatable, intent(out) :: position(:, :)
-      real(wp), allocatable :: x(:), y(:), z(:)
-      integer :: ix, iy, iz, n
+      type(point_set), intent(out) :: points
 
       select case (block%selection)
       case (point_selection%free)
-         call sort_into(x, block%x)
-         call sort_into(y, block%y)
+         call sort_into(points%x, block%x)
+         call sort_into(points%y, block%y)
       case (point_selection%lists)
-         x = grid%x(chosen(block%ix, grid%mx))
-         y = grid%y(chosen(block%iy, grid%my))
+         points%x = grid%x(chosen(block%ix, grid%mx))
+         points%y = grid%y(chosen(block%iy, grid%my))
       case (point_selection%ranges)
-         x = grid%x(range_within(block%ixl, block%ixinc, block%ixh, grid%mx))
-         y = grid%y(range_within(block%iyl, block%iyinc, block%iyh, grid%my))
+         points%x = grid%x(range_within(block%ixl, block%ixinc, block%ixh, grid%mx))
+         points%y = grid%y(range_within(block%iyl, block%iyinc, block%iyh, grid%my))
       case default
-         x = grid%x(range_within(1, 1, grid%mx, grid%mx))
-         y = grid%y(range_within(1, 1, grid%my, grid%my))
+         points%x = grid%x(range_within(1, 1, grid%mx, grid%mx))
+         points%y = grid%y(range_within(1, 1, grid%my, grid%my))
       end select
-      call sort_into(z, block%z)
-      nx = size(x)
-      ny = size(y)
-      nz = size(z)
-      allocate(position(3, nx*ny*nz))
+      call sort_into(points%z, block%z)
+   end subroutine expand_points
+
+   !> Positions of all points, x fastest, then y, then z
+   pure subroutine list_points(points, position)
+      type(point_set), intent(in) :: points
+      !> Points [mm], shape (3, number of points)
+      real(wp), contiguous, intent(out) :: position(:, :)
+      integer :: ix, iy, iz, n
+
       n = 0
-      do iz = 1, nz
-         do iy = 1, ny
-            do ix = 1, nx
+      do iz = 1, size(points%z)
+         do iy = 1, size(points%y)
+            do ix = 1, size(points%x)
                n = n + 1
-               position(:, n) = [x(ix), y(iy), z(iz)]
+               position(:, n) = [points%x(ix), points%y(iy), points%z(iz)]
             end do
          end do
       end do
-   end subroutine expand_points
+   end subroutine list_points
+
+   !> Number of points of a set
+   elemental integer(long) function number_of_points(self) result(n)
+      class(point_set), intent(in) :: self
+
+      n = size(self%x, kind=long)*size(self%y, kind=long)*size(self%z, kind=long)
+   end function number_of_points
 
    !> Depths zl, zl + dz, ... [mm]
    pure function depth_range(nz, zl, dz) result(z)

@@ -7,7 +7,10 @@ TOTALS = ("FN", "FX", "FY", "MZ", "ENERGY", "POWER")
 
 
 def read(path):
-    """Return {case number: {quantity: value}}; X and Y are what the heading of case says they are."""
+    """Return {case number: {quantity: value}}; X and Y are what the heading of case says they are.
+
+    An extreme of subsurface block 2 is the quantity "2 SIGVM", its place is "2 SIGVM x", ... y and z.
+    """
     with open(path) as file:
         lines = file.read().splitlines()
     if len(lines) < 2 or "detailed investigation of 3D" not in lines[1]:
@@ -26,6 +29,13 @@ def read(path):
             values.update(zip(("FN/G", "X", "Y", "APPROACH", "PMAX"), second))
             values["X is"] = meaning(lines[k + 2], "X")
             values["Y is"] = meaning(lines[k + 2], "Y")
+        elif "SUBSURFACE STRESSES BLOCK" in line:
+            block = words[-1].rstrip(":")
+        elif " AT (X,Y,Z) = (" in line:
+            name = "%s %s" % (block, words[1])
+            values[name] = float(words[3])
+            place = line[line.rindex("(") + 1:line.rindex(")")].split(",")
+            values.update((name + " " + axis, float(word)) for axis, word in zip("xyz", place))
         elif "NPOT   NCON   NADH  NSLIP" in line:
             values.update((name, int(word)) for name, word in zip(words, lines[k + 1].split()))
     return cases

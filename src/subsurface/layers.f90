@@ -1,0 +1,394 @@
+!> Fields in element centres, layer by layer, by fast transforms
+!>
+!> The response in a centre to a load on an element depends on the difference of their columns
+!> and rows only, so the fields at one depth are convolutions. The tractions are transformed once for
+!> all depths. The 27 responses of a depth, nine fields by three tractions, are even or odd in each
+!> coordinate: real or imaginary spectra, of which up to four, of different symmetry, are obtained
+!> from one real transform of their sum. Only the nine wanted fields are transformed back. Depths are
+!> independent and shared out among threads.
+module contact_subsurface_layers
+   use contact_base_kinds, only : wp
+   use contact_fft_plan, only : fft_plan, good_size
+   use contact_subsurface_element_field, only : body_responses, corner_derivatives, edge_ratio, far_distance, &
+      & load_quadrature, n_derivatives, n_fields, new_quadrature, node_derivatives, odd_in_x, odd_in_y, source_derivatives
+   use contact_subsurface_load, only : surface_load
+   !$ use omp_lib, only : omp_get_max_threads
+   implicit none (type, external)
+   private
+
+   public :: transform_layers, padded_size
+
+   !> The window that holds loads and points, and its padding
+   type :: layer_window
+      !> First column and row, and size
+      integer :: ix0 = 1, iy0 = 1, mx = 0, my = 0
+      !> Largest differences of columns and rows between a point and a load
+      integer :: nx = 0, ny = 0
+      !> Padded size
+      integer :: px = 1, py = 1
+   end type layer_window
+
+   !> Fields that are worked on together, to save memory: displacements, normal and shear stresses
+   integer, parameter :: group(3, 3) = reshape([1, 2, 3,  4, 7, 9,  5, 6, 8], [3, 3])
+   !> Memory for all threads together [bytes], which bounds their number
+   real(wp), parameter :: memory = 1.0e9_wp
+
+contains
+
+   !> Displacements and stresses in element centres
+   subroutine transform_layers(load, ix, iy, z, displacement, stress)
+      type(surface_load), intent(in) :: load
+      !> Columns and rows of the points, ascending; they may lie outside the grid
+      integer, intent(in) :: ix(:), iy(:)
+      !> Depths [mm], positive in body 1
+      real(wp), intent(in) :: z(:)
+      !> Displacements [mm]
+      real(wp), intent(out) :: displacement(3, size(ix), size(iy), size(z))
+      !> Stresses [N/mm2], tension positive: xx, xy, xz, yy, yz, zz
+      real(wp), intent(out) :: stress(6, size(ix), size(iy), size(z))
+      type(layer_window) :: window
+      complex(wp), allocatable :: spectrum(:, :, :)
+      integer :: threads
+
+      displacement = 0.0_wp
+      stress = 0.0_wp
+      if (.not. any(load%acts) .or. size(displacement) == 0) return
+      call find_window(load, ix, iy, window)
+      call transform_loads(load, window, spectrum)
+      threads = 1
+      !$ threads = omp_get_max_threads()
+      ! responses 27/4, spectra and fields of a group and rows of two plans, in padded windows of reals
+      threads = min(threads, size(z), max(1, int(memory/(8.0_wp*16.0_wp*real(window%px, wp)*real(window%py, wp)))))
+      !$omp parallel num_threads(threads) default(shared)
+      call share_of_layers(load, window, spectrum, ix, iy, z, displacement, stress)
+      !$omp end parallel
+   end subroutine transform_layers
+
+   !> Number of padded elements, and of differences between points and loads, as measures of the cost
+   pure subroutine padded_size(load, ix, iy, padded, differences)
+      type(surface_load), intent(in) :: load
+      integer, intent(in) :: ix(:), iy(:)
+      real(wp), intent(out) :: padded, differences
+      type(layer_window) :: window
+
+      call find_window(load, ix, iy, window)
+      padded = real(window%px, wp)*real(window%py, wp)
+      differences = real(window%nx + 1, wp)*real(window%ny + 1, wp)
+   end subroutine padded_size
+
+   !> Smallest window around loads and points
+   pure subroutine find_window(load, ix, iy, window)
+      type(surface_load), intent(in) :: load
+      integer, intent(in) :: ix(:), iy(:)
+      type(layer_window), intent(out) :: window
+
+      associate (box => load%box, ix1 => ix(size(ix)), iy1 => iy(size(iy)))
+         window%ix0 = min(ix(1), box%ix0)
+         window%iy0 = min(iy(1), box%iy0)
+         window%mx = max(ix1, box%ix1) - window%ix0 + 1
+         window%my = max(iy1, box%iy1) - window%iy0 + 1
+         window%nx = max(ix1 - box%ix0, box%ix1 - ix(1))
+         window%ny = max(iy1 - box%iy0, box%iy1 - iy(1))
+      end associate
+      ! differences of both signs without overlap
+      window%px = good_size(2*window%nx + 1)
+      window%py = good_size(2*window%ny + 1)
+   end subroutine find_window
+
+   !> Spectra of px, py, pn, scaled for the back transform
+   subroutine transform_loads(load, window, spectrum)
+      type(surface_load), intent(in) :: load
+      type(layer_window), intent(in) :: window
+      !> Spectra, shape (py, px/2 + 1, 3); those of tractions that do not act are undefined
+      complex(wp), allocatable, intent(out) :: spectrum(:, :, :)
+      type(fft_plan) :: plan
+      real(wp), allocatable :: field(:, :)
+      integer :: t
+
+      call plan%prepare(window%mx, window%my, window%px, window%py)
+      allocate(spectrum(window%py, plan%kx, 3), field(window%mx, window%my))
+      field = 0.0_wp
+      do t = 1, 3
+         if (.not. load%acts(t)) cycle
+         field(load%box%ix0 - window%ix0 + 1:load%box%ix1 - window%ix0 + 1, &
+            & load%box%iy0 - window%iy0 + 1:load%box%iy1 - window%iy0 + 1) &
+            & = load%traction(:, :, t)/(real(window%px, wp)*real(window%py, wp))
+         call plan%forward(field, spectrum(:, :, t))
+      end do
+      call plan%release()
+   end subroutine transform_loads
+
+   !> The layers that fall to one thread, with its own plans and scratch
+   subroutine share_of_layers(load, window, spectrum, ix, iy, z, displacement, stress)
+      type(surface_load), intent(in) :: load
+      type(layer_window), intent(in) :: window
+      !> Spectra of the tractions, shape (py, px/2 + 1, 3)
+      complex(wp), contiguous, intent(in) :: spectrum(:, :, :)
+      integer, intent(in) :: ix(:), iy(:)
+      real(wp), intent(in) :: z(:)
+      real(wp), contiguous, intent(inout) :: displacement(:, :, :, :), stress(:, :, :, :)
+      type(fft_plan) :: plan, period_plan
+      !> Responses by differences 0...nx, 0...ny, shape (0:nx, 0:ny, 9, 3)
+      real(wp), allocatable :: response(:, :, :, :)
+      real(wp), allocatable :: field(:, :), period(:, :)
+      complex(wp), allocatable :: product(:, :, :), packed(:, :)
+      integer :: f, g, jx, jy, layer
+
+      call plan%prepare(window%mx, window%my, window%px, window%py)
+      call period_plan%prepare(window%px, window%py, window%px, window%py)
+      allocate(response(0:window%nx, 0:window%ny, n_fields, 3), field(window%mx, window%my))
+      allocate(product(window%py, plan%kx, 3), period(window%px, window%py), packed(window%py, plan%kx))
+      !$omp do schedule(dynamic)
+      do layer = 1, size(z)
+         call fill_responses(load, window, z(layer), response)
+         do g = 1, size(group, 2)
+            call multiply_group(load%acts, group(:, g), response, spectrum, period_plan, product, period, packed)
+            do f = 1, size(group, 1)
+               call plan%backward(product(:, :, f), field)
+               do jy = 1, size(iy)
+                  do jx = 1, size(ix)
+                     if (group(f, g) <= 3) then
+                        displacement(group(f, g), jx, jy, layer) = field(ix(jx) - window%ix0 + 1, iy(jy) - window%iy0 + 1)
+                     else
+                        stress(group(f, g) - 3, jx, jy, layer) = field(ix(jx) - window%ix0 + 1, iy(jy) - window%iy0 + 1)
+                     end if
+                  end do
+               end do
+            end do
+         end do
+      end do
+      !$omp end do
+      call plan%release()
+      call period_plan%release()
+   end subroutine share_of_layers
+
+   !> Spectra of a group of fields: products of responses and tractions, summed
+   !>
+   !> Of a real field, the part that is even or odd in x and in y has a spectrum that is real or
+   !> imaginary and even or odd in the second frequency. So a sum of four fields, one of each
+   !> symmetry, can be taken apart again.
+   subroutine multiply_group(acts, fields, response, spectrum, plan, product, period, packed)
+      logical, intent(in) :: acts(3)
+      !> Numbers of the fields
+      integer, intent(in) :: fields(:)
+      !> Responses by differences 0...nx, 0...ny
+      real(wp), contiguous, intent(in) :: response(0:, 0:, :, :)
+      !> Spectra of the tractions, shape (py, px/2 + 1, 3)
+      complex(wp), contiguous, intent(in) :: spectrum(:, :, :)
+      !> Transforms of full periods
+      type(fft_plan), intent(inout) :: plan
+      !> Spectra of the fields, shape (py, px/2 + 1, 3)
+      complex(wp), contiguous, intent(inout) :: product(:, :, :)
+      !> Scratch: a period, shape (px, py), and its spectrum, shape (py, px/2 + 1)
+      real(wp), contiguous, intent(inout) :: period(:, :)
+      complex(wp), contiguous, intent(inout) :: packed(:, :)
+      logical :: done(n_fields, 3), odd_x, odd_y, taken(4)
+      integer :: chosen(4), f, n, part, t
+
+      product = (0.0_wp, 0.0_wp)
+      done = .true.
+      do t = 1, 3
+         if (acts(t)) done(fields, t) = .false.
+      end do
+      do while (.not. all(done))
+         period = 0.0_wp
+         taken = .false.
+         chosen = 0
+         do n = 1, 3*size(fields)
+            f = fields(1 + mod(n - 1, size(fields)))
+            t = 1 + (n - 1)/size(fields)
+            part = 1 + merge(1, 0, odd_in_x(f, t)) + merge(2, 0, odd_in_y(f, t))
+            if (done(f, t) .or. taken(part)) cycle
+            taken(part) = .true.
+            done(f, t) = .true.
+            chosen(part) = n
+            call add_to_period(response(:, :, f, t), odd_in_x(f, t), odd_in_y(f, t), period)
+         end do
+         call plan%forward(period, packed)
+         do part = 1, 4
+            if (chosen(part) == 0) cycle
+            f = 1 + mod(chosen(part) - 1, size(fields))
+            t = 1 + (chosen(part) - 1)/size(fields)
+            odd_x = mod(part - 1, 2) == 1
+            odd_y = part > 2
+            call add_product(packed, odd_x, odd_y, spectrum(:, :, t), product(:, :, f))
+         end do
+      end do
+   end subroutine multiply_group
+
+   !> Continue a response to negative differences and add it to a full period
+   pure subroutine add_to_period(response, odd_x, odd_y, period)
+      !> Differences 0...nx, 0...ny
+      real(wp), contiguous, intent(in) :: response(0:, 0:)
+      logical, intent(in) :: odd_x, odd_y
+      !> One period, shape (px, py); difference 0 stands at (1, 1)
+      real(wp), contiguous, intent(inout) :: period(:, :)
+      real(wp) :: row(0:ubound(response, 1)), sx, sy
+      integer :: k, l, nx, px
+
+      nx = ubound(response, 1)
+      px = size(period, 1)
+      sx = merge(-1.0_wp, 1.0_wp, odd_x)
+      sy = merge(-1.0_wp, 1.0_wp, odd_y)
+      do l = 0, ubound(response, 2)
+         row = response(:, l)
+         ! an odd response vanishes where it changes its sign
+         if (odd_x) row(0) = 0.0_wp
+         if (odd_y .and. l == 0) cycle
+         period(1:nx + 1, l + 1) = period(1:nx + 1, l + 1) + row
+         do k = 1, nx
+            period(px + 1 - k, l + 1) = period(px + 1 - k, l + 1) + sx*row(k)
+         end do
+         if (l == 0) cycle
+         row = sy*row
+         period(1:nx + 1, size(period, 2) + 1 - l) = period(1:nx + 1, size(period, 2) + 1 - l) + row
+         do k = 1, nx
+            period(px + 1 - k, size(period, 2) + 1 - l) = period(px + 1 - k, size(period, 2) + 1 - l) + sx*row(k)
+         end do
+      end do
+   end subroutine add_to_period
+
+   !> Take one part out of a spectrum of several responses and add its product with a traction
+   pure subroutine add_product(packed, odd_x, odd_y, traction, product)
+      !> Spectrum of a sum of responses, shape (py, px/2 + 1)
+      complex(wp), contiguous, intent(in) :: packed(:, :)
+      !> Symmetry of the part
+      logical, intent(in) :: odd_x, odd_y
+      !> Spectra of the traction and of the field
+      complex(wp), contiguous, intent(in) :: traction(:, :)
+      complex(wp), contiguous, intent(inout) :: product(:, :)
+      real(wp) :: factor(size(packed, 1)), turned
+      integer :: k, py
+
+      py = size(packed, 1)
+      turned = merge(-0.5_wp, 0.5_wp, odd_y)
+      do k = 1, size(packed, 2)
+         if (odd_x .eqv. odd_y) then
+            factor(1) = (0.5_wp + turned)*real(packed(1, k))
+            factor(2:) = 0.5_wp*real(packed(2:, k)) + turned*real(packed(py:2:-1, k))
+            product(:, k) = product(:, k) + cmplx(factor*real(traction(:, k)), factor*aimag(traction(:, k)), wp)
+         else
+            factor(1) = (0.5_wp + turned)*aimag(packed(1, k))
+            factor(2:) = 0.5_wp*aimag(packed(2:, k)) + turned*aimag(packed(py:2:-1, k))
+            product(:, k) = product(:, k) + cmplx(-factor*aimag(traction(:, k)), factor*real(traction(:, k)), wp)
+         end if
+      end do
+   end subroutine add_product
+
+   !> Responses at one depth by differences of columns and rows that are not negative
+   pure subroutine fill_responses(load, window, z, response)
+      type(surface_load), intent(in) :: load
+      type(layer_window), intent(in) :: window
+      !> Depth [mm], positive in body 1
+      real(wp), intent(in) :: z
+      !> Responses, shape (0:nx, 0:ny, 9, 3)
+      real(wp), contiguous, intent(out) :: response(0:, 0:, :, :)
+      type(load_quadrature) :: rule
+      !> Differences along x of the closed forms, for three successive lines of corners or nodes
+      real(wp) :: line(n_derivatives, 0:window%nx, 0:2)
+      real(wp) :: d(n_derivatives), unit(n_fields, 3), far, mirror
+      integer :: body, filled, k, l, near(-1:window%ny)
+
+      body = merge(1, 2, z >= 0.0_wp)
+      mirror = merge(1.0_wp, -1.0_wp, body == 1)
+      rule = new_quadrature(load%bilinear)
+      associate (dx => load%grid%dx, dy => load%grid%dy)
+         ! number of differences per row, less one, for which closed forms are used
+         far = far_distance(dx, dy, load%bilinear)
+         do l = 0, window%ny
+            near(l) = -1
+            if (far**2 >= z**2 + (l*dy)**2) near(l) = min(window%nx, int(sqrt(far**2 - z**2 - (l*dy)**2)/dx))
+         end do
+         near(-1) = near(0)
+         filled = 0
+         do l = 0, window%ny
+            if (near(l) >= 0) then
+               do while (filled <= l + merge(2, 1, load%bilinear))
+                  call fill_line(filled, near(max(-1, filled - merge(2, 1, load%bilinear))), line(:, :, mod(filled, 3)))
+                  filled = filled + 1
+               end do
+            end if
+            do k = 0, window%nx
+               if (k <= near(l)) then
+                  if (load%bilinear) then
+                     d = (line(:, k, mod(l + 2, 3)) - 2.0_wp*line(:, k, mod(l + 1, 3)) + line(:, k, mod(l, 3)))/(dx*dy)
+                  else
+                     d = line(:, k, mod(l + 1, 3)) - line(:, k, mod(l, 3))
+                  end if
+               else
+                  call integrate(k*dx, l*dy, d)
+               end if
+               call body_responses(d, abs(z), load%gg(body), load%nu(body), mirror, unit)
+               response(k, l, :, :) = unit
+            end do
+         end do
+      end associate
+      if (body == 2) call turn_y(response)
+
+   contains
+
+      !> Differences along x on one line, that number 0 lies below the row 0
+      pure subroutine fill_line(number, last, differences)
+         integer, intent(in) :: number
+         !> Last difference of columns that is needed
+         integer, intent(in) :: last
+         real(wp), intent(out) :: differences(n_derivatives, 0:window%nx)
+         real(wp) :: now(n_derivatives), before(n_derivatives), first(n_derivatives), y, edge
+         integer :: i
+
+         associate (dx => load%grid%dx, dy => load%grid%dy)
+            edge = edge_ratio*min(dx, dy)
+            if (load%bilinear) then
+               y = (number - 1)*dy
+               call node_derivatives(-dx, y, abs(z), edge, first)
+               call node_derivatives(0.0_wp, y, abs(z), edge, before)
+               do i = 0, last
+                  call node_derivatives((i + 1)*dx, y, abs(z), edge, now)
+                  differences(:, i) = (now - before) - (before - first)
+                  first = before
+                  before = now
+               end do
+            else
+               y = (number - 0.5_wp)*dy
+               call corner_derivatives(-0.5_wp*dx, y, abs(z), edge, before)
+               do i = 0, last
+                  call corner_derivatives((i + 0.5_wp)*dx, y, abs(z), edge, now)
+                  differences(:, i) = now - before
+                  before = now
+               end do
+            end if
+         end associate
+      end subroutine fill_line
+
+      !> Quadrature over one element
+      pure subroutine integrate(x, y, sum)
+         !> Point relative to the centre of the element [mm]
+         real(wp), intent(in) :: x, y
+         real(wp), intent(out) :: sum(n_derivatives)
+         real(wp) :: part(n_derivatives)
+         integer :: i, j
+
+         sum = 0.0_wp
+         associate (dx => load%grid%dx, dy => load%grid%dy)
+            do j = 1, size(rule%point)
+               do i = 1, size(rule%point)
+                  call source_derivatives(x - rule%point(i)*dx, y - rule%point(j)*dy, abs(z), part)
+                  sum = sum + rule%weight(i)*rule%weight(j)*dx*dy*part
+               end do
+            end do
+         end associate
+      end subroutine integrate
+   end subroutine fill_responses
+
+   !> From the frame of body 2, whose y-axis is turned
+   pure subroutine turn_y(response)
+      real(wp), contiguous, intent(inout) :: response(:, :, :, :)
+      integer :: f, t
+
+      do t = 1, 3
+         do f = 1, n_fields
+            if (odd_in_y(f, t)) response(:, :, f, t) = -response(:, :, f, t)
+         end do
+      end do
+   end subroutine turn_y
+end module contact_subsurface_layers
