@@ -219,11 +219,17 @@ contains
       at = solution
       call slip_of(problem, operator, at%p, at%creep, at%slip)
       call linearise(problem, system, at, workspace)
-      workspace%residual = system%r*shift
-      call apply_d(workspace, workspace%residual)
-      do k = 1, 2
-         workspace%residual(:, :, k) = workspace%residual(:, :, k) - bound*workspace%direction(:, :, k)
-      end do
+      if (allocated(workspace%point)) then
+         workspace%trial = -system%r*shift
+         call differentiate_return_map(problem, workspace, workspace%trial, workspace%residual, bound)
+         workspace%residual = -workspace%residual
+      else
+         workspace%residual = system%r*shift
+         call apply_d(workspace, workspace%residual)
+         do k = 1, 2
+            workspace%residual(:, :, k) = workspace%residual(:, :, k) - bound*workspace%direction(:, :, k)
+         end do
+      end if
       if (.not. any(abs(workspace%residual) > 0.0_wp)) return
       preconditionings = 0
       call solve_linear(problem, operator, system, workspace, [0.0_wp, 0.0_wp], tolerance, correction, preconditionings, reached)
@@ -399,32 +405,40 @@ contains
       end do
    end subroutine add_radial
 
-   !> Radial part in the product with the Jacobian, and the changes of the limits in steady rolling
-   subroutine subtract_radial(problem, system, workspace, creep, dp, out)
+   !> Change of the returned tractions by changes of z = p - r S, and of the bound
+   !>
+   !> In steady rolling the changes of the yield limits are carried downstream.
+   subroutine differentiate_return_map(problem, workspace, z, out, bound)
       type(tangential_problem), intent(in) :: problem
-      type(linear_system), intent(in) :: system
       type(newton_workspace), intent(in) :: workspace
-      !> Change of the rigid slip [mm]
-      real(wp), intent(in) :: creep(2)
-      !> Change of the tractions; workspace%trial has their displacements
-      real(wp), contiguous, intent(in) :: dp(:, :, :)
+      real(wp), contiguous, intent(in) :: z(:, :, :)
       real(wp), contiguous, intent(inout) :: out(:, :, :)
+      real(wp), contiguous, intent(in), optional :: bound(:, :)
       integer :: ix, iy, k
-      real(wp) :: c, limit, n(2)
+      real(wp) :: c, g, limit, n(2)
 
       do iy = 1, problem%my
          limit = 0.0_wp
          do k = 1, problem%mx
             ix = merge(problem%mx + 1 - k, k, problem%direction > 0)
             n = workspace%direction(ix, iy, :)
-            c = sum(n*(dp(ix, iy, :) - system%r*(workspace%trial(ix, iy, :) + creep)))
+            c = sum(n*z(ix, iy, :))
             associate (point => workspace%point(ix, iy))
-               out(ix, iy, :) = out(ix, iy, :) - n*(point%radius_by_length*c + point%radius_by_limit*limit)
-               if (problem%steady) limit = point%limit_by_length*c + point%limit_by_limit*limit
+               g = 0.0_wp
+               if (present(bound)) then
+                  if (point%state == element%slip) g = bound(ix, iy)
+               end if
+               out(ix, iy, :) = workspace%weight(ix, iy)*(z(ix, iy, :) - c*n) &
+                  & + (point%radius_by_length*c + point%radius_by_limit*limit + g)*n
+               if (problem%steady) then
+                  limit = point%limit_by_length*c + point%limit_by_limit*limit
+                  ! the limit has risen to the bound
+                  if (point%plastic > 0.0_wp) limit = limit + g
+               end if
             end associate
          end do
       end do
-   end subroutine subtract_radial
+   end subroutine differentiate_return_map
 
    !> v := D v
    subroutine apply_d(workspace, v)
@@ -464,16 +478,23 @@ contains
       do k = 1, system%n_forces
          creep(k) = problem%dq*system%creep_scale*y(system%n + k)/system%g_norm
       end do
-      do iy = 1, problem%my
-         do ix = 1, problem%mx
-            vx = dp(ix, iy, 1) - system%r*(workspace%trial(ix, iy, 1) + creep(1))
-            vy = dp(ix, iy, 2) - system%r*(workspace%trial(ix, iy, 2) + creep(2))
-            c = workspace%direction(ix, iy, 1)*vx + workspace%direction(ix, iy, 2)*vy
-            res(ix, iy, 1) = dp(ix, iy, 1) - workspace%weight(ix, iy)*(vx - workspace%direction(ix, iy, 1)*c)
-            res(ix, iy, 2) = dp(ix, iy, 2) - workspace%weight(ix, iy)*(vy - workspace%direction(ix, iy, 2)*c)
+      if (allocated(workspace%point)) then
+         do k = 1, 2
+            workspace%trial(:, :, k) = dp(:, :, k) - system%r*(workspace%trial(:, :, k) + creep(k))
          end do
-      end do
-      if (allocated(workspace%point)) call subtract_radial(problem, system, workspace, creep, dp, res)
+         call differentiate_return_map(problem, workspace, workspace%trial, res)
+         res = dp - res
+      else
+         do iy = 1, problem%my
+            do ix = 1, problem%mx
+               vx = dp(ix, iy, 1) - system%r*(workspace%trial(ix, iy, 1) + creep(1))
+               vy = dp(ix, iy, 2) - system%r*(workspace%trial(ix, iy, 2) + creep(2))
+               c = workspace%direction(ix, iy, 1)*vx + workspace%direction(ix, iy, 2)*vy
+               res(ix, iy, 1) = dp(ix, iy, 1) - workspace%weight(ix, iy)*(vx - workspace%direction(ix, iy, 1)*c)
+               res(ix, iy, 2) = dp(ix, iy, 2) - workspace%weight(ix, iy)*(vy - workspace%direction(ix, iy, 2)*c)
+            end do
+         end do
+      end if
       do k = 1, system%n_forces
          out(system%n + k) = sum(dp(:, :, k))*system%g_norm/system%g_sum
       end do

@@ -9,7 +9,7 @@ program test_yield
    use contact_grid_element_division, only : element
    use contact_tangential_classical, only : classical_method, solve_classical
    use contact_tangential_element_problem, only : element_compliance, solve_yielding_element
-   use contact_tangential_nested, only : nested_workspace, release_nested, solve_newton_krylov
+   use contact_tangential_nested, only : nested_workspace, release_nested, solve_newton_krylov, traction_derivative
    use contact_tangential_problem, only : residual_scale, tangential_problem, tangential_solution
    use contact_tangential_yield, only : return_map, yield_point
    use contact_test_harness, only : test_suite
@@ -30,6 +30,7 @@ program test_yield
    call no_effect()
    call mirrored()
    call perfectly_plastic()
+   call derivatives()
    call hard_cases()
    call suite%finish()
 
@@ -259,6 +260,61 @@ contains
       end do
       call operator%release()
    end subroutine perfectly_plastic
+
+   !> Derivatives by creepage and bound, against differences of solutions
+   subroutine derivatives()
+      type(tangential_problem) :: problem
+      type(elastic_operator) :: operator
+      type(tangential_solution) :: here, ahead
+      type(nested_workspace) :: workspace
+      real(wp), allocatable :: shift(:, :, :), bound(:, :), change(:, :, :)
+      real(wp) :: reached, h
+      integer :: kind, k
+
+      do kind = 1, 2
+         do k = 1, 4
+            call ellipse(20, kind == 2, 1, problem, operator)
+            problem%eps = 1.0e-11_wp
+            call make_yield(problem, 120.0_wp, slopes(k))
+            call solve(problem, operator, 0, here, "derivative")
+            allocate(shift(problem%mx, problem%my, 2), source=0.0_wp)
+            allocate(bound(problem%mx, problem%my), source=0.0_wp)
+            allocate(change, source=shift)
+            shift(:, :, 1) = problem%dq
+            call traction_derivative(problem, operator, 1.0e-9_wp, workspace, here, shift, bound, change, reached)
+            h = 1.0e-8_wp
+            problem%shift = problem%shift + h*shift
+            call solve(problem, operator, 0, ahead, "ahead")
+            call differ("by creepage", change, here, ahead, h)
+            problem%shift = problem%shift - h*shift
+            shift = 0.0_wp
+            bound = problem%bound
+            call traction_derivative(problem, operator, 1.0e-9_wp, workspace, here, shift, bound, change, reached)
+            h = 1.0e-6_wp
+            problem%bound = (1.0_wp + h)*bound
+            call solve(problem, operator, 0, ahead, "ahead")
+            call differ("by bound", change, here, ahead, h)
+            deallocate(shift, bound, change)
+         end do
+      end do
+      call release_nested(workspace)
+      call operator%release()
+
+   end subroutine derivatives
+
+   !> Change of the force by derivative and by difference
+   subroutine differ(what, change, here, ahead, h)
+      character(len=*), intent(in) :: what
+      real(wp), intent(in) :: change(:, :, :)
+      type(tangential_solution), intent(in) :: here, ahead
+      real(wp), intent(in) :: h
+      real(wp) :: total(2), expected(2)
+
+      total = [sum(change(:, :, 1)), sum(change(:, :, 2))]
+      expected = [sum(ahead%p(:, :, 1) - here%p(:, :, 1)), sum(ahead%p(:, :, 2) - here%p(:, :, 2))]/h
+      print '(6x, 2a, 4es14.6)', "derivative ", what, total, expected
+      call suite%check(norm2(total - expected) <= 1.0e-4_wp*norm2(expected), "derivative of the force " // what)
+   end subroutine differ
 
    !> One element, one row, very weak layers, fast softening, several contact areas in a row
    subroutine hard_cases()
