@@ -4,13 +4,21 @@
 !> each coordinate, so their spectra are real (nn, xx, yy, xy) or imaginary (xn, yn) and one
 !> real array per kernel is kept. In steady rolling the displacement difference between two
 !> moments is the same kernel times 1 - exp(i kappa dx): a factor per column of the spectrum.
+!>
+!> Small windows transform both tangential fields at once. With X = F(a + i b), s and d the half sum
+!> and the half difference of the spectra xx and yy, the product with the block of xx, yy, xy is
+!> s X(k) + (d + i xy) conj(X(-k)), because these spectra are the same at k and -k. There xx and
+!> yy hold s and d, and the difference between two moments is taken before the transform. The
+!> approximate inverse belongs to a shorter period in y there: a quarter of the window as padding serves
+!> as well as a whole one. In x the sum over the way through the contact area needs the room.
 module contact_elastic_operator
    use contact_base_constants, only : pi
    use contact_base_kinds, only : wp
    use contact_elastic_compliance, only : compliance
    use contact_elastic_halfspace, only : fill_table
    use contact_elastic_model, only : elastic_model
-   use contact_fft_plan, only : fft_plan, good_size
+   use contact_fft_paired, only : paired_plan
+   use contact_fft_plan, only : fast_size, fft_plan, kernel_spectrum, largest_fast_size
    implicit none (type, external)
    private
 
@@ -19,6 +27,9 @@ module contact_elastic_operator
    !> Holds plans, spectra and scratch; its table reaches to offsets of half the padded window
    type, extends(compliance) :: elastic_operator
       type(fft_plan) :: plan
+      !> Both fields at once on small windows, for products and for inverses
+      type(paired_plan), private :: pair, inverse_pair
+      logical, private :: small = .false.
       !> Spectra over padded size, real parts; xn, yn: imaginary parts [mm/(N/mm2)]
       real(wp), allocatable, private :: nn(:, :), xx(:, :), yy(:, :), xy(:, :), xn(:, :), yn(:, :)
       !> Inverse of the 2 by 2 tangential symbol and of the normal symbol, circulant
@@ -42,8 +53,6 @@ module contact_elastic_operator
       procedure :: tangential_by_normal
       procedure :: steady_by_normal
       procedure :: release
-      procedure, private :: make_spectra
-      procedure, private :: pair_product
    end type elastic_operator
 
 contains
@@ -68,11 +77,12 @@ contains
       same = self%mx == mx .and. self%my == my .and. self%dx == dx .and. self%dy == dy .and. self%model%same_as(model)
       if (.not. same) then
          ! one element more than a plain product needs: the shifted kernel of steady rolling
-         px = good_size(2*mx + 1)
-         py = merge(1, good_size(2*my), my == 1)
+         px = fast_size(2*mx + 1)
+         py = merge(1, fast_size(2*my), my == 1)
          call fill_table(self%table, model%material, dx, dy, px/2, py/2)
          self%diagonal = [self%table%nn(0, 0), self%table%xx(0, 0), self%table%yy(0, 0)]
          call self%plan%prepare(mx, my, px, py)
+         self%small = my > 1 .and. max(px, py) <= largest_fast_size
          self%has_normal = .false.
          self%has_tangential = .false.
          self%has_coupling = .false.
@@ -101,49 +111,45 @@ contains
       end if
    end subroutine prepare
 
-   !> Spectrum of one kernel, scaled for the back transform; even or odd in x and y
-   subroutine make_spectra(self, kernel, even, spectrum, inverse)
-      class(elastic_operator), intent(inout) :: self
+   !> Spectrum of one kernel on a period, scaled for the back transform
+   !>
+   !> Real if the kernel is even or odd in both coordinates, else the imaginary part.
+   subroutine make_spectrum(nx, ny, kernel, odd_x, odd_y, px, py, spectrum)
       !> Coefficients, offsets -nx:nx, -ny:ny
-      real(wp), intent(in) :: kernel(-self%table%nx:, -self%table%ny:)
-      !> Even-even or odd-odd (real spectrum), or else odd in one coordinate (imaginary spectrum)
-      logical, intent(in) :: even
+      integer, intent(in) :: nx, ny
+      real(wp), intent(in) :: kernel(-nx:, -ny:)
+      !> Coordinates in which the kernel is odd, else even
+      logical, intent(in) :: odd_x, odd_y
+      !> Size of the period, even or 1
+      integer, intent(in) :: px, py
+      !> Shape (py, px/2 + 1)
       real(wp), allocatable, intent(inout) :: spectrum(:, :)
-      !> 1/spectrum, scaled likewise, when asked for
-      real(wp), allocatable, intent(inout), optional :: inverse(:, :)
       real(wp), allocatable :: period(:, :)
       complex(wp), allocatable :: transform(:, :)
-      integer :: k, l, px, py
-      real(wp) :: scale, smallest
+      integer :: k, l
+      real(wp) :: scale
 
-      px = self%plan%px
-      py = self%plan%py
-      allocate(period(px, py), transform(py, self%plan%kx))
+      allocate(period(px, py), transform(py, px/2 + 1))
       do l = 1, py
          do k = 1, px
             period(k, l) = kernel(wrapped(k, px), wrapped(l, py))
          end do
       end do
-      call self%plan%kernel_spectrum(period, transform)
+      ! an odd kernel vanishes at half the period, where offsets +n and -n coincide
+      if (odd_x .and. px > 1) period(px/2 + 1, :) = 0.0_wp
+      if (odd_y .and. py > 1) period(:, py/2 + 1) = 0.0_wp
+      call kernel_spectrum(period, transform)
       scale = 1.0_wp/(real(px, wp)*real(py, wp))
       if (allocated(spectrum)) then
          if (any(shape(spectrum) /= shape(transform))) deallocate(spectrum)
       end if
-      if (.not. allocated(spectrum)) allocate(spectrum(py, self%plan%kx))
-      if (even) then
+      if (.not. allocated(spectrum)) allocate(spectrum(py, px/2 + 1))
+      if (odd_x .eqv. odd_y) then
          spectrum = scale*real(transform)
       else
          spectrum = scale*aimag(transform)
       end if
-      if (.not. present(inverse)) return
-      if (allocated(inverse)) then
-         if (any(shape(inverse) /= shape(transform))) deallocate(inverse)
-      end if
-      if (.not. allocated(inverse)) allocate(inverse(py, self%plan%kx))
-      ! a complete period has a positive spectrum; the floor guards extreme shapes only
-      smallest = 1.0e-10_wp*maxval(abs(spectrum))/scale
-      inverse = scale/max(spectrum/scale, smallest)
-   end subroutine make_spectra
+   end subroutine make_spectrum
 
    !> Offset that belongs to position k of a period of length n
    pure integer function wrapped(k, n) result(offset)
@@ -152,71 +158,111 @@ contains
       if (offset > n/2) offset = offset - n
    end function wrapped
 
-   !> An odd kernel vanishes at half the period, where offsets +n and -n coincide
-   subroutine clear_half_period(self, kernel, in_x, in_y)
-      class(elastic_operator), intent(in) :: self
-      !> Coefficients, offsets -nx:nx, -ny:ny
-      real(wp), intent(inout) :: kernel(-self%table%nx:, -self%table%ny:)
-      !> Coordinates in which the kernel is odd
-      logical, intent(in) :: in_x, in_y
-      integer :: hx, hy
-
-      hx = self%plan%px/2
-      hy = self%plan%py/2
-      if (in_x .and. hx > 0) kernel([-hx, hx], :) = 0.0_wp
-      if (in_y .and. hy > 0) kernel(:, [-hy, hy]) = 0.0_wp
-   end subroutine clear_half_period
-
    !> Spectra for the normal problem, on first use
    subroutine need_normal(self)
       class(elastic_operator), intent(inout) :: self
+      real(wp) :: scale, smallest
+
       if (self%has_normal) return
-      call self%make_spectra(self%table%nn, .true., self%nn, self%inn)
+      associate (t => self%table, px => self%plan%px, py => self%plan%py)
+         call make_spectrum(t%nx, t%ny, t%nn, .false., .false., px, py, self%nn)
+         scale = 1.0_wp/(real(px, wp)*real(py, wp))
+      end associate
+      if (allocated(self%inn)) then
+         if (any(shape(self%inn) /= shape(self%nn))) deallocate(self%inn)
+      end if
+      if (.not. allocated(self%inn)) allocate(self%inn, mold=self%nn)
+      ! a complete period has a positive spectrum; the floor guards extreme shapes only
+      smallest = 1.0e-10_wp*maxval(abs(self%nn))/scale
+      self%inn = scale/max(self%nn/scale, smallest)
       self%has_normal = .true.
    end subroutine need_normal
 
    !> Spectra for the tangential problem, on first use
    subroutine need_tangential(self)
       class(elastic_operator), intent(inout) :: self
-      real(wp), allocatable :: odd(:, :)
-      real(wp) :: det, floor_, scale
-      integer :: k, l
+      integer :: py
 
       if (self%has_tangential) return
-      call self%make_spectra(self%table%xx, .true., self%xx)
-      call self%make_spectra(self%table%yy, .true., self%yy)
-      odd = self%table%xy
-      call clear_half_period(self, odd, in_x=.true., in_y=.true.)
-      call self%make_spectra(odd, .true., self%xy)
-      if (allocated(self%ixx)) then
-         if (any(shape(self%ixx) /= shape(self%xx))) deallocate(self%ixx, self%iyy, self%ixy)
+      py = self%plan%py
+      if (self%small) py = min(py, fast_size(self%my + (self%my + 3)/4))
+      call tangential_spectra(self, self%plan%py, self%xx, self%yy, self%xy)
+      if (py == self%plan%py) then
+         self%ixx = self%xx
+         self%iyy = self%yy
+         self%ixy = self%xy
+      else
+         call tangential_spectra(self, py, self%ixx, self%iyy, self%ixy)
       end if
-      if (.not. allocated(self%ixx)) allocate(self%ixx, self%iyy, self%ixy, mold=self%xx)
-      scale = 1.0_wp/(real(self%plan%px, wp)*real(self%plan%py, wp))
-      floor_ = 1.0e-10_wp*maxval(abs(self%xx))*maxval(abs(self%yy))
-      do l = 1, self%plan%kx
-         do k = 1, self%plan%py
-            det = max(self%xx(k, l)*self%yy(k, l) - self%xy(k, l)**2, floor_)
-            self%ixx(k, l) = scale**2*self%yy(k, l)/det
-            self%iyy(k, l) = scale**2*self%xx(k, l)/det
-            self%ixy(k, l) = -scale**2*self%xy(k, l)/det
-         end do
-      end do
+      call invert_block(real(self%plan%px, wp)*real(py, wp), self%ixx, self%iyy, self%ixy)
+      if (self%small) then
+         call self%pair%prepare(self%mx, self%my, self%plan%px, self%plan%py)
+         call self%inverse_pair%prepare(self%mx, self%my, self%plan%px, py)
+         call take_mean(self%xx, self%yy)
+         call take_mean(self%ixx, self%iyy)
+      end if
       self%has_tangential = .true.
    end subroutine need_tangential
+
+   !> Spectra xx, yy, xy on a period in y
+   subroutine tangential_spectra(self, py, xx, yy, xy)
+      class(elastic_operator), intent(in) :: self
+      integer, intent(in) :: py
+      real(wp), allocatable, intent(inout) :: xx(:, :), yy(:, :), xy(:, :)
+
+      associate (t => self%table, px => self%plan%px)
+         call make_spectrum(t%nx, t%ny, t%xx, .false., .false., px, py, xx)
+         call make_spectrum(t%nx, t%ny, t%yy, .false., .false., px, py, yy)
+         call make_spectrum(t%nx, t%ny, t%xy, .true., .true., px, py, xy)
+      end associate
+   end subroutine tangential_spectra
+
+   !> Spectra of the inverse block
+   pure subroutine invert_block(elements, xx, yy, xy)
+      !> Elements in a period, by which spectra are divided for the back transform
+      real(wp), intent(in) :: elements
+      real(wp), contiguous, intent(inout) :: xx(:, :), yy(:, :), xy(:, :)
+      real(wp) :: det, floor_, keep, scale
+      integer :: k, l
+
+      scale = 1.0_wp/elements
+      floor_ = 1.0e-10_wp*maxval(abs(xx))*maxval(abs(yy))
+      do l = 1, size(xx, 2)
+         do k = 1, size(xx, 1)
+            det = max(xx(k, l)*yy(k, l) - xy(k, l)**2, floor_)
+            keep = xx(k, l)
+            xx(k, l) = scale**2*yy(k, l)/det
+            yy(k, l) = scale**2*keep/det
+            xy(k, l) = -scale**2*xy(k, l)/det
+         end do
+      end do
+   end subroutine invert_block
+
+   !> Half the sum and half the difference in place of two spectra
+   elemental subroutine take_mean(xx, yy)
+      real(wp), intent(inout) :: xx, yy
+      real(wp) :: difference
+
+      difference = 0.5_wp*(xx - yy)
+      xx = 0.5_wp*(xx + yy)
+      yy = difference
+   end subroutine take_mean
+
+   !> Position of frequency -k in a period of length n
+   elemental integer function opposite(k, n)
+      integer, intent(in) :: k, n
+      opposite = merge(1, n + 2 - k, k == 1)
+   end function opposite
 
    !> Spectra of the coupling between pressures and tangential displacements, on first use
    subroutine need_coupling(self)
       class(elastic_operator), intent(inout) :: self
-      real(wp), allocatable :: odd(:, :)
 
       if (self%has_coupling) return
-      odd = self%table%xn
-      call clear_half_period(self, odd, in_x=.true., in_y=.false.)
-      call self%make_spectra(odd, .false., self%xn)
-      odd = self%table%yn
-      call clear_half_period(self, odd, in_x=.false., in_y=.true.)
-      call self%make_spectra(odd, .false., self%yn)
+      associate (t => self%table, px => self%plan%px, py => self%plan%py)
+         call make_spectrum(t%nx, t%ny, t%xn, .true., .false., px, py, self%xn)
+         call make_spectrum(t%nx, t%ny, t%yn, .false., .true., px, py, self%yn)
+      end associate
       self%has_coupling = .true.
    end subroutine need_coupling
 
@@ -257,7 +303,14 @@ contains
       real(wp), contiguous, intent(inout) :: u(:, :, :)
 
       call need_tangential(self)
-      call self%pair_product(self%xx, self%yy, self%xy, p, u)
+      if (self%small) then
+         call self%pair%forward(p)
+         call multiply_paired(self%xx, self%yy, self%xy, self%pair%spectrum)
+         call self%pair%backward(u)
+      else
+         call single_product(self, self%xx, self%yy, self%xy, p, u)
+      end if
+      self%transforms = self%transforms + 4
       self%products = self%products + 1
    end subroutine tangential
 
@@ -267,7 +320,14 @@ contains
       real(wp), contiguous, intent(inout) :: u(:, :, :)
 
       call need_tangential(self)
-      call self%pair_product(self%xx, self%yy, self%xy, p, u, self%difference)
+      if (self%small) then
+         call self%pair%forward(p, ahead=self%direction)
+         call multiply_paired(self%xx, self%yy, self%xy, self%pair%spectrum)
+         call self%pair%backward(u)
+      else
+         call single_product(self, self%xx, self%yy, self%xy, p, u, self%difference)
+      end if
+      self%transforms = self%transforms + 4
       self%products = self%products + 1
    end subroutine steady
 
@@ -277,7 +337,7 @@ contains
       real(wp), contiguous, intent(inout) :: z(:, :, :)
 
       call need_tangential(self)
-      call self%pair_product(self%ixx, self%iyy, self%ixy, r, z)
+      call inverse_of_pair(self, r, z)
    end subroutine tangential_inverse
 
    subroutine steady_inverse(self, r, z)
@@ -286,11 +346,60 @@ contains
       real(wp), contiguous, intent(inout) :: z(:, :, :)
 
       call need_tangential(self)
-      call self%pair_product(self%ixx, self%iyy, self%ixy, r, z, self%sum_up)
+      call inverse_of_pair(self, r, z, self%sum_up)
    end subroutine steady_inverse
 
+   subroutine inverse_of_pair(self, r, z, factor)
+      class(elastic_operator), intent(inout) :: self
+      real(wp), contiguous, intent(in) :: r(:, :, :)
+      real(wp), contiguous, intent(inout) :: z(:, :, :)
+      !> Per column of the spectrum
+      complex(wp), contiguous, intent(in), optional :: factor(:)
+
+      if (self%small) then
+         call self%inverse_pair%forward(r)
+         call multiply_paired(self%ixx, self%iyy, self%ixy, self%inverse_pair%spectrum, factor)
+         call self%inverse_pair%backward(z)
+      else
+         call single_product(self, self%ixx, self%iyy, self%ixy, r, z, factor)
+      end if
+      self%transforms = self%transforms + 4
+   end subroutine inverse_of_pair
+
+   !> Product of a spectrum of two fields with a symmetric 2 by 2 block, times a factor per column
+   subroutine multiply_paired(mean, half, mixed, spectrum, factor)
+      !> Half the sum and half the difference of the spectra xx and yy, and xy, shape (py, px/2 + 1)
+      real(wp), contiguous, intent(in) :: mean(:, :), half(:, :), mixed(:, :)
+      !> Shape (py, px)
+      complex(wp), contiguous, intent(inout) :: spectrum(:, :)
+      complex(wp), contiguous, intent(in), optional :: factor(:)
+      integer :: k, l, i, j, px, py
+      complex(wp) :: a, b, c, turn
+
+      py = size(spectrum, 1)
+      px = size(spectrum, 2)
+      turn = 1.0_wp
+      ! frequencies and their opposites together
+      do l = 1, px/2 + 1
+         j = opposite(l, px)
+         if (present(factor)) turn = factor(l)
+         do k = 1, merge(py/2 + 1, py, j == l)
+            i = opposite(k, py)
+            c = cmplx(half(k, l), mixed(k, l), wp)
+            a = mean(k, l)*spectrum(k, l) + c*conjg(spectrum(i, j))
+            b = mean(k, l)*spectrum(i, j) + c*conjg(spectrum(k, l))
+            if (present(factor)) then
+               a = turn*a
+               b = conjg(turn)*b
+            end if
+            spectrum(k, l) = a
+            spectrum(i, j) = b
+         end do
+      end do
+   end subroutine multiply_paired
+
    !> Product with a symmetric 2 by 2 block of real spectra, times a factor per column
-   subroutine pair_product(self, axx, ayy, axy, p, u, factor)
+   subroutine single_product(self, axx, ayy, axy, p, u, factor)
       class(elastic_operator), intent(inout) :: self
       real(wp), contiguous, intent(in) :: axx(:, :), ayy(:, :), axy(:, :)
       real(wp), contiguous, intent(in) :: p(:, :, :)
@@ -334,8 +443,7 @@ contains
          call self%plan%backward(self%s1, u(:, :, 1))
          call self%plan%backward(self%s2, u(:, :, 2))
       end if
-      self%transforms = self%transforms + 4
-   end subroutine pair_product
+   end subroutine single_product
 
    subroutine normal_by_tangential(self, p, u)
       class(elastic_operator), intent(inout) :: self
@@ -395,6 +503,8 @@ contains
    subroutine release(self)
       class(elastic_operator), intent(inout) :: self
       call self%plan%release()
+      call self%pair%release()
+      call self%inverse_pair%release()
       self%mx = 0
    end subroutine release
 

@@ -6,7 +6,7 @@ module contact_elastic_previous
    use contact_base_kinds, only : wp
    use contact_elastic_halfspace, only : fill_shifted_table, kernel_table
    use contact_elastic_model, only : elastic_model
-   use contact_fft_plan, only : fft_plan, good_size
+   use contact_fft_plan, only : fft_plan, good_size, kernel_spectrum
    implicit none (type, external)
    private
 
@@ -92,7 +92,7 @@ contains
       end do
       if (allocated(spectrum)) deallocate(spectrum)
       allocate(spectrum(plan%py, plan%kx))
-      call plan%kernel_spectrum(period, spectrum)
+      call kernel_spectrum(period, spectrum)
       spectrum = spectrum/(real(plan%px, wp)*real(plan%py, wp))
    end subroutine spectrum_of
 
