@@ -26,7 +26,7 @@ def read(path):
         elif "ELAST.EN.   FRIC" in line:
             values.update(zip(TOTALS, numbers(lines[k + 1])))
             second = numbers(lines[k + 3])
-            values.update(zip(("FN/G", "X", "Y", "APPROACH", "PMAX"), second))
+            values.update(zip(("FN/G", "X", "Y", "APPROACH", "PMAX", "TMAX"), second))
             values["X is"] = meaning(lines[k + 2], "X")
             values["Y is"] = meaning(lines[k + 2], "Y")
         elif "SUBSURFACE STRESSES BLOCK" in line:

@@ -7,7 +7,7 @@ import os
 import subprocess
 import sys
 
-EXAMPLES = ["cattaneo", "carter2d", "bentall", "catt_to_cart", "spence35"]
+EXAMPLES = ["cattaneo", "carter2d", "bentall", "catt_to_cart", "spence35", "veldep_fric", "ertz_temperature"]
 
 reference = os.environ["CONTACT_REFERENCE"]
 tool = os.path.join(os.path.dirname(os.path.normpath(reference)), "tools", "check_reference.py")
