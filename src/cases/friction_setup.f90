@@ -13,7 +13,7 @@ module contact_cases_friction_setup
    implicit none (type, external)
    private
 
-   public :: set_friction, set_thermal
+   public :: parameters_of, set_friction, set_thermal
 
 contains
 

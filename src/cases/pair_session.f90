@@ -5,10 +5,13 @@ module contact_cases_pair_session
    use contact_base_error, only : add_context, error_kind, error_type, fatal_error
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
-   use contact_cases_patch_setup, only : set_method
+   use contact_cases_friction_setup, only : parameters_of, set_friction, set_thermal
+   use contact_cases_patch_setup, only : set_method, set_simplified_theory, set_yield_limit
    use contact_cases_spec, only : case_spec
    use contact_cases_subsurface, only : subsurface_stresses
    use contact_elastic_material, only : combine
+   use contact_patch_damping, only : damping_law
+   use contact_patch_result, only : patch_result
    use contact_profile_curve, only : profile_curve
    use contact_profile_prepare, only : read_profile
    use contact_profile_request, only : profile_request, profile_side, same_request
@@ -76,20 +79,12 @@ contains
          call refuse("F = 1, 3, prescribed longitudinal force or rail on springs, in wheel-rail contact")
       else if (spec%wheel_rail%search%location /= contact_location%locus) then
          call refuse("D other than 2, other ways to locate the contact of wheel and rail than the planar contact locus,")
-      else if (spec%variation /= variation%none) then
-         call refuse("V = 1, 2, friction that varies over the rail,")
-      else if (spec%friction_law /= 0) then
-         call refuse("L other than 0, friction laws other than Coulomb's in wheel-rail contact,")
-      else if (spec%material_model /= material_model%elastic) then
-         call refuse("M other than 0, materials other than elastic in wheel-rail contact,")
+      else if (any(spec%material_model == [material_model%viscoelastic])) then
+         call refuse("M = 1, viscoelastic material in wheel-rail contact,")
       else if (spec%kernel /= kernel_model%piecewise_constant) then
          call refuse("C other than 2, other influence coefficients in wheel-rail contact,")
-      else if (spec%pressure /= pressure_model%full) then
-         call refuse("B other than 0, approximate normal solutions in wheel-rail contact,")
-      else if (spec%heat_model /= 0) then
-         call refuse("H = 1, 3, surface temperatures in wheel-rail contact,")
-      else if (spec%has_damping) then
-         call refuse("M2 = 2, damping in wheel-rail contact,")
+      else if (spec%pressure == pressure_model%thin_sheet) then
+         call refuse("B = 1, an elastic thin sheet,")
       end if
 
    contains
@@ -107,6 +102,8 @@ contains
       character(len=*), intent(in) :: folder
       type(log_type), intent(inout) :: log
       type(error_type), allocatable, intent(out) :: error
+      type(case_spec), allocatable :: first_set
+      type(patch_result) :: no_hertz
 
       associate (problem => session%problem, template => session%problem%template)
          problem%spec = spec%wheel_rail
@@ -121,7 +118,29 @@ contains
          problem%most_elements = spec%iteration%npot_max
          template%model%material = combine(spec%material%poiss, spec%material%gg)
          call set_method(spec, template)
-         template%mu = spec%friction%sets(1)%fstat
+         template%pressure = spec%pressure
+         template%grid%my = 1
+         problem%variation = spec%variation
+         problem%friction_law = spec%friction_law
+         if (spec%variation == variation%none) then
+            call set_friction(spec, template, error)
+         else
+            problem%control_point = spec%friction%sets%position
+            problem%control = parameters_of(spec%friction%sets)
+            allocate(first_set, source=spec)
+            first_set%friction%sets = spec%friction%sets(:1)
+            call set_friction(first_set, template, error)
+         end if
+         if (.not. allocated(error)) call set_thermal(spec, template, error)
+         if (.not. allocated(error)) call set_simplified_theory(spec, no_hertz, template, log, error)
+         if (.not. allocated(error)) call set_yield_limit(spec, template, error)
+         if (allocated(error)) return
+         if (allocated(template%damping)) deallocate(template%damping)
+         if (spec%has_damping) then
+            allocate(template%damping)
+            template%damping = damping_law(coefficient=[spec%damping%cdampn, spec%damping%cdampt], &
+               & largest_rate=[spec%damping%dfnmax, spec%damping%dftmax])
+         end if
          template%want_exterior = spec%mat_file >= 2 .or. spec%output_level >= 6
          ! the contact stiffness leads the search for the height
          template%sensitivity = merge(sensitivity_choice%normal, sensitivity_choice%none, problem%force_prescribed)

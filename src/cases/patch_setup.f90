@@ -19,7 +19,7 @@ module contact_cases_patch_setup
    implicit none (type, external)
    private
 
-   public :: set_method, set_problem
+   public :: set_method, set_problem, set_simplified_theory, set_yield_limit
 
 contains
 

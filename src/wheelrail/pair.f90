@@ -5,10 +5,12 @@
 !> with the tangential forces in a fixed ratio to the normal ones; the tangential problem comes last
 !> and corrects that ratio. References and grids belong to the height of each trial.
 module contact_wheelrail_pair
-   use contact_base_choices, only : estimate_choice, motion, time_link
+   use contact_base_choices, only : estimate_choice, friction_model, motion, time_link, variation
    use contact_base_error, only : add_context, error_type
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
+   use contact_friction_law, only : friction_parameters
+   use contact_friction_new_law, only : new_friction_law
    use contact_patch_moments, only : link_moments
    use contact_patch_problem, only : patch_problem, patch_state
    use contact_patch_result, only : patch_result
@@ -44,6 +46,11 @@ module contact_wheelrail_pair
       logical :: use_previous = .false.
       !> Power of the interpenetration in the weights of the contact reference
       integer :: weight_power = 2
+      !> How friction varies, member of variation, and its law, member of friction_model
+      integer :: variation = variation%none, friction_law = friction_model%coulomb
+      !> Parameters at control points: angles [rad] or positions along the track [mm], rising
+      real(wp), allocatable :: control_point(:)
+      type(friction_parameters), allocatable :: control(:)
       !> Elements of a patch at most
       integer :: most_elements = 20000
    end type pair_problem
@@ -404,6 +411,8 @@ contains
       slot%problem%pen = approach
       slot%problem%n_forces = 0
       if (problem%geometry_only) slot%problem%motion = motion%none
+      call set_patch_friction(problem, slot, error)
+      if (allocated(error)) return
       call set_motion(problem, memory, slot, approach)
       if (.not. with_friction) slot%problem%motion = motion%none
       if (.not. slot%has_ratio) then
@@ -425,6 +434,59 @@ contains
          slot%has_ratio = .true.
       end if
    end subroutine solve_slot
+
+   !> Friction of the patch: where it varies, that of the contact angle or of the place along the track
+   subroutine set_patch_friction(problem, slot, error)
+      type(pair_problem), intent(in) :: problem
+      type(patch_slot), intent(inout) :: slot
+      type(error_type), allocatable, intent(out) :: error
+      type(friction_parameters) :: here
+
+      associate (patch => slot%problem)
+         if (problem%variation /= variation%none .and. problem%template%motion /= motion%none) then
+            if (problem%variation == variation%by_angle) then
+               here = parameters_at(problem, slot%plane%roll())
+            else
+               here = parameters_at(problem, problem%spec%wheelset%s)
+            end if
+            patch%mu = here%static
+            if (problem%friction_law /= friction_model%coulomb) then
+               call new_friction_law(problem%friction_law, [here], patch%friction, error)
+               if (allocated(error)) return
+            end if
+         end if
+         if (allocated(patch%static_mu)) deallocate(patch%static_mu)
+         if (allocated(patch%friction)) allocate(patch%static_mu(patch%grid%my), source=patch%mu)
+      end associate
+   end subroutine set_patch_friction
+
+   !> Parameters between control points, by linear interpolation; constant beyond them
+   pure function parameters_at(problem, position) result(here)
+      type(pair_problem), intent(in) :: problem
+      !> [rad] or [mm]
+      real(wp), intent(in) :: position
+      type(friction_parameters) :: here
+      real(wp) :: t
+      integer :: k, n
+
+      n = size(problem%control_point)
+      k = count(problem%control_point <= position)
+      if (k == 0 .or. n == 1) then
+         here = problem%control(1)
+         return
+      end if
+      here = problem%control(min(k, n))
+      if (k >= n) return
+      t = (position - problem%control_point(k))/(problem%control_point(k + 1) - problem%control_point(k))
+      associate (a => problem%control(k), b => problem%control(k + 1))
+         here%static = (1.0_wp - t)*a%static + t*b%static
+         here%kinetic = (1.0_wp - t)*a%kinetic + t*b%kinetic
+         here%term = (1.0_wp - t)*a%term + t*b%term
+         here%half_speed = (1.0_wp - t)*a%half_speed + t*b%half_speed
+         here%onset = (1.0_wp - t)*a%onset + t*b%onset
+         here%range = (1.0_wp - t)*a%range + t*b%range
+      end associate
+   end function parameters_at
 
    !> Were the elements of the last solution of the same size?
    pure logical function same_elements(slot)
