@@ -11,6 +11,7 @@ module contact_cases_patch_setup
    use contact_cases_spec, only : case_spec
    use contact_elastic_material, only : combine
    use contact_grid_potential_contact, only : potential_contact
+   use contact_friction_law, only : friction_driver
    use contact_normal_estimate, only : elliptic_pressure, parabolic_pressure, sdec_pressure
    use contact_patch_damping, only : damping_law
    use contact_patch_problem, only : patch_problem
@@ -220,6 +221,15 @@ contains
          call fatal_error(error, "slope reduction depends on creepages of rolling, a shift has none: ALFAMF must be 1 or " // &
             & "BETAMF 0 with T = 1")
          return
+      end if
+      if (allocated(problem%friction)) then
+         if (problem%friction%driver == friction_driver%temperature) then
+            call fatal_error(error, "friction that changes with temperature cannot be used with simplified theory, whose " // &
+               & "friction is found before its tractions; M = 0 can do it")
+            return
+         end if
+         ! friction follows from the rigid slip velocity, particles carry nothing along
+         problem%remembers_friction = .false.
       end if
       allocate(problem%simplified)
       associate (model => problem%simplified)

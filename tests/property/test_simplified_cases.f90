@@ -65,6 +65,10 @@ contains
          call suite%close_to([own%result%fx_rel, own%result%fy_rel], [full%result%fx_rel, full%result%fy_rel], 0.02_wp, &
             & "equivalent ellipse")
       end do
+      call full%release()
+      call given%release()
+      call pushed%release()
+      call own%release()
    end subroutine pressures
 
    !> Tractions within the bound, friction takes energy, tractions and displacements belong together
@@ -97,6 +101,7 @@ contains
       call case%run(suite, "given pressures")
       call suite%close_to(case%result%elastic_energy, 0.0_wp, 0.0_wp, "energy of given pressures")
       call suite%close_to(maxval(abs(case%result%un)), 0.0_wp, 0.0_wp, "normal displacements of given pressures")
+      call case%release()
    end subroutine displacements
 
    !> Forces of the full solution, within what simplified theory is known for
@@ -117,6 +122,8 @@ contains
                & "forces of simplified theory")
          end do
       end do
+      call full%release()
+      call case%release()
    end subroutine against_full_solution
 
    !> Transient rolling ends in steady rolling, also where steps are no whole elements; shifts add up
@@ -160,6 +167,8 @@ contains
       call shift(case%spec, x=-1.0e-5_wp)
       call case%run(suite, "back")
       call suite%check(case%result%fx_rel > force, "back again")
+      call steady%release()
+      call case%release()
    end subroutine time
 
    !> Forces instead of creepages
@@ -195,6 +204,7 @@ contains
       call forces(case%spec, 0.9999999_wp)
       call case%try(error)
       call suite%check(.not. allocated(error), "a statement, no failure")
+      call case%release()
    end subroutine prescribed_forces
 
    !> Rolling the other way
@@ -220,6 +230,8 @@ contains
             & "mirror image: forces")
          call suite%check(all(two%result%division == one%result%division(34:1:-1, :)), "mirror image: division")
       end do
+      call one%release()
+      call two%release()
    end subroutine mirrors
 
    !> What no method can honour is refused
@@ -247,6 +259,7 @@ contains
       case%spec%material%flx = 0.0_wp
       call case%try(error)
       call suite%check(allocated(error), "no flexibility")
+      call case%release()
    end subroutine refusals
 
    !> One row, one element, no contact, no friction, dissimilar bodies
@@ -280,5 +293,6 @@ contains
          case%spec%material%poiss = [0.0_wp, 0.4_wp]
          call case%run(suite, "dissimilar bodies")
       end do
+      call case%release()
    end subroutine few_elements
 end program test_simplified_cases
