@@ -3,7 +3,7 @@
 !> With friction that no traction reaches, forces are linear in the creepages. They converge like
 !> the size of the elements (the tractions are infinite at the trailing edge), so two grids are
 !> extrapolated; the number of elements in contact stands for the area of the ellipse. With an argument the
-!> program prints the table of doc/validation/analytic.md on finer grids.
+!> program prints the table of doc/validation/simplified.md on finer grids.
 program test_creepage_coefficients
    use, intrinsic :: iso_fortran_env, only : output_unit
    use contact_base_choices, only : motion, pressure_model
