@@ -10,8 +10,8 @@ module contact_cases_patch_setup
    use contact_cases_numbers, only : check_numbers
    use contact_cases_spec, only : case_spec
    use contact_elastic_material, only : combine
-   use contact_grid_potential_contact, only : potential_contact
    use contact_friction_law, only : friction_driver
+   use contact_grid_potential_contact, only : potential_contact
    use contact_normal_estimate, only : elliptic_pressure, parabolic_pressure, sdec_pressure
    use contact_patch_damping, only : damping_law
    use contact_patch_problem, only : patch_problem

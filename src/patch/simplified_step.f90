@@ -89,11 +89,6 @@ contains
          allocate(window%law, source=problem%friction)
          if (window%law%varies_by_row()) window%law%sets = problem%friction%sets(box%iy0:box%iy1)
       end if
-      if (allocated(window%law)) deallocate(window%law)
-      if (allocated(problem%friction)) then
-         allocate(window%law, source=problem%friction)
-         if (window%law%varies_by_row()) window%law%sets = problem%friction%sets(box%iy0:box%iy1)
-      end if
       window%velocity = problem%veloc
       window%mu_scal = result%mu_scal
       window%fn = result%fn
