@@ -9,7 +9,7 @@
 module contact_subsurface_direct
    use contact_base_kinds, only : wp
    use contact_subsurface_element_field, only : body_responses, corner_derivatives, edge_ratio, far_distance, &
-      & load_quadrature, n_derivatives, n_fields, new_quadrature, node_derivatives, source_derivatives
+      & farthest_point, load_quadrature, n_derivatives, n_fields, new_quadrature, node_derivatives, source_derivatives
    use contact_subsurface_load, only : surface_load
    implicit none (type, external)
    private
@@ -63,6 +63,7 @@ contains
 
       !$omp parallel do default(shared) private(total) schedule(dynamic, 4)
       do point = 1, size(position, 2)
+         if (any(abs(position(:, point)) > farthest_point)) cycle
          if (is_beyond(area, position(:, point))) then
             call sum_sources(load, sources, position(:, point), total)
          else

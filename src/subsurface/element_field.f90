@@ -38,6 +38,9 @@ module contact_subsurface_element_field
    !> forms, for constant and for bilinear loads
    real(wp), parameter :: far_constant = 20.0_wp, far_bilinear = 6.0_wp
 
+   !> Farther away the fields vanish, and powers of distances would overflow [mm]
+   real(wp), parameter, public :: farthest_point = 1.0e60_wp
+
    !> Weights and abscissae of the load on one element, in one direction; the weights add up to 1
    type :: load_quadrature
       !> Abscissae per side of the element [-]
@@ -238,15 +241,9 @@ contains
       real(wp), intent(in) :: x, y, z
       !> Derivatives [1/mm, 1/mm2, 1/mm3]
       real(wp), intent(out) :: d(n_derivatives)
-      !> Farther away nothing is left, and powers would overflow [mm]
-      real(wp), parameter :: nowhere = 1.0e60_wp
       real(wp) :: r, f, g, h, i, i3, i5, k, m, n
 
       r = sqrt(x**2 + y**2 + z**2)
-      if (r > nowhere) then
-         d = 0.0_wp
-         return
-      end if
       i = 1.0_wp/r
       i3 = i**3
       i5 = i3*i**2

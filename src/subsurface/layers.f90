@@ -10,7 +10,8 @@ module contact_subsurface_layers
    use contact_base_kinds, only : wp
    use contact_fft_plan, only : fft_plan, good_size
    use contact_subsurface_element_field, only : body_responses, corner_derivatives, edge_ratio, far_distance, &
-      & load_quadrature, n_derivatives, n_fields, new_quadrature, node_derivatives, odd_in_x, odd_in_y, source_derivatives
+      & farthest_point, load_quadrature, n_derivatives, n_fields, new_quadrature, node_derivatives, odd_in_x, &
+      & odd_in_y, source_derivatives
    use contact_subsurface_load, only : surface_load
    !$ use omp_lib, only : omp_get_max_threads
    implicit none (type, external)
@@ -140,6 +141,7 @@ contains
       allocate(product(window%py, plan%kx, 3), period(window%px, window%py), packed(window%py, plan%kx))
       !$omp do schedule(dynamic)
       do layer = 1, size(z)
+         if (abs(z(layer)) > farthest_point) cycle
          call fill_responses(load, window, z(layer), response)
          do g = 1, size(group, 2)
             call multiply_group(load%acts, group(:, g), response, spectrum, period_plan, product, period, packed)

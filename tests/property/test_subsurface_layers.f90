@@ -204,6 +204,9 @@ contains
       few%x = points%x(4:4) + 0.01_wp
       call subsurface_field(load, few, u1, s1)
       call suite%check(maxval(abs(s1(:, 1) - s(:, 150 + 6*15 + 4))) > 1e-6_wp, "a point between centres")
+      points%z = [-1e200_wp, 1e59_wp]
+      call subsurface_field(load, points, u, s)
+      call suite%check(all(s == 0.0_wp) .and. all(abs(u) < 1e-50_wp), "huge depths")
       p = 0.0_wp
       call new_surface_load(load, grid, p(:, :, 3), p(:, :, 1), p(:, :, 2), gg, nu)
       call subsurface_field(load, points, u, s)
