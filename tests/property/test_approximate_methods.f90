@@ -1,11 +1,12 @@
 !> Approximate normal methods in whole cases: against the full solution, scaling, refusals; damping forces
 program test_approximate_methods
-   use contact_base_choices, only : motion, normal_control, pressure_model, time_link
+   use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
+   use contact_base_choices, only : material_model, motion, normal_control, pressure_model, time_link
    use contact_base_error, only : error_type
    use contact_base_kinds, only : wp
    use contact_patch_damping, only : damping_forces, damping_law
    use contact_patch_result, only : patch_result
-   use contact_test_case_builder, only : creep, hertz_case, surface_case, test_case
+   use contact_test_case_builder, only : creep, forces, hertz_case, surface_case, test_case
    use contact_test_harness, only : test_suite
    implicit none (type, external)
    integer, parameter :: methods(3) = [pressure_model%full, pressure_model%kpec, pressure_model%analyn]
@@ -30,6 +31,7 @@ program test_approximate_methods
    end do
    call double_ellipse(suite)
    call coupled(suite)
+   call sequences(suite)
    call refusals(suite)
    call damping_law_alone(suite)
    call damping_in_sequences(suite)
@@ -137,6 +139,44 @@ contains
             & "dissimilar, " // trim(name_of(m)) // ": the outer iteration ends")
       end do
    end subroutine coupled
+
+   !> Methods take turns in sequences of every kind, also with simplified theory and prescribed forces
+   subroutine sequences(suite)
+      type(test_suite), intent(inout) :: suite
+      integer, parameter :: kinds(3) = [motion%shift, motion%transient_rolling, motion%steady_rolling]
+      type(test_case) :: case
+      character(len=40) :: what
+      integer :: kind, theory, step, m
+
+      do kind = 1, size(kinds)
+         do theory = 1, 2
+            do step = 1, 6
+               m = mod(step, 3) + 1
+               call set_case(2, methods(m), case)
+               write(what, '(a, 3i2)') "sequence", kind, theory, step
+               case%spec%motion = kinds(kind)
+               if (theory == 2) case%spec%material_model = material_model%fastsim
+               if (kinds(kind) == motion%shift) then
+                  case%spec%kinematics%cksi = 2.0e-3_wp
+                  case%spec%kinematics%ceta = -1.0e-3_wp
+               end if
+               if (step > 1) then
+                  case%spec%link = time_link%continue_all
+                  case%spec%new_grid = .false.
+                  case%spec%new_geometry = .false.
+               end if
+               if (step > 3) call forces(case%spec, 0.4_wp, -0.2_wp)
+               case%spec%kinematics%pen = 0.05_wp + 0.002_wp*step
+               call case%run(suite, what)
+               call suite%check(ieee_is_finite(case%result%fx) .and. ieee_is_finite(case%result%friction_power) .and. &
+                  & hypot(case%result%fx, case%result%fy) <= case%result%mu_scal*case%result%fn*(1.0_wp + 1.0e-9_wp) .and. &
+                  & case%result%ncon > 0, what // ": forces within their bound")
+               if (case%spec%force == 2) call suite%close_to([case%result%fx_rel, case%result%fy_rel], [0.4_wp, -0.2_wp], &
+                  & 1.0e-6_wp, what // ": prescribed forces")
+            end do
+         end do
+      end do
+   end subroutine sequences
 
    !> What no method can do is refused
    subroutine refusals(suite)

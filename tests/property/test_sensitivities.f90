@@ -1,6 +1,6 @@
 !> Sensitivities against central differences of solutions, and Mindlin's stiffness
 program test_sensitivities
-   use contact_base_choices, only : motion, normal_control, sensitivity_choice, solver_choice
+   use contact_base_choices, only : material_model, motion, normal_control, sensitivity_choice, solver_choice
    use contact_base_kinds, only : wp
    use contact_cases_spec, only : case_spec
    use contact_test_case_builder, only : ellipse_case, creep, forces, grid_case, shift, test_case
@@ -19,6 +19,11 @@ program test_sensitivities
    end do
    call differences(suite, 3, 0.0_wp, solver_choice%gauss_seidel)
    call differences(suite, 1, 0.25_wp, solver_choice%convex_gs)
+   call differences(suite, 1, 0.0_wp, solver_choice%default, slope=0.0_wp)
+   call differences(suite, 1, 0.0_wp, solver_choice%default, slope=40.0_wp)
+   call differences(suite, 3, 0.0_wp, solver_choice%default, slope=0.0_wp)
+   call differences(suite, 3, 0.0_wp, solver_choice%default, slope=40.0_wp)
+   call differences(suite, 3, 0.0_wp, solver_choice%default, slope=2000.0_wp)
    call frictionless(suite)
    call mindlin(suite)
    call levels(suite)
@@ -50,10 +55,12 @@ contains
    end subroutine set_case
 
    !> Derivatives are those of the solutions of the program itself
-   subroutine differences(suite, kind, softness, solver)
+   subroutine differences(suite, kind, softness, solver, slope)
       type(test_suite), intent(inout) :: suite
       integer, intent(in) :: kind, solver
       real(wp), intent(in) :: softness
+      !> Slope of the yield limit [N/mm3]; absent: no yielding
+      real(wp), intent(in), optional :: slope
       type(test_case) :: case
       real(wp) :: table(4, 4), numerical(4, 2), steps(4), scale(4)
       character(len=:), allocatable :: what
@@ -62,14 +69,18 @@ contains
       what = trim(kind_name(kind))
       if (softness > 0.0_wp) what = what // ", dissimilar"
       call set_case(kind, softness, solver, case)
+      if (present(slope)) call let_yield(case%spec, slope)
+      if (present(slope)) what = what // merge(", yielding   ", ", hardening  ", slope <= 0.0_wp)
       call case%run(suite, what)
+      if (present(slope)) call suite%check(case%result%nplast > 20, what // ": plastic elements")
       table = case%result%sensitivity
-      call suite%check(case%result%nadh > 20 .and. case%result%nslip > 20, what // ": partial slip")
+      call suite%check(case%result%nadh > 20 .and. case%result%nslip > 10, what // ": partial slip")
       scale = abs([case%result%fn, 1.0_wp, 1.0_wp, case%result%mu_scal*case%result%fn])
       steps = 1.0e-6_wp*[0.02_wp, 1.0e-3_wp, 1.0e-3_wp, 1.0e-3_wp]
       do input = 1, 4
          do side = 1, 2
             call set_case(kind, softness, solver, case)
+            if (present(slope)) call let_yield(case%spec, slope)
             call move(case%spec, input, merge(-1.0_wp, 1.0_wp, side == 1)*steps(input))
             call case%run(suite, what)
             numerical(:, side) = [case%result%fn, case%result%fx_rel, case%result%fy_rel, case%result%mz]
@@ -81,6 +92,18 @@ contains
       end do
       call case%release()
    end subroutine differences
+
+   !> A thin layer between the bodies that yields
+   subroutine let_yield(spec, slope)
+      type(case_spec), intent(inout) :: spec
+      real(wp), intent(in) :: slope
+
+      spec%material_model = material_model%interfacial_layer
+      spec%material%gg3 = 1.0_wp
+      spec%material%laythk = 0.0_wp
+      spec%material%tau_c0 = 0.4_wp
+      spec%material%k_tau = slope
+   end subroutine let_yield
 
    !> Change one input
    subroutine move(spec, input, step)
