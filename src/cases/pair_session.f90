@@ -13,8 +13,9 @@ module contact_cases_pair_session
    use contact_patch_damping, only : damping_law
    use contact_patch_result, only : patch_result
    use contact_profile_curve, only : profile_curve
-   use contact_profile_prepare, only : read_profile
-   use contact_profile_request, only : profile_request, profile_side, same_request
+   use contact_profile_request, only : profile_request, profile_side
+   use contact_profile_store, only : prepared_profile, profile_store
+   use contact_profile_surface, only : profile_surface
    use contact_wheelrail_pair, only : pair_memory, pair_problem, release_pair, solve_pair
    use contact_wheelrail_result, only : pair_result
    use contact_wheelrail_spec, only : profile_spec
@@ -27,8 +28,8 @@ module contact_cases_pair_session
    type :: pair_session
       type(pair_problem) :: problem
       type(pair_memory) :: memory
-      !> What the profiles in the problem were made from
-      type(profile_request) :: rail_request, wheel_request
+      !> Profiles that were used so far
+      type(profile_store) :: profiles
    end type pair_session
 
 contains
@@ -66,6 +67,7 @@ contains
    subroutine release_pair_session(session)
       type(pair_session), intent(inout) :: session
       call release_pair(session%memory)
+      call session%profiles%release()
    end subroutine release_pair_session
 
    !> Refuse by name what module 1 knows but this version does not compute
@@ -77,8 +79,9 @@ contains
          call refuse("T = 1, 2, transient contact of wheel and rail")
       else if (spec%force /= force_control%creepages) then
          call refuse("F = 1, 3, prescribed longitudinal force or rail on springs, in wheel-rail contact")
-      else if (spec%wheel_rail%search%location /= contact_location%locus) then
-         call refuse("D other than 2, other ways to locate the contact of wheel and rail than the planar contact locus,")
+      else if (spec%wheel_rail%search%location /= contact_location%locus .and. &
+         & spec%wheel_rail%search%location /= contact_location%grid) then
+         call refuse("D other than 2 and 5, other ways to locate the contact than by planar patches,")
       else if (any(spec%material_model == [material_model%viscoelastic])) then
          call refuse("M = 1, viscoelastic material in wheel-rail contact,")
       else if (spec%kernel /= kernel_model%piecewise_constant) then
@@ -107,9 +110,10 @@ contains
 
       associate (problem => session%problem, template => session%problem%template)
          problem%spec = spec%wheel_rail
-         call load_profile(spec%wheel_rail%rail_profile, profile_side%rail, folder, session%rail_request, problem%rail, log, error)
-         if (.not. allocated(error)) call load_profile(spec%wheel_rail%wheel_profile, profile_side%wheel, folder, &
-            & session%wheel_request, problem%wheel, log, error)
+         call load_profile(session%profiles, spec%wheel_rail%rail_profile, profile_side%rail, folder, problem%rail, &
+            & problem%rail_surface, log, error)
+         if (.not. allocated(error)) call load_profile(session%profiles, spec%wheel_rail%wheel_profile, profile_side%wheel, &
+            & folder, problem%wheel, problem%wheel_surface, log, error)
          if (allocated(error)) return
          problem%force_prescribed = spec%normal == normal_control%force
          problem%geometry_only = .not. spec%solve
@@ -149,20 +153,22 @@ contains
       end associate
    end subroutine set_pair
 
-   !> Read and prepare a profile unless it is the one at hand
-   subroutine load_profile(profile, side, folder, request, curve, log, error)
+   !> Take a profile from the store, which reads it when it is new or has changed
+   subroutine load_profile(profiles, profile, side, folder, curve, surface, log, error)
+      type(profile_store), intent(inout) :: profiles
       type(profile_spec), intent(in) :: profile
       !> Member of profile_side
       integer, intent(in) :: side
       character(len=*), intent(in) :: folder
-      !> That of the curve at hand
-      type(profile_request), intent(inout) :: request
       type(profile_curve), intent(inout) :: curve
+      !> Allocated on exit for slices files
+      type(profile_surface), allocatable, intent(inout) :: surface
       type(log_type), intent(inout) :: log
       type(error_type), allocatable, intent(out) :: error
+      type(prepared_profile), pointer :: prepared
       type(profile_request) :: wanted
       character(len=5) :: body
-      integer :: i
+      integer :: i, before
 
       wanted%file = profile%name
       do i = 1, len(wanted%file)
@@ -180,17 +186,16 @@ contains
       wanted%kink_low = profile%kink_low
       wanted%kink_width = profile%kink_width
       wanted%most_hidden = profile%largest_omission
-      if (allocated(request%file)) then
-         if (same_request(request, wanted)) return
-      end if
       body = merge("rail ", "wheel", side == profile_side%rail)
-      call log%line(" reading " // body // " profile """ // profile%name // """")
-      call read_profile(wanted, curve, log, error)
+      before = profiles%loads
+      call profiles%get(wanted, prepared, log, error)
+      if (profiles%loads > before) call log%line(" reading " // body // " profile """ // profile%name // """")
       if (allocated(error)) then
          call add_context(error, trim(body) // " profile")
-         if (allocated(request%file)) deallocate(request%file)
          return
       end if
-      request = wanted
+      curve = prepared%curve
+      if (allocated(surface)) deallocate(surface)
+      if (allocated(prepared%surface)) allocate(surface, source=prepared%surface)
    end subroutine load_profile
 end module contact_cases_pair_session

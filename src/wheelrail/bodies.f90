@@ -4,7 +4,6 @@
 !> once per case, with their derivatives along the mesh; between two sections heights are cubic (Hermite).
 !> Bodies that do not vary are evaluated from their profile.
 module contact_wheelrail_bodies
-   use contact_base_constants, only : pi
    use contact_base_kinds, only : wp
    use contact_profile_curve, only : profile_curve
    use contact_profile_surface, only : profile_surface, surface_cut
@@ -14,7 +13,7 @@ module contact_wheelrail_bodies
    implicit none (type, external)
    private
 
-   public :: pair_bodies, strip, place_bodies, find_rail, find_wheel
+   public :: pair_bodies, strip, place_bodies, rail_section, find_rail, find_wheel
 
    !> Sections on an even mesh
    type :: strip
@@ -50,8 +49,7 @@ contains
       real(wp), intent(in) :: s_ws, pitch
       !> Allocated for bodies that vary
       type(profile_surface), intent(in), allocatable :: rail_surface, wheel_surface
-      type(surface_cut) :: section
-      real(wp) :: half, angle, origin(2)
+      real(wp) :: half
       integer :: n, k
 
       if (allocated(bodies%rail_strip)) deallocate(bodies%rail_strip)
@@ -63,14 +61,9 @@ contains
          bodies%rail_strip%first = bodies%placement%wheel%origin(1) - n*section_distance
          bodies%rail_strip%step = section_distance
          allocate(bodies%rail_strip%sections(2*n + 1))
-         ! The origin of the track in rail coordinates
-         angle = bodies%placement%rail%roll()
-         associate (o => bodies%placement%rail%origin)
-            origin = [-cos(angle)*o(2) - sin(angle)*o(3), sin(angle)*o(2) - cos(angle)*o(3)]
-         end associate
          do k = 1, 2*n + 1
-            call rail_surface%cut(s_ws + bodies%rail_strip%first + (k - 1)*section_distance, section)
-            bodies%rail_strip%sections(k) = section%seen_from(origin, -angle)
+            call rail_section(rail_surface, bodies%placement, s_ws + bodies%rail_strip%first + (k - 1)*section_distance, &
+               & bodies%rail_strip%sections(k))
          end do
       end if
       if (allocated(wheel_surface)) then
@@ -85,6 +78,26 @@ contains
          end do
       end if
    end subroutine place_bodies
+
+   !> Section of a variable rail in track coordinates
+   subroutine rail_section(surface, placement, u, section)
+      type(profile_surface), intent(in) :: surface
+      type(pair_placement), intent(in) :: placement
+      !> Position along the track [mm]
+      real(wp), intent(in) :: u
+      !> `present` is false where there is no rail
+      type(surface_cut), intent(out) :: section
+      type(surface_cut) :: own
+      real(wp) :: angle, origin(2)
+
+      angle = placement%rail%roll()
+      ! The origin of the track in rail coordinates
+      associate (o => placement%rail%origin)
+         origin = [-cos(angle)*o(2) - sin(angle)*o(3), sin(angle)*o(2) - cos(angle)*o(3)]
+      end associate
+      call surface%cut(u, own)
+      section = own%seen_from(origin, -angle)
+   end subroutine rail_section
 
    !> Height and slope across at a place between two sections
    pure subroutine strip_at(self, place, y, z, z_y, found)

@@ -5,7 +5,7 @@
 !> with the tangential forces in a fixed ratio to the normal ones; the tangential problem comes last
 !> and corrects that ratio. References and grids belong to the height of each trial.
 module contact_wheelrail_pair
-   use contact_base_choices, only : estimate_choice, friction_model, motion, time_link, variation
+   use contact_base_choices, only : contact_location, estimate_choice, friction_model, motion, time_link, variation
    use contact_base_error, only : add_context, error_type
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
@@ -17,6 +17,8 @@ module contact_wheelrail_pair
    use contact_patch_solve, only : solve_patch
    use contact_patch_workspace, only : patch_workspace, release_workspace
    use contact_profile_curve, only : profile_curve
+   use contact_profile_surface, only : profile_surface, surface_cut
+   use contact_wheelrail_bodies, only : pair_bodies, place_bodies, rail_section
    use contact_wheelrail_creepage, only : contact_motion, flat_creepage, flat_shift, rigid_motion
    use contact_wheelrail_flat_patch, only : patch_frame, patch_grid, undeformed_distance
    use contact_wheelrail_force_balance, only : balance_ending, force_balance
@@ -26,6 +28,7 @@ module contact_wheelrail_pair
    use contact_wheelrail_regions, only : contact_region, find_regions, smallest_gap
    use contact_wheelrail_result, only : pair_patch, pair_result
    use contact_wheelrail_spec, only : wheel_rail_spec
+   use contact_wheelrail_variable, only : measure_variable_gap, variable_distance
    implicit none (type, external)
    private
 
@@ -36,6 +39,8 @@ module contact_wheelrail_pair
       type(wheel_rail_spec) :: spec
       !> Prepared profiles in their own coordinates
       type(profile_curve) :: rail, wheel
+      !> A rail that varies along the track, a wheel that is out of round; then the profile is that of the first slice
+      type(profile_surface), allocatable :: rail_surface, wheel_surface
       !> Settings that all patches share: material, friction, motion, solvers
       type(patch_problem) :: template
       !> Is the vertical force prescribed? Otherwise the height of the wheelset
@@ -78,7 +83,11 @@ module contact_wheelrail_pair
       integer :: used = 0
       type(patch_slot), allocatable :: slot(:)
       type(gap_curve) :: gap
+      !> The rail at the wheelset
       type(profile_curve) :: rail_in_track
+      !> Sections of bodies that vary; used when `searches_table`
+      type(pair_bodies) :: bodies
+      logical :: searches_table = .false.
       type(pair_placement) :: placement
       !> Height at which the gap was measured [mm]
       real(wp) :: gap_height = 0.0_wp
@@ -116,8 +125,19 @@ contains
          if (memory%started) z = memory%z_ws
       end if
       call place(problem, memory, z)
-      memory%rail_in_track = rail_in_track(problem%rail, memory%placement)
-      call measure_gap(memory%rail_in_track, problem%wheel, memory%placement, problem%spec%search%ds, memory%gap)
+      memory%rail_in_track = rail_at(problem, memory%placement, 0.0_wp)
+      memory%searches_table = allocated(problem%rail_surface) .or. allocated(problem%wheel_surface) &
+         & .or. problem%spec%search%location == contact_location%grid
+      if (memory%searches_table) then
+         memory%bodies%rail = memory%rail_in_track
+         memory%bodies%wheel = problem%wheel
+         memory%bodies%placement = memory%placement
+         call place_bodies(memory%bodies, problem%spec%wheelset%s, problem%spec%wheelset%pitch, problem%rail_surface, &
+            & problem%wheel_surface)
+         call measure_variable_gap(memory%bodies, problem%spec%search%ds, memory%gap)
+      else
+         call measure_gap(memory%rail_in_track, problem%wheel, memory%placement, problem%spec%search%ds, memory%gap)
+      end if
       memory%gap_height = z
       touch = z + smallest_gap(memory%gap)
 
@@ -139,6 +159,29 @@ contains
       result%smallest_gap = touch - z
       call gather(problem, memory, result)
    end subroutine solve_pair
+
+   !> The rail's profile in track coordinates at a place along it; of a variable one within its slices
+   function rail_at(problem, placement, x) result(curve)
+      type(pair_problem), intent(in) :: problem
+      type(pair_placement), intent(in) :: placement
+      !> From the wheelset on [mm]
+      real(wp), intent(in) :: x
+      type(profile_curve) :: curve
+      type(surface_cut) :: section
+      real(wp) :: u
+
+      if (allocated(problem%rail_surface)) then
+         associate (range => problem%rail_surface%u_range)
+            u = min(max(problem%spec%wheelset%s + x, range(1)), range(2))
+         end associate
+         call rail_section(problem%rail_surface, placement, u, section)
+         if (section%present) then
+            curve = section%curve
+            return
+         end if
+      end if
+      curve = rail_in_track(problem%rail, placement)
+   end function rail_at
 
    !> Free what the memory holds outside Fortran's own
    subroutine release_pair(memory)
@@ -318,6 +361,7 @@ contains
       integer :: k, n
 
       call place(problem, memory, z)
+      memory%bodies%placement = memory%placement
       call find_regions(memory%gap, z - memory%gap_height, problem%spec%search, problem%weight_power, regions, misses)
       n = size(regions)
       if (n > most_patches) then
@@ -396,16 +440,22 @@ contains
       logical, intent(in) :: with_friction
       type(log_type), intent(inout) :: log
       type(error_type), allocatable, intent(out) :: error
+      type(profile_curve) :: rail
       real(wp), allocatable :: h(:, :)
       real(wp) :: approach
       logical :: continues
 
-      slot%plane = patch_frame(memory%rail_in_track, memory%placement, slot%region)
+      rail = memory%rail_in_track
+      if (allocated(problem%rail_surface)) rail = rail_at(problem, memory%placement, slot%region%x)
+      slot%plane = patch_frame(rail, memory%placement, slot%region)
       call move_alloc(slot%problem%h, h)
       slot%problem = problem%template
-      call patch_grid(memory%rail_in_track, problem%spec%search, slot%region, slot%plane, problem%most_elements, &
-         & slot%problem%grid)
-      call undeformed_distance(memory%rail_in_track, problem%wheel, memory%placement, slot%plane, slot%problem%grid, h, approach)
+      call patch_grid(rail, problem%spec%search, slot%region, slot%plane, problem%most_elements, slot%problem%grid)
+      if (memory%searches_table) then
+         call variable_distance(memory%bodies, slot%plane, slot%problem%grid, h, approach)
+      else
+         call undeformed_distance(rail, problem%wheel, memory%placement, slot%plane, slot%problem%grid, h, approach)
+      end if
       call move_alloc(h, slot%problem%h)
       slot%problem%force_prescribed = .false.
       slot%problem%pen = approach
