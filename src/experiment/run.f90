@@ -22,6 +22,7 @@ module contact_experiment_run
    use contact_output_mat_file, only : mat_file_name, write_mat_file
    use contact_output_report, only : timer_line, write_banner, write_case, write_case_line, write_closing, write_end, &
       & write_subsurface
+   use contact_output_pair_files, only : write_pair_files
    use contact_output_report_pair, only : write_pair
    use contact_output_subs_file, only : subs_file_name, write_subs_file
    use contact_patch_result, only : patch_result
@@ -240,7 +241,11 @@ contains
          else if (this%module_number == 1) then
             if (this%spec%solve .and. .not. slot%pair_result%solved) state%unconverged = state%unconverged + 1
             call state%writing%start()
-            if (this%spec%solve) call write_pair(state%log, this%spec, slot%pair_result)
+            if (this%spec%solve) then
+               call write_pair(state%log, this%spec, slot%pair_result)
+               call write_pair_files(state%place%results, this%number, this%reid, this%spec, slot%pair_result, error)
+               if (allocated(error)) call report_error(state, error)
+            end if
             call state%writing%halt()
          else if (this%spec%solve) then
             if (.not. (slot%result%normal%succeeded() .and. slot%result%tangential%succeeded())) &

@@ -13,7 +13,7 @@ module contact_output_mat_file
    implicit none (type, external)
    private
 
-   public :: mat_file_name, write_mat_file
+   public :: mat_file_name, mat_place, write_mat_file
 
    !> Number of the layout; readers refuse larger numbers
    integer, parameter :: layout = 2410
@@ -23,6 +23,26 @@ module contact_output_mat_file
    integer, parameter :: width = 14*(basic_columns + 5)
    !> Value of A from which on all elements are written
    integer, parameter :: all_elements = 2
+
+   !> Name of a column without meaning; as long as all names, because gfortran 12 fills shorter ones up
+   !> with what lies behind them in array constructors with implied loops
+   character(len=11), parameter :: unused = "-"
+
+   !> Where a patch of wheel-rail contact is; the plain value stands for a contact problem of its own
+   type :: mat_place
+      !> Time [s], S_WS [mm], pitch [rad], rail marker y, z [mm], roll [rad], roller radius [mm]
+      real(wp) :: rail(7) = 0.0_wp
+      !> Wheel marker x, y, z [mm], roll, yaw [rad], radius [mm]
+      real(wp) :: wheel(6) = 0.0_wp
+      !> Contact reference: x, y, z [mm] and angle [rad] in the rail, x, y, z [mm] in the wheel
+      real(wp) :: reference(7) = 0.0_wp
+      !> Number of patches of the case and of this one
+      integer :: patches = 0, patch = 0
+      !> Digits C1 and D
+      integer :: c1 = 0, d = 2
+      !> Lateral place of the wheel profile in the wheelset [mm]
+      real(wp) :: wheel_offset = 0.0_wp
+   end type mat_place
 
 contains
 
@@ -41,27 +61,32 @@ contains
    end function mat_file_name
 
    !> Write the file of a solved case; under its name it is complete or does not exist
-   subroutine write_mat_file(file_name, spec, result, error)
+   subroutine write_mat_file(file_name, spec, result, error, place)
       character(len=*), intent(in) :: file_name
       type(case_spec), intent(in) :: spec
       type(patch_result), intent(in) :: result
       type(error_type), allocatable, intent(out) :: error
+      !> For a patch of wheel-rail contact
+      type(mat_place), intent(in), optional :: place
+      type(mat_place) :: here
       type(finished_file) :: file
       integer :: status
 
+      if (present(place)) here = place
       call file%start(file_name, error)
       if (allocated(error)) return
-      call write_header(file%unit, spec, result, status)
+      call write_header(file%unit, spec, result, here, status)
       if (status == 0) call write_elements(file%unit, spec, result, status)
       call file%finish(status, error)
       call add_context(error, "writing the .mat file")
    end subroutine write_mat_file
 
    !> Six pairs of a line with names and a line with values, then the names of the table columns
-   subroutine write_header(unit, spec, result, status)
+   subroutine write_header(unit, spec, result, place, status)
       integer, intent(in) :: unit
       type(case_spec), intent(in) :: spec
       type(patch_result), intent(in) :: result
+      type(mat_place), intent(in) :: place
       !> 0 or the status of the write statement that failed
       integer, intent(out) :: status
       character(len=width) :: lines(13)
@@ -78,24 +103,24 @@ contains
       dq = merge(result%dq, 1.0_wp, rolling)
 
       lines(1) = name_line([character(len=11) :: "TIM", "S_WS(FC)", "TH_WS(FC)", "Y_R(TR)", "Z_R(TR)", "ROLL_R(TR)", &
-         & "RNOM_ROL", ("-", i = 9, columns), "FMT"])
-      lines(2) = reals(zeros(7)) // integers([(0, i = 9, columns), layout])
+         & "RNOM_ROL", (unused, i = 9, columns), "FMT"])
+      lines(2) = reals(place%rail) // integers([(0, i = 9, columns), layout])
       lines(3) = name_line([character(len=11) :: "X_W(TR)", "Y_W(TR)", "Z_W(TR)", "ROLL_W(TR)", "YAW_W(TR)", &
-         & "RNOM_WHL", ("-", i = 7, columns)])
-      lines(4) = reals(zeros(columns))
+         & "RNOM_WHL", (unused, i = 7, columns)])
+      lines(4) = reals([place%wheel, zeros(columns - 6)])
       lines(5) = name_line([character(len=11) :: "X_CP(R)", "Y_CP(R)", "Z_CP(R)", "DELT_CP(R)", "X_CP(W)", "Y_CP(W)", &
-         & "Z_CP(W)", "NPATCH", "IPATCH", "SPINXO", "SPINYO", ("-", i = 12, columns)])
-      lines(6) = reals(zeros(7)) // integers([0, 0]) // reals([spec%kinematics%spinxo, spec%kinematics%spinyo, &
-         & zeros(columns - 11)])
+         & "Z_CP(W)", "NPATCH", "IPATCH", "SPINXO", "SPINYO", (unused, i = 12, columns)])
+      lines(6) = reals(place%reference) // integers([place%patches, place%patch]) // reals([spec%kinematics%spinxo, &
+         & spec%kinematics%spinyo, zeros(columns - 11)])
       lines(7) = name_line([character(len=11) :: "  MX   MY", "XL", "YL", "DX", "DY", "CHI", "DQ", "C1", "D", "YNOM_WHL", &
-         & ("-", i = 12, columns)])
+         & (unused, i = 12, columns)])
       lines(8) = two_integers(result%grid%mx, result%grid%my) // reals([result%grid%xl, result%grid%yl, result%grid%dx, &
-         & result%grid%dy, chi, dq]) // integers([0, 2]) // reals(zeros(columns - 10))
+         & result%grid%dy, chi, dq]) // integers([place%c1, place%d]) // reals([place%wheel_offset, zeros(columns - 11)])
       lines(9) = name_line(completed("   T    M", material_names(spec%material_model), columns))
       values = material_values(spec, result)
       lines(10) = two_integers(spec%digits%t, spec%digits%m) // reals([values, zeros(columns - 2 - size(values))])
       lines(11) = name_line(completed("   L    H", friction_names(spec%friction_law), columns))
-      values = [spec%rolling%veloc, friction_values(spec)]
+      values = [merge(result%veloc, spec%rolling%veloc, place%patches > 0), friction_values(spec)]
       lines(12) = two_integers(spec%friction_law, spec%digits%h) // reals([values, zeros(columns - 2 - size(values))])
       lines(13) = name_line([character(len=11) :: "   I  IGS", "H", "MU", "PN", "PX", "PY", "UN", "UX", "UY", &
          & merge("SREL", "SHFT", rolling), more])
@@ -245,7 +270,7 @@ contains
       character(len=11), allocatable :: all_names(:)
       integer :: i
 
-      all_names = [character(len=11) :: first, names, [("-", i = 1, columns - 2 - size(names))]]
+      all_names = [character(len=11) :: first, names, [(unused, i = 1, columns - 2 - size(names))]]
    end function completed
 
    !> Line of names that loaders skip: a name at the fourth place of every 14 columns

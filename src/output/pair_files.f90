@@ -1,0 +1,104 @@
+!> The .mat and .subs files of wheel on rail: one per contact patch, in true coordinates of its side
+module contact_output_pair_files
+   use contact_base_error, only : error_type
+   use contact_base_kinds, only : wp
+   use contact_cases_spec, only : case_spec
+   use contact_output_mat_file, only : mat_file_name, mat_place, write_mat_file
+   use contact_output_subs_file, only : subs_file_name, write_subs_file
+   use contact_patch_result, only : patch_result
+   use contact_wheelrail_result, only : pair_patch, pair_result
+   implicit none (type, external)
+   private
+
+   public :: write_pair_files
+
+contains
+
+   !> Write the files that the case asks for; the first error ends it
+   subroutine write_pair_files(base, case_number, result_element, spec, result, error)
+      !> Folder and name of the experiment
+      character(len=*), intent(in) :: base
+      !> Result element 0 for none
+      integer, intent(in) :: case_number, result_element
+      type(case_spec), intent(in) :: spec
+      type(pair_result), intent(in) :: result
+      type(error_type), allocatable, intent(out) :: error
+      type(patch_result) :: mirror
+      integer :: k
+
+      do k = 1, size(result%patches)
+         associate (patch => result%patches(k))
+            if (spec%mat_file >= 1) then
+               if (spec%wheel_rail%left) then
+                  mirror = mirrored(patch%contact)
+                  call write_mat_file(mat_file_name(base, case_number, result_element, k), spec, mirror, error, &
+                     & place_of(spec, result, patch, k))
+               else
+                  call write_mat_file(mat_file_name(base, case_number, result_element, k), spec, patch%contact, error, &
+                     & place_of(spec, result, patch, k))
+               end if
+               if (allocated(error)) return
+            end if
+            if (spec%digits%s >= 1 .and. spec%subsurface%matfil >= 1 .and. allocated(patch%contact%subsurface)) then
+               call write_subs_file(subs_file_name(base, case_number, result_element, k), spec, patch%contact, error)
+               if (allocated(error)) return
+            end if
+         end associate
+      end do
+   end subroutine write_pair_files
+
+   !> Where the patch is
+   pure function place_of(spec, result, patch, number) result(place)
+      type(case_spec), intent(in) :: spec
+      type(pair_result), intent(in) :: result
+      type(pair_patch), intent(in) :: patch
+      integer, intent(in) :: number
+      type(mat_place) :: place
+      real(wp) :: s
+
+      s = merge(-1.0_wp, 1.0_wp, spec%wheel_rail%left)
+      associate (w => spec%wheel_rail%wheelset)
+         place%rail = [0.0_wp, merge(0.0_wp, w%s, spec%wheel_rail%roller), w%pitch, s*result%rail_y, result%rail_z, &
+            & s*result%rail_roll, merge(spec%wheel_rail%track%nomradr, 0.0_wp, spec%wheel_rail%roller)]
+         place%wheel = [result%wheel_x, s*result%wheel_y, result%wheel_z, s*result%wheel_roll, s*result%wheel_yaw, w%nomradw]
+      end associate
+      place%reference = [patch%x, s*patch%y_rail, patch%z_rail, s*patch%delta_rail, patch%x_wheel, s*patch%y_wheel, &
+         & patch%z_wheel]
+      place%patches = size(result%patches)
+      place%patch = number
+      place%c1 = spec%digits%c1
+      place%d = spec%wheel_rail%search%location
+      place%wheel_offset = result%wheel_offset
+   end function place_of
+
+   !> The mirror image of a patch: rows in reversed order, lateral components with the other sign
+   function mirrored(right) result(left)
+      type(patch_result), intent(in) :: right
+      type(patch_result) :: left
+      integer :: n
+
+      left = right
+      n = right%grid%my
+      left%grid%yl = -(right%grid%yl + n*right%grid%dy)
+      left%division = right%division(:, n:1:-1)
+      left%h = right%h(:, n:1:-1)
+      left%mu = right%mu(:, n:1:-1)
+      left%pn = right%pn(:, n:1:-1)
+      left%px = right%px(:, n:1:-1)
+      left%py = -right%py(:, n:1:-1)
+      left%un = right%un(:, n:1:-1)
+      left%ux = right%ux(:, n:1:-1)
+      left%uy = -right%uy(:, n:1:-1)
+      left%sx = right%sx(:, n:1:-1)
+      left%sy = -right%sy(:, n:1:-1)
+      if (allocated(right%tau_c)) then
+         left%tau_c = right%tau_c(:, n:1:-1)
+         left%uplx = right%uplx(:, n:1:-1)
+         left%uply = -right%uply(:, n:1:-1)
+      end if
+      if (allocated(right%temp1)) then
+         left%temp1 = right%temp1(:, n:1:-1)
+         left%temp2 = right%temp2(:, n:1:-1)
+      end if
+   end function mirrored
+end module contact_output_pair_files
