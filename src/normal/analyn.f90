@@ -16,8 +16,8 @@ module contact_normal_analyn
 
    public :: analyn_pressure
 
-   !> Smallest curvature that counts: it would open the gap by this part of the overlap across the window [-]
-   real(wp), parameter :: least_rise = 0.25_wp
+   !> Smallest curvature that is told from the unevenness of profiles [1/mm], a radius of 5 m; as in CONTACT
+   real(wp), parameter :: least_curvature = 1.0e-4_wp
    !> Overlap below which there is no contact [mm]; only to keep clear of underflow
    real(wp), parameter :: least_overlap = 1.0e-30_wp
    !> Samples on either side for the curvature along a row, at most; they end where the overlap has fallen
@@ -53,8 +53,8 @@ contains
       if (.not. overlap > least_overlap) return
       do iy = 1, grid%my
          if (.not. lowest(iy) < 0.0_wp) cycle
-         a1 = max(curvature_along(grid, gap(:, iy), column(iy)), least_rise*overlap/(grid%mx*grid%dx)**2)
-         b1 = max(curvature_across(grid, gap(column(iy), :), iy), least_rise*overlap/(grid%my*grid%dy)**2)
+         a1 = max(curvature_along(grid, gap(:, iy), column(iy)), least_curvature)
+         b1 = max(curvature_across(grid, gap(column(iy), :), iy), least_curvature)
          hertz = hertz_by_curvatures(hertz_load(normal_control%approach, pen=overlap, modulus=modulus), a1, b1)
          depth = 1.0_wp - (lowest(iy) + overlap)/(b1*hertz%bb**2)
          if (.not. depth > 0.0_wp) cycle
