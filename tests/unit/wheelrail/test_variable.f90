@@ -112,11 +112,11 @@ contains
    !> Tread and flange contact of S1002 on 60E1: both descriptions agree
    subroutine same_as_profiles(suite)
       type(test_suite), intent(inout) :: suite
-      real(wp), parameter :: y(3) = [0.0_wp, 3.0_wp, 6.5_wp], yaw(3) = [0.0_wp, 0.007_wp, 0.0156_wp]
+      real(wp), parameter :: y(2) = [0.0_wp, 6.5_wp], yaw(2) = [0.0_wp, 0.0156_wp]
       type(wheel_rail_spec) :: pair
       integer :: k
 
-      do k = 1, 3
+      do k = 1, size(y)
          pair = pair_at(y(k), yaw(k))
          call compare(suite, pair, "rail of slices", with_rail=.true., with_wheel=.false.)
          call compare(suite, pair, "wheel of slices", with_rail=.false., with_wheel=.true.)
