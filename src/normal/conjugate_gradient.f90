@@ -14,10 +14,11 @@ module contact_normal_conjugate_gradient
    use contact_elastic_compliance, only : compliance
    use contact_elastic_new_compliance, only : new_compliance
    use contact_grid_coarsening, only : coarse_neighbours, coarse_size, coarsening_factor, shortest_side
+   use contact_normal_parts, only : contact_parts
    implicit none (type, external)
    private
 
-   public :: normal_problem, normal_workspace, release_normal, solve_normal
+   public :: normal_problem, normal_workspace, pressure_displacement, release_normal, solve_normal
 
    !> Data of a normal problem on a window; constant during the solution
    type :: normal_problem
@@ -34,6 +35,8 @@ module contact_normal_conjugate_gradient
       !> Tolerance on the contact conditions relative to the approach, largest number of iterations
       real(wp) :: eps = 1.0e-6_wp
       integer :: maxgs = 999
+      !> Parts that act on each other with less than full strength; unallocated: everything acts fully
+      type(contact_parts), allocatable :: parts
    end type normal_problem
 
    !> Scratch of one level of nested iteration
@@ -58,6 +61,21 @@ module contact_normal_conjugate_gradient
    real(wp), parameter :: coarse_tolerance = 1.0e-3_wp, good_estimate = 3.0e-2_wp
 
 contains
+
+   !> Normal displacements by pressures [mm]
+   subroutine pressure_displacement(problem, operator, p, u)
+      type(normal_problem), intent(in) :: problem
+      class(compliance), intent(inout) :: operator
+      !> Pressures [N/mm2], shape (mx, my)
+      real(wp), contiguous, intent(in) :: p(:, :)
+      real(wp), contiguous, intent(inout) :: u(:, :)
+
+      if (allocated(problem%parts)) then
+         call problem%parts%displacement(operator, p, u)
+      else
+         call operator%normal(p, u)
+      end if
+   end subroutine pressure_displacement
 
    !> Solve for pressures and approach or force
    subroutine solve_normal(problem, operator, workspace, p, pen, report, log)
@@ -127,7 +145,7 @@ contains
          & .and. max(problem%mx, problem%my) >= shortest_side) then
          residual = huge(residual)
          if (any(p > 0.0_wp)) then
-            call operator%normal(p, workspace%level(k)%u)
+            call pressure_displacement(problem, operator, p, workspace%level(k)%u)
             residual = estimate_quality(problem, workspace%level(k)%u, p, pen)
          end if
          if (residual > good_estimate) then
@@ -172,7 +190,7 @@ contains
       exact_u = .true.
       best = huge(best)
       since_best = 0
-      call operator%normal(p, level%u)
+      call pressure_displacement(problem, operator, p, level%u)
       report%ended = ending%iteration_limit
       do it = 1, problem%maxgs + 1
          call residuals(problem, level, p, pen, worst)
@@ -195,7 +213,7 @@ contains
                exit
             end if
             ! the displacements were updated: believe the end only when they are computed anew
-            call operator%normal(p, level%u)
+            call pressure_displacement(problem, operator, p, level%u)
             exact_u = .true.
             cycle
          end if
@@ -249,7 +267,7 @@ contains
             level%d = level%z
             dr = rz
          end if
-         call operator%normal(level%d, level%q)
+         call pressure_displacement(problem, operator, level%d, level%q)
          dq = sum(level%d*level%q)
          fresh = .false.
          if (.not. dq > 0.0_wp) then
@@ -272,7 +290,7 @@ contains
             end if
          end if
          if (changed) then
-            call operator%normal(p, level%u)
+            call pressure_displacement(problem, operator, p, level%u)
          else
             level%u = level%u + alpha*level%q
          end if
@@ -376,7 +394,7 @@ contains
          return
       end if
       p = max(0.0_wp, pen - problem%h)
-      call operator%normal(p, level%u)
+      call pressure_displacement(problem, operator, p, level%u)
       p = p*(sum(p*p)/sum(p*level%u))
    end subroutine first_guess
 

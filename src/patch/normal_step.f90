@@ -45,6 +45,8 @@ contains
             normal%dx = problem%grid%dx
             normal%dy = problem%grid%dy
             normal%h = problem%h
+            if (allocated(normal%parts)) deallocate(normal%parts)
+            if (allocated(problem%parts)) allocate(normal%parts, source=problem%parts)
             if (problem%model%coupled() .and. problem%motion /= motion%none .and. .not. allocated(problem%simplified)) then
                workspace%pt(:, :, 1) = state%now%px
                workspace%pt(:, :, 2) = state%now%py

@@ -6,6 +6,7 @@ module contact_patch_problem
    use contact_friction_law, only : friction_law
    use contact_friction_memory, only : friction_memory
    use contact_grid_potential_contact, only : potential_contact
+   use contact_normal_parts, only : contact_parts
    use contact_patch_damping, only : damping_law
    use contact_simplified_problem, only : simplified_model
    use contact_temperature_flash_heating, only : body_pair
@@ -24,6 +25,8 @@ module contact_patch_problem
       logical :: has_geometry = .false.
       !> Undeformed distance [mm], shape (mx, my)
       real(wp), allocatable :: h(:, :)
+      !> Parts of the patch that act on each other with less than full strength; unallocated: one part
+      type(contact_parts), allocatable :: parts
       !> Given pressures [N/mm2], shape (mx, my); unallocated for the full solution
       real(wp), allocatable :: given_pressure(:, :)
       !> Estimate of the pressures [N/mm2] where the previous ones are not to be used; unallocated: none

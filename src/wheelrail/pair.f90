@@ -5,6 +5,7 @@
 !> with the tangential forces in a fixed ratio to the normal ones; the tangential problem comes last
 !> and corrects that ratio. References and grids belong to the height of each trial.
 module contact_wheelrail_pair
+   use contact_base_constants, only : excluded_distance
    use contact_base_choices, only : contact_location, estimate_choice, friction_model, motion, time_link, variation
    use contact_base_error, only : add_context, error_type
    use contact_base_kinds, only : wp
@@ -99,6 +100,8 @@ module contact_wheelrail_pair
    integer, parameter :: most_patches = 10
    !> Rounds of tangential solutions with a new search for the height
    integer, parameter :: most_rounds = 8
+   !> Parts of a blended patch reach this far beyond their bounds, relative to D_COMB
+   real(wp), parameter :: part_margin = 0.4_wp
    !> Forces below this value ask for a wheel that just touches [N]
    real(wp), parameter :: no_force = 1.0e-9_wp
 
@@ -459,6 +462,7 @@ contains
       call move_alloc(h, slot%problem%h)
       slot%problem%force_prescribed = .false.
       slot%problem%pen = approach
+      if (size(slot%region%part) > 1) call divide_patch(problem, slot)
       slot%problem%n_forces = 0
       if (problem%geometry_only) slot%problem%motion = motion%none
       call set_patch_friction(problem, slot, error)
@@ -484,6 +488,36 @@ contains
          slot%has_ratio = .true.
       end if
    end subroutine solve_slot
+
+   !> Elements of the parts of a blended patch; what is outside of all parts cannot make contact
+   subroutine divide_patch(problem, slot)
+      type(pair_problem), intent(in) :: problem
+      type(patch_slot), intent(inout) :: slot
+      real(wp) :: margin, y
+      integer :: ix, iy, k
+
+      allocate(slot%problem%parts)
+      associate (parts => slot%problem%parts, grid => slot%problem%grid, plane => slot%plane)
+         margin = part_margin*problem%spec%search%d_comb
+         allocate(parts%label(grid%mx, grid%my), source=0)
+         parts%interaction = slot%region%interaction
+         do iy = 1, grid%my
+            y = plane%origin(2) + cos(plane%roll())*grid%y(iy)
+            do ix = 1, grid%mx
+               do k = 1, size(slot%region%part)
+                  associate (box => slot%region%part(k))
+                     if (y < box%y(1) - margin .or. y > box%y(2) + margin) cycle
+                     if (plane%origin(1) + grid%x(ix) < box%x(1) - margin) cycle
+                     if (plane%origin(1) + grid%x(ix) > box%x(2) + margin) cycle
+                  end associate
+                  parts%label(ix, iy) = k
+                  exit
+               end do
+               if (parts%label(ix, iy) == 0) slot%problem%h(ix, iy) = excluded_distance
+            end do
+         end do
+      end associate
+   end subroutine divide_patch
 
    !> Friction of the patch: where it varies, that of the contact angle or of the place along the track
    subroutine set_patch_friction(problem, slot, error)
