@@ -5,11 +5,11 @@ module contact_cases_patch_setup
    use contact_base_error, only : error_kind, error_type, fatal_error
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
+   use contact_cases_elastic_setup, only : set_model
    use contact_cases_friction_setup, only : set_friction, set_thermal
    use contact_cases_geometry, only : build_grid, is_line_contact, require_positive, solve_hertz, undeformed_distance
    use contact_cases_numbers, only : check_numbers
    use contact_cases_spec, only : case_spec
-   use contact_elastic_material, only : combine
    use contact_friction_law, only : friction_driver
    use contact_grid_potential_contact, only : potential_contact
    use contact_normal_estimate, only : elliptic_pressure, parabolic_pressure, sdec_pressure
@@ -36,7 +36,8 @@ contains
 
       call check_numbers(spec, error)
       if (allocated(error)) return
-      problem%model%material = combine(spec%material%poiss, spec%material%gg)
+      call set_model(spec, problem%model, error)
+      if (allocated(error)) return
       call solve_hertz(spec%grid, spec%normal, spec%kinematics%fn, spec%kinematics%pen, problem%model%material%gg, &
          & problem%model%material%nu, result%hertz, error)
       if (allocated(error)) return
@@ -109,11 +110,7 @@ contains
          call fatal_error(error, "friction that depends on temperature (L=6) cannot be combined with plasticity (M=4, " // &
             & "TAU_C0 > 0): the heat of plastic work is not part of its iteration; TAU_C0 = 0, or another friction law", &
             & error_kind%unsupported)
-         return
       end if
-      if (spec%material_model == material_model%interfacial_layer .and. spec%material%laythk/spec%material%gg3 >= 1.0e-10_wp) &
-         & call fatal_error(error, "the elastic flexibility of an interfacial layer (M=4) is not built in this version; " // &
-         & "plasticity alone acts with LAYTHK = 0", error_kind%unsupported)
    end subroutine set_yield_limit
 
    !> Motion, solvers and their tolerances

@@ -73,11 +73,11 @@ module contact_control_digits
       & digit_row("C", 0, 0, .true., "keep the influence coefficients"), &
       & digit_row("C", 1, 1, .true., "form the influence coefficients from the values in store"), &
       & digit_row("C", 2, kernel_model%piecewise_constant, .true., "half-space, piecewise constant; read materials"), &
-      & digit_row("C", 3, kernel_model%bilinear, .false., "half-space with bilinear tractions"), &
-      & digit_row("C", 4, kernel_model%conformal, .false., "half-space with angle correction for conformal contact"), &
+      & digit_row("C", 3, kernel_model%bilinear, .true., "half-space with bilinear tractions"), &
+      & digit_row("C", 4, kernel_model%conformal, .true., "half-space with angle correction for conformal contact"), &
       & digit_row("C", 9, kernel_model%tabulated, .false., "numerical influence coefficients from a file"), &
       & digit_row("M", 0, material_model%elastic, .true., "elastic"), &
-      & digit_row("M", 1, material_model%viscoelastic, .false., "viscoelastic"), &
+      & digit_row("M", 1, material_model%viscoelastic, .true., "viscoelastic"), &
       & digit_row("M", 2, material_model%fastsim_single, .true., "simplified theory, one flexibility (modified Fastsim)"), &
       & digit_row("M", 3, material_model%fastsim, .true., "simplified theory, three flexibilities (modified Fastsim)"), &
       & digit_row("M", 4, material_model%interfacial_layer, .true., "interfacial layer with near-surface plasticity"), &

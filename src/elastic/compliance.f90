@@ -54,6 +54,10 @@ module contact_elastic_compliance
       procedure(release_interface), deferred :: release
       !> Is there a compliance for larger elements, for a first estimate on a coarse grid?
       procedure :: can_coarsen
+      !> Does the table hold all there is, the same for all loaded elements?
+      procedure :: has_table
+      !> Was the operator prepared for this window and model?
+      procedure :: is_for
       !> Pairs of forward and backward transforms so far
       procedure :: fft_pairs
    end type compliance
@@ -143,6 +147,21 @@ contains
       class(compliance), intent(in) :: self
       can_coarsen = self%mx > 0
    end function can_coarsen
+
+   pure logical function has_table(self)
+      class(compliance), intent(in) :: self
+      has_table = self%mx > 0
+   end function has_table
+
+   pure logical function is_for(self, model, dx, dy, mx, my)
+      class(compliance), intent(in) :: self
+      type(elastic_model), intent(in) :: model
+      real(wp), intent(in) :: dx, dy
+      integer, intent(in) :: mx, my
+
+      is_for = self%mx == mx .and. self%my == my .and. self%dx == dx .and. self%dy == dy
+      if (is_for) is_for = self%model%same_as(model)
+   end function is_for
 
    pure real(wp) function fft_pairs(self) result(pairs)
       class(compliance), intent(in) :: self

@@ -12,6 +12,7 @@ module contact_elastic_halfspace
    private
 
    public :: kernel_table, fill_table, fill_shifted_table
+   public :: shape_table, set_mirrored, set_entry, corner_functions, combine_corners
 
    !> Influence coefficients over a range of offsets, divided by the modulus [mm/(N/mm2)]
    !>
@@ -40,7 +41,7 @@ contains
       real(wp), intent(in) :: dx, dy
       !> Largest offsets in elements
       integer, intent(in) :: nx, ny
-      integer :: k, l, i, j
+      integer :: k, l
       real(wp) :: v(6)
       real(wp), allocatable :: corner(:, :, :)
 
@@ -57,22 +58,7 @@ contains
       do l = 0, ny
          do k = 0, nx
             v = combine_corners(corner(:, k, l) - corner(:, k - 1, l) - corner(:, k, l - 1) + corner(:, k - 1, l - 1), material)
-            ! a coefficient that is odd in an offset vanishes exactly at offset 0
-            if (k == 0 .or. l == 0) v(4) = 0.0_wp
-            if (k == 0) v(5) = 0.0_wp
-            if (l == 0) v(6) = 0.0_wp
-            do j = -1, 1, 2
-               do i = -1, 1, 2
-                  table%nn(i*k, j*l) = v(1)
-                  table%xx(i*k, j*l) = v(2)
-                  table%yy(i*k, j*l) = v(3)
-                  table%xy(i*k, j*l) = i*j*v(4)
-                  if (material%coupled()) then
-                     table%xn(i*k, j*l) = i*v(5)
-                     table%yn(i*k, j*l) = j*v(6)
-                  end if
-               end do
-            end do
+            call set_mirrored(table, k, l, v)
          end do
       end do
    end subroutine fill_table
@@ -102,31 +88,67 @@ contains
       do l = -ny, ny
          do k = -nx, nx
             v = combine_corners(corner(:, k, l) - corner(:, k - 1, l) - corner(:, k, l - 1) + corner(:, k - 1, l - 1), material)
-            table%nn(k, l) = v(1)
-            table%xx(k, l) = v(2)
-            table%yy(k, l) = v(3)
-            table%xy(k, l) = v(4)
-            if (material%coupled()) then
-               table%xn(k, l) = v(5)
-               table%yn(k, l) = v(6)
-            end if
+            call set_entry(table, k, l, v)
          end do
       end do
    end subroutine fill_shifted_table
 
+   !> Coefficients at an offset and at its three mirror images
+   pure subroutine set_mirrored(table, k, l, v)
+      type(kernel_table), intent(inout) :: table
+      !> Offset, not negative
+      integer, intent(in) :: k, l
+      !> nn, xx, yy, xy, xn, yn
+      real(wp), intent(in) :: v(6)
+      real(wp) :: w(6)
+      integer :: i, j
+
+      ! a coefficient that is odd in an offset vanishes exactly at offset 0
+      w = v
+      if (k == 0 .or. l == 0) w(4) = 0.0_wp
+      if (k == 0) w(5) = 0.0_wp
+      if (l == 0) w(6) = 0.0_wp
+      do j = -1, 1, 2
+         do i = -1, 1, 2
+            call set_entry(table, i*k, j*l, [w(1:3), i*j*w(4), i*w(5), j*w(6)])
+         end do
+      end do
+   end subroutine set_mirrored
+
+   !> Coefficients at an offset
+   pure subroutine set_entry(table, k, l, v)
+      type(kernel_table), intent(inout) :: table
+      integer, intent(in) :: k, l
+      !> nn, xx, yy, xy, xn, yn
+      real(wp), intent(in) :: v(6)
+
+      table%nn(k, l) = v(1)
+      table%xx(k, l) = v(2)
+      table%yy(k, l) = v(3)
+      table%xy(k, l) = v(4)
+      if (.not. allocated(table%xn)) return
+      table%xn(k, l) = v(5)
+      table%yn(k, l) = v(6)
+   end subroutine set_entry
+
    !> Allocate the arrays of a table for a range of offsets
-   subroutine shape_table(table, material, dx, dy, nx, ny)
+   subroutine shape_table(table, material, dx, dy, nx, ny, coupled)
       type(kernel_table), intent(inout) :: table
       type(combined_material), intent(in) :: material
       real(wp), intent(in) :: dx, dy
       integer, intent(in) :: nx, ny
+      !> With coefficients xn, yn? Default: when the material couples
+      logical, intent(in), optional :: coupled
+      logical :: with_coupling
 
-      if (table%nx /= nx .or. table%ny /= ny .or. (material%coupled() .neqv. allocated(table%xn))) then
+      with_coupling = material%coupled()
+      if (present(coupled)) with_coupling = coupled
+      if (table%nx /= nx .or. table%ny /= ny .or. (with_coupling .neqv. allocated(table%xn))) then
          if (allocated(table%nn)) deallocate(table%nn, table%xx, table%yy, table%xy)
          if (allocated(table%xn)) deallocate(table%xn, table%yn)
          allocate(table%nn(-nx:nx, -ny:ny), table%xx(-nx:nx, -ny:ny), table%yy(-nx:nx, -ny:ny), &
             & table%xy(-nx:nx, -ny:ny))
-         if (material%coupled()) allocate(table%xn(-nx:nx, -ny:ny), table%yn(-nx:nx, -ny:ny))
+         if (with_coupling) allocate(table%xn(-nx:nx, -ny:ny), table%yn(-nx:nx, -ny:ny))
       end if
       table%nx = nx
       table%ny = ny

@@ -16,6 +16,7 @@ module contact_elastic_material
    contains
       !> Do normal and tangential tractions interact?
       procedure :: coupled
+      procedure :: same_as
    end type combined_material
 
 contains
@@ -35,4 +36,10 @@ contains
       class(combined_material), intent(in) :: self
       coupled = abs(self%ak) >= coupling_threshold
    end function coupled
+
+   elemental logical function same_as(self, other)
+      class(combined_material), intent(in) :: self
+      type(combined_material), intent(in) :: other
+      same_as = self%gg == other%gg .and. self%nu == other%nu .and. self%ak == other%ak
+   end function same_as
 end module contact_elastic_material

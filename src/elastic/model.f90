@@ -2,38 +2,156 @@
 module contact_elastic_model
    use contact_base_choices, only : kernel_model
    use contact_base_kinds, only : wp
-   use contact_elastic_material, only : combined_material
+   use contact_elastic_material, only : combine, combined_material, coupling_threshold
    implicit none (type, external)
    private
 
-   public :: elastic_model
+   public :: elastic_model, fading_memory, surface_inclination
+
+   !> What bodies add to their elastic response after a load, in steady motion; standard linear solids
+   !>
+   !> The creep compliance of body a is (1 + f_a (1 - exp(-t/tau_a)))/G_a.
+   type :: fading_memory
+      !> Part of the late response, that of each body against a rigid one, divided by the load
+      type(combined_material) :: late(2)
+      !> Distance travelled within the relaxation time, v_a = V tau_a [mm]; 0: the body has no memory
+      real(wp) :: length(2) = 0.0_wp
+   end type fading_memory
+
+   !> Inclination of a curved surface across the rolling direction
+   type :: surface_inclination
+      !> How the rotations of load and displacement are shared out, 1 to 4
+      integer :: variant = 4
+      !> Same rate of inclination everywhere: a straight line through the table
+      logical :: uniform = .false.
+      !> Curved lateral coordinates [mm], increasing, and inclinations [rad]
+      real(wp), allocatable :: s(:), alpha(:)
+   contains
+      procedure :: angle
+      procedure :: rate
+   end type surface_inclination
 
    !> Elasticity of a pair of bodies; the plain value means homogeneous half-spaces
    type :: elastic_model
+      !> Combined constants of the instantaneous response
       type(combined_material) :: material
       !> Influence coefficients, one of kernel_model
       integer :: kernel = kernel_model%piecewise_constant
       !> Tangential displacement in a thin layer between the bodies per unit traction [mm3/N]; 0: no layer
       real(wp) :: layer = 0.0_wp
+      !> Late response in steady motion; unallocated: none
+      type(fading_memory), allocatable :: memory
+      !> Inclination of the surface for kernel_model%conformal; unallocated: flat
+      type(surface_inclination), allocatable :: inclination
    contains
       !> Do normal and tangential tractions interact?
       procedure :: coupled
+      !> Do displacements depend on the distance between elements only, for any distance?
+      procedure :: is_flat
+      !> Is there an inclination, and do its corrections depend on offsets only, with all symmetries?
+      procedure :: rotates_by_offset
       !> Would both give the same coefficients?
       procedure :: same_as
+      !> Set constants and memory of viscoelastic bodies
+      procedure :: set_viscoelastic
    end type elastic_model
 
 contains
 
-   elemental logical function coupled(self)
+   pure logical function coupled(self)
       class(elastic_model), intent(in) :: self
-      coupled = self%material%coupled()
+
+      coupled = self%material%coupled() .or. allocated(self%inclination)
+      if (.not. allocated(self%memory)) return
+      associate (memory => self%memory)
+         if (memory%length(1) > 0.0_wp .and. memory%length(1) == memory%length(2)) then
+            ! the late responses fade alike: only their difference counts, relative to the modulus
+            coupled = coupled .or. abs(memory%late(1)%ak/memory%late(1)%gg + memory%late(2)%ak/memory%late(2)%gg) &
+               & *self%material%gg >= coupling_threshold
+         else
+            coupled = coupled .or. any(memory%length > 0.0_wp .and. memory%late%coupled())
+         end if
+      end associate
    end function coupled
 
-   elemental logical function same_as(self, other) result(same)
+   pure logical function is_flat(self)
+      class(elastic_model), intent(in) :: self
+      is_flat = .not. allocated(self%inclination)
+   end function is_flat
+
+   pure logical function rotates_by_offset(self)
+      class(elastic_model), intent(in) :: self
+
+      rotates_by_offset = .false.
+      if (allocated(self%inclination)) rotates_by_offset = self%inclination%uniform .and. self%inclination%variant == 4
+   end function rotates_by_offset
+
+   pure logical function same_as(self, other) result(same)
       class(elastic_model), intent(in) :: self
       type(elastic_model), intent(in) :: other
 
-      same = self%material%gg == other%material%gg .and. self%material%nu == other%material%nu &
-         & .and. self%material%ak == other%material%ak .and. self%kernel == other%kernel .and. self%layer == other%layer
+      same = self%material%same_as(other%material) .and. self%kernel == other%kernel .and. self%layer == other%layer &
+         & .and. (allocated(self%memory) .eqv. allocated(other%memory)) &
+         & .and. (allocated(self%inclination) .eqv. allocated(other%inclination))
+      if (.not. same) return
+      if (allocated(self%memory)) same = all(self%memory%length == other%memory%length) &
+         & .and. all(self%memory%late%same_as(other%memory%late))
+      if (.not. allocated(self%inclination)) return
+      associate (a => self%inclination, b => other%inclination)
+         same = same .and. a%variant == b%variant .and. (a%uniform .eqv. b%uniform) .and. size(a%s) == size(b%s)
+         if (same) same = all(a%s == b%s) .and. all(a%alpha == b%alpha)
+      end associate
    end function same_as
+
+   !> A body whose relaxation time is 0 responds at once with its late compliance
+   pure subroutine set_viscoelastic(self, poiss, gg, ratio, length)
+      class(elastic_model), intent(inout) :: self
+      !> Poisson ratios [-] and instantaneous moduli of rigidity [N/mm2] of bodies 1 and 2
+      real(wp), intent(in) :: poiss(2), gg(2)
+      !> Late over instantaneous compliance, minus 1 [-]
+      real(wp), intent(in) :: ratio(2)
+      !> Distance travelled within the relaxation time [mm]
+      real(wp), intent(in) :: length(2)
+      real(wp) :: modulus(2)
+      integer :: a
+
+      modulus = gg
+      where (length <= 0.0_wp) modulus = gg/(1.0_wp + ratio)
+      self%material = combine(poiss, modulus)
+      if (allocated(self%memory)) deallocate(self%memory)
+      if (.not. any(length > 0.0_wp .and. ratio > 0.0_wp)) return
+      allocate(self%memory)
+      do a = 1, 2
+         if (length(a) <= 0.0_wp .or. ratio(a) <= 0.0_wp) cycle
+         self%memory%length(a) = length(a)
+         self%memory%late(a)%gg = 2.0_wp*gg(a)/ratio(a)
+         self%memory%late(a)%nu = poiss(a)
+         self%memory%late(a)%ak = merge(0.5_wp, -0.5_wp, a == 1)*(1.0_wp - 2.0_wp*poiss(a))
+      end do
+   end subroutine set_viscoelastic
+
+   !> Inclination at a lateral position [rad]: interpolated, with the end intervals continued
+   elemental real(wp) function angle(self, s)
+      class(surface_inclination), intent(in) :: self
+      !> Curved lateral coordinate [mm]
+      real(wp), intent(in) :: s
+      integer :: i
+
+      if (self%uniform) then
+         angle = self%rate()*s
+         return
+      end if
+      i = max(1, min(size(self%s) - 1, count(self%s <= s)))
+      angle = self%alpha(i) + (self%alpha(i + 1) - self%alpha(i))*(s - self%s(i))/(self%s(i + 1) - self%s(i))
+   end function angle
+
+   !> Slope of the straight line that fits the table best [rad/mm]
+   pure real(wp) function rate(self)
+      class(surface_inclination), intent(in) :: self
+      real(wp) :: mean_s, mean_alpha
+
+      mean_s = sum(self%s)/size(self%s)
+      mean_alpha = sum(self%alpha)/size(self%alpha)
+      rate = sum((self%s - mean_s)*(self%alpha - mean_alpha))/sum((self%s - mean_s)**2)
+   end function rate
 end module contact_elastic_model

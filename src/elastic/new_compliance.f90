@@ -1,8 +1,10 @@
 !> The compliance that suits an elastic model
 module contact_elastic_new_compliance
    use contact_elastic_compliance, only : compliance
+   use contact_elastic_conformal, only : conformal_operator
    use contact_elastic_model, only : elastic_model
    use contact_elastic_operator, only : elastic_operator
+   use contact_elastic_one_sided, only : one_sided_operator
    implicit none (type, external)
    private
 
@@ -30,9 +32,12 @@ contains
       type(elastic_model), intent(in) :: model
       class(compliance), allocatable, intent(out) :: operator
 
-      select case (model%kernel)
-      case default
+      if (allocated(model%memory)) then
+         allocate(one_sided_operator :: operator)
+      else if (allocated(model%inclination) .and. .not. model%rotates_by_offset()) then
+         allocate(conformal_operator :: operator)
+      else
          allocate(elastic_operator :: operator)
-      end select
+      end if
    end subroutine make_kind
 end module contact_elastic_new_compliance

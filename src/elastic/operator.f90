@@ -14,8 +14,8 @@
 module contact_elastic_operator
    use contact_base_constants, only : pi
    use contact_base_kinds, only : wp
+   use contact_elastic_coefficients, only : fill_coefficients
    use contact_elastic_compliance, only : compliance
-   use contact_elastic_halfspace, only : fill_table
    use contact_elastic_model, only : elastic_model
    use contact_fft_paired, only : paired_plan
    use contact_fft_plan, only : fast_size, fft_plan, kernel_spectrum, largest_fast_size
@@ -29,16 +29,17 @@ module contact_elastic_operator
       type(fft_plan) :: plan
       !> Both fields at once on small windows, for products and for inverses
       type(paired_plan), private :: pair, inverse_pair
-      logical, private :: small = .false.
+      !> Is the window small? Children that use the spectra xx and yy by themselves say no
+      logical :: small = .false.
       !> Spectra over padded size, real parts; xn, yn: imaginary parts [mm/(N/mm2)]
-      real(wp), allocatable, private :: nn(:, :), xx(:, :), yy(:, :), xy(:, :), xn(:, :), yn(:, :)
+      real(wp), allocatable :: nn(:, :), xx(:, :), yy(:, :), xy(:, :), xn(:, :), yn(:, :)
       !> Inverse of the 2 by 2 tangential symbol and of the normal symbol, circulant
       real(wp), allocatable, private :: ixx(:, :), iyy(:, :), ixy(:, :), inn(:, :)
       !> 1 - exp(i direction kappa), shape (kx)
-      complex(wp), allocatable, private :: difference(:)
+      complex(wp), allocatable :: difference(:)
       !> Inverse of the damped difference, shape (kx)
       complex(wp), allocatable, private :: sum_up(:)
-      complex(wp), allocatable, private :: s1(:, :), s2(:, :)
+      complex(wp), allocatable :: s1(:, :), s2(:, :)
       integer, private :: direction = 0
       logical, private :: has_normal = .false., has_tangential = .false., has_coupling = .false.
    contains
@@ -53,6 +54,8 @@ module contact_elastic_operator
       procedure :: tangential_by_normal
       procedure :: steady_by_normal
       procedure :: release
+      !> Spectra of all kernels
+      procedure :: need_all
    end type elastic_operator
 
 contains
@@ -74,12 +77,12 @@ contains
       !> Decay of the preconditioner per element is this over sqrt(mx), chosen by measurement
       real(wp), parameter :: decay = 0.5_wp
 
-      same = self%mx == mx .and. self%my == my .and. self%dx == dx .and. self%dy == dy .and. self%model%same_as(model)
+      same = self%is_for(model, dx, dy, mx, my)
       if (.not. same) then
          ! one element more than a plain product needs: the shifted kernel of steady rolling
          px = fast_size(2*mx + 1)
          py = merge(1, fast_size(2*my), my == 1)
-         call fill_table(self%table, model%material, dx, dy, px/2, py/2)
+         call fill_coefficients(self%table, model, dx, dy, px/2, py/2)
          self%diagonal = [self%table%nn(0, 0), self%table%xx(0, 0), self%table%yy(0, 0)]
          call self%plan%prepare(mx, my, px, py)
          self%small = my > 1 .and. max(px, py) <= largest_fast_size
@@ -265,6 +268,14 @@ contains
       end associate
       self%has_coupling = .true.
    end subroutine need_coupling
+
+   subroutine need_all(self)
+      class(elastic_operator), intent(inout) :: self
+
+      call need_normal(self)
+      call need_tangential(self)
+      if (allocated(self%table%xn)) call need_coupling(self)
+   end subroutine need_all
 
    subroutine normal(self, p, u)
       class(elastic_operator), intent(inout) :: self

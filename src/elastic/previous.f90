@@ -4,7 +4,8 @@
 !> the kernel is sampled at that point. It has no symmetry, so its spectra are complex.
 module contact_elastic_previous
    use contact_base_kinds, only : wp
-   use contact_elastic_halfspace, only : fill_shifted_table, kernel_table
+   use contact_elastic_coefficients, only : fill_shifted_coefficients
+   use contact_elastic_halfspace, only : kernel_table
    use contact_elastic_model, only : elastic_model
    use contact_fft_plan, only : fft_plan, good_size, kernel_spectrum
    implicit none (type, external)
@@ -52,7 +53,7 @@ contains
       if (self%mx == mx .and. self%my == my .and. self%dx == dx .and. self%dy == dy .and. self%shift_x == shift_x &
          & .and. self%shift_y == shift_y .and. self%model%same_as(model)) return
       call self%plan%prepare(mx, my, good_size(2*mx), merge(1, good_size(2*my), my == 1))
-      call fill_shifted_table(table, model%material, dx, dy, self%plan%px/2, self%plan%py/2, shift_x, shift_y)
+      call fill_shifted_coefficients(table, model, dx, dy, self%plan%px/2, self%plan%py/2, shift_x, shift_y)
       call spectrum_of(self%plan, table, table%xx, self%xx)
       call spectrum_of(self%plan, table, table%yy, self%yy)
       call spectrum_of(self%plan, table, table%xy, self%xy)

@@ -3,9 +3,9 @@ module contact_patch_kinematics
    use contact_base_choices, only : motion
    use contact_base_kinds, only : wp
    use contact_grid_element_division, only : element
-   use contact_patch_problem, only : patch_problem, patch_state
+   use contact_patch_problem, only : patch_problem, patch_state, traction_fields
    use contact_patch_result, only : patch_result
-   use contact_patch_workspace, only : patch_workspace
+   use contact_patch_workspace, only : patch_workspace, prepare_window
    implicit none (type, external)
    private
 
@@ -58,9 +58,35 @@ contains
          if (abs(shift_y) < 1.0e-10_wp*problem%dq) shift_y = 0.0_wp
          if (abs(shift_x) < 1.0e-10_wp*problem%dq) shift_x = 0.0_wp
       end if
+      if (.not. problem%model%is_flat()) then
+         call curved_displacement(problem, state%before, workspace, moved=shift_x /= 0.0_wp)
+         return
+      end if
       call workspace%previous%prepare(problem%model, problem%grid%dx, problem%grid%dy, problem%grid%mx, problem%grid%my, &
          & shift_x, shift_y)
       call workspace%previous%tangential(state%before%px, state%before%py, state%before%pn, &
          & workspace%old_displacement(:, :, 1), workspace%old_displacement(:, :, 2))
    end subroutine previous_displacement
+
+   !> The same on a surface whose rows differ: at the same places, or one element further ahead
+   subroutine curved_displacement(problem, before, workspace, moved)
+      type(patch_problem), intent(in) :: problem
+      !> The previous moment
+      type(traction_fields), intent(in) :: before
+      type(patch_workspace), intent(inout) :: workspace
+      logical, intent(in) :: moved
+
+      call prepare_window(problem, workspace)
+      workspace%pt(:, :, 1) = before%px
+      workspace%pt(:, :, 2) = before%py
+      call workspace%window%tangential(workspace%pt, workspace%old_displacement)
+      call workspace%window%tangential_by_normal(before%pn, workspace%ut)
+      workspace%old_displacement = workspace%old_displacement + workspace%ut
+      if (.not. moved) return
+      ! A' = A - (A - A')
+      call workspace%window%steady(workspace%pt, workspace%ut)
+      workspace%old_displacement = workspace%old_displacement - workspace%ut
+      call workspace%window%steady_by_normal(before%pn, workspace%ut)
+      workspace%old_displacement = workspace%old_displacement - workspace%ut
+   end subroutine curved_displacement
 end module contact_patch_kinematics

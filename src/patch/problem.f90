@@ -131,7 +131,7 @@ contains
    !> Rolling towards increasing or decreasing x
    pure integer function rolling_direction(problem)
       type(patch_problem), intent(in) :: problem
-      rolling_direction = merge(-1, 1, problem%motion == motion%steady_rolling .and. cos(problem%chi) < 0.0_wp)
+      rolling_direction = merge(-1, 1, problem%motion >= motion%transient_rolling .and. cos(problem%chi) < 0.0_wp)
    end function rolling_direction
 
    pure logical function solves_for_pressure(self) result(solves)

@@ -108,6 +108,12 @@ contains
       real(wp) :: force
       character(len=16) :: text
 
+      if (.not. problem%model%is_flat() .and. problem%motion == motion%transient_rolling &
+         & .and. abs(problem%dq - problem%grid%dx) > 0.01_wp*problem%grid%dx) then
+         call fatal_error(error, "conformal contact (C = 4) needs steps of one element in transient rolling, DQ = DX", &
+            & error_kind%input)
+         return
+      end if
       if (problem%motion == motion%none .or. problem%n_forces == 0) return
       force = norm2(problem%force(:problem%n_forces))
       if (force < 1.0_wp) return

@@ -224,11 +224,21 @@ contains
       type(patch_workspace), intent(inout) :: workspace
       type(log_type), intent(inout) :: log
       type(solve_report), intent(inout) :: report
-      integer :: method
+      integer :: method, choice
 
       method = classical_method%tang_cg
       if (problem%motion == motion%steady_rolling) method = classical_method%steady_gs
-      select case (problem%solver)
+      choice = problem%solver
+      if (.not. workspace%box%has_table()) then
+         ! Gauss-Seidel methods and GDsteady need one table of coefficients for all elements
+         method = classical_method%tang_cg
+         if (choice == solver_choice%convex_gs .or. choice == solver_choice%gauss_seidel &
+            & .or. choice == solver_choice%gd_steady) then
+            call log%warning("coefficients differ from row to row (C = 4): solver Newton-Krylov instead of that of the G-digit")
+            choice = solver_choice%default
+         end if
+      end if
+      select case (choice)
       case (solver_choice%convex_gs)
          method = classical_method%convex_gs
       case (solver_choice%gauss_seidel)
@@ -237,7 +247,7 @@ contains
          if (problem%motion == motion%steady_rolling) method = classical_method%gd_steady
       case default
          call solve_newton_krylov(workspace%tangential, workspace%box, workspace%tangential_work, workspace%solution, report, log)
-         if (report%succeeded()) return
+         if (report%succeeded() .or. (problem%motion == motion%steady_rolling .and. .not. workspace%box%has_table())) return
          call log%warning("Newton-Krylov made no further progress; a classical method takes over")
          call solve_classical(workspace%tangential, workspace%box, method, workspace%solution, report, log)
          report%gave_up = "Newton-Krylov"

@@ -1,0 +1,69 @@
+!> From the specification of a case to its elastic model
+module contact_cases_elastic_setup
+   use contact_base_choices, only : kernel_model, material_model, motion
+   use contact_base_error, only : error_kind, error_type, fatal_error
+   use contact_base_kinds, only : wp
+   use contact_cases_spec, only : case_spec, material_spec
+   use contact_elastic_material, only : combine
+   use contact_elastic_model, only : elastic_model
+   implicit none (type, external)
+   private
+
+   public :: set_model
+
+   !> Thinner layers do not count [mm]
+   real(wp), parameter :: thinnest_layer = 1.0e-10_wp
+
+contains
+
+   subroutine set_model(spec, model, error)
+      type(case_spec), intent(in) :: spec
+      !> Made anew
+      type(elastic_model), intent(out) :: model
+      type(error_type), allocatable, intent(out) :: error
+
+      model%kernel = spec%kernel
+      associate (material => spec%material)
+         model%material = combine(material%poiss, material%gg)
+         if (spec%material_model == material_model%viscoelastic) then
+            if (spec%kernel /= kernel_model%piecewise_constant) then
+               call fatal_error(error, "viscoelastic material (M = 1) works with piecewise constant tractions of half-spaces " &
+                  & // "(C = 2), not with bilinear, conformal or tabulated coefficients", error_kind%input)
+               return
+            end if
+            call model%set_viscoelastic(material%poiss, material%gg, material%fg, spec%rolling%veloc*material%tc)
+         else if (spec%material_model == material_model%interfacial_layer) then
+            if (material%laythk >= thinnest_layer) model%layer = material%laythk/material%gg3
+         end if
+         if (spec%kernel == kernel_model%conformal) call set_inclination(spec, material, model, error)
+      end associate
+   end subroutine set_model
+
+   !> Conformal contact: the table of inclinations, or the straight line through it
+   subroutine set_inclination(spec, material, model, error)
+      type(case_spec), intent(in) :: spec
+      type(material_spec), intent(in) :: material
+      type(elastic_model), intent(inout) :: model
+      type(error_type), allocatable, intent(out) :: error
+      integer :: n
+
+      n = 0
+      if (allocated(material%table_y)) n = size(material%table_y)
+      if (n < 2) then
+         call fatal_error(error, "conformal contact (C = 4) needs the surface inclination at two lateral positions or more", &
+            & error_kind%input)
+      else if (any(material%table_y(2:) <= material%table_y(:n - 1))) then
+         call fatal_error(error, "the lateral positions of the surface inclinations (C = 4) must increase", error_kind%input)
+      else if ((spec%motion == motion%transient_rolling .or. spec%motion == motion%steady_rolling) &
+         & .and. abs(sin(spec%rolling%chi)) > 0.01_wp) then
+         call fatal_error(error, "conformal contact (C = 4) allows for rolling along x only, CHI = 0 or 180 degrees", &
+            & error_kind%input)
+      end if
+      if (allocated(error)) return
+      allocate(model%inclination)
+      model%inclination%variant = material%variant
+      model%inclination%uniform = material%if_meth == 0 .or. n == 2
+      model%inclination%s = material%table_y
+      model%inclination%alpha = material%table_alpha
+   end subroutine set_inclination
+end module contact_cases_elastic_setup

@@ -1,0 +1,70 @@
+!> Influence coefficients of an elastic model that are the same for all loaded elements
+module contact_elastic_coefficients
+   use contact_base_choices, only : kernel_model
+   use contact_base_kinds, only : wp
+   use contact_elastic_bilinear, only : fill_bilinear, fill_shifted_bilinear
+   use contact_elastic_halfspace, only : fill_shifted_table, fill_table, kernel_table
+   use contact_elastic_inclination, only : rotate_table
+   use contact_elastic_memory, only : fill_with_memory
+   use contact_elastic_model, only : elastic_model
+   implicit none (type, external)
+   private
+
+   public :: fill_coefficients, fill_shifted_coefficients
+
+contains
+
+   !> Coefficients without shift; for a curved surface whose correction depends on rows those of flat bodies
+   subroutine fill_coefficients(table, model, dx, dy, nx, ny)
+      type(kernel_table), intent(inout) :: table
+      type(elastic_model), intent(in) :: model
+      !> Sides of the elements [mm]
+      real(wp), intent(in) :: dx, dy
+      !> Largest offsets in elements
+      integer, intent(in) :: nx, ny
+
+      if (allocated(model%memory)) then
+         call fill_with_memory(table, model%material, model%memory, model%coupled(), dx, dy, nx, ny)
+      else if (model%kernel == kernel_model%bilinear) then
+         call fill_bilinear(table, model%material, dx, dy, nx, ny)
+      else
+         call fill_table(table, model%material, dx, dy, nx, ny)
+      end if
+      if (model%rotates_by_offset()) call rotate_table(table, model%inclination)
+      table%xx(0, 0) = table%xx(0, 0) + model%layer
+      table%yy(0, 0) = table%yy(0, 0) + model%layer
+   end subroutine fill_coefficients
+
+   !> Coefficients with the observation points moved by (shift_x, shift_y); flat bodies without memory
+   !>
+   !> The layer sees the traction at the moved point, interpolated between the elements around it.
+   subroutine fill_shifted_coefficients(table, model, dx, dy, nx, ny, shift_x, shift_y)
+      type(kernel_table), intent(inout) :: table
+      type(elastic_model), intent(in) :: model
+      real(wp), intent(in) :: dx, dy
+      integer, intent(in) :: nx, ny
+      !> Displacement of the observation points [mm]
+      real(wp), intent(in) :: shift_x, shift_y
+      integer :: k, l, i, j
+      real(wp) :: a, b, share
+
+      if (model%kernel == kernel_model%bilinear) then
+         call fill_shifted_bilinear(table, model%material, dx, dy, nx, ny, shift_x, shift_y)
+      else
+         call fill_shifted_table(table, model%material, dx, dy, nx, ny, shift_x, shift_y)
+      end if
+      if (model%layer <= 0.0_wp) return
+      k = floor(shift_x/dx)
+      l = floor(shift_y/dy)
+      a = shift_x/dx - k
+      b = shift_y/dy - l
+      do j = 0, 1
+         do i = 0, 1
+            if (k + i > nx .or. k + i < -nx .or. l + j > ny .or. l + j < -ny) cycle
+            share = model%layer*merge(a, 1.0_wp - a, i == 1)*merge(b, 1.0_wp - b, j == 1)
+            table%xx(-k - i, -l - j) = table%xx(-k - i, -l - j) + share
+            table%yy(-k - i, -l - j) = table%yy(-k - i, -l - j) + share
+         end do
+      end do
+   end subroutine fill_shifted_coefficients
+end module contact_elastic_coefficients

@@ -1,0 +1,198 @@
+!> Compliance with a memory in x: the same for all elements, but not symmetric in x
+!>
+!> Products use complex spectra. The approximate inverses are those of the symmetric part, which
+!> the parent makes from the same table: the real parts of the spectra.
+module contact_elastic_one_sided
+   use contact_base_kinds, only : wp
+   use contact_elastic_model, only : elastic_model
+   use contact_elastic_operator, only : elastic_operator
+   use contact_fft_plan, only : kernel_spectrum
+   implicit none (type, external)
+   private
+
+   public :: one_sided_operator
+
+   !> Compliance of viscoelastic bodies
+   type, extends(elastic_operator) :: one_sided_operator
+      !> Spectra, shape (py, kx), scaled for the back transform: nn, xx, yy, xy, xn, yn [mm/(N/mm2)]
+      complex(wp), allocatable, private :: kernel(:, :, :)
+      complex(wp), allocatable, private :: sn(:, :), mixed(:, :)
+   contains
+      procedure :: prepare
+      procedure :: normal
+      procedure :: tangential
+      procedure :: steady
+      procedure :: normal_by_tangential
+      procedure :: tangential_by_normal
+      procedure :: steady_by_normal
+   end type one_sided_operator
+
+contains
+
+   subroutine prepare(self, model, dx, dy, mx, my, direction, y_first)
+      class(one_sided_operator), intent(inout) :: self
+      type(elastic_model), intent(in) :: model
+      real(wp), intent(in) :: dx, dy
+      integer, intent(in) :: mx, my, direction
+      real(wp), intent(in), optional :: y_first
+
+      if (.not. self%is_for(model, dx, dy, mx, my)) then
+         if (allocated(self%kernel)) deallocate(self%kernel)
+      end if
+      call self%elastic_operator%prepare(model, dx, dy, mx, my, direction, y_first)
+      self%small = .false.
+   end subroutine prepare
+
+   !> All spectra, on first use
+   subroutine need_spectra(self)
+      class(one_sided_operator), intent(inout) :: self
+      integer :: n
+
+      if (allocated(self%kernel)) return
+      n = merge(6, 4, allocated(self%table%xn))
+      allocate(self%kernel(self%plan%py, self%plan%kx, n))
+      call one(self%table%nn, self%kernel(:, :, 1))
+      call one(self%table%xx, self%kernel(:, :, 2))
+      call one(self%table%yy, self%kernel(:, :, 3))
+      call one(self%table%xy, self%kernel(:, :, 4), odd=.true.)
+      if (n > 4) then
+         call one(self%table%xn, self%kernel(:, :, 5))
+         call one(self%table%yn, self%kernel(:, :, 6), odd=.true.)
+      end if
+      if (allocated(self%sn)) deallocate(self%sn, self%mixed)
+      allocate(self%sn(self%plan%py, self%plan%kx), self%mixed(self%plan%py, self%plan%kx))
+
+   contains
+
+      !> Spectrum of one kernel
+      subroutine one(coefficients, spectrum, odd)
+         !> Offsets -nx:nx, -ny:ny
+         real(wp), intent(in) :: coefficients(-self%table%nx:, -self%table%ny:)
+         complex(wp), contiguous, intent(inout) :: spectrum(:, :)
+         !> Odd in y: nothing at half the period, where offsets +n and -n coincide
+         logical, intent(in), optional :: odd
+         real(wp), allocatable :: period(:, :)
+         integer :: k, l, i, j
+
+         allocate(period(self%plan%px, self%plan%py))
+         do l = 1, self%plan%py
+            j = l - 1
+            if (j > self%plan%py/2) j = j - self%plan%py
+            do k = 1, self%plan%px
+               i = k - 1
+               if (i > self%plan%px/2) i = i - self%plan%px
+               period(k, l) = coefficients(i, j)
+            end do
+         end do
+         if (present(odd) .and. self%plan%py > 1) period(:, self%plan%py/2 + 1) = 0.0_wp
+         call kernel_spectrum(period, spectrum)
+         spectrum = spectrum/(real(self%plan%px, wp)*real(self%plan%py, wp))
+      end subroutine one
+   end subroutine need_spectra
+
+   subroutine normal(self, p, u)
+      class(one_sided_operator), intent(inout) :: self
+      real(wp), contiguous, intent(in) :: p(:, :)
+      real(wp), contiguous, intent(inout) :: u(:, :)
+
+      call need_spectra(self)
+      call self%plan%forward(p, self%s1, 1)
+      self%s1 = self%kernel(:, :, 1)*self%s1
+      call self%plan%backward(self%s1, u, 1)
+      self%products = self%products + 1
+      self%transforms = self%transforms + 2
+   end subroutine normal
+
+   subroutine tangential(self, p, u)
+      class(one_sided_operator), intent(inout) :: self
+      real(wp), contiguous, intent(in) :: p(:, :, :)
+      real(wp), contiguous, intent(inout) :: u(:, :, :)
+      call pair_product(self, p, u, .false.)
+   end subroutine tangential
+
+   subroutine steady(self, p, u)
+      class(one_sided_operator), intent(inout) :: self
+      real(wp), contiguous, intent(in) :: p(:, :, :)
+      real(wp), contiguous, intent(inout) :: u(:, :, :)
+      call pair_product(self, p, u, .true.)
+   end subroutine steady
+
+   !> Both tangential components, of displacements or of their change from step to step
+   subroutine pair_product(self, p, u, change)
+      class(one_sided_operator), intent(inout) :: self
+      real(wp), contiguous, intent(in) :: p(:, :, :)
+      real(wp), contiguous, intent(inout) :: u(:, :, :)
+      logical, intent(in) :: change
+
+      call need_spectra(self)
+      call self%plan%forward(p(:, :, 1), self%s1, 1)
+      call self%plan%forward(p(:, :, 2), self%s2, 1)
+      self%mixed = self%kernel(:, :, 2)*self%s1 + self%kernel(:, :, 4)*self%s2
+      self%s2 = self%kernel(:, :, 4)*self%s1 + self%kernel(:, :, 3)*self%s2
+      call back(self, self%mixed, u(:, :, 1), change)
+      call back(self, self%s2, u(:, :, 2), change)
+      self%products = self%products + 1
+      self%transforms = self%transforms + 4
+   end subroutine pair_product
+
+   !> Transform back, after taking the difference to the next element ahead where wanted
+   subroutine back(self, spectrum, u, change)
+      class(one_sided_operator), intent(inout) :: self
+      complex(wp), contiguous, intent(inout) :: spectrum(:, :)
+      real(wp), contiguous, intent(inout) :: u(:, :)
+      logical, intent(in) :: change
+      integer :: l
+
+      if (change) then
+         do l = 1, self%plan%kx
+            spectrum(:, l) = self%difference(l)*spectrum(:, l)
+         end do
+      end if
+      call self%plan%backward(spectrum, u, 1)
+   end subroutine back
+
+   subroutine normal_by_tangential(self, p, u)
+      class(one_sided_operator), intent(inout) :: self
+      real(wp), contiguous, intent(in) :: p(:, :, :)
+      real(wp), contiguous, intent(inout) :: u(:, :)
+
+      call need_spectra(self)
+      call self%plan%forward(p(:, :, 1), self%s1, 1)
+      call self%plan%forward(p(:, :, 2), self%s2, 1)
+      self%s1 = -(self%kernel(:, :, 5)*self%s1 + self%kernel(:, :, 6)*self%s2)
+      call self%plan%backward(self%s1, u, 1)
+      self%products = self%products + 1
+      self%transforms = self%transforms + 3
+   end subroutine normal_by_tangential
+
+   subroutine tangential_by_normal(self, p, u)
+      class(one_sided_operator), intent(inout) :: self
+      real(wp), contiguous, intent(in) :: p(:, :)
+      real(wp), contiguous, intent(inout) :: u(:, :, :)
+      call by_normal(self, p, u, .false.)
+   end subroutine tangential_by_normal
+
+   subroutine steady_by_normal(self, p, u)
+      class(one_sided_operator), intent(inout) :: self
+      real(wp), contiguous, intent(in) :: p(:, :)
+      real(wp), contiguous, intent(inout) :: u(:, :, :)
+      call by_normal(self, p, u, .true.)
+   end subroutine steady_by_normal
+
+   !> Tangential displacements by pressures, or their change from step to step
+   subroutine by_normal(self, p, u, change)
+      class(one_sided_operator), intent(inout) :: self
+      real(wp), contiguous, intent(in) :: p(:, :)
+      real(wp), contiguous, intent(inout) :: u(:, :, :)
+      logical, intent(in) :: change
+
+      call need_spectra(self)
+      call self%plan%forward(p, self%sn, 1)
+      self%s1 = self%kernel(:, :, 5)*self%sn
+      self%s2 = self%kernel(:, :, 6)*self%sn
+      call back(self, self%s1, u(:, :, 1), change)
+      call back(self, self%s2, u(:, :, 2), change)
+      self%products = self%products + 1
+      self%transforms = self%transforms + 3
+   end subroutine by_normal
+end module contact_elastic_one_sided
