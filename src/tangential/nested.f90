@@ -69,7 +69,8 @@ contains
       if (operator%can_coarsen() .and. is_large(problem)) then
          call slip_of(problem, operator, solution%p, solution%creep, solution%slip)
          residual = true_residual(problem, solution%p, solution%slip, residual_scale(problem, operator))
-         if (residual > good_estimate) then
+         ! limits that are followed along rows need a start near the solution
+         if (residual > good_estimate .or. (problem%hardens() .and. .not. any(abs(solution%p) > 0.0_wp))) then
             call solve_coarse(problem, operator, workspace, 2, solution, log)
          end if
       end if
