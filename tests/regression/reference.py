@@ -7,12 +7,18 @@ import os
 import subprocess
 import sys
 
-EXAMPLES = ["cattaneo", "carter2d", "bentall", "catt_to_cart", "spence35", "veldep_fric", "ertz_temperature"]
+# inputs of which every case agrees; the others stand in doc/validation/deviations.md. The comparison stops
+# at a case of tractcurv in which energy and power are both 0
+INPUTS = ["examples/" + name for name in (
+    "cattaneo", "carter2d", "bentall", "catt_to_cart", "spence35", "subsurf", "veldep_fric", "ertz_temperature", "fastsim",
+    "plastic_3bl", "visc_cylindr", "mbench_a22_left", "mbench_a22_right")] + \
+    ["testbank/examples_plast/" + name for name in ("carter_plast", "catt2d_plast", "catt3d_plast")] + \
+    ["testbank/examples_temp/m3_tempdep"]
 
 reference = os.environ["CONTACT_REFERENCE"]
 tool = os.path.join(os.path.dirname(os.path.normpath(reference)), "tools", "check_reference.py")
 if not (os.path.isdir(os.path.join(reference, "examples")) and os.path.isfile(tool)):
     print("SKIPPED: no reference data in %s" % reference)
     sys.exit(77)
-command = [sys.executable, "-B", tool, os.environ["CONTACT_PROGRAM"]] + ["examples/" + name for name in EXAMPLES]
+command = [sys.executable, "-B", tool, os.environ["CONTACT_PROGRAM"]] + INPUTS
 sys.exit(subprocess.run(command + ["--verbose"]).returncode)

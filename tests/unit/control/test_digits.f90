@@ -124,7 +124,7 @@ contains
       call suite%check(.not. is_known("Q", 0), "an unknown digit")
       call suite%check(choice_of("L", 5) == 5, "an unknown value is its own choice")
       call suite%check(digit_text("L", 5) == "unknown", "an unknown value has no meaning")
-      call suite%check(.not. is_built("M", 1), "viscoelastic material is not built")
+      call suite%check(.not. is_built("B", 1), "an elastic thin sheet is not built")
    end subroutine questions
 
    !> The manual lists every row with its words: `| P | 0 | text |`, marked when it is not built
