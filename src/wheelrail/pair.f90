@@ -61,6 +61,11 @@ module contact_wheelrail_pair
       integer :: most_elements = 20000
    end type pair_problem
 
+   !> Most patches of a pair
+   integer, parameter :: most_patches = 10
+   !> A ratio is taken over by patches within this distance [mm] and angle [rad]
+   real(wp), parameter :: same_place = 5.0_wp, same_angle = 0.2_wp
+
    !> One patch with its memory
    type :: patch_slot
       type(patch_problem) :: problem
@@ -70,10 +75,16 @@ module contact_wheelrail_pair
       type(contact_region) :: region
       type(frame) :: plane
       type(contact_motion) :: motion
-      !> Lateral to normal force of the last tangential solution [-]
+      !> Lateral to normal force [-]: of the last tangential solution, or an estimate
       real(wp) :: ratio = 0.0_wp
-      logical :: has_ratio = .false.
    end type patch_slot
+
+   !> Lateral to normal force that a tangential solution has found, and where
+   type :: learned_ratio
+      !> Lateral position [mm] and contact angle [rad]
+      real(wp) :: y = 0.0_wp, alpha = 0.0_wp
+      real(wp) :: ratio = 0.0_wp
+   end type learned_ratio
 
    !> What a pair remembers from case to case, and scratch
    type :: pair_memory
@@ -83,6 +94,10 @@ module contact_wheelrail_pair
       !> Patches 1...used are those of the last evaluation
       integer :: used = 0
       type(patch_slot), allocatable :: slot(:)
+      !> Ratios 1...ratios are known. They serve all trials until the next tangential solution, whether
+      !> patches come and go or not, so that the force is one function of the height
+      integer :: ratios = 0
+      type(learned_ratio) :: learned(most_patches)
       type(gap_curve) :: gap
       !> The rail at the wheelset
       type(profile_curve) :: rail_in_track
@@ -96,12 +111,12 @@ module contact_wheelrail_pair
       real(wp) :: top_z = 0.0_wp, gauge_y = 0.0_wp
    end type pair_memory
 
-   !> Most patches of a pair
-   integer, parameter :: most_patches = 10
    !> Rounds of tangential solutions with a new search for the height
    integer, parameter :: most_rounds = 8
    !> Parts of a blended patch reach this far beyond their bounds, relative to D_COMB
    real(wp), parameter :: part_margin = 0.4_wp
+   !> Steps of the force that are due to the grids, relative to the force
+   real(wp), parameter :: small_step = 1.0e-4_wp
    !> Forces below this value ask for a wheel that just touches [N]
    real(wp), parameter :: no_force = 1.0e-9_wp
 
@@ -117,6 +132,11 @@ contains
       real(wp) :: z, touch
 
       if (.not. allocated(memory%slot)) allocate(memory%slot(most_patches))
+      if (.not. problem%use_previous) then
+         memory%slot%state%started = .false.
+         memory%used = 0
+         memory%ratios = 0
+      end if
       result%solved = .false.
       result%force_evaluations = 0
       result%vpitch = problem%spec%wheelset%vpitch
@@ -244,6 +264,7 @@ contains
          ! the tangential problem at the height found corrects the lateral forces
          call evaluate(problem, memory, z, with_friction=.true., log=log, error=error)
          if (allocated(error)) return
+         call learn_ratios(memory)
          force = vertical_force(memory)
          result%force_evaluations = result%force_evaluations + 1
          call trace_trial(log, result%force_evaluations, z, force, vertical_slope(memory))
@@ -259,7 +280,8 @@ contains
          if (allocated(error)) return
       end if
       result%force_error = vertical_force(memory) - target
-      result%solved = abs(result%force_error) <= balance%tolerance
+      ! grids follow the contact in whole elements, which leaves small steps in the force
+      result%solved = abs(result%force_error) <= max(balance%tolerance, small_step*target)
       if (.not. result%solved) call complain(balance, target, result%force_error, log)
    end subroutine balance_forces
 
@@ -406,34 +428,56 @@ contains
             best = j
          end do
          if (best > k) then
-            call exchange(memory%slot(k)%state, memory%slot(best)%state, memory%slot(k)%ratio, memory%slot(best)%ratio, &
-               & memory%slot(k)%has_ratio, memory%slot(best)%has_ratio)
+            call exchange(memory%slot(k)%state, memory%slot(best)%state)
          else if (best == 0) then
             memory%slot(k)%state%started = .false.
-            memory%slot(k)%has_ratio = .false.
          end if
       end do
    end subroutine match_slots
 
    !> Two slots change their memories
-   subroutine exchange(a, b, ratio_a, ratio_b, has_a, has_b)
+   subroutine exchange(a, b)
       type(patch_state), intent(inout) :: a, b
-      real(wp), intent(inout) :: ratio_a, ratio_b
-      logical, intent(inout) :: has_a, has_b
       type(patch_state) :: c
-      real(wp) :: ratio
-      logical :: has
 
       c = a
       a = b
       b = c
-      ratio = ratio_a
-      ratio_a = ratio_b
-      ratio_b = ratio
-      has = has_a
-      has_a = has_b
-      has_b = has
    end subroutine exchange
+
+   !> Lateral to normal force at a place: learned there, or that of full sliding down the slope
+   pure real(wp) function ratio_at(problem, memory, slot) result(ratio)
+      type(pair_problem), intent(in) :: problem
+      type(pair_memory), intent(in) :: memory
+      type(patch_slot), intent(in) :: slot
+      integer :: k
+      real(wp) :: nearest
+
+      ratio = 0.0_wp
+      if (problem%template%motion == motion%none) return
+      ratio = slot%problem%mu*sin(slot%plane%roll())
+      nearest = same_place
+      do k = 1, memory%ratios
+         associate (known => memory%learned(k))
+            if (abs(known%y - slot%plane%origin(2)) > nearest .or. abs(known%alpha - slot%plane%roll()) > same_angle) cycle
+            nearest = abs(known%y - slot%plane%origin(2))
+            ratio = known%ratio
+         end associate
+      end do
+   end function ratio_at
+
+   !> Remember the lateral forces of all patches
+   subroutine learn_ratios(memory)
+      type(pair_memory), intent(inout) :: memory
+      integer :: k
+
+      memory%ratios = memory%used
+      do k = 1, memory%used
+         associate (slot => memory%slot(k))
+            memory%learned(k) = learned_ratio(slot%plane%origin(2), slot%plane%roll(), slot%ratio)
+         end associate
+      end do
+   end subroutine learn_ratios
 
    !> Grid, undeformed distance, creepages and solution of one patch
    subroutine solve_slot(problem, memory, slot, with_friction, log, error)
@@ -469,10 +513,7 @@ contains
       if (allocated(error)) return
       call set_motion(problem, memory, slot, approach)
       if (.not. with_friction) slot%problem%motion = motion%none
-      if (.not. slot%has_ratio) then
-         slot%ratio = 0.0_wp
-         if (problem%template%motion /= motion%none) slot%ratio = slot%problem%mu*sin(slot%plane%roll())
-      end if
+      slot%ratio = ratio_at(problem, memory, slot)
       if (problem%geometry_only) return
 
       ! within a case, and from a previous case when asked for, the last solution is the estimate
@@ -485,7 +526,6 @@ contains
       if (allocated(error)) return
       if (with_friction .and. problem%template%motion /= motion%none .and. slot%result%fn > 0.0_wp) then
          slot%ratio = slot%result%fy/slot%result%fn
-         slot%has_ratio = .true.
       end if
    end subroutine solve_slot
 

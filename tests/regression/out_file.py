@@ -23,6 +23,10 @@ def read(path):
             values = cases.setdefault(int(words[1].rstrip(",")), {})
         elif values is None:
             continue
+        elif "FX(TR)      FY(TR)" in line:
+            values.update(zip(("FX(TR)", "FY(TR)", "FZ(TR)"), numbers(lines[k + 1])))
+        elif "XCP(TR)     YCP(TR)" in line:
+            values.update(zip(("XCP", "YCP", "ZCP", "DELTCP"), numbers(lines[k + 1])))
         elif "ELAST.EN.   FRIC" in line:
             values.update(zip(TOTALS, numbers(lines[k + 1])))
             second = numbers(lines[k + 3])
