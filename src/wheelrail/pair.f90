@@ -86,14 +86,8 @@ module contact_wheelrail_pair
       real(wp) :: ratio = 0.0_wp
    end type learned_ratio
 
-   !> What a pair remembers from case to case, and scratch
-   type :: pair_memory
-      !> Height of the wheelset in the previous case [mm]
-      real(wp) :: z_ws = 0.0_wp
-      logical :: started = .false.
-      !> Patches 1...used are those of the last evaluation
-      integer :: used = 0
-      type(patch_slot), allocatable :: slot(:)
+   !> Where the bodies are and what the search for contact found: what the patches of a trial share
+   type :: pair_geometry
       !> Ratios 1...ratios are known. They serve all trials until the next tangential solution, whether
       !> patches come and go or not, so that the force is one function of the height
       integer :: ratios = 0
@@ -109,6 +103,17 @@ module contact_wheelrail_pair
       real(wp) :: gap_height = 0.0_wp
       !> Top of the canted rail and its gauge point [mm]
       real(wp) :: top_z = 0.0_wp, gauge_y = 0.0_wp
+   end type pair_geometry
+
+   !> What a pair remembers from case to case, and scratch
+   type :: pair_memory
+      !> Height of the wheelset in the previous case [mm]
+      real(wp) :: z_ws = 0.0_wp
+      logical :: started = .false.
+      !> Patches 1...used are those of the last evaluation
+      integer :: used = 0
+      type(patch_slot), allocatable :: slot(:)
+      type(pair_geometry) :: here
    end type pair_memory
 
    !> Rounds of tangential solutions with a new search for the height
@@ -135,34 +140,35 @@ contains
       if (.not. problem%use_previous) then
          memory%slot%state%started = .false.
          memory%used = 0
-         memory%ratios = 0
+         memory%here%ratios = 0
       end if
       result%solved = .false.
       result%force_evaluations = 0
       result%vpitch = problem%spec%wheelset%vpitch
       if (problem%spec%track%gaught > 0.0_wp) &
-         & call gauge_point(problem%rail, problem%spec%track%cant, problem%spec%track%gaught, memory%top_z, memory%gauge_y)
+         & call gauge_point(problem%rail, problem%spec%track%cant, problem%spec%track%gaught, memory%here%top_z, &
+         & memory%here%gauge_y)
       z = problem%spec%wheelset%z
       if (problem%force_prescribed) then
          z = 0.0_wp
          if (memory%started) z = memory%z_ws
       end if
       call place(problem, memory, z)
-      memory%rail_in_track = rail_at(problem, memory%placement, 0.0_wp)
-      memory%searches_table = allocated(problem%rail_surface) .or. allocated(problem%wheel_surface) &
+      memory%here%rail_in_track = rail_at(problem, memory%here%placement, 0.0_wp)
+      memory%here%searches_table = allocated(problem%rail_surface) .or. allocated(problem%wheel_surface) &
          & .or. problem%spec%search%location == contact_location%grid
-      if (memory%searches_table) then
-         memory%bodies%rail = memory%rail_in_track
-         memory%bodies%wheel = problem%wheel
-         memory%bodies%placement = memory%placement
-         call place_bodies(memory%bodies, problem%spec%wheelset%s, problem%spec%wheelset%pitch, problem%rail_surface, &
+      if (memory%here%searches_table) then
+         memory%here%bodies%rail = memory%here%rail_in_track
+         memory%here%bodies%wheel = problem%wheel
+         memory%here%bodies%placement = memory%here%placement
+         call place_bodies(memory%here%bodies, problem%spec%wheelset%s, problem%spec%wheelset%pitch, problem%rail_surface, &
             & problem%wheel_surface)
-         call measure_variable_gap(memory%bodies, problem%spec%search%ds, memory%gap)
+         call measure_variable_gap(memory%here%bodies, problem%spec%search%ds, memory%here%gap)
       else
-         call measure_gap(memory%rail_in_track, problem%wheel, memory%placement, problem%spec%search%ds, memory%gap)
+         call measure_gap(memory%here%rail_in_track, problem%wheel, memory%here%placement, problem%spec%search%ds, memory%here%gap)
       end if
-      memory%gap_height = z
-      touch = z + smallest_gap(memory%gap)
+      memory%here%gap_height = z
+      touch = z + smallest_gap(memory%here%gap)
 
       if (.not. problem%force_prescribed) then
          call evaluate(problem, memory, z, with_friction=.true., log=log, error=error)
@@ -223,7 +229,8 @@ contains
       type(pair_memory), intent(inout) :: memory
       real(wp), intent(in) :: z
 
-      call place_pair(problem%spec, problem%wheel, memory%top_z, memory%gauge_y, z, [0.0_wp, 0.0_wp], memory%placement)
+      call place_pair(problem%spec, problem%wheel, memory%here%top_z, memory%here%gauge_y, z, [0.0_wp, 0.0_wp], &
+         & memory%here%placement)
    end subroutine place
 
    !> Search the height at which the prescribed vertical force acts
@@ -248,7 +255,7 @@ contains
       guess = touch + penetration_guess(problem, memory, touch, target)
       if (problem%use_previous .and. memory%started .and. memory%z_ws > touch) guess = memory%z_ws
       do round = 1, most_rounds
-         call balance%start(target, problem%template%eps, touch, touch + 1.1_wp*memory%placement%wheel_radius, &
+         call balance%start(target, problem%template%eps, touch, touch + 1.1_wp*memory%here%placement%wheel_radius, &
             & problem%template%maxnr)
          do while (balance%ended == balance_ending%running)
             trial = balance%next_trial(guess)
@@ -329,7 +336,7 @@ contains
       real(wp) :: a, b, bend, modulus
       integer :: i, k
 
-      associate (gap => memory%gap)
+      associate (gap => memory%here%gap)
          i = minloc(gap%gap, dim=1)
          a = gap%kappa
          b = a
@@ -386,8 +393,8 @@ contains
       integer :: k, n
 
       call place(problem, memory, z)
-      memory%bodies%placement = memory%placement
-      call find_regions(memory%gap, z - memory%gap_height, problem%spec%search, problem%weight_power, regions, misses)
+      memory%here%bodies%placement = memory%here%placement
+      call find_regions(memory%here%gap, z - memory%here%gap_height, problem%spec%search, problem%weight_power, regions, misses)
       n = size(regions)
       if (n > most_patches) then
          call log%warning("more than 10 contact patches; the ones with the smallest weight are left out")
@@ -401,7 +408,7 @@ contains
       memory%used = n
       do k = 1, n
          memory%slot(k)%region = regions(k)
-         call solve_slot(problem, memory, memory%slot(k), with_friction, log, error)
+         call solve_slot(problem, memory%here, memory%slot(k), with_friction, log, error)
          if (allocated(error)) then
             call add_context(error, "contact patch " // achar(iachar("0") + mod(k, 10)))
             return
@@ -446,9 +453,9 @@ contains
    end subroutine exchange
 
    !> Lateral to normal force at a place: learned there, or that of full sliding down the slope
-   pure real(wp) function ratio_at(problem, memory, slot) result(ratio)
+   pure real(wp) function ratio_at(problem, here, slot) result(ratio)
       type(pair_problem), intent(in) :: problem
-      type(pair_memory), intent(in) :: memory
+      type(pair_geometry), intent(in) :: here
       type(patch_slot), intent(in) :: slot
       integer :: k
       real(wp) :: nearest
@@ -457,8 +464,8 @@ contains
       if (problem%template%motion == motion%none) return
       ratio = slot%problem%mu*sin(slot%plane%roll())
       nearest = same_place
-      do k = 1, memory%ratios
-         associate (known => memory%learned(k))
+      do k = 1, here%ratios
+         associate (known => here%learned(k))
             if (abs(known%y - slot%plane%origin(2)) > nearest .or. abs(known%alpha - slot%plane%roll()) > same_angle) cycle
             nearest = abs(known%y - slot%plane%origin(2))
             ratio = known%ratio
@@ -471,18 +478,18 @@ contains
       type(pair_memory), intent(inout) :: memory
       integer :: k
 
-      memory%ratios = memory%used
+      memory%here%ratios = memory%used
       do k = 1, memory%used
          associate (slot => memory%slot(k))
-            memory%learned(k) = learned_ratio(slot%plane%origin(2), slot%plane%roll(), slot%ratio)
+            memory%here%learned(k) = learned_ratio(slot%plane%origin(2), slot%plane%roll(), slot%ratio)
          end associate
       end do
    end subroutine learn_ratios
 
    !> Grid, undeformed distance, creepages and solution of one patch
-   subroutine solve_slot(problem, memory, slot, with_friction, log, error)
+   subroutine solve_slot(problem, here, slot, with_friction, log, error)
       type(pair_problem), intent(in) :: problem
-      type(pair_memory), intent(in) :: memory
+      type(pair_geometry), intent(in) :: here
       type(patch_slot), intent(inout) :: slot
       logical, intent(in) :: with_friction
       type(log_type), intent(inout) :: log
@@ -492,16 +499,16 @@ contains
       real(wp) :: approach
       logical :: continues
 
-      rail = memory%rail_in_track
-      if (allocated(problem%rail_surface)) rail = rail_at(problem, memory%placement, slot%region%x)
-      slot%plane = patch_frame(rail, memory%placement, slot%region)
+      rail = here%rail_in_track
+      if (allocated(problem%rail_surface)) rail = rail_at(problem, here%placement, slot%region%x)
+      slot%plane = patch_frame(rail, here%placement, slot%region)
       call move_alloc(slot%problem%h, h)
       slot%problem = problem%template
       call patch_grid(rail, problem%spec%search, slot%region, slot%plane, problem%most_elements, slot%problem%grid)
-      if (memory%searches_table) then
-         call variable_distance(memory%bodies, slot%plane, slot%problem%grid, h, approach)
+      if (here%searches_table) then
+         call variable_distance(here%bodies, slot%plane, slot%problem%grid, h, approach)
       else
-         call undeformed_distance(rail, problem%wheel, memory%placement, slot%plane, slot%problem%grid, h, approach)
+         call undeformed_distance(rail, problem%wheel, here%placement, slot%plane, slot%problem%grid, h, approach)
       end if
       call move_alloc(h, slot%problem%h)
       slot%problem%force_prescribed = .false.
@@ -511,9 +518,9 @@ contains
       if (problem%geometry_only) slot%problem%motion = motion%none
       call set_patch_friction(problem, slot, error)
       if (allocated(error)) return
-      call set_motion(problem, memory, slot, approach)
+      call set_motion(problem, here, slot, approach)
       if (.not. with_friction) slot%problem%motion = motion%none
-      slot%ratio = ratio_at(problem, memory, slot)
+      slot%ratio = ratio_at(problem, here, slot)
       if (problem%geometry_only) return
 
       ! within a case, and from a previous case when asked for, the last solution is the estimate
@@ -623,23 +630,23 @@ contains
    end function same_elements
 
    !> Creepages of a patch from the motion of the bodies
-   subroutine set_motion(problem, memory, slot, approach)
+   subroutine set_motion(problem, here, slot, approach)
       type(pair_problem), intent(in) :: problem
-      type(pair_memory), intent(in) :: memory
+      type(pair_geometry), intent(in) :: here
       type(patch_slot), intent(inout) :: slot
       real(wp), intent(in) :: approach
       type(rigid_motion) :: rail, wheel
       real(wp) :: on_wheel(3), pitch_rate
 
       pitch_rate = problem%spec%wheelset%vpitch
-      rail = rail_motion(problem%spec, memory%placement)
-      wheel = wheel_motion(problem%spec, memory%placement, pitch_rate)
+      rail = rail_motion(problem%spec, here%placement)
+      wheel = wheel_motion(problem%spec, here%placement, pitch_rate)
       associate (plane => slot%plane)
          on_wheel = plane%origin + approach*plane%axes(:, 3)
          if (problem%template%motion == motion%shift) then
             slot%motion = flat_shift(rail, wheel, plane%origin, on_wheel, plane%roll())
          else
-            slot%motion = flat_creepage(rail, wheel, memory%placement%wheelset%axes(:, 2), pitch_rate, plane%origin, on_wheel, &
+            slot%motion = flat_creepage(rail, wheel, here%placement%wheelset%axes(:, 2), pitch_rate, plane%origin, on_wheel, &
                & plane%roll(), problem%spec%roller)
          end if
       end associate
@@ -669,7 +676,7 @@ contains
       real(wp) :: force(3), moment(3), axes(3, 3), local(3)
       integer :: k
 
-      associate (p => memory%placement, material => problem%template%model%material)
+      associate (p => memory%here%placement, material => problem%template%model%material)
          result%gg = material%gg
          result%nu = material%nu
          result%ak = material%ak
@@ -691,7 +698,7 @@ contains
          end if
          if (.not. allocated(result%patches)) allocate(result%patches(memory%used))
          do k = 1, memory%used
-            call describe_patch(memory, memory%slot(k), result%patches(k))
+            call describe_patch(memory%here, memory%slot(k), result%patches(k))
             axes = memory%slot(k)%plane%axes
             force = matmul(axes, result%patches(k)%force)
             associate (contact => result%patches(k)%contact)
@@ -713,8 +720,8 @@ contains
    end function cross
 
    !> Place and forces of one patch
-   subroutine describe_patch(memory, slot, patch)
-      type(pair_memory), intent(in) :: memory
+   subroutine describe_patch(here, slot, patch)
+      type(pair_geometry), intent(in) :: here
       type(patch_slot), intent(in) :: slot
       type(pair_patch), intent(inout) :: patch
       real(wp) :: local(3)
@@ -724,11 +731,11 @@ contains
       patch%y = slot%plane%origin(2)
       patch%z = slot%plane%origin(3)
       patch%delta = slot%plane%roll()
-      seen = memory%placement%rail%seen_from_here(slot%plane)
+      seen = here%placement%rail%seen_from_here(slot%plane)
       patch%y_rail = seen%origin(2)
       patch%z_rail = seen%origin(3)
       patch%delta_rail = seen%roll()
-      local = memory%placement%wheel%to_local(slot%plane%origin)
+      local = here%placement%wheel%to_local(slot%plane%origin)
       patch%x_wheel = local(1)
       patch%y_wheel = local(2)
       patch%z_wheel = local(3)
