@@ -22,6 +22,10 @@ endif()
 if(CONTACT_SANITIZE)
   target_compile_options(contact_warnings INTERFACE
     -fsanitize=${CONTACT_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=undefined)
+  # gfortran forms the address of an absent optional array before it hands on that it is absent, and
+  # the check takes that for a load (12.2); a true access to address zero still ends the program
+  target_compile_options(contact_warnings INTERFACE
+    $<$<COMPILE_LANGUAGE:Fortran>:-fno-sanitize=null>)
   add_link_options(-fsanitize=${CONTACT_SANITIZE})
 endif()
 if(CONTACT_COVERAGE)
