@@ -1,5 +1,6 @@
 !> Search for the height of a wheel: smooth forces, kinks, jumps, folds, and forces out of reach
 program test_force_balance
+   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use contact_base_kinds, only : wp
    use contact_test_harness, only : test_suite
    use contact_wheelrail_force_balance, only : balance_ending, force_balance
@@ -48,8 +49,8 @@ contains
       case (bounded)
          force = 1.0e3_wp*tanh(max(0.0_wp, d))
       case (broken)
-         force = force - force
-         if (d > 0.1_wp) force = force/force
+         force = 0.0_wp
+         if (d > 0.1_wp) force = ieee_value(force, ieee_quiet_nan)
       end select
    end subroutine force_at
 
