@@ -3,13 +3,17 @@ module contact_cases_elastic_setup
    use contact_base_choices, only : kernel_model, material_model, motion
    use contact_base_error, only : error_kind, error_type, fatal_error
    use contact_base_kinds, only : wp
+   use contact_base_log, only : log_type
+   use contact_cases_coefficient_file, only : read_coefficients
    use contact_cases_spec, only : case_spec, material_spec
    use contact_elastic_material, only : combine
    use contact_elastic_model, only : elastic_model
+   use contact_grid_potential_contact, only : potential_contact
+   use contact_text_lexer, only : input_lexer
    implicit none (type, external)
    private
 
-   public :: set_model
+   public :: set_coefficients, set_model
 
    !> Thinner layers do not count [mm]
    real(wp), parameter :: thinnest_layer = 1.0e-10_wp
@@ -54,8 +58,7 @@ contains
             & error_kind%input)
       else if (any(material%table_y(2:) <= material%table_y(:n - 1))) then
          call fatal_error(error, "the lateral positions of the surface inclinations (C = 4) must increase", error_kind%input)
-      else if ((spec%motion == motion%transient_rolling .or. spec%motion == motion%steady_rolling) &
-         & .and. abs(sin(spec%rolling%chi)) > 0.01_wp) then
+      else if (is_oblique(spec)) then
          call fatal_error(error, "conformal contact (C = 4) allows for rolling along x only, CHI = 0 or 180 degrees", &
             & error_kind%input)
       end if
@@ -66,4 +69,42 @@ contains
       model%inclination%s = material%table_y
       model%inclination%alpha = material%table_alpha
    end subroutine set_inclination
+   !> Does it roll in another direction than along x?
+   pure logical function is_oblique(spec)
+      type(case_spec), intent(in) :: spec
+      is_oblique = (spec%motion == motion%transient_rolling .or. spec%motion == motion%steady_rolling) &
+         & .and. abs(sin(spec%rolling%chi)) > 0.01_wp
+   end function is_oblique
+
+   !> Influence coefficients from a file, when the case wants them; the grid is known
+   subroutine set_coefficients(spec, grid, folder, model, log, error)
+      type(case_spec), intent(in) :: spec
+      type(potential_contact), intent(in) :: grid
+      !> Folder to which the name of the file is relative; "" for the current one
+      character(len=*), intent(in) :: folder
+      type(elastic_model), intent(inout) :: model
+      type(log_type), intent(inout) :: log
+      type(error_type), allocatable, intent(out) :: error
+      type(input_lexer) :: text
+      character(len=:), allocatable :: file
+
+      if (spec%kernel /= kernel_model%tabulated) return
+      file = ""
+      if (allocated(spec%material%cfname)) file = trim(spec%material%cfname)
+      if (len(file) == 0) then
+         call fatal_error(error, "numerical influence coefficients (C = 9) need the name of a file, CFNAME", error_kind%input)
+      else if (is_oblique(spec)) then
+         call fatal_error(error, "numerical influence coefficients (C = 9) allow for rolling along x only, CHI = 0 or 180 " &
+            & // "degrees", error_kind%input)
+      end if
+      if (allocated(error)) return
+      if (file(:1) /= "/" .and. len(folder) > 0) then
+         if (folder(len(folder):) /= "/") file = "/" // file
+         file = folder // file
+      end if
+      call text%open_file(file, error)
+      if (allocated(error)) return
+      allocate(model%tabulated)
+      call read_coefficients(text, grid, model%material%gg, model%tabulated, log, error)
+   end subroutine set_coefficients
 end module contact_cases_elastic_setup

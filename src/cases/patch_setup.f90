@@ -5,7 +5,7 @@ module contact_cases_patch_setup
    use contact_base_error, only : error_kind, error_type, fatal_error
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
-   use contact_cases_elastic_setup, only : set_model
+   use contact_cases_elastic_setup, only : set_coefficients, set_model
    use contact_cases_friction_setup, only : set_friction, set_thermal
    use contact_cases_geometry, only : build_grid, is_line_contact, require_positive, solve_hertz, undeformed_distance
    use contact_cases_numbers, only : check_numbers
@@ -25,8 +25,10 @@ module contact_cases_patch_setup
 contains
 
    !> From the specification to the problem of the patch
-   subroutine set_problem(spec, problem, log, result, error)
+   subroutine set_problem(spec, folder, problem, log, result, error)
       type(case_spec), intent(in) :: spec
+      !> Folder to which names of files are relative; "" for the current one
+      character(len=*), intent(in) :: folder
       !> Of the previous case on entry
       type(patch_problem), intent(inout) :: problem
       type(log_type), intent(inout) :: log
@@ -49,6 +51,8 @@ contains
          call set_geometry(spec, problem, result, error)
          if (allocated(error)) return
       end if
+      call set_coefficients(spec, problem%grid, folder, problem%model, log, error)
+      if (allocated(error)) return
       call set_pressures(spec, result, problem, error)
       if (allocated(error)) return
       problem%estimate = spec%estimate

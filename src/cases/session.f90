@@ -30,7 +30,7 @@ module contact_cases_session
 contains
 
    !> Solve one case, or only take note of its input (R = 2, 3)
-   subroutine solve_case(session, spec, log, result, error)
+   subroutine solve_case(session, spec, log, result, error, folder)
       type(contact_session), intent(inout) :: session
       !> Complete specification
       type(case_spec), intent(in) :: spec
@@ -38,9 +38,15 @@ contains
       !> Arrays of the right size are reused
       type(patch_result), intent(inout) :: result
       type(error_type), allocatable, intent(out) :: error
+      !> Folder to which names of files are relative; default the current one
+      character(len=*), intent(in), optional :: folder
 
       log%level = spec%flow_level
-      call set_problem(spec, session%problem, log, result, error)
+      if (present(folder)) then
+         call set_problem(spec, folder, session%problem, log, result, error)
+      else
+         call set_problem(spec, "", session%problem, log, result, error)
+      end if
       if (allocated(error)) return
       call link_moments(session%problem, spec%link, session%state, error)
       if (allocated(error)) then
@@ -116,6 +122,7 @@ contains
          if (problem%friction_memory%acts() .and. problem%remembers_friction) law = law // " with memory"
       end if
       text = "elastic half-spaces"
+      if (allocated(problem%model%tabulated)) text = "elastic bodies with tabulated influence coefficients"
       select case (spec%pressure)
       case (pressure_model%elliptical, pressure_model%parabolical)
          text = text // ", Hertzian pressure"
@@ -130,8 +137,8 @@ contains
          if (problem%motion == motion%transient_rolling) text = text // ", " // law // " in transient rolling"
          if (problem%motion == motion%steady_rolling) text = text // ", " // law // " in steady rolling"
          if (problem%motion /= motion%none .and. problem%remembers_yield) text = text // ", plastic shearing"
-         if (problem%motion /= motion%none .and. problem%model%coupled() .and. .not. allocated(problem%simplified)) &
-            & text = text // ", dissimilar bodies"
+         if (problem%motion /= motion%none .and. problem%model%coupled() .and. .not. allocated(problem%model%tabulated) &
+            & .and. .not. allocated(problem%simplified)) text = text // ", dissimilar bodies"
          if (allocated(problem%extra_slip) .and. problem%motion /= motion%none) text = text // ", extra rigid slip"
          if (allocated(problem%thermal)) text = text // ", surface temperatures"
          if (spec%stress /= stress_choice%none) text = text // ", subsurface stresses"

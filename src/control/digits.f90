@@ -75,7 +75,7 @@ module contact_control_digits
       & digit_row("C", 2, kernel_model%piecewise_constant, .true., "half-space, piecewise constant; read materials"), &
       & digit_row("C", 3, kernel_model%bilinear, .true., "half-space with bilinear tractions"), &
       & digit_row("C", 4, kernel_model%conformal, .true., "half-space with angle correction for conformal contact"), &
-      & digit_row("C", 9, kernel_model%tabulated, .false., "numerical influence coefficients from a file"), &
+      & digit_row("C", 9, kernel_model%tabulated, .true., "numerical influence coefficients from a file"), &
       & digit_row("M", 0, material_model%elastic, .true., "elastic"), &
       & digit_row("M", 1, material_model%viscoelastic, .true., "viscoelastic"), &
       & digit_row("M", 2, material_model%fastsim_single, .true., "simplified theory, one flexibility (modified Fastsim)"), &

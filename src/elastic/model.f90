@@ -1,12 +1,12 @@
 !> What kind of surface two bodies form in contact: everything that a compliance is made from
 module contact_elastic_model
    use contact_base_choices, only : kernel_model
-   use contact_base_kinds, only : wp
+   use contact_base_kinds, only : long, wp
    use contact_elastic_material, only : combine, combined_material, coupling_threshold
    implicit none (type, external)
    private
 
-   public :: elastic_model, fading_memory, surface_inclination
+   public :: elastic_model, fading_memory, influence_table, surface_inclination
 
    !> What bodies add to their elastic response after a load, in steady motion; standard linear solids
    !>
@@ -31,6 +31,24 @@ module contact_elastic_model
       procedure :: rate
    end type surface_inclination
 
+   !> Influence coefficients that were computed elsewhere, for both bodies together
+   !>
+   !> Offsets are receiving minus loaded element; those in x are not negative, the others follow by symmetry. Outside
+   !> the range of offsets coefficients are zero.
+   type :: influence_table
+      !> Offsets run from 0 to nx and from -ny to ny
+      integer :: nx = 0, ny = 0
+      !> Lateral position of the first loaded row [mm]
+      real(wp) :: y_first = 0.0_wp
+      !> Differs when the content of the file does
+      integer(long) :: fingerprint = 0
+      !> Coefficients nn nx ny xn xx xy yn yx yy, shape (0:nx, -ny:ny, 9, 1), or a slice for each loaded row
+      !> instead of one [mm/(N/mm2)]
+      real(wp), allocatable :: c(:, :, :, :)
+   contains
+      procedure :: same_table
+   end type influence_table
+
    !> Elasticity of a pair of bodies; the plain value means homogeneous half-spaces
    type :: elastic_model
       !> Combined constants of the instantaneous response
@@ -43,6 +61,8 @@ module contact_elastic_model
       type(fading_memory), allocatable :: memory
       !> Inclination of the surface for kernel_model%conformal; unallocated: flat
       type(surface_inclination), allocatable :: inclination
+      !> Coefficients for kernel_model%tabulated; unallocated: half-spaces
+      type(influence_table), allocatable :: tabulated
    contains
       !> Do normal and tangential tractions interact?
       procedure :: coupled
@@ -61,7 +81,7 @@ contains
    pure logical function coupled(self)
       class(elastic_model), intent(in) :: self
 
-      coupled = self%material%coupled() .or. allocated(self%inclination)
+      coupled = self%material%coupled() .or. allocated(self%inclination) .or. allocated(self%tabulated)
       if (.not. allocated(self%memory)) return
       associate (memory => self%memory)
          if (memory%length(1) > 0.0_wp .and. memory%length(1) == memory%length(2)) then
@@ -76,7 +96,7 @@ contains
 
    pure logical function is_flat(self)
       class(elastic_model), intent(in) :: self
-      is_flat = .not. allocated(self%inclination)
+      is_flat = .not. (allocated(self%inclination) .or. allocated(self%tabulated))
    end function is_flat
 
    pure logical function rotates_by_offset(self)
@@ -92,16 +112,27 @@ contains
 
       same = self%material%same_as(other%material) .and. self%kernel == other%kernel .and. self%layer == other%layer &
          & .and. (allocated(self%memory) .eqv. allocated(other%memory)) &
-         & .and. (allocated(self%inclination) .eqv. allocated(other%inclination))
+         & .and. (allocated(self%inclination) .eqv. allocated(other%inclination)) &
+         & .and. (allocated(self%tabulated) .eqv. allocated(other%tabulated))
       if (.not. same) return
       if (allocated(self%memory)) same = all(self%memory%length == other%memory%length) &
          & .and. all(self%memory%late%same_as(other%memory%late))
+      if (same .and. allocated(self%tabulated)) same = self%tabulated%same_table(other%tabulated)
       if (.not. allocated(self%inclination)) return
       associate (a => self%inclination, b => other%inclination)
          same = same .and. a%variant == b%variant .and. (a%uniform .eqv. b%uniform) .and. size(a%s) == size(b%s)
          if (same) same = all(a%s == b%s) .and. all(a%alpha == b%alpha)
       end associate
    end function same_as
+
+   !> Do two tables come from the same file, for the same window?
+   pure logical function same_table(self, other) result(same)
+      class(influence_table), intent(in) :: self
+      type(influence_table), intent(in) :: other
+
+      same = self%fingerprint == other%fingerprint .and. self%nx == other%nx .and. self%ny == other%ny &
+         & .and. self%y_first == other%y_first .and. all(shape(self%c) == shape(other%c))
+   end function same_table
 
    !> A body whose relaxation time is 0 responds at once with its late compliance
    pure subroutine set_viscoelastic(self, poiss, gg, ratio, length)

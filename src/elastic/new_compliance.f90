@@ -5,6 +5,7 @@ module contact_elastic_new_compliance
    use contact_elastic_model, only : elastic_model
    use contact_elastic_operator, only : elastic_operator
    use contact_elastic_one_sided, only : one_sided_operator
+   use contact_elastic_tabulated, only : tabulated_operator
    implicit none (type, external)
    private
 
@@ -34,6 +35,8 @@ contains
 
       if (allocated(model%memory)) then
          allocate(one_sided_operator :: operator)
+      else if (allocated(model%tabulated)) then
+         allocate(tabulated_operator :: operator)
       else if (allocated(model%inclination) .and. .not. model%rotates_by_offset()) then
          allocate(conformal_operator :: operator)
       else

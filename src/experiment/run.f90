@@ -231,7 +231,7 @@ contains
             if (.not. allocated(slot%pair)) allocate(slot%pair, slot%pair_result)
             call solve_pair_case(slot%pair, this%spec, state%place%folder, state%log, slot%pair_result, error)
          else
-            call solve_case(slot%session, this%spec, state%log, slot%result, error)
+            call solve_case(slot%session, this%spec, state%log, slot%result, error, state%place%folder)
          end if
          call state%solving%halt()
          if (allocated(error)) then

@@ -110,7 +110,8 @@ contains
 
       if (.not. problem%model%is_flat() .and. problem%motion == motion%transient_rolling &
          & .and. abs(problem%dq - problem%grid%dx) > 0.01_wp*problem%grid%dx) then
-         call fatal_error(error, "conformal contact (C = 4) needs steps of one element in transient rolling, DQ = DX", &
+         call fatal_error(error, "conformal contact and tabulated coefficients (C = 4, 9) need steps of one element in " &
+            & // "transient rolling, DQ = DX", &
             & error_kind%input)
          return
       end if

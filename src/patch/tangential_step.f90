@@ -234,7 +234,7 @@ contains
          method = classical_method%tang_cg
          if (choice == solver_choice%convex_gs .or. choice == solver_choice%gauss_seidel &
             & .or. choice == solver_choice%gd_steady) then
-            call log%warning("coefficients differ from row to row (C = 4): solver Newton-Krylov instead of that of the G-digit")
+            call log%warning("no half-space coefficients (C = 4, 9): solver Newton-Krylov instead of that of the G-digit")
             choice = solver_choice%default
          end if
       end if
