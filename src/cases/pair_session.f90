@@ -118,7 +118,7 @@ contains
          problem%force_prescribed = spec%normal == normal_control%force
          problem%geometry_only = .not. spec%solve
          problem%use_previous = spec%estimate /= estimate_choice%fresh .and. spec%link /= time_link%initiate
-         problem%weight_power = merge(1, 2, spec%digits%gapwgt == 1)
+         problem%weight_power = spec%wheel_rail%search%weight_power
          problem%most_elements = spec%iteration%npot_max
          template%model%material = combine(spec%material%poiss, spec%material%gg)
          call set_method(spec, template)

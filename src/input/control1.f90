@@ -6,7 +6,7 @@ module contact_input_control1
    use contact_wheelrail_spec, only : wheel_rail_spec
    use contact_control_digits, only : digit_value
    use contact_control_digits1, only : allowed1_text, choice1_of, decode_words1, digit1_names, digit1_value_is_known
-   use contact_input_control3, only : add_for_digit, control_words
+   use contact_input_control3, only : add_for_digit, check_kept, check_physics, check_signs, control_words, start_sequence
    use contact_input_problems, only : problem_list, severity
    use contact_text_lexer, only : input_lexer, input_value
    use contact_text_words, only : integer_text
@@ -59,6 +59,7 @@ contains
       associate (digits => spec%digits)
          spec%wheel_rail%left = digits%c1 == 0 .or. digits%c1 == 4
          spec%wheel_rail%roller = digits%c1 == 4 .or. digits%c1 == 5
+         spec%wheel_rail%search%weight_power = merge(1, 2, digits%gapwgt == 1)
          spec%wheel_rail%new_rail_profile = .false.
          spec%wheel_rail%new_wheel_profile = .false.
          spec%link = choice1_of("P", digits%p)
@@ -118,20 +119,13 @@ contains
       character(len=:), allocatable :: name
       integer :: k
 
-      do k = 1, 3
-         associate (word => words%word(k))
-            if (word%i < 0) call problems%add(severity%error, "the control word " // word%name // " = " // word%word // &
-               & " is negative; it must consist of digits", word%line, word%column)
-         end associate
-      end do
+      call check_signs(words, digits, problems)
       do k = 1, size(digit1_names)
          name = trim(digit1_names(k))
          if (digit1_value_is_known(name, digit_value(digits, name))) cycle
          call add_for_digit(problems, words, severity%error, name, name // " = " // &
             & integer_text(digit_value(digits, name)) // " is not a known digit of module 1; allowed are " // allowed1_text(name))
       end do
-      if (digits%gapwgt > 2) call problems%add(severity%error, "GAPWGT = " // integer_text(digits%gapwgt) // &
-         & " is outside its range 0 to 2", words%second%line, words%second%column)
    end subroutine check_ranges
 
    !> A first case has nothing to continue and nothing to keep
@@ -140,34 +134,19 @@ contains
       type(case_spec), intent(inout) :: spec
       type(problem_list), intent(inout) :: problems
 
+      call start_sequence(words, spec, problems)
       associate (digits => spec%digits)
-         if (digits%p /= 2) then
-            call add_for_digit(problems, words, severity%warning, "P", "P = " // integer_text(digits%p) // &
-               & " is replaced by 2: the first case has no previous tractions")
-            digits%p = 2
-            spec%link = choice1_of("P", 2)
-         end if
-         if (digits%i /= 0) then
-            call add_for_digit(problems, words, severity%warning, "I", "I = " // integer_text(digits%i) // &
-               & " is replaced by 0: the first case has no previous solution")
-            digits%i = 0
-            spec%estimate = choice1_of("I", 0)
-         end if
          if (digits%c < 2) then
             call add_for_digit(problems, words, severity%warning, "C", "C = " // integer_text(digits%c) // &
                & " in the first case: the default materials are used, GG = 1 and POISS = 0.28")
             spec%kernel = kernel_model%piecewise_constant
          end if
-         if (digits%l == 1) call add_for_digit(problems, words, severity%error, "L", &
-            & "L = 1 keeps the friction law of the previous case, but this is the first case")
          if (digits%d < 2) call add_for_digit(problems, words, severity%error, "D", "D = " // integer_text(digits%d) // &
             & " keeps the settings of the contact search, but this is the first case")
          if (digits%z /= 3) call add_for_digit(problems, words, severity%error, "Z", "Z = " // integer_text(digits%z) // &
             & " in the first case: no rail profile has been given; Z = 3 is needed")
          if (digits%e /= 3 .and. digits%e /= 5) call add_for_digit(problems, words, severity%error, "E", "E = " // &
             & integer_text(digits%e) // " in the first case: no wheel profile has been given; E = 3 or 5 is needed")
-         if (digits%s == 1 .or. digits%s == 2) call add_for_digit(problems, words, severity%error, "S", &
-            & "S = " // integer_text(digits%s) // " keeps the subsurface points, but this is the first case")
       end associate
    end subroutine check_first_case
 
@@ -177,13 +156,8 @@ contains
       type(case_spec), intent(in) :: previous, spec
       type(problem_list), intent(inout) :: problems
 
+      call check_kept(words, previous, spec, problems)
       associate (digits => spec%digits)
-         if ((digits%s == 1 .or. digits%s == 2) .and. .not. allocated(spec%subsurface%blocks)) &
-            & call add_for_digit(problems, words, severity%error, "S", &
-            & "S = " // integer_text(digits%s) // " keeps the subsurface points, but no case has given any")
-         if (digits%l == 1 .and. digits%v /= previous%digits%v) call add_for_digit(problems, words, severity%error, "L", &
-            & "L = 1 keeps the friction law, but V changes from " // integer_text(previous%digits%v) // " to " // &
-            & integer_text(digits%v) // ": new friction input is needed")
          if (digits%e == 0 .and. digits%n /= previous%digits%n) call add_for_digit(problems, words, severity%error, "E", &
             & "E = 0 keeps the position of the wheelset, but N changes from " // integer_text(previous%digits%n) // " to " // &
             & integer_text(digits%n) // ": a new position is needed")
@@ -204,17 +178,7 @@ contains
             & "F = 1, longitudinal force prescribed, needs the vertical force too, N = 1")
          if (digits%f /= 0 .and. digits%t == 0) call add_for_digit(problems, words, severity%error, "F", "F = " // &
             & integer_text(digits%f) // " needs a tangential problem, T = 1, 2 or 3")
-         if (digits%m == 1 .and. digits%t /= 3) call add_for_digit(problems, words, severity%error, "M", &
-            & "M = 1, viscoelastic material, needs steady rolling, T = 3, not T = " // integer_text(digits%t))
-         if (digits%h >= 1 .and. digits%t /= 3) call add_for_digit(problems, words, severity%error, "H", &
-            & "H = " // integer_text(digits%h) // ", surface temperatures, needs steady rolling, T = 3, not T = " // &
-            & integer_text(digits%t))
-         if (spec%friction_law == 6) then
-            if (digits%h == 0) call add_for_digit(problems, words, severity%error, "L", &
-               & "L = 6, friction falling with temperature, needs surface temperatures, H = 1 or 3")
-            if (any(digits%m == [2, 3, 5, 6, 7])) call add_for_digit(problems, words, severity%error, "L", &
-               & "L = 6, friction falling with temperature, cannot be used with M = " // integer_text(digits%m))
-         end if
       end associate
+      call check_physics(words, spec, problems)
    end subroutine check_combinations
 end module contact_input_control1

@@ -11,6 +11,7 @@ module contact_input_control3
    private
 
    public :: control_words, read_control_words, check_digits, refuse_unbuilt_digits, add_for_digit
+   public :: check_signs, start_sequence, check_kept, check_physics
 
    !> The words with their places, for messages
    type :: control_words
@@ -100,7 +101,7 @@ contains
 
       call check_ranges(words, spec%digits, problems)
       if (has_previous) then
-         call check_later_case(words, previous, spec, problems)
+         call check_kept(words, previous, spec, problems)
       else
          call check_first_case(words, spec, problems)
       end if
@@ -115,24 +116,84 @@ contains
       character(len=:), allocatable :: name
       integer :: k
 
-      do k = 1, 3
-         associate (word => words%word(k))
-            if (word%i < 0) call problems%add(severity%error, "the control word " // word%name // " = " // word%word // &
-               & " is negative; it must consist of digits", word%line, word%column)
-         end associate
-      end do
+      call check_signs(words, digits, problems)
       do k = 1, size(digit_names)
          name = trim(digit_names(k))
          if (is_known(name, digit_value(digits, name))) cycle
          call add_for_digit(problems, words, severity%error, name, name // " = " // &
             & integer_text(digit_value(digits, name)) // " is not a known digit; allowed are " // allowed_text(name))
       end do
-      if (digits%gapwgt > 2) call problems%add(severity%error, "GAPWGT = " // integer_text(digits%gapwgt) // &
-         & " is outside its range 0 to 2", words%second%line, words%second%column)
    end subroutine check_ranges
 
    !> A first case has nothing to continue and nothing to keep
    subroutine check_first_case(words, spec, problems)
+      type(control_words), intent(in) :: words
+      type(case_spec), intent(inout) :: spec
+      type(problem_list), intent(inout) :: problems
+
+      call start_sequence(words, spec, problems)
+      associate (digits => spec%digits)
+         if (digits%d == 0) call add_for_digit(problems, words, severity%error, "D", &
+            & "D = 0 keeps the potential contact area, but this is the first case")
+         if (digits%d == 1) call add_for_digit(problems, words, severity%error, "D", &
+            & "D = 1 forms the potential contact area from the values in store, but this is the first case")
+      end associate
+   end subroutine check_first_case
+
+   !> What a later case keeps must be there
+   subroutine check_kept(words, previous, spec, problems)
+      type(control_words), intent(in) :: words
+      type(case_spec), intent(in) :: previous, spec
+      type(problem_list), intent(inout) :: problems
+
+      associate (digits => spec%digits)
+         if ((digits%s == 1 .or. digits%s == 2) .and. .not. allocated(spec%subsurface%blocks)) &
+            & call add_for_digit(problems, words, severity%error, "S", &
+            & "S = " // integer_text(digits%s) // " keeps the subsurface points, but no case has given any")
+         if (digits%l == 1 .and. digits%v /= previous%digits%v) call add_for_digit(problems, words, severity%error, "L", &
+            & "L = 1 keeps the friction law, but V changes from " // integer_text(previous%digits%v) // " to " // &
+            & integer_text(digits%v) // ": new friction input is needed")
+      end associate
+   end subroutine check_kept
+
+   !> What digits demand of each other
+   subroutine check_combinations(words, previous_motion, spec, problems)
+      type(control_words), intent(in) :: words
+      !> T of the previous case, 3 before the first
+      integer, intent(in) :: previous_motion
+      type(case_spec), intent(in) :: spec
+      type(problem_list), intent(inout) :: problems
+
+      associate (digits => spec%digits)
+         if (digits%d /= 0 .and. digits%z == 0) call add_for_digit(problems, words, severity%error, "Z", &
+            & "Z = 0 keeps the undeformed distance, but D = " // integer_text(digits%d) // &
+            & " forms a new grid, which needs a new one")
+         if (digits%c == 0 .and. (digits%t <= 1 .neqv. previous_motion <= 1)) call add_for_digit(problems, words, &
+            & severity%error, "C", "C = 0 keeps the influence coefficients, but T changes from " // &
+            & integer_text(previous_motion) // " to " // integer_text(digits%t) // ", between shift and rolling")
+      end associate
+      call check_physics(words, spec, problems)
+   end subroutine check_combinations
+
+   !> Control words have no sign, and GAPWGT has a range; for both modules
+   subroutine check_signs(words, digits, problems)
+      type(control_words), intent(in) :: words
+      type(case_digits), intent(in) :: digits
+      type(problem_list), intent(inout) :: problems
+      integer :: k
+
+      do k = 1, 3
+         associate (word => words%word(k))
+            if (word%i < 0) call problems%add(severity%error, "the control word " // word%name // " = " // word%word // &
+               & " is negative; it must consist of digits", word%line, word%column)
+         end associate
+      end do
+      if (digits%gapwgt > 2) call problems%add(severity%error, "GAPWGT = " // integer_text(digits%gapwgt) // &
+         & " is outside its range 0 to 2", words%second%line, words%second%column)
+   end subroutine check_signs
+
+   !> What a first case of either module corrects, with a warning, and cannot keep
+   subroutine start_sequence(words, spec, problems)
       type(control_words), intent(in) :: words
       type(case_spec), intent(inout) :: spec
       type(problem_list), intent(inout) :: problems
@@ -152,46 +213,18 @@ contains
          end if
          if (digits%l == 1) call add_for_digit(problems, words, severity%error, "L", &
             & "L = 1 keeps the friction law of the previous case, but this is the first case")
-         if (digits%d == 0) call add_for_digit(problems, words, severity%error, "D", &
-            & "D = 0 keeps the potential contact area, but this is the first case")
-         if (digits%d == 1) call add_for_digit(problems, words, severity%error, "D", &
-            & "D = 1 forms the potential contact area from the values in store, but this is the first case")
          if (digits%s == 1 .or. digits%s == 2) call add_for_digit(problems, words, severity%error, "S", &
             & "S = " // integer_text(digits%s) // " keeps the subsurface points, but this is the first case")
       end associate
-   end subroutine check_first_case
+   end subroutine start_sequence
 
-   !> What a later case keeps must be there
-   subroutine check_later_case(words, previous, spec, problems)
+   !> What materials, temperatures and friction laws demand of the motion and of each other, in both modules
+   subroutine check_physics(words, spec, problems)
       type(control_words), intent(in) :: words
-      type(case_spec), intent(in) :: previous, spec
-      type(problem_list), intent(inout) :: problems
-
-      associate (digits => spec%digits)
-         if ((digits%s == 1 .or. digits%s == 2) .and. .not. allocated(spec%subsurface%blocks)) &
-            & call add_for_digit(problems, words, severity%error, "S", &
-            & "S = " // integer_text(digits%s) // " keeps the subsurface points, but no case has given any")
-         if (digits%l == 1 .and. digits%v /= previous%digits%v) call add_for_digit(problems, words, severity%error, "L", &
-            & "L = 1 keeps the friction law, but V changes from " // integer_text(previous%digits%v) // " to " // &
-            & integer_text(digits%v) // ": new friction input is needed")
-      end associate
-   end subroutine check_later_case
-
-   !> What digits demand of each other
-   subroutine check_combinations(words, previous_motion, spec, problems)
-      type(control_words), intent(in) :: words
-      !> T of the previous case, 3 before the first
-      integer, intent(in) :: previous_motion
       type(case_spec), intent(in) :: spec
       type(problem_list), intent(inout) :: problems
 
       associate (digits => spec%digits)
-         if (digits%d /= 0 .and. digits%z == 0) call add_for_digit(problems, words, severity%error, "Z", &
-            & "Z = 0 keeps the undeformed distance, but D = " // integer_text(digits%d) // &
-            & " forms a new grid, which needs a new one")
-         if (digits%c == 0 .and. (digits%t <= 1 .neqv. previous_motion <= 1)) call add_for_digit(problems, words, &
-            & severity%error, "C", "C = 0 keeps the influence coefficients, but T changes from " // &
-            & integer_text(previous_motion) // " to " // integer_text(digits%t) // ", between shift and rolling")
          if (digits%m == 1 .and. digits%t /= 3) call add_for_digit(problems, words, severity%error, "M", &
             & "M = 1, viscoelastic material, needs steady rolling, T = 3, not T = " // integer_text(digits%t))
          if (digits%m == 5 .and. (digits%t == 1 .or. digits%t == 2)) call add_for_digit(problems, words, severity%error, &
@@ -210,7 +243,7 @@ contains
                & "L = 6, friction falling with temperature, cannot be used with M = " // integer_text(digits%m))
          end if
       end associate
-   end subroutine check_combinations
+   end subroutine check_physics
 
    !> Refuse by name what the format knows but this version cannot compute
    !>

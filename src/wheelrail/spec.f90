@@ -41,6 +41,8 @@ module contact_wheelrail_spec
       real(wp) :: a_sep = pi, d_sep = 8.0_wp, d_comb = 4.0_wp, d_turn = 12.0_wp
       !> Gap below which near misses enlarge a patch [mm]; negative: never
       real(wp) :: g_miss = -1.0_wp
+      !> Power of the interpenetration in the weights of the contact reference
+      integer :: weight_power = 2
    end type search_spec
 
    !> Track or roller rig, and the place of the rail in it (Z)
