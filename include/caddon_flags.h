@@ -1,0 +1,96 @@
+/* Named numbers of the CONTACT library, as in caddon_flags.inc for Fortran.
+ * Made by src/capi/make_interface.py from src/capi/interface.txt; change those. */
+#ifndef CADDON_FLAGS_H
+#define CADDON_FLAGS_H
+
+enum caddon_flags {
+  /* Size that callers give to lists of flags */
+  CNTC_FLAGS_DIM = 25, /* room for a list of flags */
+  /* Flags: units and convention of signs */
+  CNTC_if_units = 1933, /* which of the following conventions a problem uses */
+  CNTC_un_cntc = 1934, /* mm, N, results on body 1 (rail in wheel/rail contact) */
+  CNTC_un_spck = 1935, /* m, N, results on body 2 (wheel in wheel/rail contact) */
+  CNTC_un_si = 1936, /* m, N, results on body 1 */
+  CNTC_un_imper = 1937, /* imperial units; not available */
+  /* Flags: control digits of a problem */
+  CNTC_ic_config = 1967, /* C1: left or right rail (0, 1) or roller (4, 5) */
+  CNTC_ic_pvtime = 1970, /* P: relation to the previous case */
+  CNTC_ic_bound = 1971, /* B: method of the normal problem */
+  CNTC_ic_tang = 1972, /* T: 0 frictionless, 1 shift, 2 transient rolling, 3 steady rolling */
+  CNTC_ic_norm = 1973, /* N: 0 approach or position given, 1 normal or vertical force given */
+  CNTC_ic_force = 1974, /* F: creepages given, or forces instead */
+  CNTC_ic_frclaw = 1976, /* L: friction law; read only, see cntc_setfrictionmethod */
+  CNTC_ic_discns = 1977, /* D: way to find and describe the potential contact, wheel/rail */
+  CNTC_ic_inflcf = 1978, /* C: influence coefficients */
+  CNTC_ic_mater = 1979, /* M: material; read only, see cntc_setmaterialparameters */
+  CNTC_ic_exrhs = 1980, /* E: extra term of the rigid slip */
+  CNTC_ic_xflow = 1981, /* X: debug print, one digit per part of the solution */
+  CNTC_ic_heat = 1982, /* H: surface temperatures; read only, see cntc_settemperaturedata */
+  CNTC_ic_iestim = 1983, /* I: initial estimate */
+  CNTC_ic_output = 1984, /* O: results in the .out file */
+  CNTC_ic_flow = 1985, /* W: trace of the solution in the .out file */
+  CNTC_ic_return = 1986, /* R: 0, 1 compute; 2, 3 check only */
+  CNTC_ic_matfil = 1987, /* A: .mat files */
+  CNTC_ic_sens = 1988, /* S2: sensitivities, 2 normal, 3 all */
+  CNTC_ic_ifmeth = 1989, /* method of conformal coefficients (C = 4) */
+  CNTC_ic_ifvari = 1990, /* variant of conformal coefficients (C = 4) */
+  CNTC_ic_sbsout = 1991, /* subsurface results in the .out file */
+  CNTC_ic_sbsfil = 1992, /* .subs files */
+  CNTC_ic_npomax = 1993, /* largest number of elements of a patch, wheel/rail */
+  /* Flags: the library as a whole */
+  CNTC_if_idebug = 2000, /* how much the interface writes to the .out file, -1 to 5 */
+  CNTC_if_licdbg = 2001, /* accepted, without effect */
+  CNTC_if_wrtinp = 2002, /* write the cases as an .inp file: 0 no, 1 yes, 2 each complete (wheel/rail) */
+  CNTC_if_openmp = 2003, /* threads per problem, -1 for all */
+  CNTC_if_timers = 2004, /* table of times at the end: 0 none, 1 short, 2 full */
+  CNTC_if_ncase = 2005, /* number of the next case */
+  /* Data that go along into the .mat files */
+  CNTC_mt_tim = 2011, /* time [s] */
+  CNTC_mt_xr = 2012, /* contact point on the rail, x [L] */
+  CNTC_mt_yr = 2013, /* contact point on the rail, y [L] */
+  CNTC_mt_xw = 2014, /* contact point on the wheel, x [L] */
+  CNTC_mt_yw = 2015, /* contact point on the wheel, y [L] */
+  CNTC_mt_sw = 2016, /* position along the track [L] */
+  CNTC_mt_run = 2021, /* number of the run */
+  CNTC_mt_axle = 2022, /* number of the axle */
+  CNTC_mt_side = 2023, /* number of the side */
+  /* Fields of cntc_getfielddata */
+  CNTC_fld_h = 1, /* undeformed distance [L] */
+  CNTC_fld_mu = 2, /* friction coefficient [-] */
+  CNTC_fld_px = 3, /* tangential traction along x [F/L2] */
+  CNTC_fld_py = 4, /* tangential traction along y [F/L2] */
+  CNTC_fld_pn = 5, /* pressure [F/L2] */
+  CNTC_fld_ux = 7, /* displacement difference along x [L] */
+  CNTC_fld_uy = 8, /* displacement difference along y [L] */
+  CNTC_fld_un = 9, /* displacement difference, normal [L] */
+  CNTC_fld_taucrt = 11, /* yield limit [F/L2] */
+  CNTC_fld_uplsx = 12, /* plastic deformation along x [L] */
+  CNTC_fld_uplsy = 13, /* plastic deformation along y [L] */
+  CNTC_fld_sx = 15, /* micro-slip along x [-]; shift distance in mm when T is 0 or 1 */
+  CNTC_fld_sy = 16, /* micro-slip along y [-]; shift distance in mm when T is 0 or 1 */
+  CNTC_fld_temp1 = 20, /* surface temperature of body 1 [degrees C] */
+  CNTC_fld_temp2 = 21, /* surface temperature of body 2 [degrees C] */
+  CNTC_fld_wx = 22, /* rigid slip along x [-] */
+  CNTC_fld_wy = 23, /* rigid slip along y [-] */
+  /* Kinds of input files of cntc_readinpfile */
+  CNTC_inp_vamp = 1984, /* not available */
+  CNTC_inp_modul1 = 1988, /* input of wheel/rail contact */
+  CNTC_inp_spck = 1990, /* input of the user subroutine of Simpack */
+  CNTC_inp_gensys = 1992, /* not available */
+  /* Codes of errors */
+  CNTC_err_allow = -12, /* not allowed: too many result elements or calculations at a time */
+  CNTC_err_search = -25, /* the contact search failed */
+  CNTC_err_ftot = -26, /* the balance of total forces failed */
+  CNTC_err_broydn = -26, /* older name of CNTC_err_ftot */
+  CNTC_err_norm = -27, /* the normal problem did not converge */
+  CNTC_err_tang = -28, /* the tangential problem did not converge */
+  CNTC_err_tol = -29, /* stopped above the tolerance; there are results */
+  CNTC_err_icp = -31, /* the contact patch does not exist */
+  CNTC_err_profil = -32, /* a profile is missing or unusable */
+  CNTC_err_frclaw = -33, /* the friction data are unusable */
+  CNTC_err_discr = -34, /* the grid does not fit the previous case, or is too large */
+  CNTC_err_input = -39, /* the input file is unusable */
+  CNTC_err_other = -99 /* anything else */
+};
+
+#endif

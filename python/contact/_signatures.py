@@ -1,0 +1,183 @@
+"""Arguments of the routines of the library, and its named numbers.
+
+Made by src/capi/make_interface.py from src/capi/interface.txt; change those.
+"""
+
+#: Per routine its arguments: name, then > for a result, then i int, I ints, d double, D doubles, s text
+SIGNATURES = {
+    "cntc_setfileunits": "nunits:i iunits:I",
+    "cntc_initializefirst": (
+        "ifcver:>i ierror:>i ioutput:i c_wrkdir:s c_outdir:s c_expnam:s len_wrkdir:i "
+        "len_outdir:i len_expnam:i"
+    ),
+    "cntc_initializefirst_new": (
+        "ifcver:>i ierror:>i ioutput:i c_wrkdir:s c_outdir:s c_expnam:s len_wrkdir:i "
+        "len_outdir:i len_expnam:i"
+    ),
+    "cntc_initialize": "ire:i imodul:i ifcver:>i ierror:>i c_outdir:s len_outdir:i",
+    "cntc_setglobalflags": "lenflg:i params:I values:I",
+    "cntc_getmaxnumthreads": "mxthrd:>i",
+    "cntc_finalize": "ire:i",
+    "cntc_finalizelast": "",
+    "cntc_setflags": "ire:i icp:i lenflg:i params:I values:I",
+    "cntc_setmetadata": "ire:i icp:i lenmta:i params:I values:D",
+    "cntc_setsolverflags": "ire:i icp:i gdigit:i nints:i iparam:I nreals:i rparam:D",
+    "cntc_setmaterialparameters": "ire:i icp:i imeth:i nparam:i rparam:D",
+    "cntc_settemperaturedata": "ire:i icp:i imeth:i nparam:i params:D",
+    "cntc_settimestep": "ire:i icp:i dt:d",
+    "cntc_setrollingstepsize": "ire:i icp:i chi:d dq:d",
+    "cntc_setfrictionmethod": "ire:i icp:i imeth:i nparam:i params:D",
+    "cntc_setpotcontact": "ire:i icp:i ipotcn:i nparam:i params:D",
+    "cntc_settangentialforces": "ire:i icp:i fx:d fy:d",
+    "cntc_readinpfile": "ire:i inp_type:i c_fname:s len_fname:i ierror:>i",
+    "cntc_setreferencevelocity": "ire:i icp:i veloc:d",
+    "cntc_sethertzcontact": "ire:i icp:i ipotcn:i nparam:i params:D",
+    "cntc_setpenetration": "ire:i icp:i pen:d",
+    "cntc_setnormalforce": "ire:i icp:i fn:d",
+    "cntc_setundeformeddistc": "ire:i icp:i ibase:i nparam:i prmudf:D",
+    "cntc_setcreepages": "ire:i icp:i vx:d vy:d phi:d",
+    "cntc_setextrarigidslip": "ire:i icp:i lenarr:i wx:D wy:D",
+    "cntc_setverticalforce": "ire:i fz:d",
+    "cntc_setprofileinputfname": (
+        "ire:i c_fname:s len_fname:i nints:i iparam:I nreals:i rparam:D"
+    ),
+    "cntc_setprofileinputvalues": "ire:i npoint:i values:D nints:i iparam:I nreals:i rparam:D",
+    "cntc_settrackdimensions": "ire:i ztrack:i nparam:i params:D",
+    "cntc_setwheelsetdimensions": "ire:i ewheel:i nparam:i params:D",
+    "cntc_setwheelsetposition": "ire:i ewheel:i nparam:i params:D",
+    "cntc_setwheelsetvelocity": "ire:i ewheel:i nparam:i params:D",
+    "cntc_setwheelsetflexibility": "ire:i ewheel:i nparam:i params:D",
+    "cntc_calculate": "ire:i icp:i ierror:>i",
+    "cntc_getflags": "ire:i icp:i lenflg:i params:I values:>I",
+    "cntc_getparameters": "ire:i icp:i itask:i lenarr:i values:>D",
+    "cntc_getprofilevalues": (
+        "ire:i itask:i nints:i iparam:I nreals:i rparam:D lenarr:i val:>D"
+    ),
+    "cntc_getprofilevalues_new": (
+        "ire:i itask:i nints:i iparam:I nreals:i rparam:D lenarr:i val:>D"
+    ),
+    "cntc_getwheelsetposition": "ire:i lenarr:i rvalues:>D",
+    "cntc_getwheelsetvelocity": "ire:i lenarr:i rvalues:>D",
+    "cntc_getnumcontactpatches": "ire:i npatch:>i",
+    "cntc_getcontactlocation": "ire:i icp:i lenarr:i rvalues:>D",
+    "cntc_getreferencevelocity": "ire:i icp:i veloc:>d",
+    "cntc_gethertzcontact": "ire:i icp:i lenarr:i rvalues:>D",
+    "cntc_getnumelements": "ire:i icp:i mx:>i my:>i",
+    "cntc_getgriddiscretization": "ire:i icp:i dx:>d dy:>d",
+    "cntc_getpotcontact": "ire:i icp:i lenarr:i rvalues:>D",
+    "cntc_getpenetration": "ire:i icp:i pen:>d",
+    "cntc_getcreepages": "ire:i icp:i vx:>d vy:>d phi:>d",
+    "cntc_getcontactforces": "ire:i icp:i fn:>d tx:>d ty:>d mz:>d",
+    "cntc_getglobalforces": "ire:i icp:i lenarr:i rvalues:>D",
+    "cntc_getcontactpatchareas": "ire:i icp:i carea:>d harea:>d sarea:>d",
+    "cntc_getelementdivision": "ire:i icp:i lenarr:i eldiv:>I",
+    "cntc_getmaximumpressure": "ire:i icp:i pnmax:>d",
+    "cntc_getmaximumtraction": "ire:i icp:i ptmax:>d",
+    "cntc_getmaximumtemperature": "ire:i icp:i t1max:>d t2max:>d",
+    "cntc_getfielddata": "ire:i icp:i ifld:i lenarr:i fld:>D",
+    "cntc_gettractions": "ire:i icp:i lenarr:i pn:>D px:>D py:>D",
+    "cntc_getmicroslip": "ire:i icp:i lenarr:i sx:>D sy:>D",
+    "cntc_getdisplacements": "ire:i icp:i lenarr:i un:>D ux:>D uy:>D",
+    "cntc_getsensitivities": "ire:i icp:i lenout:i lenin:i sens:>D",
+    "cntc_getcalculationtime": "ire:i icp:i tcpu:>d twall:>d",
+    "cntc_resetcalculationtime": "ire:i icp:i",
+    "subs_addblock": (
+        "ire:i icp:i iblk:i isubs:i npx:i npy:i npz:i xparam:D yparam:D zparam:D"
+    ),
+    "subs_calculate": "ire:i icp:i ierror:>i",
+    "subs_getblocksize": "ire:i icp:i iblk:i nx:>i ny:>i nz:>i",
+    "subs_getresults": "ire:i icp:i iblk:i lenarr:i ncol:i icol:I values:>D",
+    "cntc_calculate1": "ire:i ierror:>i",
+    "cntc_calculate3": "ire:i icp:i ierror:>i",
+}
+
+#: The named numbers without CNTC_
+MAGIC_NUMBERS = {
+    # Size that callers give to lists of flags
+    "FLAGS_DIM": 25,  # room for a list of flags
+    # Flags: units and convention of signs
+    "if_units": 1933,  # which of the following conventions a problem uses
+    "un_cntc": 1934,  # mm, N, results on body 1 (rail in wheel/rail contact)
+    "un_spck": 1935,  # m, N, results on body 2 (wheel in wheel/rail contact)
+    "un_si": 1936,  # m, N, results on body 1
+    "un_imper": 1937,  # imperial units; not available
+    # Flags: control digits of a problem
+    "ic_config": 1967,  # C1: left or right rail (0, 1) or roller (4, 5)
+    "ic_pvtime": 1970,  # P: relation to the previous case
+    "ic_bound": 1971,  # B: method of the normal problem
+    "ic_tang": 1972,  # T: 0 frictionless, 1 shift, 2 transient rolling, 3 steady rolling
+    "ic_norm": 1973,  # N: 0 approach or position given, 1 normal or vertical force given
+    "ic_force": 1974,  # F: creepages given, or forces instead
+    "ic_frclaw": 1976,  # L: friction law; read only, see cntc_setfrictionmethod
+    "ic_discns": 1977,  # D: way to find and describe the potential contact, wheel/rail
+    "ic_inflcf": 1978,  # C: influence coefficients
+    "ic_mater": 1979,  # M: material; read only, see cntc_setmaterialparameters
+    "ic_exrhs": 1980,  # E: extra term of the rigid slip
+    "ic_xflow": 1981,  # X: debug print, one digit per part of the solution
+    "ic_heat": 1982,  # H: surface temperatures; read only, see cntc_settemperaturedata
+    "ic_iestim": 1983,  # I: initial estimate
+    "ic_output": 1984,  # O: results in the .out file
+    "ic_flow": 1985,  # W: trace of the solution in the .out file
+    "ic_return": 1986,  # R: 0, 1 compute; 2, 3 check only
+    "ic_matfil": 1987,  # A: .mat files
+    "ic_sens": 1988,  # S2: sensitivities, 2 normal, 3 all
+    "ic_ifmeth": 1989,  # method of conformal coefficients (C = 4)
+    "ic_ifvari": 1990,  # variant of conformal coefficients (C = 4)
+    "ic_sbsout": 1991,  # subsurface results in the .out file
+    "ic_sbsfil": 1992,  # .subs files
+    "ic_npomax": 1993,  # largest number of elements of a patch, wheel/rail
+    # Flags: the library as a whole
+    "if_idebug": 2000,  # how much the interface writes to the .out file, -1 to 5
+    "if_licdbg": 2001,  # accepted, without effect
+    "if_wrtinp": 2002,  # write the cases as an .inp file: 0 no, 1 yes, 2 each complete (wheel/rail)
+    "if_openmp": 2003,  # threads per problem, -1 for all
+    "if_timers": 2004,  # table of times at the end: 0 none, 1 short, 2 full
+    "if_ncase": 2005,  # number of the next case
+    # Data that go along into the .mat files
+    "mt_tim": 2011,  # time [s]
+    "mt_xr": 2012,  # contact point on the rail, x [L]
+    "mt_yr": 2013,  # contact point on the rail, y [L]
+    "mt_xw": 2014,  # contact point on the wheel, x [L]
+    "mt_yw": 2015,  # contact point on the wheel, y [L]
+    "mt_sw": 2016,  # position along the track [L]
+    "mt_run": 2021,  # number of the run
+    "mt_axle": 2022,  # number of the axle
+    "mt_side": 2023,  # number of the side
+    # Fields of cntc_getfielddata
+    "fld_h": 1,  # undeformed distance [L]
+    "fld_mu": 2,  # friction coefficient [-]
+    "fld_px": 3,  # tangential traction along x [F/L2]
+    "fld_py": 4,  # tangential traction along y [F/L2]
+    "fld_pn": 5,  # pressure [F/L2]
+    "fld_ux": 7,  # displacement difference along x [L]
+    "fld_uy": 8,  # displacement difference along y [L]
+    "fld_un": 9,  # displacement difference, normal [L]
+    "fld_taucrt": 11,  # yield limit [F/L2]
+    "fld_uplsx": 12,  # plastic deformation along x [L]
+    "fld_uplsy": 13,  # plastic deformation along y [L]
+    "fld_sx": 15,  # micro-slip along x [-]; shift distance in mm when T is 0 or 1
+    "fld_sy": 16,  # micro-slip along y [-]; shift distance in mm when T is 0 or 1
+    "fld_temp1": 20,  # surface temperature of body 1 [degrees C]
+    "fld_temp2": 21,  # surface temperature of body 2 [degrees C]
+    "fld_wx": 22,  # rigid slip along x [-]
+    "fld_wy": 23,  # rigid slip along y [-]
+    # Kinds of input files of cntc_readinpfile
+    "inp_vamp": 1984,  # not available
+    "inp_modul1": 1988,  # input of wheel/rail contact
+    "inp_spck": 1990,  # input of the user subroutine of Simpack
+    "inp_gensys": 1992,  # not available
+    # Codes of errors
+    "err_allow": -12,  # not allowed: too many result elements or calculations at a time
+    "err_search": -25,  # the contact search failed
+    "err_ftot": -26,  # the balance of total forces failed
+    "err_broydn": -26,  # older name of CNTC_err_ftot
+    "err_norm": -27,  # the normal problem did not converge
+    "err_tang": -28,  # the tangential problem did not converge
+    "err_tol": -29,  # stopped above the tolerance; there are results
+    "err_icp": -31,  # the contact patch does not exist
+    "err_profil": -32,  # a profile is missing or unusable
+    "err_frclaw": -33,  # the friction data are unusable
+    "err_discr": -34,  # the grid does not fit the previous case, or is too large
+    "err_input": -39,  # the input file is unusable
+    "err_other": -99,  # anything else
+}

@@ -1,0 +1,218 @@
+#!/usr/bin/env python3
+"""Write the header, the Fortran interfaces and the Python tables of the library from interface.txt.
+
+    python3 src/capi/make_interface.py            writes the files, run it after a change of the table
+    python3 src/capi/make_interface.py --check    exit status 1 when a file is not what would be written
+"""
+import os
+import re
+import sys
+import textwrap
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+TOP = os.path.dirname(os.path.dirname(HERE))
+WIDTH = 100
+ORIGIN = "Made by src/capi/make_interface.py from src/capi/interface.txt; change those."
+
+
+class Argument:
+    """One argument: direction in, out or inout, kind int, real or text, and whether it is an array"""
+
+    def __init__(self, text):
+        match = re.fullmatch(r"(in|out|inout) (int|real|text) (\w+)(\[\])?", text.strip())
+        if not match:
+            raise SystemExit(f"interface.txt: '{text}' is not an argument")
+        self.direction, self.kind, self.name = match.group(1, 2, 3)
+        self.is_array = match.group(4) is not None
+
+
+class Routine:
+    """One routine with its arguments and its description"""
+
+    def __init__(self, name, arguments):
+        self.name = name
+        self.arguments = [Argument(text) for text in arguments.split(",") if text.strip()]
+        self.text = []
+
+
+class Constant:
+    """One named number"""
+
+    def __init__(self, name, value, text):
+        self.name, self.value, self.text = name, int(value), text
+
+
+def read_table():
+    """Sections of the table as (title, list of constants or routines); undocumented routines apart"""
+    constants, routines, undocumented = [], [], []
+    items = None
+    with open(os.path.join(HERE, "interface.txt"), encoding="utf-8") as file:
+        for number, line in enumerate(file, 1):
+            line = line.rstrip()
+            if not line or line.startswith("#"):
+                continue
+            section = re.fullmatch(r"\[(constants|routines) (.+)\]", line)
+            constant = re.fullmatch(r"(CNTC_\w+) = (-?\d+)  (.+)", line)
+            routine = re.fullmatch(r"(\w+)\((.*)\)", line)
+            if section:
+                items = []
+                (constants if section.group(1) == "constants" else routines).append((section.group(2), items))
+            elif line == "[undocumented]":
+                items = undocumented
+            elif constant:
+                items.append(Constant(*constant.groups()))
+            elif routine:
+                items.append(Routine(*routine.groups()))
+            elif line.startswith("   "):
+                items[-1].text.append(line.strip())
+            else:
+                raise SystemExit(f"interface.txt:{number}: '{line}' is not understood")
+    return constants, routines, undocumented
+
+
+def wrapped(words, first, indent, ending=""):
+    """The words, separated by blanks, on lines no longer than WIDTH; ending closes each line but the last"""
+    lines = textwrap.wrap(" ".join(words), WIDTH - len(ending), initial_indent=first, subsequent_indent=indent,
+                          break_long_words=False, break_on_hyphens=False)
+    return [line + ending for line in lines[:-1]] + lines[-1:]
+
+
+def c_header(routines):
+    """Text of contact_addon.h"""
+    kinds = {"int": "int", "real": "double", "text": "char"}
+    lines = ["/* CONTACT: rolling and sliding contact with friction - routines of the library for C and C++.",
+             f" * {ORIGIN}",
+             " *",
+             " * Each argument is passed by its address, single numbers included. Arrays have the length that stands",
+             " * in front of them; texts need no null at the end, their length counts. Nothing that is passed is kept.",
+             " * Units: L length, F force, V velocity, A angle [rad], T time [s]; flag CNTC_if_units chooses between",
+             " * mm and m. The named numbers are in caddon_flags.h; doc/user/library.md tells all. */",
+             "#ifndef CONTACT_ADDON_H", "#define CONTACT_ADDON_H", "",
+             "#ifdef __cplusplus", 'extern "C" {', "#endif"]
+    for title, items in routines:
+        lines += ["", f"/* ---- {title} ---- */"]
+        for routine in items:
+            lines += [""] + wrapped(["/*"] + routine.text + ["*/"], "", " * ")
+            # No-break spaces keep the words of an argument on one line
+            words = [("const " if argument.direction == "in" else "") + kinds[argument.kind] + " *" + argument.name
+                     for argument in routine.arguments] or ["void"]
+            start = f"void {routine.name}("
+            joined = ", ".join(words).replace(" ", "\xa0").replace(",\xa0", ", ") + ");"
+            start = start.replace(" ", "\xa0")
+            lines += [line.replace("\xa0", " ") for line in
+                      textwrap.wrap(start + joined, WIDTH, subsequent_indent=" " * len(start))]
+    lines += ["", "#ifdef __cplusplus", "}", "#endif", "", "#endif"]
+    return lines
+
+
+def c_constants(constants):
+    """Text of caddon_flags.h"""
+    lines = ["/* Named numbers of the CONTACT library, as in caddon_flags.inc for Fortran.",
+             f" * {ORIGIN} */",
+             "#ifndef CADDON_FLAGS_H", "#define CADDON_FLAGS_H", "", "enum caddon_flags {"]
+    all_items = [item for _, items in constants for item in items]
+    for title, items in constants:
+        lines += [f"  /* {title} */"]
+        for item in items:
+            comma = "" if item is all_items[-1] else ","
+            lines += [f"  {item.name} = {item.value}{comma} /* {item.text} */"]
+    return lines + ["};", "", "#endif"]
+
+
+def fortran_constants(constants):
+    """Text of caddon_flags.inc: right in free and in fixed source form, with and without preprocessing"""
+    lines = ["! Named numbers of the CONTACT library, to be included among declarations.", f"! {ORIGIN}"]
+    for title, items in constants:
+        lines += ["!", f"! {title}"]
+        for item in items:
+            lines += [f"! {item.text}", f"      integer, parameter :: {item.name} = {item.value}"]
+    return lines
+
+
+def fortran_declaration(argument):
+    """Declaration of one dummy argument"""
+    kinds = {"int": "integer(c_int)", "real": "real(c_double)", "text": "character(kind=c_char)"}
+    intent = "in" if argument.direction == "in" else "inout"
+    return f"{kinds[argument.kind]}, intent({intent}) :: {argument.name}" + ("(*)" if argument.is_array else "")
+
+
+def fortran_interfaces(routines):
+    """Text of contact_addon.ifc"""
+    kinds = {"int": "c_int", "real": "c_double", "text": "c_char"}
+    lines = ["! Interfaces of the routines of the CONTACT library, to be included among declarations.",
+             f"! {ORIGIN}",
+             "! Results are intent(inout): a call that is refused leaves them as they were.",
+             "! Units: L length, F force, V velocity, A angle [rad], T time [s]; see doc/user/library.md.",
+             "interface"]
+    for title, items in routines:
+        lines += ["", f"   ! ---- {title} ----"]
+        for routine in items:
+            lines += [""] + wrapped(routine.text, "   ! ", "   ! ")
+            names = ", ".join(argument.name for argument in routine.arguments)
+            lines += wrapped([f"subroutine {routine.name}({names})", f'bind(c, name="{routine.name}")'],
+                             "   ", "      ", " &")
+            used = sorted({kinds[argument.kind] for argument in routine.arguments})
+            if used:
+                lines += [f"      use, intrinsic :: iso_c_binding, only : {', '.join(used)}"]
+            lines += ["      " + fortran_declaration(argument) for argument in routine.arguments]
+            lines += [f"   end subroutine {routine.name}"]
+    return lines + ["", "end interface"]
+
+
+def python_tables(constants, routines, undocumented):
+    """Text of _signatures.py: what ctypes has to know"""
+    codes = {("int", False): "i", ("int", True): "I", ("real", False): "d", ("real", True): "D", ("text", True): "s"}
+    lines = ['"""Arguments of the routines of the library, and its named numbers.', "", ORIGIN, '"""', "",
+             "#: Per routine its arguments: name, then > for a result, then i int, I ints, d double, D doubles, s text",
+             "SIGNATURES = {"]
+    for _, items in routines + [("", undocumented)]:
+        for routine in items:
+            arguments = [argument.name + (":" if argument.direction == "in" else ":>")
+                         + codes[argument.kind, argument.is_array] for argument in routine.arguments]
+            lines += wrapped([f'"{routine.name}":', f'"{" ".join(arguments)}",'], "    ", "        ") \
+                if len(" ".join(arguments)) < 60 else \
+                [f'    "{routine.name}": ('] + [f'        "{part}"' for part in split_text(arguments)] + ["    ),"]
+    lines += ["}", "", "#: The named numbers without CNTC_", "MAGIC_NUMBERS = {"]
+    for title, items in constants:
+        lines += [f"    # {title}"]
+        lines += [f'    "{item.name[5:]}": {item.value},  # {item.text}' for item in items]
+    return lines + ["}"]
+
+
+def split_text(words):
+    """The words in pieces of at most 80 characters; all but the last end with a blank"""
+    pieces = textwrap.wrap(" ".join(words), 80, break_on_hyphens=False)
+    return [piece + " " for piece in pieces[:-1]] + pieces[-1:]
+
+
+def main():
+    """Write or compare"""
+    if len(sys.argv) > 2 or sys.argv[1:] not in ([], ["--check"]):
+        raise SystemExit(__doc__)
+    constants, routines, undocumented = read_table()
+    files = {
+        "include/contact_addon.h": c_header(routines),
+        "include/caddon_flags.h": c_constants(constants),
+        "include/caddon_flags.inc": fortran_constants(constants),
+        "include/contact_addon.ifc": fortran_interfaces(routines),
+        "python/contact/_signatures.py": python_tables(constants, routines, undocumented),
+    }
+    stale = []
+    for name, lines in files.items():
+        text = "\n".join(lines) + "\n"
+        path = os.path.join(TOP, name)
+        if sys.argv[1:]:
+            with open(path, encoding="utf-8") as file:
+                if file.read() != text:
+                    stale.append(name)
+        else:
+            os.makedirs(os.path.dirname(path), exist_ok=True)
+            with open(path, "w", encoding="utf-8") as file:
+                file.write(text)
+    for name in stale:
+        print(f"{name} is not what make_interface.py writes from interface.txt")
+    return 1 if stale else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
