@@ -75,23 +75,26 @@ module contact_wheelrail_pair
       type(contact_region) :: region
       type(frame) :: plane
       type(contact_motion) :: motion
-      !> Lateral to normal force [-]: of the last tangential solution, or an estimate
-      real(wp) :: ratio = 0.0_wp
+      !> Force of the pressures on the rail in the axes x, s, n of the plane [N]
+      real(wp) :: pressure_force(3) = 0.0_wp
+      !> Force of friction in the same axes, relative to the normal force [-]: of the last tangential
+      !> solution, or an estimate
+      real(wp) :: friction_share(3) = 0.0_wp
    end type patch_slot
 
-   !> Lateral to normal force that a tangential solution has found, and where
-   type :: learned_ratio
+   !> Force of friction relative to the normal force that a tangential solution has found, and where
+   type :: learned_share
       !> Lateral position [mm] and contact angle [rad]
       real(wp) :: y = 0.0_wp, alpha = 0.0_wp
-      real(wp) :: ratio = 0.0_wp
-   end type learned_ratio
+      real(wp) :: share(3) = 0.0_wp
+   end type learned_share
 
    !> Where the bodies are and what the search for contact found: what the patches of a trial share
    type :: pair_geometry
-      !> Ratios 1...ratios are known. They serve all trials until the next tangential solution, whether
+      !> Shares 1...shares are known. They serve all trials until the next tangential solution, whether
       !> patches come and go or not, so that the force is one function of the height
-      integer :: ratios = 0
-      type(learned_ratio) :: learned(most_patches)
+      integer :: shares = 0
+      type(learned_share) :: learned(most_patches)
       type(gap_curve) :: gap
       !> The rail at the wheelset
       type(profile_curve) :: rail_in_track
@@ -140,7 +143,7 @@ contains
       if (.not. problem%use_previous) then
          memory%slot%state%started = .false.
          memory%used = 0
-         memory%here%ratios = 0
+         memory%here%shares = 0
       end if
       result%solved = .false.
       result%force_evaluations = 0
@@ -271,7 +274,7 @@ contains
          ! the tangential problem at the height found corrects the lateral forces
          call evaluate(problem, memory, z, with_friction=.true., log=log, error=error)
          if (allocated(error)) return
-         call learn_ratios(memory)
+         call learn_shares(memory)
          force = vertical_force(memory)
          result%force_evaluations = result%force_evaluations + 1
          call trace_trial(log, result%force_evaluations, z, force, vertical_slope(memory))
@@ -361,7 +364,7 @@ contains
       force = 0.0_wp
       do k = 1, memory%used
          associate (slot => memory%slot(k))
-            force = force + (cos(slot%plane%roll()) + slot%ratio*sin(slot%plane%roll()))*slot%result%fn
+            force = force + dot_product(slot%plane%axes(3, :), slot%pressure_force + slot%friction_share*slot%result%fn)
          end associate
       end do
    end function vertical_force
@@ -374,8 +377,9 @@ contains
       slope = 0.0_wp
       do k = 1, memory%used
          associate (slot => memory%slot(k))
-            slope = slope + (cos(slot%plane%roll()) + slot%ratio*sin(slot%plane%roll()))*cos(slot%plane%roll()) &
-               & *slot%result%sensitivity(1, 1)
+            ! the normal force changes by the stiffness, the vertical one along with it
+            if (slot%result%fn > 0.0_wp) slope = slope + slot%plane%axes(3, 3)*slot%result%sensitivity(1, 1) &
+               & *dot_product(slot%plane%axes(3, :), slot%pressure_force/slot%result%fn + slot%friction_share)
          end associate
       end do
    end function vertical_slope
@@ -452,39 +456,40 @@ contains
       b = c
    end subroutine exchange
 
-   !> Lateral to normal force at a place: learned there, or that of full sliding down the slope
-   pure real(wp) function ratio_at(problem, here, slot) result(ratio)
+   !> Force of friction relative to the normal force at a place: learned there, or that of full sliding down the slope
+   pure function share_at(problem, here, slot) result(share)
       type(pair_problem), intent(in) :: problem
       type(pair_geometry), intent(in) :: here
       type(patch_slot), intent(in) :: slot
+      real(wp) :: share(3)
       integer :: k
       real(wp) :: nearest
 
-      ratio = 0.0_wp
+      share = 0.0_wp
       if (problem%template%motion == motion%none) return
-      ratio = slot%problem%mu*sin(slot%plane%roll())
+      share(2) = slot%problem%mu*sin(slot%plane%roll())
       nearest = same_place
-      do k = 1, here%ratios
+      do k = 1, here%shares
          associate (known => here%learned(k))
             if (abs(known%y - slot%plane%origin(2)) > nearest .or. abs(known%alpha - slot%plane%roll()) > same_angle) cycle
             nearest = abs(known%y - slot%plane%origin(2))
-            ratio = known%ratio
+            share = known%share
          end associate
       end do
-   end function ratio_at
+   end function share_at
 
-   !> Remember the lateral forces of all patches
-   subroutine learn_ratios(memory)
+   !> Remember the forces of friction of all patches
+   subroutine learn_shares(memory)
       type(pair_memory), intent(inout) :: memory
       integer :: k
 
-      memory%here%ratios = memory%used
+      memory%here%shares = memory%used
       do k = 1, memory%used
          associate (slot => memory%slot(k))
-            memory%here%learned(k) = learned_ratio(slot%plane%origin(2), slot%plane%roll(), slot%ratio)
+            memory%here%learned(k) = learned_share(slot%plane%origin(2), slot%plane%roll(), slot%friction_share)
          end associate
       end do
-   end subroutine learn_ratios
+   end subroutine learn_shares
 
    !> Grid, undeformed distance, creepages and solution of one patch
    subroutine solve_slot(problem, here, slot, with_friction, log, error)
@@ -520,7 +525,7 @@ contains
       if (allocated(error)) return
       call set_motion(problem, here, slot, approach)
       if (.not. with_friction) slot%problem%motion = motion%none
-      slot%ratio = ratio_at(problem, here, slot)
+      slot%friction_share = share_at(problem, here, slot)
       if (problem%geometry_only) return
 
       ! within a case, and from a previous case when asked for, the last solution is the estimate
@@ -531,8 +536,9 @@ contains
       if (allocated(error)) return
       call solve_patch(slot%problem, slot%state, slot%workspace, log, slot%result, error)
       if (allocated(error)) return
+      slot%pressure_force = [0.0_wp, 0.0_wp, slot%result%fn]
       if (with_friction .and. problem%template%motion /= motion%none .and. slot%result%fn > 0.0_wp) then
-         slot%ratio = slot%result%fy/slot%result%fn
+         slot%friction_share = [slot%result%fx, slot%result%fy, 0.0_wp]/slot%result%fn
       end if
    end subroutine solve_slot
 
