@@ -3,6 +3,8 @@
 Made by src/capi/make_interface.py from src/capi/interface.txt; change those.
 """
 
+VERSION = "0.1.0"
+
 #: Per routine its arguments: name, then > for a result, then i int, I ints, d double, D doubles, s text
 SIGNATURES = {
     "cntc_setfileunits": "nunits:i iunits:I",

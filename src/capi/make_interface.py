@@ -159,10 +159,17 @@ def fortran_interfaces(routines):
     return lines + ["", "end interface"]
 
 
+def version():
+    """Version of the project; the one place is src/cli/versions.f90"""
+    with open(os.path.join(TOP, "src/cli/versions.f90"), encoding="utf-8") as file:
+        return re.search(r'contact_version = "([0-9.]+)"', file.read()).group(1)
+
+
 def python_tables(constants, routines, undocumented):
     """Text of _signatures.py: what ctypes has to know"""
     codes = {("int", False): "i", ("int", True): "I", ("real", False): "d", ("real", True): "D", ("text", True): "s"}
     lines = ['"""Arguments of the routines of the library, and its named numbers.', "", ORIGIN, '"""', "",
+             f'VERSION = "{version()}"', "",
              "#: Per routine its arguments: name, then > for a result, then i int, I ints, d double, D doubles, s text",
              "SIGNATURES = {"]
     for _, items in routines + [("", undocumented)]:

@@ -1,0 +1,32 @@
+"""Rolling and sliding contact with friction, by the CONTACT library.
+
+:class:`Problem` is two bodies in contact, :class:`WheelRail` a wheel on a rail; :mod:`contact.cntc` has the
+routines of the library one by one. The library is loaded when it is first needed.
+"""
+from typing import TYPE_CHECKING, Any
+
+from ._signatures import VERSION as __version__
+from .errors import ContactError
+
+if TYPE_CHECKING:
+    from . import cntc
+    from ._element import Patch, Stresses, output_to
+    from .problem import Problem, Result
+    from .wheel_rail import Forces, WheelRail, WheelRailPatch, WheelRailResult, Wrench
+
+__all__ = ["ContactError", "Forces", "Patch", "Problem", "Result", "Stresses", "WheelRail", "WheelRailPatch",
+           "WheelRailResult", "Wrench", "cntc", "output_to"]
+
+_HOMES = {"Patch": "_element", "Stresses": "_element", "output_to": "_element", "Problem": "problem",
+          "Result": "problem", "WheelRail": "wheel_rail", "WheelRailPatch": "wheel_rail",
+          "WheelRailResult": "wheel_rail", "Forces": "wheel_rail", "Wrench": "wheel_rail"}
+
+
+def __getattr__(name: str) -> Any:
+    """Import on demand, so that other parts of the package work without numpy and without the library"""
+    import importlib
+    if name in _HOMES:
+        return getattr(importlib.import_module(f".{_HOMES[name]}", __name__), name)
+    if name == "cntc":
+        return importlib.import_module(".cntc", __name__)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

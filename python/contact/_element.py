@@ -1,0 +1,305 @@
+"""What basic contact and wheel/rail contact have in common: a result element with its settings."""
+from __future__ import annotations
+
+import os
+import tempfile
+import threading
+import weakref
+from dataclasses import dataclass
+from types import TracebackType
+from typing import Any, Sequence, TypeVar
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import cntc
+from ._library import last_message
+from .cntc import CNTC
+from .errors import ContactError
+
+Field = NDArray[np.float64]
+_Self = TypeVar("_Self", bound="Element")
+
+_UNITS = {"mm": "un_cntc", "si": "un_si", "simpack": "un_spck"}
+_MOTIONS = {"frictionless": 0, "shift": 1, "transient": 2, "steady": 3}
+
+_lock = threading.Lock()
+_used: set[int] = set()
+_place: tuple[str, str] | None = None
+_temporary: tempfile.TemporaryDirectory[str] | None = None
+
+
+def output_to(folder: str | os.PathLike[str], name: str = "contact") -> None:
+    """Where the files of the following problems go: ``<name>.out`` with the log, ``.mat`` and ``.subs`` files.
+
+    Without this call they go to a temporary folder and are removed when Python ends. The ``.out`` file begins
+    anew when the first problem is made and when all problems were closed.
+
+    Raises
+    ------
+    ContactError
+        If problems are open, because their file is.
+    """
+    global _place
+    with _lock:
+        if _used:
+            raise ContactError("output_to has to come before the first problem, or after all are closed")
+        os.makedirs(folder, exist_ok=True)
+        _place = (os.path.abspath(os.fspath(folder)), name)
+
+
+def _output() -> tuple[str, str]:
+    """Folder and name of the log"""
+    global _temporary
+    if _place is not None:
+        return _place
+    if _temporary is None:
+        _temporary = tempfile.TemporaryDirectory(prefix="contact_")
+    return _temporary.name, "contact"
+
+
+def _take_number(module: int) -> int:
+    """A result element that nobody uses, from the upper end; callers of cntc take theirs from the lower"""
+    with _lock:
+        number = next((number for number in range(999, 0, -1) if number not in _used), None)
+        if number is None:
+            raise ContactError("There are 999 open problems already; close some")
+        if not _used:
+            folder, name = _output()
+            code = cntc.initlibrary(outdir=folder, expnam=name, idebug=0)[2]
+            fail_if(code != 0, code, "The library cannot be started")
+            cntc.setglobalflags(CNTC["if_idebug"], 0)
+        code = cntc.initialize(number, module, idebug=0)[1]
+        fail_if(code != 0, code, "No further problem can be made; close some")
+        _used.add(number)
+    return number
+
+
+def _give_back(number: int) -> None:
+    """Free a result element"""
+    with _lock:
+        cntc.finalize(number)
+        _used.discard(number)
+
+
+def fail_if(condition: bool, code: int, what: str) -> None:
+    """Raise ContactError with the meaning of the code and the last message of the library"""
+    if condition:
+        message = last_message()
+        raise ContactError(f"{what}: {cntc.meaning(code)}" + (f"\n{message}" if message else ""), code)
+
+
+@dataclass(frozen=True)
+class Patch:
+    """Results of one contact patch. Units as chosen for the problem; fields have shape (my, mx).
+
+    Attributes
+    ----------
+    x, y
+        Centres of the columns (mx,) and rows (my,) of elements [L].
+    dx, dy
+        Sides of an element [L].
+    fn, fx, fy, mz
+        Normal force, tangential forces [F], spin moment [F L].
+    approach
+        Approach of the bodies [L].
+    cksi, ceta, cphi
+        Creepages [-], [-], [A/L]; shifts [L], [L], [A].
+    contact_area, adhesion_area, slip_area
+        Areas [L2].
+    state
+        0 exterior, 1 adhesion, 2 slip, 3 plastic.
+    pn, px, py
+        Pressure and tangential tractions [F/L2].
+    un, ux, uy
+        Displacement differences [L].
+    sx, sy
+        Micro-slip [-]; shift distance in mm when the motion is a shift.
+    distance
+        Undeformed distance [L].
+    friction
+        Friction coefficient [-].
+    """
+
+    x: Field
+    y: Field
+    dx: float
+    dy: float
+    fn: float
+    fx: float
+    fy: float
+    mz: float
+    approach: float
+    cksi: float
+    ceta: float
+    cphi: float
+    contact_area: float
+    adhesion_area: float
+    slip_area: float
+    state: NDArray[np.intc]
+    pn: Field
+    px: Field
+    py: Field
+    un: Field
+    ux: Field
+    uy: Field
+    sx: Field
+    sy: Field
+    distance: Field
+    friction: Field
+
+    @property
+    def max_pressure(self) -> float:
+        """Largest pressure [F/L2]."""
+        return float(self.pn.max(initial=0.0))
+
+    @property
+    def max_traction(self) -> float:
+        """Largest tangential traction [F/L2]."""
+        return float(np.hypot(self.px, self.py).max(initial=0.0))
+
+
+def read_patch(ire: int, icp: int) -> Patch:
+    """All results of a patch, copied from the library"""
+    mx, my, x, y, dx, dy = cntc.getpotcontact(ire, icp)
+    fn, fx, fy, mz = cntc.getcontactforces(ire, icp)
+    areas = cntc.getcontactpatchareas(ire, icp)
+    pn, px, py = cntc.gettractions(ire, icp)
+    un, ux, uy = cntc.getdisplacements(ire, icp)
+    sx, sy = cntc.getmicroslip(ire, icp)
+    return Patch(x + dx * np.arange(mx), y + dy * np.arange(my), dx, dy, fn, fx, fy, mz,
+                 cntc.getpenetration(ire, icp), *cntc.getcreepages(ire, icp), *areas[:3],
+                 cntc.getelementdivision(ire, icp), pn, px, py, un, ux, uy, sx, sy,
+                 cntc.getfielddata(ire, icp, CNTC["fld_h"]), cntc.getfielddata(ire, icp, CNTC["fld_mu"]))
+
+
+@dataclass(frozen=True)
+class Stresses:
+    """Displacements and stresses in a block of points; arrays have shape (nz, ny, nx).
+
+    Attributes
+    ----------
+    x, y, z
+        Coordinates (nx,), (ny,), (nz,) in the directions of the contact, z the depth [L].
+    ux, uy, uz
+        Displacements [L].
+    hydrostatic, von_mises, tresca
+        Invariants of the stress [F/L2].
+    principal
+        Principal stresses, shape (3, nz, ny, nx) [F/L2].
+    tensor
+        Stress tensor, shape (3, 3, nz, ny, nx) [F/L2].
+    """
+
+    x: Field
+    y: Field
+    z: Field
+    ux: Field
+    uy: Field
+    uz: Field
+    hydrostatic: Field
+    von_mises: Field
+    tresca: Field
+    principal: Field
+    tensor: Field
+
+
+def read_stresses(ire: int, icp: int, block: int) -> Stresses:
+    """Results of a block, copied from the library"""
+    nx, ny, nz = cntc.subs_getblocksize(ire, icp, block)
+    fail_if(min(nx, ny, nz) < 0, CNTC["err_other"], f"There are no stresses of block {block}")
+    values = cntc.subs_getresults(ire, icp, block, range(1, 22)).reshape(21, nz, ny, nx)
+    # The tensor comes by columns: xx, yx, zx, xy, ...
+    tensor = values[12:21].reshape(3, 3, nz, ny, nx).swapaxes(0, 1)
+    return Stresses(values[0, 0, 0, :], values[1, 0, :, 0], values[2, :, 0, 0], *values[3:9], values[9:12], tensor)
+
+
+class Element:
+    """A result element; base of :class:`Problem` and :class:`WheelRail`.
+
+    It is freed by :meth:`close`, or at the end of a ``with`` block.
+    """
+
+    _module: int
+    _icp: int
+
+    def __init__(self, motion: str, units: str) -> None:
+        if units not in _UNITS:
+            raise ValueError(f"units = {units!r} is none of {', '.join(_UNITS)}")
+        if motion not in _MOTIONS:
+            raise ValueError(f"motion = {motion!r} is none of {', '.join(_MOTIONS)}")
+        self._number = _take_number(self._module)
+        # Called once: by close, when nobody refers to this object any more, or when Python ends
+        self._release = weakref.finalize(self, _give_back, self._number)
+        self.units = units
+        self.motion = motion
+        self.set_flags(if_units=CNTC[_UNITS[units]], ic_tang=_MOTIONS[motion], ic_pvtime=2, ic_output=0, ic_flow=0)
+
+    def __enter__(self: _Self) -> _Self:
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None,
+                 trace: TracebackType | None) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Free the memory of the library; the results that were returned stay valid."""
+        self._release()
+
+    @property
+    def number(self) -> int:
+        """Number of the result element, for use with :mod:`contact.cntc`."""
+        if not self._release.alive:
+            raise ContactError("This problem is closed")
+        return self._number
+
+    def set_flags(self, **flags: int) -> None:
+        """Flags and control digits by their names in :data:`contact.cntc.CNTC`, for instance ``ic_bound=4``."""
+        unknown = [name for name in flags if name not in CNTC]
+        if unknown:
+            raise ValueError(f"there is no flag {', '.join(unknown)}")
+        cntc.setflags(self.number, self._icp, [CNTC[name] for name in flags], list(flags.values()))
+
+    def set_material(self, g: float, nu: float, g2: float | None = None, nu2: float | None = None,
+                     model: int = 0, parameters: Sequence[float] = ()) -> None:
+        """Elastic bodies.
+
+        Parameters
+        ----------
+        g, nu
+            Modulus of rigidity [F/L2] and Poisson ratio [-] of body 1: the upper body, the rail.
+        g2, nu2
+            Those of body 2, default the same.
+        model, parameters
+            M digit and the numbers it asks for beyond the elastic ones.
+        """
+        values = [nu, nu if nu2 is None else nu2, g, g if g2 is None else g2, *parameters]
+        cntc.setmaterialparameters(self.number, self._icp, model, values)
+
+    def set_friction(self, coefficient: float) -> None:
+        """Coulomb friction with one coefficient [-]."""
+        self.set_friction_law(0, [coefficient, coefficient])
+
+    def set_friction_law(self, law: int, parameters: Sequence[float]) -> None:
+        """Friction law 10 V + L with its parameters, see doc/user/library.md."""
+        cntc.setfrictionmethod(self.number, self._icp, law, parameters)
+
+    def set_solver(self, eps: float = 1e-5, maxgs: int = 999, maxin: int = 100, maxnr: int = 30,
+                   maxout: int = 1) -> None:
+        """Tolerance [-] and limits of the iterations of the default solver (G = 0)."""
+        cntc.setsolverflags(self.number, self._icp, 0, [maxgs, maxin, maxnr, maxout], [eps])
+
+    def add_block(self, x: ArrayLike, y: ArrayLike, z: ArrayLike, block: int = 1) -> None:
+        """Points below the surface: all combinations of x, y and depths z [L]."""
+        cntc.subs_addblock(self.number, self._icp, block, 9, x, y, z)
+
+    def _calculate_stresses(self) -> None:
+        code = cntc.subs_calculate(self.number, self._icp, idebug=0)
+        fail_if(code != 0, code, "The stresses were not computed")
+
+    def _calculate(self, initiation: bool) -> int:
+        """Solve; the number of elements at the border"""
+        self.set_flags(ic_pvtime=2 if initiation else 0)
+        code: Any = cntc.calculate(self.number, self._icp, idebug=0)
+        fail_if(code < 0 or code == 305, code, "The problem was not solved")
+        return int(code)

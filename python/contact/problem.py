@@ -1,0 +1,172 @@
+"""Basic contact of two bodies (module 3)."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Callable
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from . import cntc
+from ._element import Element, Field, Patch, Stresses, fail_if, read_patch, read_stresses
+
+
+@dataclass(frozen=True)
+class Result(Patch):
+    """Results of a problem of basic contact: those of :class:`Patch` and
+
+    Attributes
+    ----------
+    border_elements
+        Number of elements in contact in the first and last rows and columns. Not zero means that the grid
+        may be too small.
+    """
+
+    border_elements: int
+
+
+class Problem(Element):
+    """Two bodies in contact, described by their distance.
+
+    Parameters
+    ----------
+    motion
+        ``"steady"`` rolling, ``"transient"`` rolling, ``"shift"`` or ``"frictionless"``.
+    units
+        ``"mm"`` (mm, N, forces on body 1), ``"si"`` (m, N, forces on body 1) or ``"simpack"`` (m, N, forces on
+        body 2).
+
+    Examples
+    --------
+    >>> with contact.Problem() as problem:
+    ...     problem.set_material(g=82000.0, nu=0.28)
+    ...     problem.set_friction(0.3)
+    ...     problem.set_hertz(21, 21, aa=5.0, bb=5.0)
+    ...     problem.set_normal_force(50e3)
+    ...     problem.set_creepages(0.001)
+    ...     result = problem.solve()
+    >>> result.pn.shape
+    (21, 21)
+    """
+
+    _module = 3
+    _icp = 1
+
+    def __init__(self, motion: str = "steady", units: str = "mm") -> None:
+        super().__init__(motion, units)
+        self._grid: tuple[Field, Field] | None = None
+
+    def set_hertz(self, mx: int, my: int, *, aa: float | None = None, bb: float | None = None,
+                  a1: float | None = None, b1: float | None = None, scale: float = 1.2) -> None:
+        """Bodies of constant curvature; the grid is made by the library.
+
+        Parameters
+        ----------
+        mx, my
+            Numbers of elements.
+        aa, bb
+            Semi-axes of the contact ellipse along x and y [L], or
+        a1, b1
+            curvatures of the distance a1 x**2 + b1 y**2 [1/L].
+        scale
+            Size of the grid relative to the ellipse.
+        """
+        if aa is not None and bb is not None and a1 is None and b1 is None:
+            cntc.sethertzcontact(self.number, 1, -3, [mx, my, aa, bb, scale])
+        elif a1 is not None and b1 is not None and aa is None and bb is None:
+            cntc.sethertzcontact(self.number, 1, -1, [mx, my, a1, b1, scale])
+        else:
+            raise ValueError("set_hertz needs either aa and bb or a1 and b1")
+        self._grid = None
+
+    def set_grid(self, mx: int, my: int, dx: float, dy: float, xl: float | None = None,
+                 yl: float | None = None) -> tuple[Field, Field]:
+        """Rectangular grid; to be followed by :meth:`set_distance`.
+
+        Parameters
+        ----------
+        mx, my
+            Numbers of elements.
+        dx, dy
+            Sides of an element [L].
+        xl, yl
+            Lower corner [L], default such that the origin is in the middle.
+
+        Returns
+        -------
+        Coordinates x (mx,) and y (my,) of the centres of elements [L].
+        """
+        xl = -0.5 * mx * dx if xl is None else xl
+        yl = -0.5 * my * dy if yl is None else yl
+        cntc.setpotcontact(self.number, 1, 1, [mx, my, xl, yl, dx, dy])
+        self._grid = (xl + dx * (np.arange(mx) + 0.5), yl + dy * (np.arange(my) + 0.5))
+        return self._grid
+
+    def set_distance(self, distance: ArrayLike | Callable[[Field, Field], ArrayLike]) -> None:
+        """Distance of the undeformed surfaces [L], positive where they are apart.
+
+        Parameters
+        ----------
+        distance
+            Array of shape (my, mx), or a function of x (1, mx) and y (my, 1) that gives it.
+        """
+        if self._grid is None:
+            raise ValueError("set_distance needs set_grid first")
+        x, y = self._grid
+        values = distance(x[np.newaxis, :], y[:, np.newaxis]) if callable(distance) else distance
+        values = np.broadcast_to(np.asarray(values, dtype=np.float64), (y.size, x.size))
+        cntc.setundeformeddistc(self.number, 1, 9, values)
+
+    def set_approach(self, pen: float) -> None:
+        """Approach of the bodies [L]."""
+        cntc.setpenetration(self.number, 1, pen)
+
+    def set_normal_force(self, fn: float) -> None:
+        """Normal force [F]."""
+        cntc.setnormalforce(self.number, 1, fn)
+
+    def set_creepages(self, cksi: float = 0.0, ceta: float = 0.0, cphi: float = 0.0) -> None:
+        """Creepages [-], [-], [A/L], or for a shift [L], [L], [A]."""
+        self.set_flags(ic_force=0)
+        cntc.setcreepages(self.number, 1, cksi, ceta, cphi)
+
+    def set_tangential_force(self, fx: float, fy: float | None = None, *, ceta: float = 0.0,
+                             cphi: float = 0.0) -> None:
+        """Tangential forces relative to the friction coefficient times the normal force [-].
+
+        Without fy, the lateral creepage ceta is given instead of the lateral force.
+        """
+        self.set_flags(ic_force=1 if fy is None else 2)
+        cntc.setcreepages(self.number, 1, 0.0, ceta, cphi)
+        cntc.settangentialforces(self.number, 1, fx, 0.0 if fy is None else fy)
+
+    def set_rolling(self, velocity: float, step: float | None = None, direction: float = 0.0) -> None:
+        """Rolling velocity [V], step dq [L] (default that of the library) and direction [A]."""
+        cntc.setreferencevelocity(self.number, 1, velocity)
+        if step is not None:
+            cntc.setrollingstepsize(self.number, 1, direction, step)
+        elif direction != 0.0:
+            raise ValueError("a direction needs a step")
+
+    def solve(self, initiation: bool = True) -> Result:
+        """Solve the problem.
+
+        Parameters
+        ----------
+        initiation
+            Whether the bodies meet for the first time. False continues from the previous solution, in shifts
+            and transient rolling.
+
+        Raises
+        ------
+        ContactError
+            If there is no solution; with the code and the text of the library.
+        """
+        border = self._calculate(initiation)
+        return Result(**read_patch(self.number, 1).__dict__, border_elements=border)
+
+    def stresses(self, block: int = 1) -> Stresses:
+        """Stresses in the points of :meth:`add_block`, below the tractions of the last solution."""
+        fail_if(block < 1, -99, f"There is no block {block}")
+        self._calculate_stresses()
+        return read_stresses(self.number, 1, block)

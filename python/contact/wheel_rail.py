@@ -1,0 +1,232 @@
+"""Wheel on rail or on roller (module 1)."""
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from typing import Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from . import cntc
+from ._element import Element, Field, Patch, Stresses, fail_if, read_patch, read_stresses
+
+_SIDES = {("left", False): 0, ("right", False): 1, ("left", True): 4, ("right", True): 5}
+
+
+@dataclass(frozen=True)
+class Wrench:
+    """Force (3,) [F] and moment (3,) [F L] about a marker."""
+
+    force: Field
+    moment: Field
+
+
+@dataclass(frozen=True)
+class Forces:
+    """Total forces on the output body: the rail, or the wheel with ``units="simpack"``.
+
+    Attributes
+    ----------
+    track, rail
+        About the rail marker, in the directions of the track and of the rail.
+    wheelset, wheel
+        About the wheel marker, in the directions of the wheelset and of the wheel.
+    """
+
+    track: Wrench
+    wheelset: Wrench
+    rail: Wrench
+    wheel: Wrench
+
+
+@dataclass(frozen=True)
+class WheelRailPatch(Patch):
+    """Results of one patch: those of :class:`Patch` and
+
+    Attributes
+    ----------
+    position
+        Contact reference point in the track system, shape (3,) [L].
+    angle
+        Its inclination about the x axis of the track [A].
+    location
+        All 38 numbers of ``cntc_getcontactlocation``.
+    velocity
+        Reference velocity [V].
+    """
+
+    position: Field
+    angle: float
+    location: Field
+    velocity: float
+
+
+@dataclass(frozen=True)
+class WheelRailResult:
+    """Results of a wheel on a rail.
+
+    Attributes
+    ----------
+    patches
+        The contact patches; empty when wheel and rail do not touch.
+    forces
+        Sum over the patches.
+    wheelset_position
+        s, y, z [L], roll, yaw, pitch [A]; z solved for when the vertical force is given. Shape (6,).
+    wheelset_velocity
+        vs, vy, vz [V], rates of roll, yaw, pitch [A/T]. Shape (6,).
+    """
+
+    patches: tuple[WheelRailPatch, ...]
+    forces: Forces
+    wheelset_position: Field
+    wheelset_velocity: Field
+
+
+class WheelRail(Element):
+    """A wheel on a rail, described by profiles, track and wheelset.
+
+    Parameters
+    ----------
+    side
+        ``"right"`` or ``"left"``.
+    roller
+        Whether the wheel runs on a roller.
+    motion, units
+        As for :class:`contact.Problem`.
+    """
+
+    _module = 1
+    _icp = -1
+
+    def __init__(self, side: str = "right", *, roller: bool = False, motion: str = "steady",
+                 units: str = "mm") -> None:
+        if (side, roller) not in _SIDES:
+            raise ValueError(f"side = {side!r} is neither 'left' nor 'right'")
+        super().__init__(motion, units)
+        self.side = side
+        self.set_flags(ic_config=_SIDES[side, roller])
+
+    def set_grid(self, dx: float, ds: float, *, a_sep: float = np.pi / 2, d_sep: float | None = None,
+                 d_comb: float | None = None, step: float = 1.0) -> None:
+        """Elements and the rules by which patches are separated.
+
+        Parameters
+        ----------
+        dx, ds
+            Sides of an element along and across the rail [L].
+        a_sep
+            Angle between patches that stay apart [A].
+        d_sep, d_comb
+            Distances beyond which patches are solved apart, below which together [L]; default 8 and 4 mm.
+        step
+            Rolling step relative to dx [-].
+        """
+        millimetre = 1.0 if self.units == "mm" else 1e-3
+        cntc.setpotcontact(self.number, -1, -1, [dx, ds, a_sep, 8 * millimetre if d_sep is None else d_sep,
+                                                 4 * millimetre if d_comb is None else d_comb])
+        cntc.setrollingstepsize(self.number, -1, 0.0, step)
+
+    def set_rail(self, profile: str | os.PathLike[str] | ArrayLike, scale: float = 1.0, smooth: float = 0.0) -> None:
+        """Rail profile: a file, or an array of y, z of shape (n, 2) with z down; scale is the factor to mm."""
+        self._set_profile(0, profile, scale, smooth)
+
+    def set_wheel(self, profile: str | os.PathLike[str] | ArrayLike, scale: float = 1.0, smooth: float = 0.0) -> None:
+        """Wheel profile: a file, or an array of y, z of shape (n, 2) with z down; scale is the factor to mm."""
+        self._set_profile(1, profile, scale, smooth)
+
+    def _set_profile(self, kind: int, profile: str | os.PathLike[str] | ArrayLike, scale: float,
+                     smooth: float) -> None:
+        what = ("rail", "wheel")[kind]
+        if isinstance(profile, (str, os.PathLike)):
+            cntc.setprofileinputfname(self.number, os.path.abspath(profile), [kind], [scale, smooth])
+        else:
+            cntc.setprofileinputvalues(self.number, profile, [kind], [scale, smooth])
+        state, detail = cntc.getprofilevalues(self.number, -1, [kind, 0])
+        fail_if(state != 0, state, f"The profile of the {what} cannot be used (detail {detail})")
+
+    def set_track(self, gauge_height: float, gauge_width: float, cant: float = 0.0, *, gauge_sequence: int = 0,
+                  roller_radius: float = 0.0, deviation: Sequence[float] = (0.0,) * 6) -> None:
+        """Track, with the rail placed by its gauge point.
+
+        Parameters
+        ----------
+        gauge_height
+            Height at which the gauge is measured, below the top of the rail [L], positive.
+        gauge_width
+            Distance between the gauge points of both rails [L].
+        cant
+            Inclination of the rail [A].
+        gauge_sequence
+            Which of several gauge faces counts; 0, 1 the innermost.
+        roller_radius
+            Nominal radius of a roller [L].
+        deviation
+            dy, dz [L], roll [A] of the rail and their rates [V], [V], [A/T].
+        """
+        if not gauge_height > 0.0:
+            raise ValueError("gauge_height has to be positive; set_rail_position places a rail without gauge point")
+        cntc.settrackdimensions(self.number, 3, [gauge_height, gauge_sequence, gauge_width, cant, roller_radius,
+                                                 *deviation])
+
+    def set_rail_position(self, y: float, z: float, cant: float = 0.0, *, roller_radius: float = 0.0,
+                          deviation: Sequence[float] = (0.0,) * 6) -> None:
+        """Track, with the origin of the rail profile placed at y, z [L] of the track system."""
+        cntc.settrackdimensions(self.number, 3, [-1.0, y, z, cant, roller_radius, *deviation])
+
+    def set_wheelset(self, flange_back: float, flange_back_position: float, radius: float) -> None:
+        """Distance between the backs of the flanges, lateral coordinate of the back in the profile, radius [L]."""
+        cntc.setwheelsetdimensions(self.number, 3, [flange_back, flange_back_position, radius])
+
+    def set_position(self, s: float = 0.0, y: float = 0.0, z: float | None = None, roll: float = 0.0,
+                     yaw: float = 0.0, pitch: float = 0.0) -> None:
+        """Position of the wheelset [L], [A]. A height z replaces the vertical force; without it, z is solved for."""
+        cntc.setwheelsetposition(self.number, 1, [s, y, 0.0 if z is None else z, roll, yaw, pitch])
+        if z is not None:
+            self.set_flags(ic_norm=0)
+
+    def set_velocity(self, vs: float, vy: float = 0.0, vz: float = 0.0, roll: float = 0.0, yaw: float = 0.0,
+                     pitch: float = 0.0) -> None:
+        """Velocity of the wheelset [V] and its rates [A/T]; rolling forward has a negative rate of pitch."""
+        cntc.setwheelsetvelocity(self.number, 2, [vs, vy, vz, roll, yaw, pitch])
+
+    def set_flexibility(self, position: Sequence[float], velocity: Sequence[float] = (0.0,) * 6) -> None:
+        """Deviation of the wheel from the rigid wheelset: dx, dy, dz, roll, yaw, pitch and their rates."""
+        cntc.setwheelsetflexibility(self.number, 5, [*position, *velocity])
+
+    def set_vertical_force(self, fz: float) -> None:
+        """Vertical force on the contact [F]."""
+        cntc.setverticalforce(self.number, fz)
+
+    def solve(self, initiation: bool = True) -> WheelRailResult:
+        """Find the contact patches and solve them.
+
+        Parameters
+        ----------
+        initiation
+            False continues from the previous solution.
+
+        Raises
+        ------
+        ContactError
+            If there is no solution; with the code and the text of the library.
+        """
+        self._calculate(initiation)
+        number = self.number
+        patches = tuple(self._patch(icp) for icp in range(1, cntc.getnumcontactpatches(number) + 1))
+        values = cntc.getglobalforces(number, -1).reshape(4, 2, 3)
+        forces = Forces(*(Wrench(force, moment) for force, moment in values))
+        return WheelRailResult(patches, forces, cntc.getwheelsetposition(number), cntc.getwheelsetvelocity(number))
+
+    def _patch(self, icp: int) -> WheelRailPatch:
+        """Results of one patch, copied"""
+        location = cntc.getcontactlocation(self.number, icp)
+        return WheelRailPatch(**read_patch(self.number, icp).__dict__, position=location[:3], angle=location[3],
+                              location=location, velocity=cntc.getreferencevelocity(self.number, icp))
+
+    def stresses(self, block: int = 1) -> tuple[Stresses, ...]:
+        """Stresses in the points of :meth:`add_block`, one entry per contact patch."""
+        self._calculate_stresses()
+        count = cntc.getnumcontactpatches(self.number)
+        return tuple(read_stresses(self.number, icp, block) for icp in range(1, count + 1))
