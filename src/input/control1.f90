@@ -13,7 +13,7 @@ module contact_input_control1
    implicit none (type, external)
    private
 
-   public :: read_control_words1, check_digits1
+   public :: read_control_words1, check_digits1, name_choices1
 
 contains
 

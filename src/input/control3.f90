@@ -10,7 +10,7 @@ module contact_input_control3
    implicit none (type, external)
    private
 
-   public :: control_words, read_control_words, check_digits, refuse_unbuilt_digits, add_for_digit
+   public :: control_words, read_control_words, check_digits, name_choices, refuse_unbuilt_digits, add_for_digit
    public :: check_signs, start_sequence, check_kept, check_physics
 
    !> The words with their places, for messages

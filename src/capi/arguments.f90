@@ -1,0 +1,154 @@
+!> Arguments of C callers: absent ones, lengths that may be anything, texts without a length
+!>
+!> A null pointer of C is an absent optional argument here. What is absent has no elements and no
+!> value, so that no entry has to look at pointers itself.
+module contact_capi_arguments
+   use, intrinsic :: ieee_arithmetic, only : ieee_quiet_nan, ieee_value
+   use, intrinsic :: iso_c_binding, only : c_char, c_double, c_int, c_null_char
+   use contact_base_kinds, only : wp
+   implicit none (type, external)
+   private
+
+   public :: no_number, integer_of, real_of, count_of, text_of, path_of, integers_of, reals_of
+   public :: give, give_list, give_zeros
+
+   !> Stands for an integer that was not given; no code, index or count is that large
+   integer, parameter :: no_number = -huge(1)
+   !> Longest text that is copied
+   integer, parameter :: longest_text = 256
+
+   interface give
+      module procedure give_integer
+      module procedure give_real
+   end interface give
+
+   interface give_list
+      module procedure give_integers
+      module procedure give_reals
+   end interface give_list
+
+contains
+
+   !> An integer, or no_number
+   pure integer function integer_of(argument) result(value)
+      integer(c_int), intent(in), optional :: argument
+
+      value = no_number
+      if (present(argument)) value = argument
+   end function integer_of
+
+   !> A number, not a number when it was not given
+   pure real(wp) function real_of(argument) result(value)
+      real(c_double), intent(in), optional :: argument
+
+      value = ieee_value(1.0_wp, ieee_quiet_nan)
+      if (present(argument)) value = argument
+   end function real_of
+
+   !> Length of an array that is usable: 0 when negative or when length or array are absent
+   pure integer function count_of(length, is_there) result(n)
+      integer(c_int), intent(in), optional :: length
+      logical, intent(in) :: is_there
+
+      n = 0
+      if (present(length) .and. is_there) n = max(0, length)
+   end function count_of
+
+   !> A text up to its length, a null character or 256 letters; without blanks around
+   pure function text_of(letters, length) result(text)
+      character(kind=c_char), intent(in), optional :: letters(*)
+      integer(c_int), intent(in), optional :: length
+      character(len=:), allocatable :: text
+      integer :: i, n
+
+      text = ""
+      n = min(longest_text, count_of(length, present(letters)))
+      do i = 1, n
+         if (letters(i) == c_null_char) exit
+         text = text // letters(i)
+      end do
+      text = trim(adjustl(text))
+   end function text_of
+
+   !> The name of a file or folder, with the separators of this platform
+   pure function path_of(letters, length) result(path)
+      character(kind=c_char), intent(in), optional :: letters(*)
+      integer(c_int), intent(in), optional :: length
+      character(len=:), allocatable :: path
+      integer :: i
+
+      path = text_of(letters, length)
+      do i = 1, len(path)
+         if (path(i:i) == "\") path(i:i) = "/"
+      end do
+   end function path_of
+
+   !> The elements of an array of integers
+   pure function integers_of(length, array) result(list)
+      integer(c_int), intent(in), optional :: length, array(*)
+      integer, allocatable :: list(:)
+
+      allocate(list(count_of(length, present(array))))
+      if (size(list) > 0) list = array(:size(list))
+   end function integers_of
+
+   !> The elements of an array of numbers
+   pure function reals_of(length, array) result(list)
+      integer(c_int), intent(in), optional :: length
+      real(c_double), intent(in), optional :: array(*)
+      real(wp), allocatable :: list(:)
+
+      allocate(list(count_of(length, present(array))))
+      if (size(list) > 0) list = array(:size(list))
+   end function reals_of
+
+   !> Hand over one integer
+   pure subroutine give_integer(value, argument)
+      integer, intent(in) :: value
+      integer(c_int), intent(inout), optional :: argument
+
+      if (present(argument)) argument = int(value, c_int)
+   end subroutine give_integer
+
+   !> Hand over one number
+   pure subroutine give_real(value, argument)
+      real(wp), intent(in) :: value
+      real(c_double), intent(inout), optional :: argument
+
+      if (present(argument)) argument = real(value, c_double)
+   end subroutine give_real
+
+   !> Hand over as many integers as there is room for
+   pure subroutine give_integers(list, length, array)
+      integer, intent(in) :: list(:)
+      integer(c_int), intent(in), optional :: length
+      integer(c_int), intent(inout), optional :: array(*)
+      integer :: n
+
+      n = min(size(list), count_of(length, present(array)))
+      if (n > 0) array(:n) = int(list(:n), c_int)
+   end subroutine give_integers
+
+   !> Hand over as many numbers as there is room for
+   pure subroutine give_reals(list, length, array)
+      real(wp), intent(in) :: list(:)
+      integer(c_int), intent(in), optional :: length
+      real(c_double), intent(inout), optional :: array(*)
+      integer :: n
+
+      n = min(size(list), count_of(length, present(array)))
+      if (n > 0) array(:n) = real(list(:n), c_double)
+   end subroutine give_reals
+
+   !> Fill the room behind the first elements with zeros
+   pure subroutine give_zeros(first, length, array)
+      !> First element to be filled
+      integer, intent(in) :: first
+      integer(c_int), intent(in), optional :: length
+      real(c_double), intent(inout), optional :: array(*)
+      integer :: n
+
+      n = count_of(length, present(array))
+      if (n >= first) array(first:n) = 0.0_c_double
+   end subroutine give_zeros
+end module contact_capi_arguments

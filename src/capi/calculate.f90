@@ -1,0 +1,70 @@
+!> Entries that calculate
+module contact_capi_calculate
+   use, intrinsic :: iso_c_binding, only : c_int
+   use omp_lib, only : omp_get_max_threads, omp_set_num_threads
+   use contact_base_error, only : error_type
+   use contact_base_log, only : log_type
+   use contact_capi_arguments, only : give, integer_of
+   use contact_capi_calculate3, only : calculate_contact
+   use contact_capi_problem, only : library_problem
+   use contact_capi_registry, only : complain, enter_calculation, entry_type, forget_complaint, leave_calculation, say, &
+      & scope, scope_type, threads_inside
+   use contact_control_library_codes, only : code_text, library_code
+   implicit none (type, external)
+   private
+
+   public :: cntc_calculate, cntc_calculate1, cntc_calculate3
+
+contains
+
+   !> Solve what the settings say: a contact problem, or wheel and rail as a whole
+   subroutine cntc_calculate(ire, icp, ierror) bind(c)
+      integer(c_int), intent(in), optional :: ire, icp
+      integer(c_int), intent(inout), optional :: ierror
+
+      call calculate(entry_type("cntc_calculate", integer_of(ire), integer_of(icp)), scope%settings, ierror)
+   end subroutine cntc_calculate
+
+   !> The same for wheel and rail only
+   subroutine cntc_calculate1(ire, ierror) bind(c)
+      integer(c_int), intent(in), optional :: ire
+      integer(c_int), intent(inout), optional :: ierror
+
+      call calculate(entry_type("cntc_calculate1", integer_of(ire)), scope%pair, ierror)
+   end subroutine cntc_calculate1
+
+   !> The same for contact problems only
+   subroutine cntc_calculate3(ire, icp, ierror) bind(c)
+      integer(c_int), intent(in), optional :: ire, icp
+      integer(c_int), intent(inout), optional :: ierror
+
+      call calculate(entry_type("cntc_calculate3", integer_of(ire), integer_of(icp)), scope%contact, ierror)
+   end subroutine cntc_calculate3
+
+   !> Find the problem, solve it on the threads that are allowed, tell how it ended
+   subroutine calculate(this, allowed, ierror)
+      type(entry_type), intent(in) :: this
+      type(scope_type), intent(in) :: allowed
+      integer(c_int), intent(inout), optional :: ierror
+      type(library_problem), pointer :: problem
+      integer :: code, threads
+
+      call enter_calculation(this, allowed, problem, code)
+      if (associated(problem)) then
+         call forget_complaint(problem)
+         call say(1, this, "calculating...")
+         threads = omp_get_max_threads()
+         call omp_set_num_threads(threads_inside())
+         call problem%watch%start()
+         call problem%total%start()
+         call calculate_contact(this, problem, code)
+         call problem%total%halt()
+         call problem%watch%halt()
+         call omp_set_num_threads(threads)
+         if (code > 0) call say(1, this, code_text(code))
+         call say(1, this, "done...")
+         call leave_calculation(problem)
+      end if
+      call give(code, ierror)
+   end subroutine calculate
+end module contact_capi_calculate

@@ -1,0 +1,210 @@
+!> A contact problem of a caller from its settings to its results and files (module 3)
+module contact_capi_calculate3
+   use contact_base_choices, only : estimate_choice, motion, slip_source, time_link
+   use contact_base_error, only : error_type, fatal_error, full_text
+   use contact_base_kinds, only : wp
+   use contact_base_log, only : log_type
+   use contact_base_solve_report, only : failure_text
+   use contact_capi_problem, only : library_problem
+   use contact_capi_registry, only : complain, entry_type, library_log, result_file, say, working_folder
+   use contact_cases_session, only : solve_case
+   use contact_cases_spec, only : case_spec
+   use contact_control_library_codes, only : library_code
+   use contact_grid_element_division, only : element
+   use contact_grid_potential_contact, only : potential_contact
+   use contact_input_checks3, only : case_lines, check_case
+   use contact_input_control3, only : check_physics, control_words, name_choices, refuse_unbuilt_digits
+   use contact_input_grid3, only : grid_frame
+   use contact_input_problems, only : problem_list, severity
+   use contact_output_mat_file, only : write_mat_file
+   use contact_output_report, only : write_case
+   use contact_patch_result, only : patch_result
+   implicit none (type, external)
+   private
+
+   public :: calculate_contact, first_problem
+
+contains
+
+   !> One case
+   subroutine calculate_contact(this, problem, code)
+      type(entry_type), intent(in) :: this
+      type(library_problem), intent(inout) :: problem
+      !> Member of library_code, or the number of elements in contact at the border
+      integer, intent(out) :: code
+      type(error_type), allocatable :: error
+      type(log_type) :: log
+
+      log = library_log()
+      problem%cases = problem%cases + 1
+      call choose(this, problem)
+      call write_case_line(log, problem)
+      call check_settings(problem%spec, error)
+      if (allocated(error)) then
+         code = library_code%other
+      else
+         call solve_case(problem%session, problem%spec, log, problem%result, error, working_folder())
+         code = library_code%other
+         if (allocated(error)) then
+            if (.not. continues(problem)) code = library_code%discretisation
+         end if
+      end if
+      if (allocated(error)) then
+         call complain(this, full_text(error), code)
+         return
+      end if
+      if (problem%spec%solve) then
+         problem%has_result = .true.
+         call keep_solution(problem)
+         call write_results(this, problem, log)
+      end if
+      call judge(this, problem, code)
+   end subroutine calculate_contact
+
+   !> From digits to choices; a first case has nothing to continue
+   subroutine choose(this, problem)
+      type(entry_type), intent(in) :: this
+      type(library_problem), intent(inout) :: problem
+
+      associate (spec => problem%spec)
+         if (.not. problem%has_result) then
+            if (spec%digits%p /= 2) call say(1, this, "the first case starts a new sequence, P = 2")
+            spec%digits%p = 2
+            spec%digits%i = 0
+         end if
+         call name_choices(spec)
+         if (spec%digits%e == slip_source%keep) spec%slip_source = slip_source%given
+         spec%new_grid = .true.
+         spec%new_geometry = .true.
+      end associate
+   end subroutine choose
+
+   !> Line that opens a case
+   subroutine write_case_line(log, problem)
+      type(log_type), intent(inout) :: log
+      type(library_problem), intent(in) :: problem
+      character(len=80) :: line
+
+      if (problem%spec%output_level < 1) return
+      write(line, '(a, i6, a, i3, a, i3)') " Case", problem%cases, " for contact problem", problem%icp, &
+         & " on result element", problem%ire
+      call log%line("")
+      call log%line(trim(line))
+   end subroutine write_case_line
+
+   !> Refuse combinations that cannot be solved, by name
+   subroutine check_settings(spec, error)
+      type(case_spec), intent(in) :: spec
+      type(error_type), allocatable, intent(out) :: error
+      type(problem_list) :: problems
+      type(control_words) :: words
+
+      call problems%start("")
+      call check_physics(words, spec, problems)
+      call check_case(words, case_lines(), spec, .false., grid_frame(), spec, problems)
+      call refuse_unbuilt_digits(words, spec, problems)
+      call first_problem(problems, error)
+   end subroutine check_settings
+
+   !> The first problem that is not a warning, as an error
+   subroutine first_problem(problems, error)
+      type(problem_list), intent(in) :: problems
+      type(error_type), allocatable, intent(out) :: error
+      integer :: k
+
+      do k = 1, problems%count
+         if (problems%items(k)%severity == severity%warning) cycle
+         call fatal_error(error, problems%items(k)%what%message, problems%items(k)%what%kind)
+         return
+      end do
+   end subroutine first_problem
+
+   !> Does the grid of a case that was refused go with the one of the previous case?
+   pure logical function continues(problem)
+      type(library_problem), intent(in) :: problem
+      real(wp), parameter :: same_side = 1.0e-4_wp, same_place = 1.0e-3_wp
+      real(wp) :: shift(2)
+
+      continues = .true.
+      if (.not. problem%has_result) return
+      if (problem%spec%link == time_link%initiate .and. problem%spec%estimate == estimate_choice%fresh) return
+      associate (new => problem%session%problem%grid, old => problem%result%grid)
+         if (.not. problem%session%problem%has_geometry) return
+         shift = [(new%xl - old%xl)/new%dx, (new%yl - old%yl)/new%dy]
+         continues = abs(new%dx - old%dx) <= same_side*old%dx .and. abs(new%dy - old%dy) <= same_side*old%dy .and. &
+            & all(abs(shift - anint(shift)) <= same_place)
+      end associate
+   end function continues
+
+   !> What was found becomes what is stored, as callers of the published interface expect
+   subroutine keep_solution(problem)
+      type(library_problem), intent(inout) :: problem
+
+      associate (result => problem%result, kinematics => problem%spec%kinematics, rolling => problem%spec%rolling)
+         kinematics%pen = result%pen
+         kinematics%fn = result%fn
+         rolling%chi = result%chi
+         rolling%dq = result%dq
+         rolling%veloc = result%veloc
+         if (problem%spec%motion == motion%none) return
+         kinematics%fx = result%fx_rel
+         kinematics%fy = result%fy_rel
+         kinematics%cksi = result%cksi
+         kinematics%ceta = result%ceta
+      end associate
+   end subroutine keep_solution
+
+   !> Printed output and the file with all elements
+   subroutine write_results(this, problem, log)
+      type(entry_type), intent(in) :: this
+      type(library_problem), intent(in) :: problem
+      type(log_type), intent(inout) :: log
+      type(error_type), allocatable :: error
+      character(len=40) :: name
+
+      !$omp critical (contact_printing)
+      call write_case(log, problem%spec, problem%result)
+      !$omp end critical (contact_printing)
+      if (problem%spec%mat_file < 1) return
+      write(name, '("caddon_re", i3.3, "_cp", i1, ".", i0.4, ".mat")') problem%ire, problem%icp, problem%cases
+      call write_mat_file(result_file(trim(name)), problem%spec, problem%result, error)
+      if (allocated(error)) call complain(this, full_text(error))
+   end subroutine write_results
+
+   !> How it ended: solvers that did not converge, else elements in contact at the border
+   subroutine judge(this, problem, code)
+      type(entry_type), intent(in) :: this
+      type(library_problem), intent(in) :: problem
+      integer, intent(out) :: code
+
+      code = library_code%success
+      if (.not. problem%has_result) return
+      if (problem%spec%solve) then
+         if (.not. problem%result%normal%succeeded()) then
+            code = library_code%normal
+            call complain(this, failure_text("normal", problem%result%normal), code)
+            return
+         else if (.not. problem%result%tangential%succeeded()) then
+            code = library_code%tangential
+            call complain(this, failure_text("tangential", problem%result%tangential), code)
+            return
+         end if
+      end if
+      code = border_elements(problem%result%division)
+   end subroutine judge
+
+   !> Elements in contact in the outer columns and rows; directions of less than 3 elements have no border
+   pure integer function border_elements(division) result(n)
+      !> Element states, shape (mx, my)
+      integer, intent(in) :: division(:, :)
+      logical :: outer(size(division, 1), size(division, 2))
+      integer :: mx, my
+
+      mx = size(division, 1)
+      my = size(division, 2)
+      outer = .false.
+      if (mx >= 3) outer([1, mx], :) = .true.
+      if (my >= 3) outer(:, [1, my]) = .true.
+      n = count(outer .and. division > element%exterior)
+   end function border_elements
+end module contact_capi_calculate3

@@ -1,0 +1,262 @@
+!> Entries for control digits and other flags, and for where a case comes from
+module contact_capi_flags
+   use, intrinsic :: iso_c_binding, only : c_double, c_int
+   use omp_lib, only : omp_in_parallel
+   use contact_base_kinds, only : wp
+   use contact_capi_arguments, only : give_list, integer_of, integers_of, reals_of
+   use contact_capi_lifecycle, only : set_global_flag
+   use contact_capi_problem, only : library_problem
+   use contact_capi_registry, only : are_finite, complain, enter, entry_type, leave, say, scope, set_timer_level
+   use contact_control_digits, only : choice_of, digit_value
+   use contact_control_digits1, only : choice1_of
+   use contact_control_flags, only : accepted_value, flag, flag_table, put_digit, row_of_flag
+   use contact_control_units, only : convention_code, find_convention, inward, quantity
+   use contact_text_words, only : integer_text
+   implicit none (type, external)
+   private
+
+   public :: cntc_setflags, cntc_getflags, cntc_setmetadata
+
+   type :: metadata_code_list
+      integer :: time = 2011, x_rail = 2012, y_rail = 2013, x_wheel = 2014, y_wheel = 2015, s_wheel = 2016
+      integer :: run = 2021, axle = 2022, side = 2023
+   end type metadata_code_list
+   !> Codes of cntc_setmetadata
+   type(metadata_code_list), parameter :: metadata_code = metadata_code_list()
+
+contains
+
+   !> Control digits, units and settings of one problem, in the order of the list
+   subroutine cntc_setflags(ire, icp, lenflg, params, values) bind(c)
+      integer(c_int), intent(in), optional :: ire, icp, lenflg, params(*), values(*)
+      type(library_problem), pointer :: problem
+      type(entry_type) :: this
+      integer, allocatable :: codes(:), numbers(:)
+      integer :: k
+
+      this = entry_type("cntc_setFlags", integer_of(ire), integer_of(icp))
+      call enter(this, scope%settings, problem)
+      if (.not. associated(problem)) return
+      codes = integers_of(lenflg, params)
+      numbers = integers_of(lenflg, values)
+      do k = 1, min(size(codes), size(numbers))
+         if (codes(k) /= 0) call set_flag(this, codes(k), numbers(k), problem)
+      end do
+      call leave(problem)
+   end subroutine cntc_setflags
+
+   !> One flag
+   subroutine set_flag(this, code, number, problem)
+      type(entry_type), intent(in) :: this
+      !> Member of flag, and its value
+      integer, intent(in) :: code, number
+      type(library_problem), intent(inout) :: problem
+      integer :: row, stored
+      logical :: accepted
+      character(len=:), allocatable :: text
+
+      row = row_of_flag(code)
+      text = "flag " // integer_text(code) // " = " // integer_text(number)
+      if (row == 0) then
+         call complain(this, text // ": there is no such flag, it is ignored")
+         return
+      end if
+      if (.not. flag_table(row)%can_set) then
+         if (code == flag%mater) call complain(this, text // ": the material is set by cntc_setMaterialParameters")
+         if (code == flag%frclaw) call complain(this, text // ": the friction law is set by cntc_setFrictionMethod")
+         if (code == flag%heat) call complain(this, text // ": temperatures are set by cntc_setTemperatureData")
+         return
+      end if
+      call accepted_value(flag_table(row), number, problem%module_number, stored, accepted)
+      if (.not. accepted) then
+         call complain(this, text // " is outside its range, it is ignored")
+         return
+      end if
+      if (stored /= number) call say(1, this, text // " is replaced by " // integer_text(stored))
+      call say(2, this, "flag " // integer_text(code) // " = " // integer_text(stored))
+      call store_flag(this, code, stored, problem)
+   end subroutine set_flag
+
+   !> Put an accepted value where it acts
+   subroutine store_flag(this, code, number, problem)
+      type(entry_type), intent(in) :: this
+      integer, intent(in) :: code, number
+      type(library_problem), intent(inout) :: problem
+      logical :: known, is_pair
+
+      is_pair = problem%module_number == 1
+      associate (spec => problem%spec)
+         select case (code)
+         case (flag%units)
+            call find_convention(number, problem%units, known)
+            if (number == convention_code%imperial) call complain(this, "imperial units are not available, CONTACT units are used")
+         case (flag%config)
+            if (is_pair) spec%digits%c1 = number
+         case (flag%discns)
+            if (.not. is_pair) then
+               call say(1, this, "the way to locate the contact belongs to wheel and rail, the flag is ignored")
+            else
+               spec%digits%d = number
+               if (number >= 2) spec%wheel_rail%search%location = choice1_of("D", number)
+            end if
+         case (flag%inflcf)
+            spec%digits%c = number
+            if (number >= 2) spec%kernel = choice_of("C", number)
+         case (flag%exrhs)
+            if (.not. is_pair) then
+               spec%digits%e = number
+            else if (number /= 0) then
+               call complain(this, "an extra term in the rigid slip is not available for wheel and rail, the flag is ignored")
+            end if
+         case (flag%force)
+            spec%digits%f = number
+            if (is_pair .and. number == 2) then
+               spec%digits%f = 0
+               call complain(this, "a prescribed pitching moment is not available, velocities are prescribed")
+            end if
+         case (flag%sens)
+            spec%iteration%sensitivity = number
+         case (flag%ifmeth)
+            spec%material%if_meth = number
+         case (flag%ifvari)
+            spec%material%variant = number
+         case (flag%sbsout)
+            spec%subsurface%output = number
+         case (flag%sbsfil)
+            spec%subsurface%matfil = number
+         case (flag%npomax)
+            spec%iteration%npot_max = number
+            if (.not. is_pair) call complain(this, "the number of elements is limited for wheel and rail only, the flag is ignored")
+         case (flag%wrtinp)
+            problem%write_input = number
+         case (flag%timers)
+            call set_timer_level(number)
+         case (flag%ncase)
+            problem%cases = max(0, number - 1)
+         case (flag%idebug, flag%licdbg, flag%openmp)
+            if (omp_in_parallel()) then
+               call complain(this, "flags of the library as a whole cannot be set inside a parallel region")
+            else
+               call set_global_flag(code, number)
+            end if
+         case default
+            call put_digit(spec%digits, flag_table(row_of_flag(code))%digit, number)
+         end select
+      end associate
+   end subroutine store_flag
+
+   !> Control digits as they were given; other entries keep their content
+   subroutine cntc_getflags(ire, icp, lenflg, params, values) bind(c)
+      integer(c_int), intent(in), optional :: ire, icp, lenflg, params(*)
+      integer(c_int), intent(inout), optional :: values(*)
+      type(library_problem), pointer :: problem
+      type(entry_type) :: this
+      integer, allocatable :: codes(:), numbers(:)
+      integer :: k, row
+
+      this = entry_type("cntc_getFlags", integer_of(ire), integer_of(icp))
+      call enter(this, scope%any, problem)
+      if (.not. associated(problem)) return
+      codes = integers_of(lenflg, params)
+      numbers = integers_of(lenflg, values)
+      do k = 1, min(size(codes), size(numbers))
+         if (codes(k) == 0) cycle
+         row = row_of_flag(codes(k))
+         if (row > 0) then
+            if (flag_table(row)%can_get) then
+               numbers(k) = flag_value(problem, this%icp, codes(k))
+               cycle
+            end if
+         end if
+         call complain(this, "the flag " // integer_text(codes(k)) // " cannot be asked for")
+      end do
+      call give_list(numbers, lenflg, values)
+      call leave(problem)
+   end subroutine cntc_getflags
+
+   !> The value of a flag; a patch of module 1 has some of its own
+   integer function flag_value(problem, icp, code) result(number)
+      type(library_problem), intent(in) :: problem
+      integer, intent(in) :: icp, code
+      logical :: is_pair, is_part
+
+      is_pair = problem%module_number == 1
+      is_part = is_pair .and. icp > 0
+      associate (spec => problem%spec)
+         select case (code)
+         case (flag%sens); number = spec%iteration%sensitivity
+         case (flag%ifmeth); number = spec%material%if_meth
+         case (flag%ifvari); number = spec%material%variant
+         case (flag%sbsout); number = spec%subsurface%output
+         case (flag%sbsfil); number = spec%subsurface%matfil
+         case (flag%npomax); number = merge(spec%iteration%npot_max, 0, is_pair)
+         case (flag%wrtinp); number = problem%write_input
+         case (flag%ncase); number = problem%cases
+         case default; number = digit_value(spec%digits, trim(flag_table(row_of_flag(code))%digit))
+         end select
+         if (.not. is_part) return
+         ! a patch is solved for its own approach and creepages, prints nothing itself, and continues from
+         ! the solution of the wheel's previous height
+         select case (code)
+         case (flag%norm, flag%force, flag%output); number = 0
+         case (flag%iestim); if (problem%pair_result%force_evaluations > 1) number = 1
+         case (flag%tang); if (spec%digits%r >= 2) number = 0
+         end select
+      end associate
+   end function flag_value
+
+   !> Where a case comes from, for printing and .mat files
+   subroutine cntc_setmetadata(ire, icp, lenmta, params, values) bind(c)
+      integer(c_int), intent(in), optional :: ire, icp, lenmta, params(*)
+      real(c_double), intent(in), optional :: values(*)
+      type(library_problem), pointer :: problem
+      type(entry_type) :: this
+      integer, allocatable :: codes(:)
+      real(wp), allocatable :: numbers(:)
+      integer :: k
+
+      this = entry_type("cntc_setMetadata", integer_of(ire), integer_of(icp))
+      call enter(this, scope%settings, problem)
+      if (.not. associated(problem)) return
+      codes = integers_of(lenmta, params)
+      numbers = reals_of(lenmta, values)
+      if (are_finite(this, numbers)) then
+         do k = 1, min(size(codes), size(numbers))
+            if (codes(k) /= 0) call set_metadata(this, codes(k), numbers(k), problem)
+         end do
+      end if
+      call leave(problem)
+   end subroutine cntc_setmetadata
+
+   !> One value
+   subroutine set_metadata(this, code, value, problem)
+      type(entry_type), intent(in) :: this
+      !> Member of metadata_code
+      integer, intent(in) :: code
+      real(wp), intent(in) :: value
+      type(library_problem), intent(inout) :: problem
+      real(wp) :: length
+
+      length = value*inward(problem%units, quantity%length)
+      associate (metadata => problem%metadata)
+         select case (code)
+         case (metadata_code%time); metadata%time = value
+         case (metadata_code%x_rail); metadata%x_rail = length
+         case (metadata_code%y_rail); metadata%y_rail = length
+         case (metadata_code%x_wheel); metadata%x_wheel = length
+         case (metadata_code%y_wheel); metadata%y_wheel = length
+         case (metadata_code%s_wheel); metadata%s_wheel = length
+         case (metadata_code%run); metadata%run = whole(value)
+         case (metadata_code%axle); metadata%axle = whole(value)
+         case (metadata_code%side); metadata%side = whole(value)
+         case default; call complain(this, "there is no metadata code " // integer_text(code) // ", it is ignored")
+         end select
+      end associate
+   end subroutine set_metadata
+
+   !> The nearest integer
+   pure integer function whole(value)
+      real(wp), intent(in) :: value
+      whole = nint(max(-1.0e9_wp, min(1.0e9_wp, value)))
+   end function whole
+end module contact_capi_flags

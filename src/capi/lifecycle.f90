@@ -1,0 +1,185 @@
+!> Entries for the library as a whole: initialisation, global flags, threads, the end
+!>
+!> They are refused inside parallel regions of OpenMP.
+module contact_capi_lifecycle
+   use, intrinsic :: iso_c_binding, only : c_associated, c_char, c_f_pointer, c_int, c_null_char, c_ptr
+   use omp_lib, only : omp_in_parallel
+   use contact_capi_arguments, only : give, integer_of, integers_of, path_of
+   use contact_capi_registry, only : complain, entry_type, is_running, last_complaint, most_threads, record_units, &
+      & register_element, remove_element, say, set_debugging, set_threads, start_library, stop_library
+   use contact_control_flags, only : flag
+   use contact_control_library_codes, only : code_text, interface_version, library_code
+   use contact_text_words, only : integer_text
+   implicit none (type, external)
+   private
+
+   public :: cntc_setfileunits, cntc_initializefirst, cntc_initializefirst_new, cntc_initialize, cntc_setglobalflags
+   public :: cntc_getmaxnumthreads, cntc_finalize, cntc_finalizelast, contact_last_error, set_global_flag
+
+contains
+
+   !> Unit numbers that files may use; only before initialisation, and not needed
+   subroutine cntc_setfileunits(nunits, iunits) bind(c)
+      integer(c_int), intent(in), optional :: nunits, iunits(*)
+      type(entry_type) :: this
+      logical :: accepted
+
+      this%name = "cntc_setFileUnits"
+      call record_units(accepted)
+      if (.not. accepted) call complain(this, "file units can be given before initialisation only, and once")
+      if (accepted .and. size(integers_of(nunits, iunits)) == 0) call say(1, this, "no file unit is given")
+   end subroutine cntc_setfileunits
+
+   !> Initialise: working folder, folder of results, name of the experiment
+   subroutine cntc_initializefirst(ifcver, ierror, ioutput, c_wrkdir, c_outdir, c_expnam, len_wrkdir, len_outdir, &
+      & len_expnam) bind(c)
+      integer(c_int), intent(inout), optional :: ifcver, ierror
+      integer(c_int), intent(in), optional :: ioutput, len_wrkdir, len_outdir, len_expnam
+      character(kind=c_char), intent(in), optional :: c_wrkdir(*), c_outdir(*), c_expnam(*)
+      type(entry_type) :: this
+      logical :: started
+
+      this%name = "cntc_initializeFirst"
+      if (is_parallel(this)) return
+      call start_library(path_of(c_wrkdir, len_wrkdir), path_of(c_outdir, len_outdir), path_of(c_expnam, len_expnam), &
+         & integer_of(ioutput) == 1, started)
+      call give(interface_version, ifcver)
+      call give(library_code%success, ierror)
+   end subroutine cntc_initializefirst
+
+   !> The same under the name of an earlier release
+   subroutine cntc_initializefirst_new(ifcver, ierror, ioutput, c_wrkdir, c_outdir, c_expnam, len_wrkdir, len_outdir, &
+      & len_expnam) bind(c)
+      integer(c_int), intent(inout), optional :: ifcver, ierror
+      integer(c_int), intent(in), optional :: ioutput, len_wrkdir, len_outdir, len_expnam
+      character(kind=c_char), intent(in), optional :: c_wrkdir(*), c_outdir(*), c_expnam(*)
+      type(entry_type) :: this
+
+      call cntc_initializefirst(ifcver, ierror, ioutput, c_wrkdir, c_outdir, c_expnam, len_wrkdir, len_outdir, len_expnam)
+      this%name = "cntc_initializeFirst_new"
+      call say(0, this, "the same as cntc_initializeFirst")
+   end subroutine cntc_initializefirst_new
+
+   !> Make a result element of module 1 or 3; initialises the library when that was not done
+   subroutine cntc_initialize(ire, imodul, ifcver, ierror, c_outdir, len_outdir) bind(c)
+      integer(c_int), intent(in), optional :: ire, imodul, len_outdir
+      integer(c_int), intent(inout), optional :: ifcver, ierror
+      character(kind=c_char), intent(in), optional :: c_outdir(*)
+      type(entry_type) :: this
+      integer :: code
+      logical :: started, was_active
+
+      this = entry_type("cntc_initialize", integer_of(ire))
+      if (is_parallel(this)) return
+      call start_library("", path_of(c_outdir, len_outdir), "", .false., started)
+      call give(interface_version, ifcver)
+      was_active = .false.
+      if (integer_of(imodul) == 1 .or. integer_of(imodul) == 3) then
+         call register_element(this%ire, integer_of(imodul), code, was_active)
+         if (code /= library_code%success) call complain(this, code_text(code), code)
+         ! the published interface returns this code for a number that is out of range
+         if (code == library_code%bad_element) code = library_code%no_patch
+      else
+         code = library_code%other
+         call complain(this, "the module must be 1, wheel and rail, or 3, a contact problem", code)
+      end if
+      if (was_active) call complain(this, "the result element is active already, nothing is changed", library_code%success)
+      call give(code, ierror)
+   end subroutine cntc_initialize
+
+   !> Flags of the library as a whole
+   subroutine cntc_setglobalflags(lenflg, params, values) bind(c)
+      integer(c_int), intent(in), optional :: lenflg, params(*), values(*)
+      type(entry_type) :: this
+      integer, allocatable :: codes(:), numbers(:)
+      integer :: k
+
+      this%name = "cntc_setGlobalFlags"
+      if (is_parallel(this)) return
+      codes = integers_of(lenflg, params)
+      numbers = integers_of(lenflg, values)
+      do k = 1, min(size(codes), size(numbers))
+         if (codes(k) == 0) cycle
+         if (any(codes(k) == [flag%idebug, flag%licdbg, flag%openmp])) then
+            call set_global_flag(codes(k), numbers(k))
+         else if (is_running()) then
+            call complain(this, "the flag " // integer_text(codes(k)) // " is not one of the library as a whole")
+         end if
+      end do
+   end subroutine cntc_setglobalflags
+
+   !> One flag of the library as a whole; nothing for others
+   subroutine set_global_flag(code, number)
+      !> Member of flag
+      integer, intent(in) :: code, number
+
+      if (code == flag%idebug) call set_debugging(number)
+      if (code == flag%openmp) call set_threads(number)
+   end subroutine set_global_flag
+
+   !> Number of calculations that may run at the same time
+   subroutine cntc_getmaxnumthreads(mxthrd) bind(c)
+      integer(c_int), intent(inout), optional :: mxthrd
+
+      call give(most_threads(), mxthrd)
+   end subroutine cntc_getmaxnumthreads
+
+   !> Free a result element; the last one ends the run
+   subroutine cntc_finalize(ire) bind(c)
+      integer(c_int), intent(in), optional :: ire
+      type(entry_type) :: this
+      logical :: removed, was_last
+
+      this = entry_type("cntc_finalize", integer_of(ire))
+      if (.not. is_running()) return
+      if (is_parallel(this)) return
+      call remove_element(this, removed, was_last)
+      if (.not. removed) call complain(this, "there is no such result element, or another thread is at work on it")
+      if (was_last) call cntc_finalizelast()
+   end subroutine cntc_finalize
+
+   !> Free all result elements and close the files
+   subroutine cntc_finalizelast() bind(c)
+      type(entry_type) :: this
+      logical :: stopped
+
+      this%name = "cntc_finalizeLast"
+      if (.not. is_running()) return
+      if (is_parallel(this)) return
+      call stop_library(stopped)
+      if (.not. stopped) call complain(this, "another thread is at work, nothing is freed")
+   end subroutine cntc_finalizelast
+
+   !> Is the call made inside a parallel region, which is refused?
+   logical function is_parallel(this)
+      type(entry_type), intent(in) :: this
+
+      is_parallel = omp_in_parallel()
+      if (is_parallel) call complain(this, "the routine cannot be called inside a parallel region")
+   end function is_parallel
+
+   !> What went wrong last, with a problem or with the library, and its code
+   !>
+   !> Success and an empty text when nothing did, or when there is no such problem.
+   function contact_last_error(ire, icp, message, message_length) result(code) bind(c)
+      !> Result element, 0 for calls without one; contact patch, -1 for wheel and rail
+      integer(c_int), value :: ire, icp
+      !> Buffer, null if not wanted, and its size with the final null
+      type(c_ptr), value :: message
+      integer(c_int), value :: message_length
+      integer(c_int) :: code
+      character(len=:), allocatable :: text
+      character(kind=c_char), pointer :: letters(:)
+      integer :: number, i, n
+
+      call last_complaint(number, text, int(ire), int(icp))
+      code = int(number, c_int)
+      if (.not. c_associated(message) .or. message_length < 1) return
+      call c_f_pointer(message, letters, [message_length])
+      n = min(len(text), int(message_length) - 1)
+      do i = 1, n
+         letters(i) = text(i:i)
+      end do
+      letters(n + 1) = c_null_char
+   end function contact_last_error
+end module contact_capi_lifecycle

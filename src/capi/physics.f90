@@ -1,0 +1,434 @@
+!> Entries for what both modules know: solvers, materials, temperatures, friction, rolling
+module contact_capi_physics
+   use, intrinsic :: iso_c_binding, only : c_double, c_int
+   use contact_base_kinds, only : wp
+   use contact_capi_arguments, only : integer_of, integers_of, real_of, reals_of
+   use contact_capi_problem, only : library_problem
+   use contact_capi_registry, only : are_finite, complain, count_fits, enter, entry_type, leave, say, scope
+   use contact_cases_spec, only : case_spec, friction_set
+   use contact_control_digits, only : choice_of
+   use contact_control_digits1, only : choice1_of
+   use contact_control_units, only : inward, quantity, unit_convention
+   use contact_elastic_material, only : combine, combined_material
+   use contact_text_words, only : integer_text
+   implicit none (type, external)
+   private
+
+   public :: cntc_setsolverflags, cntc_setmaterialparameters, cntc_settemperaturedata, cntc_settimestep
+   public :: cntc_setrollingstepsize, cntc_setfrictionmethod, cntc_settangentialforces
+
+   !> Smallest relative tolerance and relaxation factor [-]
+   real(wp), parameter :: least_factor = 1.0e-20_wp
+   !> Smallest coefficient of friction, slope reduction factor [-], and modulus of a layer [N/mm2]
+   real(wp), parameter :: least_value = 1.0e-6_wp
+   !> Smallest half-value slip velocity [mm/s]
+   real(wp), parameter :: least_speed = 1.0e-4_wp
+   !> Bodies with a smaller difference parameter need no outer iteration [-]
+   real(wp), parameter :: quasi_identical = 1.0e-4_wp
+   !> Yield limits from here on are never reached [N/mm2]
+   real(wp), parameter :: unreachable_yield = 1.0e10_wp
+
+contains
+
+   !> Iteration limits and solver (G)
+   subroutine cntc_setsolverflags(ire, icp, gdigit, nints, iparam, nreals, rparam) bind(c)
+      integer(c_int), intent(in), optional :: ire, icp, gdigit, nints, iparam(*), nreals
+      real(c_double), intent(in), optional :: rparam(*)
+      type(library_problem), pointer :: problem
+      type(entry_type) :: this
+      !> Numbers of integers and reals for each method
+      integer, parameter :: n_ints(0:6) = [4, 0, 5, 5, 5, 5, 1], n_reals(0:6) = [1, 0, 4, 4, 2, 8, 1]
+      integer, allocatable :: ints(:)
+      real(wp), allocatable :: reals(:)
+      integer :: method
+
+      this = entry_type("cntc_setSolverFlags", integer_of(ire), integer_of(icp))
+      call enter(this, scope%settings, problem)
+      if (.not. associated(problem)) return
+      method = integer_of(gdigit)
+      ints = integers_of(nints, iparam)
+      reals = reals_of(nreals, rparam)
+      if (method < 0 .or. method > 6) then
+         call complain(this, "solver method " // integer_text(method) // " is outside its range 0 to 6")
+      else if (count_fits(this, method, size(ints), n_ints(method), n_ints(method))) then
+         if (count_fits(this, method, size(reals), n_reals(method), n_reals(method))) then
+            if (are_finite(this, reals)) call set_solver(this, method, ints, reals, problem%spec)
+         end if
+      end if
+      call leave(problem)
+   end subroutine cntc_setsolverflags
+
+   !> Store solver settings whose counts fit
+   subroutine set_solver(this, method, ints, reals, spec)
+      type(entry_type), intent(in) :: this
+      integer, intent(in) :: method, ints(:)
+      real(wp), intent(in) :: reals(:)
+      type(case_spec), intent(inout) :: spec
+
+      associate (iteration => spec%iteration)
+         if (method == 6) then
+            iteration%mxsens = max(1, ints(1))
+            iteration%epsens = max(least_factor, reals(1))
+            return
+         end if
+         spec%digits%g = method
+         if (method == 1) return
+         spec%solver = choice_of("G", method)
+         iteration%maxgs = max(1, ints(1))
+         iteration%maxin = max(1, ints(2))
+         iteration%maxnr = max(1, ints(3))
+         iteration%maxout = max(1, ints(4))
+         iteration%eps = max(least_factor, reals(1))
+         select case (method)
+         case (2, 3)
+            iteration%inislp = ints(5)
+            iteration%omegah = max(least_factor, reals(2))
+            iteration%omegas = max(least_factor, reals(3))
+            iteration%omgslp = max(least_factor, reals(4))
+         case (4)
+            iteration%inislp = ints(5)
+            iteration%omgslp = max(least_factor, reals(2))
+         case (5)
+            iteration%kdowfb = ints(5)
+            iteration%fdecay = reals(2)
+            iteration%betath = reals(3)
+            iteration%d_ifc = max(0.01_wp, reals(4))
+            iteration%d_lin = reals(5)
+            iteration%d_cns = max(0.01_wp, reals(6))
+            iteration%d_slp = max(0.01_wp, reals(7))
+            iteration%pow_s = max(0.01_wp, min(10.0_wp, reals(8)))
+            if (iteration%d_lin*(iteration%d_cns - iteration%d_ifc) < 0.0_wp) then
+               call complain(this, "d_lin leads away from d_cns; it is replaced by 0, and d_cns by d_ifc")
+               iteration%d_lin = 0.0_wp
+               iteration%d_cns = iteration%d_ifc
+            end if
+         end select
+      end associate
+   end subroutine set_solver
+
+   !> Materials (M), or damping forces (M2, 10 higher)
+   subroutine cntc_setmaterialparameters(ire, icp, imeth, nparam, rparam) bind(c)
+      integer(c_int), intent(in), optional :: ire, icp, imeth, nparam
+      real(c_double), intent(in), optional :: rparam(*)
+      type(library_problem), pointer :: problem
+      type(entry_type) :: this
+      !> Fewest and most values for each method; -1: no such method
+      integer, parameter :: fewest(0:12) = [4, 8, 8, 7, 8, 7, 4, 4, -1, -1, 0, 0, 4]
+      integer, parameter :: most(0:12) = [4, 8, 8, 7, 8, 7, 4, 4, -1, -1, 1, 1, 4]
+      real(wp), allocatable :: values(:)
+      integer :: method
+
+      this = entry_type("cntc_setMaterialParameters", integer_of(ire), integer_of(icp))
+      call enter(this, scope%settings, problem)
+      if (.not. associated(problem)) return
+      method = integer_of(imeth)
+      values = reals_of(nparam, rparam)
+      if (method < 0 .or. method > 12 .or. method == 8 .or. method == 9) then
+         call complain(this, "there is no material method " // integer_text(method))
+      else if (count_fits(this, method, size(values), fewest(method), most(method))) then
+         if (method >= 12) then
+            if (are_finite(this, values)) call set_damping(values, problem)
+         else if (method >= 10) then
+            call keep_damping(method == 11, problem%spec)
+         else if (are_finite(this, values)) then
+            call set_material(method, values, problem%units, problem%spec)
+         end if
+      end if
+      call leave(problem)
+   end subroutine cntc_setmaterialparameters
+
+   !> No damping, or the values in store
+   subroutine keep_damping(keep, spec)
+      logical, intent(in) :: keep
+      type(case_spec), intent(inout) :: spec
+
+      spec%digits%m2 = merge(1, 0, keep)
+      if (keep) then
+         spec%has_damping = any([spec%damping%cdampn, spec%damping%cdampt] > 0.0_wp)
+      else
+         spec%damping%cdampn = 0.0_wp
+         spec%damping%cdampt = 0.0_wp
+         spec%damping%dfnmax = 0.0_wp
+         spec%damping%dftmax = 0.0_wp
+         spec%has_damping = .false.
+      end if
+   end subroutine keep_damping
+
+   !> New damping: coefficients [s], largest rates [N/s]
+   subroutine set_damping(values, problem)
+      real(wp), intent(in) :: values(4)
+      type(library_problem), intent(inout) :: problem
+
+      associate (damping => problem%spec%damping, force => inward(problem%units, quantity%force))
+         damping%cdampn = max(0.0_wp, values(1))
+         damping%cdampt = max(0.0_wp, values(2))
+         damping%dfnmax = max(0.0_wp, values(3)*force)
+         damping%dftmax = max(0.0_wp, values(4)*force)
+      end associate
+      problem%spec%digits%m2 = 2
+      problem%spec%has_damping = .true.
+   end subroutine set_damping
+
+   !> Elastic constants and what belongs to the model
+   subroutine set_material(method, values, units, spec)
+      integer, intent(in) :: method
+      real(wp), intent(in) :: values(:)
+      type(unit_convention), intent(in) :: units
+      type(case_spec), intent(inout) :: spec
+      type(combined_material) :: both
+
+      spec%digits%m = method
+      spec%material_model = choice_of("M", method)
+      associate (material => spec%material, pressure => inward(units, quantity%pressure))
+         material%poiss = values(1:2)
+         material%gg = values(3:4)*pressure
+         select case (method)
+         case (1)
+            material%fg = values(5:6)
+            material%tc = values(7:8)
+         case (2)
+            material%flx = values(5)*inward(units, quantity%compliance)
+            call set_slope_reduction(values(6:8))
+         case (3, 5)
+            call set_slope_reduction(values(5:7))
+         case (4)
+            material%gg3 = max(least_value, values(5)*pressure)
+            material%laythk = max(1.0e-9_wp, values(6)*inward(units, quantity%length))
+            material%tau_c0 = values(7)*pressure
+            if (material%tau_c0 >= unreachable_yield) material%tau_c0 = 0.0_wp
+            material%k_tau = values(8)*inward(units, quantity%pressure_slope)
+         end select
+         if (minval(material%gg) <= 0.0_wp) return
+         both = combine(material%poiss, material%gg)
+         if (spec%iteration%maxout >= 2 .and. abs(both%ak) < quasi_identical) spec%iteration%maxout = 1
+         if (spec%iteration%maxout <= 1 .and. abs(both%ak) >= quasi_identical) spec%iteration%maxout = 10
+      end associate
+
+   contains
+
+      !> k0, alfa, beta
+      subroutine set_slope_reduction(list)
+         real(wp), intent(in) :: list(3)
+         spec%material%k0_mf = max(least_value, list(1))
+         spec%material%alfamf = max(least_value, list(2))
+         spec%material%betamf = max(least_value, list(3))
+      end subroutine set_slope_reduction
+   end subroutine set_material
+
+   !> Surface temperatures (H)
+   subroutine cntc_settemperaturedata(ire, icp, imeth, nparam, params) bind(c)
+      integer(c_int), intent(in), optional :: ire, icp, imeth, nparam
+      real(c_double), intent(in), optional :: params(*)
+      type(library_problem), pointer :: problem
+      type(entry_type) :: this
+      real(wp), allocatable :: v(:)
+      integer :: method
+
+      this = entry_type("cntc_setTemperatureData", integer_of(ire), integer_of(icp))
+      call enter(this, scope%any, problem)
+      if (.not. associated(problem)) return
+      method = integer_of(imeth)
+      v = reals_of(nparam, params)
+      select case (method)
+      case (0, 1)
+         if (count_fits(this, method, size(v), 0, 1)) problem%spec%digits%h = method
+      case (3)
+         if (count_fits(this, method, size(v), 9, 9)) then
+            if (are_finite(this, v)) then
+               problem%spec%digits%h = method
+               associate (heat => problem%spec%heat, conductivity => inward(problem%units, quantity%conductivity), &
+                  & density => inward(problem%units, quantity%density))
+                  heat%bktemp = [v(1), v(5)]
+                  heat%heatcp = [v(2), v(6)]
+                  heat%lambda = [v(3), v(7)]*conductivity
+                  heat%dens = [v(4), v(8)]*density
+                  heat%betapl = v(9)
+               end associate
+            end if
+         end if
+      case default
+         call complain(this, "there is no temperature method " // integer_text(method) // "; 0, 1 and 3 are")
+      end select
+      call leave(problem)
+   end subroutine cntc_settemperaturedata
+
+   !> Time step; every solution derives its own from step and velocity
+   subroutine cntc_settimestep(ire, icp, dt) bind(c)
+      integer(c_int), intent(in), optional :: ire, icp
+      real(c_double), intent(in), optional :: dt
+      type(library_problem), pointer :: problem
+      type(entry_type) :: this
+
+      this = entry_type("cntc_setTimeStep", integer_of(ire), integer_of(icp))
+      call enter(this, scope%settings, problem)
+      if (.not. associated(problem)) return
+      if (are_finite(this, [real_of(dt)])) call say(2, this, "the time step follows from rolling step and velocity")
+      call leave(problem)
+   end subroutine cntc_settimestep
+
+   !> Rolling direction and step; for wheel and rail the step in elements
+   subroutine cntc_setrollingstepsize(ire, icp, chi, dq) bind(c)
+      integer(c_int), intent(in), optional :: ire, icp
+      real(c_double), intent(in), optional :: chi, dq
+      type(library_problem), pointer :: problem
+      type(entry_type) :: this
+
+      this = entry_type("cntc_setRollingStepsize", integer_of(ire), integer_of(icp))
+      call enter(this, scope%settings, problem)
+      if (.not. associated(problem)) return
+      if (problem%module_number == 1) then
+         if (are_finite(this, [real_of(dq)])) then
+            problem%spec%wheel_rail%search%dqrel = real_of(dq)
+            if (problem%spec%digits%d == 1) problem%spec%digits%d = problem%spec%wheel_rail%search%location
+         end if
+      else if (are_finite(this, [real_of(chi), real_of(dq)])) then
+         problem%spec%rolling%chi = real_of(chi)*inward(problem%units, quantity%angle)
+         problem%spec%rolling%dq = real_of(dq)*inward(problem%units, quantity%length)
+      end if
+      call leave(problem)
+   end subroutine cntc_setrollingstepsize
+
+   !> Friction law (L) and its variation (V)
+   subroutine cntc_setfrictionmethod(ire, icp, imeth, nparam, params) bind(c)
+      integer(c_int), intent(in), optional :: ire, icp, imeth, nparam
+      real(c_double), intent(in), optional :: params(*)
+      type(library_problem), pointer :: problem
+      type(entry_type) :: this
+      !> Number of values of each law
+      integer, parameter :: n_law(0:6) = [2, 0, 7, 7, 7, 3, 6]
+      real(wp), allocatable :: values(:)
+      integer :: method, law, points
+
+      this = entry_type("cntc_setFrictionMethod", integer_of(ire), integer_of(icp))
+      call enter(this, scope%settings, problem)
+      if (.not. associated(problem)) return
+      method = max(-1, integer_of(imeth))
+      values = reals_of(nparam, params)
+      law = mod(method, 10)
+      if (method < 0 .or. method > 29 .or. law > 6) then
+         call complain(this, "there is no friction method " // integer_text(method))
+      else if (method >= 10 .and. problem%module_number /= 1) then
+         call complain(this, "friction that varies over the rail belongs to wheel and rail, method " // integer_text(method))
+      else if (law == 1) then
+         if (count_fits(this, method, size(values), 0, 0)) problem%spec%digits%l = 1
+      else if (method < 10) then
+         if (count_fits(this, method, size(values), n_law(law), n_law(law))) call set_friction_points(this, 0, law, 1, values, &
+            & problem)
+      else
+         points = 0
+         if (size(values) > 0) then
+            if (abs(values(1)) < 1.0e6_wp) points = max(0, nint(values(1)))
+         end if
+         if (count_fits(this, method, size(values), 1 + points*(1 + n_law(law)), 1 + points*(1 + n_law(law)))) &
+            & call set_friction_points(this, method/10, law, points, values(2:), problem)
+      end if
+      call leave(problem)
+   end subroutine cntc_setfrictionmethod
+
+   !> Store a law with its points
+   subroutine set_friction_points(this, variation, law, points, values, problem)
+      type(entry_type), intent(in) :: this
+      !> V, L, number of points
+      integer, intent(in) :: variation, law, points
+      !> Values of the law; with variation a position before those of each point
+      real(wp), intent(in) :: values(:)
+      type(library_problem), intent(inout) :: problem
+      type(friction_set), allocatable :: sets(:)
+      real(wp) :: memory(2)
+      integer :: k, n
+
+      if (.not. are_finite(this, values)) return
+      memory = [problem%spec%friction%memdst, problem%spec%friction%mem_s0]
+      allocate(sets(points))
+      if (points > 0) n = size(values)/points
+      do k = 1, points
+         associate (part => values((k - 1)*n + 1:k*n))
+            if (variation == 0) then
+               call fill_set(law, part, problem%units, sets(k), memory)
+            else
+               call fill_set(law, part(2:), problem%units, sets(k), memory)
+               sets(k)%position = part(1)*inward(problem%units, merge(quantity%angle, quantity%length, variation == 1))
+            end if
+         end associate
+         if (k == 1) cycle
+         if (sets(k)%position > sets(k - 1)%position) cycle
+         call complain(this, "the positions of friction data must increase; nothing is stored")
+         return
+      end do
+      associate (spec => problem%spec)
+         spec%digits%v = variation
+         spec%digits%l = merge(4, law, law == 5)
+         spec%variation = choice1_of("V", variation)
+         spec%friction_law = choice_of("L", spec%digits%l)
+         spec%friction%memdst = memory(1)
+         spec%friction%mem_s0 = memory(2)
+         call move_alloc(sets, spec%friction%sets)
+      end associate
+   end subroutine set_friction_points
+
+   !> One set of friction parameters
+   pure subroutine fill_set(law, v, units, set, memory)
+      integer, intent(in) :: law
+      real(wp), intent(in) :: v(:)
+      type(unit_convention), intent(in) :: units
+      type(friction_set), intent(out) :: set
+      !> Distance [mm] and velocity [mm/s] of friction memory; kept by laws that have none
+      real(wp), intent(inout) :: memory(2)
+      real(wp) :: velocity, length
+
+      velocity = inward(units, quantity%velocity)
+      length = inward(units, quantity%length)
+      set%sabsh1 = 10000.0_wp
+      set%sabsh2 = 10000.0_wp
+      select case (law)
+      case (0)
+         set%fstat = max(least_value, min(v(1), v(2)))
+         set%fkin = set%fstat
+      case (2, 3, 4)
+         set%fkin = max(least_value, v(1))
+         set%coef1 = max(0.0_wp, v(2))
+         set%sabsh1 = max(least_speed, v(3)*velocity)
+         set%coef2 = max(0.0_wp, v(4))
+         set%sabsh2 = max(least_speed, v(5)*velocity)
+         set%fstat = set%fkin + set%coef1 + set%coef2
+         memory = max(0.0_wp, [v(6)*length, v(7)*velocity])
+      case (5)
+         ! Polach: exponential decay from fstat to A fstat, halved at ln 2/B
+         set%fstat = max(least_value, v(1))
+         set%fkin = max(0.0_wp, min(1.0_wp, v(2)))*set%fstat
+         set%coef1 = set%fstat - set%fkin
+         set%sabsh1 = max(least_speed, log(2.0_wp)/max(tiny(1.0_wp), v(3)*inward(units, quantity%per_velocity)))
+         memory = [0.001_wp, 10.0_wp]
+      case (6)
+         set%fref = max(least_value, v(1))
+         set%tref = v(2)
+         set%dfheat = max(least_value - set%fref, v(3))
+         set%dtheat = v(4)
+         set%fstat = set%fref
+         set%fkin = set%fref + set%dfheat
+         memory = max(0.0_wp, [v(5)*length, v(6)*velocity])
+      end select
+   end subroutine fill_set
+
+   !> Prescribed tangential forces: relative ones (module 3), or the longitudinal force on the rail (module 1)
+   subroutine cntc_settangentialforces(ire, icp, fx, fy) bind(c)
+      integer(c_int), intent(in), optional :: ire, icp
+      real(c_double), intent(in), optional :: fx, fy
+      type(library_problem), pointer :: problem
+      type(entry_type) :: this
+      real(wp) :: force(2)
+
+      this = entry_type("cntc_setTangentialForces", integer_of(ire), integer_of(icp))
+      call enter(this, scope%settings, problem)
+      if (.not. associated(problem)) return
+      force = [real_of(fx), real_of(fy)]
+      if (problem%module_number == 1) then
+         if (are_finite(this, force(:1))) problem%spec%wheel_rail%wheelset%fx = force(1)*inward(problem%units, quantity%force)
+      else if (are_finite(this, force)) then
+         force = force/max(1.0_wp, hypot(force(1), force(2)))
+         problem%spec%kinematics%fx = force(1)
+         problem%spec%kinematics%fy = force(2)
+      end if
+      call leave(problem)
+   end subroutine cntc_settangentialforces
+end module contact_capi_physics

@@ -1,0 +1,173 @@
+!> What the library keeps of one problem of its callers
+!>
+!> A problem is one contact patch of a result element (module 3), or a result element with all its
+!> patches (module 1). Everything is in internal units; conventions act at the door.
+module contact_capi_problem
+   use omp_lib, only : omp_destroy_lock, omp_init_lock, omp_lock_kind
+   use contact_base_choices, only : kernel_model, pressure_model, stress_choice
+   use contact_base_kinds, only : wp
+   use contact_cases_pair_session, only : pair_session, release_pair_session
+   use contact_cases_session, only : contact_session, release_session
+   use contact_cases_spec, only : case_spec, friction_set
+   use contact_control_units, only : unit_convention
+   use contact_experiment_stopwatch, only : stopwatch
+   use contact_patch_result, only : patch_result
+   use contact_subsurface_points, only : point_block
+   use contact_wheelrail_result, only : pair_result
+   use contact_wheelrail_spec, only : wheel_rail_spec
+   implicit none (type, external)
+   private
+
+   public :: library_problem, new_problem, release_problem, most_patches
+
+   !> Patches that can be addressed
+   integer, parameter :: most_patches = 9
+
+   !> Subsurface points of one patch of module 1; unallocated: those of the result element
+   type :: private_blocks
+      type(point_block), allocatable :: list(:)
+   end type private_blocks
+
+   !> Where a case comes from, for printing and result files only
+   type :: case_metadata
+      !> Time [s]; contact point on rail and wheel, x and y [mm]; place of the wheel along the track [mm]
+      real(wp) :: time = 0.0_wp, x_rail = 0.0_wp, y_rail = 0.0_wp, x_wheel = 0.0_wp, y_wheel = 0.0_wp, s_wheel = 0.0_wp
+      !> Numbers of run, axle and side
+      integer :: run = 0, axle = 0, side = 0
+   end type case_metadata
+
+   !> One problem
+   type :: library_problem
+      !> Result element; contact patch, -1 in module 1; module
+      integer :: ire = 0, icp = -1, module_number = 3
+      !> Units of the caller
+      type(unit_convention) :: units
+      !> What the next calculation solves; its digits are what callers gave, its choices what acts
+      type(case_spec) :: spec
+      !> Contact problem of its own (module 3), with what it keeps from case to case
+      type(contact_session), allocatable :: session
+      type(patch_result), allocatable :: result
+      !> Wheel on rail (module 1)
+      type(pair_session), allocatable :: pair
+      type(pair_result), allocatable :: pair_result
+      !> Number of cases so far, and whether results are there
+      integer :: cases = 0
+      logical :: has_result = .false.
+      !> Subsurface points private to patches of module 1
+      type(private_blocks) :: blocks(most_patches)
+      type(case_metadata) :: metadata
+      !> Write input files of the cases: 0 no, 1 digits as given, 2 complete cases
+      integer :: write_input = 0
+      !> Calculations since the last reset; per patch in module 1
+      type(stopwatch) :: watch
+      real(wp) :: patch_cpu(most_patches) = 0.0_wp, patch_wall(most_patches) = 0.0_wp
+      !> Calculations in total, for the timer table
+      type(stopwatch) :: total
+      !> What went wrong last; unallocated when nothing did. Its code is a member of library_code
+      character(len=:), allocatable :: last_error
+      integer :: last_code = 0
+      !> One thread at a time
+      integer(omp_lock_kind) :: lock
+      !> Threads that are inside or wait, guarded by the registry
+      integer :: users = 0
+   end type library_problem
+
+contains
+
+   !> A problem with the defaults of the interface
+   function new_problem(ire, icp, module_number) result(problem)
+      !> Result element; contact patch, -1 for module 1; module 1 or 3
+      integer, intent(in) :: ire, icp, module_number
+      type(library_problem), pointer :: problem
+
+      allocate(problem)
+      problem%ire = ire
+      problem%icp = icp
+      problem%module_number = module_number
+      call omp_init_lock(problem%lock)
+      call set_common_defaults(problem%spec)
+      if (module_number == 1) then
+         call set_pair_defaults(problem%spec)
+         allocate(problem%pair, problem%pair_result)
+         allocate(problem%pair_result%patches(0))
+      else
+         call set_contact_defaults(problem%spec)
+         allocate(problem%session, problem%result)
+      end if
+   end function new_problem
+
+   !> Free a problem with everything it holds
+   subroutine release_problem(problem)
+      type(library_problem), pointer, intent(inout) :: problem
+
+      if (allocated(problem%session)) call release_session(problem%session)
+      if (allocated(problem%pair)) call release_pair_session(problem%pair)
+      call omp_destroy_lock(problem%lock)
+      deallocate(problem)
+      nullify(problem)
+   end subroutine release_problem
+
+   !> Defaults of both modules
+   subroutine set_common_defaults(spec)
+      type(case_spec), intent(inout) :: spec
+
+      associate (digits => spec%digits)
+         digits%p = 2
+         digits%t = 3
+         digits%d = 2
+         digits%c = 2
+         digits%z = 2
+         digits%g = 1
+         digits%m2 = 0
+         digits%w = 1
+         digits%r = 1
+      end associate
+      spec%kernel = kernel_model%piecewise_constant
+      spec%pressure = pressure_model%full
+      spec%stress = stress_choice%none
+      allocate(spec%friction%sets(1))
+      spec%friction%sets = friction_set(sabsh1=10000.0_wp, sabsh2=10000.0_wp)
+      spec%rolling%veloc = 1000.0_wp
+      ! as the published interface has it, a million times the conductivity of steel
+      spec%heat%lambda = 50.0e3_wp
+      spec%new_grid = .true.
+      spec%new_geometry = .true.
+      spec%new_kernel = .true.
+   end subroutine set_common_defaults
+
+   !> Defaults of module 3
+   subroutine set_contact_defaults(spec)
+      type(case_spec), intent(inout) :: spec
+
+      spec%rolling%dq = 2.0_wp
+      associate (grid => spec%grid)
+         grid%ipotcn = 1
+         grid%mx = 1
+         grid%my = 1
+         grid%xl = -1.0_wp
+         grid%yl = -1.0_wp
+         grid%dx = 2.0_wp
+         grid%dy = 2.0_wp
+         grid%aa = 5.0_wp
+         grid%bb = 5.0_wp
+         grid%bneg = 5.0_wp
+         grid%bpos = 5.0_wp
+         grid%a1 = 0.001_wp
+         grid%b1 = 0.001_wp
+      end associate
+      spec%geometry%b(1) = 1.0_wp
+      spec%geometry%b(3) = 1.0_wp
+   end subroutine set_contact_defaults
+
+   !> Defaults of module 1
+   subroutine set_pair_defaults(spec)
+      type(case_spec), intent(inout) :: spec
+
+      spec%digits%c1 = 1
+      spec%digits%z = 0
+      allocate(spec%wheel_rail, source=wheel_rail_spec())
+      spec%wheel_rail%track%nomradr = 0.0_wp
+      spec%wheel_rail%wheelset%vs = 30000.0_wp
+      spec%wheel_rail%rail_profile%zigzag = 150.0_wp*acos(-1.0_wp)/180.0_wp
+   end subroutine set_pair_defaults
+end module contact_capi_problem

@@ -1,0 +1,135 @@
+!> Flags of the library: control digits and settings by their codes, in one table
+!>
+!> The table serves setting, getting and the range of what is accepted.
+module contact_control_flags
+   use contact_cases_spec, only : case_digits
+   implicit none (type, external)
+   private
+
+   public :: flag, flag_row, flag_table, out_of_range, row_of_flag, accepted_value, put_digit
+
+   type :: flag_list
+      integer :: units = 1933, config = 1967, pvtime = 1970, bound = 1971, tang = 1972, norm = 1973, force = 1974
+      integer :: frclaw = 1976, discns = 1977, inflcf = 1978, mater = 1979, exrhs = 1980, xflow = 1981, heat = 1982
+      integer :: iestim = 1983, output = 1984, flow = 1985, return = 1986, matfil = 1987, sens = 1988
+      integer :: ifmeth = 1989, ifvari = 1990, sbsout = 1991, sbsfil = 1992, npomax = 1993
+      integer :: idebug = 2000, licdbg = 2001, wrtinp = 2002, openmp = 2003, timers = 2004, ncase = 2005
+   end type flag_list
+   !> Codes of the flags
+   type(flag_list), parameter :: flag = flag_list()
+
+   type :: out_of_range_list
+      !> The nearest accepted value is taken; 0 is taken; the flag stays as it is
+      integer :: nearest = 1, zero = 2, ignored = 3
+   end type out_of_range_list
+   !> What happens with a value that is out of range
+   type(out_of_range_list), parameter :: out_of_range = out_of_range_list()
+
+   !> One flag
+   type :: flag_row
+      integer :: code = 0
+      !> Name of the control digit behind it; blank for other settings
+      character(len=2) :: digit = ""
+      !> Range of accepted values and what happens outside
+      integer :: lowest = 0, highest = 0, outside = 1
+      !> May it be set by cntc_setflags, and read by cntc_getflags?
+      logical :: can_set = .true., can_get = .true.
+   end type flag_row
+
+   !> All flags; the range is that of module 1 where the modules differ
+   type(flag_row), parameter :: flag_table(*) = [ &
+      & flag_row(flag%units, "  ", 1934, 1937, out_of_range%ignored, .true., .false.), &
+      & flag_row(flag%config, "C1", 0, 5, out_of_range%nearest), &
+      & flag_row(flag%pvtime, "P ", 0, 3, out_of_range%nearest), &
+      & flag_row(flag%bound, "B ", 0, 6, out_of_range%nearest), &
+      & flag_row(flag%tang, "T ", 0, 3, out_of_range%nearest), &
+      & flag_row(flag%norm, "N ", 0, 1, out_of_range%nearest), &
+      & flag_row(flag%force, "F ", 0, 3, out_of_range%nearest), &
+      & flag_row(flag%frclaw, "L ", 0, 6, out_of_range%ignored, .false., .true.), &
+      & flag_row(flag%discns, "D ", 0, 9, out_of_range%ignored), &
+      & flag_row(flag%inflcf, "C ", 0, 4, out_of_range%ignored), &
+      & flag_row(flag%mater, "M ", 0, 7, out_of_range%ignored, .false., .true.), &
+      & flag_row(flag%exrhs, "E ", 0, 3, out_of_range%nearest, .true., .false.), &
+      & flag_row(flag%xflow, "X ", 0, 9999999, out_of_range%nearest), &
+      & flag_row(flag%heat, "H ", 0, 3, out_of_range%ignored, .false., .true.), &
+      & flag_row(flag%iestim, "I ", 0, 3, out_of_range%nearest), &
+      & flag_row(flag%output, "O ", 0, 6, out_of_range%nearest), &
+      & flag_row(flag%flow, "W ", 0, 9, out_of_range%nearest), &
+      & flag_row(flag%return, "R ", 0, 3, out_of_range%nearest), &
+      & flag_row(flag%matfil, "A ", 0, 2, out_of_range%zero), &
+      & flag_row(flag%sens, "  ", 0, 3, out_of_range%nearest), &
+      & flag_row(flag%ifmeth, "  ", 0, 1, out_of_range%nearest), &
+      & flag_row(flag%ifvari, "  ", 1, 4, out_of_range%nearest), &
+      & flag_row(flag%sbsout, "  ", 0, 4, out_of_range%nearest), &
+      & flag_row(flag%sbsfil, "  ", 0, 2, out_of_range%zero), &
+      & flag_row(flag%npomax, "  ", 100, 1000000, out_of_range%nearest), &
+      & flag_row(flag%idebug, "  ", -huge(1), huge(1), out_of_range%nearest, .true., .false.), &
+      & flag_row(flag%licdbg, "  ", -huge(1), huge(1), out_of_range%nearest, .true., .false.), &
+      & flag_row(flag%wrtinp, "  ", 0, 2, out_of_range%nearest), &
+      & flag_row(flag%openmp, "  ", -huge(1), huge(1), out_of_range%nearest, .true., .false.), &
+      & flag_row(flag%timers, "  ", 0, 2, out_of_range%nearest, .true., .false.), &
+      & flag_row(flag%ncase, "  ", 0, huge(1), out_of_range%nearest)]
+
+contains
+
+   !> Row of the table, 0 when there is none
+   pure integer function row_of_flag(code) result(row)
+      integer, intent(in) :: code
+
+      do row = 1, size(flag_table)
+         if (flag_table(row)%code == code) return
+      end do
+      row = 0
+   end function row_of_flag
+
+   !> What is stored for a value that a caller gives, and whether it is stored at all
+   pure subroutine accepted_value(row, value, module_number, stored, accepted)
+      type(flag_row), intent(in) :: row
+      integer, intent(in) :: value
+      !> 1 or 3
+      integer, intent(in) :: module_number
+      integer, intent(out) :: stored
+      logical, intent(out) :: accepted
+      integer :: highest
+
+      highest = row%highest
+      if (row%code == flag%force .and. module_number == 3) highest = 2
+      accepted = .true.
+      stored = value
+      if (value < row%lowest .or. value > highest) then
+         select case (row%outside)
+         case (out_of_range%nearest); stored = max(row%lowest, min(highest, value))
+         case (out_of_range%zero); stored = 0
+         case default; accepted = .false.
+         end select
+      end if
+      ! output of subsurface stresses has no level 3
+      if (row%code == flag%sbsout .and. stored == 3) stored = 2
+   end subroutine accepted_value
+
+   !> Give the control digit behind a flag a value
+   pure subroutine put_digit(digits, name, value)
+      type(case_digits), intent(inout) :: digits
+      character(len=*), intent(in) :: name
+      integer, intent(in) :: value
+
+      select case (name)
+      case ("C1"); digits%c1 = value
+      case ("P"); digits%p = value
+      case ("B"); digits%b = value
+      case ("T"); digits%t = value
+      case ("N"); digits%n = value
+      case ("F"); digits%f = value
+      case ("D"); digits%d = value
+      case ("C"); digits%c = value
+      case ("E"); digits%e = value
+      ! the word chooses what debug output prints, and there is none; the digit tells that it was given
+      case ("X"); digits%x = merge(1, 0, value > 0)
+      case ("I"); digits%i = value
+      case ("A"); digits%a = value
+      case ("O"); digits%o = value
+      case ("W"); digits%w = value
+      case ("R"); digits%r = value
+      end select
+   end subroutine put_digit
+end module contact_control_flags

@@ -1,0 +1,105 @@
+!> Numbers that callers of the library get and give: error codes, fields, kinds of input files
+module contact_control_library_codes
+   use contact_control_units, only : orientation
+   implicit none (type, external)
+   private
+
+   public :: library_code, code_text, input_type, field_row, field_table, field_kind, interface_version
+
+   !> What initialisation tells callers, 100 major + 10 minor + update of the published interface
+   integer, parameter :: interface_version = 2520
+
+   type :: library_code_list
+      integer :: success = 0
+      !> The problem is in use by another thread
+      integer :: in_use = 305
+      !> More result elements or calculations at once than can be
+      integer :: not_allowed = -12
+      integer :: search = -25, total_force = -26, normal = -27, tangential = -28, tolerance = -29
+      integer :: no_patch = -31, profile = -32, friction = -33, discretisation = -34, input_file = -39, other = -99
+      !> A call that cannot be meant: result element; module 1 or 3 required; patch out of range, needed, not wanted
+      integer :: bad_element = -101, not_module_1 = -102, not_module_3 = -103, bad_patch = -104
+      integer :: patch_needed = -105, patch_unwanted = -106
+   end type library_code_list
+   !> Names of the codes that routines with an error argument return
+   type(library_code_list), parameter :: library_code = library_code_list()
+
+   type :: input_type_list
+      integer :: module_1 = 1988, simpack = 1990
+   end type input_type_list
+   !> Kinds of files that can be read
+   type(input_type_list), parameter :: input_type = input_type_list()
+
+   type :: field_kind_list
+      integer :: h = 1, mu = 2, px = 3, py = 4, pn = 5, ux = 7, uy = 8, un = 9, taucrt = 11, uplsx = 12, uplsy = 13
+      integer :: sx = 15, sy = 16, temp1 = 20, temp2 = 21, wx = 22, wy = 23
+   end type field_kind_list
+   !> Codes of element fields
+   type(field_kind_list), parameter :: field_kind = field_kind_list()
+
+   !> One element field
+   type :: field_row
+      integer :: kind = 0
+      !> Powers of the unit of length and of force
+      integer :: length = 0, force = 0
+      !> Member of orientation
+      integer :: along = 0
+   end type field_row
+
+   !> All element fields: kind, unit, sign
+   !>
+   !> Displacements do not follow the body that is looked at, contrary to tractions and slip.
+   type(field_row), parameter :: field_table(*) = [ &
+      & field_row(field_kind%h, 1, 0, orientation%none), &
+      & field_row(field_kind%mu, 0, 0, orientation%none), &
+      & field_row(field_kind%px, -2, 1, orientation%along), &
+      & field_row(field_kind%py, -2, 1, orientation%across), &
+      & field_row(field_kind%pn, -2, 1, orientation%none), &
+      & field_row(field_kind%ux, 1, 0, orientation%none), &
+      & field_row(field_kind%uy, 1, 0, orientation%side), &
+      & field_row(field_kind%un, 1, 0, orientation%none), &
+      & field_row(field_kind%taucrt, -2, 1, orientation%none), &
+      & field_row(field_kind%uplsx, 1, 0, orientation%none), &
+      & field_row(field_kind%uplsy, 1, 0, orientation%side), &
+      & field_row(field_kind%sx, 0, 0, orientation%along), &
+      & field_row(field_kind%sy, 0, 0, orientation%across), &
+      & field_row(field_kind%temp1, 0, 0, orientation%none), &
+      & field_row(field_kind%temp2, 0, 0, orientation%none), &
+      & field_row(field_kind%wx, 0, 0, orientation%along), &
+      & field_row(field_kind%wy, 0, 0, orientation%across)]
+
+contains
+
+   !> A code in words
+   pure function code_text(code) result(text)
+      !> Member of library_code
+      integer, intent(in) :: code
+      character(len=:), allocatable :: text
+
+      select case (code)
+      case (library_code%success); text = "success"
+      case (library_code%in_use); text = "the problem is in use by another thread"
+      case (library_code%not_allowed); text = "more result elements or calculations at once than are possible"
+      case (library_code%search); text = "the contact search failed"
+      case (library_code%total_force); text = "the iteration for the total force failed"
+      case (library_code%normal); text = "the normal problem did not converge"
+      case (library_code%tangential); text = "the tangential problem did not converge"
+      case (library_code%tolerance); text = "the iteration for the total force stopped above its tolerance"
+      case (library_code%no_patch); text = "there is no contact patch with this number"
+      case (library_code%profile); text = "a profile is missing or cannot be used"
+      case (library_code%friction); text = "the friction data cannot be used"
+      case (library_code%discretisation); text = "the grid does not fit the one of the previous case"
+      case (library_code%input_file); text = "the input file cannot be used"
+      case (library_code%other); text = "the calculation failed"
+      case (library_code%bad_element); text = "the number of a result element must be 1 to 999"
+      case (library_code%not_module_1); text = "the routine is for contact problems (module 3), the result element is " // &
+         & "for wheel and rail (module 1)"
+      case (library_code%not_module_3); text = "the routine is for wheel and rail (module 1), the result element is for " // &
+         & "contact problems (module 3)"
+      case (library_code%bad_patch); text = "the number of a contact patch must be 1 to 9; -1 stands for wheel and rail as a whole"
+      case (library_code%patch_needed); text = "the routine needs the number of a contact patch"
+      case (library_code%patch_unwanted); text = "the routine works on wheel and rail as a whole, with -1 for the contact patch"
+      case default; text = "elements in contact at the border of the potential contact area"
+      end select
+   end function code_text
+end module contact_control_library_codes

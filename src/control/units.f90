@@ -1,0 +1,116 @@
+!> Unit conventions and signs of callers of the library, as tables
+!>
+!> Inside: mm, N, s, rad, degC, forces on body 1, a wheel on the right side of the track. What comes in
+!> is multiplied by `inward`, what goes out by `outward`; nothing else in the library knows conventions.
+!> Time and temperature are the same in all of them.
+module contact_control_units
+   use contact_base_kinds, only : wp
+   implicit none (type, external)
+   private
+
+   public :: unit_convention, convention_code, find_convention, quantity, quantity_type, orientation, inward, outward
+
+   type :: convention_code_list
+      integer :: contact = 1934, simpack = 1935, si = 1936, imperial = 1937
+   end type convention_code_list
+   !> Codes that callers use for conventions
+   type(convention_code_list), parameter :: convention_code = convention_code_list()
+
+   !> One convention: internal value = factor times external value
+   type :: unit_convention
+      integer :: code = 1934
+      !> Length, force, velocity, angle
+      real(wp) :: length = 1.0_wp, force = 1.0_wp, velocity = 1.0_wp, angle = 1.0_wp
+      !> Body whose forces and tractions go out: 1 for body 1, -1 for body 2
+      real(wp) :: body = 1.0_wp
+   end type unit_convention
+
+   type(unit_convention), parameter :: conventions(*) = [ &
+      & unit_convention(1934, 1.0_wp, 1.0_wp, 1.0_wp, 1.0_wp, 1.0_wp), &
+      & unit_convention(1935, 1000.0_wp, 1.0_wp, 1000.0_wp, 1.0_wp, -1.0_wp), &
+      & unit_convention(1936, 1000.0_wp, 1.0_wp, 1000.0_wp, 1.0_wp, 1.0_wp), &
+      & unit_convention(1937, 1.0_wp, 1.0_wp, 1.0_wp, 1.0_wp, 1.0_wp)]
+
+   !> A physical quantity as powers of length, force, velocity and angle
+   type :: quantity_type
+      integer :: length = 0, force = 0, velocity = 0, angle = 0
+   end type quantity_type
+
+   type :: quantity_list
+      type(quantity_type) :: number = quantity_type()
+      type(quantity_type) :: length = quantity_type(length=1)
+      type(quantity_type) :: area = quantity_type(length=2)
+      type(quantity_type) :: curvature = quantity_type(length=-1)
+      type(quantity_type) :: angle = quantity_type(angle=1)
+      type(quantity_type) :: velocity = quantity_type(velocity=1)
+      !> Slip decay rate [s/mm]
+      type(quantity_type) :: per_velocity = quantity_type(velocity=-1)
+      type(quantity_type) :: force = quantity_type(force=1)
+      type(quantity_type) :: moment = quantity_type(length=1, force=1)
+      type(quantity_type) :: pressure = quantity_type(length=-2, force=1)
+      !> Slope of the yield limit [N/mm3], stiffness [N/mm], flexibility of a layer [mm3/N]
+      type(quantity_type) :: pressure_slope = quantity_type(length=-3, force=1)
+      type(quantity_type) :: stiffness = quantity_type(length=-1, force=1)
+      type(quantity_type) :: compliance = quantity_type(length=3, force=-1)
+      type(quantity_type) :: spin = quantity_type(length=-1, angle=1)
+      !> Thermal conductivity [W/(K mm)], density [kg/mm3]
+      type(quantity_type) :: conductivity = quantity_type(length=-1)
+      type(quantity_type) :: density = quantity_type(length=-3)
+   end type quantity_list
+   !> Names of quantities
+   type(quantity_list), parameter :: quantity = quantity_list()
+
+   type :: orientation_list
+      !> The same for both bodies and both sides of the track
+      integer :: none = 0
+      !> Along the track: changes with the body that is looked at
+      integer :: along = 1
+      !> Across the track, and turning about x and z: changes with body and side
+      integer :: across = 2
+      !> Changes with the side of the track only
+      integer :: side = 3
+   end type orientation_list
+   !> Which sign an output has
+   type(orientation_list), parameter :: orientation = orientation_list()
+
+contains
+
+   !> The convention with a code; an unknown code changes nothing
+   pure subroutine find_convention(code, units, known)
+      integer, intent(in) :: code
+      type(unit_convention), intent(inout) :: units
+      logical, intent(out) :: known
+      integer :: k
+
+      known = .false.
+      do k = 1, size(conventions)
+         if (conventions(k)%code /= code) cycle
+         units = conventions(k)
+         known = .true.
+      end do
+   end subroutine find_convention
+
+   !> Factor from the units of a caller to internal ones
+   elemental real(wp) function inward(units, what) result(factor)
+      type(unit_convention), intent(in) :: units
+      type(quantity_type), intent(in) :: what
+
+      factor = units%length**what%length*units%force**what%force*units%velocity**what%velocity*units%angle**what%angle
+   end function inward
+
+   !> Factor, with sign, from internal units to those of a caller
+   elemental real(wp) function outward(units, what, along, left) result(factor)
+      type(unit_convention), intent(in) :: units
+      type(quantity_type), intent(in) :: what
+      !> Member of orientation; default none
+      integer, intent(in), optional :: along
+      !> Is it a wheel on the left side of the track?
+      logical, intent(in), optional :: left
+
+      factor = 1.0_wp/inward(units, what)
+      if (.not. present(along)) return
+      if (along == orientation%along .or. along == orientation%across) factor = units%body*factor
+      if (.not. present(left)) return
+      if (left .and. (along == orientation%across .or. along == orientation%side)) factor = -factor
+   end function outward
+end module contact_control_units
