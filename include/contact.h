@@ -31,6 +31,17 @@ enum {
 int contact_run(const char *experiment, int mode, const char *output_dir, int threads,
                 char *message, int message_length);
 
+/* What went wrong last, for callers of contact_addon.h.
+ *
+ * ire, icp        result element and contact patch (-1 for wheel and rail); ire 0: the library as a whole
+ * message         receives "" or the reason, cut to fit; NULL if not wanted
+ * message_length  size of message in bytes, the final null included
+ *
+ * Returns the error code that belongs to it, 0 when nothing went wrong. A problem forgets at its next
+ * calculation.
+ */
+int contact_last_error(int ire, int icp, char *message, int message_length);
+
 #ifdef __cplusplus
 }
 #endif

@@ -34,6 +34,16 @@ target_include_directories(contact INTERFACE
   $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
 add_library(contact::contact ALIAS contact)
 
+# The same library under the file name that existing callers load, beside the program
+if(NOT APPLE AND NOT WIN32)
+  set(addon contact_addon_linux64.so)
+  file(RELATIVE_PATH addon_target ${CMAKE_RUNTIME_OUTPUT_DIRECTORY} ${CMAKE_LIBRARY_OUTPUT_DIRECTORY}/libcontact.so)
+  add_custom_command(TARGET contact POST_BUILD
+    COMMAND ${CMAKE_COMMAND} -E make_directory ${CMAKE_RUNTIME_OUTPUT_DIRECTORY}
+    COMMAND ${CMAKE_COMMAND} -E create_symlink ${addon_target} ${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/${addon})
+  install(FILES $<TARGET_FILE:contact> DESTINATION ${CMAKE_INSTALL_BINDIR} RENAME ${addon})
+endif()
+
 add_library(contact_static STATIC ${objects})
 set_target_properties(contact_static PROPERTIES LINKER_LANGUAGE Fortran OUTPUT_NAME contact)
 
