@@ -57,8 +57,8 @@ def library() -> ctypes.CDLL:
     for name in candidates():
         try:
             loaded = ctypes.CDLL(name)
-            for routine in SIGNATURES:
-                getattr(loaded, routine).restype = None
+            for routine in ("cntc_initialize", "contact_last_error"):
+                getattr(loaded, routine)
         except (OSError, AttributeError) as error:
             reasons.append(f"  {name}: {error}")
             continue
@@ -115,7 +115,9 @@ def call(name: str, *values: Any) -> Any:
     remaining = sum(1 for _ in given)
     if remaining:
         raise TypeError(f"{name}: {remaining} values too many")
-    getattr(library(), name)(*passed)
+    routine = getattr(library(), name)
+    routine.restype = None
+    routine(*passed)
     if len(results) == 1:
         return results[0].value
     return tuple(result.value for result in results) or None
