@@ -37,8 +37,8 @@ int contact_run(const char *experiment, int mode, const char *output_dir, int th
  * message         receives "" or the reason, cut to fit; NULL if not wanted
  * message_length  size of message in bytes, the final null included
  *
- * Returns the error code that belongs to it, 0 when nothing went wrong. A problem forgets at its next
- * calculation.
+ * Returns the error code that belongs to it, 0 when nothing went wrong. It is forgotten when it
+ * was asked for, and when the problem is calculated again.
  */
 int contact_last_error(int ire, int icp, char *message, int message_length);
 

@@ -28,6 +28,10 @@ module contact_capi_physics
    !> Yield limits from here on are never reached [N/mm2]
    real(wp), parameter :: unreachable_yield = 1.0e10_wp
 
+   !> Prescribed tangential forces by the friction bound are shortened to this, because the bound itself is
+   !> reached by infinite creepage only
+   real(wp), parameter :: largest_force = 1.0_wp - 1.0e-4_wp
+
 contains
 
    !> Iteration limits and solver (G)
@@ -425,7 +429,7 @@ contains
       if (problem%module_number == 1) then
          if (are_finite(this, force(:1))) problem%spec%wheel_rail%wheelset%fx = force(1)*inward(problem%units, quantity%force)
       else if (are_finite(this, force)) then
-         force = force/max(1.0_wp, hypot(force(1), force(2)))
+         force = force/max(1.0_wp, hypot(force(1), force(2))/largest_force)
          problem%spec%kinematics%fx = force(1)
          problem%spec%kinematics%fy = force(2)
       end if

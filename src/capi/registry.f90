@@ -388,6 +388,8 @@ contains
 
       !$omp critical (contact_registry)
       library%calculations = library%calculations - 1
+      ! The file can be read while the caller goes on
+      if (library%log%out /= 0) flush(library%log%out)
       !$omp end critical (contact_registry)
       call leave(problem)
    end subroutine leave_calculation
@@ -514,6 +516,7 @@ contains
       !$omp critical (contact_registry)
       if (number /= library_code%success) call set_last_error(number, trim(call_of%name) // ": " // text, call_of)
       call library%log%line(prefix_of(call_of) // " " // text)
+      if (library%log%out /= 0) flush(library%log%out)
       !$omp end critical (contact_registry)
    end subroutine complain
 
@@ -570,7 +573,7 @@ contains
       problem => library%elements(ire)%patch(k)%p
    end function existing_problem
 
-   !> What went wrong last, "" when nothing did
+   !> What went wrong last, "" when nothing did; forgotten by this question
    subroutine last_complaint(code, text, ire, icp)
       integer, intent(out) :: code
       character(len=:), allocatable, intent(out) :: text
@@ -583,12 +586,14 @@ contains
       text = ""
       if (ire == 0) then
          code = library%last_code
-         if (allocated(library%last_error)) text = library%last_error
+         if (allocated(library%last_error)) call move_alloc(library%last_error, text)
+         library%last_code = library_code%success
       else
          problem => existing_problem(ire, icp)
          if (associated(problem)) then
             code = problem%last_code
-            if (allocated(problem%last_error)) text = problem%last_error
+            if (allocated(problem%last_error)) call move_alloc(problem%last_error, text)
+            problem%last_code = library_code%success
          end if
       end if
       !$omp end critical (contact_registry)
