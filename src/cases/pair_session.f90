@@ -1,6 +1,6 @@
 !> Wheel on rail through its cases: specification in, result out
 module contact_cases_pair_session
-   use contact_base_choices, only : contact_location, estimate_choice, force_control, kernel_model, material_model, motion, &
+   use contact_base_choices, only : contact_location, estimate_choice, force_control, kernel_model, material_model, &
       & normal_control, pressure_model, sensitivity_choice, stress_choice, time_link, variation
    use contact_base_error, only : add_context, error_kind, error_type, fatal_error
    use contact_base_kinds, only : wp
@@ -75,9 +75,7 @@ contains
       type(case_spec), intent(in) :: spec
       type(error_type), allocatable, intent(out) :: error
 
-      if (spec%motion == motion%shift .or. spec%motion == motion%transient_rolling) then
-         call refuse("T = 1, 2, transient contact of wheel and rail")
-      else if (spec%force /= force_control%creepages) then
+      if (spec%force /= force_control%creepages) then
          call refuse("F = 1, 3, prescribed longitudinal force or rail on springs, in wheel-rail contact")
       else if (spec%wheel_rail%search%location /= contact_location%locus .and. &
          & spec%wheel_rail%search%location /= contact_location%grid) then
@@ -118,6 +116,7 @@ contains
          problem%force_prescribed = spec%normal == normal_control%force
          problem%geometry_only = .not. spec%solve
          problem%use_previous = spec%estimate /= estimate_choice%fresh .and. spec%link /= time_link%initiate
+         problem%link = spec%link
          problem%weight_power = spec%wheel_rail%search%weight_power
          problem%most_elements = spec%iteration%npot_max
          template%model%material = combine(spec%material%poiss, spec%material%gg)

@@ -168,6 +168,8 @@ contains
    end subroutine read_track
 
    !> Wheelset dimensions, wheel profile, position, velocity, flexible deviations (E)
+   !>
+   !> Flexible deviations stay until others are given.
    subroutine read_wheelset(lexer, spec, problems, error)
       type(input_lexer), intent(inout) :: lexer
       type(case_spec), intent(inout) :: spec
@@ -204,9 +206,6 @@ contains
             call lexer%read_group("rrraaa", "VXWHL VYWHL VZWHL VROLLW VYAWW VPITCHW", v, error)
             if (allocated(error)) return
             wheelset%flexible_rate = v%r
-         else if (spec%digits%e >= 1) then
-            wheelset%flexible = 0.0_wp
-            wheelset%flexible_rate = 0.0_wp
          end if
       end associate
    end subroutine read_wheelset

@@ -42,6 +42,8 @@ module contact_output_mat_file
       integer :: c1 = 0, d = 2
       !> Lateral place of the wheel profile in the wheelset [mm]
       real(wp) :: wheel_offset = 0.0_wp
+      !> Contact reference in the coordinates of the elements [mm]
+      real(wp) :: spin_centre(2) = 0.0_wp
    end type mat_place
 
 contains
@@ -111,7 +113,7 @@ contains
       lines(5) = name_line([character(len=11) :: "X_CP(R)", "Y_CP(R)", "Z_CP(R)", "DELT_CP(R)", "X_CP(W)", "Y_CP(W)", &
          & "Z_CP(W)", "NPATCH", "IPATCH", "SPINXO", "SPINYO", (unused, i = 12, columns)])
       lines(6) = reals(place%reference) // integers([place%patches, place%patch]) // reals([spec%kinematics%spinxo, &
-         & spec%kinematics%spinyo, zeros(columns - 11)])
+         & spec%kinematics%spinyo] + place%spin_centre) // reals(zeros(columns - 11))
       lines(7) = name_line([character(len=11) :: "  MX   MY", "XL", "YL", "DX", "DY", "CHI", "DQ", "C1", "D", "YNOM_WHL", &
          & (unused, i = 12, columns)])
       lines(8) = two_integers(result%grid%mx, result%grid%my) // reals([result%grid%xl, result%grid%yl, result%grid%dx, &

@@ -6,7 +6,7 @@ module contact_output_pair_files
    use contact_output_mat_file, only : mat_file_name, mat_place, write_mat_file
    use contact_output_subs_file, only : subs_file_name, write_subs_file
    use contact_patch_result, only : patch_result
-   use contact_wheelrail_result, only : pair_patch, pair_result
+   use contact_wheelrail_result, only : in_element_coordinates, pair_patch, pair_result
    implicit none (type, external)
    private
 
@@ -30,12 +30,12 @@ contains
          associate (patch => result%patches(k))
             if (spec%mat_file >= 1) then
                if (spec%wheel_rail%left) then
-                  mirror = mirrored(patch%contact)
+                  mirror = mirrored(in_element_coordinates(patch))
                   call write_mat_file(mat_file_name(base, case_number, result_element, k), spec, mirror, error, &
                      & place_of(spec, result, patch, k))
                else
-                  call write_mat_file(mat_file_name(base, case_number, result_element, k), spec, patch%contact, error, &
-                     & place_of(spec, result, patch, k))
+                  call write_mat_file(mat_file_name(base, case_number, result_element, k), spec, &
+                     & in_element_coordinates(patch), error, place_of(spec, result, patch, k))
                end if
                if (allocated(error)) return
             end if
@@ -64,6 +64,7 @@ contains
       end associate
       place%reference = [patch%x, s*patch%y_rail, patch%z_rail, s*patch%delta_rail, patch%x_wheel, s*patch%y_wheel, &
          & patch%z_wheel]
+      place%spin_centre = [patch%grid_reference(1), s*patch%grid_reference(2)]
       place%patches = size(result%patches)
       place%patch = number
       place%c1 = spec%digits%c1

@@ -15,7 +15,7 @@ module contact_output_report_pair
    use contact_output_report_input, only : write_friction
    use contact_output_report_result, only : shown_totals, without_noise, write_solution_line, write_statistics
    use contact_output_report_subsurface, only : write_subsurface
-   use contact_wheelrail_result, only : pair_patch, pair_result
+   use contact_wheelrail_result, only : in_element_coordinates, pair_patch, pair_result
    implicit none (type, external)
    private
 
@@ -426,7 +426,7 @@ contains
             call write_picture(log, patch%contact%division, spec%motion, patch%contact%chi)
             if (allocated(patch%curve)) call write_curve(log, patch, s)
          end if
-         if (spec%output_level >= 5) call write_element_table(log, spec, patch%contact)
+         if (spec%output_level >= 5) call write_element_table(log, spec, in_element_coordinates(patch))
       end if
       if (spec%stress /= stress_choice%none .and. allocated(patch%contact%subsurface)) &
          & call write_subsurface(log, spec, patch%contact)
@@ -462,6 +462,10 @@ contains
          call log%result("     CHI         DQ          VELOC       CKSI        CETA        CPHI")
          call log%result("  " // smart(s*contact%chi, 12, 4, 4) // generals([contact%dq]) // smart(contact%veloc, 12, 4, 4) &
             & // smarts([contact%cksi, s*contact%ceta, s*contact%cphi]))
+         if (.not. any(abs(patch%grid_reference) > 0.0_wp)) return
+         call log%result("")
+         call log%result("     SPINXO      SPINYO")
+         call log%result("  " // generals(patch%grid_reference))
       end associate
    end subroutine write_patch_kinematics
 
@@ -479,6 +483,8 @@ contains
 
       conformal = spec%wheel_rail%search%location == contact_location%conformal
       totals = without_noise(spec, patch%contact)
+      ! the moment is about the origin of the elements
+      totals%mz = totals%mz + patch%grid_reference(1)*totals%fy - patch%grid_reference(2)*totals%fx
       if (spec%output_level >= 2) then
          call log%result("")
          call log%result(" TOTAL FORCES, TORSIONAL MOMENT, ELASTIC ENERGY, FRICTIONAL POWER")

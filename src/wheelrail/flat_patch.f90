@@ -39,17 +39,19 @@ contains
       plane = new_frame([region%x, region%y, z], region%alpha, 0.0_wp)
    end function patch_frame
 
-   !> Elements that cover a region, with one more on each side; the origin is the centre of an element
-   subroutine patch_grid(rail, search, region, plane, most_elements, grid)
+   !> Elements that cover a region, with one more on each side
+   subroutine patch_grid(rail, search, region, plane, reference, most_elements, grid)
       !> The rail in track coordinates
       type(profile_curve), intent(in) :: rail
       type(search_spec), intent(in) :: search
       type(contact_region), intent(in) :: region
       type(frame), intent(in) :: plane
+      !> Place of the contact reference relative to the centre of an element [mm]
+      real(wp), intent(in) :: reference(2)
       !> Elements are doubled in size until there are fewer than this
       integer, intent(in) :: most_elements
       type(potential_contact), intent(out) :: grid
-      real(wp) :: x(2), s(2), dx, ds
+      real(wp) :: x(2), s(2), lead(2), dx, ds
       integer :: ix(2), iy(2), doubling
 
       x = region%box%x - plane%origin(1)
@@ -61,8 +63,10 @@ contains
       dx = search%dx
       ds = search%ds
       do doubling = 1, 40
-         ix = [floor(x(1)/dx) - 1, ceiling(x(2)/dx) + 1]
-         iy = [floor(s(1)/ds) - 1, ceiling(s(2)/ds) + 1]
+         ! the reference as seen from the centre of its element, which may be many elements from the origin
+         lead = reference - anint(reference/[dx, ds])*[dx, ds]
+         ix = [floor((x(1) + lead(1))/dx) - 1, ceiling((x(2) + lead(1))/dx) + 1]
+         iy = [floor((s(1) + lead(2))/ds) - 1, ceiling((s(2) + lead(2))/ds) + 1]
          grid%mx = ix(2) - ix(1) + 1
          grid%my = iy(2) - iy(1) + 1
          if (real(grid%mx, wp)*grid%my < most_elements) exit
@@ -72,8 +76,8 @@ contains
       end do
       grid%dx = dx
       grid%dy = ds
-      grid%xl = (ix(1) - 0.5_wp)*dx
-      grid%yl = (iy(1) - 0.5_wp)*ds
+      grid%xl = (ix(1) - 0.5_wp)*dx - lead(1)
+      grid%yl = (iy(1) - 0.5_wp)*ds - lead(2)
    end subroutine patch_grid
 
    !> Distance of the undeformed bodies [mm], shifted so that its minimum is zero, and the approach

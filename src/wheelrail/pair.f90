@@ -13,12 +13,13 @@ module contact_wheelrail_pair
    use contact_friction_law, only : friction_parameters
    use contact_friction_new_law, only : new_friction_law
    use contact_patch_moments, only : link_moments
-   use contact_patch_problem, only : patch_problem, patch_state
+   use contact_patch_problem, only : patch_problem, patch_state, traction_fields
    use contact_patch_result, only : patch_result
    use contact_patch_solve, only : solve_patch
    use contact_patch_workspace, only : patch_workspace, release_workspace
    use contact_profile_curve, only : profile_curve
    use contact_profile_surface, only : profile_surface, surface_cut
+   use contact_wheelrail_carry_over, only : carried_moment, lattice_box, lattice_window, place_on_lattice
    use contact_wheelrail_bodies, only : pair_bodies, place_bodies, rail_section
    use contact_wheelrail_creepage, only : contact_motion, flat_creepage, flat_shift, rigid_motion
    use contact_wheelrail_flat_patch, only : patch_frame, patch_grid, undeformed_distance
@@ -50,6 +51,8 @@ module contact_wheelrail_pair
       logical :: geometry_only = .false.
       !> Start from the previous case?
       logical :: use_previous = .false.
+      !> How the case continues the previous one, member of time_link
+      integer :: link = time_link%initiate
       !> Power of the interpenetration in the weights of the contact reference
       integer :: weight_power = 2
       !> How friction varies, member of variation, and its law, member of friction_model
@@ -75,6 +78,12 @@ module contact_wheelrail_pair
       type(contact_region) :: region
       type(frame) :: plane
       type(contact_motion) :: motion
+      !> Place of the contact reference on the lattice of the pair [mm]
+      real(wp) :: reference(2) = 0.0_wp
+      !> Window of the grid on the lattice, and that of the solution in `state`
+      type(lattice_window) :: window, solved_window
+      !> Patches of the previous moment that this one continues
+      integer, allocatable :: previous(:)
       !> Force of the pressures on the rail in the axes x, s, n of the plane [N]
       real(wp) :: pressure_force(3) = 0.0_wp
       !> Force of friction in the same axes, relative to the normal force [-]: of the last tangential
@@ -106,6 +115,10 @@ module contact_wheelrail_pair
       real(wp) :: gap_height = 0.0_wp
       !> Top of the canted rail and its gauge point [mm]
       real(wp) :: top_z = 0.0_wp, gauge_y = 0.0_wp
+      !> Where the tractions of the previous moment are
+      type(carried_moment) :: before
+      !> Position of the wheelset along the rail [mm], and the arc length of the rail's profile at its origin [mm]
+      real(wp) :: travel = 0.0_wp, profile_origin = 0.0_wp
    end type pair_geometry
 
    !> What a pair remembers from case to case, and scratch
@@ -117,6 +130,10 @@ module contact_wheelrail_pair
       integer :: used = 0
       type(patch_slot), allocatable :: slot(:)
       type(pair_geometry) :: here
+      !> Tractions of the last solved case
+      type(carried_moment) :: last
+      !> Motion of the last case
+      integer :: motion = motion%none
    end type pair_memory
 
    !> Rounds of tangential solutions with a new search for the height
@@ -145,6 +162,7 @@ contains
          memory%used = 0
          memory%here%shares = 0
       end if
+      call begin_step(problem, memory, log)
       result%solved = .false.
       result%force_evaluations = 0
       result%vpitch = problem%spec%wheelset%vpitch
@@ -158,6 +176,7 @@ contains
       end if
       call place(problem, memory, z)
       memory%here%rail_in_track = rail_at(problem, memory%here%placement, 0.0_wp)
+      memory%here%profile_origin = memory%here%rail_in_track%s_at(memory%here%placement%rail%origin(2))
       memory%here%searches_table = allocated(problem%rail_surface) .or. allocated(problem%wheel_surface) &
          & .or. problem%spec%search%location == contact_location%grid
       if (memory%here%searches_table) then
@@ -183,14 +202,92 @@ contains
       else
          call balance_forces(problem, memory, touch, z, log, result, error)
       end if
-      if (allocated(error)) return
+      if (allocated(error)) then
+         call memory%last%clear()
+         return
+      end if
       call place(problem, memory, z)
       memory%z_ws = z
       memory%started = .true.
+      if (.not. problem%geometry_only) call keep_moment(problem, memory)
       result%z_ws = z
       result%smallest_gap = touch - z
       call gather(problem, memory, result)
    end subroutine solve_pair
+
+   !> What the case continues from, according to its link to the previous one
+   subroutine begin_step(problem, memory, log)
+      type(pair_problem), intent(in) :: problem
+      type(pair_memory), intent(inout) :: memory
+      type(log_type), intent(inout) :: log
+      integer :: dropped
+
+      associate (here => memory%here)
+         select case (problem%link)
+         case (time_link%initiate)
+            call here%before%clear()
+            here%before%travel = 0.0_wp
+         case (time_link%repeat_step)
+            continue
+         case default
+            here%before = memory%last
+            if (problem%link == time_link%continue_normal) call here%before%drop_tangential()
+         end select
+         here%travel = problem%spec%wheelset%s
+         if (problem%spec%roller) here%travel = here%before%travel + problem%spec%wheelset%rpitch*problem%spec%track%nomradr
+         ! solutions on another lattice are no estimates
+         if (problem%template%motion /= memory%motion) memory%slot%state%started = .false.
+         memory%motion = problem%template%motion
+         call here%before%set_frame(follows_rail=problem%template%motion == motion%shift)
+         if (.not. keeps_lattice(problem)) return
+         call here%before%drop_other_elements(problem%spec%search%dx, problem%spec%search%ds, dropped)
+         if (dropped > 0) call log%warning("the tractions of the previous case stand on other elements and are not continued")
+      end associate
+   end subroutine begin_step
+
+   !> Do the elements stand on the lattice of the pair, as a transient motion needs it?
+   pure logical function keeps_lattice(problem) result(keeps)
+      type(pair_problem), intent(in) :: problem
+      keeps = problem%template%motion == motion%shift .or. problem%template%motion == motion%transient_rolling
+   end function keeps_lattice
+
+   !> Keep the tractions of this case for the next one
+   subroutine keep_moment(problem, memory)
+      type(pair_problem), intent(in) :: problem
+      type(pair_memory), intent(inout) :: memory
+      integer :: k
+
+      call memory%last%start(memory%used, problem%template%motion == motion%shift, memory%here%travel)
+      do k = 1, memory%used
+         associate (slot => memory%slot(k))
+            call memory%last%add(k, slot%state%now, slot%reference, box_on_lattice(problem, memory%here, slot%region))
+         end associate
+      end do
+   end subroutine keep_moment
+
+   !> Position along the track, relative to the origin of the lattice [mm]
+   pure real(wp) function lattice_x(problem, here, x)
+      type(pair_problem), intent(in) :: problem
+      type(pair_geometry), intent(in) :: here
+      !> In the track [mm]
+      real(wp), intent(in) :: x
+
+      lattice_x = x
+      if (problem%template%motion == motion%shift) lattice_x = x + here%travel
+   end function lattice_x
+
+   !> Bounds of a region on the lattice
+   function box_on_lattice(problem, here, region) result(box)
+      type(pair_problem), intent(in) :: problem
+      type(pair_geometry), intent(in) :: here
+      type(contact_region), intent(in) :: region
+      type(lattice_box) :: box
+      real(wp) :: s(2)
+
+      box%x = [lattice_x(problem, here, region%box%x(1)), lattice_x(problem, here, region%box%x(2))]
+      s = here%rail_in_track%s_at(region%box%y) - here%profile_origin
+      box%s = [minval(s), maxval(s)]
+   end function box_on_lattice
 
    !> The rail's profile in track coordinates at a place along it; of a variable one within its slices
    function rail_at(problem, placement, x) result(curve)
@@ -394,6 +491,7 @@ contains
       type(log_type), intent(inout) :: log
       type(error_type), allocatable, intent(out) :: error
       type(contact_region), allocatable :: regions(:), misses(:)
+      type(lattice_box), allocatable :: boxes(:)
       integer :: k, n
 
       call place(problem, memory, z)
@@ -410,9 +508,15 @@ contains
       end if
       call match_slots(memory, regions)
       memory%used = n
+      allocate(boxes(n))
+      do k = 1, n
+         boxes(k) = box_on_lattice(problem, memory%here, regions(k))
+      end do
+      call memory%here%before%share_out(boxes)
       do k = 1, n
          memory%slot(k)%region = regions(k)
-         call solve_slot(problem, memory%here, memory%slot(k), with_friction, log, error)
+         memory%slot(k)%previous = memory%here%before%sources(k)
+         call solve_slot(problem, memory%here, k, memory%slot(k), with_friction, log, error)
          if (allocated(error)) then
             call add_context(error, "contact patch " // achar(iachar("0") + mod(k, 10)))
             return
@@ -439,7 +543,7 @@ contains
             best = j
          end do
          if (best > k) then
-            call exchange(memory%slot(k)%state, memory%slot(best)%state)
+            call exchange(memory%slot(k), memory%slot(best))
          else if (best == 0) then
             memory%slot(k)%state%started = .false.
          end if
@@ -448,12 +552,16 @@ contains
 
    !> Two slots change their memories
    subroutine exchange(a, b)
-      type(patch_state), intent(inout) :: a, b
-      type(patch_state) :: c
+      type(patch_slot), intent(inout) :: a, b
+      type(patch_state) :: state
+      type(lattice_window) :: window
 
-      c = a
-      a = b
-      b = c
+      state = a%state
+      a%state = b%state
+      b%state = state
+      window = a%solved_window
+      a%solved_window = b%solved_window
+      b%solved_window = window
    end subroutine exchange
 
    !> Force of friction relative to the normal force at a place: learned there, or that of full sliding down the slope
@@ -492,9 +600,11 @@ contains
    end subroutine learn_shares
 
    !> Grid, undeformed distance, creepages and solution of one patch
-   subroutine solve_slot(problem, here, slot, with_friction, log, error)
+   subroutine solve_slot(problem, here, number, slot, with_friction, log, error)
       type(pair_problem), intent(in) :: problem
       type(pair_geometry), intent(in) :: here
+      !> Number of the patch
+      integer, intent(in) :: number
       type(patch_slot), intent(inout) :: slot
       logical, intent(in) :: with_friction
       type(log_type), intent(inout) :: log
@@ -502,14 +612,23 @@ contains
       type(profile_curve) :: rail
       real(wp), allocatable :: h(:, :)
       real(wp) :: approach
-      logical :: continues
 
       rail = here%rail_in_track
       if (allocated(problem%rail_surface)) rail = rail_at(problem, here%placement, slot%region%x)
       slot%plane = patch_frame(rail, here%placement, slot%region)
       call move_alloc(slot%problem%h, h)
       slot%problem = problem%template
-      call patch_grid(rail, problem%spec%search, slot%region, slot%plane, problem%most_elements, slot%problem%grid)
+      slot%reference = [lattice_x(problem, here, slot%region%x), rail%s_at(slot%region%y) - here%profile_origin]
+      if (keeps_lattice(problem)) then
+         call patch_grid(rail, problem%spec%search, slot%region, slot%plane, slot%reference, huge(1), slot%problem%grid)
+         slot%window = place_on_lattice(slot%problem%grid, slot%reference)
+         call here%before%widen(number, slot%window, slot%problem%grid)
+      else
+         ! the reference is the centre of an element
+         call patch_grid(rail, problem%spec%search, slot%region, slot%plane, [0.0_wp, 0.0_wp], problem%most_elements, &
+            & slot%problem%grid)
+         slot%window = place_on_lattice(slot%problem%grid, [0.0_wp, 0.0_wp])
+      end if
       if (here%searches_table) then
          call variable_distance(here%bodies, slot%plane, slot%problem%grid, h, approach)
       else
@@ -528,11 +647,7 @@ contains
       slot%friction_share = share_at(problem, here, slot)
       if (problem%geometry_only) return
 
-      ! within a case, and from a previous case when asked for, the last solution is the estimate
-      continues = slot%state%started .and. same_elements(slot)
-      slot%problem%estimate = merge(estimate_choice%previous, estimate_choice%fresh, continues)
-      if (.not. continues) slot%state%started = .false.
-      call link_moments(slot%problem, time_link%initiate, slot%state, error)
+      call link_slot(here%before, number, slot, error)
       if (allocated(error)) return
       call solve_patch(slot%problem, slot%state, slot%workspace, log, slot%result, error)
       if (allocated(error)) return
@@ -541,6 +656,50 @@ contains
          slot%friction_share = [slot%result%fx, slot%result%fy, 0.0_wp]/slot%result%fn
       end if
    end subroutine solve_slot
+
+   !> Estimate and previous moment on the window of this solution
+   !>
+   !> Within a case, and from a previous case when asked for, the last solution is the estimate. The
+   !> previous moment is that of the previous case in every solution of this one.
+   subroutine link_slot(before, number, slot, error)
+      type(carried_moment), intent(in) :: before
+      !> Number of the patch
+      integer, intent(in) :: number
+      type(patch_slot), intent(inout) :: slot
+      type(error_type), allocatable, intent(out) :: error
+      type(traction_fields) :: estimate
+      logical :: continues, transient
+
+      associate (problem => slot%problem, state => slot%state)
+         transient = problem%motion == motion%shift .or. problem%motion == motion%transient_rolling
+         continues = state%started .and. same_elements(slot)
+         if (continues) then
+            ! the window of the last solution, seen from the reference of this one
+            state%now%grid%xl = problem%grid%xl + (slot%solved_window%first(1) - slot%window%first(1))*problem%grid%dx
+            state%now%grid%yl = problem%grid%yl + (slot%solved_window%first(2) - slot%window%first(2))*problem%grid%dy
+         end if
+         slot%solved_window = slot%window
+         problem%estimate = merge(estimate_choice%previous, estimate_choice%fresh, continues)
+         state%started = continues
+         call link_moments(problem, time_link%initiate, state, error)
+         if (allocated(error)) return
+         if (transient) then
+            estimate = state%now
+            call before%hand_over(number, problem, slot%window, state%now)
+            state%started = .true.
+            call link_moments(problem, time_link%continue_all, state, error)
+            if (allocated(error)) return
+            state%now%division = estimate%division
+            state%now%pn = estimate%pn
+            state%now%px = estimate%px
+            state%now%py = estimate%py
+            state%now%pen = estimate%pen
+         else if (size(slot%previous) > 0) then
+            state%before%is_solved = .true.
+            state%before%force = before%total_force(number)
+         end if
+      end associate
+   end subroutine link_slot
 
    !> Elements of the parts of a blended patch; what is outside of all parts cannot make contact
    subroutine divide_patch(problem, slot)
@@ -732,6 +891,11 @@ contains
       type(pair_patch), intent(inout) :: patch
       real(wp) :: local(3)
       type(frame) :: seen
+
+      patch%previous = slot%previous
+      patch%grid_reference = 0.0_wp
+      if (slot%problem%motion == motion%shift .or. slot%problem%motion == motion%transient_rolling) &
+         & patch%grid_reference = slot%reference
 
       patch%x = slot%plane%origin(1)
       patch%y = slot%plane%origin(2)

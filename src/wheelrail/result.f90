@@ -8,7 +8,7 @@ module contact_wheelrail_result
    implicit none (type, external)
    private
 
-   public :: pair_result, pair_patch, profile_points
+   public :: pair_result, pair_patch, profile_points, in_element_coordinates
 
    !> One contact patch of the pair
    type :: pair_patch
@@ -18,6 +18,9 @@ module contact_wheelrail_result
       real(wp) :: y_rail = 0.0_wp, z_rail = 0.0_wp, delta_rail = 0.0_wp
       !> The same in the wheel profile's coordinates [mm]
       real(wp) :: x_wheel = 0.0_wp, y_wheel = 0.0_wp, z_wheel = 0.0_wp
+      !> Contact reference in the coordinates of the elements of a transient case, which stand on the rail [mm]; 0
+      !> where the reference is the origin of the elements
+      real(wp) :: grid_reference(2) = 0.0_wp
       !> Patches of the previous case from which this one continues; empty for a new one
       integer, allocatable :: previous(:)
       !> Curved reference of conformal contact: y, z [mm] and angle [rad] per grid row in track coordinates,
@@ -69,4 +72,18 @@ module contact_wheelrail_result
       integer :: force_evaluations = 0
       real(wp) :: force_error = 0.0_wp
    end type pair_result
+
+contains
+
+   !> The solution of a patch on its grid with the origin of the elements: in a transient case that is not the reference
+   pure function in_element_coordinates(patch) result(contact)
+      type(pair_patch), intent(in) :: patch
+      type(patch_result) :: contact
+
+      contact = patch%contact
+      associate (x => patch%grid_reference(1), s => patch%grid_reference(2))
+         contact%grid%xl = contact%grid%xl + x
+         contact%grid%yl = contact%grid%yl + s
+      end associate
+   end function in_element_coordinates
 end module contact_wheelrail_result

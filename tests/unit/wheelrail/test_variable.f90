@@ -158,7 +158,7 @@ contains
 
       call place_pair(pair, wheel%curve, 0.0_wp, 0.0_wp, z, [0.0_wp, 0.0_wp], bodies%placement)
       plane = patch_frame(bodies%rail, bodies%placement, first(1))
-      call patch_grid(bodies%rail, pair%search, first(1), plane, 20000, grid)
+      call patch_grid(bodies%rail, pair%search, first(1), plane, [0.0_wp, 0.0_wp], 20000, grid)
       call undeformed_distance(bodies%rail, bodies%wheel, bodies%placement, plane, grid, h, pen)
       call variable_distance(bodies, plane, grid, same, same_pen)
       call suite%close_to(same_pen, pen, 2.0e-5_wp, what // ": approach")

@@ -1,0 +1,369 @@
+!> Tractions of the previous moment, carried over to the patches of the present one
+!>
+!> Patches come and go, join and separate. What they leave behind is kept on one lattice of elements per
+!> pair: across the rail it is fixed to the arc length of the profile, along the track to the rail (shifts)
+!> or to the wheelset (rolling). A patch is a window on this lattice. Every element that was in contact is
+!> given to one present patch at most, the nearest one of those whose bounds overlap with the bounds of its
+!> own patch, and that patch's window is widened to hold it: nothing is lost and nothing counted twice.
+!> Components along the track, along the profile and normal to it are kept, although the planes of
+!> the patches differ by small angles: they belong to the surface, and so does the friction bound.
+module contact_wheelrail_carry_over
+   use, intrinsic :: iso_fortran_env, only : int64
+   use contact_base_kinds, only : wp
+   use contact_grid_element_division, only : element
+   use contact_grid_potential_contact, only : potential_contact
+   use contact_patch_moments, only : clear_moment
+   use contact_patch_problem, only : memory_field, patch_problem, traction_fields
+   implicit none (type, external)
+   private
+
+   public :: carried_moment, lattice_box, lattice_window, place_on_lattice
+
+   !> Bounds of a patch on the lattice [mm]
+   type :: lattice_box
+      real(wp) :: x(2) = 0.0_wp, s(2) = 0.0_wp
+   end type lattice_box
+
+   !> Numbers of the first element of a window; element (i, j) of the lattice is centred at (i dx, j ds)
+   type :: lattice_window
+      integer(int64) :: first(2) = 0_int64
+   end type lattice_window
+
+   !> What one patch has left
+   type :: carried_patch
+      type(traction_fields) :: fields
+      type(lattice_window) :: window
+      type(lattice_box) :: box
+      !> Number of the present patch that an element is given to, 0 for none; shape of the fields
+      integer, allocatable :: owner(:, :)
+   end type carried_patch
+
+   !> All patches of a pair at one moment
+   type :: carried_moment
+      !> In the order of the results; unallocated before the first case
+      type(carried_patch), allocatable :: patch(:)
+      !> Is the lattice fixed to the rail along the track? Otherwise to the wheelset
+      logical :: follows_rail = .false.
+      !> Position of the wheelset along the rail at that moment [mm]
+      real(wp) :: travel = 0.0_wp
+   contains
+      !> No tractions
+      procedure :: clear
+      !> Take the patches of a solved case
+      procedure :: start
+      procedure :: add
+      !> Change between lattices on the rail and on the wheelset
+      procedure :: set_frame
+      !> Leave out patches on other elements
+      procedure :: drop_other_elements
+      !> Forget tangential tractions
+      procedure :: drop_tangential
+      !> Give elements to the patches of the present moment
+      procedure :: share_out
+      !> Patches of that moment which a present one continues
+      procedure :: sources
+      !> Window that holds all elements of a present patch
+      procedure :: widen
+      !> What a present patch continues from
+      procedure :: hand_over
+      !> Sum of the tractions of a present patch
+      procedure :: total_force
+   end type carried_moment
+
+contains
+
+   !> No tractions
+   pure subroutine clear(self)
+      class(carried_moment), intent(inout) :: self
+      if (allocated(self%patch)) deallocate(self%patch)
+   end subroutine clear
+
+   !> Make place for the patches of a moment
+   subroutine start(self, patches, follows_rail, travel)
+      class(carried_moment), intent(inout) :: self
+      !> Their number
+      integer, intent(in) :: patches
+      logical, intent(in) :: follows_rail
+      !> Position of the wheelset along the rail [mm]
+      real(wp), intent(in) :: travel
+
+      call self%clear()
+      allocate(self%patch(patches))
+      self%follows_rail = follows_rail
+      self%travel = travel
+   end subroutine start
+
+   !> Take the tractions of a patch
+   !>
+   !> A window that is not on the lattice, as in steady rolling, is moved to the nearest place there.
+   subroutine add(self, k, fields, reference, box)
+      class(carried_moment), intent(inout) :: self
+      integer, intent(in) :: k
+      !> On a window in coordinates of the patch
+      type(traction_fields), intent(in) :: fields
+      !> Place of the contact reference on the lattice [mm]
+      real(wp), intent(in) :: reference(2)
+      type(lattice_box), intent(in) :: box
+
+      self%patch(k)%fields = fields
+      self%patch(k)%window = place_on_lattice(fields%grid, reference)
+      self%patch(k)%box = box
+   end subroutine add
+
+   !> Place on the lattice that is nearest to a window
+   pure function place_on_lattice(grid, reference) result(window)
+      !> In coordinates with the contact reference as origin
+      type(potential_contact), intent(in) :: grid
+      !> Place of the contact reference on the lattice [mm]
+      real(wp), intent(in) :: reference(2)
+      type(lattice_window) :: window
+
+      window%first = [nint((grid%x(1) + reference(1))/grid%dx, int64), nint((grid%y(1) + reference(2))/grid%dy, int64)]
+   end function place_on_lattice
+
+   !> Change between lattices on the rail and on the wheelset, by whole elements
+   pure subroutine set_frame(self, follows_rail)
+      class(carried_moment), intent(inout) :: self
+      logical, intent(in) :: follows_rail
+      integer(int64) :: steps
+      integer :: k
+
+      if (.not. allocated(self%patch)) return
+      if (self%follows_rail .neqv. follows_rail) then
+         do k = 1, size(self%patch)
+            associate (patch => self%patch(k))
+               steps = nint(self%travel/patch%fields%grid%dx, int64)
+               if (.not. follows_rail) steps = -steps
+               patch%window%first(1) = patch%window%first(1) + steps
+               patch%box%x = patch%box%x + steps*patch%fields%grid%dx
+            end associate
+         end do
+      end if
+      self%follows_rail = follows_rail
+   end subroutine set_frame
+
+   !> Leave out patches whose elements have other sides than those of the lattice
+   subroutine drop_other_elements(self, dx, ds, dropped)
+      class(carried_moment), intent(inout) :: self
+      !> Sides of the elements [mm]
+      real(wp), intent(in) :: dx, ds
+      !> Number of patches left out
+      integer, intent(out) :: dropped
+      integer :: k
+      real(wp), parameter :: same_side = 1.0e-4_wp
+
+      dropped = 0
+      if (.not. allocated(self%patch)) return
+      do k = 1, size(self%patch)
+         associate (grid => self%patch(k)%fields%grid, division => self%patch(k)%fields%division)
+            if (abs(grid%dx - dx) <= same_side*dx .and. abs(grid%dy - ds) <= same_side*ds) cycle
+            if (any(division > element%exterior)) dropped = dropped + 1
+            division = element%exterior
+         end associate
+      end do
+   end subroutine drop_other_elements
+
+   !> Forget tangential tractions
+   pure subroutine drop_tangential(self)
+      class(carried_moment), intent(inout) :: self
+      integer :: k
+
+      if (.not. allocated(self%patch)) return
+      do k = 1, size(self%patch)
+         self%patch(k)%fields%px = 0.0_wp
+         self%patch(k)%fields%py = 0.0_wp
+      end do
+   end subroutine drop_tangential
+
+   !> Give every element that was in contact to one of the present patches
+   subroutine share_out(self, boxes)
+      class(carried_moment), intent(inout) :: self
+      !> Bounds of the present patches
+      type(lattice_box), intent(in) :: boxes(:)
+      integer :: j, k, ix, iy, candidates(size(boxes)), n, nearest
+      real(wp) :: place(2), distance, shortest
+
+      if (.not. allocated(self%patch)) return
+      do j = 1, size(self%patch)
+         associate (patch => self%patch(j), grid => self%patch(j)%fields%grid)
+            if (.not. allocated(patch%owner)) allocate(patch%owner(grid%mx, grid%my))
+            patch%owner = 0
+            n = 0
+            do k = 1, size(boxes)
+               if (.not. overlap(patch%box, boxes(k))) cycle
+               n = n + 1
+               candidates(n) = k
+            end do
+            if (n == 0) cycle
+            do iy = 1, grid%my
+               do ix = 1, grid%mx
+                  if (patch%fields%division(ix, iy) <= element%exterior) cycle
+                  nearest = candidates(1)
+                  if (n > 1) then
+                     place = [(patch%window%first(1) + ix - 1)*grid%dx, (patch%window%first(2) + iy - 1)*grid%dy]
+                     shortest = huge(1.0_wp)
+                     do k = 1, n
+                        distance = squared_distance(place, boxes(candidates(k)))
+                        if (distance >= shortest) cycle
+                        shortest = distance
+                        nearest = candidates(k)
+                     end do
+                  end if
+                  patch%owner(ix, iy) = nearest
+               end do
+            end do
+         end associate
+      end do
+   end subroutine share_out
+
+   !> Have two boxes points in common?
+   pure logical function overlap(a, b)
+      type(lattice_box), intent(in) :: a, b
+      overlap = a%x(1) <= b%x(2) .and. b%x(1) <= a%x(2) .and. a%s(1) <= b%s(2) .and. b%s(1) <= a%s(2)
+   end function overlap
+
+   !> Squared distance from a box, 0 inside [mm2]
+   pure real(wp) function squared_distance(place, box) result(distance)
+      real(wp), intent(in) :: place(2)
+      type(lattice_box), intent(in) :: box
+      distance = max(box%x(1) - place(1), place(1) - box%x(2), 0.0_wp)**2 &
+         & + max(box%s(1) - place(2), place(2) - box%s(2), 0.0_wp)**2
+   end function squared_distance
+
+   !> Patches of that moment which a present one continues, rising
+   pure function sources(self, k) result(list)
+      class(carried_moment), intent(in) :: self
+      !> Number of the present patch
+      integer, intent(in) :: k
+      integer, allocatable :: list(:)
+      integer :: j
+
+      allocate(list(0))
+      if (.not. allocated(self%patch)) return
+      do j = 1, size(self%patch)
+         if (any(self%patch(j)%owner == k)) list = [list, j]
+      end do
+   end function sources
+
+   !> Widen a window on the lattice so that it holds all elements given to a patch
+   pure subroutine widen(self, k, window, grid)
+      class(carried_moment), intent(in) :: self
+      !> Number of the present patch
+      integer, intent(in) :: k
+      type(lattice_window), intent(inout) :: window
+      type(potential_contact), intent(inout) :: grid
+      integer(int64) :: low(2), high(2)
+      integer :: j, ix, iy
+
+      if (.not. allocated(self%patch)) return
+      low = window%first
+      high = window%first + [grid%mx, grid%my] - 1
+      do j = 1, size(self%patch)
+         associate (patch => self%patch(j))
+            do iy = 1, size(patch%owner, 2)
+               do ix = 1, size(patch%owner, 1)
+                  if (patch%owner(ix, iy) /= k) cycle
+                  low = min(low, patch%window%first + [ix, iy] - 1)
+                  high = max(high, patch%window%first + [ix, iy] - 1)
+               end do
+            end do
+         end associate
+      end do
+      grid%xl = grid%xl - (window%first(1) - low(1))*grid%dx
+      grid%yl = grid%yl - (window%first(2) - low(2))*grid%dy
+      grid%mx = int(high(1) - low(1) + 1)
+      grid%my = int(high(2) - low(2) + 1)
+      window%first = low
+   end subroutine widen
+
+   !> Fields of the previous moment on the window of a present patch
+   subroutine hand_over(self, k, problem, window, fields)
+      class(carried_moment), intent(in) :: self
+      !> Number of the present patch
+      integer, intent(in) :: k
+      !> Its problem, on a window that holds all its elements
+      type(patch_problem), intent(in) :: problem
+      type(lattice_window), intent(in) :: window
+      type(traction_fields), intent(inout) :: fields
+      integer :: j, ix, iy, jx, jy
+      real(wp), allocatable :: zero(:)
+
+      call clear_moment(fields, problem%grid)
+      allocate(zero(problem%grid%my), source=0.0_wp)
+      if (problem%remembers_friction) then
+         call start_memory(problem%static_mu, fields%mu)
+         call start_memory(zero, fields%sx)
+         call start_memory(zero, fields%sy)
+      end if
+      if (problem%remembers_yield) then
+         call start_memory(zero + problem%initial_yield_limit, fields%tau_c)
+         call start_memory(zero, fields%uplx)
+         call start_memory(zero, fields%uply)
+      end if
+      if (.not. allocated(self%patch)) return
+      do j = 1, size(self%patch)
+         associate (patch => self%patch(j), old => self%patch(j)%fields)
+            do iy = 1, size(patch%owner, 2)
+               do ix = 1, size(patch%owner, 1)
+                  if (patch%owner(ix, iy) /= k) cycle
+                  jx = int(patch%window%first(1) - window%first(1)) + ix
+                  jy = int(patch%window%first(2) - window%first(2)) + iy
+                  fields%is_solved = .true.
+                  ! an element in which two patches meet has the tractions of both
+                  fields%division(jx, jy) = max(fields%division(jx, jy), old%division(ix, iy))
+                  fields%pn(jx, jy) = fields%pn(jx, jy) + old%pn(ix, iy)
+                  fields%px(jx, jy) = fields%px(jx, jy) + old%px(ix, iy)
+                  fields%py(jx, jy) = fields%py(jx, jy) + old%py(ix, iy)
+                  call take(old%mu, fields%mu, ix, iy, jx, jy)
+                  call take(old%sx, fields%sx, ix, iy, jx, jy)
+                  call take(old%sy, fields%sy, ix, iy, jx, jy)
+                  call take(old%tau_c, fields%tau_c, ix, iy, jx, jy)
+                  call take(old%uplx, fields%uplx, ix, iy, jx, jy)
+                  call take(old%uply, fields%uply, ix, iy, jx, jy)
+               end do
+            end do
+         end associate
+      end do
+      fields%force = self%total_force(k)
+
+   contains
+
+      !> A field of particles without history
+      subroutine start_memory(fresh, field)
+         !> Value per row
+         real(wp), intent(in) :: fresh(:)
+         type(memory_field), intent(inout) :: field
+
+         if (allocated(field%value)) deallocate(field%value)
+         allocate(field%value(problem%grid%mx, problem%grid%my), source=spread(fresh, 1, problem%grid%mx))
+      end subroutine start_memory
+   end subroutine hand_over
+
+   !> One value of a remembered field, where both moments have it
+   pure subroutine take(from, to, ix, iy, jx, jy)
+      type(memory_field), intent(in) :: from
+      type(memory_field), intent(inout) :: to
+      integer, intent(in) :: ix, iy, jx, jy
+
+      if (.not. (allocated(from%value) .and. allocated(to%value))) return
+      to%value(jx, jy) = from%value(ix, iy)
+   end subroutine take
+
+   !> Sum of the tractions of a present patch: Fn, Fx, Fs [N]
+   pure function total_force(self, k) result(force)
+      class(carried_moment), intent(in) :: self
+      !> Number of the present patch
+      integer, intent(in) :: k
+      real(wp) :: force(3)
+      integer :: j
+
+      force = 0.0_wp
+      if (.not. allocated(self%patch)) return
+      do j = 1, size(self%patch)
+         associate (patch => self%patch(j), old => self%patch(j)%fields)
+            force = force + old%grid%dx*old%grid%dy*[sum(old%pn, patch%owner == k), sum(old%px, patch%owner == k), &
+               & sum(old%py, patch%owner == k)]
+         end associate
+      end do
+   end function total_force
+end module contact_wheelrail_carry_over
