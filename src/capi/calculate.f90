@@ -5,6 +5,7 @@ module contact_capi_calculate
    use contact_base_error, only : error_type
    use contact_base_log, only : log_type
    use contact_capi_arguments, only : give, integer_of
+   use contact_capi_calculate1, only : calculate_pair
    use contact_capi_calculate3, only : calculate_contact
    use contact_capi_problem, only : library_problem
    use contact_capi_registry, only : complain, enter_calculation, entry_type, forget_complaint, leave_calculation, say, &
@@ -57,7 +58,11 @@ contains
          call omp_set_num_threads(threads_inside())
          call problem%watch%start()
          call problem%total%start()
-         call calculate_contact(this, problem, code)
+         if (problem%module_number == 1) then
+            call calculate_pair(this, problem, code)
+         else
+            call calculate_contact(this, problem, code)
+         end if
          call problem%total%halt()
          call problem%watch%halt()
          call omp_set_num_threads(threads)

@@ -1,6 +1,6 @@
 !> A contact problem of a caller from its settings to its results and files (module 3)
 module contact_capi_calculate3
-   use contact_base_choices, only : estimate_choice, motion, slip_source, time_link
+   use contact_base_choices, only : estimate_choice, heat_model, motion, slip_source, time_link
    use contact_base_error, only : error_type, fatal_error, full_text
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
@@ -73,6 +73,7 @@ contains
             spec%digits%i = 0
          end if
          call name_choices(spec)
+         if (spec%digits%h == heat_model%keep) spec%heat_model = heat_model%given
          if (spec%digits%e == slip_source%keep) spec%slip_source = slip_source%given
          spec%new_grid = .true.
          spec%new_geometry = .true.

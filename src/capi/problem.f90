@@ -12,13 +12,15 @@ module contact_capi_problem
    use contact_control_units, only : unit_convention
    use contact_experiment_stopwatch, only : stopwatch
    use contact_patch_result, only : patch_result
+   use contact_profile_curve, only : profile_curve
+   use contact_profile_surface, only : profile_surface
    use contact_subsurface_points, only : point_block
    use contact_wheelrail_result, only : pair_result
    use contact_wheelrail_spec, only : wheel_rail_spec
    implicit none (type, external)
    private
 
-   public :: library_problem, new_problem, release_problem, most_patches
+   public :: library_problem, given_profile, new_problem, release_problem, most_patches
 
    !> Patches that can be addressed
    integer, parameter :: most_patches = 9
@@ -36,6 +38,15 @@ module contact_capi_problem
       integer :: run = 0, axle = 0, side = 0
    end type case_metadata
 
+   !> A profile as prepared when it was given
+   type :: given_profile
+      !> 0: ready for use; 1: nothing was given; others: why it cannot be used
+      integer :: detail = 1
+      type(profile_curve) :: curve
+      !> Allocated for variable profiles
+      type(profile_surface), allocatable :: surface
+   end type given_profile
+
    !> One problem
    type :: library_problem
       !> Result element; contact patch, -1 in module 1; module
@@ -50,6 +61,7 @@ module contact_capi_problem
       !> Wheel on rail (module 1)
       type(pair_session), allocatable :: pair
       type(pair_result), allocatable :: pair_result
+      type(given_profile) :: rail, wheel
       !> Number of cases so far, and whether results are there
       integer :: cases = 0
       logical :: has_result = .false.

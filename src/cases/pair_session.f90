@@ -22,7 +22,7 @@ module contact_cases_pair_session
    implicit none (type, external)
    private
 
-   public :: pair_session, release_pair_session, solve_pair_case
+   public :: pair_session, load_profile, release_pair_session, solve_pair_case
 
    !> Memory of one wheel on one rail
    type :: pair_session
@@ -173,7 +173,11 @@ contains
       do i = 1, len(wanted%file)
          if (wanted%file(i:i) == "\") wanted%file(i:i) = "/"
       end do
-      if (wanted%file(:1) /= "/" .and. len(folder) > 0) wanted%file = folder // "/" // wanted%file
+      if (allocated(profile%points)) then
+         wanted%points = profile%points
+      else if (wanted%file(:1) /= "/" .and. len(folder) > 0) then
+         wanted%file = folder // "/" // wanted%file
+      end if
       wanted%side = side
       wanted%mirror_y = profile%mirror_y
       wanted%mirror_z = profile%mirror_z

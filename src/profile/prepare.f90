@@ -26,7 +26,7 @@ module contact_profile_prepare
 
 contains
 
-   !> Read, clean and smooth the profile of a file
+   !> Read, clean and smooth the profile of a file, or of points in its place
    subroutine read_profile(request, curve, log, error)
       type(profile_request), intent(in) :: request
       type(profile_curve), intent(out) :: curve
@@ -36,15 +36,20 @@ contains
       type(profile_file) :: file
       real(wp), allocatable :: y(:), z(:)
 
-      call refuse_extension(request, error)
-      if (.not. allocated(error)) call text%open_file(request%file, error)
-      if (allocated(error)) return
-      select case (extension_of(request%file))
-      case ("prr", "prw")
-         call read_simpack(text, request%side, file, log, error)
-      case default
-         call read_miniprof(text, file, log, error)
-      end select
+      if (allocated(request%points)) then
+         file%y = request%points(1, :)
+         file%z = request%points(2, :)
+      else
+         call refuse_extension(request, error)
+         if (.not. allocated(error)) call text%open_file(request%file, error)
+         if (allocated(error)) return
+         select case (extension_of(request%file))
+         case ("prr", "prw")
+            call read_simpack(text, request%side, file, log, error)
+         case default
+            call read_miniprof(text, file, log, error)
+         end select
+      end if
       if (.not. allocated(error)) call normalise(file, request, y, z, log, error)
       if (.not. allocated(error)) call prepare_points(request, y, z, curve, error)
    end subroutine read_profile

@@ -27,6 +27,8 @@ module contact_profile_request
    type :: profile_request
       !> Name of the file as it is to be opened
       character(len=:), allocatable :: file
+      !> Points in place of a file, y and z in the rows, shape (2, n); unallocated: the file is read
+      real(wp), allocatable :: points(:, :)
       !> Member of profile_side
       integer :: side = profile_side%rail
       !> Mirror the lateral coordinate: 1 yes, 0 as the file says, -1 no
@@ -73,6 +75,8 @@ contains
       type(profile_request), intent(in) :: a, b
 
       same = allocated(a%file) .and. allocated(b%file)
+      if (.not. same) return
+      same = allocated(a%points) .eqv. allocated(b%points)
       if (.not. same) return
       same = a%file == b%file .and. len(a%file) == len(b%file) .and. a%side == b%side .and. a%mirror_y == b%mirror_y &
          & .and. a%mirror_z == b%mirror_z .and. a%scale == b%scale .and. a%method == b%method .and. a%smooth == b%smooth &

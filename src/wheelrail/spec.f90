@@ -14,6 +14,8 @@ module contact_wheelrail_spec
    type :: profile_spec
       !> Name as the input gives it; unallocated when no profile was given yet
       character(len=:), allocatable :: name
+      !> Points that a caller gives in place of a file, y and z in the rows, shape (2, n); unallocated: a file
+      real(wp), allocatable :: points(:, :)
       !> Line and column of the name in the input file, for messages
       integer :: line = 0, column = 0
       !> Mirror in y: yes (1) or no (0, -1); in z: yes (1), no (-1), or as the file suggests (0)

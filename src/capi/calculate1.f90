@@ -1,0 +1,220 @@
+!> Wheel on rail of a caller from its settings to its results and files (module 1)
+module contact_capi_calculate1
+   use contact_base_choices, only : force_control, heat_model, motion, normal_control
+   use contact_base_error, only : error_kind, error_type, fatal_error, full_text
+   use contact_base_kinds, only : wp
+   use contact_base_log, only : log_type
+   use contact_capi_calculate3, only : first_problem
+   use contact_capi_problem, only : library_problem, most_patches
+   use contact_capi_registry, only : complain, entry_type, library_log, result_file, say, working_folder
+   use contact_cases_pair_session, only : solve_pair_case
+   use contact_cases_spec, only : case_spec
+   use contact_control_digits, only : digit_text, digit_value, is_built, is_known
+   use contact_control_digits1, only : digit1_names, digit1_table, digit1_value_is_known
+   use contact_control_library_codes, only : code_text, library_code
+   use contact_input_control1, only : name_choices1
+   use contact_input_control3, only : check_physics, control_words
+   use contact_input_problems, only : problem_list
+   use contact_output_pair_files, only : write_pair_files
+   use contact_output_report_pair, only : write_pair
+   use contact_text_words, only : integer_text, real_text
+   implicit none (type, external)
+   private
+
+   public :: calculate_pair
+
+contains
+
+   !> One case
+   subroutine calculate_pair(this, problem, code)
+      type(entry_type), intent(in) :: this
+      type(library_problem), intent(inout) :: problem
+      !> Member of library_code
+      integer, intent(out) :: code
+      type(error_type), allocatable :: error
+      type(log_type) :: log
+
+      log = library_log()
+      problem%cases = problem%cases + 1
+      call check_data(problem, code, error)
+      if (.not. allocated(error)) then
+         call choose(this, problem)
+         call write_case_line(log, problem)
+         code = library_code%other
+         call check_settings(problem%spec, error)
+         if (.not. allocated(error)) call solve_pair_case(problem%pair, problem%spec, working_folder(), log, &
+            & problem%pair_result, error)
+      end if
+      if (allocated(error)) then
+         call complain(this, full_text(error), code)
+         return
+      end if
+      code = library_code%success
+      problem%has_result = .true.
+      call keep_solution(problem)
+      if (problem%spec%solve) then
+         if (.not. problem%pair_result%solved) then
+            code = library_code%tolerance
+            call complain(this, code_text(code) // ", by " // real_text(problem%pair_result%force_error) // " N", code)
+         end if
+         call write_results(this, problem, log)
+      end if
+      call report_patches(this, problem)
+   end subroutine calculate_pair
+
+   !> Profiles, friction and discretisation must be there and fit
+   subroutine check_data(problem, code, error)
+      type(library_problem), intent(in) :: problem
+      integer, intent(out) :: code
+      type(error_type), allocatable, intent(out) :: error
+
+      code = library_code%profile
+      if (problem%rail%detail /= 0) then
+         call fatal_error(error, "the profile of the rail is missing or cannot be used")
+      else if (problem%wheel%detail /= 0) then
+         call fatal_error(error, "the profile of the wheel is missing or cannot be used")
+      else if (allocated(problem%rail%surface) .and. problem%spec%wheel_rail%track%gaught > 0.0_wp) then
+         call fatal_error(error, "a rail that varies along the track cannot be placed by its gauge point; its position must " // &
+            & "be given, with a gauge height of 0 or less")
+      else if (size(problem%spec%friction%sets) < 1) then
+         code = library_code%friction
+         call fatal_error(error, "there are no friction data")
+      else if (is_transient(problem) .and. problem%has_result) then
+         code = library_code%discretisation
+         associate (new => problem%spec%wheel_rail%search, old => problem%pair%problem%spec%search)
+            if (abs(new%dx - old%dx) > 1.0e-4_wp*old%dx .or. abs(new%ds - old%ds) > 1.0e-4_wp*old%ds) &
+               & call fatal_error(error, "the elements changed in size, but the previous case is continued")
+         end associate
+      end if
+   end subroutine check_data
+
+   !> Does the case depend on the previous one, and were there patches then?
+   pure logical function is_transient(problem)
+      type(library_problem), intent(in) :: problem
+
+      is_transient = .false.
+      if (problem%spec%digits%t /= motion%shift .and. problem%spec%digits%t /= motion%transient_rolling) return
+      is_transient = size(problem%pair_result%patches) > 0
+   end function is_transient
+
+   !> From digits to choices; a first case has nothing to continue
+   subroutine choose(this, problem)
+      type(entry_type), intent(in) :: this
+      type(library_problem), intent(inout) :: problem
+
+      associate (spec => problem%spec, wheelset => problem%spec%wheel_rail%wheelset)
+         if (.not. problem%has_result) then
+            if (spec%digits%p /= 2) call say(1, this, "the first case starts a new sequence, P = 2")
+            spec%digits%p = 2
+            spec%digits%i = 0
+         end if
+         call name_choices1(spec)
+         if (spec%digits%h == heat_model%keep) spec%heat_model = heat_model%given
+         spec%new_grid = .true.
+         ! the first coordinate is that along the track, on rollers that of the wheelset beside the top of the roller
+         if (spec%wheel_rail%roller) then
+            wheelset%x = wheelset%x + wheelset%s
+            wheelset%s = 0.0_wp
+         else
+            wheelset%s = wheelset%s + wheelset%x
+            wheelset%x = 0.0_wp
+         end if
+      end associate
+   end subroutine choose
+
+   !> Line that opens a case
+   subroutine write_case_line(log, problem)
+      type(log_type), intent(inout) :: log
+      type(library_problem), intent(in) :: problem
+      character(len=:), allocatable :: line
+
+      if (problem%spec%output_level < 1 .and. problem%spec%flow_level < 1) return
+      line = " Case " // integer_text(problem%cases) // " for w/r contact on result element " // integer_text(problem%ire)
+      associate (metadata => problem%metadata)
+         if (metadata%run /= 0) then
+            line = line // ", run " // integer_text(metadata%run) // ", axle " // integer_text(metadata%axle) // ", side " // &
+               & integer_text(metadata%side)
+         else if (abs(metadata%time) > 0.0_wp) then
+            line = line // ", t= " // real_text(metadata%time)
+         end if
+      end associate
+      call log%line("")
+      call log%line(line)
+   end subroutine write_case_line
+
+   !> Refuse digits and combinations that cannot be solved, by name
+   subroutine check_settings(spec, error)
+      type(case_spec), intent(in) :: spec
+      type(error_type), allocatable, intent(out) :: error
+      type(problem_list) :: problems
+      type(control_words) :: words
+      character(len=:), allocatable :: name
+      integer :: k, digit
+
+      do k = 1, size(digit1_names)
+         name = trim(digit1_names(k))
+         digit = digit_value(spec%digits, name)
+         if (.not. digit1_value_is_known(name, digit)) then
+            call fatal_error(error, name // " = " // integer_text(digit) // " is not a known digit of wheel-rail contact")
+            return
+         end if
+         if (any(digit1_table%name == name) .or. is_built(name, digit)) cycle
+         if (.not. is_known(name, digit)) cycle
+         call fatal_error(error, name // " = " // integer_text(digit) // ", " // digit_text(name, digit) // &
+            & ", is known but not built in this version", error_kind%unsupported)
+         return
+      end do
+      if (spec%force == force_control%longitudinal_force .and. spec%normal /= normal_control%force) then
+         call fatal_error(error, "F = 1, longitudinal force prescribed, needs the vertical force too, N = 1")
+      else if (spec%wheel_rail%roller .and. .not. spec%wheel_rail%track%nomradr > 0.0_wp) then
+         call fatal_error(error, "a wheel on a roller needs the nominal radius of the roller")
+      else if (.not. (spec%wheel_rail%search%dx > 0.0_wp .and. spec%wheel_rail%search%ds > 0.0_wp)) then
+         call fatal_error(error, "the sides of the elements must be positive")
+      end if
+      if (allocated(error)) return
+      call problems%start("")
+      call check_physics(words, spec, problems)
+      call first_problem(problems, error)
+   end subroutine check_settings
+
+   !> What was found becomes what is stored, and the time is booked on the patches
+   subroutine keep_solution(problem)
+      type(library_problem), intent(inout) :: problem
+
+      problem%spec%wheel_rail%wheelset%z = problem%pair_result%z_ws
+      problem%spec%wheel_rail%wheelset%vpitch = problem%pair_result%vpitch
+   end subroutine keep_solution
+
+   !> Printed output and the files with all elements
+   subroutine write_results(this, problem, log)
+      type(entry_type), intent(in) :: this
+      type(library_problem), intent(in) :: problem
+      type(log_type), intent(inout) :: log
+      type(error_type), allocatable :: error
+
+      !$omp critical (contact_printing)
+      call write_pair(log, problem%spec, problem%pair_result)
+      !$omp end critical (contact_printing)
+      call write_pair_files(result_file("caddon"), problem%cases, problem%ire, problem%spec, problem%pair_result, error)
+      if (allocated(error)) call complain(this, full_text(error))
+   end subroutine write_results
+
+   !> Solvers that did not converge in a patch, and results without contact, are told in the log only
+   subroutine report_patches(this, problem)
+      type(entry_type), intent(in) :: this
+      type(library_problem), intent(in) :: problem
+      integer :: k
+
+      associate (patches => problem%pair_result%patches)
+         if (size(patches) == 0) call say(1, this, "wheel and rail do not touch")
+         if (size(patches) > most_patches) call say(0, this, "more than " // integer_text(most_patches) // &
+            & " contact patches, the last ones cannot be asked for")
+         do k = 1, size(patches)
+            if (.not. patches(k)%contact%normal%succeeded()) call say(0, this, "the normal problem of patch " // &
+               & integer_text(k) // " did not converge")
+            if (.not. patches(k)%contact%tangential%succeeded()) call say(0, this, "the tangential problem of patch " // &
+               & integer_text(k) // " did not converge")
+         end do
+      end associate
+   end subroutine report_patches
+end module contact_capi_calculate1

@@ -1,0 +1,392 @@
+!> Entries that hand out points of profiles (module 1)
+module contact_capi_profile_values
+   use, intrinsic :: iso_c_binding, only : c_double, c_int
+   use contact_base_error, only : error_type
+   use contact_base_kinds, only : wp
+   use contact_base_log, only : log_type
+   use contact_capi_arguments, only : give_list, integer_of, integers_of, reals_of
+   use contact_capi_problem, only : given_profile, library_problem
+   use contact_capi_registry, only : complain, enter, entry_type, leave, say, scope, working_folder
+   use contact_cases_pair_session, only : load_profile
+   use contact_control_library_codes, only : library_code
+   use contact_control_units, only : orientation, outward, quantity
+   use contact_profile_curve, only : profile_curve
+   use contact_profile_request, only : profile_side
+   use contact_profile_surface, only : surface_cut
+   use contact_text_words, only : integer_text
+   use contact_wheelrail_frame, only : frame, new_frame
+   use contact_wheelrail_placement, only : gauge_point
+   use contact_wheelrail_spec, only : profile_spec
+   implicit none (type, external)
+   private
+
+   public :: cntc_getprofilevalues, cntc_getprofilevalues_new
+
+   !> What is asked for
+   type :: task_list
+      integer :: status = -1, count = 0, points = 1, in_track = 2, gauge = 3, arc_length = 4, slope = 5
+      integer :: along_u = 6, along_v = 7, along_y = 8, dump = 9
+   end type task_list
+   type(task_list), parameter :: task = task_list()
+
+   !> How a profile is sampled
+   type :: sampling
+      !> -1 input points, 0 points of the spline, 1 even steps, k more: k parts of each piece of the spline
+      integer :: method = 0
+      !> Even step [mm]
+      real(wp) :: step = 1.0_wp
+      !> Position of the section, and range of positions along the track
+      real(wp) :: place = 0.0_wp, first = 0.0_wp, last = 0.0_wp
+      logical :: has_range = .false.
+   end type sampling
+
+   !> Smallest even step [mm]
+   real(wp), parameter :: least_step = 1.0e-4_wp
+   integer, parameter :: most_parts = 100
+   !> Stands for points that are not there [mm]
+   real(wp), parameter :: no_point_along = 99.0e9_wp, no_point = 999.0_wp
+
+contains
+
+   !> The same under the name of an earlier release
+   subroutine cntc_getprofilevalues_new(ire, itask, nints, iparam, nreals, rparam, lenarr, val) bind(c)
+      integer(c_int), intent(in), optional :: ire, itask, nints, iparam(*), nreals, lenarr
+      real(c_double), intent(in), optional :: rparam(*)
+      real(c_double), intent(inout), optional :: val(*)
+
+      call cntc_getprofilevalues(ire, itask, nints, iparam, nreals, rparam, lenarr, val)
+      call say(0, entry_type("cntc_getProfileValues_new", integer_of(ire)), "the same as cntc_getProfileValues")
+   end subroutine cntc_getprofilevalues_new
+
+   !> Points, arc lengths, inclinations of a profile, and whether there is one
+   subroutine cntc_getprofilevalues(ire, itask, nints, iparam, nreals, rparam, lenarr, val) bind(c)
+      integer(c_int), intent(in), optional :: ire, itask, nints, iparam(*), nreals, lenarr
+      real(c_double), intent(in), optional :: rparam(*)
+      real(c_double), intent(inout), optional :: val(*)
+      type(library_problem), pointer :: problem
+      type(entry_type) :: this
+      type(sampling) :: sample
+      integer, allocatable :: ints(:)
+      logical :: is_wheel
+
+      this = entry_type("cntc_getProfileValues", integer_of(ire))
+      call enter(this, scope%pair, problem)
+      if (.not. associated(problem)) return
+      ints = integers_of(nints, iparam)
+      is_wheel = .false.
+      if (size(ints) >= 1) is_wheel = ints(1) == 1
+      call set_sampling(this, integer_of(itask), ints, reals_of(nreals, rparam), sample)
+      if (is_wheel) then
+         call answer(this, integer_of(itask), problem, problem%wheel, is_wheel, sample, lenarr, val)
+      else
+         call answer(this, integer_of(itask), problem, problem%rail, is_wheel, sample, lenarr, val)
+      end if
+      call leave(problem)
+   end subroutine cntc_getprofilevalues
+
+   !> Sampling from the arguments
+   subroutine set_sampling(this, wanted, ints, reals, sample)
+      type(entry_type), intent(in) :: this
+      !> Member of task
+      integer, intent(in) :: wanted, ints(:)
+      real(wp), intent(in) :: reals(:)
+      type(sampling), intent(out) :: sample
+
+      if (size(ints) >= 2) sample%method = max(-1, min(most_parts, ints(2)))
+      if (wanted >= task%along_u) sample%method = 1
+      if (size(reals) >= 1) sample%step = reals(1)
+      if (sample%method == 1 .and. .not. sample%step >= least_step) then
+         call complain(this, "the step of an even sampling is too small, the points of the spline are taken")
+         sample%method = 0
+      end if
+      if (size(reals) >= 2) sample%place = reals(2)
+      sample%has_range = size(reals) >= 4
+      if (.not. sample%has_range) return
+      sample%first = reals(3)
+      sample%last = reals(4)
+   end subroutine set_sampling
+
+   !> Hand over what is asked for
+   subroutine answer(this, wanted, problem, given, is_wheel, sample, length, values)
+      type(entry_type), intent(in) :: this
+      !> Member of task
+      integer, intent(in) :: wanted
+      type(library_problem), intent(inout) :: problem
+      type(given_profile), intent(in) :: given
+      logical, intent(in) :: is_wheel
+      type(sampling), intent(in) :: sample
+      integer(c_int), intent(in), optional :: length
+      real(c_double), intent(inout), optional :: values(*)
+      type(profile_curve) :: curve
+      real(wp), allocatable :: s(:)
+
+      if (wanted == task%status) then
+         call give_list([real(wp) :: merge(library_code%success, library_code%profile, given%detail == 0), given%detail], &
+            & length, values)
+         return
+      else if (wanted < task%status .or. wanted > task%dump) then
+         call complain(this, "there is no task " // integer_text(wanted) // "; -1 to 9 are")
+         return
+      else if (given%detail /= 0) then
+         call complain(this, "the profile is missing or cannot be used", library_code%profile)
+         return
+      else if (wanted >= task%along_u) then
+         call answer_along(this, wanted, given, sample, length, values)
+         return
+      end if
+      call section_of(this, problem, given, is_wheel, sample, curve)
+      if (.not. allocated(curve%y%s)) then
+         call give_list([real(library_code%profile, wp)], length, values)
+         return
+      end if
+      call sample_curve(curve, sample, s)
+      select case (wanted)
+      case (task%count)
+         call give_list([real(size(s), wp)], length, values)
+      case (task%points)
+         call give_list([curve%y%value(s), curve%z%value(s)], length, values)
+      case (task%in_track)
+         call give_list(track_points(problem, is_wheel, curve%y%value(s), curve%z%value(s)), length, values)
+      case (task%gauge)
+         if (is_wheel) then
+            call complain(this, "a wheel has no gauge point")
+            call give_list([real(library_code%profile, wp)], length, values)
+         else
+            call give_list(gauge_values(problem, curve), length, values)
+         end if
+      case (task%arc_length)
+         call give_list(s, length, values)
+      case (task%slope)
+         call give_list(atan2(curve%z%slope(s), curve%y%slope(s))*outward(problem%units, quantity%angle), length, values)
+      end select
+   end subroutine answer
+
+   !> The curve that is sampled: of a variable profile the section at a place, of input points their interpolation
+   subroutine section_of(this, problem, given, is_wheel, sample, curve)
+      type(entry_type), intent(in) :: this
+      type(library_problem), intent(inout) :: problem
+      type(given_profile), intent(in) :: given
+      logical, intent(in) :: is_wheel
+      type(sampling), intent(in) :: sample
+      !> Without pieces when there is none
+      type(profile_curve), intent(out) :: curve
+      type(surface_cut) :: section
+      type(profile_spec) :: plain
+      type(given_profile) :: points
+      type(log_type) :: log
+      type(error_type), allocatable :: error
+
+      if (allocated(given%surface)) then
+         call given%surface%cut(sample%place, section)
+         if (section%present) then
+            curve = section%curve
+         else
+            call complain(this, "the variable profile has no section at this place")
+         end if
+      else if (sample%method < 0) then
+         ! without smoothing the pieces end in the input points
+         plain = problem%spec%wheel_rail%rail_profile
+         if (is_wheel) plain = problem%spec%wheel_rail%wheel_profile
+         plain%smoothing_method = 0
+         plain%smoothing = 0.0_wp
+         call load_profile(problem%pair%profiles, plain, merge(profile_side%wheel, profile_side%rail, is_wheel), &
+            & working_folder(), points%curve, points%surface, log, error)
+         curve = given%curve
+         if (.not. allocated(error)) curve = points%curve
+      else
+         curve = given%curve
+      end if
+   end subroutine section_of
+
+   !> Arc lengths of the points
+   pure subroutine sample_curve(curve, sample, s)
+      type(profile_curve), intent(in) :: curve
+      type(sampling), intent(in) :: sample
+      real(wp), allocatable, intent(out) :: s(:)
+      integer :: i, k, n
+
+      associate (nodes => curve%y%s)
+         n = size(nodes)
+         select case (sample%method)
+         case (:0)
+            s = nodes
+         case (1)
+            s = [(nodes(1) + i*sample%step, i=0, int((nodes(n) - nodes(1))/sample%step))]
+         case default
+            k = sample%method
+            allocate(s(k*(n - 1) + 1))
+            do i = 0, k - 1
+               s(1 + i:size(s) - 1:k) = nodes(:n - 1) + i*(nodes(2:) - nodes(:n - 1))/k
+            end do
+            s(size(s)) = nodes(n)
+         end select
+      end associate
+   end subroutine sample_curve
+
+   !> Points in the track, where the last calculation has the bodies; all y, then all z [mm]
+   function track_points(problem, is_wheel, y, z) result(list)
+      type(library_problem), intent(in) :: problem
+      logical, intent(in) :: is_wheel
+      real(wp), intent(in) :: y(:), z(:)
+      real(wp) :: list(2*size(y))
+      type(frame) :: body
+      real(wp) :: point(3), side
+      integer :: i
+
+      side = merge(-1.0_wp, 1.0_wp, problem%spec%wheel_rail%left)
+      associate (result => problem%pair_result)
+         if (is_wheel) then
+            body = new_frame([result%wheel_x, result%wheel_y, result%wheel_z], result%wheel_roll, result%wheel_yaw)
+         else
+            body = new_frame([0.0_wp, result%rail_y, result%rail_z], result%rail_roll, 0.0_wp)
+         end if
+      end associate
+      do i = 1, size(y)
+         point = body%to_parent([0.0_wp, y(i), z(i)])
+         list(i) = side*point(2)
+         list(size(y) + i) = point(3)
+      end do
+   end function track_points
+
+   !> The innermost point within the gauge height: y, z; offsets of the profile in the track: y, z; the point at gauge
+   !> height: y, z
+   function gauge_values(problem, curve) result(list)
+      type(library_problem), intent(in) :: problem
+      type(profile_curve), intent(in) :: curve
+      real(wp) :: list(6)
+      type(profile_curve) :: canted
+      real(wp) :: top_z, gauge_y, side, s_at_height
+
+      associate (track => problem%spec%wheel_rail%track)
+         call gauge_point(curve, track%cant, max(track%gaught, 0.0_wp), top_z, gauge_y)
+         canted = curve%seen_from([0.0_wp, 0.0_wp], track%cant)
+         s_at_height = first_crossing(canted, top_z + max(track%gaught, 0.0_wp))
+         side = merge(-1.0_wp, 1.0_wp, problem%spec%wheel_rail%left)
+         list(1:2) = [gauge_y, height_at(canted, s_at_height, gauge_y)]
+         list(3:4) = [side*problem%pair_result%rail_y, problem%pair_result%rail_z]
+         list(5:6) = [canted%y%value(s_at_height), canted%z%value(s_at_height)]
+      end associate
+      list = list*outward(problem%units, quantity%length)
+   end function gauge_values
+
+   !> Arc length at which a rail rises above a height for the first time
+   pure real(wp) function first_crossing(curve, height) result(s)
+      type(profile_curve), intent(in) :: curve
+      real(wp), intent(in) :: height
+      real(wp) :: low, high
+      integer :: i, step
+
+      associate (nodes => curve%z%s)
+         s = nodes(1)
+         do i = 2, size(nodes)
+            if (curve%z%value(nodes(i)) > height) cycle
+            low = nodes(i - 1)
+            high = nodes(i)
+            do step = 1, 60
+               s = 0.5_wp*(low + high)
+               if (curve%z%value(s) <= height) then
+                  high = s
+               else
+                  low = s
+               end if
+            end do
+            return
+         end do
+      end associate
+   end function first_crossing
+
+   !> Height of the point of the gauge face with a given y: where it crosses the gauge height, or the nearest node
+   pure real(wp) function height_at(curve, s_at_height, y) result(z)
+      type(profile_curve), intent(in) :: curve
+      real(wp), intent(in) :: s_at_height, y
+      real(wp) :: distance, nearest
+      integer :: i
+
+      z = curve%z%value(s_at_height)
+      nearest = abs(curve%y%value(s_at_height) - y)
+      associate (nodes => curve%z%s)
+         do i = 1, size(nodes)
+            distance = abs(curve%y%value(nodes(i)) - y)
+            if (nodes(i) < s_at_height .or. distance >= nearest) cycle
+            nearest = distance
+            z = curve%z%value(nodes(i))
+         end do
+      end associate
+   end function height_at
+
+   !> Lines on a variable profile: across the track, or along it
+   subroutine answer_along(this, wanted, given, sample, length, values)
+      type(entry_type), intent(in) :: this
+      integer, intent(in) :: wanted
+      type(given_profile), intent(in) :: given
+      type(sampling), intent(in) :: sample
+      integer(c_int), intent(in), optional :: length
+      real(c_double), intent(inout), optional :: values(*)
+      real(wp), allocatable :: x(:), y(:), z(:)
+      real(wp) :: range(2)
+      integer :: i, n
+
+      if (.not. allocated(given%surface)) then
+         call complain(this, "the profile does not vary, task " // integer_text(wanted) // " is for variable profiles")
+         return
+      else if (wanted == task%along_v .or. wanted == task%dump) then
+         call complain(this, "task " // integer_text(wanted) // ", lines of the spline's own second coordinate, is known but " // &
+            & "not built in this version; tasks 6 and 8 are")
+         return
+      end if
+      range = given%surface%u_range
+      if (wanted == task%along_u) range = s_range_at(given, sample%place)
+      if (sample%has_range) range = [sample%first, sample%last]
+      n = int(max(0.0_wp, min(1.0e7_wp, (range(2) - range(1))/sample%step))) + 1
+      if (integer_of(length) == 1) then
+         call give_list([real(n, wp)], length, values)
+         return
+      end if
+      allocate(x(n), y(n), z(n))
+      do i = 1, n
+         call point_along(wanted, given, sample%place, range(1) + (i - 1)*sample%step, x(i), y(i), z(i))
+      end do
+      call give_list([x, y, z], length, values)
+   end subroutine answer_along
+
+   !> Range of arc lengths of a section; empty where there is none
+   function s_range_at(given, place) result(range)
+      type(given_profile), intent(in) :: given
+      real(wp), intent(in) :: place
+      real(wp) :: range(2)
+      type(surface_cut) :: section
+
+      range = [0.0_wp, -1.0_wp]
+      call given%surface%cut(place, section)
+      if (section%present) range = section%curve%s_range()
+   end function s_range_at
+
+   !> One point: across the track at u = place and an arc length, or along it at u and y = place
+   subroutine point_along(wanted, given, place, position, x, y, z)
+      integer, intent(in) :: wanted
+      type(given_profile), intent(in) :: given
+      real(wp), intent(in) :: place, position
+      real(wp), intent(out) :: x, y, z
+      type(surface_cut) :: section
+      real(wp) :: range(2)
+
+      if (wanted == task%along_u) then
+         x = place
+         y = no_point_along
+         z = no_point_along
+         call given%surface%cut(place, section)
+         if (.not. section%present) return
+         range = section%curve%s_range()
+         if (position < range(1) .or. position > range(2)) return
+         y = section%curve%y%value(position)
+         z = section%curve%z%value(position)
+      else
+         x = position
+         y = place
+         z = no_point
+         call given%surface%cut(position, section)
+         if (.not. section%present) return
+         if (section%curve%has(place)) z = section%curve%height(place)
+      end if
+   end subroutine point_along
+end module contact_capi_profile_values

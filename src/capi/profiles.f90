@@ -1,0 +1,173 @@
+!> Entries that give profiles of rail and wheel (module 1)
+!>
+!> A profile is read at once. What goes wrong then is remembered and comes back when something is
+!> calculated or asked for.
+module contact_capi_profiles
+   use, intrinsic :: iso_c_binding, only : c_char, c_double, c_int
+   use contact_base_constants, only : pi
+   use contact_base_error, only : error_kind, error_type, full_text
+   use contact_base_kinds, only : wp
+   use contact_base_log, only : log_type
+   use contact_capi_arguments, only : integer_of, integers_of, path_of, reals_of
+   use contact_capi_problem, only : library_problem, given_profile
+   use contact_capi_registry, only : are_finite, complain, enter, entry_type, leave, library_log, scope, working_folder
+   use contact_cases_pair_session, only : load_profile
+   use contact_control_library_codes, only : library_code
+   use contact_control_units, only : inward, quantity
+   use contact_profile_request, only : profile_side
+   use contact_wheelrail_spec, only : profile_spec
+   implicit none (type, external)
+   private
+
+   public :: cntc_setprofileinputfname, cntc_setprofileinputvalues, read_given_profile
+
+   !> Scales below this value stand for the unit of length of the caller [-]
+   real(wp), parameter :: no_scale = 5.0e-4_wp
+   !> Smallest turning angle that makes a zig-zag [rad]
+   real(wp), parameter :: least_zigzag = 0.25_wp*pi
+
+contains
+
+   !> A profile in a file
+   subroutine cntc_setprofileinputfname(ire, c_fname, len_fname, nints, iparam, nreals, rparam) bind(c)
+      integer(c_int), intent(in), optional :: ire, len_fname, nints, iparam(*), nreals
+      character(kind=c_char), intent(in), optional :: c_fname(*)
+      real(c_double), intent(in), optional :: rparam(*)
+      type(library_problem), pointer :: problem
+      type(entry_type) :: this
+      type(profile_spec) :: profile
+      integer, allocatable :: ints(:)
+      real(wp), allocatable :: reals(:)
+      integer :: kind
+
+      this = entry_type("cntc_setProfileInputFname", integer_of(ire))
+      call enter(this, scope%pair, problem)
+      if (.not. associated(problem)) return
+      ints = integers_of(nints, iparam)
+      reals = reals_of(nreals, rparam)
+      profile%name = path_of(c_fname, len_fname)
+      if (len(profile%name) == 0) then
+         call complain(this, "the name of the file is missing; nothing is stored")
+      else if (are_finite(this, reals)) then
+         kind = -1
+         if (size(ints) >= 1) kind = ints(1)
+         if (kind /= 0 .and. kind /= 1) kind = merge(1, 0, names_wheel(profile%name))
+         call set_options(ints, reals, problem, profile)
+         call store_profile(this, kind == 1, profile, problem)
+      end if
+      call leave(problem)
+   end subroutine cntc_setprofileinputfname
+
+   !> A profile as a table y1, z1, y2, z2, ...
+   subroutine cntc_setprofileinputvalues(ire, npoint, values, nints, iparam, nreals, rparam) bind(c)
+      integer(c_int), intent(in), optional :: ire, npoint, nints, iparam(*), nreals
+      real(c_double), intent(in), optional :: values(*), rparam(*)
+      type(library_problem), pointer :: problem
+      type(entry_type) :: this
+      type(profile_spec) :: profile
+      integer, allocatable :: ints(:)
+      real(wp), allocatable :: reals(:)
+      integer :: n, kind
+
+      this = entry_type("cntc_setProfileInputValues", integer_of(ire))
+      call enter(this, scope%pair, problem)
+      if (.not. associated(problem)) return
+      ints = integers_of(nints, iparam)
+      reals = reals_of(nreals, rparam)
+      n = max(0, integer_of(npoint))
+      if (.not. present(values) .or. n > 1000000) n = 0
+      profile%name = "<values>"
+      if (n < 2) then
+         call complain(this, "a profile needs at least two points and at most a million; nothing is stored")
+      else if (are_finite(this, [reals, real(values(:2*n), wp)])) then
+         profile%points = reshape(real(values(:2*n), wp), [2, n])
+         kind = 1
+         if (size(ints) >= 1) kind = max(0, min(1, ints(1)))
+         call set_options(ints, reals, problem, profile)
+         call store_profile(this, kind == 1, profile, problem)
+      end if
+      call leave(problem)
+   end subroutine cntc_setprofileinputvalues
+
+   !> Does the extension of a file belong to a wheel?
+   pure logical function names_wheel(name)
+      character(len=*), intent(in) :: name
+      character(len=4) :: extension
+      integer :: i
+
+      extension = name(index(name, ".", back=.true.) + 1:)
+      do i = 1, 4
+         if (extension(i:i) >= "A" .and. extension(i:i) <= "Z") extension(i:i) = achar(iachar(extension(i:i)) + 32)
+      end do
+      names_wheel = any(extension == ["prw ", "whl ", "slcw"])
+   end function names_wheel
+
+   !> How the profile is to be prepared
+   subroutine set_options(ints, reals, problem, profile)
+      !> Kind, unused, mirror y, mirror z, error handling, smoothing method
+      integer, intent(in) :: ints(:)
+      !> Scale, smoothing, omission, zig-zag, kinks high, low, width
+      real(wp), intent(in) :: reals(:)
+      type(library_problem), intent(in) :: problem
+      type(profile_spec), intent(inout) :: profile
+
+      profile%zigzag = 5.0_wp*pi/6.0_wp
+      profile%kink_high = pi/6.0_wp
+      profile%scale = inward(problem%units, quantity%length)
+      if (size(ints) >= 3) profile%mirror_y = merge(1, 0, ints(3) == 1)
+      if (size(ints) >= 4) profile%mirror_z = max(-1, min(1, ints(4)))
+      if (size(ints) >= 5) profile%error_handling = max(-2, min(1, ints(5)))
+      if (size(ints) >= 6) profile%smoothing_method = max(0, min(2, ints(6)))
+      if (size(reals) >= 1) then
+         if (reals(1) > no_scale) profile%scale = reals(1)
+      end if
+      if (size(reals) >= 2) profile%smoothing = max(0.0_wp, reals(2))
+      if (size(reals) >= 3) profile%largest_omission = max(0.0_wp, min(1.0_wp, reals(3)))
+      if (size(reals) >= 4) profile%zigzag = max(least_zigzag, reals(4))
+      if (size(reals) >= 5) profile%kink_high = reals(5)
+      profile%kink_low = 0.2_wp*profile%kink_high
+      if (size(reals) >= 6) profile%kink_low = reals(6)
+      if (size(reals) >= 7) profile%kink_width = reals(7)*inward(problem%units, quantity%length)
+   end subroutine set_options
+
+   !> Store and read a profile
+   subroutine store_profile(this, is_wheel, profile, problem)
+      type(entry_type), intent(in) :: this
+      logical, intent(in) :: is_wheel
+      type(profile_spec), intent(in) :: profile
+      type(library_problem), intent(inout) :: problem
+
+      if (is_wheel) then
+         problem%spec%wheel_rail%wheel_profile = profile
+         call problem%pair%profiles%forget(profile_side%wheel)
+         call read_given_profile(this, problem, profile, profile_side%wheel, problem%wheel)
+      else
+         problem%spec%wheel_rail%rail_profile = profile
+         call problem%pair%profiles%forget(profile_side%rail)
+         call read_given_profile(this, problem, profile, profile_side%rail, problem%rail)
+      end if
+   end subroutine store_profile
+
+   !> Read a profile and remember what went wrong
+   subroutine read_given_profile(this, problem, profile, side, given)
+      type(entry_type), intent(in) :: this
+      type(library_problem), intent(inout) :: problem
+      type(profile_spec), intent(in) :: profile
+      !> Member of profile_side
+      integer, intent(in) :: side
+      type(given_profile), intent(inout) :: given
+      type(error_type), allocatable :: error
+      type(log_type) :: log
+
+      !> Details of failures: nothing was given, the file cannot be opened, its content cannot be used
+      integer, parameter :: no_file = 2, no_use = 99
+
+      log = library_log()
+      problem%pair%profiles%watches_files = .false.
+      call load_profile(problem%pair%profiles, profile, side, working_folder(), given%curve, given%surface, log, error)
+      given%detail = 0
+      if (.not. allocated(error)) return
+      given%detail = merge(no_file, no_use, error%kind == error_kind%file)
+      call complain(this, full_text(error), library_code%profile)
+   end subroutine read_given_profile
+end module contact_capi_profiles
