@@ -23,6 +23,7 @@ for argument; do
 done
 
 install_missing
+install_octave
 build "$preset" -DCONTACT_TESTS=ON -DCONTACT_WERROR=$werror
 say "Testing"
 cd "$top/build/$preset" || exit 1

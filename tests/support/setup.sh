@@ -1,6 +1,7 @@
 # Set-up shared by examples/run.sh and tests/run.sh; sourced by them with $top set to the checkout.
 #
 #   install_missing    installs the compiler, tools and libraries that are not there
+#   install_octave     the same for GNU Octave, which tests of matlab/ need; goes on without it
 #   build PRESET [-DX] configures and builds into build/PRESET
 
 say() { printf '%s\n' "== $*"; }
@@ -94,6 +95,41 @@ development files of FFTW 3, LAPACK/BLAS and HDF5 with its Fortran interface."
   fi || fail "The package manager could not install what is missing; its messages stand above."
   everything_there || fail "Packages were installed, but a build cannot be configured yet. To see
 why: cmake --preset release (in $top)"
+}
+
+# Octave with its graphics, and an X server without a screen. Tests of matlab/ are skipped without them.
+octave_there() {
+  command -v octave-cli >/dev/null 2>&1 && command -v Xvfb >/dev/null 2>&1
+}
+
+# shellcheck disable=SC2086
+install_octave() {
+  octave_there && return 0
+  # never asks for a password
+  if [ "$(id -u)" != 0 ] && ! sudo -n true 2>/dev/null; then
+    say "GNU Octave or Xvfb is missing; tests of matlab/ are skipped"
+    return 0
+  fi
+  say "Installing GNU Octave for the tests of matlab/"
+  if command -v apt-get >/dev/null 2>&1; then
+    packages="octave xvfb libgl1-mesa-dri fonts-freefont-otf"
+    as_root apt-get update ||
+      say "apt-get update failed; trying with the package lists that are there"
+    as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends $packages
+  elif command -v dnf >/dev/null 2>&1; then
+    packages="octave xorg-x11-server-Xvfb mesa-dri-drivers"
+    as_root dnf install -y $packages
+  elif command -v zypper >/dev/null 2>&1; then
+    packages="octave xorg-x11-server-Xvfb Mesa-dri"
+    as_root zypper --non-interactive install $packages
+  elif command -v pacman >/dev/null 2>&1; then
+    packages="octave xorg-server-xvfb mesa"
+    as_root pacman -S --needed --noconfirm $packages
+  elif command -v apk >/dev/null 2>&1; then
+    packages="octave xvfb mesa-dri-gallium ttf-freefont"
+    as_root apk add $packages
+  fi
+  octave_there || say "GNU Octave could not be installed; tests of matlab/ are skipped"
 }
 
 # build PRESET [options of cmake]

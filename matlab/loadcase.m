@@ -1,0 +1,86 @@
+function [ varargout ] = loadcase( expnam, icase, ipatch )
+% LOADCASE  Load the surface results of one case from its .mat file(s).
+%
+%   s = loadcase( expnam )                 case 1
+%   s = loadcase( expnam, icase )          all patches of a wheel-rail case, in an array of structs
+%   s = loadcase( expnam, icase, ipatch )  one patch
+%   [s1, s2, ...] = loadcase( expnam, icase, -1 )  one struct for each patch, [] where there is none
+%
+%   expnam   experiment name, with a folder if need be, without extension
+%   icase    number of the case (default 1)
+%   ipatch   number of the contact patch in a wheel-rail case (default 0: all of them)
+%
+% Fields of the struct; arrays have one row per grid row, so s.pn(iy,ix) belongs to (s.x(ix), s.y(iy)):
+%
+%   config            module 1: configuration, 0/1 wheel on rail, 4/5 on roller, left/right; module 3: 0
+%   h_digit, d_digit  control digits HEAT and, in module 1, DISCNS
+%   meta, mater, fric, kincns   structs of positions, materials, friction and kinematics
+%   mx, my            numbers of elements along and across the rolling direction
+%   xl, yl, dx, dy    lower left corner of the grid and size of the elements [mm]
+%   x_offset, y_offset  empty; when set, plot3d moves the grid by these amounts [mm]
+%   x, y              centres of the elements [mm]
+%   eldiv             0 exterior, 1 adhesion, 2 slip, 3 plastic deformation
+%   h                 undeformed distance, approach not subtracted [mm]
+%   mu                coefficient of friction [-]
+%   pn, px, py        tractions on body 1, in module 1 the rail [N/mm2]
+%   un, ux, uy        displacement differences [mm]
+%   srel, shft        magnitude of relative slip velocity [-] and of slip distance per step [mm]
+%   taucrt, uplsx, uplsy  with a plastic layer: yield limit [N/mm2], plastic displacements [mm]
+%   temp1, temp2      with temperatures: those of the surfaces of bodies 1 and 2 [degC]
+%   trcbnd            traction bound [N/mm2]
+%
+% With A=1 the file holds the elements in contact only; tractions are zero elsewhere, and what is not
+% known there (h, mu, displacements, slip, temperatures) is NaN.
+%
+% See also: diffcase, plot2d, plot3d, loadstrs.
+
+   if (nargin<2 || isempty(icase))
+      icase = 1;
+   end
+   if (nargin<3 || isempty(ipatch))
+      ipatch = 0;
+   end
+   separate = (ipatch==-1);
+
+   if (ipatch>0)
+      fname = result_file(expnam, icase, ipatch, '.mat');
+      require_file(fname, 'loadcase', expnam, icase);
+      varargout{1} = read_mat_file(fname, icase);
+      return
+   end
+
+   % module 3 has no letters
+   fname = result_file(expnam, icase, 0, '.mat');
+   if (~isempty(fname))
+      patches = {read_mat_file(fname, icase)};
+   else
+      patches = all_patches(expnam, icase);
+   end
+   if (separate)
+      varargout = cell(1, max(1,nargout));
+      n = min(numel(varargout), numel(patches));
+      varargout(1:n) = patches(1:n);
+   else
+      varargout{1} = [patches{:}];
+   end
+
+end % function loadcase
+
+%------------------------------------------------------------------------------------------------------
+
+function [ patches ] = all_patches( expnam, icase )
+% The patches a, b, ... of a case; files left over from an earlier run with more patches are not read
+
+   fname = result_file(expnam, icase, 1, '.mat');
+   require_file(fname, 'loadcase', expnam, icase);
+   patches = {read_mat_file(fname, icase)};
+   for ipatch = 2 : patches{1}.meta.npatch
+      fname = result_file(expnam, icase, ipatch, '.mat');
+      if (isempty(fname))
+         error('loadcase: patch %d of %d of case %d of "%s" has no .mat file.', ipatch, ...
+               patches{1}.meta.npatch, icase, expnam);
+      end
+      patches{ipatch} = read_mat_file(fname, icase);
+   end
+
+end % function all_patches

@@ -1,0 +1,95 @@
+function [ varargout ] = loadstrs( expnam, icase, ipatch )
+% LOADSTRS  Load displacements and stresses below the surface from a .subs file.
+%
+%   [blk1, blk2, ...] = loadstrs( expnam, icase, ipatch )
+%
+%   expnam   experiment name, with a folder if need be, without extension
+%   icase    number of the case (default 1)
+%   ipatch   number of the contact patch of a wheel-rail case (default 0: none, then the first)
+%
+% One struct for each block of points of the input:
+%
+%   nx, ny, nz, npoints   numbers of points
+%   x, y, z               their coordinates, column vectors [mm]
+%   ux, uy, uz            displacements [mm], arrays of nx * ny * nz, as all that follow
+%   sighyd, sigvm         mean hydrostatic and von Mises stress [N/mm2], tension positive
+%   sigxx, sigxy, sigxz, sigyy, sigyz, sigzz   full stress tensor [N/mm2], if the file has it
+%   sigtr, sigma1, sigma2, sigma3   with the full tensor: Tresca's maximum shear stress (sigma1 - sigma3)
+%                         and the principal stresses, sigma1 >= sigma2 >= sigma3 [N/mm2]
+%
+% Arrays with one or two dimensions of length 1 are brought into shape by squeeze.
+%
+% See also: diffstrs, plotstrs, loadcase.
+
+   if (nargin<2 || isempty(icase))
+      icase = 1;
+   end
+   if (nargin<3 || isempty(ipatch))
+      ipatch = 0;
+   end
+
+   fname = subs_file(expnam, icase, ipatch);
+   require_file(fname, 'loadstrs', expnam, icase);
+   blocks = read_blocks(fname);
+   if (nargout>numel(blocks))
+      error('loadstrs: "%s" has %d blocks, %d were asked for.', fname, numel(blocks), nargout);
+   end
+   varargout = blocks(1:max(1,nargout));
+
+end % function loadstrs
+
+%------------------------------------------------------------------------------------------------------
+
+function [ fname ] = subs_file( expnam, icase, ipatch )
+% With the number of the case, then with the letter of a patch; very large numbers are left out of names
+
+   if (ipatch==0)
+      fname = result_file(expnam, icase, 0, '.subs');
+      if (isempty(fname))
+         fname = result_file(expnam, icase, 1, '.subs');
+      end
+   else
+      fname = result_file(expnam, icase, ipatch, '.subs');
+   end
+   plain = [expnam, '.subs'];
+   if (isempty(fname) && exist(plain,'file')==2)
+      fname = plain;
+   end
+
+end % function subs_file
+
+%------------------------------------------------------------------------------------------------------
+
+function [ blocks ] = read_blocks( fname )
+% Blocks one after the other: a line with the three numbers of points, then one line per point
+
+   table  = read_table(fname);
+   names  = {'ux','uy','uz','sighyd','sigvm','sigxx','sigxy','sigxz','sigyy','sigyz','sigzz'};
+   ncol   = size(table,2);
+   if (ncol~=8 && ncol~=14)
+      error('loadstrs: "%s" has %d columns; 8 or 14 were expected.', fname, ncol);
+   end
+   blocks = {};
+   first  = 1;
+   while (first<=size(table,1))
+      nx = table(first,1);  ny = table(first,2);  nz = table(first,3);
+      np = nx*ny*nz;
+      if (first+np>size(table,1))
+         error('loadstrs: "%s" ends inside block %d.', fname, numel(blocks)+1);
+      end
+      points = table(first+(1:np),:);
+      b = struct('nx',nx, 'ny',ny, 'nz',nz, 'npoints',np);
+      b.x = points(1:nx, 1);
+      b.y = points(1:nx:nx*ny, 2);
+      b.z = points(1:nx*ny:np, 3);
+      for i = 4 : ncol
+         b.(names{i-3}) = reshape(points(:,i), [nx ny nz]);
+      end
+      if (ncol==14)
+         b = add_principal(b);
+      end
+      blocks{end+1} = b;
+      first = first + np + 1;
+   end
+
+end % function read_blocks

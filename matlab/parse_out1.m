@@ -1,0 +1,150 @@
+function [ sol ] = parse_out1( fname )
+% PARSE_OUT1  Read positions, forces and results per contact patch of module 1 cases from an .out file.
+%
+%   sol = parse_out1( fname )
+%
+%   fname   name of the .out file; without extension, .out is added
+%
+% Values of a case are rows with one column per case; values of contact patches are arrays with one row per
+% patch and one column per case. NaN stands where the file has nothing, e.g. for patches that do not exist.
+%
+%   sol.icase     numbers of the cases
+%   sol.config    0, 1: left and right wheel on rail; 4, 5: the same on roller
+%   sol.ws_pos    wheelset: s (for rollers x), y, z [mm], roll, yaw, pitch [rad]
+%                 and velocities vs, vy, vz [mm/s], vroll, vyaw, vpitch, vpitch_rol [rad/s]
+%   sol.whl_dev   deviations of a flexible wheelset: dx, dy, dz, droll, dyaw, dpitch and their velocities with v ahead
+%   sol.rail      deviations dy, dz [mm], droll [rad] with velocities vy, vz, vroll; of the massless
+%                 rail: deflections dy_defl, dz_defl [mm]
+%   sol.tot_forc  forces on the rail in track and wheelset directions: fx_tr ... fz_ws [N]; with O >= 4 moments at
+%                 the rail and wheel markers: mx_r_tr, my_r_tr, mz_r_tr, mx_w_ws, my_w_ws, mz_w_ws [N mm]
+%   sol.npatch    numbers of contact patches
+%   sol.cp_pos    contact reference: xcp_tr, ycp_tr, zcp_tr [mm], delttr [rad], ycp_r, zcp_r, xcp_w, ycp_w, zcp_w [mm];
+%                 prev1, prev2: patches of the case before that this one continues, 0 for a new one
+%   sol.cp_creep  cksi, ceta [-], cphi [rad/mm]; pen: approach [mm]; veloc [mm/s], chi [rad], dq [mm]
+%   sol.cp_force  fn, fx, fs [N], mn [N mm]; fx_rel, fs_rel: forces relative to fstat * fn, or to fn;
+%                 elen: elastic energy [J], fricw: frictional power [W], pmax [N/mm2], temp [degC].
+%                 Conformal patches have the sums over the curved surface, and tilde_fn [N]
+%   sol.cp_stat   numbers npot, ncon, nadh, nslip, nplast of elements, inorm, itang of iterations
+%   sol.cp_subs   largest stresses below the surface, arrays (patch, case, block): sighyd.val, .x, .y, .z, ...
+%
+% See also: parse_out3, loadcase.
+
+   out = read_out(with_extension(fname, '.out'), 'parse_out1');
+   n   = out.ncase;
+   m   = max([1, out.patch_of]);
+   sol.icase    = out.icase;
+   sol.config   = find_config(out);
+   out.in_module1 = ~isnan(sol.config);
+
+   sol.ws_pos   = rows(out, 'Y_WS        Z_WS', 1, ...
+         {'s','y','z','roll','yaw','pitch'}, {{'s_ws','x_ws'},'y_ws','z_ws','roll_ws','yaw_ws','pitch_ws'});
+   sol.ws_pos   = rows(out, 'VY_WS       VZ_WS', 1, ...
+         {'vs','vy','vz','vroll','vyaw','vpitch','vpitch_rol'}, ...
+         {{'vs_ws','vx_ws'},'vy_ws','vz_ws','vroll_ws','vyaw_ws','vpitch_ws','vpitch_rol'}, sol.ws_pos);
+   sol.whl_dev  = rows(out, ' DXWHL', 1, {'dx','dy','dz','droll','dyaw','dpitch'}, ...
+         {'dxwhl','dywhl','dzwhl','drollw','dyaww','dpitchw'});
+   sol.whl_dev  = rows(out, ' VXWHL', 1, {'vx','vy','vz','vroll','vyaw','vpitch'}, ...
+         {'vxwhl','vywhl','vzwhl','vrollw','vyaww','vpitchw'}, sol.whl_dev);
+   sol.rail     = rows(out, ' DYRAIL', 1, {'dy','dz','droll','vy','vz','vroll'}, ...
+         {'dyrail','dzrail','drollr','vyrail','vzrail','vrollr'});
+   sol.rail     = rows(out, ' DY_DEFL', 1, {'dy_defl','dz_defl'}, {'dy_defl','dz_defl'}, sol.rail);
+   forces       = {'fx_tr','fy_tr','fz_tr','fx_ws','fy_ws','fz_ws'};
+   sol.tot_forc = rows(out, 'FX(TR)      FY(TR)', 1, forces, forces);
+   moments      = {'mx_r_tr','my_r_tr','mz_r_tr','mx_w_ws','my_w_ws','mz_w_ws'};
+   sol.tot_forc = rows(out, 'MX@R(TR)', 1, moments, moments, sol.tot_forc);
+
+   sol.npatch   = count_patches(out);
+   sol.cp_pos   = rows(out, 'XCP(TR)     YCP(TR)', m, {'xcp_tr','ycp_tr','zcp_tr','delttr','ycp_r','zcp_r'}, ...
+         {'xcp_tr','ycp_tr','zcp_tr','deltcp_tr','ycp_r','zcp_r'});
+   wheel        = {'xcp_w','ycp_w','zcp_w'};
+   sol.cp_pos   = rows(out, 'XCP(W)', m, wheel, wheel, sol.cp_pos);
+   sol.cp_pos   = previous_patches(out, m, sol.cp_pos);
+   kinematic    = {'cksi','ceta','cphi','veloc','chi','dq'};
+   sol.cp_creep = rows(out, ' CKSI        CETA', m, kinematic, kinematic);
+   sol.cp_force = rows(out, 'ELAST.EN.   FRIC', m, {'fn','fx','fs','mn','elen','fricw'}, ...
+         {{'fn','bar_fn'},{'fx','bar_fx'},{'fs','bar_fs'},'mn','elast_en','fric_power'});
+   second       = {'approach','pmax','temp','fx_rel','fs_rel','tilde_fn'};
+   from         = {'approach','pmax','max_t1_t2',{'fx_fstat_fn','fx_fn'},{'fs_fstat_fn','fs_fn'},'tilde_fn'};
+   sol.cp_force = rows(out, 'APPROACH     PMAX', m, second, from, sol.cp_force);
+   sol.cp_creep.pen = sol.cp_force.approach;
+   sol.cp_force = rmfield(sol.cp_force, 'approach');
+   stat         = {'npot','ncon','nadh','nslip','nplast','inorm','itang'};
+   sol.cp_stat  = rows(out, 'NPOT   NCON', m, stat, stat);
+   sol.cp_subs  = collect_subs(out, m);
+
+end % function parse_out1
+
+%------------------------------------------------------------------------------------------------------
+
+function [ config ] = find_config( out )
+% Configuration of each case; NaN for other modules. With O=1 there is no title and total forces tell the module
+
+   config = NaN(1, out.ncase);
+   k = find_text(out.lines, 'FX(TR)      FY(TR)');
+   config(out.case_of(k)) = 1;
+   titles = {'WHEEL-RAIL CONTACT, LEFT',0; 'WHEEL-RAIL CONTACT, RIGHT',1; ...
+             'WHEEL-ROLLER CONTACT, LEFT',4; 'WHEEL-ROLLER CONTACT, RIGHT',5};
+   for i = 1 : size(titles,1)
+      k = find_text(out.lines, titles{i,1});
+      config(out.case_of(k)) = titles{i,2};
+   end
+
+end % function find_config
+
+%------------------------------------------------------------------------------------------------------
+
+function [ npatch ] = count_patches( out )
+% Number of patches with results in each module 1 case
+
+   npatch = zeros(1, out.ncase);
+   for k = find_text(out.lines, 'DATA FOR CONTACT PATCH')
+      j = out.case_of(k);
+      npatch(j) = max(npatch(j), out.patch_of(k));
+   end
+
+end % function count_patches
+
+%------------------------------------------------------------------------------------------------------
+
+function [ pos ] = previous_patches( out, m, pos )
+% Numbers behind PREV in the headings of patches
+
+   pos.prev1 = NaN(m, out.ncase);
+   pos.prev2 = NaN(m, out.ncase);
+   for k = find_text(out.lines, 'DATA FOR CONTACT PATCH')
+      i = out.patch_of(k);
+      j = out.case_of(k);
+      pos.prev1(i,j) = 0;
+      pos.prev2(i,j) = 0;
+      text = regexp(out.lines{k}, 'PREV([ \d,]+)', 'tokens', 'once');
+      if (~isempty(text))
+         v = sscanf(strrep(text{1}, ',', ' '), '%d');
+         pos.prev1(i,j) = v(1);
+         if (numel(v)>1)
+            pos.prev2(i,j) = v(2);
+         end
+      end
+   end
+
+end % function previous_patches
+
+%------------------------------------------------------------------------------------------------------
+
+function [ s ] = rows( out, heading, nrow, names, from, s )
+% Values below all occurrences of a heading in module 1 cases, in the row of their patch
+
+   if (nargin<6)
+      s = struct();
+   end
+   new = empty_arrays(names, nrow, out.ncase);
+   for k = find_text(out.lines, heading)
+      j = out.case_of(k);
+      if (j>0 && out.in_module1(j))
+         new = collect(new, max(1,out.patch_of(k)), j, names, heading_values(out.lines, k), from);
+      end
+   end
+   for i = 1 : numel(names)
+      s.(names{i}) = new.(names{i});
+   end
+
+end % function rows

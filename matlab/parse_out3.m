@@ -1,0 +1,68 @@
+function [ sol ] = parse_out3( fname )
+% PARSE_OUT3  Read creepages, forces and other overall results of module 3 cases from an .out file.
+%
+%   sol = parse_out3( fname )
+%
+%   fname   name of the .out file; without extension, .out is added
+%
+% All results are rows with one value per case, NaN where the file has none (module 1 cases, cases that could
+% not be solved, output with O = 0 or 1):
+%
+%   sol.icase   numbers of the cases
+%   sol.kincns  chi [rad] (rolling) or dt [s] (shifts), dq [mm], veloc [mm/s]
+%   sol.creep   cksi, ceta [-] or shift distances [mm], cphi [rad/mm] or [rad]; pen: approach [mm]
+%   sol.force   fn [N]; fx, fy: tangential forces relative to fstat * fn, or to fn where friction varies;
+%               fx_true, fy_true [N]; mz [N mm]; elen: elastic energy [J]; fricw: frictional power [W], in
+%               shifts work [J]; pmax [N/mm2]; temp: maximum temperature [degC]
+%   sol.stat    numbers npot, ncon, nadh, nslip, nplast of elements, inorm, itang of iterations
+%   sol.subs    largest stresses below the surface and their places, arrays (1, ncase, nblock): sighyd.val, .x, ...
+%
+% Creepages and forces that were computed replace prescribed ones. Forces relative to friction come as printed, for
+% prescribed forces from the input echo (O >= 2).
+%
+% See also: parse_out1, loadcase.
+
+   out = read_out(with_extension(fname, '.out'), 'parse_out3');
+   n   = out.ncase;
+   sol.icase  = out.icase;
+   sol.kincns = empty_arrays({'chi','dt','dq','veloc'}, 1, n);
+   sol.creep  = empty_arrays({'cksi','ceta','cphi','pen'}, 1, n);
+   sol.force  = empty_arrays({'fn','fx','fy','fx_true','fy_true','mz','elen','fricw','pmax','temp'}, 1, n);
+   sol.stat   = empty_arrays({'npot','ncon','nadh','nslip','nplast','inorm','itang'}, 1, n);
+
+   results = find_text(out.lines, 'ELAST.EN.   FRIC');
+   results = results(out.patch_of(results)==0);
+   solved  = out.case_of(results);
+
+   for k = find_text(out.lines, 'KINEMATIC CONSTANTS')
+      if (out.patch_of(k)>0)
+         continue
+      end
+      j = out.case_of(k);
+      v = heading_values(out.lines, k+1);
+      sol.kincns = collect(sol.kincns, 1, j, {'chi','dt','dq','veloc'}, v, {'chi','dt','dq','veloc'});
+      sol.creep  = collect(sol.creep, 1, j, {'cksi','ceta','cphi'}, v, {'cksi','ceta','cphi'});
+      sol.force  = collect(sol.force, 1, j, {'fx','fy'}, v, {{'fx_fstat_fn','fx_fn'},{'fy_fstat_fn','fy_fn'}});
+   end
+
+   for i = 1 : numel(results)
+      j = solved(i);
+      v = heading_values(out.lines, results(i));
+      sol.force = collect(sol.force, 1, j, {'fn','fx_true','fy_true','mz','elen','fricw'}, v, ...
+                          {'fn','fx','fy','mz','elast_en',{'fric_power','fric_work'}});
+      v = heading_values(out.lines, results(i)+2);
+      sol.creep = collect(sol.creep, 1, j, {'cksi','ceta','pen'}, v, ...
+                          {{'creep_x','shift_x'},{'creep_y','shift_y'},'approach'});
+      sol.force = collect(sol.force, 1, j, {'fx','fy','pmax','temp'}, v, ...
+                          {{'fx_fstat_fn','fx_fn'},{'fy_fstat_fn','fy_fn'},'pmax','max_t1_t2'});
+   end
+
+   for k = find_text(out.lines, 'NPOT   NCON')
+      if (out.patch_of(k)==0)
+         names = fieldnames(sol.stat);
+         sol.stat = collect(sol.stat, 1, out.case_of(k), names, heading_values(out.lines, k), names);
+      end
+   end
+   sol.subs = collect_subs(out, 1);
+
+end % function parse_out3

@@ -1,0 +1,6 @@
+function [ s ] = chord_sums( y, z )
+% CHORD_SUMS  Summed lengths of the chords from the first point of a profile on.
+
+   s = [0; cumsum(hypot(diff(y(:)), diff(z(:))))];
+
+end % function chord_sums

@@ -1,0 +1,9 @@
+function [ s ] = empty_arrays( names, nrow, ncol )
+% EMPTY_ARRAYS  Struct of arrays filled with NaN, for what a file does not tell.
+
+   s = struct();
+   for k = 1 : numel(names)
+      s.(names{k}) = NaN(nrow, ncol);
+   end
+
+end % function empty_arrays

@@ -1,0 +1,10 @@
+function [ index ] = nearest( list, values )
+% NEAREST  Positions in the list of the numbers closest to the values, without repetition.
+
+   index = zeros(1, numel(values));
+   for i = 1 : numel(values)
+      [~, index(i)] = min(abs(list(:) - values(i)));
+   end
+   index = unique(index);
+
+end % function nearest

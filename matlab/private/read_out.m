@@ -1,0 +1,35 @@
+function [ out ] = read_out( fname, caller )
+% READ_OUT  Lines of an .out file, with the case (and contact patch) that each of them belongs to.
+%
+%   out.lines    the lines, a cell array
+%   out.ncase    number of cases
+%   out.icase    numbers of the cases as printed
+%   out.case_of  for each line: position in the list of cases, 0 ahead of the first
+%   out.patch_of for each line: number of the contact patch, 0 ahead of the first patch of a case
+
+   lines = read_lines(fname, caller);
+   if (numel(lines)<2 || isempty(strfind(lines{2}, 'detailed investigation of 3D')))
+      error('%s: "%s" is no .out file of CONTACT.', caller, fname);
+   end
+
+   out.lines   = lines;
+   starts      = find(~cellfun('isempty', regexp(lines, '^ Case +\d+', 'once')));
+   out.ncase   = numel(starts);
+   out.icase   = zeros(1, out.ncase);
+   for i = 1 : out.ncase
+      out.icase(i) = sscanf(lines{starts(i)}, ' Case %d', 1);
+   end
+   mark = zeros(1, numel(lines));
+   mark(starts) = 1;
+   out.case_of = cumsum(mark);
+
+   out.patch_of = zeros(1, numel(lines));
+   patches = find_text(lines, 'DATA FOR CONTACT PATCH');
+   ends = [patches(2:end)-1, numel(lines)];
+   for i = 1 : numel(patches)
+      k = patches(i) : ends(i);
+      k = k(out.case_of(k)==out.case_of(patches(i)));
+      out.patch_of(k) = sscanf(lines{patches(i)}, ' ----- DATA FOR CONTACT PATCH %d', 1);
+   end
+
+end % function read_out

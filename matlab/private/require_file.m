@@ -1,0 +1,9 @@
+function require_file( fname, caller, expnam, icase )
+% REQUIRE_FILE  Stop when RESULT_FILE has found nothing.
+
+   if (isempty(fname))
+      error('%s: there are no results of case %d of "%s"; .mat files need A>=1 in the input, .subs files S>=1.', ...
+            caller, icase, expnam);
+   end
+
+end % function require_file

@@ -1,0 +1,69 @@
+function [ p ] = read_profile( fname, is_wheel, mirror_y, mirror_z, scale_yz )
+% READ_PROFILE  Read a wheel or rail profile of any kind and bring it into the form CONTACT works with.
+%
+%   p = read_profile( fname, is_wheel, mirror_y, mirror_z, scale_yz )
+%
+%   fname      file: Simpack (.prr, .prw), Miniprof (.ban, .whl), slices (.slcs, .slcw), or a table of two columns
+%   is_wheel   1 for a wheel, 0 for a rail; [] (default): from the extension, a rail where that tells nothing
+%   mirror_y   1: change the sign of y; 0 (default): keep it; -1: keep it, whatever a Simpack file says
+%   mirror_z   1: change the sign of z; 0 (default): find out, for Simpack do as the file says; -1: keep it
+%   scale_yz   factor of y and z that makes them mm (default 1)
+%
+%   p   struct with columns ProfileY, ProfileZ [mm] and ProfileS [mm], sums of chords from the first
+%       point on, and with Fname and is_wheel. Right-hand side profile, y positive to the field side, z
+%       positive down; rails from the track centre to the field side, wheels the other way round.
+%       For slices the struct of READ_SLICES.
+%
+% Smoothing and the removal of zig-zags are left to the program.
+%
+% See also: read_slices, read_simpack, read_miniprof, modify_profile, plot3d.
+
+   if (nargin<2)
+      is_wheel = [];
+   end
+   if (nargin<3 || isempty(mirror_y))
+      mirror_y = 0;
+   end
+   if (nargin<4 || isempty(mirror_z))
+      mirror_z = 0;
+   end
+   if (nargin<5 || isempty(scale_yz))
+      scale_yz = 1;
+   end
+
+   [~, ~, ext] = fileparts(fname);
+   ext = [lower(ext), '    '];
+   kind = ext(2:4);
+   wheel_kind = any(strcmp(kind, {'prw','whl'})) || strcmp(ext(2:5), 'slcw');
+   rail_kind  = any(strcmp(kind, {'prr','ban'})) || strcmp(ext(2:5), 'slcs');
+   if (isempty(is_wheel))
+      is_wheel = wheel_kind;
+   elseif ((is_wheel && rail_kind) || (~is_wheel && wheel_kind))
+      body = {'rail','wheel'};
+      error('read_profile: "%s" is a %s profile by its extension, asked for was a %s.', fname, ...
+            body{1+wheel_kind}, body{1+(is_wheel~=0)});
+   end
+
+   if (strcmp(kind, 'slc'))
+      p = read_slices(fname, is_wheel, mirror_y, mirror_z, scale_yz);
+      return
+   elseif (any(strcmp(kind, {'prr','prw'})))
+      p = read_simpack(fname);
+      if ((p.type==1) ~= is_wheel)
+         error('read_profile: "%s" has type = %d in its header, which does not fit its extension.', fname, p.type);
+      end
+      % two times mirrored is not mirrored; -1 switches the file's mirroring off
+      mirror_y = (mirror_y + p.mirror_y == 1);
+      if (p.mirror_z==1 && mirror_z~=0)
+         mirror_z = -1;
+      elseif (mirror_z==0)
+         mirror_z = 2*p.mirror_z - 1;
+      end
+      inversion = p.inversion;
+   else
+      p = read_miniprof(fname);
+      inversion = [];
+   end
+   p = modify_profile(p, is_wheel, mirror_y, mirror_z, scale_yz, inversion);
+
+end % function read_profile

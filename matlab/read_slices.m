@@ -1,0 +1,121 @@
+function [ slcs ] = read_slices( fname, is_wheel, mirror_y, mirror_z, scale_yz )
+% READ_SLICES  Read a profile that varies along the rail or around the wheel (.slcs, .slcw) with all its slices.
+%
+%   slcs = read_slices( fname, is_wheel, mirror_y, mirror_z, scale_yz )
+%
+%   arguments as for READ_PROFILE; they hold for all slices
+%
+%   slcs   struct with Fname, is_wheel, nslc,
+%          u          positions of the slices along the track [mm], for wheels angles [rad]
+%          prof       cell array with the struct of READ_PROFILE for each slice
+%          u_intpol   1: interpolation between slices, 2: approximation
+%          s_feat     nslc x nfeat array of positions of features along the slices [mm], negative where absent
+%          kink, accel   numbers of parts with kinks and accelerations to the next part
+%
+% Names inside the file are relative to its own folder.
+%
+% See also: read_profile, resample_slices, plot3d.
+
+   if (nargin<2 || isempty(is_wheel))
+      is_wheel = ~isempty(regexp(lower(fname), '\.slcw', 'once'));
+   end
+   if (nargin<3)
+      mirror_y = [];
+   end
+   if (nargin<4)
+      mirror_z = [];
+   end
+   if (nargin<5)
+      scale_yz = [];
+   end
+
+   lines = read_lines(fname, 'read_slices');
+   lines = strtrim(regexprep(lines, '%.*', ''));
+   lines = lines(~cellfun('isempty', lines));
+   if (numel(lines)<5)
+      error('read_slices: "%s" ends before the list of slices.', fname);
+   end
+
+   v = first_numbers(lines{1}, 2, fname);
+   u_offset = v(1);
+   u_scale  = v(2);
+   nslc     = first_numbers(lines{2}, 1, fname);
+   v        = sscanf(lines{3}, '%d');
+   v        = [v(:)', 0, 0];
+   nfeat    = v(1);
+   nkink    = v(2) * (nfeat>1);
+   naccel   = v(3) * (nfeat>1);
+   u_intpol = first_numbers(lines{4}, 1, fname);
+   if (~any(u_intpol==[1 2]))
+      error('read_slices: "%s" has interpolation method %d, allowed are 1 and 2.', fname, u_intpol);
+   end
+   if (numel(lines) < 4+nslc)
+      error('read_slices: "%s" ends before slice %d.', fname, nslc);
+   end
+
+   slcs = struct('Fname',fname, 'is_wheel',is_wheel, 'nslc',nslc, 'u_intpol',u_intpol);
+   slcs.u = zeros(nslc, 1);
+   slcs.prof = cell(nslc, 1);
+   folder = fileparts(fname);
+   for i = 1 : nslc
+      name = regexp(lines{4+i}, '''([^'']*)''', 'tokens', 'once');
+      if (isempty(name))
+         error('read_slices: "%s", slice %d: the name of the profile in quotes is missing.', fname, i);
+      end
+      slcs.u(i) = first_numbers(lines{4+i}, 1, fname);
+      file = fullfile(folder, strrep(name{1}, '\', '/'));
+      slcs.prof{i} = read_profile(file, is_wheel, mirror_y, mirror_z, scale_yz);
+   end
+   next = 5 + nslc;
+   slcs.kink  = [];
+   slcs.accel = [];
+   if (nkink>0)
+      slcs.kink = first_numbers(lines{next}, nkink, fname);
+      next = next + 1;
+   end
+   if (naccel>0)
+      slcs.accel = first_numbers(lines{next}, naccel, fname);
+      next = next + 1;
+   end
+   if (nfeat<=1)
+      slcs.s_feat = repmat([0 1e6], nslc, 1);
+   else
+      slcs.s_feat = read_features(lines, next, slcs.u, nfeat, u_scale, fname);
+   end
+   slcs.u = u_scale * (u_offset + slcs.u);
+   if (any(diff(slcs.u)<=1e-3))
+      error('read_slices: positions of slices in "%s" must increase by more than 0.001 mm or rad.', fname);
+   end
+
+end % function read_slices
+
+%------------------------------------------------------------------------------------------------------
+
+function [ v ] = first_numbers( line, n, fname )
+
+   v = sscanf(line, '%f', n)';
+   if (numel(v)<n)
+      error('read_slices: "%s": the line "%s" needs %d numbers.', fname, line, n);
+   end
+
+end % function first_numbers
+
+%------------------------------------------------------------------------------------------------------
+
+function [ s_feat ] = read_features( lines, next, u, nfeat, u_scale, fname )
+% Positions of features; each line repeats the position of its slice
+
+   nslc = numel(u);
+   if (numel(lines) < next+nslc-1)
+      error('read_slices: "%s" ends before the features of slice %d.', fname, nslc);
+   end
+   s_feat = zeros(nslc, nfeat);
+   for i = 1 : nslc
+      v = first_numbers(lines{next+i-1}, nfeat+1, fname);
+      if (abs(u_scale*(v(1)-u(i)))>1e-3)
+         error('read_slices: "%s": features of slice %d stand at position %g instead of %g.', fname, i, v(1), u(i));
+      end
+      s_feat(i,:) = v(2:end);
+   end
+
+end % function read_features

@@ -1,0 +1,57 @@
+function [ slcs ] = resample_slices( slcs, ds )
+% RESAMPLE_SLICES  Give all slices of a varying profile points that correspond to each other.
+%
+%   slcs = resample_slices( slcs, ds )
+%
+%   slcs   struct of READ_SLICES
+%   ds     largest distance of points across the profile [mm] (default 0.5)
+%
+% The parts between features are divided into the same number of equal steps in all slices. Added fields:
+%
+%   vy, vz   nslc x npnt arrays of coordinates [mm]; NaN where a slice does not have a part
+%
+% Lines through points with the same number run along the surface. At a position u between slices,
+% interp1(slcs.u, slcs.vy, u) and interp1(slcs.u, slcs.vz, u) are the points of a section.
+%
+% See also: read_slices, plot3d.
+
+   if (nargin<2 || isempty(ds))
+      ds = 0.5;
+   end
+   nfeat = size(slcs.s_feat, 2);
+   s     = slcs.s_feat;
+   for i = 1 : slcs.nslc
+      present = find(s(i,:)>=0);
+      if (numel(present)<2)
+         error('resample_slices: slice %d has fewer than two features.', i);
+      end
+      s(i,present(end)) = min(s(i,present(end)), slcs.prof{i}.ProfileS(end));
+      if (any(diff(s(i,present))<=1e-6))
+         error('resample_slices: the features of slice %d do not increase along the profile, which is %g mm long.', ...
+               i, slcs.prof{i}.ProfileS(end));
+      end
+   end
+   s(s<0) = NaN;
+
+   slcs.vy = [];
+   slcs.vz = [];
+   for part = 1 : nfeat-1
+      len   = s(:,part+1) - s(:,part);
+      nstep = 1 + fix(max([0; len(~isnan(len))]) / ds);
+      step  = (0:nstep) / nstep;
+      if (part<nfeat-1)
+         step = step(1:end-1);
+      end
+      at = s(:,part)*ones(size(step)) + len*step;
+      vy = NaN(size(at));
+      vz = NaN(size(at));
+      for i = find(~isnan(len))'
+         p = slcs.prof{i};
+         vy(i,:) = interp1(p.ProfileS, p.ProfileY, at(i,:), 'linear', 'extrap');
+         vz(i,:) = interp1(p.ProfileS, p.ProfileZ, at(i,:), 'linear', 'extrap');
+      end
+      slcs.vy = [slcs.vy, vy];
+      slcs.vz = [slcs.vz, vz];
+   end
+
+end % function resample_slices
