@@ -7,13 +7,13 @@ import threading
 import weakref
 from dataclasses import dataclass
 from types import TracebackType
-from typing import Any, Sequence, TypeVar
+from typing import Any, Callable, Sequence, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import cntc
-from ._library import last_message
+from ._library import last_error
 from .cntc import CNTC
 from .errors import ContactError
 
@@ -82,11 +82,10 @@ def _give_back(number: int) -> None:
         _used.discard(number)
 
 
-def fail_if(condition: bool, code: int, what: str) -> None:
-    """Raise ContactError with the meaning of the code and the last message of the library"""
+def fail_if(condition: bool, code: int, what: str, ire: int = 0, icp: int = -1) -> None:
+    """Raise ContactError with the text of the library, if it has one, else with the meaning of the code"""
     if condition:
-        message = last_message()
-        raise ContactError(f"{what}: {cntc.meaning(code)}" + (f"\n{message}" if message else ""), code)
+        raise ContactError(f"{what}: {last_error(ire, icp)[1] or cntc.meaning(code)}", code)
 
 
 @dataclass(frozen=True)
@@ -253,12 +252,19 @@ class Element:
             raise ContactError("This problem is closed")
         return self._number
 
+    def _do(self, routine: Callable[..., None], *arguments: Any) -> None:
+        """Call a routine that sets something; what it refuses is an error"""
+        routine(*arguments)
+        code, message = last_error(self.number, self._icp)
+        if code != 0:
+            raise ContactError(message, code)
+
     def set_flags(self, **flags: int) -> None:
         """Flags and control digits by their names in :data:`contact.cntc.CNTC`, for instance ``ic_bound=4``."""
         unknown = [name for name in flags if name not in CNTC]
         if unknown:
             raise ValueError(f"there is no flag {', '.join(unknown)}")
-        cntc.setflags(self.number, self._icp, [CNTC[name] for name in flags], list(flags.values()))
+        self._do(cntc.setflags, self.number, self._icp, [CNTC[name] for name in flags], list(flags.values()))
 
     def set_material(self, g: float, nu: float, g2: float | None = None, nu2: float | None = None,
                      model: int = 0, parameters: Sequence[float] = ()) -> None:
@@ -274,7 +280,7 @@ class Element:
             M digit and the numbers it asks for beyond the elastic ones.
         """
         values = [nu, nu if nu2 is None else nu2, g, g if g2 is None else g2, *parameters]
-        cntc.setmaterialparameters(self.number, self._icp, model, values)
+        self._do(cntc.setmaterialparameters, self.number, self._icp, model, values)
 
     def set_friction(self, coefficient: float) -> None:
         """Coulomb friction with one coefficient [-]."""
@@ -282,24 +288,24 @@ class Element:
 
     def set_friction_law(self, law: int, parameters: Sequence[float]) -> None:
         """Friction law 10 V + L with its parameters, see doc/user/library.md."""
-        cntc.setfrictionmethod(self.number, self._icp, law, parameters)
+        self._do(cntc.setfrictionmethod, self.number, self._icp, law, parameters)
 
     def set_solver(self, eps: float = 1e-5, maxgs: int = 999, maxin: int = 100, maxnr: int = 30,
                    maxout: int = 1) -> None:
         """Tolerance [-] and limits of the iterations of the default solver (G = 0)."""
-        cntc.setsolverflags(self.number, self._icp, 0, [maxgs, maxin, maxnr, maxout], [eps])
+        self._do(cntc.setsolverflags, self.number, self._icp, 0, [maxgs, maxin, maxnr, maxout], [eps])
 
     def add_block(self, x: ArrayLike, y: ArrayLike, z: ArrayLike, block: int = 1) -> None:
         """Points below the surface: all combinations of x, y and depths z [L]."""
-        cntc.subs_addblock(self.number, self._icp, block, 9, x, y, z)
+        self._do(cntc.subs_addblock, self.number, self._icp, block, 9, x, y, z)
 
     def _calculate_stresses(self) -> None:
         code = cntc.subs_calculate(self.number, self._icp, idebug=0)
-        fail_if(code != 0, code, "The stresses were not computed")
+        fail_if(code != 0, code, "The stresses were not computed", self.number, self._icp)
 
     def _calculate(self, initiation: bool) -> int:
         """Solve; the number of elements at the border"""
         self.set_flags(ic_pvtime=2 if initiation else 0)
         code: Any = cntc.calculate(self.number, self._icp, idebug=0)
-        fail_if(code < 0 or code == 305, code, "The problem was not solved")
+        fail_if(code < 0 or code == 305, code, "The problem was not solved", self.number, self._icp)
         return int(code)

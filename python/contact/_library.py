@@ -129,8 +129,9 @@ def text(value: str | os.PathLike[str] | None) -> tuple[bytes, int]:
     return encoded, len(encoded)
 
 
-def last_message() -> str:
-    """The last error or warning of the library in this thread, empty when there is none"""
+def last_error(ire: int = 0, icp: int = -1) -> tuple[int, str]:
+    """Code and text of what went wrong last with a problem, or with ire = 0 in the library; (0, "") when nothing
+    did since this was asked last."""
     room = ctypes.create_string_buffer(2000)
-    library().contact_last_message(room, len(room))
-    return room.value.decode("utf-8", errors="replace")
+    code = library().contact_last_error(ire, icp, room, len(room))
+    return code, room.value.decode("utf-8", errors="replace")

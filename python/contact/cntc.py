@@ -599,6 +599,54 @@ def resetcalculationtime(ire: Number = 1, icp: Number = 1) -> None:
     call("cntc_resetcalculationtime", _element(ire), _patch(icp))
 
 
+def getcpresults(ire: Number = 1, icp: Number = 1) -> dict[str, Any]:
+    """Inputs and results of a patch of wheel/rail contact, with the names of the Matlab function loadcase.
+
+    Profiles are in mm, so the units of the problem have to be those of CONTACT (``un_cntc``).
+    """
+    element, patch = _element(ire), _patch(icp)
+    config, t_digit, d_digit, m_digit, h_digit = (int(value) for value in getflags(
+        element, -1, [CNTC[name] for name in ("ic_config", "ic_tang", "ic_discns", "ic_mater", "ic_heat")]))
+    kinematics = getparameters(element, patch, 1)
+    tau_c0 = kinematics["tau_c0"]
+    wheelset, place = getwheelsetposition(element), getcontactlocation(element, patch)
+    mx, my, xc1, yc1, dx, dy = getpotcontact(element, patch)
+    solution: dict[str, Any] = {
+        "config": config,
+        "kincns": {"t_digit": t_digit, "veloc": kinematics["veloc"], "chi": kinematics["chi"], "dq": kinematics["dq"]},
+        "d_digit": d_digit,
+        "mater": {"m_digit": m_digit, "tau_c0": tau_c0},
+        "h_digit": h_digit,
+        "meta": {
+            "spinxo": kinematics["spinxo"], "spinyo": kinematics["spinyo"], "s_ws": wheelset[0],
+            **dict(zip(("x_w", "y_w", "z_w", "roll_w", "yaw_w"), place[20:25])),
+            **dict(zip(("y_r", "z_r", "roll_r"), place[25:28])),
+            **dict(zip(("xcp_r", "ycp_r", "zcp_r"), place[4:7])), "deltcp_r": place[8],
+            **dict(zip(("xcp_w", "ycp_w", "zcp_w"), place[9:12])), "deltcp_w": place[13],
+            "npatch": getnumcontactpatches(element), "ipatch": patch,
+        },
+        "mx": mx, "my": my, "xl": xc1 - dx / 2, "yl": yc1 - dy / 2, "dx": dx, "dy": dy,
+        "x": xc1 + dx * np.arange(mx), "y": yc1 + dy * np.arange(my),
+    }
+    for name, kind in (("prr", 0), ("prw", 1)):
+        points = getprofilevalues(element, 1, [kind, 0])
+        if not isinstance(points, int):
+            solution[name] = {"ProfileY": points[:, 0], "ProfileZ": points[:, 1],
+                              "ProfileS": getprofilevalues(element, 4, [kind, 0])}
+    solution["eldiv"] = getelementdivision(element, patch)
+    names = ["h", "mu", "pn", "px", "py", "un", "ux", "uy", "sx", "sy"]
+    plastic = m_digit == 4 and 1e-10 < tau_c0 < 1e10
+    names += ["taucrt", "uplsx", "uplsy"] if plastic else []
+    names += ["temp1", "temp2"] if h_digit > 0 else []
+    for name in names:
+        solution[name] = getfielddata(element, patch, CNTC["fld_" + name])
+    solution["srel"] = np.hypot(solution.pop("sx"), solution.pop("sy"))
+    solution["shft"] = solution["srel"] * (kinematics["dq"] if t_digit >= 2 else 1.0)
+    bound = solution["mu"] * solution["pn"]
+    solution["trcbnd"] = np.minimum(bound, solution["taucrt"]) if plastic else bound
+    return solution
+
+
 # ---- stresses below the surface ---------------------------------------------------------------
 
 

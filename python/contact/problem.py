@@ -72,9 +72,9 @@ class Problem(Element):
             Size of the grid relative to the ellipse.
         """
         if aa is not None and bb is not None and a1 is None and b1 is None:
-            cntc.sethertzcontact(self.number, 1, -3, [mx, my, aa, bb, scale])
+            self._do(cntc.sethertzcontact, self.number, 1, -3, [mx, my, aa, bb, scale])
         elif a1 is not None and b1 is not None and aa is None and bb is None:
-            cntc.sethertzcontact(self.number, 1, -1, [mx, my, a1, b1, scale])
+            self._do(cntc.sethertzcontact, self.number, 1, -1, [mx, my, a1, b1, scale])
         else:
             raise ValueError("set_hertz needs either aa and bb or a1 and b1")
         self._grid = None
@@ -98,7 +98,7 @@ class Problem(Element):
         """
         xl = -0.5 * mx * dx if xl is None else xl
         yl = -0.5 * my * dy if yl is None else yl
-        cntc.setpotcontact(self.number, 1, 1, [mx, my, xl, yl, dx, dy])
+        self._do(cntc.setpotcontact, self.number, 1, 1, [mx, my, xl, yl, dx, dy])
         self._grid = (xl + dx * (np.arange(mx) + 0.5), yl + dy * (np.arange(my) + 0.5))
         return self._grid
 
@@ -115,20 +115,20 @@ class Problem(Element):
         x, y = self._grid
         values = distance(x[np.newaxis, :], y[:, np.newaxis]) if callable(distance) else distance
         values = np.broadcast_to(np.asarray(values, dtype=np.float64), (y.size, x.size))
-        cntc.setundeformeddistc(self.number, 1, 9, values)
+        self._do(cntc.setundeformeddistc, self.number, 1, 9, values)
 
     def set_approach(self, pen: float) -> None:
         """Approach of the bodies [L]."""
-        cntc.setpenetration(self.number, 1, pen)
+        self._do(cntc.setpenetration, self.number, 1, pen)
 
     def set_normal_force(self, fn: float) -> None:
         """Normal force [F]."""
-        cntc.setnormalforce(self.number, 1, fn)
+        self._do(cntc.setnormalforce, self.number, 1, fn)
 
     def set_creepages(self, cksi: float = 0.0, ceta: float = 0.0, cphi: float = 0.0) -> None:
         """Creepages [-], [-], [A/L], or for a shift [L], [L], [A]."""
         self.set_flags(ic_force=0)
-        cntc.setcreepages(self.number, 1, cksi, ceta, cphi)
+        self._do(cntc.setcreepages, self.number, 1, cksi, ceta, cphi)
 
     def set_tangential_force(self, fx: float, fy: float | None = None, *, ceta: float = 0.0,
                              cphi: float = 0.0) -> None:
@@ -137,14 +137,14 @@ class Problem(Element):
         Without fy, the lateral creepage ceta is given instead of the lateral force.
         """
         self.set_flags(ic_force=1 if fy is None else 2)
-        cntc.setcreepages(self.number, 1, 0.0, ceta, cphi)
-        cntc.settangentialforces(self.number, 1, fx, 0.0 if fy is None else fy)
+        self._do(cntc.setcreepages, self.number, 1, 0.0, ceta, cphi)
+        self._do(cntc.settangentialforces, self.number, 1, fx, 0.0 if fy is None else fy)
 
     def set_rolling(self, velocity: float, step: float | None = None, direction: float = 0.0) -> None:
         """Rolling velocity [V], step dq [L] (default that of the library) and direction [A]."""
-        cntc.setreferencevelocity(self.number, 1, velocity)
+        self._do(cntc.setreferencevelocity, self.number, 1, velocity)
         if step is not None:
-            cntc.setrollingstepsize(self.number, 1, direction, step)
+            self._do(cntc.setrollingstepsize, self.number, 1, direction, step)
         elif direction != 0.0:
             raise ValueError("a direction needs a step")
 

@@ -124,9 +124,9 @@ class WheelRail(Element):
             Rolling step relative to dx [-].
         """
         millimetre = 1.0 if self.units == "mm" else 1e-3
-        cntc.setpotcontact(self.number, -1, -1, [dx, ds, a_sep, 8 * millimetre if d_sep is None else d_sep,
+        self._do(cntc.setpotcontact, self.number, -1, -1, [dx, ds, a_sep, 8 * millimetre if d_sep is None else d_sep,
                                                  4 * millimetre if d_comb is None else d_comb])
-        cntc.setrollingstepsize(self.number, -1, 0.0, step)
+        self._do(cntc.setrollingstepsize, self.number, -1, 0.0, step)
 
     def set_rail(self, profile: str | os.PathLike[str] | ArrayLike, scale: float = 1.0, smooth: float = 0.0) -> None:
         """Rail profile: a file, or an array of y, z of shape (n, 2) with z down; scale is the factor to mm."""
@@ -140,11 +140,11 @@ class WheelRail(Element):
                      smooth: float) -> None:
         what = ("rail", "wheel")[kind]
         if isinstance(profile, (str, os.PathLike)):
-            cntc.setprofileinputfname(self.number, os.path.abspath(profile), [kind], [scale, smooth])
+            self._do(cntc.setprofileinputfname, self.number, os.path.abspath(profile), [kind], [scale, smooth])
         else:
-            cntc.setprofileinputvalues(self.number, profile, [kind], [scale, smooth])
+            self._do(cntc.setprofileinputvalues, self.number, profile, [kind], [scale, smooth])
         state, detail = cntc.getprofilevalues(self.number, -1, [kind, 0])
-        fail_if(state != 0, state, f"The profile of the {what} cannot be used (detail {detail})")
+        fail_if(state != 0, state, f"The profile of the {what} cannot be used (detail {detail})", self.number)
 
     def set_track(self, gauge_height: float, gauge_width: float, cant: float = 0.0, *, gauge_sequence: int = 0,
                   roller_radius: float = 0.0, deviation: Sequence[float] = (0.0,) * 6) -> None:
@@ -167,37 +167,37 @@ class WheelRail(Element):
         """
         if not gauge_height > 0.0:
             raise ValueError("gauge_height has to be positive; set_rail_position places a rail without gauge point")
-        cntc.settrackdimensions(self.number, 3, [gauge_height, gauge_sequence, gauge_width, cant, roller_radius,
+        self._do(cntc.settrackdimensions, self.number, 3, [gauge_height, gauge_sequence, gauge_width, cant, roller_radius,
                                                  *deviation])
 
     def set_rail_position(self, y: float, z: float, cant: float = 0.0, *, roller_radius: float = 0.0,
                           deviation: Sequence[float] = (0.0,) * 6) -> None:
         """Track, with the origin of the rail profile placed at y, z [L] of the track system."""
-        cntc.settrackdimensions(self.number, 3, [-1.0, y, z, cant, roller_radius, *deviation])
+        self._do(cntc.settrackdimensions, self.number, 3, [-1.0, y, z, cant, roller_radius, *deviation])
 
     def set_wheelset(self, flange_back: float, flange_back_position: float, radius: float) -> None:
         """Distance between the backs of the flanges, lateral coordinate of the back in the profile, radius [L]."""
-        cntc.setwheelsetdimensions(self.number, 3, [flange_back, flange_back_position, radius])
+        self._do(cntc.setwheelsetdimensions, self.number, 3, [flange_back, flange_back_position, radius])
 
     def set_position(self, s: float = 0.0, y: float = 0.0, z: float | None = None, roll: float = 0.0,
                      yaw: float = 0.0, pitch: float = 0.0) -> None:
         """Position of the wheelset [L], [A]. A height z replaces the vertical force; without it, z is solved for."""
-        cntc.setwheelsetposition(self.number, 1, [s, y, 0.0 if z is None else z, roll, yaw, pitch])
+        self._do(cntc.setwheelsetposition, self.number, 1, [s, y, 0.0 if z is None else z, roll, yaw, pitch])
         if z is not None:
             self.set_flags(ic_norm=0)
 
     def set_velocity(self, vs: float, vy: float = 0.0, vz: float = 0.0, roll: float = 0.0, yaw: float = 0.0,
                      pitch: float = 0.0) -> None:
         """Velocity of the wheelset [V] and its rates [A/T]; rolling forward has a negative rate of pitch."""
-        cntc.setwheelsetvelocity(self.number, 2, [vs, vy, vz, roll, yaw, pitch])
+        self._do(cntc.setwheelsetvelocity, self.number, 2, [vs, vy, vz, roll, yaw, pitch])
 
     def set_flexibility(self, position: Sequence[float], velocity: Sequence[float] = (0.0,) * 6) -> None:
         """Deviation of the wheel from the rigid wheelset: dx, dy, dz, roll, yaw, pitch and their rates."""
-        cntc.setwheelsetflexibility(self.number, 5, [*position, *velocity])
+        self._do(cntc.setwheelsetflexibility, self.number, 5, [*position, *velocity])
 
     def set_vertical_force(self, fz: float) -> None:
         """Vertical force on the contact [F]."""
-        cntc.setverticalforce(self.number, fz)
+        self._do(cntc.setverticalforce, self.number, fz)
 
     def solve(self, initiation: bool = True) -> WheelRailResult:
         """Find the contact patches and solve them.

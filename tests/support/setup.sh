@@ -2,6 +2,7 @@
 #
 #   install_missing    installs the compiler, tools and libraries that are not there
 #   install_octave     the same for GNU Octave, which tests of matlab/ need; goes on without it
+#   install_numpy      the same for numpy, which only tests need; goes on without it
 #   build PRESET [-DX] configures and builds into build/PRESET
 
 say() { printf '%s\n' "== $*"; }
@@ -130,6 +131,29 @@ install_octave() {
     as_root apk add $packages
   fi
   octave_there || say "GNU Octave could not be installed; tests of matlab/ are skipped"
+}
+
+has_numpy() { python3 -c "import numpy" >/dev/null 2>&1; }
+
+# numpy for the tests of the Python package: from the system's packages, or in a folder below build
+install_numpy() {
+  if has_numpy; then
+    return 0
+  fi
+  say "Installing numpy"
+  if command -v apt-get >/dev/null 2>&1 && { [ "$(id -u)" = 0 ] || sudo -n true 2>/dev/null; }; then
+    { as_root apt-get update
+      as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends python3-numpy
+    } || say "apt-get could not install python3-numpy"
+  fi
+  if has_numpy; then
+    return 0
+  fi
+  { [ -x "$top/build/python/bin/python3" ] || python3 -m venv "$top/build/python"; } &&
+    "$top/build/python/bin/python3" -m pip install --quiet numpy
+  PATH=$top/build/python/bin:$PATH
+  export PATH
+  has_numpy || say "There is no numpy; tests of the Python package will be skipped"
 }
 
 # build PRESET [options of cmake]

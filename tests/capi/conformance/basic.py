@@ -1,0 +1,367 @@
+#!/usr/bin/env python3
+"""Basic contact by the library: conventions, codes of errors, wrong calls, files. usage: basic.py SCENARIO"""
+import os
+import re
+import subprocess
+import sys
+
+from checks import check, close, extreme, finish, log_text, same
+import numpy as np
+from contact import cntc
+from contact._library import call, library
+from contact._signatures import SIGNATURES
+from contact.cntc import CNTC
+
+
+def case_a(ire, icp=1, units="un_cntc", eps=1e-4):
+    """A Hertzian ellipse with creepage and spin, the same problem in each convention"""
+    big = 1.0 if units == "un_cntc" else 1e-3
+    cntc.setflags(ire, icp, [CNTC["if_units"], CNTC["ic_tang"], CNTC["ic_pvtime"]], [CNTC[units], 3, 2])
+    cntc.setmaterialparameters(ire, icp, 0, [0.28, 0.28, 82e3 / big**2, 82e3 / big**2])
+    cntc.setfrictionmethod(ire, icp, 0, [0.3, 0.3])
+    cntc.setreferencevelocity(ire, icp, 24000 * big)
+    cntc.setrollingstepsize(ire, icp, 0.0, 0.5 * big)
+    cntc.sethertzcontact(ire, icp, -3, [21, 33, 4.25 * big, 7.0 * big, 21 / 17])
+    cntc.setpenetration(ire, icp, 0.05 * big)
+    cntc.setcreepages(ire, icp, 0.001, 0.0, 0.0004 / big)
+    cntc.setsolverflags(ire, icp, 0, [999, 30, 30, 1], [eps])
+
+
+def start(ire=1, module=3):
+    """A result element, whatever happened before"""
+    same(cntc.initialize(ire, module)[1], 0, f"initialize {ire}")
+
+
+def conventions():
+    """One problem in three conventions: factors and signs of all results; figures of version 25.2.0"""
+    signs = {"un_cntc": (1.0, 1.0), "un_spck": (1e-3, -1.0), "un_si": (1e-3, 1.0)}
+    for ire, (units, (big, body)) in enumerate(signs.items(), 1):
+        start(ire)
+        case_a(ire, 1, units)
+        same(cntc.calculate(ire, 1), 0, f"{units}: error code")
+        fn, tx, ty, mz = cntc.getcontactforces(ire, 1)
+        close([fn, tx, ty], [42082.06, -4883.24 * body, -4617.28 * body], 0.002 * 42082, f"{units}: forces")
+        close(mz, -23665.85 * body * big, 0.002 * 23666 * big, f"{units}: moment")
+        close(cntc.getcreepages(ire, 1), [0.001 * body, 0.0, 0.0004 / big * body], 1e-12 / big, f"{units}: creepages")
+        close(cntc.getpenetration(ire, 1), 0.05 * big, 1e-12, f"{units}: approach")
+        element = 0.5 * 35.0 / 33 * big**2
+        close(cntc.getcontactpatchareas(ire, 1)[:3], np.array([95.1176, 36.1604, 58.9572]) * big**2, 2 * element,
+              f"{units}: areas")
+        close(cntc.getmaximumpressure(ire, 1) * big**2, 675.3593, 0.005 * 675, f"{units}: largest pressure")
+        pn, px, py = cntc.gettractions(ire, 1)
+        close(np.array([extreme(pn), extreme(px), extreme(py)]) * big**2,
+              [675.3593, -179.9564 * body, -126.9324 * body], 0.005 * 675, f"{units}: tractions")
+        same(pn.shape, (33, 21), f"{units}: shape of fields")
+        un, ux, uy = cntc.getdisplacements(ire, 1)
+        close(np.array([extreme(ux), extreme(uy), extreme(un)]) / big, [-0.01140380, -0.00785261, 0.04999927], 1e-4,
+              f"{units}: displacements have no sign of the body")
+        sx, sy = cntc.getmicroslip(ire, 1)
+        close([extreme(sx), extreme(sy)], [0.00490603 * body, -0.00135377 * body], 2e-4, f"{units}: micro-slip")
+        wx, wy = (cntc.getfielddata(ire, 1, CNTC[name]) for name in ("fld_wx", "fld_wy"))
+        close([extreme(wx), extreme(wy)], [-0.00435401 * body, -0.00203333 * body], 2e-5, f"{units}: rigid slip")
+        close(extreme(cntc.getfielddata(ire, 1, CNTC["fld_h"])) / big, 0.0706302, 1e-5, f"{units}: distance")
+        close(cntc.gethertzcontact(ire, 1)[[0, 1, 4, 5]] * [big, big, 1 / big, 1 / big],
+              [1.2136146e-3, 5.7304259e-4, 1119.4089, 5.4543561], [1e-9, 1e-9, 1e-3, 1e-6], f"{units}: Hertz")
+        same(cntc.getnumelements(ire, 1), (21, 33), f"{units}: grid")
+        close(cntc.getgriddiscretization(ire, 1), [0.5 * big, 17.0 / 33 * big], 0.03 * big, f"{units}: element")
+    eldiv = cntc.getelementdivision(1, 1)
+    close([np.sum(eldiv > 0), np.sum(eldiv == 1), np.sum(eldiv == 2)], [363, 138, 225], 2, "element division")
+
+
+def variations():
+    """Forces prescribed, a force too large, normal force given; figures of version 25.2.0"""
+    start()
+    case_a(1, eps=1e-6)
+    same(cntc.calculate(1, 1), 0, "creepages given")
+    fn = cntc.getcontactforces(1, 1)[0]
+    close(fn, 42083.06, 5, "normal force")
+    cntc.setflags(1, 1, CNTC["ic_force"], 2)
+    for given, forces, creepages in (((-0.5, 0.2), (-6312.46, 2524.98), (1.364169e-3, -1.321989e-3)),
+                                     ((-3, 4), (-7574.95, 10099.94), (7.30637e-3, -1.008392e-2))):
+        cntc.settangentialforces(1, 1, *given)
+        same(cntc.calculate(1, 1), 0, f"forces {given}: error code")
+        close(cntc.getcontactforces(1, 1)[1:3], forces, 0.002 * 12625, f"forces {given}")
+        found = cntc.getcreepages(1, 1)[:2]
+        if given != (-3, 4):
+            close(found, creepages, 1e-5, f"forces {given}: creepages")
+        else:
+            # The friction bound is approached by ever larger creepages; where to stop is a tolerance
+            check(found[0] >= creepages[0] and found[1] <= creepages[1], "beyond the friction bound: large creepages")
+    cntc.setflags(1, 1, CNTC["ic_force"], 0)
+    cntc.setnormalforce(1, 1, 42083)
+    same(cntc.calculate(1, 1), 0, "normal force given: error code")
+    close(cntc.getpenetration(1, 1), 0.05000976, 2e-5, "approach of a normal force")
+
+
+def stresses():
+    """Stresses on the axis below the normal force of the published figures (version 25.2.0)"""
+    start()
+    case_a(1, eps=1e-6)
+    cntc.setnormalforce(1, 1, 42083)
+    same(cntc.calculate(1, 1), 0, "error code")
+    cntc.subs_addblock(1, 1, 1, 9, [0.0], [0.0], [0.0, 1.0, 2.0, 3.0])
+    same(cntc.subs_calculate(1, 1), 0, "subs_calculate")
+    same(cntc.subs_getblocksize(1, 1, 1), (1, 1, 4), "size of the block")
+    table = cntc.subs_getresults(1, 1, 1, [3, 7, 8, 21])
+    close(table[0], [0, 1, 2, 3], 1e-12, "depths")
+    close(table[1], [-540.99, -413.43, -308.64, -230.80], 0.005 * 541, "hydrostatic stress")
+    close(table[2], [356.12, 371.76, 416.60, 412.90], 0.005 * 416, "von Mises stress")
+    close(table[3], [-675.66, -634.96, -578.13, -502.48], 0.005 * 676, "stress on the axis")
+
+
+def codes():
+    """Wrong numbers of elements and problems: codes where a routine has one, outputs as they were"""
+    start()
+    start(2, 1)
+    case_a(1)
+    same(cntc.calculate(1, 1), 0, "a case to start from")
+    for ire, icp, code in ((0, 1, -101), (1000, 1, -101), (1, 10, -104), (2, 10, -104), (2, 3, -31), (1, -1, -102),
+                           (1, 0, None)):
+        got = cntc.subs_calculate(ire, icp, idebug=0)
+        check(got == code if code else got < 0, f"subs_calculate({ire}, {icp}) returned {got}, expected {code}")
+    for ire, icp in ((0, 1), (1000, 1), (1, 10), (2, 1)):
+        values = np.full(5, 7.5)
+        call("cntc_getpotcontact", ire, icp, 5, values)
+        close(values, np.full(5, 7.5), 0, f"getpotcontact({ire}, {icp}) leaves its output")
+        check(cntc.calculate(ire, icp, idebug=0) < 0, f"calculate({ire}, {icp}) is an error")
+    values = np.full(38, 7.5)
+    call("cntc_getcontactlocation", 1, 1, 38, values)
+    close(values, np.full(38, 7.5), 0, "a routine of wheel/rail contact leaves its output for basic contact")
+    call("cntc_setpenetration", 2, -1, 0.1)
+    call("cntc_setverticalforce", 1, 0.1)
+    same(cntc.calculate(2, -1, idebug=0), CNTC["err_profil"], "wheel on rail without profiles")
+    same(cntc.calculate(1, 1), 0, "the good problem still works")
+    for refused in (lambda: cntc.getcontactforces(1, -1), lambda: cntc.setpenetration(1, 0, 1.0)):
+        try:
+            refused()
+            check(False, "a patch is needed")
+        except ValueError as error:
+            check("icp" in str(error), "ValueError names icp")
+
+
+def wrong_counts():
+    """A list of the wrong length: one line in the log, nothing changes"""
+    start()
+    start(2, 1)
+    case_a(1)
+    same(cntc.calculate(1, 1), 0, "a case to start from")
+    before = cntc.getcontactforces(1, 1)
+    reals = np.full(50, 0.5)
+    reals[:2] = 5
+    ints = np.ones(10, np.intc)
+    wrong = [
+        ("cntc_setsolverflags", 1, 1, 0, 3, ints, 1, reals), ("cntc_setsolverflags", 1, 1, 2, 4, ints, 4, reals),
+        ("cntc_setsolverflags", 1, 1, 17, 4, ints, 1, reals),
+        ("cntc_setmaterialparameters", 1, 1, 0, 3, reals), ("cntc_setmaterialparameters", 1, 1, 4, 4, reals),
+        ("cntc_setmaterialparameters", 1, 1, 8, 4, reals), ("cntc_settemperaturedata", 1, 1, 3, 8, reals),
+        ("cntc_settemperaturedata", 1, 1, 2, 9, reals),
+        ("cntc_setfrictionmethod", 1, 1, 0, 1, reals), ("cntc_setfrictionmethod", 1, 1, 2, 2, reals),
+        ("cntc_setfrictionmethod", 1, 1, 7, 2, reals), ("cntc_setfrictionmethod", 1, 1, 30, 2, reals),
+        ("cntc_sethertzcontact", 1, 1, -3, 4, reals), ("cntc_sethertzcontact", 1, 1, -7, 5, reals),
+        ("cntc_setpotcontact", 1, 1, 1, 5, reals), ("cntc_setpotcontact", 1, 1, 5, 6, reals),
+        ("cntc_setundeformeddistc", 1, 1, 1, 5, reals), ("cntc_setundeformeddistc", 1, 1, 9, 7, reals),
+        ("cntc_setundeformeddistc", 1, 1, 4, 6, reals),
+        ("cntc_setpotcontact", 2, -1, -1, 4, reals), ("cntc_setpotcontact", 2, -1, 1, 6, reals),
+        ("cntc_settrackdimensions", 2, 1, 4, reals), ("cntc_settrackdimensions", 2, 3, 10, reals),
+        ("cntc_settrackdimensions", 2, 9, 5, reals),
+        ("cntc_setwheelsetdimensions", 2, 3, 2, reals), ("cntc_setwheelsetposition", 2, 1, 5, reals),
+        ("cntc_setwheelsetposition", 2, 6, 6, reals), ("cntc_setwheelsetvelocity", 2, 2, 5, reals),
+        ("cntc_setwheelsetflexibility", 2, 5, 11, reals),
+    ]
+    for name, *arguments in wrong:
+        lines = len(log_text().splitlines())
+        flags = cntc.getflags(1, 1, [CNTC[f"ic_{digit}"] for digit in ("frclaw", "mater", "heat", "bound")]).tolist()
+        call(name, *arguments)
+        shown = [value for value in arguments if not isinstance(value, np.ndarray)]
+        same(len(log_text().splitlines()) - lines, 1, f"{name}{tuple(shown)}: lines in the log")
+        same(cntc.getflags(1, 1, [CNTC[f"ic_{digit}"] for digit in ("frclaw", "mater", "heat", "bound")]).tolist(),
+             flags, f"{name}{tuple(shown)}: digits")
+    same(cntc.calculate(1, 1), 0, "the case again")
+    close(cntc.getcontactforces(1, 1), before, 1e-9 * 42082, "nothing changed")
+
+
+def clamps():
+    """Values out of range become the nearest that there is"""
+    start()
+    start(2, 1)
+    for ire, icp, flag, value, stored in (
+            (1, 1, "ic_tang", 9, 3), (1, 1, "ic_tang", -1, 0), (1, 1, "ic_matfil", 9, 0), (1, 1, "ic_sbsout", 3, 2),
+            (1, 1, "ic_sbsout", 7, 4), (1, 1, "ic_sbsfil", 5, 0), (2, -1, "ic_config", 7, 5), (2, -1, "ic_config", -3, 0),
+            (1, 1, "ic_pvtime", 8, 3), (1, 1, "ic_norm", 5, 1), (1, 1, "ic_force", 7, 2), (1, 1, "ic_iestim", 9, 3),
+            (1, 1, "ic_flow", 12, 9), (1, 1, "ic_return", 5, 3), (1, 1, "ic_sens", 8, 3), (1, 1, "ic_ifmeth", 4, 1),
+            (1, 1, "ic_ifvari", 9, 4), (1, 1, "ic_ifvari", 0, 1), (2, -1, "ic_npomax", 5, 100),
+            (2, -1, "ic_npomax", 5000000, 1000000), (1, 1, "ic_bound", 11, 6)):
+        cntc.setflags(ire, icp, CNTC[flag], value)
+        same(int(cntc.getflags(ire, icp, CNTC[flag])[0]), stored, f"{flag} set to {value}")
+    lines = len(log_text().splitlines())
+    cntc.setflags(1, 1, [0, 4711], [1, 1])
+    check(len(log_text().splitlines()) > lines, "an unknown flag is told")
+    for flag in ("ic_mater", "ic_frclaw", "ic_heat"):
+        before = int(cntc.getflags(1, 1, CNTC[flag])[0])
+        cntc.setflags(1, 1, CNTC[flag], 1)
+        same(int(cntc.getflags(1, 1, CNTC[flag])[0]), before, f"{flag} has a routine of its own")
+    same(cntc.getflags(1, 1, [0, 4711]).tolist(), [0, 0], "codes that cannot be read leave the values")
+
+
+def case_number():
+    """The number of a case can be set, counts on, and stands in the names of files"""
+    start()
+    case_a(1)
+    cntc.setflags(1, 1, [CNTC["if_ncase"], CNTC["ic_matfil"]], [10, 1])
+    cntc.calculate(1, 1)
+    same(int(cntc.getflags(1, 1, CNTC["if_ncase"])[0]), 10, "number of the case")
+    check(os.path.isfile("caddon_re001_cp1.0010.mat"), "the number is in the name of the .mat file")
+    cntc.calculate(1, 1)
+    same(int(cntc.getflags(1, 1, CNTC["if_ncase"])[0]), 11, "the next number")
+    check(os.path.isfile("caddon_re001_cp1.0011.mat"), "the next .mat file")
+
+
+def replay():
+    """Cases written as input give the same results in the program"""
+    cntc.initlibrary(expnam="replay")
+    start()
+    case_a(1)
+    cntc.setflags(1, 1, [CNTC["if_wrtinp"], CNTC["ic_output"]], [1, 2])
+    forces = []
+    for cksi in (0.001, 0.0003):
+        cntc.setcreepages(1, 1, cksi, 0.0005, 0.0004)
+        same(cntc.calculate(1, 1), 0, "error code")
+        forces.append(cntc.getcontactforces(1, 1))
+    cntc.finalize(1)
+    program = os.environ["CONTACT_PROGRAM"]
+    os.makedirs("program", exist_ok=True)
+    subprocess.run([program, "--quiet", "--output-dir", "program", "2", "replay"], check=True)
+    with open("program/replay.out", encoding="utf-8") as file:
+        lines = file.read().splitlines()
+    found = [[float(word) for word in lines[number + 1].split()[:4]] for number, line in enumerate(lines)
+             if re.search(r"\bFN\b.*\bFX\b.*\bFY\b", line)]
+    same(len(found), len(forces), "cases in the results of the program")
+    for (fn, fx, fy, _), given in zip(found, forces):
+        close([fn, fx, fy], given[:3], 2e-3 * given[0] * 0.3, "forces of the program")
+
+
+def second_run():
+    """After the last element is freed, a new run begins with an empty .out file"""
+    for word in ("first", "second"):
+        start(1)
+        start(2)
+        cntc.setflags(1, 1, CNTC["ic_output"], 2)
+        case_a(1)
+        cntc.setcreepages(1, 1, 0.001 if word == "first" else 0.002, 0.0, 0.0)
+        same(cntc.calculate(1, 1), 0, f"{word} run: error code")
+        text = log_text()
+        same(len(re.findall(r"Case +1 for contact problem", text)), 1, f"{word} run: cases in the .out file")
+        cntc.finalize(1)
+        cntc.finalize(2)
+    text = log_text()
+    same(len(re.findall(r"Case +1 for contact problem", text)), 1, "the .out file has the second run")
+    check("2.0000E-03" in text or "2.000E-03" in text or "0.002" in text, "its creepage is that of the second run")
+    cntc.finalize(1)
+    cntc.finalizelast()
+    start(1)
+    case_a(1)
+    same(cntc.calculate(1, 1), 0, "a third run")
+
+
+def array_lengths():
+    """Arrays of results that are too short are filled, the surplus of longer ones is left or zero"""
+    start()
+    case_a(1)
+    cntc.calculate(1, 1)
+    pressure = cntc.getfielddata(1, 1, CNTC["fld_pn"]).reshape(-1)
+    pn, px, py = (field.reshape(-1) for field in cntc.gettractions(1, 1))
+    eldiv = cntc.getelementdivision(1, 1).reshape(-1)
+    for length in (0, 1, 200, pressure.size, pressure.size + 9):
+        filled = min(length, pressure.size)
+        room = np.full(pressure.size + 20, 7.5)
+        call("cntc_getfielddata", 1, 1, CNTC["fld_pn"], length, room)
+        close(room[:filled], pressure[:filled], 0, f"field, length {length}")
+        close(room[filled:], np.full(room.size - filled, 7.5), 0, f"field, length {length}: surplus")
+        three = [np.full(room.size, 7.5) for _ in range(3)]
+        call("cntc_gettractions", 1, 1, length, *three)
+        for got, expected in zip(three, (pn, px, py)):
+            close(got[:filled], expected[:filled], 0, f"tractions, length {length}")
+            close(got[filled:], np.full(room.size - filled, 7.5), 0, f"tractions, length {length}: surplus")
+        whole = np.full(room.size, 75, np.intc)
+        call("cntc_getelementdivision", 1, 1, length, whole)
+        close(whole[:filled], eldiv[:filled], 0, f"element division, length {length}")
+        check(np.all(whole[filled:] == 75), f"element division, length {length}: surplus")
+    grid = np.full(9, 7.5)
+    call("cntc_getpotcontact", 1, 1, 4, grid)
+    close(grid[4:], np.full(5, 7.5), 0, "grid, short")
+    call("cntc_getpotcontact", 1, 1, 8, grid)
+    close(grid[6:], [0.0, 0.0, 7.5], 0, "grid, long: zeros within the length")
+    close(grid[:6], cntc.getpotcontact(1, 1), 0, "grid")
+    hertz = np.full(14, 7.5)
+    call("cntc_gethertzcontact", 1, 1, 6, hertz)
+    close(hertz[6:], np.full(8, 7.5), 0, "Hertz, short")
+    for number, size in ((1, 6), (2, 22), (3, 7)):
+        values = np.full(size + 5, 7.5)
+        call("cntc_getparameters", 1, 1, number, size - 2, values)
+        close(values[size - 2:], np.full(7, 7.5), 0, f"parameters {number}, short")
+    sens = np.full(20, 7.5)
+    call("cntc_getsensitivities", 1, 1, 2, 2, sens)
+    close(sens[4:], np.full(16, 7.5), 0, "sensitivities, short")
+
+
+def kalker():
+    """A small table of creep forces against Kalker's linear coefficients, saturation and symmetry"""
+    start()
+    # nu = 0.28 of Kalker's table at aspect ratio 1, by Lagrange interpolation of 1/C over nu = 0, 1/4, 1/2
+    nu, nodes = 0.28, (0.0, 0.25, 0.5)
+
+    def coefficient(values):
+        inverse = 0.0
+        for k, node in enumerate(nodes):
+            weight = np.prod([(nu - other) / (node - other) for other in nodes if other != node])
+            inverse += weight / values[k]
+        return 1.0 / inverse
+
+    cx, cy, cz = coefficient((3.40, 4.12, 5.20)), coefficient((3.40, 3.67, 3.98)), coefficient((1.33, 1.47, 1.63))
+    cntc.setflags(1, 1, [CNTC["ic_tang"], CNTC["ic_flow"]], [3, 0])
+    cntc.setmaterialparameters(1, 1, 0, [nu, nu, 1.0, 1.0])
+    cntc.setfrictionmethod(1, 1, 0, [1.0, 1.0])
+    cntc.setreferencevelocity(1, 1, 1.0)
+    cntc.setnormalforce(1, 1, 1.0)
+
+    def forces(xi, eta, psi, mx=12):
+        cntc.sethertzcontact(1, 1, -3, [mx, mx, 1.0, 1.0, mx / (mx - 2)])
+        cntc.setcreepages(1, 1, -3 * xi / cx, -3 * eta / cy, -psi / cz)
+        cntc.setsolverflags(1, 1, 0, [999, 5, 30, 1], [1e-6])
+        code = cntc.calculate(1, 1)
+        check(code == 0, f"error code {code} for {xi}, {eta}, {psi}")
+        return np.array(cntc.getcontactforces(1, 1)[1:])
+
+    close(forces(0, 0, 0), np.zeros(3), 5e-7, "no creepage")
+    close(forces(7e5, 0, 0)[:2], [1, 0], 1e-4, "full slip along x")
+    close(forces(0, 7e5, 0)[:2], [0, 1], 1e-4, "full slip along y")
+    small = 1e-3
+    close(forces(small, 0, 0, 42)[0] / (3 * small), 1.0, 0.04, "slope along x is Kalker's C11")
+    close(forces(0, small, 0, 42)[1] / (3 * small), 1.0, 0.04, "slope along y is Kalker's C22")
+    close(forces(0, 0, small, 42)[1] / small, 1.0, 0.06, "slope by spin is Kalker's C23")
+    for xi, psi in ((0.5, 0.3), (1.0, 0.7)):
+        plus, minus = forces(xi, 0, psi), forces(xi, 0, -psi)
+        close(plus * [1, -1, -1], minus, 1e-4, f"mirror symmetry at {xi}, {psi}")
+
+
+def names():
+    """All routines are there under both names, and can be called without a header"""
+    loaded = library()
+    for name in SIGNATURES:
+        for variant in (name, name + "_"):
+            check(hasattr(loaded, variant), f"symbol {variant}")
+    same(len(SIGNATURES), 70, "number of routines")
+    check(cntc.getmaxnumthreads() >= 1, "getmaxnumthreads")
+
+
+if __name__ == "__main__":
+    for stale in os.listdir("."):
+        if stale.endswith((".mat", ".out", ".inp", ".subs")):
+            os.remove(stale)
+    scenarios = (conventions, variations, stresses, codes, wrong_counts, clamps, case_number, replay, second_run, array_lengths,
+                 kalker, names)
+    chosen = [scenario for scenario in scenarios if scenario.__name__ == sys.argv[-1]]
+    if not chosen:
+        raise SystemExit("usage: basic.py " + " | ".join(scenario.__name__ for scenario in scenarios))
+    chosen[0]()
+    finish()

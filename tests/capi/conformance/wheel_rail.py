@@ -1,0 +1,193 @@
+#!/usr/bin/env python3
+"""Wheel on rail by the library: conventions, left and right, profiles. usage: wheel_rail.py SCENARIO"""
+import sys
+
+from checks import check, close, finish, profiles, same
+import numpy as np
+from contact import cntc
+from contact._library import call
+from contact.cntc import CNTC
+
+#: Signs of the 24 global forces when the wheelset is mirrored: longitudinal, lateral, vertical forces, moments
+MIRROR = np.tile([1.0, -1.0, 1.0, -1.0, 1.0, -1.0], 4)
+
+
+def set_up(ire, side, units="un_cntc", y=2.0, roll=-0.0001128):
+    """The Manchester benchmark, coarse grid, one lateral position"""
+    big = 1.0 if units == "un_cntc" else 1e-3
+    same(cntc.initialize(ire, 1)[1], 0, f"initialize {ire}")
+    cntc.setflags(ire, -1, [CNTC[name] for name in ("if_units", "ic_config", "ic_tang", "ic_pvtime", "ic_discns")],
+                  [CNTC[units], side, 3, 2, 2])
+    cntc.setsolverflags(ire, -1, 0, [999, 100, 30, 1], [1e-5])
+    cntc.setmaterialparameters(ire, -1, 0, [0.28, 0.28, 82e3 / big**2, 82e3 / big**2])
+    cntc.setfrictionmethod(ire, -1, 0, [0.3, 0.3])
+    cntc.setpotcontact(ire, -1, -1, [0.4 * big, 0.4 * big, np.pi / 2, 8 * big, 4 * big])
+    cntc.setrollingstepsize(ire, -1, 0.0, 1.0)
+    cntc.settrackdimensions(ire, 3, np.array([14.0, 0.0, 1435.0] + 8 * [0.0]) * ([big, 1.0, big] + 8 * [1.0]))
+    rail, wheel = profiles()
+    cntc.setprofileinputfname(ire, rail, [0], [1.0, 0.0])
+    cntc.setprofileinputfname(ire, wheel, [1], [1.0, 0.0])
+    cntc.setwheelsetdimensions(ire, 3, np.array([1360.0, -70.0, 460.0]) * big)
+    cntc.setwheelsetposition(ire, 1, [0, y * big, 0, roll, 0.0024 * y, 0])
+    cntc.setwheelsetvelocity(ire, 2, [2000 * big, 0, 0, 0, 0, -4.3459197])
+    cntc.setverticalforce(ire, 10000.0)
+    same(cntc.calculate(ire, -1), 0, f"element {ire}: error code")
+
+
+EXPECTED = {
+    # Left and right, as printed by version 25.2.0: figures of the specification of the interface, 10.7 B
+    0: {"forces": [547.10, -3095.67, 10000.00, 40025.0, -36098.5, -13238.6, 532.23, -3099.39, 9999.65, -86641.3, 186.74,
+                   4795.38],
+        "rail": [3.6112, -756.5057, 0.02711, 0.013443, 3.6112, 4.0269, 0.02711, -4.0270, 0.013443, -0.02992, -8.5661,
+                 -0.21140, -8.5684, 0.013556, 3.6111, -756.5383],
+        "markers": [3.6000, -747.9395, 0.23754, -0.0001128, 0.0048, -760.5326, 0, 0],
+        "wheelset": [-0.02992, -758.5661, 459.7886, 0.013556, 0, -750, 460, 0, 0],
+        "grid": [25, 28, -4.8, -5.2, 0.4, 0.4], "local": [10040.71, 547.10, -2960.96, 143.50],
+        "creepages": [-8.65166e-4, 4.798401e-3, -2.946872e-5], "areas": [34.08, 0.0, 34.08],
+        "largest": [466.12, 139.83], "pen": 0.0205036, "V": 1999.135, "z": 0.152945},
+    1: {"forces": [-517.36, -2095.05, 9999.99, -194913.6, 33342.2, -3131.4, -527.41, -2093.67, 9999.76, -110174.8,
+                   -2092.78, -6281.81],
+        "rail": [-3.3682, 740.9147, 0.65484, -0.080607, -3.3682, -19.6179, 0.65484, -19.6328, -0.080607, 0.17838,
+                 -11.1296, 0.58534, 11.1474, -0.080495, -3.3684, 740.9038],
+        "markers": [-3.6000, 752.0432, 0.06824, -0.0001128, 0.0048, 760.5326, 0, 0],
+        "wheelset": [0.17838, 738.8704, 460.5853, -0.080495, 0, 750, 460, 0, 0],
+        "grid": [27, 18, -5.2, -3.2, 0.4, 0.4], "local": [9798.83, -517.36, -2893.45, -38.34],
+        "creepages": [8.75205e-4, 4.817743e-3, 1.746442e-4], "areas": [21.12, 0.0, 21.12],
+        "largest": [745.70, 223.71], "pen": 0.0247755, "V": 2000.876, "z": 0.152844},
+}
+
+
+def conventions():
+    """Left and right in mm, the left in m with the signs of both bodies; figures of version 25.2.0"""
+    runs = ((1, 0, "un_cntc", 1.0, 1.0), (2, 1, "un_cntc", 1.0, 1.0), (3, 0, "un_si", 1e-3, 1.0),
+            (4, 0, "un_spck", 1e-3, -1.0))
+    for ire, side, units, big, body in runs:
+        set_up(ire, side, units)
+        expected, label = EXPECTED[side], f"{('left', 'right')[side]} {units}"
+        same(cntc.getnumcontactpatches(ire), 1, f"{label}: patches")
+        forces = cntc.getglobalforces(ire, -1).reshape(8, 3)
+        forces[1::2] /= big
+        forces = forces.reshape(-1) * body
+        # Moments about markers are forces with arms of a few hundred mm: tolerance by the largest
+        tolerance = np.tile([20.0, 20.0, 1.0, 600.0, 120.0, 600.0], 2)
+        close(forces[:12], expected["forces"], tolerance, f"{label}: forces about the markers")
+        close(forces[12:], forces[:12], 1e-6 * 2e5, f"{label}: no rotation of rail and wheel")
+        place = cntc.getcontactlocation(ire, 1)
+        lengths, angles = [0, 1, 2, 4, 5, 6, 7, 9, 10, 11, 12, 14, 15], [3, 8, 13]
+        close(place[lengths] / big, np.array(expected["rail"])[lengths], 2e-3, f"{label}: contact location")
+        close(place[angles], np.array(expected["rail"])[angles], 1e-4, f"{label}: contact angles")
+        one = 1.0
+        close(place[20:28] / [big, big, big, one, one, big, big, one], expected["markers"], 2e-3, f"{label}: markers")
+        close(place[29:38] / [big, big, big, one, big, big, big, one, one], expected["wheelset"], 2e-3,
+              f"{label}: wheelset system")
+        grid = np.array(cntc.getpotcontact(ire, 1))
+        close(grid / [1, 1, big, big, big, big], expected["grid"], [2.1, 2.1, 0.81, 0.81, 1e-9, 1e-9], f"{label}: grid")
+        local = np.array(cntc.getcontactforces(ire, 1)) * [1, body, body, body / big]
+        close(local, expected["local"], [20, 20, 20, 3], f"{label}: local forces")
+        creepages = np.array(cntc.getcreepages(ire, 1)) * [body, body, body * big]
+        close(creepages, expected["creepages"], [1e-7, 1e-6, 1e-8], f"{label}: creepages")
+        close(np.array(cntc.getcontactpatchareas(ire, 1)[:3]) / big**2, expected["areas"], 2.1 * 0.16,
+              f"{label}: areas")
+        largest = np.array([cntc.getmaximumpressure(ire, 1), cntc.getmaximumtraction(ire, 1)]) * big**2
+        close(largest, expected["largest"], 0.005 * 746, f"{label}: largest pressure and traction")
+        close(cntc.getpenetration(ire, 1) / big, expected["pen"], 2e-5, f"{label}: approach")
+        close(cntc.getreferencevelocity(ire, 1) / big, expected["V"], 0.01, f"{label}: velocity")
+        close(cntc.getwheelsetposition(ire)[2] / big, expected["z"], 1e-4, f"{label}: height")
+        same(cntc.getgriddiscretization(ire, -1), (0.4 * big, 0.4 * big), f"{label}: asked element")
+        flags = [CNTC[name] for name in ("ic_norm", "ic_force", "ic_output", "ic_iestim", "ic_tang")]
+        same(cntc.getflags(ire, 1, flags).tolist(), [0, 0, 0, 1, 3], f"{label}: digits of the patch")
+        same(cntc.getflags(ire, -1, flags[0]).tolist(), [1], f"{label}: N of the whole")
+
+
+def patch_as_in_matlab():
+    """A patch as Matlab's loadcase has it"""
+    set_up(1, 1)
+    patch = cntc.getcpresults(1, 1)
+    same(patch["pn"].shape, (patch["my"], patch["mx"]), "shape of fields")
+    same((patch["config"], patch["kincns"]["t_digit"], patch["meta"]["npatch"]), (1, 3, 1), "digits")
+    close(patch["pn"].sum() * patch["dx"] * patch["dy"], cntc.getcontactforces(1, 1)[0], 1.0, "normal force")
+    traction = np.hypot(patch["px"], patch["py"])
+    check(bool(np.all(traction <= patch["trcbnd"] * (1 + 1e-6) + 1e-9)), "tractions below their bound")
+    same(len(patch["prr"]["ProfileY"]), 495, "rail profile")
+    same(patch["prw"]["ProfileS"].shape, patch["prw"]["ProfileZ"].shape, "wheel profile")
+    close(patch["meta"]["y_r"], 760.5326, 1e-3, "marker of the rail")
+    check("temp1" not in patch and "taucrt" not in patch, "fields of effects that did not act are absent")
+
+
+def mirrored():
+    """A left problem is the mirror image of the right one with opposite displacement and yaw"""
+    set_up(1, 0)
+    set_up(2, 1, y=-2.0, roll=0.0001128)
+    left, right = cntc.getglobalforces(1, -1), cntc.getglobalforces(2, -1)
+    close(left, right * MIRROR, 1e-6 * 2e5, "forces and moments")
+    place_left, place_right = cntc.getcontactlocation(1, 1), cntc.getcontactlocation(2, 1)
+    close(place_left[:3], place_right[:3] * [1, -1, 1], 1e-7, "contact location")
+    close(place_left[[3, 8, 13]], -place_right[[3, 8, 13]], 1e-9, "contact angles")
+    close(place_left[[7, 12]], place_right[[7, 12]], 1e-7, "arc lengths keep the sign of the mirrored problem")
+    mx, my, x, y, dx, dy = cntc.getpotcontact(2, 1)
+    close(cntc.getpotcontact(1, 1), [mx, my, x, -(y + (my - 1) * dy), dx, dy], 1e-7, "grid")
+    same(cntc.getelementdivision(1, 1).tolist(), cntc.getelementdivision(2, 1)[::-1].tolist(), "element division")
+    for name, sign in (("pn", 1), ("px", 1), ("py", -1), ("un", 1), ("ux", 1), ("uy", -1), ("sx", 1), ("sy", -1),
+                       ("wx", 1), ("wy", -1), ("h", 1), ("mu", 1)):
+        one, other = (cntc.getfielddata(ire, 1, CNTC["fld_" + name]) for ire in (1, 2))
+        close(one, sign * other[::-1], 1e-7 * np.abs(other).max() + 1e-15, f"field {name}")
+    close(cntc.getcreepages(1, 1), np.array(cntc.getcreepages(2, 1)) * [1, -1, -1], 1e-12, "creepages")
+    close(cntc.getcontactforces(1, 1), np.array(cntc.getcontactforces(2, 1)) * [1, 1, -1, -1], 1e-3, "local forces")
+
+
+def profile_values():
+    """Profiles before and after loading, in all samplings"""
+    rail, wheel = profiles()
+    cntc.initialize(1, 1)
+    same(cntc.getprofilevalues(1, -1, [0, 0]), [CNTC["err_profil"], 1], "state before loading")
+    room = np.full(3, 7.5)
+    call("cntc_getprofilevalues", 1, 0, 2, np.array([0, 0]), 1, np.array([1.0]), 3, room)
+    close(room, np.full(3, 7.5), 0, "a profile that is not loaded leaves the output")
+    cntc.setprofileinputfname(1, rail, [0], [1.0, 0.0])
+    cntc.setprofileinputfname(1, wheel, [1], [1.0, 0.0])
+    same(cntc.getprofilevalues(1, -1, [0, 0])[0], 0, "state after loading")
+    same(cntc.getprofilevalues(1, 0, [0, 0]), 495, "points of the rail")
+    for kind in (0, 1):
+        count = cntc.getprofilevalues(1, 0, [kind, 0])
+        for sampling in (-1, 0, 1, 5):
+            points = cntc.getprofilevalues(1, 0, [kind, sampling], [0.7])
+            table = cntc.getprofilevalues(1, 1, [kind, sampling], [0.7])
+            length = cntc.getprofilevalues(1, 4, [kind, sampling], [0.7])
+            angle = cntc.getprofilevalues(1, 5, [kind, sampling], [0.7])
+            label = f"kind {kind}, sampling {sampling}"
+            same((table.shape, length.shape, angle.shape), ((points, 2), (points,), (points,)), f"{label}: shapes")
+            if sampling >= 0:
+                check(bool(np.all(np.diff(length) > 0)), f"{label}: arc length grows")
+            else:
+                continue
+            y_order = np.diff(table[:, 0])
+            check(bool(np.all(y_order > -1e-6) or np.all(y_order < 1e-6)) or kind == 1, f"{label}: y is monotone")
+            if sampling == 5:
+                same(points, 5 * (count - 1) + 1, f"{label}: number of points")
+            if sampling == 1:
+                full = cntc.getprofilevalues(1, 4, [kind, 0])
+                same(points, int(np.floor((full[-1] - full[0]) / 0.7)) + 1, f"{label}: number of points")
+                close(np.diff(length), np.full(points - 1, 0.7), 1e-6, f"{label}: step")
+    state = cntc.getprofilevalues(1, 1, [0, 7])
+    check(state.shape[0] == 7 * 494 + 1, "seven parts per interval")
+    cntc.finalize(1)
+    set_up(2, 1)
+    gauge = cntc.getprofilevalues(2, 3, [0, 0])
+    close(gauge[:3], [-43.03256, 14.0, 760.53256], 2e-3, "gauge point and offset of the right rail")
+    set_up(3, 0)
+    gauge = cntc.getprofilevalues(3, 3, [0, 0])
+    close(gauge[:3], [-43.03256, 14.0, -760.53256], 2e-3, "gauge point and offset of the left rail")
+    own, track = (cntc.getprofilevalues(2, task, [0, 0]) for task in (1, 2))
+    offset = track - own
+    close(offset, np.tile(offset[0], (len(own), 1)), 1e-6, "track coordinates are shifted, the rail is not turned")
+    close(offset[0, 0], 760.53256, 2e-3, "shift of the rail profile")
+    same(cntc.getprofilevalues(2, 3, [1, 0]), CNTC["err_profil"], "a wheel has no gauge point")
+
+
+if __name__ == "__main__":
+    scenarios = (conventions, patch_as_in_matlab, mirrored, profile_values)
+    chosen = [scenario for scenario in scenarios if scenario.__name__ == sys.argv[-1]]
+    if not chosen:
+        raise SystemExit("usage: wheel_rail.py " + " | ".join(scenario.__name__ for scenario in scenarios))
+    chosen[0]()
+    finish()

@@ -1,0 +1,93 @@
+#!/usr/bin/env python3
+"""The table of the interface, what is made from it, what the library exports, and its sources: all the same.
+
+usage: interface.py LIBRARY C_COMPILER
+"""
+import glob
+import os
+import re
+import subprocess
+import sys
+
+SOURCE = os.environ["CONTACT_SOURCE"]
+sys.path.insert(0, os.path.join(SOURCE, "src/capi"))
+import make_interface  # noqa: E402
+
+KINDS = {"integer(c_int)": "int", "real(c_double)": "real", "character(kind=c_char)": "text"}
+failures = []
+
+
+def check(condition, what):
+    """Count one claim"""
+    if not condition:
+        failures.append(what)
+        print(f"FAILED {what}")
+
+
+def routines():
+    """All routines of the table by name"""
+    _, documented, undocumented = make_interface.read_table()
+    items = [item for _, group in documented for item in group] + undocumented
+    return {item.name: item for item in items}
+
+
+def declared(compiler, header):
+    """Functions that a header declares"""
+    text = subprocess.run([compiler, "-E", "-P", os.path.join(SOURCE, "include", header)], check=True,
+                          capture_output=True, text=True).stdout
+    return set(re.findall(r"([A-Za-z_]\w*)\s*\(", text))
+
+
+def exported(library):
+    """Functions that the library shows"""
+    text = subprocess.run(["nm", "-D", "--defined-only", library], check=True, capture_output=True, text=True).stdout
+    return {line.split()[-1].split("@")[0] for line in text.splitlines()}
+
+
+def implemented():
+    """Arguments (name, kind, array, result) of each bound routine in the sources"""
+    found = {}
+    for path in glob.glob(os.path.join(SOURCE, "src/capi/*.f90")):
+        with open(path, encoding="utf-8") as file:
+            text = re.sub(r"&\s*\n\s*&?", " ", file.read())
+        for match in re.finditer(r"^\s*subroutine (\w+)\s*(?:\((.*?)\))?\s*bind\(c.*?\)(.*?)^\s*end subroutine \1", text,
+                                 re.M | re.S):
+            name, names, body = match.groups()
+            kinds = {}
+            for line in body.splitlines():
+                declaration = re.match(r"\s*(integer\(c_int\)|real\(c_double\)|character\(kind=c_char\))"
+                                       r", intent\((in|out|inout)\).*? :: (.*)", line)
+                if declaration:
+                    kind, intent, items = declaration.groups()
+                    for item in items.split(","):
+                        item = item.strip()
+                        kinds[item.rstrip("(*)")] = (KINDS[kind], item.endswith("(*)"), intent != "in")
+            found[name] = [(word, *kinds.get(word, (None, None, None)))
+                           for word in (part.strip() for part in (names or "").split(",")) if word]
+    return found
+
+
+def main():
+    """Compare all"""
+    library, compiler = sys.argv[1:]
+    table = routines()
+    check(len(table) == 70, f"{len(table)} routines in the table")
+    documented = {name for name in table if name not in ("cntc_calculate1", "cntc_calculate3")}
+    check(declared(compiler, "contact_addon.h") == documented, "contact_addon.h declares what the table lists")
+    expected = set(table) | {name + "_" for name in table} | declared(compiler, "contact.h")
+    shown = exported(library)
+    check(not expected - shown, f"not exported: {sorted(expected - shown)}")
+    check(not shown - expected, f"exported, but in no header: {sorted(shown - expected)}")
+    sources = implemented()
+    for name, routine in table.items():
+        if name not in sources:
+            check(False, f"{name} is nowhere in src/capi")
+            continue
+        arguments = [(item.name, item.kind, item.is_array, item.direction != "in") for item in routine.arguments]
+        check(sources[name] == arguments, f"{name}: table {arguments}, source {sources[name]}")
+    print(f"{len(table)} routines, {len(failures)} failures")
+    return 1 if failures else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,173 @@
+#!/usr/bin/env python3
+"""The Python package: objects, errors, wrong use, threads."""
+import gc
+import os
+import sys
+import threading
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "conformance"))
+from checks import check, close, finish, same
+import numpy as np
+import contact
+from contact import cntc
+from contact._library import call
+
+
+def raises(kind, call, word, what):
+    """Claim that a call raises an error whose text has a word; returns the error"""
+    try:
+        call()
+    except kind as error:
+        check(word in str(error), f"{what}: '{word}' is in '{error}'")
+        return error
+    check(False, f"{what}: no error")
+    return None
+
+
+def ball(problem, mx=15):
+    """A ball on a plane, with creepage"""
+    problem.set_material(g=82000.0, nu=0.28)
+    problem.set_friction(0.3)
+    problem.set_hertz(mx, mx, aa=5.0, bb=5.0)
+    problem.set_normal_force(50e3)
+    problem.set_creepages(0.001, 0.0005)
+
+
+def results():
+    """Shapes, sums and units of results"""
+    with contact.Problem() as problem:
+        ball(problem)
+        result = problem.solve()
+    same(result.pn.shape, (15, 15), "shape of fields")
+    same((result.x.shape, result.y.shape), ((15,), (15,)), "shape of coordinates")
+    element = result.dx * result.dy
+    close([result.pn.sum() * element, result.px.sum() * element], [result.fn, result.fx], 1e-6 * result.fn, "sums")
+    close(result.contact_area, element * np.count_nonzero(result.state), 1e-9, "area")
+    same(result.border_elements, 0, "border")
+    check(0.0 < result.max_traction <= 0.3 * result.max_pressure * (1 + 1e-9), "largest traction")
+    raises(contact.ContactError, problem.solve, "closed", "a closed problem")
+    with contact.Problem(units="si") as problem:
+        problem.set_material(g=82e9, nu=0.28)
+        problem.set_friction(0.3)
+        problem.set_hertz(15, 15, aa=5e-3, bb=5e-3)
+        problem.set_normal_force(50e3)
+        problem.set_creepages(0.001, 0.0005)
+        metres = problem.solve()
+    close(metres.fx, result.fx, 1e-9 * result.fn, "force in SI units")
+    close(metres.pn * 1e-6, result.pn, 1e-6, "pressure in SI units")
+
+
+def distance():
+    """A distance as function and as array is that of Hertz' geometry"""
+    with contact.Problem() as problem:
+        ball(problem, 21)
+        hertz = problem.solve()
+        a1, b1 = cntc.gethertzcontact(problem.number, 1)[:2]
+        x, y = problem.set_grid(21, 21, hertz.dx, hertz.dy)
+        close(x, hertz.x, 1e-9, "centres of elements")
+        problem.set_distance(lambda x, y: a1 * x**2 + b1 * y**2)
+        function = problem.solve()
+        problem.set_distance(a1 * x[np.newaxis, :]**2 + b1 * y[:, np.newaxis]**2)
+        array = problem.solve()
+    for other in (function, array):
+        close(other.pn, hertz.pn, 1e-3 * hertz.max_pressure, "pressure")
+        close([other.fx, other.fy], [hertz.fx, hertz.fy], 1e-4 * hertz.fn, "forces")
+
+
+def prescribed_and_transient():
+    """Forces prescribed; a shift that continues"""
+    with contact.Problem() as problem:
+        ball(problem)
+        problem.set_tangential_force(-0.5, 0.3)
+        result = problem.solve()
+        close([result.fx, result.fy], [-0.5 * 0.3 * 50e3, 0.3 * 0.3 * 50e3], 1e-3 * 15e3, "prescribed forces")
+        problem.set_tangential_force(-0.5)
+        result = problem.solve()
+        close(result.fx, -0.5 * 0.3 * 50e3, 1e-3 * 15e3, "prescribed longitudinal force")
+    with contact.Problem(motion="shift") as problem:
+        ball(problem)
+        problem.set_creepages(0.005)
+        first = problem.solve()
+        second = problem.solve(initiation=False)
+        check(abs(second.fx) > 1.2 * abs(first.fx), "a second shift adds to the first")
+        again = problem.solve()
+        close(again.fx, first.fx, 1e-9 * first.fn, "a new beginning forgets")
+
+
+def errors():
+    """Wrong settings are told at once, in words, and once"""
+    with contact.Problem() as problem:
+        ball(problem)
+        error = raises(contact.ContactError, lambda: problem.set_material(g=82000.0, nu=0.28, model=4), "", "material")
+        check(error.code != 0, "an error has a code")
+        same(problem.solve().border_elements, 0, "the problem still works")
+        raises(contact.ContactError, lambda: problem.set_creepages(float("nan")), "number", "creepage that is none")
+        raises(ValueError, lambda: problem.set_flags(ic_nothing=3), "ic_nothing", "unknown flag")
+        raises(ValueError, lambda: problem.set_hertz(5, 5, aa=1.0), "aa and bb", "half a geometry")
+        raises(ValueError, lambda: contact.Problem(units="inch"), "inch", "unknown units")
+        raises(ValueError, lambda: contact.Problem(motion="flying"), "flying", "unknown motion")
+        raises(contact.ContactError, lambda: contact.output_to("elsewhere"), "before", "output_to too late")
+        raises(contact.ContactError, lambda: contact.WheelRail().set_rail("no_such_file.prr"), "rail", "missing profile")
+    raises(ValueError, lambda: cntc.getcontactforces(1, 0), "icp", "a patch is needed")
+    raises(TypeError, lambda: call("cntc_finalize", 1, 2), "too many", "too many values")
+
+
+def many():
+    """Problems are given back when nobody needs them; more at a time than there is room for are refused"""
+    for _ in range(250):
+        ball(contact.Problem())
+    gc.collect()
+    problems = []
+
+    def fill():
+        for _ in range(101):
+            problems.append(contact.Problem())
+
+    raises(contact.ContactError, fill, "close some", "too many problems")
+    same(len(problems), 100, "problems at a time")
+    for problem in problems:
+        problem.close()
+    with contact.Problem() as problem:
+        ball(problem)
+        problem.solve()
+
+
+def threads():
+    """Problems in threads of Python have the results that they have one by one"""
+    creepages = [0.0002 * k for k in range(1, 25)]
+
+    def curve(cases):
+        with contact.Problem() as problem:
+            ball(problem)
+            for cksi in cases:
+                problem.set_creepages(cksi)
+                forces[cksi] = problem.solve().fx
+
+    forces = {}
+    curve(creepages)
+    alone, forces = forces, {}
+    cntc.setglobalflags(cntc.CNTC["if_openmp"], -1)
+    count = min(4, cntc.getmaxnumthreads())
+    workers = [threading.Thread(target=curve, args=(creepages[k::count],)) for k in range(count)]
+    for worker in workers:
+        worker.start()
+    for worker in workers:
+        worker.join()
+    check(forces == alone, "threads and one by one")
+
+
+def output():
+    """Files go where they are wanted"""
+    contact.output_to("results", "run")
+    with contact.Problem() as problem:
+        problem.set_flags(ic_output=2, ic_matfil=1)
+        ball(problem)
+        problem.solve()
+    check(os.path.getsize("results/run.out") > 1000, "the .out file")
+    check(any(name.endswith(".mat") for name in os.listdir("results")), "the .mat file")
+
+
+if __name__ == "__main__":
+    for part in (results, distance, prescribed_and_transient, errors, many, threads, output):
+        part()
+    finish()
