@@ -14,7 +14,7 @@ module contact_capi_calculate3
    use contact_grid_potential_contact, only : potential_contact
    use contact_input_checks3, only : case_lines, check_case
    use contact_input_control3, only : check_physics, control_words, name_choices, refuse_unbuilt_digits
-   use contact_input_grid3, only : grid_frame
+   use contact_input_grid3, only : frame_of, grid_frame
    use contact_input_problems, only : problem_list, severity
    use contact_output_mat_file, only : write_mat_file
    use contact_output_report, only : write_case
@@ -40,9 +40,12 @@ contains
       call choose(this, problem)
       call write_case_line(log, problem)
       call check_settings(problem%spec, error)
-      if (allocated(error)) then
-         code = library_code%other
-      else
+      code = library_code%other
+      if (.not. allocated(error)) then
+         code = library_code%discretisation
+         call check_coefficients(problem%spec, problem%coefficients, error)
+      end if
+      if (.not. allocated(error)) then
          call solve_case(problem%session, problem%spec, log, problem%result, error, working_folder())
          code = library_code%other
          if (allocated(error)) then
@@ -106,6 +109,26 @@ contains
       call refuse_unbuilt_digits(words, spec, problems)
       call first_problem(problems, error)
    end subroutine check_settings
+
+   !> Influence coefficients that are kept (C = 0) are for elements of the same size, and for no more of them
+   subroutine check_coefficients(spec, kept, error)
+      type(case_spec), intent(in) :: spec
+      !> Grid of the coefficients
+      type(grid_frame), intent(inout) :: kept
+      type(error_type), allocatable, intent(out) :: error
+      real(wp), parameter :: same_side = 1.0e-4_wp
+      type(grid_frame) :: new
+
+      new = frame_of(spec%grid)
+      if (spec%digits%c >= 1 .or. kept%mx == 0) then
+         kept = new
+      else if (new%mx > kept%mx .or. new%my > kept%my) then
+         call fatal_error(error, "the grid has more elements than the influence coefficients that are kept (C = 0)")
+      else if (new%is_known .and. kept%is_known) then
+         if (abs(new%dx - kept%dx) > same_side*kept%dx .or. abs(new%dy - kept%dy) > same_side*kept%dy) &
+            & call fatal_error(error, "the elements differ in size from those of the influence coefficients that are kept (C = 0)")
+      end if
+   end subroutine check_coefficients
 
    !> The first problem that is not a warning, as an error
    subroutine first_problem(problems, error)

@@ -11,6 +11,7 @@ module contact_capi_problem
    use contact_cases_spec, only : case_spec, friction_set
    use contact_control_units, only : unit_convention
    use contact_experiment_stopwatch, only : stopwatch
+   use contact_input_grid3, only : grid_frame
    use contact_patch_result, only : patch_result
    use contact_profile_curve, only : profile_curve
    use contact_profile_surface, only : profile_surface
@@ -62,6 +63,8 @@ module contact_capi_problem
       type(pair_session), allocatable :: pair
       type(pair_result), allocatable :: pair_result
       type(given_profile) :: rail, wheel
+      !> Grid for which influence coefficients were last asked for (C of 1 and above); mx = 0 before
+      type(grid_frame) :: coefficients
       !> Number of cases so far, and whether results are there
       integer :: cases = 0
       logical :: has_result = .false.

@@ -15,6 +15,7 @@ module contact_capi_profiles
    use contact_control_library_codes, only : library_code
    use contact_control_units, only : inward, quantity
    use contact_profile_request, only : profile_side
+   use contact_profile_store, only : profile_store
    use contact_wheelrail_spec, only : profile_spec
    implicit none (type, external)
    private
@@ -140,18 +141,18 @@ contains
       if (is_wheel) then
          problem%spec%wheel_rail%wheel_profile = profile
          call problem%pair%profiles%forget(profile_side%wheel)
-         call read_given_profile(this, problem, profile, profile_side%wheel, problem%wheel)
+         call read_given_profile(this, problem%pair%profiles, profile, profile_side%wheel, problem%wheel)
       else
          problem%spec%wheel_rail%rail_profile = profile
          call problem%pair%profiles%forget(profile_side%rail)
-         call read_given_profile(this, problem, profile, profile_side%rail, problem%rail)
+         call read_given_profile(this, problem%pair%profiles, profile, profile_side%rail, problem%rail)
       end if
    end subroutine store_profile
 
    !> Read a profile and remember what went wrong
-   subroutine read_given_profile(this, problem, profile, side, given)
+   subroutine read_given_profile(this, profiles, profile, side, given)
       type(entry_type), intent(in) :: this
-      type(library_problem), intent(inout) :: problem
+      type(profile_store), intent(inout) :: profiles
       type(profile_spec), intent(in) :: profile
       !> Member of profile_side
       integer, intent(in) :: side
@@ -163,8 +164,8 @@ contains
       integer, parameter :: no_file = 2, no_use = 99
 
       log = library_log()
-      problem%pair%profiles%watches_files = .false.
-      call load_profile(problem%pair%profiles, profile, side, working_folder(), given%curve, given%surface, log, error)
+      profiles%watches_files = .false.
+      call load_profile(profiles, profile, side, working_folder(), given%curve, given%surface, log, error)
       given%detail = 0
       if (.not. allocated(error)) return
       given%detail = merge(no_file, no_use, error%kind == error_kind%file)

@@ -15,9 +15,7 @@ if [ "$(wc -l < routines)" -ne 70 ]; then
   echo "there are $(wc -l < routines) routines in the header and beside it, not 70"
   exit 1
 fi
-comm -13 declared exported > undeclared
-[ ! -s undeclared ] || cat undeclared
-[ ! -s undeclared ] || {
+diff declared exported || {
   echo "above: < declared in a header but not exported, > exported but not declared"
   exit 1
 }

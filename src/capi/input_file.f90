@@ -1,0 +1,208 @@
+!> The entry that takes the settings of wheel and rail from an input file
+module contact_capi_input_file
+   use, intrinsic :: iso_c_binding, only : c_char, c_int
+   use contact_base_error, only : error_type, fatal_error, full_text
+   use contact_capi_arguments, only : give, integer_of, path_of
+   use contact_capi_calculate3, only : first_problem
+   use contact_capi_problem, only : library_problem
+   use contact_capi_profiles, only : read_given_profile
+   use contact_capi_registry, only : complain, enter, entry_type, leave, say, scope, working_folder
+   use contact_cases_spec, only : case_digits, case_spec
+   use contact_control_digits, only : digit_value
+   use contact_control_library_codes, only : input_type, library_code
+   use contact_input_experiment_file, only : experiment_reader, input_case
+   use contact_input_problems, only : problem_list
+   use contact_input_reader1, only : read_case1
+   use contact_profile_request, only : profile_side
+   use contact_text_lexer, only : input_lexer, input_value
+   use contact_text_words, only : integer_text
+   use contact_wheelrail_spec, only : profile_spec
+   implicit none (type, external)
+   private
+
+   public :: cntc_readinpfile
+
+   !> Digits that a file of Simpack does not change
+   character(len=2), parameter :: kept_digits(*) = [character(len=2) :: "P", "N", "F", "H", "S"]
+
+contains
+
+   !> Read the first case of a file, or a file of the Simpack user routine
+   subroutine cntc_readinpfile(ire, inp_type, c_fname, len_fname, ierror) bind(c)
+      integer(c_int), intent(in), optional :: ire, inp_type, len_fname
+      character(kind=c_char), intent(in), optional :: c_fname(*)
+      integer(c_int), intent(inout), optional :: ierror
+      type(library_problem), pointer :: problem
+      type(entry_type) :: this
+      type(error_type), allocatable :: error
+      character(len=:), allocatable :: file
+      integer :: code
+
+      this = entry_type("cntc_readInpFile", integer_of(ire))
+      call enter(this, scope%pair, problem, code)
+      if (associated(problem)) then
+         file = path_of(c_fname, len_fname)
+         if (len(file) == 0) then
+            call fatal_error(error, "the name of the input file is missing")
+         else
+            if (file(:1) /= "/") file = working_folder() // file
+            select case (integer_of(inp_type))
+            case (input_type%module_1)
+               call take_first_case(this, file, problem, error)
+            case (input_type%simpack)
+               call take_simpack_file(this, file, problem, error)
+            case default
+               call fatal_error(error, "the kind " // integer_text(integer_of(inp_type)) // " of input files is not known; " // &
+                  & "1988 and 1990 are")
+            end select
+         end if
+         if (allocated(error)) then
+            code = library_code%input_file
+            call complain(this, full_text(error), code)
+         end if
+         call leave(problem)
+      end if
+      call give(code, ierror)
+   end subroutine cntc_readinpfile
+
+   !> The first case of a file of module 1
+   subroutine take_first_case(this, file, problem, error)
+      type(entry_type), intent(in) :: this
+      character(len=*), intent(in) :: file
+      type(library_problem), intent(inout) :: problem
+      type(error_type), allocatable, intent(out) :: error
+      type(experiment_reader) :: reader
+      type(input_case) :: first
+
+      call reader%open_file(file, error)
+      if (.not. allocated(error)) call reader%next_case(first, error)
+      if (allocated(error)) return
+      if (first%module_number /= 1) then
+         call fatal_error(error, "the file must start with a case of module 1, wheel and rail", file=file)
+         return
+      end if
+      call first_problem(first%problems, error)
+      if (allocated(error)) return
+      call adopt(this, file, first%spec, problem)
+   end subroutine take_first_case
+
+   !> A file of the Simpack user routine: some digits keep their values, whatever the file says
+   subroutine take_simpack_file(this, file, problem, error)
+      type(entry_type), intent(in) :: this
+      character(len=*), intent(in) :: file
+      type(library_problem), intent(inout) :: problem
+      type(error_type), allocatable, intent(out) :: error
+      type(case_spec) :: spec, previous
+      type(problem_list) :: problems
+      type(case_digits) :: kept
+      character(len=:), allocatable :: name
+      integer :: k
+
+      kept = problem%spec%digits
+      previous = problem%spec
+      ! once for the digits, so that nothing seems to change against the previous case, and once for the values
+      call read_simpack_case(file, previous, spec, problems, error)
+      if (allocated(error)) return
+      previous%digits%c1 = spec%digits%c1
+      previous%digits%n = spec%digits%n
+      call read_simpack_case(file, previous, spec, problems, error)
+      if (.not. allocated(error)) call first_problem(problems, error)
+      if (allocated(error)) return
+      if (all(spec%digits%z /= [0, 3]) .or. all(spec%digits%e /= [0, 3])) then
+         call fatal_error(error, "the digits Z and E must be 0 or 3, they are " // integer_text(spec%digits%z) // " and " // &
+            & integer_text(spec%digits%e), file=file)
+         return
+      end if
+      do k = 1, size(kept_digits)
+         name = trim(kept_digits(k))
+         if (digit_value(spec%digits, name) /= digit_value(kept, name)) call complain(this, "the digit " // name // " = " // &
+            & integer_text(digit_value(spec%digits, name)) // " of the file is not used, it stays " // &
+            & integer_text(digit_value(kept, name)), library_code%success)
+      end do
+      spec%digits%c1 = kept%c1
+      spec%digits%p = kept%p
+      spec%digits%n = kept%n
+      spec%digits%f = kept%f
+      spec%digits%h = kept%h
+      spec%digits%s = kept%s
+      spec%digits%i = kept%i
+      call adopt(this, file, spec, problem)
+   end subroutine take_simpack_file
+
+   !> Module number and case
+   subroutine read_simpack_case(file, previous, spec, problems, error)
+      character(len=*), intent(in) :: file
+      type(case_spec), intent(in) :: previous
+      type(case_spec), intent(out) :: spec
+      type(problem_list), intent(inout) :: problems
+      type(error_type), allocatable, intent(out) :: error
+      type(input_lexer) :: lexer
+      type(input_value) :: v(1)
+      integer :: first_line
+
+      call lexer%open_file(file, error)
+      if (.not. allocated(error)) call lexer%read_group("i", "MODULE", v, error)
+      if (allocated(error)) return
+      if (v(1)%i /= 0 .and. v(1)%i /= 11) then
+         call fatal_error(error, "MODULE = " // v(1)%word // " does not open a file of the Simpack user routine; 0 and 11 do", &
+            & file=file, line=v(1)%line, column=v(1)%column)
+         return
+      end if
+      call read_case1(lexer, previous, .true., 1, spec, problems, error, first_line)
+   end subroutine read_simpack_case
+
+   !> The case becomes what the next calculation solves; its profiles are read
+   subroutine adopt(this, file, spec, problem)
+      type(entry_type), intent(in) :: this
+      character(len=*), intent(in) :: file
+      type(case_spec), intent(in) :: spec
+      type(library_problem), intent(inout) :: problem
+      type(profile_spec) :: rail, wheel
+
+      rail = problem%spec%wheel_rail%rail_profile
+      wheel = problem%spec%wheel_rail%wheel_profile
+      problem%spec = spec
+      ! stresses below the surface are calculated by a routine of their own
+      problem%spec%digits%s = 0
+      associate (pair => problem%spec%wheel_rail)
+         if (spec%digits%z == 3) then
+            call place_beside(file, pair%rail_profile)
+            call problem%pair%profiles%forget(profile_side%rail)
+            call read_given_profile(this, problem%pair%profiles, pair%rail_profile, profile_side%rail, problem%rail)
+         else
+            pair%rail_profile = rail
+         end if
+         if (spec%digits%e == 3 .or. spec%digits%e == 5) then
+            call place_beside(file, pair%wheel_profile)
+            call problem%pair%profiles%forget(profile_side%wheel)
+            call read_given_profile(this, problem%pair%profiles, pair%wheel_profile, profile_side%wheel, problem%wheel)
+         else
+            pair%wheel_profile = wheel
+         end if
+      end associate
+      call say(2, this, "the settings are those of " // file)
+   end subroutine adopt
+
+   !> Names of profiles are relative to the folder of the input file
+   subroutine place_beside(file, profile)
+      character(len=*), intent(in) :: file
+      type(profile_spec), intent(inout) :: profile
+      integer :: i
+
+      do i = 1, len(profile%name)
+         if (profile%name(i:i) == "\") profile%name(i:i) = "/"
+      end do
+      if (profile%name(:1) /= "/") profile%name = seen_from_work(file(:index(file, "/", back=.true.))) // profile%name
+   end subroutine place_beside
+
+   !> A folder without the working folder before it, to which names of profiles are relative
+   function seen_from_work(folder) result(path)
+      character(len=*), intent(in) :: folder
+      character(len=:), allocatable :: path, work
+
+      path = folder
+      work = working_folder()
+      if (len(work) == 0 .or. len(folder) < len(work)) return
+      if (folder(:len(work)) == work .and. work(:1) /= "/") path = folder(len(work) + 1:)
+   end function seen_from_work
+end module contact_capi_input_file

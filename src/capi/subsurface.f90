@@ -1,0 +1,325 @@
+!> Entries for stresses below the surface
+module contact_capi_subsurface
+   use, intrinsic :: iso_c_binding, only : c_double, c_int
+   use contact_base_choices, only : stress_choice
+   use contact_base_error, only : add_context, error_type, full_text
+   use contact_base_kinds, only : wp
+   use contact_base_log, only : log_type
+   use contact_capi_arguments, only : give, integer_of, integers_of, reals_of
+   use contact_capi_problem, only : library_problem
+   use contact_capi_registry, only : are_finite, complain, count_fits, enter, enter_calculation, entry_type, &
+      & forget_complaint, leave, leave_calculation, library_log, result_file, scope
+   use contact_capi_view, only : look_at, result_view
+   use contact_cases_spec, only : case_spec
+   use contact_cases_subsurface, only : subsurface_stresses
+   use contact_control_library_codes, only : library_code
+   use contact_control_units, only : inward, outward, quantity
+   use contact_output_report, only : write_subsurface
+   use contact_output_subs_file, only : subs_file_name, write_subs_file
+   use contact_patch_result, only : patch_result, subsurface_result
+   use contact_subsurface_points, only : depth_range, point_block, point_selection
+   use contact_text_words, only : integer_text
+   implicit none (type, external)
+   private
+
+   public :: subs_addblock, subs_calculate, subs_getblocksize, subs_getresults
+
+   !> Blocks of a problem, points of a block in one direction
+   integer, parameter :: most_blocks = 10, longest_list = 9999
+   !> Smallest step of depths [mm]
+   real(wp), parameter :: least_step = 1.0e-9_wp
+   !> Number of columns, and what an unknown one is filled with
+   integer, parameter :: most_columns = 21
+   real(wp), parameter :: no_column = -999.0_wp
+   !> Stress component of columns 13 to 21, the tensor by columns, among xx, xy, xz, yy, yz, zz
+   integer, parameter :: component(13:21) = [1, 2, 3, 2, 4, 5, 3, 5, 6]
+
+contains
+
+   !> A block of points; blocks of its number and above are forgotten, number 0 forgets all
+   !>
+   !> Points may be private to a patch of wheel and rail.
+   subroutine subs_addblock(ire, icp, iblk, isubs, npx, npy, npz, xparam, yparam, zparam) bind(c)
+      integer(c_int), intent(in), optional :: ire, icp, iblk, isubs, npx, npy, npz
+      real(c_double), intent(in), optional :: xparam(*), yparam(*), zparam(*)
+      type(library_problem), pointer :: problem
+      type(entry_type) :: this
+      type(point_block) :: block
+      integer :: number
+      logical :: accepted
+
+      this = entry_type("subs_addBlock", integer_of(ire), integer_of(icp))
+      call enter(this, scope%any, problem)
+      if (.not. associated(problem)) return
+      number = integer_of(iblk)
+      accepted = .true.
+      if (number > 0) call make_block(this, integer_of(isubs), reals_of(npx, xparam), reals_of(npy, yparam), &
+         & reals_of(npz, zparam), inward(problem%units, quantity%length), block, accepted)
+      if (accepted) then
+         if (problem%module_number == 1 .and. this%icp > 0) then
+            call store_block(this, number, block, problem%blocks(this%icp)%list)
+            if (number == 0 .and. allocated(problem%blocks(this%icp)%list)) deallocate(problem%blocks(this%icp)%list)
+         else
+            call store_block(this, number, block, problem%spec%subsurface%blocks)
+         end if
+      end if
+      call leave(problem)
+   end subroutine subs_addblock
+
+   !> Put a block into a list
+   subroutine store_block(this, number, block, list)
+      type(entry_type), intent(in) :: this
+      integer, intent(in) :: number
+      type(point_block), intent(in) :: block
+      type(point_block), allocatable, intent(inout) :: list(:)
+      type(point_block), allocatable :: longer(:)
+      integer :: n
+
+      n = 0
+      if (allocated(list)) n = size(list)
+      if (number < 0 .or. number > min(n + 1, most_blocks)) then
+         call complain(this, "the number of the block is " // integer_text(number) // ", it must be 0 to " // &
+            & integer_text(min(n + 1, most_blocks)))
+         return
+      end if
+      allocate(longer(number))
+      if (number > 1) longer(:number - 1) = list(:number - 1)
+      if (number > 0) longer(number) = block
+      call move_alloc(longer, list)
+   end subroutine store_block
+
+   !> A block from the arguments
+   subroutine make_block(this, option, x, y, z, length, block, accepted)
+      type(entry_type), intent(in) :: this
+      !> ISUBS
+      integer, intent(in) :: option
+      real(wp), intent(in) :: x(:), y(:), z(:)
+      !> Unit of length [mm]
+      real(wp), intent(in) :: length
+      type(point_block), intent(out) :: block
+      logical, intent(out) :: accepted
+      integer :: nz
+
+      accepted = .false.
+      if (.not. any(option == [1, 2, 3, 5, 6, 7, 9])) then
+         call complain(this, "there is no kind " // integer_text(option) // " of blocks; 1, 2, 3, 5, 6, 7 and 9 are")
+         return
+      end if
+      if (option /= 1 .and. option /= 5) then
+         if (.not. are_finite(this, [x, y])) return
+         if (.not. count_fits(this, option, size(x), merge(3, 1, option == 2 .or. option == 6), &
+            & merge(3, longest_list, option == 2 .or. option == 6))) return
+         if (.not. count_fits(this, option, size(y), merge(3, 1, option == 2 .or. option == 6), &
+            & merge(3, longest_list, option == 2 .or. option == 6))) return
+      end if
+      if (.not. count_fits(this, option, size(z), merge(3, 1, option <= 3), merge(3, longest_list, option <= 3))) return
+      if (.not. are_finite(this, z)) return
+      select case (option)
+      case (1, 5)
+         block%selection = point_selection%all_elements
+      case (2, 6)
+         block%selection = point_selection%ranges
+         call take_range(x, block%ixl, block%ixinc, block%ixh)
+         call take_range(y, block%iyl, block%iyinc, block%iyh)
+      case (3, 7)
+         block%selection = point_selection%lists
+         block%ix = whole(x)
+         block%iy = whole(y)
+      case (9)
+         block%selection = point_selection%free
+         block%x = x*length
+         block%y = y*length
+      end select
+      if (option <= 3) then
+         nz = max(1, min(longest_list, whole(z(1))))
+         block%z = depth_range(nz, z(2)*length, max(least_step, z(3)*length))
+      else
+         block%z = z*length
+      end if
+      accepted = .true.
+   end subroutine make_block
+
+   !> First, step and last column or row
+   pure subroutine take_range(values, low, step, high)
+      real(wp), intent(in) :: values(3)
+      integer, intent(out) :: low, step, high
+
+      low = max(1, whole(values(1)))
+      step = max(1, whole(values(2)))
+      high = whole(values(3))
+   end subroutine take_range
+
+   !> The nearest integer, within bounds that no grid reaches
+   elemental integer function whole(value)
+      real(wp), intent(in) :: value
+      whole = nint(max(-1.0e9_wp, min(1.0e9_wp, value)))
+   end function whole
+
+   !> Displacements and stresses in the blocks of points, after a calculation
+   subroutine subs_calculate(ire, icp, ierror) bind(c)
+      integer(c_int), intent(in), optional :: ire, icp
+      integer(c_int), intent(inout), optional :: ierror
+      type(library_problem), pointer :: problem
+      type(entry_type) :: this
+      integer :: code, k
+
+      this = entry_type("subs_calculate", integer_of(ire), integer_of(icp))
+      call enter_calculation(this, scope%any, problem, code)
+      if (associated(problem)) then
+         call forget_complaint(problem)
+         if (.not. problem%has_result) then
+            code = library_code%other
+            call complain(this, "nothing has been calculated yet", code)
+         else if (problem%module_number == 3) then
+            call calculate_patch(this, problem, 0, problem%result, code)
+         else if (this%icp > 0) then
+            call calculate_patch(this, problem, this%icp, problem%pair_result%patches(this%icp)%contact, code)
+         else
+            do k = 1, size(problem%pair_result%patches)
+               call calculate_patch(this, problem, k, problem%pair_result%patches(k)%contact, code)
+               if (code /= library_code%success) exit
+            end do
+         end if
+         call leave_calculation(problem)
+      end if
+      call give(code, ierror)
+   end subroutine subs_calculate
+
+   !> The blocks of one patch, with print and file
+   subroutine calculate_patch(this, problem, number, patch, code)
+      type(entry_type), intent(in) :: this
+      type(library_problem), intent(in) :: problem
+      !> Patch of module 1, 0 in module 3
+      integer, intent(in) :: number
+      type(patch_result), intent(inout) :: patch
+      integer, intent(out) :: code
+      type(case_spec) :: request
+      type(error_type), allocatable :: error
+      type(log_type) :: log
+
+      request%kernel = problem%spec%kernel
+      request%material = problem%spec%material
+      request%motion = problem%spec%motion
+      request%stress = stress_choice%keep
+      request%subsurface = problem%spec%subsurface
+      if (number > 0) then
+         if (allocated(problem%blocks(number)%list)) request%subsurface%blocks = problem%blocks(number)%list
+      end if
+      code = library_code%success
+      call subsurface_stresses(request, patch, error)
+      if (.not. allocated(error) .and. allocated(patch%subsurface)) then
+         log = library_log()
+         !$omp critical (contact_printing)
+         call write_subsurface(log, request, patch)
+         !$omp end critical (contact_printing)
+         if (request%subsurface%matfil >= 1) call write_subs_file(file_name(problem, number), request, patch, error)
+      end if
+      if (.not. allocated(error)) return
+      if (number > 0) call add_context(error, "contact patch " // integer_text(number))
+      code = library_code%other
+      call complain(this, full_text(error), code)
+   end subroutine calculate_patch
+
+   !> Name of the file with the stresses
+   function file_name(problem, number) result(name)
+      type(library_problem), intent(in) :: problem
+      integer, intent(in) :: number
+      character(len=:), allocatable :: name
+      character(len=20) :: base
+
+      if (number > 0) then
+         name = subs_file_name(result_file("caddon"), problem%cases, problem%ire, number)
+      else
+         write(base, '("caddon_re", i3.3, "_cp", i1)') problem%ire, problem%icp
+         name = subs_file_name(result_file(trim(base)), problem%cases)
+      end if
+   end function file_name
+
+   !> Numbers of points of a block, -1 when there is none
+   subroutine subs_getblocksize(ire, icp, iblk, nx, ny, nz) bind(c)
+      integer(c_int), intent(in), optional :: ire, icp, iblk
+      integer(c_int), intent(inout), optional :: nx, ny, nz
+      type(library_problem), pointer :: problem
+      type(entry_type) :: this
+      type(result_view) :: view
+      integer :: size_of(3), k
+
+      this = entry_type("subs_getBlocksize", integer_of(ire), integer_of(icp))
+      call enter(this, scope%one_patch, problem)
+      if (.not. associated(problem)) return
+      view = look_at(this, problem)
+      size_of = -1
+      k = integer_of(iblk)
+      if (has_block(view, k)) size_of = [view%patch%subsurface(k)%nx, view%patch%subsurface(k)%ny, view%patch%subsurface(k)%nz]
+      call give(size_of(1), nx)
+      call give(size_of(2), ny)
+      call give(size_of(3), nz)
+      call leave(problem)
+   end subroutine subs_getblocksize
+
+   !> Are there results in a block?
+   pure logical function has_block(view, number)
+      type(result_view), intent(in) :: view
+      integer, intent(in) :: number
+
+      has_block = .false.
+      if (.not. associated(view%patch)) return
+      if (.not. allocated(view%patch%subsurface)) return
+      has_block = number >= 1 .and. number <= size(view%patch%subsurface)
+   end function has_block
+
+   !> Columns of the results of a block
+   subroutine subs_getresults(ire, icp, iblk, lenarr, ncol, icol, values) bind(c)
+      integer(c_int), intent(in), optional :: ire, icp, iblk, lenarr, ncol, icol(*)
+      real(c_double), intent(inout), optional :: values(*)
+      type(library_problem), pointer :: problem
+      type(entry_type) :: this
+      type(result_view) :: view
+      integer, allocatable :: columns(:)
+      real(wp), allocatable :: column(:)
+      integer :: k, n, rows, number, first
+
+      this = entry_type("subs_getResults", integer_of(ire), integer_of(icp))
+      call enter(this, scope%one_patch, problem)
+      if (.not. associated(problem)) return
+      view = look_at(this, problem)
+      number = integer_of(iblk)
+      rows = max(0, integer_of(lenarr))
+      columns = integers_of(ncol, icol)
+      if (.not. has_block(view, number)) then
+         call complain(this, "there are no results in block " // integer_text(number))
+      else if (present(values)) then
+         do k = 1, size(columns)
+            call take_column(view, view%patch%subsurface(number), columns(k), column)
+            n = min(rows, size(column))
+            first = (k - 1)*rows
+            values(first + 1:first + n) = column(:n)
+         end do
+      end if
+      call leave(problem)
+   end subroutine subs_getresults
+
+   !> One column in the units of the caller
+   pure subroutine take_column(view, block, number, column)
+      type(result_view), intent(in) :: view
+      type(subsurface_result), intent(in) :: block
+      integer, intent(in) :: number
+      real(wp), allocatable, intent(out) :: column(:)
+
+      select case (number)
+      case (1:3); column = block%position(number, :)*outward(view%units, quantity%length)
+      case (4:6); column = block%displacement(number - 3, :)*outward(view%units, quantity%length)
+      case (7); column = block%sighyd
+      case (8); column = block%sigvm
+      case (9); column = block%sigtr
+      case (10); column = block%sigma1
+      case (11); column = block%sigma2
+      case (12); column = block%sigma3
+      case (13:most_columns); column = block%stress(component(number), :)
+      case default
+         allocate(column(size(block%sigvm)), source=no_column)
+         return
+      end select
+      if (number > 6) column = column*outward(view%units, quantity%pressure)
+   end subroutine take_column
+end module contact_capi_subsurface
