@@ -27,6 +27,8 @@ module contact_wheelrail_gap
       !> Gap over an even mesh along the track as well, shape (x_table, y), when a body varies along it;
       !> unallocated otherwise
       real(wp), allocatable :: x_table(:), table(:, :)
+      !> Do weights come from the table? Otherwise from the gap of the locus and `kappa`
+      logical :: weighs_table = .false.
    end type gap_curve
 
    !> Gap where rail or wheel is missing [mm]

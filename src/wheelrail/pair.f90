@@ -185,7 +185,8 @@ contains
          memory%here%bodies%placement = memory%here%placement
          call place_bodies(memory%here%bodies, problem%spec%wheelset%s, problem%spec%wheelset%pitch, problem%rail_surface, &
             & problem%wheel_surface)
-         call measure_variable_gap(memory%here%bodies, problem%spec%search%ds, memory%here%gap)
+         call measure_variable_gap(memory%here%bodies, problem%spec%search%ds, allocated(problem%wheel_surface) &
+            & .or. problem%spec%search%location == contact_location%grid, memory%here%gap)
       else
          call measure_gap(memory%here%rail_in_track, problem%wheel, memory%here%placement, problem%spec%search%ds, memory%here%gap)
       end if

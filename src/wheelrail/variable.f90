@@ -29,10 +29,12 @@ module contact_wheelrail_variable
 contains
 
    !> Gap table and, for each lateral position, its smallest value
-   subroutine measure_variable_gap(bodies, ds, gap)
+   subroutine measure_variable_gap(bodies, ds, weighs_table, gap)
       type(pair_bodies), intent(in) :: bodies
       !> Lateral size of the elements [mm]
       real(wp), intent(in) :: ds
+      !> See `gap_curve`
+      logical, intent(in) :: weighs_table
       type(gap_curve), intent(inout) :: gap
       real(wp), allocatable :: coarse(:, :), xc(:), yc(:)
       real(wp) :: range(2), limit
@@ -47,6 +49,8 @@ contains
       gap%z = 0.0_wp*gap%y
       gap%alpha = 0.0_wp*gap%y
       gap%kappa = 0.5_wp/bodies%placement%wheel_radius
+      if (bodies%placement%roller_radius > 0.0_wp) gap%kappa = gap%kappa + 0.5_wp/bodies%placement%roller_radius
+      gap%weighs_table = weighs_table
 
       nxc = 2*ceiling(reach*bodies%placement%wheel_radius/coarse_x) + 1
       nyc = (gap%n - 1 + coarse_y - 1)/coarse_y + 1

@@ -142,7 +142,7 @@ contains
       bodies%wheel = wheel%curve
       call measure_gap(bodies%rail, bodies%wheel, bodies%placement, pair%search%ds, one)
       call put_sections(bodies, pair, with_rail, with_wheel)
-      call measure_variable_gap(bodies, pair%search%ds, two)
+      call measure_variable_gap(bodies, pair%search%ds, .true., two)
       call suite%close_to(smallest_gap(two), smallest_gap(one), 2.0e-5_wp, what // ": smallest gap")
 
       z = smallest_gap(one) + 0.05_wp
@@ -155,6 +155,14 @@ contains
       call suite%close_to(second(1)%box%x, first(1)%box%x, 0.3_wp, what // ": its length")
       call suite%close_to(second(1)%box%y, first(1)%box%y, 0.1_wp, what // ": its width")
       call suite%close_to(second%weight/first%weight, [1.0_wp], 2.0e-2_wp, what // ": its weight")
+
+      ! Weights from the gap of the locus: the same formula as for profiles
+      call measure_variable_gap(bodies, pair%search%ds, .false., two)
+      call find_regions(two, z, pair%search, 2, second, misses)
+      call suite%equal(size(second), size(first), what // ": number of patches, weights of the locus")
+      if (size(second) /= 1) return
+      call suite%close_to([second%x, second%y], [first%x, first%y], 1.0e-2_wp, what // ": place, weights of the locus")
+      call suite%close_to(second%weight/first%weight, [1.0_wp], 2.0e-3_wp, what // ": weight of the locus")
 
       call place_pair(pair, wheel%curve, 0.0_wp, 0.0_wp, z, [0.0_wp, 0.0_wp], bodies%placement)
       plane = patch_frame(bodies%rail, bodies%placement, first(1))
@@ -217,7 +225,7 @@ contains
       bodies%rail = rail_in_track(plane%curve, bodies%placement)
       bodies%wheel = cylinder%curve
       call place_bodies(bodies, 37.0_wp, 0.0_wp, plane%surface, cylinder%surface)
-      call measure_variable_gap(bodies, 0.5_wp, gap)
+      call measure_variable_gap(bodies, 0.5_wp, .true., gap)
       ! On the slope z = -(37 + x)/10: nearest where the circle has it, too
       angle = atan(0.1_wp)
       exact = -3.7_wp - (460.0_wp/cos(angle) - 460.0_wp)
@@ -288,7 +296,7 @@ contains
       bodies%wheel = spot%curve
       do i = 1, 3
          call place_bodies(bodies, 0.0_wp, pitch(i), plane%surface, spot%surface)
-         call measure_variable_gap(bodies, 0.5_wp, gap(i))
+         call measure_variable_gap(bodies, 0.5_wp, .true., gap(i))
       end do
       j = gap(1)%n/2
       ! Lowest point of r(theta) cos(theta + pitch), by brute force
@@ -351,7 +359,7 @@ contains
       call place_bodies(bodies, s_ws, 0.0_wp, nose%surface, round%surface)
       call cpu_time(end)
       print '(2a, f8.3, a)', name, ": sections in", end - start, " s"
-      call measure_variable_gap(bodies, pair%search%ds, gap)
+      call measure_variable_gap(bodies, pair%search%ds, .true., gap)
       call cpu_time(start)
       print '(2a, f8.3, a)', name, ": gap in", start - end, " s"
       call find_regions(gap, 0.0_wp, pair%search, 2, regions, misses)
