@@ -5,6 +5,7 @@ module contact_cases_pair_session
    use contact_base_error, only : add_context, error_kind, error_type, fatal_error
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
+   use contact_cases_effects, only : name_effects
    use contact_cases_friction_setup, only : parameters_of, set_friction, set_thermal
    use contact_cases_patch_setup, only : set_method, set_simplified_theory, set_yield_limit
    use contact_cases_spec, only : case_spec
@@ -22,7 +23,7 @@ module contact_cases_pair_session
    implicit none (type, external)
    private
 
-   public :: pair_session, load_profile, release_pair_session, solve_pair_case
+   public :: pair_session, check_profiles, load_profile, release_pair_session, solve_pair_case
 
    !> Memory of one wheel on one rail
    type :: pair_session
@@ -55,9 +56,9 @@ contains
       if (allocated(error)) return
       do k = 1, size(result%patches)
          associate (contact => result%patches(k)%contact)
-            contact%effects = "elastic half-spaces"
             if (allocated(contact%subsurface)) deallocate(contact%subsurface)
             if (spec%stress /= stress_choice%none) call subsurface_stresses(spec, contact, error)
+            call name_effects(spec, session%memory%slot(k)%problem, contact)
          end associate
          if (allocated(error)) return
       end do
@@ -96,6 +97,24 @@ contains
       end subroutine refuse
    end subroutine refuse_unbuilt
 
+   !> Read and prepare the profiles of a case without solving it
+   subroutine check_profiles(session, spec, folder, log, error)
+      type(pair_session), intent(inout) :: session
+      !> Complete specification of a case of module 1
+      type(case_spec), intent(in) :: spec
+      !> As for solve_pair_case
+      character(len=*), intent(in) :: folder
+      type(log_type), intent(inout) :: log
+      type(error_type), allocatable, intent(out) :: error
+
+      associate (problem => session%problem)
+         call load_profile(session%profiles, spec%wheel_rail%rail_profile, profile_side%rail, folder, problem%rail, &
+            & problem%rail_surface, log, error)
+         if (.not. allocated(error)) call load_profile(session%profiles, spec%wheel_rail%wheel_profile, profile_side%wheel, &
+            & folder, problem%wheel, problem%wheel_surface, log, error)
+      end associate
+   end subroutine check_profiles
+
    !> From the specification to the problem of the pair
    subroutine set_pair(session, spec, folder, log, error)
       type(pair_session), intent(inout) :: session
@@ -108,10 +127,7 @@ contains
 
       associate (problem => session%problem, template => session%problem%template)
          problem%spec = spec%wheel_rail
-         call load_profile(session%profiles, spec%wheel_rail%rail_profile, profile_side%rail, folder, problem%rail, &
-            & problem%rail_surface, log, error)
-         if (.not. allocated(error)) call load_profile(session%profiles, spec%wheel_rail%wheel_profile, profile_side%wheel, &
-            & folder, problem%wheel, problem%wheel_surface, log, error)
+         call check_profiles(session, spec, folder, log, error)
          if (allocated(error)) return
          problem%force_prescribed = spec%normal == normal_control%force
          problem%geometry_only = .not. spec%solve

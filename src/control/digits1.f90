@@ -2,55 +2,62 @@
 !>
 !> Digits that mean the same in both modules are looked up in contact_control_digits.
 module contact_control_digits1
-   use contact_base_choices, only : contact_location, force_control, kernel_model, pressure_model, variation
+   use contact_base_choices, only : contact_location, force_control, kernel_model, material_model, pressure_model, &
+      & variation
    use contact_cases_spec, only : case_digits
    use contact_control_digits, only : common_names => digit_names, common_allowed => allowed_text, &
-      & common_choice => choice_of, common_known => is_known, common_text => digit_text, decode_words, digit_row
+      & common_built => is_built, common_choice => choice_of, common_known => is_known, common_text => digit_text, &
+      & decode_words, digit_row
    implicit none (type, external)
    private
 
-   public :: digit1_names, digit1_table, digit1_value_is_known, choice1_of, digit1_text, allowed1_text, decode_words1
+   public :: digit1_names, digit1_table, digit1_value_is_known, digit1_is_built, choice1_of, digit1_text, allowed1_text
+   public :: decode_words1
 
    type(digit_row), parameter :: digit1_table(*) = [ &
-      & digit_row("C1", 0, 0, .false., "left wheel on the track"), &
-      & digit_row("C1", 1, 1, .false., "right wheel on the track"), &
-      & digit_row("C1", 4, 4, .false., "left wheel on a roller"), &
-      & digit_row("C1", 5, 5, .false., "right wheel on a roller"), &
-      & digit_row("B", 0, pressure_model%full, .false., "full solution of the normal problem"), &
+      & digit_row("C1", 0, 0, .true., "left wheel on the track"), &
+      & digit_row("C1", 1, 1, .true., "right wheel on the track"), &
+      & digit_row("C1", 4, 4, .true., "left wheel on a roller"), &
+      & digit_row("C1", 5, 5, .true., "right wheel on a roller"), &
+      & digit_row("B", 0, pressure_model%full, .true., "full solution of the normal problem"), &
       & digit_row("B", 1, pressure_model%thin_sheet, .false., "elastic thin sheet with a vertical flexibility"), &
-      & digit_row("B", 5, pressure_model%kpec, .false., "Kik-Piotrowski approach with ellipse correction (KPEC)"), &
-      & digit_row("B", 6, pressure_model%analyn, .false., "modified ANALYN approach"), &
-      & digit_row("F", 0, force_control%creepages, .false., "velocities prescribed"), &
+      & digit_row("B", 5, pressure_model%kpec, .true., "Kik-Piotrowski approach with ellipse correction (KPEC)"), &
+      & digit_row("B", 6, pressure_model%analyn, .true., "modified ANALYN approach"), &
+      & digit_row("F", 0, force_control%creepages, .true., "velocities prescribed"), &
       & digit_row("F", 1, force_control%longitudinal_force, .false., "longitudinal force in place of the pitch velocity"), &
       & digit_row("F", 3, force_control%massless_rail, .false., "rail without mass on springs"), &
-      & digit_row("V", 0, variation%none, .false., "one set of friction parameters"), &
-      & digit_row("V", 1, variation%by_angle, .false., "friction parameters by the inclination of the rail surface"), &
-      & digit_row("V", 2, variation%by_position, .false., "friction parameters by the position along the track"), &
-      & digit_row("D", 0, 0, .false., "keep the settings of search and discretisation"), &
-      & digit_row("D", 1, 1, .false., "keep the settings of search and discretisation"), &
-      & digit_row("D", 2, contact_location%locus, .false., "flat contact, contact locus"), &
+      & digit_row("V", 0, variation%none, .true., "one set of friction parameters"), &
+      & digit_row("V", 1, variation%by_angle, .true., "friction parameters by the inclination of the rail surface"), &
+      & digit_row("V", 2, variation%by_position, .true., "friction parameters by the position along the track"), &
+      & digit_row("D", 0, 0, .true., "keep the settings of search and discretisation"), &
+      & digit_row("D", 1, 1, .true., "keep the settings of search and discretisation"), &
+      & digit_row("D", 2, contact_location%locus, .true., "flat contact, contact locus"), &
       & digit_row("D", 3, contact_location%locus_extended, .false., "flat contact, contact locus, extended rigid slip"), &
       & digit_row("D", 4, contact_location%conformal, .false., "conformal contact, contact locus"), &
-      & digit_row("D", 5, contact_location%grid, .false., "flat contact, search over a grid"), &
+      & digit_row("D", 5, contact_location%grid, .true., "flat contact, search over a grid"), &
       & digit_row("D", 6, contact_location%steep_grid, .false., "flat contact, search over a finer grid"), &
       & digit_row("D", 7, contact_location%first_contact, .false., "flat contact, first point of contact as reference"), &
       & digit_row("D", 8, contact_location%oblique_locus, .false., "contact locus in a fixed oblique view"), &
       & digit_row("D", 9, contact_location%oblique_grid, .false., "grid search in a fixed oblique view"), &
-      & digit_row("C", 0, 0, .false., "as 1"), &
-      & digit_row("C", 1, 1, .false., "form the influence coefficients from the values in store"), &
-      & digit_row("C", 2, kernel_model%piecewise_constant, .false., "half-space, piecewise constant; read materials"), &
+      & digit_row("C", 0, 0, .true., "as 1"), &
+      & digit_row("C", 1, 1, .true., "form the influence coefficients from the values in store"), &
+      & digit_row("C", 2, kernel_model%piecewise_constant, .true., "half-space, piecewise constant; read materials"), &
       & digit_row("C", 3, kernel_model%bilinear, .false., "half-space with bilinear tractions"), &
       & digit_row("C", 4, kernel_model%conformal, .false., "half-space with angle correction for conformal contact"), &
-      & digit_row("Z", 0, 0, .false., "keep track and rail"), &
-      & digit_row("Z", 1, 1, .false., "read the track dimensions"), &
-      & digit_row("Z", 2, 2, .false., "read the deviations of the rail"), &
-      & digit_row("Z", 3, 3, .false., "read track dimensions, rail profile and deviations"), &
-      & digit_row("E", 0, 0, .false., "keep wheelset, position and velocity"), &
-      & digit_row("E", 1, 1, .false., "read the position of the wheelset"), &
-      & digit_row("E", 2, 2, .false., "read position and velocity"), &
-      & digit_row("E", 3, 3, .false., "read wheelset dimensions, wheel profile, position and velocity"), &
-      & digit_row("E", 4, 4, .false., "as 2, with the flexible deviations of the wheelset"), &
-      & digit_row("E", 5, 5, .false., "as 3, with the flexible deviations of the wheelset")]
+      & digit_row("Z", 0, 0, .true., "keep track and rail"), &
+      & digit_row("Z", 1, 1, .true., "read the track dimensions"), &
+      & digit_row("Z", 2, 2, .true., "read the deviations of the rail"), &
+      & digit_row("Z", 3, 3, .true., "read track dimensions, rail profile and deviations"), &
+      & digit_row("E", 0, 0, .true., "keep wheelset, position and velocity"), &
+      & digit_row("E", 1, 1, .true., "read the position of the wheelset"), &
+      & digit_row("E", 2, 2, .true., "read position and velocity"), &
+      & digit_row("E", 3, 3, .true., "read wheelset dimensions, wheel profile, position and velocity"), &
+      & digit_row("E", 4, 4, .true., "as 2, with the flexible deviations of the wheelset"), &
+      & digit_row("E", 5, 5, .true., "as 3, with the flexible deviations of the wheelset")]
+
+   !> Values that mean the same in both modules but act in module 3 only
+   type(digit_row), parameter :: not_in_module1(*) = [ &
+      & digit_row("M", 1, material_model%viscoelastic, .false., "viscoelastic")]
 
    !> All digits in the order of the control words
    character(len=2), parameter :: digit1_names(*) = ["C1", common_names]
@@ -85,6 +92,21 @@ contains
          known = common_known(name, digit)
       end if
    end function digit1_value_is_known
+
+   !> Can this version compute what the digit asks for?
+   pure logical function digit1_is_built(name, digit) result(built)
+      character(len=*), intent(in) :: name
+      integer, intent(in) :: digit
+      integer :: row
+
+      if (is_own(name)) then
+         row = row_of(name, digit)
+         built = .false.
+         if (row > 0) built = digit1_table(row)%built
+      else
+         built = common_built(name, digit) .and. .not. any(not_in_module1%name == name .and. not_in_module1%digit == digit)
+      end if
+   end function digit1_is_built
 
    !> Named choice behind a digit; an unknown digit is handed back as it is
    pure integer function choice1_of(name, digit) result(choice)

@@ -10,7 +10,7 @@ module contact_experiment_run
    use omp_lib, only : omp_get_max_threads, omp_set_num_threads
    use contact_base_error, only : add_context, error_kind, error_type, fatal_error, full_text
    use contact_base_log, only : log_type
-   use contact_cases_pair_session, only : pair_session, release_pair_session, solve_pair_case
+   use contact_cases_pair_session, only : check_profiles, pair_session, release_pair_session, solve_pair_case
    use contact_cases_session, only : contact_session, release_session, solve_case
    use contact_cases_spec, only : case_spec
    use contact_experiment_place, only : experiment_place, locate_experiment
@@ -134,6 +134,7 @@ contains
       type(experiment_state), intent(inout) :: state
       type(error_type), allocatable :: error
       type(input_case) :: this
+      type(pair_session) :: pair
       integer :: faulty
 
       faulty = 0
@@ -146,8 +147,18 @@ contains
          if (this%module_number == 0) exit
          state%cases = state%cases + 1
          call report_problems(state, this)
-         if (.not. this%problems%is_usable()) faulty = faulty + 1
+         if (.not. this%problems%is_usable()) then
+            faulty = faulty + 1
+         else if (this%module_number == 1) then
+            if (.not. (this%spec%wheel_rail%new_rail_profile .or. this%spec%wheel_rail%new_wheel_profile)) cycle
+            call check_profiles(pair, this%spec, state%place%folder, state%log, error)
+            if (.not. allocated(error)) cycle
+            call add_context(error, "case " // integer_text(this%number))
+            call report_error(state, error)
+            faulty = faulty + 1
+         end if
       end do
+      call release_pair_session(pair)
       call state%log%line(" " // state%place%input // ": " // counted(state%cases, "case") // " checked, " // &
          & counted(faulty, "faulty case") // ", " // counted(state%errors, "error") // ", " // &
          & counted(state%log%warnings, "warning"))

@@ -323,9 +323,15 @@ class Failures(Cli):
             2000. 0. 0. 0. 0. -4.3
             0\n"""
         self.write("ball.inp", first % "8.")
-        self.fails(self.run_program("2", "ball"), "rail.prr", "rail profile", "case 1")
+        for mode in "2", "3":
+            self.fails(self.run_program(mode, "ball"), "rail.prr", "rail profile", "case 1")
+        self.write("rail.prr", "header.begin\n version = 1\n type = 0\nheader.end\nspline.begin\npoint.begin\n 1. x\n")
+        self.fails(self.run_program("3", "ball"), "rail.prr:7:", "case 1")
         self.write("ball.inp", first % "3.")
         self.fails(self.run_program("3", "ball"), "D_SEP = 3. is smaller than D_COMB = 4.")
+        self.write("ball.inp", (first % "8.").replace("0022033", "0082033"))
+        for mode in "2", "3":
+            self.fails(self.run_program(mode, "ball"), "ball.inp:3:13: ", "D = 8", "not built in this version for wheel on rail")
 
     def test_unknown_module(self):
         self.write("ball.inp", "5\n")

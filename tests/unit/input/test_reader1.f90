@@ -20,6 +20,7 @@ program test_reader1
    call roller(suite)
    call friction_points(suite)
    call faulty_cases(suite)
+   call unbuilt_cases(suite)
    call suite%finish()
 
 contains
@@ -205,17 +206,39 @@ contains
       if (allocated(error)) call suite%check(index(full_text(error), "test:12:1") > 0, "with its place")
    end subroutine faulty_cases
 
-   !> Is there an error with these words?
-   subroutine has_problem(suite, problems, words, what)
+   !> What the format knows and no method computes is refused at its digit, also when it is kept
+   subroutine unbuilt_cases(suite)
+      type(test_suite), intent(inout) :: suite
+      type(case_spec) :: spec, later
+      type(problem_list) :: problems
+      type(error_type), allocatable :: error
+
+      call read_text(new_case(), spec, problems, error)
+      call suite%equal(problems%number_of(severity%unsupported), 0, "a plain case asks for nothing that is missing")
+      call read_text(new_case(word2="0082033"), spec, problems, error)
+      call suite%equal(problems%number_of(severity%unsupported), 1, "an oblique view is refused")
+      call has_problem(suite, problems, "test:2:1: D = 8, contact locus in a fixed oblique view, is known but not built", &
+         & "by its name, with its place", severity%unsupported)
+      call read_text(new_case(word2="0011002", friction="", search="", rail="", &
+         & wheelset="0. 0. 1. 0. 0. 0.;2000. 0. 0. 0. 0. -4."), later, problems, error, spec)
+      call has_problem(suite, problems, "D = 8,", "a search that is kept counts, too", severity%unsupported)
+   end subroutine unbuilt_cases
+
+   !> Is there an error, or a problem of another severity, with these words?
+   subroutine has_problem(suite, problems, words, what, kind)
       type(test_suite), intent(inout) :: suite
       type(problem_list), intent(in) :: problems
       character(len=*), intent(in) :: words, what
+      !> Member of severity, default error
+      integer, intent(in), optional :: kind
       logical :: found
-      integer :: k
+      integer :: k, wanted
 
       found = .false.
+      wanted = severity%error
+      if (present(kind)) wanted = kind
       do k = 1, problems%count
-         if (problems%items(k)%severity /= severity%error) cycle
+         if (problems%items(k)%severity /= wanted) cycle
          if (index(problem_text(problems%items(k)), words) > 0) found = .true.
       end do
       call suite%check(found, what)
