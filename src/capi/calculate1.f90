@@ -5,6 +5,7 @@ module contact_capi_calculate1
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
    use contact_capi_calculate3, only : first_problem
+   use contact_capi_input_dump, only : dump_pair_case
    use contact_capi_problem, only : library_problem, most_patches
    use contact_capi_registry, only : complain, entry_type, library_log, result_file, say, working_folder
    use contact_cases_pair_session, only : solve_pair_case
@@ -42,6 +43,7 @@ contains
          call write_case_line(log, problem)
          code = library_code%other
          call check_settings(problem%spec, error)
+         if (.not. allocated(error)) call dump_pair_case(this, problem)
          if (.not. allocated(error)) call solve_pair_case(problem%pair, problem%spec, working_folder(), log, &
             & problem%pair_result, error)
       end if

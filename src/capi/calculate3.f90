@@ -5,6 +5,7 @@ module contact_capi_calculate3
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
    use contact_base_solve_report, only : failure_text
+   use contact_capi_input_dump, only : dump_contact_case
    use contact_capi_problem, only : library_problem
    use contact_capi_registry, only : complain, entry_type, library_log, result_file, say, working_folder
    use contact_cases_session, only : solve_case
@@ -60,6 +61,7 @@ contains
          problem%has_result = .true.
          call keep_solution(problem)
          call write_results(this, problem, log)
+         call dump_contact_case(problem)
       end if
       call judge(this, problem, code)
    end subroutine calculate_contact

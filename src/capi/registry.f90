@@ -21,7 +21,8 @@ module contact_capi_registry
    public :: scope_type, scope, entry_type, enter, enter_calculation, leave, leave_calculation
    public :: start_library, stop_library, is_running, register_element, remove_element, record_units
    public :: complain, say, library_log, level_of_debugging, set_debugging, set_threads, threads_inside, most_threads
-   public :: set_timer_level, working_folder, result_file, last_complaint, forget_complaint, open_input_dump, input_dump
+   public :: set_timer_level, working_folder, result_file, last_complaint, forget_complaint
+   public :: open_input_dump, input_dump, input_dump_folder
    public :: are_finite, count_fits
 
    integer, parameter :: most_elements = 999, most_active = 100
@@ -80,8 +81,9 @@ module contact_capi_registry
       !> Amount of messages about calls; timer table 0 none, 1 overview, 2 all problems
       integer :: debugging = 0, timer_level = 1
       type(log_type) :: log
-      !> Unit of the .inp file with the cases, 0: not opened yet, -1: cannot be opened
+      !> Unit of the .inp file with the cases, 0 for none; was it tried to open it?
       integer :: input_dump = 0
+      logical :: dump_was_tried = .false.
       character(len=:), allocatable :: work_folder, out_folder, name
       type(stopwatch) :: total
       !> What went wrong last without a problem to which it belongs
@@ -148,6 +150,7 @@ contains
       if (status == 0) library%log%out = unit
       library%phase = running
       library%input_dump = 0
+      library%dump_was_tried = .false.
       library%most_threads = max(1, min(999, omp_get_max_threads()))
       library%threads = 1
       library%total = stopwatch()
@@ -446,7 +449,7 @@ contains
          do k = 1, most_elements
             if (library%elements(k)%module_number /= 0) call free_element(library%elements(k), freed)
          end do
-         if (library%input_dump > 0) then
+         if (library%input_dump /= 0) then
             write(library%input_dump, '(a)') " 0  MODULE"
             close(library%input_dump)
          end if
@@ -702,15 +705,26 @@ contains
       integer :: status, unit
 
       !$omp critical (contact_registry)
-      if (library%input_dump == 0) then
+      if (.not. library%dump_was_tried) then
+         library%dump_was_tried = .true.
          open(newunit=unit, file=path_of_result(".inp"), status="replace", action="write", iostat=status)
-         library%input_dump = merge(unit, -1, status == 0)
+         if (status == 0) library%input_dump = unit
          if (status /= 0) call set_last_error(library_code%other, "the file " // path_of_result(".inp") // " cannot be written")
       end if
       !$omp end critical (contact_registry)
    end subroutine open_input_dump
 
-   !> Unit of the file in which cases are written as input, 0 or -1 for none
+   !> Where names in that file, which are relative to the working folder, start: "" when it lies there itself
+   function input_dump_folder() result(folder)
+      character(len=:), allocatable :: folder
+
+      !$omp critical (contact_registry)
+      folder = ""
+      if (len(library%out_folder) > 0) folder = library%work_folder
+      !$omp end critical (contact_registry)
+   end function input_dump_folder
+
+   !> Unit of the file in which cases are written as input, 0 for none
    integer function input_dump() result(unit)
       !$omp critical (contact_registry)
       unit = library%input_dump
