@@ -1,6 +1,6 @@
 !> Which effects acted in a patch, in words for the report
 module contact_cases_effects
-   use contact_base_choices, only : motion, pressure_model, stress_choice, variation
+   use contact_base_choices, only : contact_location, motion, pressure_model, stress_choice, variation
    use contact_cases_spec, only : case_spec
    use contact_patch_problem, only : patch_problem
    use contact_patch_result, only : patch_result
@@ -18,8 +18,9 @@ contains
       type(patch_problem), intent(in) :: problem
       !> Its `effects` are set; what acts depends on whether there is contact
       type(patch_result), intent(inout) :: result
-      character(len=:), allocatable :: text, law
+      character(len=:), allocatable :: text, law, on_curve
 
+      on_curve = ""
       law = "Coulomb friction"
       if (allocated(problem%friction)) then
          law = problem%friction%name
@@ -27,11 +28,14 @@ contains
          if (problem%friction_memory%acts() .and. problem%remembers_friction) law = law // " with memory"
       end if
       if (allocated(spec%wheel_rail)) then
+         if (spec%wheel_rail%search%location == contact_location%conformal) on_curve = ", curved reference surface"
          if (spec%variation == variation%by_angle) law = law // " by inclination"
          if (spec%variation == variation%by_position) law = law // " by position"
       end if
       text = "elastic half-spaces"
+      if (allocated(problem%model%inclination)) text = "elastic half-spaces with coefficients corrected for inclination"
       if (allocated(problem%model%tabulated)) text = "elastic bodies with tabulated influence coefficients"
+      text = text // on_curve
       if (allocated(problem%parts)) text = text // ", blended parts"
       select case (spec%pressure)
       case (pressure_model%elliptical, pressure_model%parabolical)

@@ -5,7 +5,7 @@ module contact_cases_elastic_setup
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
    use contact_cases_coefficient_file, only : read_coefficients
-   use contact_cases_spec, only : case_spec, material_spec
+   use contact_cases_spec, only : case_spec
    use contact_elastic_material, only : combine
    use contact_elastic_model, only : elastic_model
    use contact_grid_potential_contact, only : potential_contact
@@ -13,7 +13,7 @@ module contact_cases_elastic_setup
    implicit none (type, external)
    private
 
-   public :: set_coefficients, set_model
+   public :: set_coefficients, set_inclination, set_model
 
    !> Thinner layers do not count [mm]
    real(wp), parameter :: thinnest_layer = 1.0e-10_wp
@@ -39,24 +39,23 @@ contains
          else if (spec%material_model == material_model%interfacial_layer) then
             if (material%laythk >= thinnest_layer) model%layer = material%laythk/material%gg3
          end if
-         if (spec%kernel == kernel_model%conformal) call set_inclination(spec, material, model, error)
       end associate
    end subroutine set_model
 
-   !> Conformal contact: the table of inclinations, or the straight line through it
-   subroutine set_inclination(spec, material, model, error)
+   !> Conformal contact of module 3: the table of inclinations, or the straight line through it
+   subroutine set_inclination(spec, model, error)
       type(case_spec), intent(in) :: spec
-      type(material_spec), intent(in) :: material
       type(elastic_model), intent(inout) :: model
       type(error_type), allocatable, intent(out) :: error
       integer :: n
 
+      if (spec%kernel /= kernel_model%conformal) return
       n = 0
-      if (allocated(material%table_y)) n = size(material%table_y)
+      if (allocated(spec%material%table_y)) n = size(spec%material%table_y)
       if (n < 2) then
          call fatal_error(error, "conformal contact (C = 4) needs the surface inclination at two lateral positions or more", &
             & error_kind%input)
-      else if (any(material%table_y(2:) <= material%table_y(:n - 1))) then
+      else if (any(spec%material%table_y(2:) <= spec%material%table_y(:n - 1))) then
          call fatal_error(error, "the lateral positions of the surface inclinations (C = 4) must increase", error_kind%input)
       else if (is_oblique(spec)) then
          call fatal_error(error, "conformal contact (C = 4) allows for rolling along x only, CHI = 0 or 180 degrees", &
@@ -64,11 +63,14 @@ contains
       end if
       if (allocated(error)) return
       allocate(model%inclination)
-      model%inclination%variant = material%variant
-      model%inclination%uniform = material%if_meth == 0 .or. n == 2
-      model%inclination%s = material%table_y
-      model%inclination%alpha = material%table_alpha
+      associate (material => spec%material, inclination => model%inclination)
+         inclination%variant = material%variant
+         inclination%uniform = material%if_meth == 0 .or. n == 2
+         inclination%s = material%table_y
+         inclination%alpha = material%table_alpha
+      end associate
    end subroutine set_inclination
+
    !> Does it roll in another direction than along x?
    pure logical function is_oblique(spec)
       type(case_spec), intent(in) :: spec

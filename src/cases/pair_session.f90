@@ -6,11 +6,11 @@ module contact_cases_pair_session
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
    use contact_cases_effects, only : name_effects
+   use contact_cases_elastic_setup, only : set_model
    use contact_cases_friction_setup, only : parameters_of, set_friction, set_thermal
    use contact_cases_patch_setup, only : set_method, set_simplified_theory, set_yield_limit
    use contact_cases_spec, only : case_spec
    use contact_cases_subsurface, only : subsurface_stresses
-   use contact_elastic_material, only : combine
    use contact_patch_damping, only : damping_law
    use contact_patch_result, only : patch_result
    use contact_profile_curve, only : profile_curve
@@ -78,13 +78,10 @@ contains
 
       if (spec%force /= force_control%creepages) then
          call refuse("F = 1, 3, prescribed longitudinal force or rail on springs, in wheel-rail contact")
-      else if (spec%wheel_rail%search%location /= contact_location%locus .and. &
-         & spec%wheel_rail%search%location /= contact_location%grid) then
-         call refuse("D other than 2 and 5, other ways to locate the contact than by planar patches,")
+      else if (any(spec%wheel_rail%search%location == [contact_location%oblique_locus, contact_location%oblique_grid])) then
+         call refuse("D = 8, 9, a search in a fixed oblique view that fits a few profiles only,")
       else if (any(spec%material_model == [material_model%viscoelastic])) then
          call refuse("M = 1, viscoelastic material in wheel-rail contact,")
-      else if (spec%kernel /= kernel_model%piecewise_constant) then
-         call refuse("C other than 2, other influence coefficients in wheel-rail contact,")
       else if (spec%pressure == pressure_model%thin_sheet) then
          call refuse("B = 1, an elastic thin sheet,")
       end if
@@ -135,7 +132,17 @@ contains
          problem%link = spec%link
          problem%weight_power = spec%wheel_rail%search%weight_power
          problem%most_elements = spec%iteration%npot_max
-         template%model%material = combine(spec%material%poiss, spec%material%gg)
+         call set_model(spec, template%model, error)
+         if (allocated(error)) return
+         ! the inclinations are those of each patch; in a plane there are none
+         if (spec%kernel == kernel_model%conformal .and. spec%wheel_rail%search%location == contact_location%conformal) then
+            allocate(template%model%inclination)
+            template%model%inclination%variant = spec%material%variant
+            template%model%inclination%uniform = spec%material%if_meth == 0
+         end if
+         associate (compliance => (1.0_wp - spec%material%poiss)/spec%material%gg)
+            problem%rail_share = compliance(1)/sum(compliance)
+         end associate
          call set_method(spec, template)
          template%pressure = spec%pressure
          template%grid%my = 1

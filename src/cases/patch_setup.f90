@@ -5,7 +5,7 @@ module contact_cases_patch_setup
    use contact_base_error, only : error_kind, error_type, fatal_error
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
-   use contact_cases_elastic_setup, only : set_coefficients, set_model
+   use contact_cases_elastic_setup, only : set_coefficients, set_inclination, set_model
    use contact_cases_friction_setup, only : set_friction, set_thermal
    use contact_cases_geometry, only : build_grid, is_line_contact, require_positive, solve_hertz, undeformed_distance
    use contact_cases_numbers, only : check_numbers
@@ -39,6 +39,7 @@ contains
       call check_numbers(spec, error)
       if (allocated(error)) return
       call set_model(spec, problem%model, error)
+      if (.not. allocated(error)) call set_inclination(spec, problem%model, error)
       if (allocated(error)) return
       call solve_hertz(spec%grid, spec%normal, spec%kinematics%fn, spec%kinematics%pen, problem%model%material%gg, &
          & problem%model%material%nu, result%hertz, error)

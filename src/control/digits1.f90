@@ -32,18 +32,18 @@ module contact_control_digits1
       & digit_row("D", 0, 0, .true., "keep the settings of search and discretisation"), &
       & digit_row("D", 1, 1, .true., "keep the settings of search and discretisation"), &
       & digit_row("D", 2, contact_location%locus, .true., "flat contact, contact locus"), &
-      & digit_row("D", 3, contact_location%locus_extended, .false., "flat contact, contact locus, extended rigid slip"), &
-      & digit_row("D", 4, contact_location%conformal, .false., "conformal contact, contact locus"), &
+      & digit_row("D", 3, contact_location%locus_extended, .true., "flat contact, contact locus, extended rigid slip"), &
+      & digit_row("D", 4, contact_location%conformal, .true., "conformal contact, contact locus"), &
       & digit_row("D", 5, contact_location%grid, .true., "flat contact, search over a grid"), &
-      & digit_row("D", 6, contact_location%steep_grid, .false., "flat contact, search over a finer grid"), &
-      & digit_row("D", 7, contact_location%first_contact, .false., "flat contact, first point of contact as reference"), &
+      & digit_row("D", 6, contact_location%steep_grid, .true., "flat contact, search over a finer grid"), &
+      & digit_row("D", 7, contact_location%first_contact, .true., "flat contact, first point of contact as reference"), &
       & digit_row("D", 8, contact_location%oblique_locus, .false., "contact locus in a fixed oblique view"), &
       & digit_row("D", 9, contact_location%oblique_grid, .false., "grid search in a fixed oblique view"), &
       & digit_row("C", 0, 0, .true., "as 1"), &
       & digit_row("C", 1, 1, .true., "form the influence coefficients from the values in store"), &
       & digit_row("C", 2, kernel_model%piecewise_constant, .true., "half-space, piecewise constant; read materials"), &
-      & digit_row("C", 3, kernel_model%bilinear, .false., "half-space with bilinear tractions"), &
-      & digit_row("C", 4, kernel_model%conformal, .false., "half-space with angle correction for conformal contact"), &
+      & digit_row("C", 3, kernel_model%bilinear, .true., "half-space with bilinear tractions"), &
+      & digit_row("C", 4, kernel_model%conformal, .true., "half-space with angle correction for conformal contact"), &
       & digit_row("Z", 0, 0, .true., "keep track and rail"), &
       & digit_row("Z", 1, 1, .true., "read the track dimensions"), &
       & digit_row("Z", 2, 2, .true., "read the deviations of the rail"), &

@@ -5,9 +5,11 @@
 module contact_output_report_pair
    use contact_base_choices, only : contact_location, kernel_model, material_model, motion, normal_control, pressure_model, &
       & stress_choice, variation
+   use contact_base_constants, only : pi
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
    use contact_cases_spec, only : case_digits, case_spec, material_spec
+   use contact_grid_element_division, only : bounding_box, contact_box
    use contact_wheelrail_spec, only : profile_spec, wheel_rail_spec
    use contact_output_element_table, only : write_element_table
    use contact_output_formats, only : fixed, general, generals, heading, smart, smarts, whole
@@ -417,6 +419,7 @@ contains
          call log%result(" ----- DATA FOR CONTACT PATCH" // whole(number, 3) // origin // " -----")
          if (spec%output_level >= 2) then
             call write_reference(log, patch, s)
+            if (allocated(patch%curve)) call write_curved_contact(log, patch, s)
             call write_patch_kinematics(log, patch, s)
          end if
          call write_patch_totals(log, spec, patch, s)
@@ -448,6 +451,31 @@ contains
       call log%result("     XCP(W)      YCP(W)      ZCP(W)")
       call log%result(fixed(patch%x_wheel, 12, 4) // fixed(s*patch%y_wheel, 12, 4) // fixed(patch%z_wheel, 12, 4))
    end subroutine write_reference
+
+   !> How far the contact area reaches on its curved reference, the angles there, and the moments in the reference's axes
+   subroutine write_curved_contact(log, patch, s)
+      type(log_type), intent(inout) :: log
+      type(pair_patch), intent(in) :: patch
+      !> -1 for the left side
+      real(wp), intent(in) :: s
+      type(bounding_box) :: box
+      real(wp), parameter :: degree = pi/180.0_wp
+      real(wp) :: range(2)
+
+      box = contact_box(patch%contact%division)
+      call log%line("")
+      if (box%iy1 >= box%iy0) then
+         associate (grid => patch%contact%grid)
+            range = s*[grid%y(box%iy0) - 0.5_wp*grid%dy, grid%y(box%iy1) + 0.5_wp*grid%dy]
+            call log%line(" Contact in rows" // whole(box%iy0, 4) // " to" // whole(box%iy1, 4) // " of" // whole(grid%my, 4) &
+               & // ", s from" // fixed(range(1), 9, 3) // " to" // fixed(range(2), 9, 3) // " mm")
+         end associate
+         range = s*patch%curve(3, [box%iy0, box%iy1])/degree
+         call log%line(" Contact angle" // fixed(s*patch%delta/degree, 8, 2) // " deg at the reference, from" &
+            & // fixed(range(1), 8, 2) // " to" // fixed(range(2), 8, 2) // " deg in the contact area")
+      end if
+      call log%line(" Moments about the reference MX, MS, MN:" // smarts([s, 1.0_wp, s]*patch%moment) // " N mm")
+   end subroutine write_curved_contact
 
    !> Creepages of the patch
    subroutine write_patch_kinematics(log, patch, s)
@@ -492,7 +520,7 @@ contains
       associate (contact => patch%contact)
          if (conformal) then
             call log%result("   BAR_FN      BAR_FX      BAR_FS        MN         ELAST.EN.   FRIC.POWER")
-            call log%result("  " // smarts([patch%force(3), patch%force(1), s*patch%force(2), s*totals%mz, &
+            call log%result("  " // smarts([patch%force(3), patch%force(1), s*patch%force(2), s*patch%moment(3), &
                & totals%elastic_energy, contact%friction_power]))
             names(1) = "  TILDE_FN  "
             first = patch%tilde_fn

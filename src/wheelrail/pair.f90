@@ -22,6 +22,8 @@ module contact_wheelrail_pair
    use contact_wheelrail_carry_over, only : carried_moment, lattice_box, lattice_window, place_on_lattice
    use contact_wheelrail_bodies, only : pair_bodies, place_bodies, rail_section
    use contact_wheelrail_creepage, only : contact_motion, flat_creepage, flat_shift, rigid_motion
+   use contact_wheelrail_curved_patch, only : curved_forces, curved_reference, curved_rows, fit_creepages, &
+      & new_curved_reference, straight_reference, surface_heights, surface_slip
    use contact_wheelrail_flat_patch, only : patch_frame, patch_grid, undeformed_distance
    use contact_wheelrail_force_balance, only : balance_ending, force_balance
    use contact_wheelrail_frame, only : frame
@@ -60,6 +62,8 @@ module contact_wheelrail_pair
       !> Parameters at control points: angles [rad] or positions along the track [mm], rising
       real(wp), allocatable :: control_point(:)
       type(friction_parameters), allocatable :: control(:)
+      !> The rail's part of the compliance of both bodies [-]
+      real(wp) :: rail_share = 0.5_wp
       !> Elements of a patch at most
       integer :: most_elements = 20000
    end type pair_problem
@@ -77,6 +81,10 @@ module contact_wheelrail_pair
       type(patch_result) :: result
       type(contact_region) :: region
       type(frame) :: plane
+      !> Curved reference surface; unallocated for a flat patch whose slip is that of its reference
+      type(curved_reference), allocatable :: curve
+      !> Heights of rail and wheel over that surface [mm], shape (mx, my)
+      real(wp), allocatable :: on_rail(:, :), on_wheel(:, :)
       type(contact_motion) :: motion
       !> Place of the contact reference on the lattice of the pair [mm]
       real(wp) :: reference(2) = 0.0_wp
@@ -84,6 +92,8 @@ module contact_wheelrail_pair
       type(lattice_window) :: window, solved_window
       !> Patches of the previous moment that this one continues
       integer, allocatable :: previous(:)
+      !> Forces [N] and moment [N mm] on the rail in the axes x, s, n of the plane
+      real(wp) :: force(3) = 0.0_wp, moment(3) = 0.0_wp
       !> Force of the pressures on the rail in the axes x, s, n of the plane [N]
       real(wp) :: pressure_force(3) = 0.0_wp
       !> Force of friction in the same axes, relative to the normal force [-]: of the last tangential
@@ -107,7 +117,7 @@ module contact_wheelrail_pair
       type(gap_curve) :: gap
       !> The rail at the wheelset
       type(profile_curve) :: rail_in_track
-      !> Sections of bodies that vary; used when `searches_table`
+      !> Sections of bodies that vary; used when `searches_table` or with curved reference surfaces
       type(pair_bodies) :: bodies
       logical :: searches_table = .false.
       type(pair_placement) :: placement
@@ -178,15 +188,17 @@ contains
       memory%here%rail_in_track = rail_at(problem, memory%here%placement, 0.0_wp)
       memory%here%profile_origin = memory%here%rail_in_track%s_at(memory%here%placement%rail%origin(2))
       memory%here%searches_table = allocated(problem%rail_surface) .or. allocated(problem%wheel_surface) &
-         & .or. problem%spec%search%location == contact_location%grid
-      if (memory%here%searches_table) then
+         & .or. any(problem%spec%search%location == [contact_location%grid, contact_location%steep_grid])
+      if (memory%here%searches_table .or. follows_surface(problem)) then
          memory%here%bodies%rail = memory%here%rail_in_track
          memory%here%bodies%wheel = problem%wheel
          memory%here%bodies%placement = memory%here%placement
          call place_bodies(memory%here%bodies, problem%spec%wheelset%s, problem%spec%wheelset%pitch, problem%rail_surface, &
             & problem%wheel_surface)
+      end if
+      if (memory%here%searches_table) then
          call measure_variable_gap(memory%here%bodies, problem%spec%search%ds, allocated(problem%wheel_surface) &
-            & .or. problem%spec%search%location == contact_location%grid, memory%here%gap)
+            & .or. any(problem%spec%search%location == [contact_location%grid, contact_location%steep_grid]), memory%here%gap)
       else
          call measure_gap(memory%here%rail_in_track, problem%wheel, memory%here%placement, problem%spec%search%ds, memory%here%gap)
       end if
@@ -289,6 +301,12 @@ contains
       s = here%rail_in_track%s_at(region%box%y) - here%profile_origin
       box%s = [minval(s), maxval(s)]
    end function box_on_lattice
+
+   !> Do distances and slip of a patch follow a reference surface row by row?
+   pure logical function follows_surface(problem) result(follows)
+      type(pair_problem), intent(in) :: problem
+      follows = any(problem%spec%search%location == [contact_location%conformal, contact_location%locus_extended])
+   end function follows_surface
 
    !> The rail's profile in track coordinates at a place along it; of a variable one within its slices
    function rail_at(problem, placement, x) result(curve)
@@ -572,11 +590,13 @@ contains
       type(patch_slot), intent(in) :: slot
       real(wp) :: share(3)
       integer :: k
-      real(wp) :: nearest
+      real(wp) :: nearest, mu
 
       share = 0.0_wp
       if (problem%template%motion == motion%none) return
-      share(2) = slot%problem%mu*sin(slot%plane%roll())
+      mu = slot%problem%mu
+      if (allocated(slot%problem%static_mu)) mu = sum(slot%problem%static_mu)/size(slot%problem%static_mu)
+      share(2) = mu*sin(slot%plane%roll())
       nearest = same_place
       do k = 1, here%shares
          associate (known => here%learned(k))
@@ -619,18 +639,26 @@ contains
       slot%plane = patch_frame(rail, here%placement, slot%region)
       call move_alloc(slot%problem%h, h)
       slot%problem = problem%template
+      if (allocated(slot%curve)) deallocate(slot%curve)
       slot%reference = [lattice_x(problem, here, slot%region%x), rail%s_at(slot%region%y) - here%profile_origin]
       if (keeps_lattice(problem)) then
          call patch_grid(rail, problem%spec%search, slot%region, slot%plane, slot%reference, huge(1), slot%problem%grid)
-         slot%window = place_on_lattice(slot%problem%grid, slot%reference)
-         call here%before%widen(number, slot%window, slot%problem%grid)
       else
          ! the reference is the centre of an element
          call patch_grid(rail, problem%spec%search, slot%region, slot%plane, [0.0_wp, 0.0_wp], problem%most_elements, &
             & slot%problem%grid)
+      end if
+      if (problem%spec%search%location == contact_location%conformal) &
+         & call curved_rows(rail, here%bodies, slot%region, slot%plane, slot%problem%grid)
+      if (keeps_lattice(problem)) then
+         slot%window = place_on_lattice(slot%problem%grid, slot%reference)
+         call here%before%widen(number, slot%window, slot%problem%grid)
+      else
          slot%window = place_on_lattice(slot%problem%grid, [0.0_wp, 0.0_wp])
       end if
-      if (here%searches_table) then
+      if (follows_surface(problem)) then
+         call follow_surface(problem, here, rail, slot, h, approach)
+      else if (here%searches_table) then
          call variable_distance(here%bodies, slot%plane, slot%problem%grid, h, approach)
       else
          call undeformed_distance(rail, problem%wheel, here%placement, slot%plane, slot%problem%grid, h, approach)
@@ -652,9 +680,15 @@ contains
       if (allocated(error)) return
       call solve_patch(slot%problem, slot%state, slot%workspace, log, slot%result, error)
       if (allocated(error)) return
-      slot%pressure_force = [0.0_wp, 0.0_wp, slot%result%fn]
+      if (allocated(slot%curve)) then
+         call curved_forces(slot%curve, slot%plane, slot%result, slot%pressure_force, slot%force, slot%moment)
+      else
+         slot%pressure_force = [0.0_wp, 0.0_wp, slot%result%fn]
+         slot%force = [slot%result%fx, slot%result%fy, slot%result%fn]
+         slot%moment = [slot%result%mx, slot%result%my, slot%result%mz]
+      end if
       if (with_friction .and. problem%template%motion /= motion%none .and. slot%result%fn > 0.0_wp) then
-         slot%friction_share = [slot%result%fx, slot%result%fy, 0.0_wp]/slot%result%fn
+         slot%friction_share = (slot%force - slot%pressure_force)/slot%result%fn
       end if
    end subroutine solve_slot
 
@@ -702,6 +736,37 @@ contains
       end associate
    end subroutine link_slot
 
+   !> Reference surface of a patch at the rows of its grid, and the undeformed distance along its normals
+   subroutine follow_surface(problem, here, rail, slot, h, approach)
+      type(pair_problem), intent(in) :: problem
+      type(pair_geometry), intent(in) :: here
+      !> The rail in track coordinates in the section of the reference
+      type(profile_curve), intent(in) :: rail
+      !> With its grid
+      type(patch_slot), intent(inout) :: slot
+      !> Undeformed distance [mm] with its minimum at zero, shape (mx, my)
+      real(wp), allocatable, intent(inout) :: h(:, :)
+      !> Largest interpenetration along normals [mm]
+      real(wp), intent(out) :: approach
+      integer :: iy
+
+      associate (patch => slot%problem)
+         if (problem%spec%search%location == contact_location%conformal) then
+            slot%curve = new_curved_reference(rail, here%bodies, slot%plane, patch%grid)
+         else
+            slot%curve = straight_reference(slot%plane, patch%grid)
+         end if
+         call surface_heights(here%bodies, slot%curve, patch%grid, slot%on_rail, slot%on_wheel)
+         h = slot%on_rail - slot%on_wheel
+         approach = -minval(h)
+         h = h + approach
+         if (allocated(patch%model%inclination)) then
+            patch%model%inclination%s = [(patch%grid%y(iy), iy=1, patch%grid%my)]
+            patch%model%inclination%alpha = slot%curve%alpha
+         end if
+      end associate
+   end subroutine follow_surface
+
    !> Elements of the parts of a blended patch; what is outside of all parts cannot make contact
    subroutine divide_patch(problem, slot)
       type(pair_problem), intent(in) :: problem
@@ -716,6 +781,7 @@ contains
          parts%interaction = slot%region%interaction
          do iy = 1, grid%my
             y = plane%origin(2) + cos(plane%roll())*grid%y(iy)
+            if (allocated(slot%curve)) y = slot%curve%y(iy)
             do ix = 1, grid%mx
                do k = 1, size(slot%region%part)
                   associate (box => slot%region%part(k))
@@ -738,8 +804,18 @@ contains
       type(patch_slot), intent(inout) :: slot
       type(error_type), allocatable, intent(out) :: error
       type(friction_parameters) :: here
+      integer :: iy
 
       associate (patch => slot%problem)
+         if (allocated(patch%static_mu)) deallocate(patch%static_mu)
+         if (friction_by_row(problem) .and. problem%template%motion /= motion%none) then
+            call new_friction_law(problem%friction_law, [(parameters_at(problem, slot%curve%alpha(iy)), iy=1, patch%grid%my)], &
+               & patch%friction, error)
+            if (allocated(error)) return
+            patch%mu = 1.0_wp
+            patch%static_mu = patch%friction%sets%static
+            return
+         end if
          if (problem%variation /= variation%none .and. problem%template%motion /= motion%none) then
             if (problem%variation == variation%by_angle) then
                here = parameters_at(problem, slot%plane%roll())
@@ -752,10 +828,15 @@ contains
                if (allocated(error)) return
             end if
          end if
-         if (allocated(patch%static_mu)) deallocate(patch%static_mu)
          if (allocated(patch%friction)) allocate(patch%static_mu(patch%grid%my), source=patch%mu)
       end associate
    end subroutine set_patch_friction
+
+   !> Does friction follow the inclination of the rail within a patch?
+   pure logical function friction_by_row(problem) result(by_row)
+      type(pair_problem), intent(in) :: problem
+      by_row = problem%variation == variation%by_angle .and. problem%spec%search%location == contact_location%conformal
+   end function friction_by_row
 
    !> Parameters between control points, by linear interpolation; constant beyond them
    pure function parameters_at(problem, position) result(here)
@@ -816,6 +897,7 @@ contains
                & plane%roll(), problem%spec%roller)
          end if
       end associate
+      if (allocated(slot%curve)) call set_surface_slip(problem, rail, wheel, slot)
       associate (patch => slot%problem)
          patch%creep = [slot%motion%cksi, slot%motion%ceta]
          patch%spin = slot%motion%cphi
@@ -833,6 +915,31 @@ contains
          end if
       end associate
    end subroutine set_motion
+
+   !> Slip element by element on a reference surface: creepages that describe it best, and the remainder
+   subroutine set_surface_slip(problem, rail, wheel, slot)
+      type(pair_problem), intent(in) :: problem
+      type(rigid_motion), intent(in) :: rail, wheel
+      !> With the motion at the contact reference on entry
+      type(patch_slot), intent(inout) :: slot
+      real(wp) :: before
+
+      associate (patch => slot%problem)
+         before = slot%motion%veloc
+         ! on the track the rolling velocity is the forward one, unless the wheel turns on the spot
+         if (problem%template%motion /= motion%shift .and. .not. problem%spec%roller &
+            & .and. abs(problem%spec%wheelset%vs) > 0.0_wp) slot%motion%veloc = abs(problem%spec%wheelset%vs)
+         call surface_slip(rail, wheel, slot%curve, patch%grid, slot%on_rail, slot%on_wheel, problem%rail_share, &
+            & patch%extra_slip)
+         if (.not. slot%motion%veloc > 0.0_wp) then
+            patch%extra_slip = 0.0_wp
+            return
+         end if
+         patch%extra_slip = patch%extra_slip/slot%motion%veloc
+         slot%motion%cphi = slot%motion%cphi*before/slot%motion%veloc
+         call fit_creepages(patch%grid, slot%on_rail < slot%on_wheel, patch%extra_slip, slot%motion)
+      end associate
+   end subroutine set_surface_slip
 
    !> Collect the patches and sum up their forces
    subroutine gather(problem, memory, result)
@@ -865,11 +972,16 @@ contains
          if (.not. allocated(result%patches)) allocate(result%patches(memory%used))
          do k = 1, memory%used
             call describe_patch(memory%here, memory%slot(k), result%patches(k))
+            if (allocated(result%patches(k)%curve)) deallocate(result%patches(k)%curve)
+            if (problem%spec%search%location == contact_location%conformal) then
+               associate (curve => memory%slot(k)%curve)
+                  result%patches(k)%curve = transpose(reshape([curve%y, curve%z, curve%alpha], [size(curve%y), 3]))
+               end associate
+            end if
+            result%patches(k)%friction_varies = friction_by_row(problem)
             axes = memory%slot(k)%plane%axes
             force = matmul(axes, result%patches(k)%force)
-            associate (contact => result%patches(k)%contact)
-               moment = matmul(axes, [contact%mx, contact%my, contact%mz])
-            end associate
+            moment = matmul(axes, result%patches(k)%moment)
             result%force_track = result%force_track + force
             result%moment_rail = result%moment_rail + moment + cross(memory%slot(k)%plane%origin - p%rail%origin, force)
             result%moment_wheel = result%moment_wheel + moment + cross(memory%slot(k)%plane%origin - p%wheel%origin, force)
@@ -911,7 +1023,8 @@ contains
       patch%y_wheel = local(2)
       patch%z_wheel = local(3)
       patch%contact = slot%result
-      patch%force = [slot%result%fx, slot%result%fy, slot%result%fn]
+      patch%force = slot%force
+      patch%moment = slot%moment
       patch%tilde_fn = slot%result%fn
    end subroutine describe_patch
 end module contact_wheelrail_pair

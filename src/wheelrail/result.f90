@@ -33,6 +33,8 @@ module contact_wheelrail_result
       !> Forces on the rail in the axes x, s, n of the reference [N]: those of `contact` for flat patches,
       !> rotated row by row for conformal ones
       real(wp) :: force(3) = 0.0_wp
+      !> Moment about the reference in the same axes [N mm]
+      real(wp) :: moment(3) = 0.0_wp
       !> Tractions, slip, totals in the axes of the patch
       type(patch_result) :: contact
    end type pair_patch
