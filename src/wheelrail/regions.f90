@@ -3,8 +3,10 @@
 !> Every stretch where the bodies interpenetrate becomes a region with a reference: the mean of position
 !> and surface angle, weighted by the square of the interpenetration (contact model of a wheel that is
 !> round along the track). Regions close to each other are joined: combined to one patch, blended to one
-!> patch with several parts, or turned towards a common angle.
+!> patch with several parts, or turned towards a common angle. Instead of the mean, the deepest point of a region
+!> and the surface angle there can be its reference.
 module contact_wheelrail_regions
+   use contact_base_choices, only : contact_location
    use contact_base_constants, only : pi
    use contact_base_kinds, only : wp
    use contact_wheelrail_gap, only : gap_curve, no_surface
@@ -24,6 +26,8 @@ module contact_wheelrail_regions
       type(region_box) :: box
       !> Reference: position [mm] in track coordinates and surface angle [rad]
       real(wp) :: x = 0.0_wp, y = 0.0_wp, alpha = 0.0_wp
+      !> The same at the deepest point
+      real(wp) :: deepest(3) = 0.0_wp
       !> Sum of weights
       real(wp) :: weight = 0.0_wp
       !> Smallest gap [mm], negative for interpenetration
@@ -75,7 +79,11 @@ contains
       call sort_regions(regions)
       call join_regions(search, regions)
       call shift_near_misses(search, misses, regions)
-      call turn_regions(search, regions)
+      if (search%location == contact_location%first_contact) then
+         call refer_to_deepest(regions)
+      else
+         call turn_regions(search, regions)
+      end if
       call avoid_vertical(regions)
    end subroutine find_regions
 
@@ -174,7 +182,7 @@ contains
       ! a patch that reaches the end of the profile: as long on that side as on the other one
       if (first == 1) region%box%y(1) = 2.0_wp*region%y - region%box%y(2)
       if (last == gap%n) region%box%y(2) = 2.0_wp*region%y - region%box%y(1)
-      region%gap = deepest(g, first, last)
+      call find_deepest(gap, g, first, last, region%gap, region%deepest)
       allocate(region%part(1), source=region%box)
       allocate(region%interaction(1, 1), source=1.0_wp)
    end subroutine describe
@@ -271,20 +279,29 @@ contains
       z = gap%z(i) + (gap%z(j) - gap%z(i))*(y - gap%y(i))/(gap%y(j) - gap%y(i))
    end function height_at
 
-   !> Smallest gap of a stretch, between mesh points by a parabola
-   pure real(wp) function deepest(g, first, last) result(lowest)
+   !> Smallest gap of a stretch, between mesh points by a parabola, and its place
+   pure subroutine find_deepest(gap, g, first, last, lowest, place)
+      type(gap_curve), intent(in) :: gap
       real(wp), intent(in) :: g(:)
       integer, intent(in) :: first, last
-      integer :: i
-      real(wp) :: bend
+      real(wp), intent(out) :: lowest
+      !> Position x, y [mm] and surface angle [rad]
+      real(wp), intent(out) :: place(3)
+      integer :: i, next
+      real(wp) :: bend, shift
 
       i = first - 1 + minloc(g(first:last), dim=1)
       lowest = g(i)
+      place = [gap%x(i), gap%y(i), gap%alpha(i)]
       if (i <= 1 .or. i >= size(g)) return
       if (abs(g(i - 1) - g(i)) > 1.0_wp .or. abs(g(i + 1) - g(i)) > 1.0_wp) return
       bend = g(i - 1) - 2.0_wp*g(i) + g(i + 1)
-      if (bend > 0.0_wp) lowest = g(i) - 0.125_wp*(g(i + 1) - g(i - 1))**2/bend
-   end function deepest
+      if (.not. bend > 0.0_wp) return
+      shift = 0.5_wp*(g(i - 1) - g(i + 1))/bend
+      lowest = g(i) - 0.5_wp*bend*shift**2
+      next = i + merge(1, -1, shift > 0.0_wp)
+      place = place + abs(shift)*([gap%x(next), gap%y(next), gap%alpha(next)] - place)
+   end subroutine find_deepest
 
    !> A place where the bodies nearly touch
    pure subroutine describe_miss(gap, g, i, region)
@@ -298,7 +315,8 @@ contains
       region%alpha = gap%alpha(i)
       region%weight = least_weight
       ! a miss does not become a contact by interpolation
-      region%gap = max(1.0e-10_wp, deepest(g, i, i))
+      call find_deepest(gap, g, i, i, region%gap, region%deepest)
+      region%gap = max(1.0e-10_wp, region%gap)
       region%box%x = gap%x(i)
       region%box%y = gap%y(i)
       region%box%z = gap%z(i)
@@ -386,6 +404,7 @@ contains
             both%alpha = w(1)*a%alpha + w(2)*b%alpha
             both%weight = a%weight + b%weight
             both%gap = min(a%gap, b%gap)
+            if (b%gap < a%gap) both%deepest = b%deepest
             both%box%x = [min(a%box%x(1), b%box%x(1)), max(a%box%x(2), b%box%x(2))]
             both%box%y = [b%box%y(1), a%box%y(2)]
             both%box%z = [b%box%z(1), a%box%z(2)]
@@ -460,6 +479,18 @@ contains
          end associate
       end do
    end subroutine turn_regions
+
+   !> The deepest point of each region becomes its reference
+   pure subroutine refer_to_deepest(regions)
+      type(contact_region), intent(inout) :: regions(:)
+      integer :: i
+
+      do i = 1, size(regions)
+         regions(i)%x = regions(i)%deepest(1)
+         regions(i)%y = regions(i)%deepest(2)
+         regions(i)%alpha = regions(i)%deepest(3)
+      end do
+   end subroutine refer_to_deepest
 
    !> Planes that are nearly vertical are turned away from it
    subroutine avoid_vertical(regions)

@@ -1,0 +1,440 @@
+!> Wheel on rail with curved contact patches
+!>
+!> A sphere in a cylindrical groove has no preferred direction about the axis of the groove: contact at any angle is the
+!> same problem, rotated. Its slip is known in closed form; large radii give flat patches.
+program test_conformal
+   use contact_base_choices, only : contact_location, kernel_model, motion, variation
+   use contact_base_constants, only : pi
+   use contact_base_error, only : error_type, full_text
+   use contact_base_kinds, only : wp
+   use contact_base_log, only : log_type
+   use contact_elastic_material, only : combine
+   use contact_friction_law, only : friction_parameters
+   use contact_grid_potential_contact, only : potential_contact
+   use contact_numeric_spline, only : cubic_spline, natural_splines
+   use contact_profile_curve, only : new_curve, profile_curve
+   use contact_profile_request, only : profile_side
+   use contact_test_harness, only : test_suite
+   use contact_wheelrail_creepage, only : contact_motion, rigid_motion
+   use contact_wheelrail_curved_patch, only : curved_reference, fit_creepages, straight_reference, surface_slip
+   use contact_wheelrail_frame, only : new_frame
+   use contact_wheelrail_pair, only : pair_memory, pair_problem, release_pair, solve_pair
+   use contact_wheelrail_result, only : pair_result
+   implicit none (type, external)
+   !> Sphere and groove [mm], how far their centres are moved together beyond first touch [mm]
+   real(wp), parameter :: sphere = 100.0_wp, groove = 105.0_wp, pressed = 0.05_wp
+   type(test_suite) :: suite
+
+   call suite%start("conformal")
+   call any_direction(suite)
+   call mirrored(suite)
+   call flat_limit(suite)
+   call inclined_coefficients(suite)
+   call slip_in_groove(suite)
+   call slip_on_interface(suite)
+   call fitted_slip(suite)
+   call friction_by_angle(suite)
+   call hard_cases(suite)
+   call suite%finish()
+
+contains
+
+   !> A profile through points of a circle around (0, z), y rising for rails and falling for wheels
+   function arc(side, z, radius, half_angle) result(curve)
+      !> Member of profile_side
+      integer, intent(in) :: side
+      real(wp), intent(in) :: z, radius, half_angle
+      type(profile_curve) :: curve
+      integer, parameter :: n = 801
+      real(wp) :: angle(n), s(n), f(n, 2)
+      type(cubic_spline), allocatable :: splines(:)
+      logical :: solved
+      integer :: i
+
+      angle = half_angle*[((2.0_wp*i - n - 1)/(n - 1), i=1, n)]
+      if (side == profile_side%wheel) angle = -angle
+      s = radius*abs(angle - angle(1))
+      f(:, 1) = radius*sin(angle)
+      f(:, 2) = z + radius*cos(angle)
+      call natural_splines(s, f, splines, solved)
+      curve = new_curve(side, splines(1), splines(2))
+   end function arc
+
+   !> A sphere in a groove whose axis goes through the origin; it is moved from there towards an angle
+   function sphere_in_groove(angle, location) result(problem)
+      !> From the vertical, positive towards the gauge side [rad]
+      real(wp), intent(in) :: angle
+      !> Member of contact_location
+      integer, intent(in) :: location
+      type(pair_problem) :: problem
+
+      problem%rail = arc(profile_side%rail, 0.0_wp, groove, 1.45_wp)
+      ! the profile is that of a wheel whose lowest point is its origin
+      problem%wheel = arc(profile_side%wheel, -sphere, sphere, 1.45_wp)
+      associate (spec => problem%spec)
+         spec%track%gaught = -1.0_wp
+         spec%wheelset%fbdist = 0.0_wp
+         spec%wheelset%fbpos = 0.0_wp
+         spec%wheelset%nomradw = sphere
+         spec%wheelset%y = -(groove - sphere + pressed)*sin(angle)
+         spec%wheelset%z = sphere + (groove - sphere + pressed)*cos(angle)
+         spec%search%location = location
+         spec%search%dx = 0.2_wp
+         spec%search%ds = 0.4_wp
+         spec%wheelset%vs = 1000.0_wp
+      end associate
+      associate (patch => problem%template)
+         patch%model%material = combine([0.28_wp, 0.28_wp], [80000.0_wp, 80000.0_wp])
+         patch%motion = motion%none
+         patch%grid%my = 1
+         patch%mu = 0.3_wp
+         patch%eps = 1.0e-7_wp
+      end associate
+      ! the pitch rate of a wheel that rolls at the bottom
+      problem%spec%wheelset%vpitch = -problem%spec%wheelset%vs/sphere
+   end function sphere_in_groove
+
+   subroutine solve(suite, problem, result, what)
+      type(test_suite), intent(inout) :: suite
+      type(pair_problem), intent(in) :: problem
+      type(pair_result), intent(out) :: result
+      character(len=*), intent(in) :: what
+      type(pair_memory) :: memory
+      type(error_type), allocatable :: error
+      type(log_type) :: log
+
+      call solve_pair(problem, memory, log, result, error)
+      if (allocated(error)) then
+         call suite%check(.false., what // ": " // full_text(error))
+         allocate(result%patches(0))
+      end if
+      call release_pair(memory)
+   end subroutine solve
+
+   !> Size and direction of the force, and its lever, do not depend on where in the groove the sphere is
+   subroutine any_direction(suite)
+      type(test_suite), intent(inout) :: suite
+      real(wp), parameter :: angle(3) = [0.3_wp, 0.7_wp, 1.1_wp]
+      type(pair_result) :: bottom, side
+      real(wp) :: force
+      integer :: k
+
+      call solve(suite, sphere_in_groove(0.0_wp, contact_location%conformal), bottom, "bottom")
+      call suite%check(size(bottom%patches) == 1, "one patch at the bottom")
+      if (size(bottom%patches) /= 1) return
+      force = norm2(bottom%force_track)
+      call suite%check(force > 1000.0_wp, "there is a force")
+      call suite%check(maxval(abs(bottom%patches(1)%curve(3, :))) > 0.1_wp, "the patch is curved")
+      call suite%close_to(bottom%force_track(2), 0.0_wp, 1.0e-9_wp*force, "no lateral force at the bottom")
+      do k = 1, size(angle)
+         call solve(suite, sphere_in_groove(angle(k), contact_location%conformal), side, "side")
+         call suite%check(size(side%patches) == 1, "one patch at the side")
+         if (size(side%patches) /= 1) cycle
+         ! rows lie elsewhere relative to the deepest point
+         call suite%close_to(norm2(side%force_track), force, 2.0e-3_wp*force, "the same force in any direction")
+         call suite%close_to(side%patches(1)%contact%pmax, bottom%patches(1)%contact%pmax, 0.01_wp*bottom%patches(1)%contact%pmax, &
+            & "the same largest pressure")
+         call suite%close_to(side%force_track(2:3)/force, [-sin(angle(k)), cos(angle(k))], 2.0e-3_wp, "the force is rotated")
+         ! all pressures are normal to the groove: no moment about its axis, where the marker of the rail is
+         call suite%close_to(side%moment_rail(1), 0.0_wp, 2.0e-3_wp*force*pressed, "no moment about the axis of the groove")
+         call suite%close_to(side%patches(1)%contact%pen, pressed, 1.0e-3_wp*pressed, "approach along the normal")
+      end do
+   end subroutine any_direction
+
+   !> Reflection of a problem with friction reflects its solution
+   subroutine mirrored(suite)
+      type(test_suite), intent(inout) :: suite
+      type(pair_problem) :: problem
+      type(pair_result) :: one, other
+      real(wp), parameter :: angle = 0.5_wp
+
+      problem = sphere_in_groove(angle, contact_location%conformal)
+      problem%template%motion = motion%steady_rolling
+      call solve(suite, problem, one, "gauge side")
+      problem = sphere_in_groove(-angle, contact_location%conformal)
+      problem%template%motion = motion%steady_rolling
+      call solve(suite, problem, other, "field side")
+      call suite%check(size(one%patches) == 1 .and. size(other%patches) == 1, "one patch each")
+      if (size(one%patches) /= 1 .or. size(other%patches) /= 1) return
+      associate (a => one%patches(1), b => other%patches(1))
+         call suite%check(abs(a%contact%fx) > 10.0_wp, "friction acts")
+         call suite%close_to([a%force(1), -a%force(2), a%force(3)], b%force, 1.0e-5_wp*b%force(3), "forces are reflected")
+         call suite%close_to([-a%moment(1), a%moment(2), -a%moment(3)], b%moment, 1.0e-3_wp*maxval(abs(b%moment)), &
+            & "moments are reflected")
+         call suite%close_to([a%contact%cksi, -a%contact%ceta, -a%contact%cphi], &
+            & [b%contact%cksi, b%contact%ceta, b%contact%cphi], 1.0e-6_wp*abs(b%contact%cksi) + 1.0e-9_wp, "creepages are reflected")
+         call suite%equal(a%contact%nslip, b%contact%nslip, "as many elements slip")
+         ! what is found with the axes of the rows is what the tractions say
+         call suite%close_to(a%tilde_fn, a%contact%grid%dx*a%contact%grid%dy*sum(a%contact%pn), 1.0e-9_wp*a%tilde_fn, "plain sum")
+      end associate
+   end subroutine mirrored
+
+   !> A ball on a rail with a radius of 2 m: curved, straight and flat references agree
+   subroutine flat_limit(suite)
+      type(test_suite), intent(inout) :: suite
+      type(pair_problem) :: problem
+      type(pair_result) :: flat, straight, curved
+      integer, parameter :: locations(3) = [contact_location%locus, contact_location%locus_extended, contact_location%conformal]
+      integer :: k
+
+      do k = 1, 3
+         problem = sphere_in_groove(0.0_wp, locations(k))
+         problem%rail = arc(profile_side%rail, -2000.0_wp, 2000.0_wp, 0.05_wp)
+         problem%spec%track%railz0 = 0.0_wp
+         problem%spec%wheelset%y = 0.0_wp
+         problem%spec%wheelset%z = 0.05_wp
+         problem%spec%wheelset%yaw = 0.002_wp
+         problem%spec%wheelset%vpitch = 1.001_wp*problem%spec%wheelset%vpitch
+         problem%spec%search%ds = 0.2_wp
+         problem%template%motion = motion%steady_rolling
+         if (k == 1) call solve(suite, problem, flat, "flat")
+         if (k == 2) call solve(suite, problem, straight, "straight")
+         if (k == 3) call solve(suite, problem, curved, "curved")
+      end do
+      call suite%check(size(flat%patches) == 1 .and. size(straight%patches) == 1 .and. size(curved%patches) == 1, "one patch each")
+      if (size(flat%patches) /= 1 .or. size(straight%patches) /= 1 .or. size(curved%patches) /= 1) return
+      call suite%check(abs(flat%force_track(1)) > 100.0_wp .and. abs(flat%force_track(2)) > 100.0_wp, "creep forces act")
+      call suite%close_to(maxval(abs(straight%patches(1)%contact%h - flat%patches(1)%contact%h)), 0.0_wp, 1.0e-9_wp, &
+         & "distance over a plane, row by row")
+      call suite%close_to(straight%patches(1)%contact%fn, flat%patches(1)%contact%fn, 1.0e-6_wp*flat%patches(1)%contact%fn, &
+         & "the same pressures over a plane")
+      ! creepages are relative to the forward speed here, to the mean of two speeds there
+      call suite%close_to(straight%patches(1)%contact%cksi, flat%patches(1)%contact%cksi, 2.0e-6_wp, "creepage, straight")
+      call suite%close_to(straight%patches(1)%contact%ceta, flat%patches(1)%contact%ceta, 2.0e-6_wp, "lateral creepage, straight")
+      call suite%close_to(straight%patches(1)%contact%cphi, flat%patches(1)%contact%cphi, 1.0e-5_wp, "spin, straight")
+      call suite%close_to(straight%force_track, flat%force_track, 2.0e-3_wp*abs(flat%force_track(1)), "forces, straight")
+      call suite%close_to(curved%patches(1)%tilde_fn, flat%patches(1)%contact%fn, 1.0e-3_wp*flat%patches(1)%contact%fn, &
+         & "nearly flat: normal force")
+      call suite%close_to(curved%force_track, flat%force_track, 5.0e-3_wp*abs(flat%force_track(1)), "nearly flat: forces")
+      call suite%check(allocated(curved%patches(1)%curve) .and. .not. allocated(straight%patches(1)%curve), &
+         & "a curve is told for conformal contact only")
+   end subroutine flat_limit
+
+   !> Corrected coefficients: those of half-spaces in a plane, less pressure in a groove, all variants; bilinear ones
+   subroutine inclined_coefficients(suite)
+      type(test_suite), intent(inout) :: suite
+      type(pair_problem) :: problem
+      type(pair_result) :: plain, corrected
+      integer :: variant
+
+      call solve(suite, sphere_in_groove(0.0_wp, contact_location%conformal), plain, "half-space")
+      problem = sphere_in_groove(0.0_wp, contact_location%conformal)
+      problem%template%model%kernel = kernel_model%bilinear
+      call solve(suite, problem, corrected, "bilinear")
+      if (size(plain%patches) /= 1 .or. size(corrected%patches) /= 1) return
+      call suite%close_to(corrected%patches(1)%contact%fn, plain%patches(1)%contact%fn, 5.0e-3_wp*plain%patches(1)%contact%fn, &
+         & "bilinear pressures")
+      call suite%check(abs(corrected%patches(1)%contact%fn - plain%patches(1)%contact%fn) > 1.0e-6_wp*plain%patches(1)%contact%fn, &
+         & "bilinear pressures are others")
+      do variant = 1, 4
+         problem = sphere_in_groove(0.0_wp, contact_location%conformal)
+         problem%template%model%kernel = kernel_model%conformal
+         allocate(problem%template%model%inclination)
+         problem%template%model%inclination%variant = variant
+         problem%template%model%inclination%uniform = variant == 1
+         call solve(suite, problem, corrected, "corrected")
+         if (size(corrected%patches) /= 1) cycle
+         ! the groove is softer than a half-space by some per cent at angles of 0.2
+         call suite%check(corrected%patches(1)%contact%pmax < 0.999_wp*plain%patches(1)%contact%pmax .and. &
+            & corrected%patches(1)%contact%pmax > 0.9_wp*plain%patches(1)%contact%pmax, "correction of a groove")
+      end do
+   end subroutine inclined_coefficients
+
+   !> A ball that rolls at the bottom of a groove slips by V (1 - cos alpha) on the flanks, everywhere along the track
+   subroutine slip_in_groove(suite)
+      type(test_suite), intent(inout) :: suite
+      type(pair_problem) :: problem
+      type(pair_result) :: result
+      real(wp) :: expected, worst, found
+      integer :: ix, iy
+
+      problem = sphere_in_groove(0.0_wp, contact_location%conformal)
+      problem%template%motion = motion%steady_rolling
+      call solve(suite, problem, result, "ball in a groove")
+      if (size(result%patches) /= 1) return
+      worst = 0.0_wp
+      associate (contact => result%patches(1)%contact, curve => result%patches(1)%curve)
+         do iy = 1, contact%grid%my
+            do ix = 1, contact%grid%mx
+               if (contact%pn(ix, iy) <= 0.0_wp) cycle
+               ! the rail is at rest, the wheel's lowest point, too
+               expected = 1.0_wp - cos(curve(3, iy))
+               found = contact%wx(ix, iy)/contact%dq
+               ! the reference surface is nearer to the axle than the wheel by half the approach
+               worst = max(worst, abs(found + expected))
+            end do
+         end do
+         call suite%check(maxval(abs(curve(3, :))) > 0.1_wp, "angles are large")
+         call suite%close_to(worst, 0.0_wp, 1.0e-4_wp, "slip on the flanks of a groove")
+      end associate
+   end subroutine slip_in_groove
+
+   !> Particles slide on the surface of the stiffer body
+   subroutine slip_on_interface(suite)
+      type(test_suite), intent(inout) :: suite
+      type(rigid_motion) :: rail, wheel
+      type(curved_reference) :: curve
+      type(potential_contact) :: grid
+      real(wp), allocatable :: slip(:, :, :)
+      real(wp) :: on_rail(41, 3), on_wheel(41, 3), angle
+      real(wp), parameter :: v = 1000.0_wp, radius = 400.0_wp
+      integer :: ix
+
+      grid = potential_contact(41, 3, -10.25_wp, -0.75_wp, 0.5_wp, 0.5_wp)
+      curve = straight_reference(new_frame([0.0_wp, 0.0_wp, 0.0_wp], 0.0_wp, 0.0_wp), grid)
+      wheel%origin = [0.0_wp, 0.0_wp, -radius]
+      wheel%velocity = [v, 0.0_wp, 0.0_wp]
+      wheel%rotation = [0.0_wp, -v/radius, 0.0_wp]
+      on_rail = 0.0_wp
+      do ix = 1, grid%mx
+         on_wheel(ix, :) = sqrt(radius**2 - grid%x(ix)**2) - radius
+      end do
+      call surface_slip(rail, wheel, curve, grid, on_rail, on_wheel, 0.0_wp, slip)
+      ! a rigid rail: the wheel's surface moves backwards along the rail by V cos
+      do ix = 2, grid%mx - 1
+         angle = asin(grid%x(ix)/radius)
+         call suite%close_to(slip(ix, 2, 1), -v*(1.0_wp - cos(angle)), 1.0e-9_wp*v, "slip on a rigid rail")
+      end do
+      call surface_slip(rail, wheel, curve, grid, on_rail, on_wheel, 1.0_wp, slip)
+      ! a rigid wheel: the rail moves backwards along the wheel's surface by V cos, the wheel by V
+      do ix = 2, grid%mx - 1
+         angle = asin(grid%x(ix)/radius)
+         call suite%close_to(slip(ix, 2, 1), v*(1.0_wp - cos(angle)), 1.0e-7_wp*v, "slip on a rigid wheel")
+      end do
+      call surface_slip(rail, wheel, curve, grid, on_rail, on_wheel, 0.5_wp, slip)
+      call suite%close_to(slip(2:40, 2, 1), spread(0.0_wp, 1, 39), 1.0e-6_wp*v, "no slip midway between bodies that are alike")
+   end subroutine slip_on_interface
+
+   !> Creepages and spin come back, what they do not describe remains
+   subroutine fitted_slip(suite)
+      type(test_suite), intent(inout) :: suite
+      type(potential_contact) :: grid
+      type(contact_motion) :: motion
+      logical :: inside(7, 5)
+      real(wp) :: slip(7, 5, 2)
+      integer :: ix, iy
+
+      grid = potential_contact(7, 5, -1.0_wp, -2.0_wp, 0.5_wp, 0.4_wp)
+      do iy = 1, grid%my
+         do ix = 1, grid%mx
+            slip(ix, iy, :) = [0.001_wp - 0.0003_wp*grid%y(iy), -0.002_wp + 0.0003_wp*grid%x(ix)]
+         end do
+      end do
+      inside = .true.
+      inside(:, 1) = .false.
+      slip(:, 1, 1) = slip(:, 1, 1) + 0.1_wp
+      call fit_creepages(grid, inside, slip, motion)
+      call suite%close_to([motion%cksi, motion%ceta, motion%cphi], [0.001_wp, -0.002_wp, 0.0003_wp], 1.0e-15_wp, "fitted creepages")
+      call suite%close_to(maxval(abs(slip(:, 2:, :))), 0.0_wp, 1.0e-15_wp, "nothing remains")
+      call suite%close_to(slip(:, 1, 1), [(0.1_wp, ix=1, 7)], 1.0e-15_wp, "what was left out remains")
+      ! nothing inside, one element inside: no division by zero
+      motion = contact_motion()
+      motion%cphi = 0.0005_wp
+      slip(:, :, :) = 0.01_wp
+      inside = .false.
+      call fit_creepages(grid, inside, slip, motion)
+      call suite%close_to([motion%cksi, motion%ceta, motion%cphi], [0.0_wp, 0.0_wp, 0.0005_wp], 0.0_wp, "no element inside")
+      slip(:, :, :) = 0.01_wp
+      inside(4, 2) = .true.
+      call fit_creepages(grid, inside, slip, motion)
+      call suite%close_to(slip(4, 2, :), [0.0_wp, 0.0_wp], 1.0e-15_wp, "one element inside")
+      call suite%close_to(motion%cphi, 0.0005_wp, 0.0_wp, "one element does not tell the spin")
+   end subroutine fitted_slip
+
+   !> With friction by angle each row has that of its inclination
+   subroutine friction_by_angle(suite)
+      type(test_suite), intent(inout) :: suite
+      type(pair_problem) :: problem
+      type(pair_result) :: result
+      integer :: iy
+
+      problem = sphere_in_groove(0.0_wp, contact_location%conformal)
+      problem%template%motion = motion%steady_rolling
+      problem%spec%wheelset%vpitch = 1.1_wp*problem%spec%wheelset%vpitch
+      problem%variation = variation%by_angle
+      problem%control_point = [-0.2_wp, 0.2_wp]
+      problem%control = [friction_parameters(static=0.1_wp, kinetic=0.1_wp), friction_parameters(static=0.5_wp, kinetic=0.5_wp)]
+      call solve(suite, problem, result, "friction by angle")
+      if (size(result%patches) /= 1) return
+      associate (patch => result%patches(1))
+         call suite%check(patch%friction_varies, "friction varies")
+         do iy = 1, patch%contact%grid%my
+            call suite%close_to(patch%contact%mu(1, iy), 0.3_wp + min(0.2_wp, max(-0.2_wp, patch%curve(3, iy))), 1.0e-12_wp, &
+               & "friction of a row")
+         end do
+         ! full sliding: the bound is reached in each row
+         call suite%close_to(sum(hypot(patch%contact%px, patch%contact%py)), sum(patch%contact%mu*patch%contact%pn), &
+            & 1.0e-5_wp*sum(patch%contact%pn), "full sliding")
+      end associate
+   end subroutine friction_by_angle
+
+   !> Rows at the end of a rail, no contact, nearly no contact, few elements, no friction, only geometry
+   subroutine hard_cases(suite)
+      type(test_suite), intent(inout) :: suite
+      type(pair_problem) :: problem
+      type(pair_result) :: result
+      real(wp) :: force
+      integer :: k
+
+      problem = sphere_in_groove(0.0_wp, contact_location%conformal)
+      problem%rail = arc(profile_side%rail, 0.0_wp, groove, 0.06_wp)
+      call solve(suite, problem, result, "short rail")
+      call suite%check(size(result%patches) == 1, "a rail that ends inside the region has a patch")
+      call suite%check(finite(result) .and. result%force_track(3) > 0.0_wp, "contact at both ends of a rail")
+
+      problem = sphere_in_groove(0.0_wp, contact_location%conformal)
+      problem%spec%wheelset%z = problem%spec%wheelset%z - 1.0_wp
+      call solve(suite, problem, result, "no contact")
+      call suite%check(size(result%patches) == 0 .and. norm2(result%force_track) <= 0.0_wp, "no contact")
+
+      problem = sphere_in_groove(0.2_wp, contact_location%conformal)
+      problem%spec%wheelset%y = problem%spec%wheelset%y*(groove - sphere + 1.0e-6_wp)/(groove - sphere + pressed)
+      problem%spec%wheelset%z = sphere + (problem%spec%wheelset%z - sphere)*(groove - sphere + 1.0e-6_wp)/(groove - sphere + pressed)
+      call solve(suite, problem, result, "a touch")
+      call suite%check(finite(result) .and. norm2(result%force_track) < 1.0_wp, "a touch")
+
+      problem = sphere_in_groove(0.0_wp, contact_location%conformal)
+      problem%most_elements = 60
+      problem%template%motion = motion%steady_rolling
+      problem%template%mu = 0.0_wp
+      call solve(suite, problem, result, "few elements")
+      call suite%check(finite(result) .and. size(result%patches) == 1, "few elements without friction")
+      if (size(result%patches) == 1) call suite%check(result%patches(1)%contact%grid%mx <= 20, "elements are doubled")
+
+      problem = sphere_in_groove(0.0_wp, contact_location%conformal)
+      problem%geometry_only = .true.
+      call solve(suite, problem, result, "geometry only")
+      call suite%check(size(result%patches) == 1 .and. norm2(result%force_track) <= 0.0_wp, "geometry only")
+      if (size(result%patches) == 1) call suite%check(allocated(result%patches(1)%curve), "geometry only has a curve")
+
+      ! a prescribed force is found at any angle and for any coefficients
+      do k = 0, 1
+         problem = sphere_in_groove(0.0_wp, contact_location%conformal)
+         problem%force_prescribed = .true.
+         problem%template%sensitivity = 2
+         problem%spec%wheelset%fz = 2500.0_wp
+         problem%template%motion = motion%steady_rolling
+         problem%template%eps = 1.0e-5_wp
+         if (k == 1) then
+            problem%template%model%kernel = kernel_model%conformal
+            allocate(problem%template%model%inclination)
+         end if
+         call solve(suite, problem, result, "prescribed force")
+         force = result%force_track(3)
+         call suite%check(result%solved, "the force is reached")
+         call suite%close_to(force, 2500.0_wp, 0.3_wp, "prescribed force")
+      end do
+
+      ! another reference, the same contact
+      problem = sphere_in_groove(0.5_wp, contact_location%first_contact)
+      call solve(suite, problem, result, "deepest point")
+      call suite%check(size(result%patches) == 1, "one patch at the deepest point")
+      if (size(result%patches) == 1) call suite%check(abs(result%patches(1)%delta + 0.5_wp) < 0.1_wp, "angle of the deepest point")
+   end subroutine hard_cases
+
+   !> Are all forces numbers?
+   pure logical function finite(result)
+      type(pair_result), intent(in) :: result
+      finite = all(abs(result%force_track) < 1.0e10_wp) .and. all(abs(result%moment_rail) < 1.0e12_wp)
+   end function finite
+end program test_conformal
