@@ -132,7 +132,7 @@ contains
          if (size(side%patches) /= 1) cycle
          ! rows lie elsewhere relative to the deepest point
          call suite%close_to(norm2(side%force_track), force, 2.0e-3_wp*force, "the same force in any direction")
-         call suite%close_to(side%patches(1)%contact%pmax, bottom%patches(1)%contact%pmax, 0.01_wp*bottom%patches(1)%contact%pmax, &
+         call suite%close_to(side%patches(1)%contact%pmax/bottom%patches(1)%contact%pmax, 1.0_wp, 0.01_wp, &
             & "the same largest pressure")
          call suite%close_to(side%force_track(2:3)/force, [-sin(angle(k)), cos(angle(k))], 2.0e-3_wp, "the force is rotated")
          ! all pressures are normal to the groove: no moment about its axis, where the marker of the rail is
@@ -162,7 +162,7 @@ contains
          call suite%close_to([-a%moment(1), a%moment(2), -a%moment(3)], b%moment, 1.0e-3_wp*maxval(abs(b%moment)), &
             & "moments are reflected")
          call suite%close_to([a%contact%cksi, -a%contact%ceta, -a%contact%cphi], &
-            & [b%contact%cksi, b%contact%ceta, b%contact%cphi], 1.0e-6_wp*abs(b%contact%cksi) + 1.0e-9_wp, "creepages are reflected")
+            & [b%contact%cksi, b%contact%ceta, b%contact%cphi], 1.0e-6_wp*abs(b%contact%cksi) + 1.0e-9_wp, "creepages")
          call suite%equal(a%contact%nslip, b%contact%nslip, "as many elements slip")
          ! what is found with the axes of the rows is what the tractions say
          call suite%close_to(a%tilde_fn, a%contact%grid%dx*a%contact%grid%dy*sum(a%contact%pn), 1.0e-9_wp*a%tilde_fn, "plain sum")
@@ -388,8 +388,10 @@ contains
       call suite%check(size(result%patches) == 0 .and. norm2(result%force_track) <= 0.0_wp, "no contact")
 
       problem = sphere_in_groove(0.2_wp, contact_location%conformal)
-      problem%spec%wheelset%y = problem%spec%wheelset%y*(groove - sphere + 1.0e-6_wp)/(groove - sphere + pressed)
-      problem%spec%wheelset%z = sphere + (problem%spec%wheelset%z - sphere)*(groove - sphere + 1.0e-6_wp)/(groove - sphere + pressed)
+      associate (share => (groove - sphere + 1.0e-6_wp)/(groove - sphere + pressed), set => problem%spec%wheelset)
+         set%y = set%y*share
+         set%z = sphere + (set%z - sphere)*share
+      end associate
       call solve(suite, problem, result, "a touch")
       call suite%check(finite(result) .and. norm2(result%force_track) < 1.0_wp, "a touch")
 
