@@ -4,7 +4,6 @@
 !> same problem, rotated. Its slip is known in closed form; large radii give flat patches.
 program test_conformal
    use contact_base_choices, only : contact_location, kernel_model, motion, variation
-   use contact_base_constants, only : pi
    use contact_base_error, only : error_type, full_text
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
@@ -136,7 +135,8 @@ contains
             & "the same largest pressure")
          call suite%close_to(side%force_track(2:3)/force, [-sin(angle(k)), cos(angle(k))], 2.0e-3_wp, "the force is rotated")
          ! all pressures are normal to the groove: no moment about its axis, where the marker of the rail is
-         call suite%close_to(side%moment_rail(1), 0.0_wp, 2.0e-3_wp*force*pressed, "no moment about the axis of the groove")
+         ! (lever in mm, the radius is 105)
+         call suite%close_to(side%moment_rail(1)/force, 0.0_wp, 2.0e-3_wp, "no moment about the axis of the groove")
          call suite%close_to(side%patches(1)%contact%pen, pressed, 1.0e-3_wp*pressed, "approach along the normal")
       end do
    end subroutine any_direction
@@ -170,51 +170,59 @@ contains
    end subroutine mirrored
 
    !> A ball on a rail with a radius of 2 m: curved, straight and flat references agree
+   !>
+   !> Rows beside the middle of the ball are nearer to its axle by s**2/(2 r): the creepages differ by the square of
+   !> the width of the patch over the radius, that is in proportion to the approach.
    subroutine flat_limit(suite)
       type(test_suite), intent(inout) :: suite
-      type(pair_problem) :: problem
-      type(pair_result) :: flat, straight, curved
       integer, parameter :: locations(3) = [contact_location%locus, contact_location%locus_extended, contact_location%conformal]
-      integer :: k
+      real(wp), parameter :: approach(2) = [0.04_wp, 0.01_wp]
+      type(pair_problem) :: problem
+      type(pair_result) :: result(3)
+      real(wp) :: difference(2), force(2)
+      integer :: i, k
 
-      do k = 1, 3
-         problem = sphere_in_groove(0.0_wp, locations(k))
-         problem%rail = arc(profile_side%rail, -2000.0_wp, 2000.0_wp, 0.05_wp)
-         problem%spec%track%railz0 = 0.0_wp
-         problem%spec%wheelset%y = 0.0_wp
-         problem%spec%wheelset%z = 0.05_wp
-         problem%spec%wheelset%yaw = 0.002_wp
-         problem%spec%wheelset%vpitch = 1.001_wp*problem%spec%wheelset%vpitch
-         problem%spec%search%ds = 0.2_wp
-         problem%template%motion = motion%steady_rolling
-         if (k == 1) call solve(suite, problem, flat, "flat")
-         if (k == 2) call solve(suite, problem, straight, "straight")
-         if (k == 3) call solve(suite, problem, curved, "curved")
+      do i = 1, 2
+         do k = 1, 3
+            problem = sphere_in_groove(0.0_wp, locations(k))
+            problem%rail = arc(profile_side%rail, -2000.0_wp, 2000.0_wp, 0.05_wp)
+            problem%spec%wheelset%y = 0.0_wp
+            problem%spec%wheelset%z = approach(i)
+            problem%spec%wheelset%yaw = 0.002_wp
+            problem%spec%wheelset%vpitch = 1.001_wp*problem%spec%wheelset%vpitch
+            problem%spec%search%dx = sqrt(approach(i))
+            problem%spec%search%ds = problem%spec%search%dx
+            problem%template%motion = motion%steady_rolling
+            call solve(suite, problem, result(k), "ball on rail")
+         end do
+         call suite%check(all([(size(result(k)%patches) == 1, k=1, 3)]), "one patch each")
+         if (.not. all([(size(result(k)%patches) == 1, k=1, 3)])) return
+         associate (flat => result(1)%patches(1)%contact, straight => result(2)%patches(1)%contact)
+            call suite%check(abs(flat%fx) > 10.0_wp .and. abs(flat%fy) > 10.0_wp, "creep forces act")
+            call suite%close_to(maxval(abs(straight%h - flat%h)), 0.0_wp, 1.0e-9_wp, "distance over a plane, row by row")
+            call suite%close_to(straight%fn, flat%fn, 1.0e-6_wp*flat%fn, "the same pressures over a plane")
+            call suite%close_to(straight%ceta, flat%ceta, 1.0e-3_wp*abs(flat%ceta), "lateral creepage, straight")
+            call suite%close_to(straight%cphi, flat%cphi, 1.0e-9_wp, "spin, straight")
+            difference(i) = flat%cksi - straight%cksi
+            force(i) = abs(straight%fx/flat%fx - 1.0_wp)
+         end associate
+         call suite%close_to(result(3)%patches(1)%tilde_fn/result(1)%patches(1)%contact%fn, 1.0_wp, 0.1_wp*approach(i), &
+            & "nearly flat: normal force")
+         call suite%close_to(result(3)%force_track/result(2)%force_track, [1.0_wp, 1.0_wp, 1.0_wp], 0.2_wp*approach(i), &
+            & "nearly flat: forces")
+         call suite%check(allocated(result(3)%patches(1)%curve) .and. .not. allocated(result(2)%patches(1)%curve), &
+            & "a curve is told for conformal contact only")
       end do
-      call suite%check(size(flat%patches) == 1 .and. size(straight%patches) == 1 .and. size(curved%patches) == 1, "one patch each")
-      if (size(flat%patches) /= 1 .or. size(straight%patches) /= 1 .or. size(curved%patches) /= 1) return
-      call suite%check(abs(flat%force_track(1)) > 100.0_wp .and. abs(flat%force_track(2)) > 100.0_wp, "creep forces act")
-      call suite%close_to(maxval(abs(straight%patches(1)%contact%h - flat%patches(1)%contact%h)), 0.0_wp, 1.0e-9_wp, &
-         & "distance over a plane, row by row")
-      call suite%close_to(straight%patches(1)%contact%fn, flat%patches(1)%contact%fn, 1.0e-6_wp*flat%patches(1)%contact%fn, &
-         & "the same pressures over a plane")
-      ! creepages are relative to the forward speed here, to the mean of two speeds there
-      call suite%close_to(straight%patches(1)%contact%cksi, flat%patches(1)%contact%cksi, 2.0e-6_wp, "creepage, straight")
-      call suite%close_to(straight%patches(1)%contact%ceta, flat%patches(1)%contact%ceta, 2.0e-6_wp, "lateral creepage, straight")
-      call suite%close_to(straight%patches(1)%contact%cphi, flat%patches(1)%contact%cphi, 1.0e-5_wp, "spin, straight")
-      call suite%close_to(straight%force_track, flat%force_track, 2.0e-3_wp*abs(flat%force_track(1)), "forces, straight")
-      call suite%close_to(curved%patches(1)%tilde_fn, flat%patches(1)%contact%fn, 1.0e-3_wp*flat%patches(1)%contact%fn, &
-         & "nearly flat: normal force")
-      call suite%close_to(curved%force_track, flat%force_track, 5.0e-3_wp*abs(flat%force_track(1)), "nearly flat: forces")
-      call suite%check(allocated(curved%patches(1)%curve) .and. .not. allocated(straight%patches(1)%curve), &
-         & "a curve is told for conformal contact only")
+      call suite%close_to(difference(1)/difference(2), 4.0_wp, 0.2_wp, "extended slip decreases with the approach")
+      call suite%check(force(2) < 0.4_wp*force(1), "its effect on the force, too")
    end subroutine flat_limit
 
-   !> Corrected coefficients: those of half-spaces in a plane, less pressure in a groove, all variants; bilinear ones
+   !> Corrected coefficients: those of half-spaces in a plane, a stiffer groove, all variants; bilinear ones
    subroutine inclined_coefficients(suite)
       type(test_suite), intent(inout) :: suite
       type(pair_problem) :: problem
       type(pair_result) :: plain, corrected
+      real(wp) :: first
       integer :: variant
 
       call solve(suite, sphere_in_groove(0.0_wp, contact_location%conformal), plain, "half-space")
@@ -226,6 +234,7 @@ contains
          & "bilinear pressures")
       call suite%check(abs(corrected%patches(1)%contact%fn - plain%patches(1)%contact%fn) > 1.0e-6_wp*plain%patches(1)%contact%fn, &
          & "bilinear pressures are others")
+      ! pressures on the other flank act less: cos(alpha) of what they do in a plane
       do variant = 1, 4
          problem = sphere_in_groove(0.0_wp, contact_location%conformal)
          problem%template%model%kernel = kernel_model%conformal
@@ -234,18 +243,27 @@ contains
          problem%template%model%inclination%uniform = variant == 1
          call solve(suite, problem, corrected, "corrected")
          if (size(corrected%patches) /= 1) cycle
-         ! the groove is softer than a half-space by some per cent at angles of 0.2
-         call suite%check(corrected%patches(1)%contact%pmax < 0.999_wp*plain%patches(1)%contact%pmax .and. &
-            & corrected%patches(1)%contact%pmax > 0.9_wp*plain%patches(1)%contact%pmax, "correction of a groove")
+         associate (gain => corrected%patches(1)%contact%fn/plain%patches(1)%contact%fn - 1.0_wp)
+            call suite%check(gain > 1.0e-4_wp .and. gain < 0.01_wp, "a groove with corrected coefficients is stiffer")
+            if (variant == 1) first = gain
+            ! without tangential tractions the first three are the same; the inclination is nearly uniform
+            if (variant < 4) call suite%close_to(gain, first, 0.01_wp*first, "variants of the correction")
+         end associate
       end do
+      ! over a plane there is nothing to correct
+      problem = sphere_in_groove(0.0_wp, contact_location%locus)
+      call solve(suite, problem, plain, "flat")
+      problem%template%model%kernel = kernel_model%conformal
+      call solve(suite, problem, corrected, "flat, corrected")
+      call suite%close_to(corrected%force_track, plain%force_track, 0.0_wp, "nothing to correct in a plane")
    end subroutine inclined_coefficients
 
-   !> A ball that rolls at the bottom of a groove slips by V (1 - cos alpha) on the flanks, everywhere along the track
+   !> A ball that rolls at the bottom of a groove slips by V (1 - cos) on the flanks, everywhere along the track
    subroutine slip_in_groove(suite)
       type(test_suite), intent(inout) :: suite
       type(pair_problem) :: problem
       type(pair_result) :: result
-      real(wp) :: expected, worst, found
+      real(wp) :: expected, worst, place(2), normal(2), height
       integer :: ix, iy
 
       problem = sphere_in_groove(0.0_wp, contact_location%conformal)
@@ -255,17 +273,19 @@ contains
       worst = 0.0_wp
       associate (contact => result%patches(1)%contact, curve => result%patches(1)%curve)
          do iy = 1, contact%grid%my
+            ! the point of the ball on the normal of the row, from the ball's centre
+            place = curve(1:2, iy) - [0.0_wp, groove - sphere + pressed]
+            normal = [-sin(curve(3, iy)), cos(curve(3, iy))]
+            height = -dot_product(place, normal) + sqrt(dot_product(place, normal)**2 - dot_product(place, place) + sphere**2)
+            place = place + height*normal
+            ! the rail is at rest, the wheel's lowest point, too
+            expected = 1.0_wp - place(2)/sphere
             do ix = 1, contact%grid%mx
-               if (contact%pn(ix, iy) <= 0.0_wp) cycle
-               ! the rail is at rest, the wheel's lowest point, too
-               expected = 1.0_wp - cos(curve(3, iy))
-               found = contact%wx(ix, iy)/contact%dq
-               ! the reference surface is nearer to the axle than the wheel by half the approach
-               worst = max(worst, abs(found + expected))
+               if (contact%pn(ix, iy) > 0.0_wp) worst = max(worst, abs(contact%wx(ix, iy)/contact%dq + expected))
             end do
          end do
          call suite%check(maxval(abs(curve(3, :))) > 0.1_wp, "angles are large")
-         call suite%close_to(worst, 0.0_wp, 1.0e-4_wp, "slip on the flanks of a groove")
+         call suite%close_to(worst, 0.0_wp, 1.0e-5_wp, "slip on the flanks of a groove")
       end associate
    end subroutine slip_in_groove
 
@@ -431,7 +451,7 @@ contains
       problem = sphere_in_groove(0.5_wp, contact_location%first_contact)
       call solve(suite, problem, result, "deepest point")
       call suite%check(size(result%patches) == 1, "one patch at the deepest point")
-      if (size(result%patches) == 1) call suite%check(abs(result%patches(1)%delta + 0.5_wp) < 0.1_wp, "angle of the deepest point")
+      if (size(result%patches) == 1) call suite%check(abs(result%patches(1)%delta - 0.5_wp) < 0.01_wp, "angle of the deepest point")
    end subroutine hard_cases
 
    !> Are all forces numbers?
