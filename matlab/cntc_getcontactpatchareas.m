@@ -1,0 +1,20 @@
+function [ carea, harea, sarea, parea ] = cntc_getcontactpatchareas( ire, icp )
+% CNTC_GETCONTACTPATCHAREAS  Get the areas of contact, adhesion, slip and plasticity.
+%
+%   [carea, harea, sarea, parea] = cntc_getcontactpatchareas( ire, icp )
+%
+%   ire, icp   result element and contact patch or problem (default 1, 1)
+%   carea, harea, sarea, parea   areas [L2]
+
+   if (nargin<1)
+      ire = [];
+   end
+   if (nargin<2)
+      icp = [];
+   end
+   [ire, icp] = cntc_ids(ire, icp, 'patch', 'cntc_getcontactpatchareas');
+   [carea, harea, sarea] = cntc_call('cntc_getcontactpatchareas', ire, icp, [], [], []);
+   cntc_tell('cntc_getcontactpatchareas', ire, icp);
+   parea = carea - harea - sarea;
+
+end % function cntc_getcontactpatchareas

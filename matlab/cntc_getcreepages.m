@@ -1,0 +1,20 @@
+function [ vx, vy, phi ] = cntc_getcreepages( ire, icp )
+% CNTC_GETCREEPAGES  Get creepages, in shifts the shift.
+%
+%   [vx, vy, phi] = cntc_getcreepages( ire, icp )
+%
+%   ire, icp   result element and contact patch or problem (default 1, 1)
+%   vx, vy   creepages [-], in shifts [L]
+%   phi      spin [A/L], in shifts [A]
+
+   if (nargin<1)
+      ire = [];
+   end
+   if (nargin<2)
+      icp = [];
+   end
+   [ire, icp] = cntc_ids(ire, icp, 'patch', 'cntc_getcreepages');
+   [vx, vy, phi] = cntc_call('cntc_getcreepages', ire, icp, [], [], []);
+   cntc_tell('cntc_getcreepages', ire, icp);
+
+end % function cntc_getcreepages

@@ -1,0 +1,31 @@
+function [ fld ] = cntc_getfielddata( ire, icp, ifld )
+% CNTC_GETFIELDDATA  Get one field for each element.
+%
+%   fld = cntc_getfielddata( ire, icp, ifld )
+%
+%   ire, icp   result element and contact patch or problem (default 1, 1)
+%   ifld     CNTC.fld_... of cntc_getmagicnumbers (default: fld_pn)
+%   fld      (my,mx) array
+%   0 when there is no grid yet.
+
+   if (nargin<1)
+      ire = [];
+   end
+   if (nargin<2)
+      icp = [];
+   end
+   [ire, icp] = cntc_ids(ire, icp, 'patch', 'cntc_getfielddata');
+   if (nargin<3 || isempty(ifld))
+      CNTC = cntc_getmagicnumbers();
+      ifld = CNTC.fld_pn;
+   end
+   [mx, my] = cntc_getnumelements(ire, icp);
+   if (mx*my<=0)
+      fld = 0;
+      return
+   end
+   fld = cntc_call('cntc_getfielddata', ire, icp, ifld, mx*my, zeros(mx,my));
+   cntc_tell('cntc_getfielddata', ire, icp);
+   fld = fld';
+
+end % function cntc_getfielddata

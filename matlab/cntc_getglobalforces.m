@@ -1,0 +1,22 @@
+function [ values ] = cntc_getglobalforces( ire, icp )
+% CNTC_GETGLOBALFORCES  Get forces and moments of wheel and rail.
+%
+%   values = cntc_getglobalforces( ire, icp )
+%
+%   ire, icp   result element (default 1) and contact patch; -1 (default): sum of all patches
+%   values   in threes, forces Fx, Fy, Fz [F] and moments Mx, My, Mz [F L]:
+%            1-6 track directions, about the rail marker; 7-12 wheelset directions, about the wheel marker
+%            13-18 rail directions, about the rail marker; 19-24 wheel directions, about the wheel marker
+%            They act on the rail, in Simpack units on the wheel.
+
+   if (nargin<1)
+      ire = [];
+   end
+   if (nargin<2)
+      icp = [];
+   end
+   [ire, icp] = cntc_ids(ire, icp, 'whole', 'cntc_getglobalforces');
+   values = cntc_call('cntc_getglobalforces', ire, icp, 24, zeros(24,1));
+   cntc_tell('cntc_getglobalforces', ire, icp);
+
+end % function cntc_getglobalforces

@@ -1,0 +1,19 @@
+function [ dx, dy ] = cntc_getgriddiscretization( ire, icp )
+% CNTC_GETGRIDDISCRETIZATION  Get the sizes of elements.
+%
+%   [dx, dy] = cntc_getgriddiscretization( ire, icp )
+%
+%   ire, icp   result element and contact patch or problem (default 1, 1)
+%   dx, dy   sizes [L]
+
+   if (nargin<1)
+      ire = [];
+   end
+   if (nargin<2)
+      icp = [];
+   end
+   [ire, icp] = cntc_ids(ire, icp, 'patch', 'cntc_getgriddiscretization');
+   [dx, dy] = cntc_call('cntc_getgriddiscretization', ire, icp, [], []);
+   cntc_tell('cntc_getgriddiscretization', ire, icp);
+
+end % function cntc_getgriddiscretization

@@ -1,0 +1,28 @@
+function [ sx, sy ] = cntc_getmicroslip( ire, icp )
+% CNTC_GETMICROSLIP  Get the slip of each element.
+%
+%   [sx, sy] = cntc_getmicroslip( ire, icp )
+%
+%   ire, icp   result element and contact patch or problem (default 1, 1)
+%   sx, sy   (my,mx) arrays of relative slip velocities [-], in shifts distances [mm]
+%   0 when there is no grid yet.
+
+   if (nargin<1)
+      ire = [];
+   end
+   if (nargin<2)
+      icp = [];
+   end
+   [ire, icp] = cntc_ids(ire, icp, 'patch', 'cntc_getmicroslip');
+   [mx, my] = cntc_getnumelements(ire, icp);
+   if (mx*my<=0)
+      sx = 0;
+      sy = 0;
+      return
+   end
+   [sx, sy] = cntc_call('cntc_getmicroslip', ire, icp, mx*my, zeros(mx,my), zeros(mx,my));
+   cntc_tell('cntc_getmicroslip', ire, icp);
+   sx = sx';
+   sy = sy';
+
+end % function cntc_getmicroslip

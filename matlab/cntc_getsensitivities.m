@@ -1,0 +1,27 @@
+function [ sens ] = cntc_getsensitivities( ire, icp, lenout, lenin )
+% CNTC_GETSENSITIVITIES  Get derivatives of forces by approach and creepages.
+%
+%   sens = cntc_getsensitivities( ire, icp, lenout, lenin )
+%
+%   ire, icp   result element and contact patch or problem (default 1, 1)
+%   lenout, lenin   numbers of rows and columns (default 4, 4)
+%   sens     rows: Fn [F], Fx, Fy relative to fstat * Fn [-], Mz [F L]; columns: approach [L], creepages and spin
+%            Zero where not computed; flag CNTC.ic_sens tells what is computed.
+
+   if (nargin<1)
+      ire = [];
+   end
+   if (nargin<2)
+      icp = [];
+   end
+   [ire, icp] = cntc_ids(ire, icp, 'patch', 'cntc_getsensitivities');
+   if (nargin<3 || isempty(lenout))
+      lenout = 4;
+   end
+   if (nargin<4 || isempty(lenin))
+      lenin = 4;
+   end
+   sens = cntc_call('cntc_getsensitivities', ire, icp, lenout, lenin, zeros(lenout,lenin));
+   cntc_tell('cntc_getsensitivities', ire, icp);
+
+end % function cntc_getsensitivities

@@ -1,0 +1,18 @@
+function [ ierror ] = cntc_readinpfile( ire, inp_type, fname )
+% CNTC_READINPFILE  Take the settings of wheel and rail from an input file.
+%
+%   ierror = cntc_readinpfile( ire, inp_type, fname )
+%
+%   ire      result element of a wheel-rail problem (default 1)
+%   inp_type CNTC.inp_modul1 or CNTC.inp_spck
+%   fname    name of the file
+%   ierror   0, or a negative code
+
+   if (nargin<1)
+      ire = [];
+   end
+   ire = cntc_ids(ire);
+   ierror = cntc_call('cntc_readinpfile', ire, inp_type, fname, numel(fname), []);
+   cntc_tell('cntc_readinpfile', ire, -1, ierror);
+
+end % function cntc_readinpfile

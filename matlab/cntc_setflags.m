@@ -1,0 +1,25 @@
+function cntc_setflags( ire, icp, params, values )
+% CNTC_SETFLAGS  Set flags and control digits.
+%
+%   cntc_setflags( ire, icp, params, values )
+%
+%   ire, icp   result element (default 1) and contact problem: -1 (default) for wheel and rail, 1 to 9 in module 3
+%   params   codes, CNTC.if_... and CNTC.ic_... of cntc_getmagicnumbers; 0 is skipped
+%   values   one value for each
+%
+% See also: cntc_getmagicnumbers, cntc_getflags.
+
+   if (nargin<1)
+      ire = [];
+   end
+   if (nargin<2)
+      icp = [];
+   end
+   [ire, icp] = cntc_ids(ire, icp, 'whole', 'cntc_setflags');
+   if (numel(params)~=numel(values))
+      error('cntc_setflags: there are %d params and %d values.', numel(params), numel(values));
+   end
+   cntc_call('cntc_setflags', ire, icp, numel(params), params, values);
+   cntc_tell('cntc_setflags', ire, icp);
+
+end % function cntc_setflags

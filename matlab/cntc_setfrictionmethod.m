@@ -1,0 +1,31 @@
+function cntc_setfrictionmethod( ire, icp, imeth, params )
+% CNTC_SETFRICTIONMETHOD  Set the friction law, imeth = 10 V + L.
+%
+%   cntc_setfrictionmethod( ire, icp, imeth, params )
+%
+%   ire, icp   result element (default 1) and contact problem: -1 (default) for wheel and rail, 1 to 9 in module 3
+%   L        params
+%   0        fstat, fkin [-]                                                       Coulomb
+%   1        none                                                                  as before
+%   2, 3, 4  fkin, coef1 [-], sabsh1 [V], coef2 [-], sabsh2 [V], memdst [L], mem_s0 [V]   falling, linear, rational, exponential
+%   5        fstat [-], polach_a [-], polach_b [1/V]                               exponential, after Polach
+%   6        fref [-], tref [degC], dfheat [-], dtheat [degC], memdst [L], mem_s0 [V]     with temperature
+%   For V = 1 and 2 (wheel and rail) params are n, then n times an angle [A] or a position [L] with the values above.
+
+   if (nargin<1)
+      ire = [];
+   end
+   if (nargin<2)
+      icp = [];
+   end
+   [ire, icp] = cntc_ids(ire, icp, 'whole', 'cntc_setfrictionmethod');
+   if (nargin<3 || isempty(imeth))
+      imeth = 0;
+   end
+   if (nargin<4 || isempty(params))
+      params = [];
+   end
+   cntc_call('cntc_setfrictionmethod', ire, icp, imeth, numel(params), params);
+   cntc_tell('cntc_setfrictionmethod', ire, icp);
+
+end % function cntc_setfrictionmethod

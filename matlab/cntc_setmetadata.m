@@ -1,0 +1,23 @@
+function cntc_setmetadata( ire, icp, params, values )
+% CNTC_SETMETADATA  Set data that go along into the .mat files.
+%
+%   cntc_setmetadata( ire, icp, params, values )
+%
+%   ire, icp   result element (default 1) and contact problem: -1 (default) for wheel and rail, 1 to 9 in module 3
+%   params   codes, CNTC.mt_...; 0 is skipped
+%   values   one value for each: time [s], positions [L], numbers
+
+   if (nargin<1)
+      ire = [];
+   end
+   if (nargin<2)
+      icp = [];
+   end
+   [ire, icp] = cntc_ids(ire, icp, 'whole', 'cntc_setmetadata');
+   if (numel(params)~=numel(values))
+      error('cntc_setmetadata: there are %d params and %d values.', numel(params), numel(values));
+   end
+   cntc_call('cntc_setmetadata', ire, icp, numel(params), params, values);
+   cntc_tell('cntc_setmetadata', ire, icp);
+
+end % function cntc_setmetadata

@@ -1,0 +1,27 @@
+function cntc_setprofileinputfname( ire, fname, iparam, rparam )
+% CNTC_SETPROFILEINPUTFNAME  Set the profile of wheel or rail by the name of a file.
+%
+%   cntc_setprofileinputfname( ire, fname, iparam, rparam )
+%
+%   ire      result element of a wheel-rail problem (default 1)
+%   fname    name of the file, relative to the folder of cntc_initlibrary
+%   iparam   itype, unused, mirrory, mirrorz, errhndl, ismooth; itype: 0 rail, 1 wheel, -1 by the extension
+%   rparam   factor to mm, smoothing [-] or [mm], maxomit [-], zigthrs, kinkhigh, kinklow [rad], kinkwid [L]
+%   Default: iparam = -1, rparam = [1 0], which means values in mm.
+%
+% See also: cntc_setprofileinputvalues.
+
+   if (nargin<1)
+      ire = [];
+   end
+   ire = cntc_ids(ire);
+   if (nargin<3 || isempty(iparam))
+      iparam = -1;
+   end
+   if (nargin<4 || isempty(rparam))
+      rparam = [1 0];
+   end
+   cntc_call('cntc_setprofileinputfname', ire, fname, numel(fname), numel(iparam), iparam, numel(rparam), rparam);
+   cntc_tell('cntc_setprofileinputfname', ire, -1);
+
+end % function cntc_setprofileinputfname

@@ -1,0 +1,19 @@
+function cntc_setreferencevelocity( ire, icp, veloc )
+% CNTC_SETREFERENCEVELOCITY  Set the rolling velocity (module 3).
+%
+%   cntc_setreferencevelocity( ire, icp, veloc )
+%
+%   ire, icp   result element and contact patch or problem (default 1, 1)
+%   veloc    velocity [V]
+
+   if (nargin<1)
+      ire = [];
+   end
+   if (nargin<2)
+      icp = [];
+   end
+   [ire, icp] = cntc_ids(ire, icp, 'patch', 'cntc_setreferencevelocity');
+   cntc_call('cntc_setreferencevelocity', ire, icp, veloc);
+   cntc_tell('cntc_setreferencevelocity', ire, icp);
+
+end % function cntc_setreferencevelocity

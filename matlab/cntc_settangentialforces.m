@@ -1,0 +1,22 @@
+function cntc_settangentialforces( ire, icp, fx, fy )
+% CNTC_SETTANGENTIALFORCES  Prescribe tangential forces.
+%
+%   cntc_settangentialforces( ire, icp, fx, fy )
+%
+%   ire, icp   result element and contact patch or problem (default 1, 1)
+%   fx, fy   module 3: relative to fstat * fn [-]; module 1 (icp = -1): longitudinal force on the rail fx [F], fy unused
+
+   if (nargin<1)
+      ire = [];
+   end
+   if (nargin<2)
+      icp = [];
+   end
+   [ire, icp] = cntc_ids(ire, icp, 'patch or whole', 'cntc_settangentialforces');
+   if (nargin<4 || isempty(fy))
+      fy = 0;
+   end
+   cntc_call('cntc_settangentialforces', ire, icp, fx, fy);
+   cntc_tell('cntc_settangentialforces', ire, icp);
+
+end % function cntc_settangentialforces

@@ -1,0 +1,20 @@
+function cntc_setwheelsetvelocity( ire, ewheel, params )
+% CNTC_SETWHEELSETVELOCITY  Set the velocity of the wheelset.
+%
+%   cntc_setwheelsetvelocity( ire, ewheel, params )
+%
+%   ire      result element of a wheel-rail problem (default 1)
+%   ewheel   2 (default) to 5
+%   params   vs, vy, vz [V], vroll, vyaw, vpitch [A/T]; on rollers the first value is the roller's rate [A/T]
+
+   if (nargin<1)
+      ire = [];
+   end
+   ire = cntc_ids(ire);
+   if (nargin<2 || isempty(ewheel))
+      ewheel = 2;
+   end
+   cntc_call('cntc_setwheelsetvelocity', ire, ewheel, numel(params), params);
+   cntc_tell('cntc_setwheelsetvelocity', ire, -1);
+
+end % function cntc_setwheelsetvelocity

@@ -1,0 +1,99 @@
+function [ answer ] = cntc_library( question, value )
+% CNTC_LIBRARY  The loaded library: how it is reached and how much it tells.
+%
+%   cntc_library('load')          load it, unless it is there; answer: was it there already?
+%   cntc_library('unload')
+%   cntc_library('mex')           is it reached by the gateway cntc_mex? Otherwise by Matlab's calllib
+%   cntc_library('name')          its name for calllib
+%   cntc_library('idebug', value) set or get: 0 silent, 1 tell error codes, 2 also remarks
+%
+% The library is searched for as CONTACT_LIBRARY of the environment, then in bin and lib beside this folder and in
+% build/release.
+
+   persistent state;
+   if (isempty(state))
+      state = struct('loaded',false, 'mex',false, 'name','', 'idebug',1);
+   end
+   answer = [];
+   switch (question)
+      case 'load'
+         answer = state.loaded;
+         if (~state.loaded)
+            [file, state.name] = find_library();
+            state.mex = use_gateway();
+            if (state.mex)
+               cntc_mex('open', file);
+            elseif (~libisloaded(state.name))
+               here   = fileparts(fileparts(mfilename('fullpath')));
+               header = fullfile(here, '..', 'include', 'contact_addon.h');
+               loadlibrary(file, header, 'alias', state.name);
+            end
+            state.loaded = true;
+         end
+      case 'unload'
+         if (state.loaded && state.mex)
+            cntc_mex('close');
+         elseif (state.loaded)
+            unloadlibrary(state.name);
+         end
+         state.loaded = false;
+      case {'mex','name'}
+         if (~state.loaded)
+            error('contact: the library is not loaded; call cntc_initlibrary first.');
+         end
+         answer = state.(question);
+      case 'idebug'
+         if (nargin>1)
+            state.idebug = value;
+         end
+         answer = state.idebug;
+   end
+
+end % function cntc_library
+
+%------------------------------------------------------------------------------------------------------
+
+function [ file, name ] = find_library( )
+% Full path, and the name that the global variable libname of older scripts holds
+
+   global libname;
+   if (isempty(libname))
+      libname = 'contact_addon_linux64';
+      if (ispc)
+         libname = 'contact_addon_win64';
+      elseif (ismac)
+         libname = 'contact_addon_maci64';
+      end
+   end
+   name = libname;
+   file = getenv('CONTACT_LIBRARY');
+   if (~isempty(file))
+      return
+   end
+   endings = {'.so','.dll','.dylib'};
+   top     = fileparts(fileparts(fileparts(mfilename('fullpath'))));
+   folders = {'bin','lib',fullfile('build','release','bin'),fullfile('build','release','lib')};
+   for f = folders
+      for e = endings
+         file = fullfile(top, f{1}, [name e{1}]);
+         if (exist(file,'file')==2)
+            return
+         end
+      end
+   end
+   error('contact: the library %s is neither in bin or build/release/bin of %s nor named by CONTACT_LIBRARY.', name, top);
+
+end % function find_library
+
+%------------------------------------------------------------------------------------------------------
+
+function [ yes ] = use_gateway( )
+% The gateway where it was built, always in Octave
+
+   here = fileparts(mfilename('fullpath'));
+   yes  = (exist('cntc_mex')==3 || exist(fullfile(here,['cntc_mex.' mexext()]),'file')>0);
+   if (~yes && exist('OCTAVE_VERSION','builtin'))
+      error('contact: Octave reaches the library by a gateway; build it once with cntc_buildmex (needs mkoctfile).');
+   end
+
+end % function use_gateway

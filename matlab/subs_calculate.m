@@ -1,0 +1,23 @@
+function [ ierror ] = subs_calculate( ire, icp, idebug )
+% SUBS_CALCULATE  Compute displacements and stresses below the surface, after cntc_calculate.
+%
+%   ierror = subs_calculate( ire, icp, idebug )
+%
+%   ire, icp   result element (default 1) and contact patch or problem; -1 (default): wheel and rail as a whole
+%   idebug   1: tell error codes; 2: also remarks; 0: silent (default: that of cntc_initlibrary)
+%   ierror   0; negative: an error, CNTC.err_...; positive: elements in contact at the border of the grid (module 3)
+
+   if (nargin<1)
+      ire = [];
+   end
+   if (nargin<2)
+      icp = [];
+   end
+   [ire, icp] = cntc_ids(ire, icp, 'whole', 'subs_calculate');
+   if (nargin<3 || isempty(idebug))
+      idebug = cntc_library('idebug');
+   end
+   ierror = cntc_call('subs_calculate', ire, icp, []);
+   cntc_tell('subs_calculate', ire, icp, ierror, idebug);
+
+end % function subs_calculate
