@@ -29,7 +29,9 @@ function [ sol ] = cntc_getcpresults( ire, icp )
          error('cntc_getcpresults: there are %d contact patches, number %d was asked for.', npatch, icp);
       end
    elseif (cntc_library('mex'))
+      % its complaint is no news
       cntc_mex('error', ire, -1);
+      cntc_mex('error', 0, -1);
    end
 
    flags = cntc_getflags(ire, whole, [CNTC.ic_config, CNTC.ic_tang, CNTC.ic_discns, CNTC.ic_mater, CNTC.ic_heat]);

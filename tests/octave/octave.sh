@@ -1,9 +1,10 @@
 #!/bin/sh
-# Run a script in GNU Octave without a screen: sh octave.sh text|plots SCRIPT
+# Run a script in GNU Octave without a screen: sh octave.sh text|plots|library SCRIPT
 #
 #   text    no graphics
 #   plots   pictures, drawn by Octave's own OpenGL toolkit on a virtual X server (Xvfb)
-# Exit status 77: Octave, or the virtual server, is not installed.
+#   library calls of the shared library, by a gateway that is built by mkoctfile; and pictures
+# Exit status 77: Octave, the virtual server, or mkoctfile is not installed.
 set -u
 mode=$1
 script=$2
@@ -18,6 +19,9 @@ if [ "$mode" = text ]; then
   exec octave-cli --quiet --norc --eval "$run"
 fi
 
+if [ "$mode" = library ]; then
+  command -v mkoctfile >/dev/null 2>&1 || skip "there is no mkoctfile (Debian: apt-get install octave-dev)"
+fi
 command -v Xvfb >/dev/null 2>&1 || skip "there is no Xvfb for plots (Debian: apt-get install xvfb)"
 number=$(mktemp)
 Xvfb -displayfd 3 -screen 0 1280x1024x24 -nolisten tcp 3>"$number" 2>/dev/null &

@@ -100,7 +100,7 @@ why: cmake --preset release (in $top)"
 
 # Octave with its graphics, and an X server without a screen. Tests of matlab/ are skipped without them.
 octave_there() {
-  command -v octave-cli >/dev/null 2>&1 && command -v Xvfb >/dev/null 2>&1
+  command -v octave-cli >/dev/null 2>&1 && command -v mkoctfile >/dev/null 2>&1 && command -v Xvfb >/dev/null 2>&1
 }
 
 # shellcheck disable=SC2086
@@ -113,21 +113,21 @@ install_octave() {
   fi
   say "Installing GNU Octave for the tests of matlab/"
   if command -v apt-get >/dev/null 2>&1; then
-    packages="octave xvfb libgl1-mesa-dri fonts-freefont-otf"
+    packages="octave octave-dev xvfb libgl1-mesa-dri fonts-freefont-otf"
     as_root apt-get update ||
       say "apt-get update failed; trying with the package lists that are there"
     as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends $packages
   elif command -v dnf >/dev/null 2>&1; then
-    packages="octave xorg-x11-server-Xvfb mesa-dri-drivers"
+    packages="octave octave-devel xorg-x11-server-Xvfb mesa-dri-drivers"
     as_root dnf install -y $packages
   elif command -v zypper >/dev/null 2>&1; then
-    packages="octave xorg-x11-server-Xvfb Mesa-dri"
+    packages="octave octave-devel xorg-x11-server-Xvfb Mesa-dri"
     as_root zypper --non-interactive install $packages
   elif command -v pacman >/dev/null 2>&1; then
     packages="octave xorg-server-xvfb mesa"
     as_root pacman -S --needed --noconfirm $packages
   elif command -v apk >/dev/null 2>&1; then
-    packages="octave xvfb mesa-dri-gallium ttf-freefont"
+    packages="octave octave-dev xvfb mesa-dri-gallium ttf-freefont"
     as_root apk add $packages
   fi
   octave_there || say "GNU Octave could not be installed; tests of matlab/ are skipped"
