@@ -1,23 +1,30 @@
-% Stresses below the surface by the library: a ball on a plane, as the first case of examples/subsurface.inp
+% Stresses below a ball that slides over a plane: their largest value moves towards the surface with friction
 %
-% The results stay in blk (points in the plane y = 0) and sol (the surface).
+% The results stay in friction [-], mises (largest von Mises stress [N/mm2]), place (x, z of it [mm]) and blk
+% (the plane y = 0 for the last friction, for plotstrs).
 
 CNTC = cntc_initlibrary();
-ire  = 1;
-icp  = 1;
-cntc_initialize(ire, 3);
-cntc_setflags(ire, icp, [CNTC.if_units, CNTC.ic_tang, CNTC.ic_norm], [CNTC.un_cntc, 0, 1]);
-cntc_setsolverflags(ire, icp, 0, [100 100 30 1], 1e-5);
-cntc_setmaterialparameters(ire, icp, 0, [0.28 0.28 82000 82000]);
-cntc_setfrictionmethod(ire, icp, 0, [0.3 0.3]);
-cntc_sethertzcontact(ire, icp, -3, [41 41 2 2 1.25]);
-cntc_setnormalforce(ire, icp, 1e4);
-cntc_calculate(ire, icp);
-sol = cntc_getcpresults(ire, icp);
+cntc_initialize(1, 3);
+cntc_setflags(1, 1, [CNTC.if_units, CNTC.ic_tang], [CNTC.un_cntc, 3]);
+cntc_setsolverflags(1, 1, 0, [999 100 30 1], 1e-6);
+cntc_setmaterialparameters(1, 1, 0, [0.3 0.3 80000 80000]);
+cntc_sethertzcontact(1, 1, -3, [40 40 1 1 1.1]);
+cntc_setnormalforce(1, 1, 2000);
+cntc_setcreepages(1, 1, 1, 0, 0);       % all of the contact slips; the force on the ball points to -x
+subs_addblock(1, 1, 1, 9, 0.1*(-12:12), 0, 0.05*(0:30));
 
-subs_addblock(ire, icp, 1, 9, -2.5:0.125:2.5, 0, 0:0.1:3);
-subs_calculate(ire, icp);
-blk = subs_getresults(ire, icp, 1, 'all');
+friction = [0.0001 0.15 0.3 0.5]';
+mises    = zeros(size(friction));
+place    = zeros(numel(friction), 2);
+for i = 1 : numel(friction)
+   cntc_setfrictionmethod(1, 1, 0, friction(i)*[1 1]);
+   cntc_calculate(1, 1);
+   subs_calculate(1, 1);
+   blk = subs_getresults(1, 1, 1, 'all');
+   [mises(i), k] = max(blk.sigvm(:));
+   [ix, iy, iz]  = ind2sub(size(blk.sigvm), k);
+   place(i,:)    = [blk.x(ix), blk.z(iz)];
+end
 cntc_closelibrary();
 
 opt = plotstrs;

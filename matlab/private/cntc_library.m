@@ -7,8 +7,8 @@ function [ answer ] = cntc_library( question, value )
 %   cntc_library('name')          its name for calllib
 %   cntc_library('idebug', value) set or get: 0 silent, 1 tell error codes, 2 also remarks
 %
-% The library is searched for as CONTACT_LIBRARY of the environment, then in bin and lib beside this folder and in
-% build/release.
+% The library is searched for as CONTACT_LIBRARY of the environment, then in bin, lib and build/release/bin beside
+% this folder, and in bin of an installation that has it in share/contact.
 
    persistent state;
    if (isempty(state))
@@ -72,7 +72,7 @@ function [ file, name ] = find_library( )
    end
    endings = {'.so','.dll','.dylib'};
    top     = fileparts(fileparts(fileparts(mfilename('fullpath'))));
-   folders = {'bin','lib',fullfile('build','release','bin'),fullfile('build','release','lib')};
+   folders = {'bin','lib',fullfile('build','release','bin'),fullfile('..','..','bin')};
    for f = folders
       for e = endings
          file = fullfile(top, f{1}, [name e{1}]);

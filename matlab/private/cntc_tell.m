@@ -14,6 +14,10 @@ function cntc_tell( name, ire, icp, ierror, idebug )
    text = '';
    if (cntc_library('mex'))
       [code, text] = cntc_mex('error', ire, icp);
+      if (code==0)
+         % what belongs to no problem
+         [code, text] = cntc_mex('error', 0, -1);
+      end
    end
    if (idebug<1)
       return

@@ -28,19 +28,20 @@ for i = 1 : numel(routines)
 end
 
 % --- module 3: the same contact by the library and by the program
-traction_curve;
-text = {'3 MODULE','203100','022020','0000231','500 50 30 1 1e-5','70000 0.001 0 0','0.35 0.35','0 0.25 25000', ...
-        '0.28 0.28 82000 82000','-3','53 40 6 4.5 1.1'};
-second = {'3 MODULE','203100','000000','0000231','500 50 30 1 1e-5','70000 0.01 0 0','0.35 0.35'};
+creep_curve;
+text = {'3 MODULE','203100','022020','0000231','999 100 30 1 1e-6','70000 0.001 0 0','0.35 0.35','0 0.624 25000', ...
+        '0.28 0.28 82000 82000','-3','25 25 6.5 5 1.2'};
+second = {'3 MODULE','203100','000000','0000231','999 100 30 1 1e-6','70000 0.1 0 0','0.35 0.35'};
 f = fopen('curve.inp', 'w');
 fprintf(f, "%s\n", text{:}, second{:}, '0 MODULE');
 fclose(f);
 [status, output] = system(sprintf('"%s" --quiet 2 curve 2>&1', getenv('CONTACT_PROGRAM')));
 check(status==0, ['the program ran: ' output]);
 out = parse_out3('curve');
-check_near(fx_list([4 9]), out.force.fx_true, 5e-4*max(abs(out.force.fx_true)), 'forces of the traction curve');
+check_near(70000*ratio([3 11],1)', out.force.fx_true, 5e-4*max(abs(out.force.fx_true)), 'forces of the traction curve');
 check_near(fn, 70000, 1, 'normal force');
-check_near(sum(sol.px(:))*sol.dx*sol.dy, fx_list(end), 1e-3*abs(fx_list(end)), 'tractions of getcpresults');
+check(ratio(3,2)>ratio(3,1) && abs(ratio(11,2)-ratio(11,1))<1e-3, 'a layer lowers the initial slope');
+check_near(sum(sol.px(:))*sol.dx*sol.dy, 70000*ratio(11,1), 50, 'tractions of getcpresults');
 check_near(max(sol.pn(:)), out.force.pmax(2), 1e-3*out.force.pmax(2), 'pressures of getcpresults');
 plot3d(sol);
 
@@ -61,9 +62,10 @@ cntc_setundeformeddistc(2, 1, 1, [1e-3 0 1.2e-3 0 0 0]);
 cntc_setrollingstepsize(2, 1, 0, 0.4);
 cntc_setreferencevelocity(2, 1, 10000);
 cntc_setcreepages(2, 1, 1e-3, 5e-4, 1e-4);
-cntc_setnormalforce(2, 1, 5e4);
+cntc_setnormalforce(2, 1, 1.5e4);
 cntc_setmetadata(2, 1, CNTC.mt_tim, 0.5);
-check(cntc_calculate(2, 1)==0, 'solved');
+ierror = cntc_calculate(2, 1);
+check(ierror==0, sprintf('solved: %d %s', ierror, lastwarn()));
 [mx, my] = cntc_getnumelements(2, 1);
 [dx, dy] = cntc_getgriddiscretization(2, 1);
 [mx2, my2, xc1, yc1, dx2, dy2] = cntc_getpotcontact(2, 1);
@@ -115,7 +117,7 @@ cntc_calculate(2, 2);
 check_near(tx/(0.3*fn), -0.3, 1e-3, 'prescribed force');
 hz = cntc_gethertzcontact(2, 2);
 check_near([hz(1) hz(2) hz(5)], [1 1 1], 1e-6, 'curvatures in 1/m');
-check_near(hz(3), sqrt(1e-4), 1e-4, 'half-axis of the approach');
+check_near(hz(3), sqrt(0.5e-4), 1e-5, 'half-axis of the approach');
 % undeformed distance and extra slip per element
 cntc_setpotcontact(2, 3, 3, [7 5 -3 -2 1 1]);
 [x, y] = meshgrid(-3:3, -2:2);
@@ -158,12 +160,23 @@ check(cntc_managelicense()==0, 'no licence');
 cntc_closelibrary();
 
 % --- wheel on rail against the program
-run_example('wheel_on_rail', 'profiles/60E1.prr', 'profiles/S1002.prw');
-wheel_on_rail;
-out = parse_out1('wheel_on_rail');
-check_near(fy_list, out.tot_forc.fy_tr(1:3), 5e-4*max(abs(fy_list)), 'lateral forces');
-check_near(ycp_list, out.cp_pos.ycp_r(1,1:3), 1e-3, 'contact positions');
-s = loadcase('wheel_on_rail', 3);
+manchester;
+copyfile(fullfile(here, 'examples', 'profiles'), 'profiles');
+text = {'1 MODULE','1203100','0022033','0001201','999 100 30 1 1e-5','0.3 0.3','0.28 0.28 82000 82000', ...
+        '0.2 0.2 1 90d 8 4','14 0 1435 0.025','''profiles/60E1.prr'' 0 1 0','0 0 0 0 0 0','1360 -70 460', ...
+        '''profiles/S1002.prw'' 0 1 0','0 0 10000 0 0 0','2000 0 0 0 0 -4.347826087'};
+second = {'1 MODULE','1203100','0111002','0001201','999 100 30 1 1e-5','0 6 10000 0 0.0144 0','2000 0 0 0 0 -4.347826087'};
+f = fopen('bench.inp', 'w');
+fprintf(f, "%s\n", text{:}, second{:}, '0 MODULE');
+fclose(f);
+[status, output] = system(sprintf('"%s" --quiet 2 bench 2>&1', getenv('CONTACT_PROGRAM')));
+check(status==0, ['the program ran: ' output]);
+out = parse_out1('bench');
+check_near(forces([1 7],2)', out.tot_forc.fy_tr, 5e-4*max(abs(forces(:,2))), 'lateral forces');
+check_near(ycp([1 7])', out.cp_pos.ycp_tr(1,:), 1e-3, 'contact positions');
+check_near(angle([1 7])', out.cp_pos.delttr(1,:), 1e-4, 'contact angles');
+s = loadcase('bench', 2, 1);
+check(isequal(size(sol.pn), size(s.pn)), 'grid size as in the .mat file');
 check_near(sol.pn, s.pn, 1e-3*max(s.pn(:)), 'pressures as in the .mat file');
 check_near(sol.px, s.px, 2e-3*max(s.pn(:)), 'tractions as in the .mat file');
 check_near([sol.x sol.y], [s.x s.y], 1e-4, 'grid as in the .mat file');
@@ -198,7 +211,7 @@ check(cntc_calculate(1)==0, 'left wheel solved');
 check(cntc_getnumcontactpatches(1)==1, 'one patch');
 forces = cntc_getglobalforces(1);
 check_near([forces(3) cntc_getglobalforces(1,1)(3)], [60000 60000], 60, 'vertical force');
-check_near(forces(2), -fy_list(3), 0.02*abs(fy_list(3)), 'mirror image of the right wheel');
+check(forces(2)>0, 'lateral force of a left wheel');
 ws = cntc_getwheelsetposition(1);
 check_near(ws([1 2 5])', [0 -3 -0.004], 1e-9, 'position comes back');
 check_near(cntc_getwheelsetvelocity(1)([1 6])', [20000 -43.5], 1e-9, 'velocity comes back');
@@ -220,11 +233,13 @@ check_error(@() cntc_getcpresults(1, 2), 'number 2 was asked for');
 cntc_closelibrary();
 
 % --- below the surface
-run_example('subsurface');
 subsurface;
-[~, axis_points] = loadstrs('subsurface', 1);
-on_axis = squeeze(blk.sigvm(21,1,:));
-check_near(interp1(blk.z, on_axis, 0.5), squeeze(axis_points.sigvm(1,1,abs(axis_points.z-0.5)<1e-9)), 1e-3*max(on_axis), ...
-           'von Mises stress on the axis');
-check(isequal([blk.nx blk.ny blk.nz], [41 1 31]), 'size of the block');
-check_near(blk.sigtr, blk.sigma1-blk.sigma3, 1e-6*max(on_axis), 'Tresca');
+% without friction, after Hertz: the largest stress is 0.62 p0 in a depth of 0.48 half-axes for nu = 0.3
+p0 = 1.5*2000/pi;
+check_near([mises(1)/p0, place(1,1), place(1,2)], [0.620 0 0.48], 0.03, 'stresses without friction');
+check(place(4,2)==0 && mises(4)>1.2*mises(1), 'with much friction the largest stress is at the surface');
+check(isequal([blk.nx blk.ny blk.nz], [25 1 31]), 'size of the block');
+check_near(blk.sigtr, blk.sigma1-blk.sigma3, 1e-6*mises(4), 'Tresca');
+check_near(blk.sighyd, (blk.sigxx+blk.sigyy+blk.sigzz)/3, 1e-6*mises(4), 'mean stress');
+with_tensor = sqrt(((blk.sigma1-blk.sigma2).^2+(blk.sigma2-blk.sigma3).^2+(blk.sigma3-blk.sigma1).^2)/2);
+check_near(blk.sigvm, with_tensor, 1e-6*mises(4), 'von Mises');
