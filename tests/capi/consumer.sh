@@ -1,17 +1,19 @@
 #!/bin/sh
 # Install into a scratch folder, then build and run a C program against it in three ways:
 # CMake package, pkg-config with the shared library, pkg-config with the static one
-# usage: consumer.sh BUILD_FOLDER C_COMPILER
+# usage: consumer.sh BUILD_FOLDER C_COMPILER FORTRAN_COMPILER
 set -eu
 build=$1
 compiler=$2
+fortran=$3
 here=$(cd "$(dirname "$0")" && pwd)
 work=$(pwd)
 rm -rf prefix cmake_build results
 cmake --install "$build" --prefix "$work/prefix" > install.log
 
 echo "-- installed files"
-for file in bin/contact include/contact.h share/licenses/contact/LICENSE; do
+for file in bin/contact include/contact.h include/contact_addon.h include/caddon_flags.h include/caddon_flags.inc \
+  include/contact_addon.ifc include/contact_addon.f90 share/licenses/contact/LICENSE; do
   test -f "prefix/$file" || { echo "not installed: $file"; exit 1; }
 done
 if [ -n "$(find prefix -name '*.mod')" ]; then
@@ -47,6 +49,26 @@ flags=$(pkg-config --cflags --libs contact)
 eval "\"\$compiler\" -Wall -Wextra -Werror \"\$here/consumer/consumer.c\" -o consumer_shared $flags" \
   '"-Wl,-rpath,$library_folder"'
 run shared ./consumer_shared
+
+# caller NAME COMPILER FILES: the library's routines, which need no module file of ours
+caller() {
+  name=$1
+  with=$2
+  shift 2
+  eval "\"\$with\" \"\$@\" -o \"caller_\$name\" $flags" '"-Wl,-rpath,$library_folder"'
+  "./caller_$name" > "caller_$name.txt"
+}
+examples=$CONTACT_SOURCE/examples/library
+echo "-- pkg-config, routines from C, Fortran with the module, old Fortran"
+caller c "$compiler" "$examples/creep_curve.c"
+caller module "$fortran" "$work/prefix/include/contact_addon.f90" "$examples/creep_curve.f90"
+cmp caller_c.txt caller_module.txt
+caller fixed "$fortran" "$here/consumer/fixed.F"
+if command -v c++ > /dev/null 2>&1; then
+  caller plus c++ "$here/consumer/plus.cpp"
+else
+  echo "-- no C++ compiler here, its headers are not tried"
+fi
 
 echo "-- pkg-config, static library"
 mkdir -p static

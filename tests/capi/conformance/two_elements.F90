@@ -49,6 +49,7 @@ program two_elements
    call calculate(1, 0, "d")
    call compare(1, "d", 21, 33, 0.00005d0, [42083.1d0, 4883.3d0, 4617.4d0, 23.7d0], [363, 138, 225], 675.4d0, 202.1d0)
    call cntc_finalize(1)
+   call check_dump()
    call suite%finish()
 
 contains
@@ -173,5 +174,26 @@ contains
       call suite%close_to(field(place(1) + (place(2) - 1)*mx), expected, tolerance, label//", value at its place")
       call suite%close_to(maxval(abs(field)), abs(expected), tolerance, label//", largest")
    end subroutine one_field
+
+   !> The cases are written as input in the order of their calculation, closed by module 0
+   subroutine check_dump()
+      character(len=200) :: line
+      integer :: unit, status, cases, last
+
+      cases = 0
+      last = -1
+      open(newunit=unit, file="contact_addon.inp", status="old", action="read", iostat=status)
+      call suite%equal(status, 0, "the cases are written as input")
+      if (status /= 0) return
+      do
+         read(unit, "(a)", iostat=status) line
+         if (status /= 0) exit
+         if (index(line, "MODULE") > 0) read(line, *) last
+         if (index(line, "MODULE") > 0 .and. last == 3) cases = cases + 1
+      end do
+      close(unit)
+      call suite%equal(cases, 4, "cases in the written input")
+      call suite%equal(last, 0, "the written input is closed")
+   end subroutine check_dump
 
 end program two_elements
