@@ -234,7 +234,7 @@ def replay():
     with open("program/replay.out", encoding="utf-8") as file:
         lines = file.read().splitlines()
     found = [[float(word) for word in lines[number + 1].split()[:4]] for number, line in enumerate(lines)
-             if re.search(r"\bFN\b.*\bFX\b.*\bFY\b", line)]
+             if re.match(r" *FN +FX +FY ", line)]
     same(len(found), len(forces), "cases in the results of the program")
     for (fn, fx, fy, _), given in zip(found, forces):
         close([fn, fx, fy], given[:3], 2e-3 * given[0] * 0.3, "forces of the program")

@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
 """Wheel on rail by the library: conventions, left and right, profiles. usage: wheel_rail.py SCENARIO"""
+import os
+import subprocess
 import sys
 
-from checks import check, close, finish, profiles, same
+from checks import REFERENCE, SOURCE, check, close, finish, profiles, same
 import numpy as np
 from contact import cntc
 from contact._library import call
@@ -184,8 +186,34 @@ def profile_values():
     same(cntc.getprofilevalues(2, 3, [1, 0]), CNTC["err_profil"], "a wheel has no gauge point")
 
 
+def from_inputs():
+    """The first case of input files: by the library and by the program"""
+    names = [os.path.join(SOURCE, "examples/wheel_on_rail")]
+    bank = os.path.join(os.path.dirname(REFERENCE), "testbank")
+    for name in ("examples_s+c/cross_locus", "examples_s+c/wing_locus", "examples_trans/m1_steady_roll"):
+        if os.path.isfile(os.path.join(bank, name + ".inp")):
+            names.append(os.path.join(bank, name))
+        else:
+            print(f"skipped: {name} is not here")
+    for ire, name in enumerate(names, 1):
+        label = os.path.basename(name)
+        cntc.initialize(ire, 1)
+        same(cntc.readinpfile(ire, CNTC["inp_modul1"], name + ".inp"), 0, f"{label}: readinpfile")
+        same(cntc.calculate(ire, -1), 0, f"{label}: error code")
+        forces = cntc.getglobalforces(ire, -1)
+        os.makedirs("program", exist_ok=True)
+        subprocess.run([os.environ["CONTACT_PROGRAM"], "--quiet", "--output-dir", "program", "2", name], check=True)
+        with open(f"program/{label}.out", encoding="utf-8") as file:
+            lines = file.read().splitlines()
+        row = next(number for number, line in enumerate(lines) if "FX(TR)" in line) + 1
+        printed = [float(word) for word in lines[row].split()]
+        close(forces[[0, 1, 2]], printed[:3], 5.1e-4 * np.abs(printed[:3]), f"{label}: forces to the printed digits")
+    same(cntc.readinpfile(1, CNTC["inp_modul1"], "no_such_file.inp"), CNTC["err_input"], "a file that is not there")
+    same(cntc.readinpfile(1, CNTC["inp_vamp"], "no_such_file.inp"), CNTC["err_input"], "a kind that is not there")
+
+
 if __name__ == "__main__":
-    scenarios = (conventions, patch_as_in_matlab, mirrored, profile_values)
+    scenarios = (conventions, patch_as_in_matlab, mirrored, profile_values, from_inputs)
     chosen = [scenario for scenario in scenarios if scenario.__name__ == sys.argv[-1]]
     if not chosen:
         raise SystemExit("usage: wheel_rail.py " + " | ".join(scenario.__name__ for scenario in scenarios))
