@@ -2,6 +2,7 @@
 module contact_cli_arguments
    use, intrinsic :: iso_fortran_env, only : error_unit, input_unit, output_unit
    use contact_base_error, only : error_type, fatal_error
+   use contact_cli_report, only : is_report, run_report
    use contact_cli_versions, only : contact_version, version_text
    use contact_experiment_progress, only : is_terminal
    use contact_experiment_run, only : run_experiment, run_settings
@@ -41,6 +42,12 @@ module contact_cli_arguments
       character(len=:), allocatable :: output_folder
       !> Number of threads, 0 when not given
       integer :: threads = 0
+      !> Where to write the totals as JSON lines: "" a file, "-" the standard output; unallocated: nowhere
+      character(len=:), allocatable :: json
+      !> Write the HDF5 file?
+      logical :: hdf5 = .false.
+      !> Write VTK files?
+      logical :: vtk = .false.
       logical :: quiet = .false., help = .false., version = .false.
    end type command
 
@@ -52,6 +59,10 @@ contains
       type(error_type), allocatable :: error
 
       status = success
+      if (is_report()) then
+         status = run_report()
+         return
+      end if
       call read_arguments(asked, error)
       if (.not. allocated(error)) then
          if (asked%help) then
@@ -92,6 +103,9 @@ contains
       settings%version = contact_version
       settings%check_only = asked%mode == mode%check
       settings%threads = asked%threads
+      settings%exports%hdf5 = asked%hdf5
+      settings%exports%vtk = asked%vtk
+      if (allocated(asked%json)) settings%exports%json = asked%json
       if (.not. asked%quiet) then
          settings%screen = output_unit
          settings%progress = is_terminal()
@@ -163,9 +177,21 @@ contains
          if (asked%threads < 1 .or. asked%threads > most_threads) call fatal_error(error, &
             & "the number of threads, '" // value // "', is not an integer from 1 to 4096")
          return
+      case ("--hdf5")
+         asked%hdf5 = .true.
+      case ("--vtk")
+         asked%vtk = .true.
+      case ("--json")
+         asked%json = ""
+         if (equals == 0) return
+         asked%json = word(equals + 1:)
+         if (asked%json /= "-") call fatal_error(error, "the option --json writes EXPNAM.jsonl, or with --json=- to the " &
+            & // "standard output; it takes no other value")
+         asked%quiet = .true.
+         return
       case default
          call fatal_error(error, "there is no option '" // name // &
-            & "'; the options are --help, --version, --output-dir DIR, --threads N and --quiet")
+            & "'; the options are --help, --version, --output-dir DIR, --threads N, --hdf5, --json, --vtk and --quiet")
          return
       end select
       if (equals > 0) call fatal_error(error, "the option " // name // " takes no value")
@@ -288,6 +314,7 @@ contains
    subroutine write_help()
       write(output_unit, '(a)') &
          & "Usage: contact [options] [IMODE [EXPNAM]]", &
+         & "       contact report EXPNAM | --serve [FOLDER]", &
          & "", &
          & "Rolling and sliding contact with friction.", &
          & "", &
@@ -296,10 +323,15 @@ contains
          & "        3  read and check EXPNAM.inp, compute nothing", &
          & "EXPNAM  name of the experiment, with a folder if need be, without or with .inp", &
          & "What is missing is asked for.", &
+         & "report  makes one HTML page of the results of --hdf5, or serves a folder to a browser on this machine", &
          & "", &
          & "Options", &
          & "  --output-dir DIR  write the results to this folder instead of that of the input", &
          & "  --threads N       number of threads; default is OMP_NUM_THREADS or all processors", &
+         & "  --hdf5            write inputs, totals and fields of all cases to EXPNAM.h5", &
+         & "  --json            write the totals of every case as JSON lines to EXPNAM.jsonl; --json=- writes", &
+         & "                    them to the standard output, and nothing else", &
+         & "  --vtk             write contact surfaces and subsurface blocks as VTK files, listed in EXPNAM.pvd", &
          & "  --quiet           write nothing but errors to the screen", &
          & "  --help            this text", &
          & "  --version         versions of program, compiler and libraries", &

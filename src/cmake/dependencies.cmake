@@ -1,5 +1,5 @@
 # The compiler and the outside libraries, with the targets by which rooms name them after LIBRARIES:
-# FFTW3::fftw3 (fft), LAPACK::LAPACK (numeric), contact_hdf5 (cli)
+# FFTW3::fftw3 (fft), LAPACK::LAPACK (numeric), hdf5_fortran (cli)
 if(NOT CMAKE_Fortran_COMPILER_ID STREQUAL "GNU" OR CMAKE_Fortran_COMPILER_VERSION VERSION_LESS 12)
   message(FATAL_ERROR "CONTACT is built with gfortran 12 or newer, found "
     "${CMAKE_Fortran_COMPILER_ID} ${CMAKE_Fortran_COMPILER_VERSION}; "
@@ -10,7 +10,7 @@ find_package(FFTW3 REQUIRED)
 find_package(LAPACK REQUIRED)
 find_package(HDF5 REQUIRED COMPONENTS Fortran)
 
-# HDF5 with its Fortran modules. Today only `contact --version` asks it for its number.
-add_library(contact_hdf5 INTERFACE)
-target_include_directories(contact_hdf5 INTERFACE ${HDF5_Fortran_INCLUDE_DIRS})
-target_link_libraries(contact_hdf5 INTERFACE ${HDF5_Fortran_LIBRARIES})
+# HDF5 with its Fortran modules
+add_library(hdf5_fortran INTERFACE)
+target_include_directories(hdf5_fortran INTERFACE ${HDF5_Fortran_INCLUDE_DIRS})
+target_link_libraries(hdf5_fortran INTERFACE ${HDF5_Fortran_LIBRARIES})

@@ -58,6 +58,10 @@ if(program_room)
   install(TARGETS contact_program RUNTIME)
 endif()
 
+# The pages of `contact report`, which the program looks for in this place
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/python/contact DESTINATION ${CMAKE_INSTALL_DATADIR}/contact/python
+  FILES_MATCHING PATTERN "*.py" PATTERN "*.html" PATTERN "*.js" PATTERN "__pycache__" EXCLUDE)
+
 set(headers contact.h contact_addon.h caddon_flags.h caddon_flags.inc contact_addon.ifc contact_addon.f90)
 list(TRANSFORM headers PREPEND ${PROJECT_SOURCE_DIR}/include/)
 install(FILES ${headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
@@ -96,6 +100,9 @@ foreach(file IN LISTS LAPACK_LIBRARIES)
     string(APPEND pc_private " -l${name}")
   endif()
 endforeach()
+# HDF5 often lies in a folder of its own, which linkers do not look into
+string(JOIN " " hdf5_private ${HDF5_Fortran_LIBRARIES})
+string(APPEND pc_private " ${hdf5_private}")
 string(APPEND pc_private " -lgfortran -lquadmath -lgomp -lm")
 configure_file(${PROJECT_SOURCE_DIR}/src/cmake/contact.pc.in ${CMAKE_BINARY_DIR}/contact.pc @ONLY)
 install(FILES ${CMAKE_BINARY_DIR}/contact.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)

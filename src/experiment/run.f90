@@ -9,15 +9,18 @@
 module contact_experiment_run
    use omp_lib, only : omp_get_max_threads, omp_set_num_threads
    use contact_base_error, only : add_context, error_kind, error_type, fatal_error, full_text
+   use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
    use contact_cases_pair_session, only : check_profiles, pair_session, release_pair_session, solve_pair_case
    use contact_cases_session, only : contact_session, release_session, solve_case
    use contact_cases_spec, only : case_spec
+   use contact_experiment_exports, only : export_files, export_request
    use contact_experiment_place, only : experiment_place, locate_experiment
    use contact_experiment_progress, only : is_terminal, progress_line
    use contact_experiment_stopwatch, only : stopwatch
    use contact_input_experiment_file, only : experiment_reader, input_case
    use contact_input_problems, only : problem_text, severity
+   use contact_output_case_record, only : case_head
    use contact_output_finished_file, only : close_completely
    use contact_output_mat_file, only : mat_file_name, write_mat_file
    use contact_output_report, only : timer_line, write_banner, write_case, write_case_line, write_closing, write_end, &
@@ -54,6 +57,8 @@ module contact_experiment_run
       integer :: complaints = no_unit
       !> May a progress line be shown on the terminal?
       logical :: progress = .false.
+      !> Files for other programs beside the usual ones
+      type(export_request) :: exports
    end type run_settings
 
    !> The problem of one result element and contact patch
@@ -72,6 +77,7 @@ module contact_experiment_run
       type(experiment_reader) :: reader
       type(log_type) :: log
       type(progress_line) :: progress
+      type(export_files) :: exports
       !> Slots 1...used are in use
       integer :: used = 0
       type(problem_slot), allocatable :: slots(:)
@@ -180,6 +186,7 @@ contains
       type(run_settings), intent(in) :: settings
       type(error_type), allocatable :: error
       type(input_case) :: this
+      character(len=:), allocatable :: version
       logical :: go_on
       integer :: status, k
 
@@ -189,6 +196,16 @@ contains
          call report_error(state, error)
          return
       end if
+      version = ""
+      if (allocated(settings%version)) version = settings%version
+      call state%exports%open_files(settings%exports, state%place%results, state%place%name, version, error)
+      if (allocated(error)) then
+         call report_error(state, error)
+         call close_out_file(state)
+         return
+      end if
+      if (state%exports%wants_announcements()) call announce_cases(state, error)
+      if (allocated(error)) call report_error(state, error)
       call write_banner(state%log, settings%version)
       if (settings%progress) call state%progress%begin(number_of_cases(state%place%input))
       allocate(state%slots(4))
@@ -208,6 +225,8 @@ contains
          if (settings%screen == 0 .or. this%spec%flow_level == 0) call state%progress%show(state%cases)
       end do
       call state%progress%hide()
+      call state%exports%close_files(error)
+      if (allocated(error)) call report_error(state, error)
       call close_out_file(state)
       do k = 1, state%used
          call release_session(state%slots(k)%session)
@@ -222,20 +241,26 @@ contains
       !> Can the next case be read?
       logical, intent(out) :: go_on
       type(error_type), allocatable :: error
+      type(case_head) :: head
+      real(wp) :: solving_before
       integer :: k
 
       if (state%log%screen /= 0) call state%progress%hide()
+      head = case_head(this%number, this%reid, this%cpid, this%module_number, this%first_line)
       call write_case_line(state%log, this%number, this%reid)
       call report_problems(state, this)
       go_on = this%problems%is_usable()
       if (.not. go_on) then
          call state%log%line(" The run ends at case " // integer_text(this%number) // ", line " // &
             & integer_text(this%first_line) // ": its input cannot be used.")
+         head%failure = "its input cannot be used"
+         if (state%exports%wanted()) call state%exports%write_failure(head)
          return
       end if
 
       call find_slot(state, this%reid, this%cpid, k)
       associate (slot => state%slots(k))
+         solving_before = state%solving%wall
          call state%solving%start()
          state%log%level = this%spec%flow_level
          if (this%module_number == 1) then
@@ -245,7 +270,10 @@ contains
             call solve_case(slot%session, this%spec, state%log, slot%result, error, state%place%folder)
          end if
          call state%solving%halt()
+         head%seconds = state%solving%wall - solving_before
          if (allocated(error)) then
+            head%failure = full_text(error)
+            if (state%exports%wanted()) call state%exports%write_failure(head)
             call add_context(error, "case " // integer_text(this%number))
             if (this%reid > 0) call add_context(error, "result element " // integer_text(this%reid))
             call report_error(state, error)
@@ -256,6 +284,11 @@ contains
                call write_pair(state%log, this%spec, slot%pair_result)
                call write_pair_files(state%place%results, this%number, this%reid, this%spec, slot%pair_result, error)
                if (allocated(error)) call report_error(state, error)
+               head%converged = slot%pair_result%solved
+               if (state%exports%wanted()) then
+                  call state%exports%write_pair(head, this%spec, slot%pair, slot%pair_result, error)
+                  if (allocated(error)) call report_error(state, error)
+               end if
             end if
             call state%writing%halt()
          else if (this%spec%solve) then
@@ -263,6 +296,11 @@ contains
                & state%unconverged = state%unconverged + 1
             call state%writing%start()
             call write_results(state, this, slot%result)
+            head%converged = slot%result%normal%succeeded() .and. slot%result%tangential%succeeded()
+            if (state%exports%wanted()) then
+               call state%exports%write_contact(head, this%spec, slot%result, error)
+               if (allocated(error)) call report_error(state, error)
+            end if
             call state%writing%halt()
          end if
       end associate
@@ -317,6 +355,25 @@ contains
       state%slots(k)%cpid = cpid
       allocate(state%slots(k)%session, state%slots(k)%result)
    end subroutine find_slot
+
+   !> Tell the files for other programs which cases will come
+   subroutine announce_cases(state, error)
+      type(experiment_state), intent(inout) :: state
+      type(error_type), allocatable, intent(out) :: error
+      type(experiment_reader) :: reader
+      type(input_case) :: this
+      type(error_type), allocatable :: unreadable
+
+      call reader%open_file(state%place%input, unreadable)
+      do while (.not. allocated(unreadable))
+         call reader%next_case(this, unreadable)
+         if (allocated(unreadable)) exit
+         if (this%module_number == 0) exit
+         if (this%spec%solve) call state%exports%announce(case_head(this%number, this%reid, this%cpid, this%module_number))
+         if (.not. this%problems%is_usable()) exit
+      end do
+      call state%exports%all_announced(error)
+   end subroutine announce_cases
 
    !> Number of cases in the input as far as it can be read, for the progress line
    integer function number_of_cases(file) result(n)

@@ -6,9 +6,9 @@ module contact_output_finished_file
    implicit none (type, external)
    private
 
-   public :: case_file_name, close_completely, finished_file
+   public :: case_file_name, close_completely, finished_file, move_file
 
-   !> A text file in the making
+   !> A file in the making
    type :: finished_file
       !> Unit to write to, 0 when not open
       integer :: unit = 0
@@ -63,17 +63,27 @@ contains
    end function case_file_name
 
    !> Open a temporary file in the folder of the final one
-   subroutine start_file(self, name, error)
+   subroutine start_file(self, name, error, binary)
       class(finished_file), intent(inout) :: self
       !> Final name
       character(len=*), intent(in) :: name
       type(error_type), allocatable, intent(out) :: error
+      !> Bytes instead of lines? Default false
+      logical, intent(in), optional :: binary
       integer :: status
+      logical :: bytes
       character(len=200) :: message
 
+      bytes = .false.
+      if (present(binary)) bytes = binary
       self%name = name
       self%temporary = name // ".tmp"
-      open(newunit=self%unit, file=self%temporary, status="replace", action="write", iostat=status, iomsg=message)
+      if (bytes) then
+         open(newunit=self%unit, file=self%temporary, status="replace", action="write", access="stream", form="unformatted", &
+            & iostat=status, iomsg=message)
+      else
+         open(newunit=self%unit, file=self%temporary, status="replace", action="write", iostat=status, iomsg=message)
+      end if
       if (status == 0) return
       self%unit = 0
       call fatal_error(error, "cannot write the file: " // trim(message), error_kind%file, file=name)
@@ -93,7 +103,7 @@ contains
       if (status == 0) then
          call close_completely(self%unit, self%temporary, incomplete)
          closed = merge(1, 0, allocated(incomplete))
-         if (closed == 0) closed = move(self%temporary, self%name)
+         if (closed == 0) closed = move_file(self%temporary, self%name)
       else
          close(self%unit, status="delete", iostat=unit)
       end if
@@ -125,7 +135,7 @@ contains
    end subroutine close_completely
 
    !> Rename a file; where the system refuses to replace, the old one is deleted first
-   integer function move(from, to) result(status)
+   integer function move_file(from, to) result(status)
       character(len=*), intent(in) :: from, to
       integer :: unit, ignored
 
@@ -134,5 +144,5 @@ contains
       open(newunit=unit, file=to, status="old", iostat=ignored)
       if (ignored == 0) close(unit, status="delete", iostat=ignored)
       status = int(c_rename(from // c_null_char, to // c_null_char))
-   end function move
+   end function move_file
 end module contact_output_finished_file

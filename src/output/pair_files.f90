@@ -10,7 +10,7 @@ module contact_output_pair_files
    implicit none (type, external)
    private
 
-   public :: write_pair_files
+   public :: mirrored, write_pair_files
 
 contains
 

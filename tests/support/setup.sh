@@ -2,7 +2,7 @@
 #
 #   install_missing    installs the compiler, tools and libraries that are not there
 #   install_octave     the same for GNU Octave, which tests of matlab/ need; goes on without it
-#   install_numpy      the same for numpy, which only tests need; goes on without it
+#   install_numpy      the same for numpy and h5py, which only tests need; goes on without it
 #   build PRESET [-DX] configures and builds into build/PRESET
 
 say() { printf '%s\n' "== $*"; }
@@ -133,27 +133,27 @@ install_octave() {
   octave_there || say "GNU Octave could not be installed; tests of matlab/ are skipped"
 }
 
-has_numpy() { python3 -c "import numpy" >/dev/null 2>&1; }
+has_numpy() { python3 -c "import numpy, h5py" >/dev/null 2>&1; }
 
-# numpy for the tests of the Python package: from the system's packages, or in a folder below build
+# numpy and h5py for the tests of the Python package and of results: from the system's packages, or in a folder below build
 install_numpy() {
   if has_numpy; then
     return 0
   fi
-  say "Installing numpy"
+  say "Installing numpy and h5py"
   if command -v apt-get >/dev/null 2>&1 && { [ "$(id -u)" = 0 ] || sudo -n true 2>/dev/null; }; then
     { as_root apt-get update
-      as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends python3-numpy
-    } || say "apt-get could not install python3-numpy"
+      as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends python3-numpy python3-h5py
+    } || say "apt-get could not install python3-numpy and python3-h5py"
   fi
   if has_numpy; then
     return 0
   fi
   { [ -x "$top/build/python/bin/python3" ] || python3 -m venv "$top/build/python"; } &&
-    "$top/build/python/bin/python3" -m pip install --quiet numpy
+    "$top/build/python/bin/python3" -m pip install --quiet numpy h5py
   PATH=$top/build/python/bin:$PATH
   export PATH
-  has_numpy || say "There is no numpy; tests of the Python package will be skipped"
+  has_numpy || say "There is no numpy or h5py; tests of the Python package and of HDF5 files will be skipped"
 }
 
 # build PRESET [options of cmake]

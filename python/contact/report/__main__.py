@@ -1,0 +1,37 @@
+"""contact report EXPNAM | --serve [FOLDER]"""
+from __future__ import annotations
+
+import argparse
+import sys
+
+from .page import write_page
+from .read import MissingResults, find_results
+from .server import DEFAULT_PORT, serve
+
+
+def main(arguments: list[str] | None = None) -> int:
+    parser = argparse.ArgumentParser(prog="contact report", description=(
+        "Results of an experiment as one HTML file, or a page on this machine on which experiments are checked, run and seen."))
+    parser.add_argument("experiment", nargs="?", metavar="EXPNAM", help="experiment that was run with contact --hdf5")
+    parser.add_argument("-o", "--output", metavar="FILE", help="name of the HTML file; default EXPNAM.html")
+    parser.add_argument("--serve", nargs="?", const=".", metavar="FOLDER",
+                        help="serve the .inp files of a folder (default: this one) on the loopback address")
+    parser.add_argument("--port", type=int, default=DEFAULT_PORT, help="port of the server, 0 for any free one (default %(default)s)")
+    asked = parser.parse_args(arguments)
+    if (asked.experiment is None) == (asked.serve is None):
+        parser.error("name an experiment, or ask for --serve")
+    try:
+        if asked.serve is not None:
+            serve(asked.serve, asked.port)
+        else:
+            print(write_page(find_results(asked.experiment), asked.output))
+    except (MissingResults, OSError) as reason:
+        print("contact report: %s" % reason, file=sys.stderr)
+        return 1
+    except KeyboardInterrupt:
+        return 0
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,47 @@
+"""Write the results of an experiment as one HTML file that needs no network."""
+from __future__ import annotations
+
+import html
+import json
+import os
+from typing import Any
+
+from .read import read_experiment
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+
+
+def resource(name: str) -> str:
+    with open(os.path.join(HERE, name), encoding="utf-8") as file:
+        return file.read()
+
+
+def _embedded(value: Any) -> str:
+    """JSON that can stand inside a script element"""
+    return (json.dumps(value, separators=(",", ":"), allow_nan=False)
+            .replace("<", "\\u003c").replace("\u2028", "\\u2028").replace("\u2029", "\\u2029"))
+
+
+def page_of(path: str) -> str:
+    """The page of an .h5 file"""
+    data, blobs = read_experiment(path)
+    page = resource("viewer.html")
+    parts = {"@TITLE@": html.escape(data["experiment"]) + " \u2013 CONTACT", "@DATA@": _embedded(data),
+             "@BLOBS@": _embedded(blobs), "@SCRIPT@": resource("viewer.js")}
+    pieces = []
+    while parts:
+        at, mark = min((page.index(mark), mark) for mark in parts)
+        pieces += [page[:at], parts.pop(mark)]
+        page = page[at + len(mark):]
+    return "".join(pieces + [page])
+
+
+def write_page(path: str, target: str | None = None) -> str:
+    """Write the page of an .h5 file; beside it unless told otherwise. Returns its name"""
+    target = target or os.path.splitext(path)[0] + ".html"
+    text = page_of(path)
+    temporary = target + ".tmp"
+    with open(temporary, "w", encoding="utf-8") as file:
+        file.write(text)
+    os.replace(temporary, target)
+    return target

@@ -1,0 +1,197 @@
+"""Read the HDF5 file of an experiment into what the page shows."""
+from __future__ import annotations
+
+import base64
+import hashlib
+import os
+import re
+import zlib
+from typing import Any
+
+SHOWN_FIELDS = ("eldiv", "h", "pn", "px", "py", "sx", "sy", "mu", "taucrt", "uplsx", "uplsy", "temp1", "temp2")
+LAYOUT = 1
+
+
+class MissingResults(Exception):
+    """There is nothing to show, and the message says what to do"""
+
+
+class Blobs:
+    """Arrays for the page: deflated, in base64, each one stored once"""
+
+    def __init__(self) -> None:
+        self.items: list[dict[str, str]] = []
+        self._known: dict[bytes, int] = {}
+
+    def add(self, array: Any) -> int:
+        """Number of the blob that holds this array; real numbers become 4 bytes, in planes of equal bytes"""
+        import numpy as np
+        if array.dtype.kind in "iu":
+            kind, raw = "u1", array.astype("u1").tobytes()
+        else:
+            kind = "f4"
+            raw = np.ascontiguousarray(array, dtype="<f4").reshape(-1).view("u1").reshape(-1, 4).T.tobytes()
+        key = hashlib.sha256(kind.encode() + raw).digest()
+        if key not in self._known:
+            self._known[key] = len(self.items)
+            self.items.append({"kind": kind, "data": base64.b64encode(zlib.compress(raw, 6)).decode("ascii")})
+        return self._known[key]
+
+
+def _plain(value: Any) -> Any:
+    """A value of the file as Python and JSON know it; None where there is no number"""
+    if isinstance(value, bytes):
+        return value.decode("utf-8", "replace").strip()
+    if getattr(value, "shape", ()) != ():
+        return [_plain(item) for item in value]
+    number = value.item()
+    if isinstance(number, bytes):
+        return _plain(number)
+    return None if isinstance(number, float) and not abs(number) < float("inf") else number
+
+
+class _Reader:
+    def __init__(self, file: Any) -> None:
+        import h5py
+        self.h5py = h5py
+        self.file = file
+        self.blobs = Blobs()
+        self.inputs: list[dict[str, Any]] = []
+        self._input_numbers: dict[tuple[Any, ...], int] = {}
+        self._groups: dict[int, dict[str, Any]] = {}
+        self._fields: dict[int, int] = {}
+
+    def address(self, item: Any) -> int:
+        return int(self.h5py.h5o.get_info(item.id).addr)
+
+    def values(self, group: Any) -> dict[str, Any]:
+        """Values of a group; groups that several cases share are read once"""
+        at = self.address(group)
+        if at not in self._groups:
+            self._groups[at] = {name: _plain(item[()]) for name, item in group.items()}
+        return self._groups[at]
+
+    def described(self, group: Any) -> dict[str, list[Any]]:
+        """Values of a group with unit and description"""
+        at = -self.address(group)
+        if at not in self._groups:
+            self._groups[at] = {name: [_plain(item[()]), _plain(item.attrs.get("units", b"")),
+                                       _plain(item.attrs.get("long_name", b""))] for name, item in group.items()}
+        return self._groups[at]
+
+    def columns(self, name: str) -> tuple[dict[str, Any], dict[str, dict[str, str]]]:
+        """Columns of a table and what they are"""
+        table, meta = {}, {}
+        for column, item in self.file[name].items():
+            table[column] = item[...]
+            meta[column] = {"unit": _plain(item.attrs.get("units", b"")), "title": _plain(item.attrs.get("long_name", b""))}
+        return table, meta
+
+    def input_of(self, case: Any) -> int:
+        """Number of the inputs of a case among all different ones"""
+        if "inputs" not in case:
+            return -1
+        groups = case["inputs"]
+        key = tuple((name, self.address(groups[name])) for name in groups)
+        if key not in self._input_numbers:
+            self._input_numbers[key] = len(self.inputs)
+            self.inputs.append({name: self.described(groups[name]) for name in groups})
+        return self._input_numbers[key]
+
+    def patch(self, group: Any, number: int, totals: dict[str, Any]) -> dict[str, Any]:
+        fields, units = {}, {}
+        grid = {name: value for name, value in self.values(group["grid"]).items() if name not in ("x", "y")}
+        pen = totals.get("pen") or 0.0
+        for name in SHOWN_FIELDS:
+            if name not in group["fields"]:
+                continue
+            item = group["fields"][name]
+            units[name] = _plain(item.attrs.get("units", b""))
+            at = self.address(item)
+            if name == "h":
+                gap = item[...] - pen
+                if abs(gap).max() < 1e6:
+                    fields["gap"] = self.blobs.add(gap)
+                continue
+            if at not in self._fields:
+                self._fields[at] = self.blobs.add(item[...])
+            fields[name] = self._fields[at]
+        found = {"number": number, "totals": totals, "grid": grid, "fields": fields, "units": units,
+                 "solver": self.values(group["solver"]),
+                 "effects": self.values(group["effects"])["names"] if "effects" in group else ""}
+        if "curve" in group:
+            import numpy as np
+            curve = group["curve"]
+            found["curveBlob"] = self.blobs.add(np.concatenate([curve[name][...] for name in ("y", "z", "angle")]))
+        return found
+
+
+def _case_name(head: dict[str, Any]) -> str:
+    name = "case_%04d" % head["case"]
+    if head["result_element"] > 0:
+        name = "re%03d_%s" % (head["result_element"], name)
+    return name + ("_cp%d" % head["contact_problem"] if head["contact_problem"] > 1 else "")
+
+
+def read_experiment(path: str) -> tuple[dict[str, Any], list[dict[str, str]]]:
+    """What the page shows of an .h5 file: a description of all cases, and arrays by number"""
+    try:
+        import h5py
+        import numpy as np
+    except ImportError as reason:
+        raise MissingResults("the Python packages numpy and h5py are needed to read results (%s); "
+                             "python3 -m pip install numpy h5py, or apt-get install python3-h5py" % reason) from None
+    try:
+        file = h5py.File(path, "r")
+    except OSError as reason:
+        raise MissingResults("%s cannot be read: %s" % (path, reason)) from None
+    with file:
+        if int(file.attrs.get("layout", 0)) != LAYOUT:
+            raise MissingResults("%s is no result of contact --hdf5, or of another version of it" % path)
+        reader = _Reader(file)
+        case_rows, case_meta = reader.columns("cases")
+        patch_rows, patch_meta = reader.columns("patches")
+        count = len(next(iter(case_rows.values()))) if case_rows else 0
+        rows_of: dict[tuple[int, int, int], list[int]] = {}
+        if patch_rows:
+            for row, key in enumerate(zip(*(patch_rows[name].astype(int) for name in ("result_element", "contact_problem", "case")))):
+                rows_of.setdefault(key, []).append(row)
+        cases = []
+        for row in range(count):
+            head = {name: column[row] for name, column in case_rows.items()}
+            ident = {name: int(head[name]) for name in ("case", "result_element", "contact_problem", "module")}
+            group = file[_case_name(ident)]
+            label = str(ident["case"])
+            if ident["result_element"]:
+                label = "%d:%s" % (ident["result_element"], label)
+            case = {"label": label, "number": ident["case"], "module": ident["module"], "solved": bool(head["solved"]),
+                    "converged": bool(head["converged"]), "seconds": _plain(head["seconds"]), "inputs": reader.input_of(group),
+                    "totals": {name: _plain(head[name]) for name in case_rows
+                               if ident["module"] == 1 and name not in ("case", "line", "solved", "converged", "seconds")},
+                    "patches": []}
+            if "failure" in group:
+                case["failure"] = reader.values(group["failure"])["reason"]
+            if "markers" in group:
+                case["markers"] = reader.values(group["markers"])
+                case["profiles"] = {body: reader.blobs.add(np.stack([item["y"][...], item["z"][...]], axis=1))
+                                    for body, item in group["profiles"].items()}
+            for place in rows_of.get((ident["result_element"], ident["contact_problem"], ident["case"]), []):
+                totals = {name: _plain(column[place]) for name, column in patch_rows.items()}
+                totals = {name: value for name, value in totals.items() if value is not None}
+                number = int(totals["patch"])
+                case["patches"].append(reader.patch(group["patch_%d" % number], number, totals))
+            cases.append(case)
+        data = {"experiment": _plain(file.attrs["experiment"]), "program": _plain(file.attrs["program"]),
+                "columns": {**case_meta, **patch_meta}, "inputs": reader.inputs, "cases": cases}
+    return data, reader.blobs.items
+
+
+def find_results(experiment: str) -> str:
+    """The .h5 file of an experiment, given with or without folder and suffix"""
+    base = re.sub(r"\.(inp|h5|out)$", "", experiment)
+    path = base + ".h5"
+    if os.path.isfile(path):
+        return path
+    if os.path.isfile(base + ".inp"):
+        raise MissingResults("there is no %s; make it with: contact --hdf5 2 %s" % (path, base))
+    raise MissingResults("there is neither %s nor %s.inp" % (path, base))

@@ -1,0 +1,145 @@
+!> contact report: finds Python and the package that makes pages, and hands the rest of the command line to it
+module contact_cli_report
+   use, intrinsic :: iso_c_binding, only : c_char, c_null_char, c_size_t
+   use, intrinsic :: iso_fortran_env, only : error_unit
+   implicit none (type, external)
+   private
+
+   public :: is_report, run_report
+
+   !> Names the folder that holds the Python package `contact`, where it is not found beside the program
+   character(len=*), parameter :: variable = "CONTACT_PYTHON"
+   character(len=*), parameter :: package_file = "/contact/report/__main__.py"
+   !> From the folder of the program: installed, and in the build folder of a checkout
+   character(len=*), parameter :: usual_places(3) = [character(len=26) :: "/../share/contact/python", "/../../../python", &
+      & "/../../python"]
+   !> Runs the package from the folder that is the first argument, or from where Python has it when that is empty
+   character(len=*), parameter :: start = "import sys; place = sys.argv.pop(1); sys.path[:1] = [place] if place else []; " &
+      & // "from contact.report.__main__ import main; sys.exit(main())"
+
+   interface
+      !> readlink of the C library
+      function c_readlink(path, buffer, length) result(used) bind(c, name="readlink")
+         import :: c_char, c_size_t
+         character(kind=c_char), intent(in) :: path(*)
+         character(kind=c_char), intent(out) :: buffer(*)
+         integer(c_size_t), value :: length
+         integer(c_size_t) :: used
+      end function c_readlink
+   end interface
+
+contains
+
+   !> Is the first word of the command line "report"?
+   logical function is_report()
+      character(len=8) :: word
+
+      is_report = .false.
+      if (command_argument_count() < 1) return
+      call get_command_argument(1, word)
+      is_report = word == "report"
+   end function is_report
+
+   !> Do what `contact report ...` asks for; the result is the exit status
+   integer function run_report() result(status)
+      character(len=:), allocatable :: command, place, program_name
+      integer :: k
+
+      program_name = own_path()
+      place = package_place(program_name)
+      status = 1
+      if (run_quietly("command -v python3") /= 0) then
+         write(error_unit, '(a)') "contact report: Python 3 is not found; install it together with NumPy and h5py " &
+            & // "(apt-get install python3-h5py)"
+         return
+      end if
+      if (len(place) == 0) then
+         if (run_quietly("python3 -c " // quoted("import sys; sys.path[:1] = []; import contact.report")) /= 0) then
+            write(error_unit, '(a)') "contact report: the Python package contact.report is not found. It is in the folder " &
+               & // "python of the sources and is", "installed with the program; name its folder by the environment " &
+               & // "variable " // variable // ", or: python3 -m pip install SOURCES/python"
+            return
+         end if
+      end if
+      command = "python3 -c " // quoted(start) // " " // quoted(place)
+      if (len(program_name) > 0) command = "CONTACT_PROGRAM=" // quoted(program_name) // " exec " // command
+      do k = 2, command_argument_count()
+         command = command // " " // quoted(argument(k))
+      end do
+      call execute_command_line(command, exitstat=status)
+   end function run_report
+
+   !> Folder that holds the package, "" when there is none
+   function package_place(program_name) result(place)
+      !> Path of the program, "" when unknown
+      character(len=*), intent(in) :: program_name
+      character(len=:), allocatable :: place
+      character(len=4096) :: named
+      integer :: k, length
+      logical :: is_there
+
+      call get_environment_variable(variable, named, length)
+      if (length > 0 .and. length <= len(named)) then
+         place = named(:length)
+         inquire(file=place // package_file, exist=is_there)
+         if (is_there) return
+      end if
+      do k = 1, size(usual_places)
+         if (len(program_name) == 0) exit
+         place = program_name(:index(program_name, "/", back=.true.) - 1) // trim(usual_places(k))
+         inquire(file=place // package_file, exist=is_there)
+         if (is_there) return
+      end do
+      place = ""
+   end function package_place
+
+   !> Path of this program, "" when the system does not tell
+   function own_path() result(path)
+      character(len=:), allocatable :: path
+      character(len=4096) :: buffer
+      integer(c_size_t) :: used
+
+      path = ""
+      used = c_readlink("/proc/self/exe" // c_null_char, buffer, int(len(buffer), c_size_t))
+      if (used > 0 .and. used < len(buffer)) then
+         path = buffer(:used)
+         return
+      end if
+      call get_command_argument(0, buffer)
+      if (index(buffer, "/") > 0) path = trim(buffer)
+   end function own_path
+
+   !> Exit status of a command whose output nobody wants
+   integer function run_quietly(command) result(status)
+      character(len=*), intent(in) :: command
+      call execute_command_line(command // " > /dev/null 2>&1", exitstat=status)
+   end function run_quietly
+
+   !> A word as the shell leaves it alone
+   pure function quoted(word) result(safe)
+      character(len=*), intent(in) :: word
+      character(len=:), allocatable :: safe
+      integer :: i
+
+      safe = "'"
+      do i = 1, len(word)
+         if (word(i:i) == "'") then
+            safe = safe // "'\''"
+         else
+            safe = safe // word(i:i)
+         end if
+      end do
+      safe = safe // "'"
+   end function quoted
+
+   !> A word of the command line
+   function argument(k) result(word)
+      integer, intent(in) :: k
+      character(len=:), allocatable :: word
+      integer :: length
+
+      call get_command_argument(k, length=length)
+      allocate(character(len=length) :: word)
+      if (length > 0) call get_command_argument(k, word)
+   end function argument
+end module contact_cli_report

@@ -1,0 +1,162 @@
+!> What a run writes for other programs beside its usual files, when it is asked to
+module contact_experiment_exports
+   use contact_base_error, only : error_type
+   use contact_cases_pair_session, only : pair_session
+   use contact_cases_spec, only : case_spec
+   use contact_hdf5_case_file, only : hdf5_case_file
+   use contact_output_case_record, only : case_head
+   use contact_output_json_file, only : json_file
+   use contact_output_vtk_files, only : vtk_files
+   use contact_patch_result, only : patch_result
+   use contact_wheelrail_result, only : pair_result
+   implicit none (type, external)
+   private
+
+   public :: export_request, export_files
+
+   !> What is asked for
+   type :: export_request
+      !> Totals as JSON lines: "" for the file EXPNAM.jsonl, "-" for the standard output; unallocated: no
+      character(len=:), allocatable :: json
+      !> Everything in the HDF5 file EXPNAM.h5?
+      logical :: hdf5 = .false.
+      !> Surfaces and subsurface blocks as VTK files with the collection EXPNAM.pvd?
+      logical :: vtk = .false.
+   end type export_request
+
+   !> The files that are open; unallocated components were not asked for
+   type :: export_files
+      type(json_file), allocatable :: json
+      type(hdf5_case_file), allocatable :: hdf5
+      type(vtk_files), allocatable :: vtk
+   contains
+      procedure :: open_files
+      procedure :: close_files
+      !> Must the cases be announced before the first is written? If so, announce each
+      procedure :: wants_announcements
+      procedure :: announce
+      procedure :: all_announced
+      !> Is anything asked for?
+      procedure :: wanted
+      procedure :: write_failure
+      procedure :: write_contact
+      procedure :: write_pair
+   end type export_files
+
+contains
+
+   pure logical function wanted(self)
+      class(export_files), intent(in) :: self
+      wanted = allocated(self%json) .or. allocated(self%hdf5) .or. allocated(self%vtk)
+   end function wanted
+
+   pure logical function wants_announcements(self)
+      class(export_files), intent(in) :: self
+      wants_announcements = allocated(self%hdf5)
+   end function wants_announcements
+
+   !> A case that is to come
+   subroutine announce(self, head)
+      class(export_files), intent(inout) :: self
+      type(case_head), intent(in) :: head
+
+      if (allocated(self%hdf5)) call self%hdf5%announce(head)
+   end subroutine announce
+
+   !> No more cases will be announced
+   subroutine all_announced(self, error)
+      class(export_files), intent(inout) :: self
+      type(error_type), allocatable, intent(out) :: error
+
+      if (allocated(self%hdf5)) call self%hdf5%take_name(error)
+   end subroutine all_announced
+
+   !> Open what is asked for
+   subroutine open_files(self, request, results, experiment, version, error)
+      class(export_files), intent(inout) :: self
+      type(export_request), intent(in) :: request
+      !> Folder and name of the results, to which a suffix is added
+      character(len=*), intent(in) :: results
+      !> Name of the experiment, version of the program
+      character(len=*), intent(in) :: experiment, version
+      type(error_type), allocatable, intent(out) :: error
+
+      if (allocated(request%json)) then
+         allocate(self%json)
+         if (request%json == "-") then
+            call self%json%open_file("-", error)
+         else
+            call self%json%open_file(results // ".jsonl", error)
+         end if
+         if (allocated(error)) return
+      end if
+      if (request%hdf5) then
+         allocate(self%hdf5)
+         call self%hdf5%open_file(results // ".h5", experiment, version, error)
+         if (allocated(error)) return
+      end if
+      if (request%vtk) then
+         allocate(self%vtk)
+         call self%vtk%open_collection(results, error)
+      end if
+   end subroutine open_files
+
+   subroutine close_files(self, error)
+      class(export_files), intent(inout) :: self
+      type(error_type), allocatable, intent(out) :: error
+
+      type(error_type), allocatable :: second
+
+      if (allocated(self%json)) call self%json%close_file(error)
+      if (allocated(self%hdf5)) call self%hdf5%close_file(second)
+      if (.not. allocated(error)) call move_alloc(second, error)
+      if (allocated(self%vtk)) call self%vtk%close_collection(second)
+      if (.not. allocated(error)) call move_alloc(second, error)
+   end subroutine close_files
+
+   !> A case without result
+   subroutine write_failure(self, head)
+      class(export_files), intent(inout) :: self
+      type(case_head), intent(in) :: head
+
+      if (allocated(self%json)) call self%json%write_failure(head)
+      if (allocated(self%hdf5)) call self%hdf5%write_failure(head)
+   end subroutine write_failure
+
+   !> A solved case of module 3
+   subroutine write_contact(self, head, spec, contact, error)
+      class(export_files), intent(inout) :: self
+      type(case_head), intent(in) :: head
+      type(case_spec), intent(in) :: spec
+      type(patch_result), intent(in) :: contact
+      type(error_type), allocatable, intent(out) :: error
+
+      if (allocated(self%json)) call self%json%write_contact(head, spec, contact)
+      if (allocated(self%hdf5)) call self%hdf5%write_contact(head, spec, contact)
+      if (allocated(self%vtk)) call self%vtk%write_contact(head, spec, contact, error)
+   end subroutine write_contact
+
+   !> A solved case of module 1
+   subroutine write_pair(self, head, spec, session, pair, error)
+      class(export_files), intent(inout) :: self
+      type(case_head), intent(in) :: head
+      type(case_spec), intent(in) :: spec
+      !> For the profiles
+      type(pair_session), intent(in) :: session
+      type(pair_result), intent(in) :: pair
+      type(error_type), allocatable, intent(out) :: error
+
+      if (allocated(self%vtk)) call self%vtk%write_pair(head, spec, pair, error)
+      if (allocated(self%json)) call self%json%write_pair(head, spec, pair)
+      if (.not. allocated(self%hdf5)) return
+      associate (problem => session%problem)
+         if (allocated(problem%rail_surface)) then
+            call self%hdf5%write_pair(head, spec, pair, wheel=problem%wheel)
+         else if (allocated(problem%wheel_surface)) then
+            call self%hdf5%write_pair(head, spec, pair, rail=problem%rail)
+         else
+            call self%hdf5%write_pair(head, spec, pair, problem%rail, problem%wheel)
+         end if
+      end associate
+   end subroutine write_pair
+end module contact_experiment_exports

@@ -1,0 +1,376 @@
+!> A case as groups of an HDF5 file
+module contact_hdf5_case_file
+   use contact_base_choices, only : motion
+   use contact_base_error, only : error_type
+   use contact_base_kinds, only : wp
+   use contact_cases_spec, only : case_spec
+   use contact_hdf5_file, only : hdf5_file
+   use contact_output_case_record, only : case_head, describe_head, describe_pair, describe_patch, describe_place, &
+      & describe_solution, is_rolling, side_sign
+   use contact_output_input_record, only : describe_input
+   use contact_output_pair_files, only : mirrored
+   use contact_patch_result, only : patch_result, subsurface_result
+   use contact_profile_curve, only : profile_curve
+   use contact_text_words, only : integer_text
+   use contact_wheelrail_result, only : pair_patch, pair_result
+   implicit none (type, external)
+   private
+
+   public :: hdf5_case_file
+
+   !> The HDF5 file of an experiment
+   type :: hdf5_case_file
+      type(hdf5_file), private :: file
+   contains
+      procedure :: open_file
+      procedure :: close_file
+      !> Tell that a case is to come; all are told before the first is written
+      procedure :: announce
+      procedure :: take_name
+      !> A case without result, of module 3, and of module 1
+      procedure :: write_failure
+      procedure :: write_contact
+      procedure :: write_pair
+   end type hdf5_case_file
+
+contains
+
+   subroutine open_file(self, name, experiment, version, error)
+      class(hdf5_case_file), intent(inout) :: self
+      !> File, experiment, version of the program
+      character(len=*), intent(in) :: name, experiment, version
+      type(error_type), allocatable, intent(out) :: error
+
+      call self%file%open_file(name, experiment, "contact " // version, error)
+   end subroutine open_file
+
+   subroutine close_file(self, error)
+      class(hdf5_case_file), intent(inout) :: self
+      type(error_type), allocatable, intent(out) :: error
+
+      call self%file%close_file(error)
+   end subroutine close_file
+
+   subroutine announce(self, head)
+      class(hdf5_case_file), intent(inout) :: self
+      type(case_head), intent(in) :: head
+
+      call self%file%announce(case_name(head))
+   end subroutine announce
+
+   !> All cases have been told
+   subroutine take_name(self, error)
+      class(hdf5_case_file), intent(inout) :: self
+      type(error_type), allocatable, intent(out) :: error
+
+      call self%file%take_name(error)
+   end subroutine take_name
+
+   !> A case that has no result: a row of /cases, and why
+   subroutine write_failure(self, head)
+      class(hdf5_case_file), intent(inout) :: self
+      type(case_head), intent(in) :: head
+
+      call begin(self%file, head)
+      call self%file%end_case()
+   end subroutine write_failure
+
+   !> A solved case of module 3
+   subroutine write_contact(self, head, spec, contact)
+      class(hdf5_case_file), intent(inout) :: self
+      type(case_head), intent(in) :: head
+      type(case_spec), intent(in) :: spec
+      type(patch_result), intent(in) :: contact
+
+      call begin(self%file, head)
+      call self%file%enter("inputs")
+      call describe_input(self%file, spec)
+      call self%file%leave()
+      call write_patch(self%file, head, 1, spec, contact)
+      call self%file%end_case()
+   end subroutine write_contact
+
+   !> A solved case of module 1
+   subroutine write_pair(self, head, spec, pair, rail, wheel)
+      class(hdf5_case_file), intent(inout) :: self
+      type(case_head), intent(in) :: head
+      type(case_spec), intent(in) :: spec
+      type(pair_result), intent(in) :: pair
+      !> Profiles in their own axes, for a right-hand pair; absent where the body varies
+      type(profile_curve), intent(in), optional :: rail, wheel
+      integer :: k
+
+      call begin(self%file, head)
+      call self%file%enter("inputs")
+      call describe_input(self%file, spec)
+      call self%file%leave()
+      call describe_pair(self%file, spec, pair)
+      call write_markers(self%file, spec, pair)
+      call self%file%enter("profiles")
+      if (present(rail)) call write_profile(self%file, "rail", spec, rail)
+      if (present(wheel)) call write_profile(self%file, "wheel", spec, wheel)
+      call self%file%leave()
+      do k = 1, size(pair%patches)
+         if (side_sign(spec) < 0.0_wp) then
+            call write_patch(self%file, head, k, spec, pair%patches(k)%contact, pair%patches(k), &
+               & mirrored(pair%patches(k)%contact))
+         else
+            call write_patch(self%file, head, k, spec, pair%patches(k)%contact, pair%patches(k))
+         end if
+      end do
+      call self%file%end_case()
+   end subroutine write_pair
+
+   !> Begin a case with its row of /cases
+   subroutine begin(file, head)
+      type(hdf5_file), intent(inout) :: file
+      type(case_head), intent(in) :: head
+
+      call file%begin_case(case_name(head), integer_text(head%result_element) // "." // integer_text(head%contact_problem))
+      call file%begin_row(patch=.false.)
+      call file%open_group("", columns=.true.)
+      call describe_head(file, head)
+      call file%close_group()
+      if (.not. allocated(head%failure)) return
+      call file%open_group("failure")
+      call file%text("reason", "why there is no result", head%failure)
+      call file%close_group()
+   end subroutine begin
+
+   !> Name of the group of a case: case_0001, with result elements re001_case_0001
+   function case_name(head) result(name)
+      type(case_head), intent(in) :: head
+      character(len=:), allocatable :: name
+      character(len=40) :: buffer
+
+      write(buffer, '(a, i0.4)') "case_", head%number
+      if (head%result_element > 0) write(buffer, '(a, i0.3, a, i0.4)') "re", head%result_element, "_case_", head%number
+      name = trim(buffer)
+      if (head%contact_problem > 1) name = name // "_cp" // integer_text(head%contact_problem)
+   end function case_name
+
+   !> One contact patch
+   subroutine write_patch(file, head, number, spec, contact, place, mirror)
+      type(hdf5_file), intent(inout) :: file
+      type(case_head), intent(in) :: head
+      !> Number of the patch in its case
+      integer, intent(in) :: number
+      type(case_spec), intent(in) :: spec
+      type(patch_result), intent(in) :: contact
+      !> Where it is, in module 1
+      type(pair_patch), intent(in), optional :: place
+      !> Its fields in true coordinates of the left side of the track
+      type(patch_result), intent(in), optional :: mirror
+      integer :: k
+
+      call file%begin_row(patch=.true.)
+      call file%open_group("", columns=.true.)
+      call describe_head(file, head)
+      call file%count("patch", "number of the patch in its case", number)
+      call file%close_group()
+      call file%enter("patch_" // integer_text(number))
+      call file%open_group("totals", columns=.true.)
+      call describe_patch(file, spec, contact)
+      if (present(place)) call describe_place(file, spec, place)
+      call file%close_group()
+      call describe_solution(file, spec, contact)
+      if (allocated(contact%effects)) then
+         call file%open_group("effects")
+         call file%text("names", "effects that acted", contact%effects)
+         call file%close_group()
+      end if
+      if (present(mirror)) then
+         call write_grid(file, spec, mirror)
+         call write_fields(file, spec, mirror)
+      else
+         call write_grid(file, spec, contact)
+         call write_fields(file, spec, contact)
+      end if
+      if (present(place)) then
+         if (allocated(place%curve)) call write_curve(file, spec, place)
+      end if
+      if (allocated(contact%subsurface)) then
+         call file%enter("subsurface")
+         do k = 1, size(contact%subsurface)
+            call file%enter("block_" // integer_text(k))
+            call write_block(file, spec, contact%subsurface(k))
+            call file%leave()
+         end do
+         call file%leave()
+      end if
+      call file%leave()
+   end subroutine write_patch
+
+   !> The elements
+   subroutine write_grid(file, spec, contact)
+      type(hdf5_file), intent(inout) :: file
+      type(case_spec), intent(in) :: spec
+      type(patch_result), intent(in) :: contact
+      integer :: i
+
+      associate (grid => contact%grid)
+         call file%open_group("grid")
+         call file%count("mx", "columns", grid%mx)
+         call file%count("my", "rows", grid%my)
+         call file%number("xl", "mm", "edge of the first column", grid%xl)
+         call file%number("yl", "mm", "edge of the first row", grid%yl)
+         call file%number("dx", "mm", "length of an element", grid%dx)
+         call file%number("dy", "mm", "width of an element", grid%dy)
+         call file%numbers("x", "mm", "centres of columns", grid%x([(i, i = 1, grid%mx)]))
+         call file%numbers("y", "mm", "centres of rows", grid%y([(i, i = 1, grid%my)]))
+         if (is_rolling(spec)) then
+            call file%number("chi", "rad", "rolling direction", contact%chi)
+            call file%number("dq", "mm", "distance of a step", contact%dq)
+            call file%number("veloc", "mm/s", "velocity", contact%veloc)
+         end if
+         call file%close_group()
+      end associate
+   end subroutine write_grid
+
+   !> Arrays over the elements
+   subroutine write_fields(file, spec, contact)
+      type(hdf5_file), intent(inout) :: file
+      type(case_spec), intent(in) :: spec
+      type(patch_result), intent(in) :: contact
+      logical :: rolling
+
+      rolling = is_rolling(spec)
+      call file%enter("fields")
+      call file%division("eldiv", "element state: 0 exterior, 1 adhesion, 2 slip, 3 plastic", contact%division)
+      call file%field("h", "mm", "undeformed distance, approach not subtracted", contact%h)
+      call file%field("pn", "N/mm2", "pressure", contact%pn)
+      call file%field("un", "mm", "normal displacement difference", contact%un)
+      if (spec%motion /= motion%none) then
+         call file%field("mu", "-", "coefficient of friction", contact%mu)
+         call file%field("px", "N/mm2", "longitudinal traction on body 1", contact%px)
+         call file%field("py", "N/mm2", "lateral traction on body 1", contact%py)
+         call file%field("ux", "mm", "longitudinal displacement difference", contact%ux)
+         call file%field("uy", "mm", "lateral displacement difference", contact%uy)
+         if (rolling) then
+            call file%field("sx", "-", "longitudinal slip, relative", contact%sx/contact%dq)
+            call file%field("sy", "-", "lateral slip, relative", contact%sy/contact%dq)
+         else
+            call file%field("sx", "mm", "longitudinal slip distance", contact%sx)
+            call file%field("sy", "mm", "lateral slip distance", contact%sy)
+         end if
+      end if
+      if (allocated(contact%tau_c)) then
+         call file%field("taucrt", "N/mm2", "yield limit", contact%tau_c)
+         call file%field("uplsx", "mm", "longitudinal plastic displacement", contact%uplx)
+         call file%field("uplsy", "mm", "lateral plastic displacement", contact%uply)
+      end if
+      if (allocated(contact%temp1)) then
+         call file%field("temp1", "degC", "surface temperature of body 1", contact%temp1)
+         call file%field("temp2", "degC", "surface temperature of body 2", contact%temp2)
+      end if
+      call file%leave()
+   end subroutine write_fields
+
+   !> Curved reference of conformal contact, one point per row of elements
+   subroutine write_curve(file, spec, place)
+      type(hdf5_file), intent(inout) :: file
+      type(case_spec), intent(in) :: spec
+      type(pair_patch), intent(in) :: place
+      integer :: last, step
+      real(wp) :: s
+
+      s = side_sign(spec)
+      step = merge(-1, 1, s < 0.0_wp)
+      last = size(place%curve, 2)
+      call file%open_group("curve")
+      if (step > 0) then
+         call put(place%curve)
+      else
+         call put(place%curve(:, last:1:-1))
+      end if
+      call file%close_group()
+
+   contains
+
+      subroutine put(curve)
+         real(wp), intent(in) :: curve(:, :)
+
+         call file%numbers("y", "mm", "lateral, track coordinates", s*curve(1, :))
+         call file%numbers("z", "mm", "vertical, track coordinates", curve(2, :))
+         call file%numbers("angle", "rad", "inclination", s*curve(3, :))
+      end subroutine put
+   end subroutine write_curve
+
+   !> Where rail and wheel are, in track coordinates
+   subroutine write_markers(file, spec, pair)
+      type(hdf5_file), intent(inout) :: file
+      type(case_spec), intent(in) :: spec
+      type(pair_result), intent(in) :: pair
+      real(wp) :: s
+
+      s = side_sign(spec)
+      call file%open_group("markers")
+      call file%number("y_r", "mm", "rail marker, lateral", s*pair%rail_y)
+      call file%number("z_r", "mm", "rail marker, vertical", pair%rail_z)
+      call file%number("roll_r", "rad", "roll angle of the rail", s*pair%rail_roll)
+      call file%number("x_w", "mm", "wheel marker, longitudinal", pair%wheel_x)
+      call file%number("y_w", "mm", "wheel marker, lateral", s*pair%wheel_y)
+      call file%number("z_w", "mm", "wheel marker, vertical", pair%wheel_z)
+      call file%number("roll_w", "rad", "roll angle of the wheel", s*pair%wheel_roll)
+      call file%number("yaw_w", "rad", "yaw angle of the wheel", s*pair%wheel_yaw)
+      call file%close_group()
+   end subroutine write_markers
+
+   !> Points of a profile about its marker
+   subroutine write_profile(file, name, spec, curve)
+      type(hdf5_file), intent(inout) :: file
+      character(len=*), intent(in) :: name
+      type(case_spec), intent(in) :: spec
+      type(profile_curve), intent(in) :: curve
+
+      call file%open_group(name)
+      call file%numbers("y", "mm", "lateral, about the marker", side_sign(spec)*curve%y%value(curve%y%s))
+      call file%numbers("z", "mm", "vertical, about the marker", curve%z%value(curve%y%s))
+      call file%close_group()
+   end subroutine write_profile
+
+   !> Displacements and stresses of a block of points
+   subroutine write_block(file, spec, right)
+      type(hdf5_file), intent(inout) :: file
+      type(case_spec), intent(in) :: spec
+      !> For a right-hand pair
+      type(subsurface_result), intent(in) :: right
+      character(len=2), parameter :: component(6) = ["xx", "xy", "xz", "yy", "yz", "zz"]
+      integer, allocatable :: order(:)
+      real(wp) :: s
+      integer :: ix, iy, iz, k, n
+
+      s = side_sign(spec)
+      associate (nx => right%nx, ny => right%ny, nz => right%nz)
+         n = nx*ny*nz
+         ! on the left side rows stand in reversed order
+         order = [(((ix + nx*(merge(iy, ny + 1 - iy, s > 0.0_wp) - 1 + ny*(iz - 1)), ix = 1, nx), iy = 1, ny), iz = 1, nz)]
+         call file%open_group("points")
+         call file%numbers("x", "mm", "columns of points", right%position(1, order(:nx)))
+         call file%numbers("y", "mm", "rows of points", s*right%position(2, order(:nx*ny:nx)))
+         call file%numbers("z", "mm", "depths, positive in body 1", right%position(3, order(:n:nx*ny)))
+         call file%close_group()
+         call put("ux", "mm", "displacement", right%displacement(1, order))
+         call put("uy", "mm", "displacement", s*right%displacement(2, order))
+         call put("uz", "mm", "displacement", right%displacement(3, order))
+         do k = 1, 6
+            call put("sig" // component(k), "N/mm2", "stress, tension positive", &
+               & merge(s, 1.0_wp, k == 2 .or. k == 5)*right%stress(k, order))
+         end do
+         call put("sighyd", "N/mm2", "mean stress", right%sighyd(order))
+         call put("sigvm", "N/mm2", "equivalent stress of von Mises", right%sigvm(order))
+         call put("sigtr", "N/mm2", "equivalent stress of Tresca", right%sigtr(order))
+         call put("sigma1", "N/mm2", "largest principal stress", right%sigma1(order))
+         call put("sigma2", "N/mm2", "middle principal stress", right%sigma2(order))
+         call put("sigma3", "N/mm2", "smallest principal stress", right%sigma3(order))
+      end associate
+
+   contains
+
+      subroutine put(name, unit, title, values)
+         character(len=*), intent(in) :: name, unit, title
+         real(wp), intent(in) :: values(:)
+         call file%block(name, unit, title, values, right%nx, right%ny, right%nz)
+      end subroutine put
+   end subroutine write_block
+end module contact_hdf5_case_file

@@ -1,0 +1,228 @@
+!> What a solved case has to tell to programs: status, totals, how they were obtained
+!>
+!> Values are unfiltered, unlike those of the .out file. For a wheel on the left side of the track
+!> they are mirrored to that side here.
+module contact_output_case_record
+   use contact_base_choices, only : motion
+   use contact_base_kinds, only : wp
+   use contact_base_solve_report, only : ending, solve_report
+   use contact_cases_spec, only : case_spec
+   use contact_grid_element_division, only : element
+   use contact_output_record, only : record_writer
+   use contact_patch_result, only : patch_result
+   use contact_wheelrail_result, only : pair_patch, pair_result
+   implicit none (type, external)
+   private
+
+   public :: case_head, describe_head, describe_pair, describe_patch, describe_place, describe_solution, is_rolling, side_sign
+
+   !> Which case this is and how it went
+   type :: case_head
+      !> Number of the case; result element, 0 for none; contact patch number of the module line; module
+      integer :: number = 0, result_element = 0, contact_problem = 1, module_number = 3
+      !> Line of the input at which the case begins
+      integer :: line = 0
+      !> Did every iteration reach its tolerance?
+      logical :: converged = .true.
+      !> Elapsed time of the solution [s]
+      real(wp) :: seconds = 0.0_wp
+      !> Why there is no result; unallocated when there is one
+      character(len=:), allocatable :: failure
+   end type case_head
+
+contains
+
+   !> -1 for a wheel on the left side of the track, otherwise 1
+   pure real(wp) function side_sign(spec) result(s)
+      type(case_spec), intent(in) :: spec
+
+      s = 1.0_wp
+      if (.not. allocated(spec%wheel_rail)) return
+      if (spec%wheel_rail%left) s = -1.0_wp
+   end function side_sign
+
+   !> Is the relative motion rolling?
+   pure logical function is_rolling(spec)
+      type(case_spec), intent(in) :: spec
+      is_rolling = spec%motion == motion%transient_rolling .or. spec%motion == motion%steady_rolling
+   end function is_rolling
+
+   !> Number, status and time of a case
+   subroutine describe_head(record, head)
+      class(record_writer), intent(inout) :: record
+      type(case_head), intent(in) :: head
+
+      call record%count("case", "number of the case", head%number)
+      call record%count("result_element", "result element of the module line, 0: none", head%result_element)
+      call record%count("contact_problem", "contact problem of the module line", head%contact_problem)
+      call record%count("module", "1: wheel and rail, 3: one contact problem", head%module_number)
+      call record%count("line", "line of the input at which the case begins", head%line)
+      call record%flag("solved", "is there a result?", .not. allocated(head%failure))
+      call record%flag("converged", "did all iterations reach their tolerance?", head%converged)
+      call record%number("seconds", "", "elapsed time of the solution", head%seconds)
+      if (allocated(head%failure)) call record%text("failure", "why there is no result", head%failure)
+   end subroutine describe_head
+
+   !> Forces of wheel on rail that all patches make together, and the positions that were found
+   subroutine describe_pair(record, spec, pair)
+      class(record_writer), intent(inout) :: record
+      type(case_spec), intent(in) :: spec
+      type(pair_result), intent(in) :: pair
+      real(wp) :: s
+
+      s = side_sign(spec)
+      call record%open_group("totals", columns=.true.)
+      call record%number("fx_tr", "N", "force on the rail along the track", pair%force_track(1))
+      call record%number("fy_tr", "N", "lateral force on the rail in track coordinates", s*pair%force_track(2))
+      call record%number("fz_tr", "N", "vertical force on the rail in track coordinates", pair%force_track(3))
+      call record%number("fx_ws", "N", "longitudinal force on the rail in wheelset coordinates", pair%force_wheelset(1))
+      call record%number("fy_ws", "N", "lateral force on the rail in wheelset coordinates", s*pair%force_wheelset(2))
+      call record%number("fz_ws", "N", "vertical force on the rail in wheelset coordinates", pair%force_wheelset(3))
+      ! moments are axial vectors: the mirror changes the sign of their x and z components
+      call record%number("mx_r_tr", "N mm", "roll moment about the rail marker, track axes", s*pair%moment_rail(1))
+      call record%number("my_r_tr", "N mm", "pitch moment about the rail marker, track axes", pair%moment_rail(2))
+      call record%number("mz_r_tr", "N mm", "yaw moment about the rail marker, track axes", s*pair%moment_rail(3))
+      call record%number("mx_w_ws", "N mm", "roll moment about the wheel marker, wheelset axes", s*pair%moment_wheel(1))
+      call record%number("my_w_ws", "N mm", "pitch moment about the wheel marker, wheelset axes", pair%moment_wheel(2))
+      call record%number("mz_w_ws", "N mm", "yaw moment about the wheel marker, wheelset axes", s*pair%moment_wheel(3))
+      associate (w => spec%wheel_rail%wheelset)
+         call record%number("s_ws", "mm", "position of the wheelset along the track", w%s)
+         call record%number("y_ws", "mm", "lateral position of the wheelset", w%y)
+         call record%number("z_ws", "mm", "height of the wheelset, given or found", pair%z_ws)
+         call record%number("roll_ws", "rad", "roll angle of the wheelset", w%roll)
+         call record%number("yaw_ws", "rad", "yaw angle of the wheelset", w%yaw)
+         call record%number("vpitch_ws", "rad/s", "pitch rate of the wheelset, given or found", pair%vpitch)
+      end associate
+      call record%number("dy_defl", "mm", "lateral deflection of the rail", s*pair%dy_defl)
+      call record%number("dz_defl", "mm", "vertical deflection of the rail", pair%dz_defl)
+      call record%number("smallest_gap", "mm", "smallest vertical gap, negative: overlap", pair%smallest_gap)
+      call record%close_group()
+   end subroutine describe_pair
+
+   !> Totals of one contact patch
+   subroutine describe_patch(record, spec, contact)
+      class(record_writer), intent(inout) :: record
+      type(case_spec), intent(in) :: spec
+      type(patch_result), intent(in) :: contact
+      real(wp) :: s
+      logical :: rolling
+
+      s = side_sign(spec)
+      rolling = is_rolling(spec)
+      call record%number("fn", "N", "normal force", contact%fn)
+      call record%number("fx", "N", "longitudinal force on body 1", contact%fx)
+      call record%number("fy", "N", "lateral force on body 1", s*contact%fy)
+      call record%number("mz", "N mm", "moment about the normal through the origin, on body 1", s*contact%mz)
+      call record%number("fx_rel", "-", "FX over friction coefficient times FN", contact%fx_rel)
+      call record%number("fy_rel", "-", "FY over friction coefficient times FN", s*contact%fy_rel)
+      call record%number("mu_scal", "-", "friction coefficient of the relative forces", contact%mu_scal)
+      call record%number("pen", "mm", "approach of the bodies", contact%pen)
+      call record%number("pmax", "N/mm2", "largest pressure", contact%pmax)
+      if (rolling) then
+         call record%number("cksi", "-", "longitudinal creepage, given or found", contact%cksi)
+         call record%number("ceta", "-", "lateral creepage, given or found", s*contact%ceta)
+         call record%number("cphi", "rad/mm", "spin", s*contact%cphi)
+         call record%number("friction_power", "W", "frictional power, dissipation negative", contact%friction_power)
+      else if (spec%motion == motion%shift) then
+         call record%number("shift_x", "mm", "longitudinal shift, given or found", contact%cksi)
+         call record%number("shift_y", "mm", "lateral shift, given or found", s*contact%ceta)
+         call record%number("rotation", "rad", "rotation", s*contact%cphi)
+         call record%number("friction_work", "J", "frictional work, dissipation negative", contact%friction_power)
+      end if
+      call record%number("elastic_energy", "J", "elastic energy", contact%elastic_energy)
+      if (allocated(contact%damping)) then
+         call record%number("fn_damp", "N", "normal damping force, not part of FN", contact%damping(1))
+         call record%number("fx_damp", "N", "longitudinal damping force, not part of FX", contact%damping(2))
+         call record%number("fy_damp", "N", "lateral damping force, not part of FY", s*contact%damping(3))
+      end if
+      if (allocated(contact%temp1)) then
+         call record%number("max_temp1", "degC", "highest surface temperature of body 1", highest(contact, contact%temp1))
+         call record%number("max_temp2", "degC", "highest surface temperature of body 2", highest(contact, contact%temp2))
+      end if
+      call record%count("ncon", "elements in contact", contact%ncon)
+      call record%count("nadh", "elements in adhesion", contact%nadh)
+      call record%count("nslip", "slipping elements", contact%nslip)
+      if (allocated(contact%tau_c)) call record%count("nplast", "yielding elements", contact%nplast)
+   end subroutine describe_patch
+
+   !> Highest temperature in contact; anywhere without contact
+   pure real(wp) function highest(contact, temperature)
+      type(patch_result), intent(in) :: contact
+      real(wp), intent(in) :: temperature(:, :)
+
+      highest = maxval(temperature)
+      if (contact%ncon > 0) highest = maxval(temperature, contact%division > element%exterior)
+   end function highest
+
+   !> Where the reference of a patch of wheel and rail is
+   subroutine describe_place(record, spec, patch)
+      class(record_writer), intent(inout) :: record
+      type(case_spec), intent(in) :: spec
+      type(pair_patch), intent(in) :: patch
+      real(wp) :: s
+
+      s = side_sign(spec)
+      call record%number("xcp_tr", "mm", "contact reference along the track", patch%x)
+      call record%number("ycp_tr", "mm", "contact reference, lateral, track coordinates", s*patch%y)
+      call record%number("zcp_tr", "mm", "contact reference, vertical, track coordinates", patch%z)
+      call record%number("deltcp_tr", "rad", "contact angle in track coordinates", s*patch%delta)
+      call record%number("ycp_r", "mm", "contact reference, lateral, rail profile", s*patch%y_rail)
+      call record%number("zcp_r", "mm", "contact reference, vertical, rail profile", patch%z_rail)
+      call record%number("deltcp_r", "rad", "contact angle in the rail profile", s*patch%delta_rail)
+      call record%number("xcp_w", "mm", "contact reference, longitudinal, wheel profile", patch%x_wheel)
+      call record%number("ycp_w", "mm", "contact reference, lateral, wheel profile", s*patch%y_wheel)
+      call record%number("zcp_w", "mm", "contact reference, vertical, wheel profile", patch%z_wheel)
+   end subroutine describe_place
+
+   !> Which methods ended the solution of a patch, and how well
+   subroutine describe_solution(record, spec, contact)
+      class(record_writer), intent(inout) :: record
+      type(case_spec), intent(in) :: spec
+      type(patch_result), intent(in) :: contact
+
+      call record%open_group("solver", columns=.true., brief=.true.)
+      call describe_report(record, "normal", contact%normal)
+      if (spec%motion /= motion%none) call describe_report(record, "tangential", contact%tangential)
+      if (allocated(contact%friction)) call describe_report(record, "friction", contact%friction)
+      call record%count("outer_iterations", "turns of normal and tangential problem", contact%outer_iterations)
+      if (spec%motion /= motion%none .and. contact%outer_iterations > 1) &
+         & call record%number("coupled_residual", "", "relative residual of both problems together", contact%residual)
+      call record%close_group()
+   end subroutine describe_solution
+
+   !> One iterative method
+   subroutine describe_report(record, problem, report)
+      class(record_writer), intent(inout) :: record
+      !> Name of the problem
+      character(len=*), intent(in) :: problem
+      type(solve_report), intent(in) :: report
+      character(len=:), allocatable :: method
+
+      method = "none"
+      if (allocated(report%method)) method = report%method
+      call record%text(problem // "_method", "method that ended the iteration", method)
+      if (allocated(report%gave_up)) call record%text(problem // "_gave_up", "method that was given up", report%gave_up)
+      call record%text(problem // "_ended", "how the iteration ended", ending_name(report))
+      call record%count(problem // "_iterations", "iterations of the last call", report%iterations)
+      if (report%residual >= 0.0_wp) call record%number(problem // "_residual", "", "relative residual", report%residual)
+      call record%number(problem // "_tolerance", "", "tolerance that was asked for", report%tolerance)
+   end subroutine describe_report
+
+   !> How an iteration ended, in words
+   pure function ending_name(report) result(name)
+      type(solve_report), intent(in) :: report
+      character(len=:), allocatable :: name
+
+      if (report%ended == ending%not_started) then
+         name = "nothing to do"
+      else if (report%ended == ending%converged) then
+         name = "converged"
+      else if (report%ended == ending%iteration_limit) then
+         name = "iteration limit"
+      else if (report%ended == ending%stagnated) then
+         name = "stagnated"
+      else
+         name = "diverged"
+      end if
+   end function ending_name
+end module contact_output_case_record

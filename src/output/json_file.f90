@@ -1,0 +1,394 @@
+!> Totals of every case as JSON lines: one object per case and line, RFC 8259 in UTF-8
+!>
+!> A number with a unit is an object with "value" and "unit"; what is no finite number is null. Lines
+!> are written whole, so a file that was cut short holds all cases but the last.
+module contact_output_json_file
+   use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
+   use, intrinsic :: iso_fortran_env, only : output_unit
+   use contact_base_error, only : error_kind, error_type, fatal_error
+   use contact_base_kinds, only : wp
+   use contact_cases_spec, only : case_spec
+   use contact_output_case_record, only : case_head, describe_head, describe_pair, describe_patch, describe_place, &
+      & describe_solution
+   use contact_output_finished_file, only : close_completely
+   use contact_output_record, only : record_writer
+   use contact_patch_result, only : patch_result
+   use contact_wheelrail_result, only : pair_result
+   implicit none (type, external)
+   private
+
+   public :: json_file, number_text
+
+   !> Longest number: sign, 17 figures, point, exponent
+   integer, parameter :: longest_number = 32
+   integer, parameter :: first_length = 4096
+
+   !> A file of JSON lines, or the standard output
+   type, extends(record_writer) :: json_file
+      !> Unit, 0 when closed
+      integer :: unit = 0
+      character(len=:), allocatable :: name
+      !> Is it the standard output?
+      logical :: is_screen = .false.
+      !> The line in the making: its first `length` characters
+      character(len=:), allocatable, private :: line
+      integer, private :: length = 0
+      !> Is a comma needed before the next member?
+      logical, private :: follows = .false.
+   contains
+      procedure :: open_file => open_json_file
+      procedure :: close_file => close_json_file
+      !> One line for a case without result, of module 3, and of module 1
+      procedure :: write_failure
+      procedure :: write_contact
+      procedure :: write_pair => write_pair_line
+      procedure :: open_group => open_object
+      procedure :: close_group => close_object
+      procedure :: number => write_number
+      procedure :: numbers => write_numbers
+      procedure :: count => write_count
+      procedure :: text => write_text
+      procedure :: flag => write_flag
+      procedure, private :: key
+      procedure, private :: add
+      procedure, private :: end_line
+   end type json_file
+
+contains
+
+   !> Open a file, or take the standard output when the name is "-"
+   subroutine open_json_file(self, name, error)
+      class(json_file), intent(inout) :: self
+      character(len=*), intent(in) :: name
+      type(error_type), allocatable, intent(out) :: error
+      character(len=200) :: reason
+      integer :: status
+
+      self%name = name
+      self%is_screen = name == "-"
+      allocate(character(len=first_length) :: self%line)
+      self%length = 0
+      if (self%is_screen) then
+         self%unit = output_unit
+         return
+      end if
+      reason = ""
+      open(newunit=self%unit, file=name, status="replace", action="write", iostat=status, iomsg=reason)
+      if (status == 0) return
+      self%unit = 0
+      call fatal_error(error, "the file cannot be written: " // trim(reason), error_kind%file, name)
+   end subroutine open_json_file
+
+   subroutine close_json_file(self, error)
+      class(json_file), intent(inout) :: self
+      type(error_type), allocatable, intent(out) :: error
+      integer :: status
+
+      if (self%unit == 0) return
+      if (self%is_screen) then
+         flush(self%unit, iostat=status)
+      else
+         call close_completely(self%unit, self%name, error)
+      end if
+      self%unit = 0
+   end subroutine close_json_file
+
+   !> A case that has no result
+   subroutine write_failure(self, head)
+      class(json_file), intent(inout) :: self
+      type(case_head), intent(in) :: head
+
+      call self%add("{")
+      self%follows = .false.
+      call describe_head(self, head)
+      call self%key("patches")
+      call self%add("[]")
+      call self%end_line()
+   end subroutine write_failure
+
+   !> A solved case of module 3
+   subroutine write_contact(self, head, spec, contact)
+      class(json_file), intent(inout) :: self
+      type(case_head), intent(in) :: head
+      type(case_spec), intent(in) :: spec
+      type(patch_result), intent(in) :: contact
+
+      call self%add("{")
+      self%follows = .false.
+      call describe_head(self, head)
+      call self%key("patches")
+      call self%add("[")
+      call write_patch(self, 1, spec, contact)
+      call self%add("]")
+      call self%end_line()
+   end subroutine write_contact
+
+   !> A solved case of module 1
+   subroutine write_pair_line(self, head, spec, pair)
+      class(json_file), intent(inout) :: self
+      type(case_head), intent(in) :: head
+      type(case_spec), intent(in) :: spec
+      type(pair_result), intent(in) :: pair
+      integer :: k
+
+      call self%add("{")
+      self%follows = .false.
+      call describe_head(self, head)
+      call self%text("side", "", trim(merge("left ", "right", spec%wheel_rail%left)))
+      call describe_pair(self, spec, pair)
+      call self%key("patches")
+      call self%add("[")
+      do k = 1, size(pair%patches)
+         if (k > 1) call self%add(",")
+         call write_patch(self, k, spec, pair%patches(k)%contact, pair)
+      end do
+      call self%add("]")
+      call self%end_line()
+   end subroutine write_pair_line
+
+   !> One contact patch as an object
+   subroutine write_patch(self, number, spec, contact, pair)
+      class(json_file), intent(inout) :: self
+      !> Number of the patch in its case
+      integer, intent(in) :: number
+      type(case_spec), intent(in) :: spec
+      type(patch_result), intent(in) :: contact
+      !> The pair it belongs to, in module 1
+      type(pair_result), intent(in), optional :: pair
+
+      call self%add("{")
+      self%follows = .false.
+      call self%count("patch", "", number)
+      if (allocated(contact%effects)) call self%text("effects", "", contact%effects)
+      call self%open_group("totals", columns=.true.)
+      call describe_patch(self, spec, contact)
+      if (present(pair)) call describe_place(self, spec, pair%patches(number))
+      call self%close_group()
+      call describe_solution(self, spec, contact)
+      call self%add("}")
+      self%follows = .true.
+   end subroutine write_patch
+
+   subroutine open_object(self, name, columns, brief)
+      class(json_file), intent(inout) :: self
+      character(len=*), intent(in) :: name
+      !> Of no meaning here
+      logical, intent(in), optional :: columns, brief
+
+      call self%key(name)
+      call self%add("{")
+      self%follows = .false.
+      associate (unused => present(columns) .or. present(brief))
+      end associate
+   end subroutine open_object
+
+   subroutine close_object(self)
+      class(json_file), intent(inout) :: self
+
+      call self%add("}")
+      self%follows = .true.
+   end subroutine close_object
+
+   subroutine write_number(self, name, unit, title, value)
+      class(json_file), intent(inout) :: self
+      character(len=*), intent(in) :: name, unit, title
+      real(wp), intent(in) :: value
+
+      call self%key(name)
+      if (len(unit) == 0) then
+         call self%add(number_text(value))
+      else
+         call self%add('{"value":' // number_text(value) // ',"unit":"' // escaped(unit) // '"}')
+      end if
+      associate (unused => title)
+      end associate
+   end subroutine write_number
+
+   subroutine write_numbers(self, name, unit, title, values)
+      class(json_file), intent(inout) :: self
+      character(len=*), intent(in) :: name, unit, title
+      real(wp), intent(in) :: values(:)
+      integer :: k
+
+      call self%key(name)
+      if (len(unit) > 0) call self%add('{"value":')
+      do k = 1, size(values)
+         call self%add(merge("[", ",", k == 1) // number_text(values(k)))
+      end do
+      call self%add(trim(merge("[]", "] ", size(values) == 0)))
+      if (len(unit) > 0) call self%add(',"unit":"' // escaped(unit) // '"}')
+      associate (unused => title)
+      end associate
+   end subroutine write_numbers
+
+   subroutine write_count(self, name, title, value)
+      class(json_file), intent(inout) :: self
+      character(len=*), intent(in) :: name, title
+      integer, intent(in) :: value
+      character(len=12) :: figures
+
+      call self%key(name)
+      write(figures, '(i0)') value
+      call self%add(trim(figures))
+      associate (unused => title)
+      end associate
+   end subroutine write_count
+
+   subroutine write_text(self, name, title, value)
+      class(json_file), intent(inout) :: self
+      character(len=*), intent(in) :: name, title, value
+
+      call self%key(name)
+      call self%add('"' // escaped(value) // '"')
+      associate (unused => title)
+      end associate
+   end subroutine write_text
+
+   subroutine write_flag(self, name, title, value)
+      class(json_file), intent(inout) :: self
+      character(len=*), intent(in) :: name, title
+      logical, intent(in) :: value
+
+      call self%key(name)
+      call self%add(trim(merge("true ", "false", value)))
+      associate (unused => title)
+      end associate
+   end subroutine write_flag
+
+   !> Name of the next member, after a comma if one is needed
+   subroutine key(self, name)
+      class(json_file), intent(inout) :: self
+      character(len=*), intent(in) :: name
+
+      if (self%follows) call self%add(",")
+      call self%add('"' // name // '":')
+      self%follows = .true.
+   end subroutine key
+
+   !> Add a text to the line
+   subroutine add(self, text)
+      class(json_file), intent(inout) :: self
+      character(len=*), intent(in) :: text
+      character(len=:), allocatable :: longer
+
+      if (self%length + len(text) > len(self%line)) then
+         allocate(character(len=2*(self%length + len(text))) :: longer)
+         longer(:self%length) = self%line(:self%length)
+         call move_alloc(longer, self%line)
+      end if
+      self%line(self%length + 1:self%length + len(text)) = text
+      self%length = self%length + len(text)
+   end subroutine add
+
+   !> Write the line and make sure that it leaves the program
+   subroutine end_line(self)
+      class(json_file), intent(inout) :: self
+      integer :: status
+
+      call self%add("}")
+      write(self%unit, '(a)', iostat=status) self%line(:self%length)
+      flush(self%unit, iostat=status)
+      self%length = 0
+   end subroutine end_line
+
+   !> A number in the fewest figures that read back as the same number; null when it is not finite
+   pure function number_text(value) result(text)
+      real(wp), intent(in) :: value
+      character(len=:), allocatable :: text
+      !> 15, 16 and 17 figures
+      character(len=*), parameter :: form(3) = ["(es32.14e3)", "(es32.15e3)", "(es32.16e3)"]
+      character(len=longest_number) :: buffer
+      character(len=12) :: exponent_text
+      character(len=:), allocatable :: figures
+      real(wp) :: back
+      integer :: exponent, e, k
+
+      if (.not. ieee_is_finite(value)) then
+         text = "null"
+         return
+      else if (value == 0.0_wp) then
+         text = "0"
+         return
+      end if
+      do k = 1, size(form)
+         write(buffer, form(k)) abs(value)
+         read(buffer, *) back
+         if (back == abs(value)) exit
+      end do
+      buffer = adjustl(buffer)
+      e = index(buffer, "E")
+      read(buffer(e + 1:), *) exponent
+      figures = buffer(1:1) // buffer(3:e - 1)
+      figures = figures(:max(1, verify(figures, "0", back=.true.)))
+      if (exponent >= 0 .and. exponent <= 15) then
+         if (len(figures) <= exponent + 1) then
+            text = figures // repeat("0", exponent + 1 - len(figures))
+         else
+            text = figures(:exponent + 1) // "." // figures(exponent + 2:)
+         end if
+      else if (exponent < 0 .and. exponent >= -4) then
+         text = "0." // repeat("0", -exponent - 1) // figures
+      else
+         write(exponent_text, '(i0)') exponent
+         text = figures(1:1)
+         if (len(figures) > 1) text = text // "." // figures(2:)
+         text = text // "e" // trim(exponent_text)
+      end if
+      if (value < 0.0_wp) text = "-" // text
+   end function number_text
+
+   !> A text between quotation marks: those, backslashes and control characters are escaped
+   !>
+   !> Bytes beyond ASCII stay when the text is UTF-8; otherwise, in names of files of old systems, each becomes "?".
+   pure function escaped(text) result(safe)
+      character(len=*), intent(in) :: text
+      character(len=:), allocatable :: safe
+      character(len=4) :: code
+      integer :: byte, first, i
+      logical :: good
+
+      good = is_utf8(text)
+      safe = ""
+      first = 1
+      do i = 1, len(text)
+         byte = iachar(text(i:i))
+         if (byte >= 32 .and. (byte < 127 .or. good) .and. text(i:i) /= '"' .and. text(i:i) /= "\") cycle
+         safe = safe // text(first:i - 1)
+         if (byte < 32) then
+            write(code, '(z4.4)') byte
+            safe = safe // "\u" // code
+         else if (byte >= 127) then
+            safe = safe // "?"
+         else
+            safe = safe // "\" // text(i:i)
+         end if
+         first = i + 1
+      end do
+      safe = safe // text(first:)
+   end function escaped
+
+   !> Do the bytes of a text form characters of UTF-8?
+   pure logical function is_utf8(text)
+      character(len=*), intent(in) :: text
+      integer :: byte, following, i
+
+      following = 0
+      is_utf8 = .false.
+      do i = 1, len(text)
+         byte = iachar(text(i:i))
+         if (following > 0) then
+            if (byte < 128 .or. byte > 191) return
+            following = following - 1
+         else if (byte >= 194 .and. byte <= 223) then
+            following = 1
+         else if (byte >= 224 .and. byte <= 239) then
+            following = 2
+         else if (byte >= 240 .and. byte <= 244) then
+            following = 3
+         else if (byte > 127) then
+            return
+         end if
+      end do
+      is_utf8 = following == 0
+   end function is_utf8
+end module contact_output_json_file

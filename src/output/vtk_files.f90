@@ -1,0 +1,383 @@
+!> Contact surfaces and blocks below them as VTK files, for ParaView and its kin
+!>
+!> <name>.<case><patch>.vts holds the elements as cells, <name>.<case><patch>.block<k>.vts the points of a
+!> subsurface block, and <name>.pvd lists all of them with the number of the case as time. Arrays are
+!> appended as raw binary numbers. Wheel and rail: points and vectors are in track coordinates.
+module contact_output_vtk_files
+   use contact_base_choices, only : motion
+   use contact_base_error, only : add_context, error_kind, error_type, fatal_error
+   use contact_base_kinds, only : long, wp
+   use contact_cases_spec, only : case_spec
+   use contact_output_case_record, only : case_head, is_rolling, side_sign
+   use contact_output_finished_file, only : case_file_name, close_completely, finished_file
+   use contact_patch_result, only : patch_result, subsurface_result
+   use contact_wheelrail_result, only : pair_patch, pair_result
+   implicit none (type, external)
+   private
+
+   public :: vtk_files
+
+   !> The collection of an experiment
+   type :: vtk_files
+      !> Folder and name of the results
+      character(len=:), allocatable, private :: base
+      !> Unit of the collection, 0 when closed
+      integer, private :: unit = 0
+   contains
+      procedure :: open_collection
+      procedure :: close_collection
+      !> The files of a solved case of module 3, and of module 1
+      procedure :: write_contact
+      procedure :: write_pair
+      procedure, private :: list_file
+   end type vtk_files
+
+   !> One VTK file in the making: the head tells where the arrays behind it begin
+   type :: vtk_grid
+      type(finished_file) :: file
+      character(len=:), allocatable :: head
+      !> Numbers of points and cells in each direction
+      integer :: points(3) = 0
+      logical :: on_cells = .true.
+      !> Arrays, one after the other, and their end
+      real(wp), allocatable :: numbers(:)
+      integer :: used = 0
+      !> Bytes in front of the next array
+      integer(long) :: offset = 0
+      !> Length of each array
+      integer, allocatable :: lengths(:)
+   end type vtk_grid
+
+   character(len=*), parameter :: closing(2) = ["  </Collection>", "</VTKFile>     "]
+
+contains
+
+   !> Begin the collection
+   subroutine open_collection(self, base, error)
+      class(vtk_files), intent(inout) :: self
+      !> Folder and name of the results
+      character(len=*), intent(in) :: base
+      type(error_type), allocatable, intent(out) :: error
+      character(len=200) :: reason
+      integer :: status
+
+      self%base = base
+      reason = ""
+      open(newunit=self%unit, file=base // ".pvd", status="replace", action="readwrite", iostat=status, iomsg=reason)
+      if (status /= 0) then
+         self%unit = 0
+         call fatal_error(error, "the file cannot be written: " // trim(reason), error_kind%file, base // ".pvd")
+         return
+      end if
+      write(self%unit, '(a)') '<?xml version="1.0"?>', '<VTKFile type="Collection" version="1.0">', '  <Collection>', &
+         & trim(closing(1)), trim(closing(2))
+   end subroutine open_collection
+
+   subroutine close_collection(self, error)
+      class(vtk_files), intent(inout) :: self
+      type(error_type), allocatable, intent(out) :: error
+
+      if (self%unit == 0) return
+      call close_completely(self%unit, self%base // ".pvd", error)
+      self%unit = 0
+   end subroutine close_collection
+
+   !> Add a file to the collection, which is complete again afterwards
+   subroutine list_file(self, name, case_number, part)
+      class(vtk_files), intent(inout) :: self
+      character(len=*), intent(in) :: name
+      integer, intent(in) :: case_number, part
+      integer :: status
+
+      backspace(self%unit, iostat=status)
+      backspace(self%unit, iostat=status)
+      write(self%unit, '(a, i0, a, i0, 3a)', iostat=status) '    <DataSet timestep="', case_number, '" part="', part, &
+         & '" file="', escaped(name(index(name, "/", back=.true.) + 1:)), '"/>'
+      write(self%unit, '(a)', iostat=status) trim(closing(1)), trim(closing(2))
+      flush(self%unit, iostat=status)
+   end subroutine list_file
+
+   !> A text as XML wants it
+   pure function escaped(text) result(safe)
+      character(len=*), intent(in) :: text
+      character(len=:), allocatable :: safe
+      integer :: i
+
+      safe = ""
+      do i = 1, len(text)
+         select case (text(i:i))
+         case ("&")
+            safe = safe // "&amp;"
+         case ("<")
+            safe = safe // "&lt;"
+         case ('"')
+            safe = safe // "&quot;"
+         case default
+            safe = safe // text(i:i)
+         end select
+      end do
+   end function escaped
+
+   !> A solved case of module 3
+   subroutine write_contact(self, head, spec, contact, error)
+      class(vtk_files), intent(inout) :: self
+      type(case_head), intent(in) :: head
+      type(case_spec), intent(in) :: spec
+      type(patch_result), intent(in) :: contact
+      type(error_type), allocatable, intent(out) :: error
+
+      call write_patch(self, head, spec, contact, 0, error)
+   end subroutine write_contact
+
+   !> A solved case of module 1
+   subroutine write_pair(self, head, spec, pair, error)
+      class(vtk_files), intent(inout) :: self
+      type(case_head), intent(in) :: head
+      type(case_spec), intent(in) :: spec
+      type(pair_result), intent(in) :: pair
+      type(error_type), allocatable, intent(out) :: error
+      integer :: k
+
+      do k = 1, size(pair%patches)
+         call write_patch(self, head, spec, pair%patches(k)%contact, k, error, pair%patches(k))
+         if (allocated(error)) return
+      end do
+   end subroutine write_pair
+
+   !> Surface and blocks of a patch
+   subroutine write_patch(self, head, spec, contact, number, error, place)
+      type(vtk_files), intent(inout) :: self
+      type(case_head), intent(in) :: head
+      type(case_spec), intent(in) :: spec
+      type(patch_result), intent(in) :: contact
+      !> Number of the patch, 0 for module 3
+      integer, intent(in) :: number
+      type(error_type), allocatable, intent(out) :: error
+      !> Where the patch is, in module 1
+      type(pair_patch), intent(in), optional :: place
+      character(len=:), allocatable :: name
+      character(len=12) :: case_text, block_text
+      integer :: k, part
+
+      write(case_text, '(i0.4)') head%number
+      part = max(0, number - 1)
+      name = case_file_name(self%base, case_text, "vts", head%result_element, number)
+      call write_surface(name, spec, contact, error, place)
+      if (.not. allocated(error)) call self%list_file(name, head%number, part)
+      if (allocated(contact%subsurface)) then
+         do k = 1, size(contact%subsurface)
+            if (allocated(error)) exit
+            write(block_text, '(a, i0)') "block", k
+            name = case_file_name(self%base, case_text, trim(block_text) // ".vts", head%result_element, number)
+            call write_block(name, spec, contact%subsurface(k), error, place)
+            if (.not. allocated(error)) call self%list_file(name, head%number, 100*k + part)
+         end do
+      end if
+      call add_context(error, "writing VTK files")
+   end subroutine write_patch
+
+   !> The elements of a patch as cells
+   subroutine write_surface(name, spec, contact, error, place)
+      character(len=*), intent(in) :: name
+      type(case_spec), intent(in) :: spec
+      type(patch_result), intent(in) :: contact
+      type(error_type), allocatable, intent(out) :: error
+      type(pair_patch), intent(in), optional :: place
+      type(vtk_grid) :: grid
+      real(wp), allocatable :: points(:, :, :), traction(:, :, :), slip(:, :, :)
+      real(wp) :: distance, s
+      integer :: ix, iy
+
+      s = side_sign(spec)
+      associate (mx => contact%grid%mx, my => contact%grid%my)
+         allocate(points(3, 0:mx, 0:my), traction(3, mx, my), slip(3, mx, my))
+         do iy = 0, my
+            do ix = 0, mx
+               points(:, ix, iy) = in_track([contact%grid%xl + ix*contact%grid%dx, contact%grid%yl + iy*contact%grid%dy, 0.0_wp], &
+                  & s, place, real(iy, wp) + 0.5_wp)
+            end do
+         end do
+         distance = merge(contact%dq, 1.0_wp, is_rolling(spec))
+         do iy = 1, my
+            do ix = 1, mx
+               traction(:, ix, iy) = turned([contact%px(ix, iy), contact%py(ix, iy), contact%pn(ix, iy)], s, place, iy)
+               slip(:, ix, iy) = turned([contact%sx(ix, iy), contact%sy(ix, iy), 0.0_wp], s, place, iy)/distance
+            end do
+         end do
+         call start_grid(grid, [mx + 1, my + 1, 1], .true., size(points) + mx*my*25)
+         call put(grid, "element state", 1, reshape(real(contact%division, wp), [mx*my]))
+         call put(grid, "pressure [N/mm2]", 1, reshape(contact%pn, [mx*my]))
+         call put(grid, "traction [N/mm2]", 3, reshape(traction, [3*mx*my]))
+         if (spec%motion /= motion%none) then
+            call put(grid, "px [N/mm2]", 1, reshape(contact%px, [mx*my]))
+            call put(grid, "py [N/mm2]", 1, s*reshape(contact%py, [mx*my]))
+            call put(grid, "friction coefficient", 1, reshape(contact%mu, [mx*my]))
+            if (is_rolling(spec)) then
+               call put(grid, "relative slip", 3, reshape(slip, [3*mx*my]))
+            else
+               call put(grid, "slip [mm]", 3, reshape(slip, [3*mx*my]))
+            end if
+         end if
+         if (allocated(contact%temp1)) then
+            call put(grid, "temperature 1 [degC]", 1, reshape(contact%temp1, [mx*my]))
+            call put(grid, "temperature 2 [degC]", 1, reshape(contact%temp2, [mx*my]))
+         end if
+         call finish_grid(grid, name, reshape(points, [size(points)]), error)
+      end associate
+   end subroutine write_surface
+
+   !> The points of a subsurface block
+   subroutine write_block(name, spec, block, error, place)
+      character(len=*), intent(in) :: name
+      type(case_spec), intent(in) :: spec
+      type(subsurface_result), intent(in) :: block
+      type(error_type), allocatable, intent(out) :: error
+      type(pair_patch), intent(in), optional :: place
+      type(vtk_grid) :: grid
+      real(wp), allocatable :: points(:, :), displacement(:, :), tensor(:, :)
+      real(wp) :: s
+      integer :: k, n
+
+      s = side_sign(spec)
+      n = size(block%position, 2)
+      allocate(points(3, n), displacement(3, n), tensor(6, n))
+      do k = 1, n
+         points(:, k) = in_track(block%position(:, k), s, place)
+         displacement(:, k) = turned(block%displacement(:, k), s, place)
+      end do
+      ! the order of VTK is xx, yy, zz, xy, yz, xz; axes of the patch
+      tensor(1, :) = block%stress(1, :)
+      tensor(2, :) = block%stress(4, :)
+      tensor(3, :) = block%stress(6, :)
+      tensor(4, :) = s*block%stress(2, :)
+      tensor(5, :) = s*block%stress(5, :)
+      tensor(6, :) = block%stress(3, :)
+      call start_grid(grid, [block%nx, block%ny, block%nz], .false., 20*n)
+      call put(grid, "von Mises [N/mm2]", 1, block%sigvm)
+      call put(grid, "mean stress [N/mm2]", 1, block%sighyd)
+      call put(grid, "Tresca [N/mm2]", 1, block%sigtr)
+      call put(grid, "sigma 1 [N/mm2]", 1, block%sigma1)
+      call put(grid, "sigma 2 [N/mm2]", 1, block%sigma2)
+      call put(grid, "sigma 3 [N/mm2]", 1, block%sigma3)
+      call put(grid, "displacement [mm]", 3, reshape(displacement, [3*n]))
+      call put(grid, "stress, axes of the patch [N/mm2]", 6, reshape(tensor, [6*n]))
+      call finish_grid(grid, name, reshape(points, [size(points)]), error)
+   end subroutine write_block
+
+   !> A point of a patch in track coordinates; as it is in module 3
+   pure function in_track(local, s, place, row) result(point)
+      !> x, y, z [mm] about the reference of the patch, for a right-hand pair
+      real(wp), intent(in) :: local(3)
+      !> -1 for the left side
+      real(wp), intent(in) :: s
+      type(pair_patch), intent(in), optional :: place
+      !> Row of elements at whose level the point is, for curved references; row i has its centre at i
+      real(wp), intent(in), optional :: row
+      real(wp) :: point(3), t
+      integer :: k
+
+      point = local
+      if (.not. present(place)) return
+      if (allocated(place%curve) .and. present(row)) then
+         if (size(place%curve, 2) > 1) then
+            k = min(max(1, floor(row)), size(place%curve, 2) - 1)
+            t = row - k
+            point = [place%x + local(1), (1.0_wp - t)*place%curve(1, k) + t*place%curve(1, k + 1), &
+               & (1.0_wp - t)*place%curve(2, k) + t*place%curve(2, k + 1)]
+            point(2) = s*point(2)
+            return
+         end if
+      end if
+      point = [place%x + local(1), place%y + cos(place%delta)*local(2) - sin(place%delta)*local(3), &
+         & place%z + sin(place%delta)*local(2) + cos(place%delta)*local(3)]
+      point(2) = s*point(2)
+   end function in_track
+
+   !> A vector of a patch in track axes; as it is in module 3
+   pure function turned(local, s, place, row) result(vector)
+      real(wp), intent(in) :: local(3), s
+      type(pair_patch), intent(in), optional :: place
+      !> Row of elements, for curved references
+      integer, intent(in), optional :: row
+      real(wp) :: vector(3), angle
+
+      vector = local
+      if (.not. present(place)) return
+      angle = place%delta
+      if (allocated(place%curve) .and. present(row)) angle = place%curve(3, row)
+      vector = [local(1), s*(cos(angle)*local(2) - sin(angle)*local(3)), sin(angle)*local(2) + cos(angle)*local(3)]
+   end function turned
+
+   !> Begin a structured grid
+   subroutine start_grid(grid, points, on_cells, size_of_all)
+      type(vtk_grid), intent(inout) :: grid
+      !> Numbers of points along the three directions
+      integer, intent(in) :: points(3)
+      !> Do the arrays belong to cells?
+      logical, intent(in) :: on_cells
+      !> Upper bound of the numbers in all arrays
+      integer, intent(in) :: size_of_all
+      character(len=120) :: extent
+
+      grid%points = points
+      grid%on_cells = on_cells
+      allocate(grid%numbers(size_of_all), grid%lengths(0))
+      write(extent, '(5(i0, 1x), i0)') 0, points(1) - 1, 0, points(2) - 1, 0, points(3) - 1
+      grid%head = '<?xml version="1.0"?>' // new_line("a") // '<VTKFile type="StructuredGrid" version="1.0" byte_order="' &
+         & // byte_order() // '" header_type="UInt64">' // new_line("a") // '<StructuredGrid WholeExtent="' // trim(extent) &
+         & // '">' // new_line("a") // '<Piece Extent="' // trim(extent) // '">' // new_line("a") &
+         & // merge("<CellData> ", "<PointData>", on_cells) // new_line("a")
+   end subroutine start_grid
+
+   !> How this machine stores numbers
+   pure function byte_order() result(name)
+      character(len=12) :: name
+      character(len=1) :: bytes(4)
+
+      bytes = transfer(1, bytes)
+      name = merge("LittleEndian", "BigEndian   ", iachar(bytes(1)) == 1)
+   end function byte_order
+
+   !> Add an array
+   subroutine put(grid, name, components, values)
+      type(vtk_grid), intent(inout) :: grid
+      character(len=*), intent(in) :: name
+      integer, intent(in) :: components
+      real(wp), intent(in) :: values(:)
+      character(len=120) :: rest
+
+      write(rest, '(a, i0, a, i0, a)') '" NumberOfComponents="', components, '" format="appended" offset="', grid%offset, '"/>'
+      grid%head = grid%head // '<DataArray type="Float64" Name="' // name // trim(rest) // new_line("a")
+      grid%numbers(grid%used + 1:grid%used + size(values)) = values
+      grid%used = grid%used + size(values)
+      grid%lengths = [grid%lengths, size(values)]
+      grid%offset = grid%offset + 8_long*(1_long + size(values, kind=long))
+   end subroutine put
+
+   !> Points, and the file
+   subroutine finish_grid(grid, name, points, error)
+      type(vtk_grid), intent(inout) :: grid
+      character(len=*), intent(in) :: name
+      real(wp), intent(in) :: points(:)
+      type(error_type), allocatable, intent(out) :: error
+      integer :: first, k, status
+
+      grid%head = grid%head // trim(merge("</CellData> ", "</PointData>", grid%on_cells)) // new_line("a") // "<Points>" &
+         & // new_line("a")
+      call put(grid, "Points", 3, points)
+      grid%head = grid%head // "</Points>" // new_line("a") // "</Piece>" // new_line("a") // "</StructuredGrid>" &
+         & // new_line("a") // '<AppendedData encoding="raw">' // new_line("a") // "_"
+      call grid%file%start(name, error, binary=.true.)
+      if (allocated(error)) return
+      write(grid%file%unit, iostat=status) grid%head
+      first = 0
+      do k = 1, size(grid%lengths)
+         if (status /= 0) exit
+         write(grid%file%unit, iostat=status) 8_long*grid%lengths(k), grid%numbers(first + 1:first + grid%lengths(k))
+         first = first + grid%lengths(k)
+      end do
+      if (status == 0) write(grid%file%unit, iostat=status) new_line("a") // "</AppendedData>" // new_line("a") // "</VTKFile>" &
+         & // new_line("a")
+      call grid%file%finish(status, error)
+   end subroutine finish_grid
+end module contact_output_vtk_files

@@ -1,0 +1,203 @@
+#!/usr/bin/env python3
+"""contact --hdf5: one file with everything, read by h5py and by Octave; whole after a violent end.
+
+Skipped (exit status 77) without h5py. The environment tells CONTACT_PROGRAM and CONTACT_SOURCE.
+"""
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+try:
+    import h5py
+    import numpy as np
+except ImportError as reason:
+    print("SKIPPED: %s" % reason)
+    sys.exit(77)
+
+PROGRAM = os.environ["CONTACT_PROGRAM"]
+SOURCE = os.environ["CONTACT_SOURCE"]
+
+FIRST = """3
+203100
+022020
+0002001
+999 100 30 1 1e-5
+2000 {creep:.9f} 0 0
+0.3 0.3
+0 0.2 1000
+0.28 0.28 82000 82000
+1
+13 11 -1.3 -1.1 0.2 0.2
+1 1
+0.01 0 0.01 0 0 0
+"""
+NEXT = """3
+203100
+100000
+0112001
+2000 {creep:.9f} 0 0
+"""
+
+
+def series(path, cases):
+    """Creepages from 0 in steps; everything else stays"""
+    with open(path, "w") as file:
+        for k in range(cases):
+            file.write((FIRST if k == 0 else NEXT).format(creep=-1e-5 * k))
+        file.write("0\n")
+
+
+def table(path):
+    """Columns of a .mat file by name"""
+    with open(path) as file:
+        lines = file.read().splitlines()
+    names = lines[12][1:].split()
+    rows = np.array([line.split() for line in lines[13:]], dtype=float)
+    return dict(zip(names, rows.T))
+
+
+class Hdf5(unittest.TestCase):
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(scratch.cleanup)
+        self.folder = scratch.name
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def run_program(self, *arguments):
+        run = subprocess.run([PROGRAM, "--quiet", *arguments], cwd=self.folder, stdin=subprocess.DEVNULL,
+                             stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=300)
+        self.assertEqual(run.returncode, 0, run.stderr[-2000:])
+
+    def run_example(self, name):
+        self.run_program("--hdf5", "--output-dir", ".", "2", os.path.join(SOURCE, "examples", name))
+        return h5py.File(self.path(name + ".h5"), "r")
+
+    def test_fields_are_those_of_the_mat_file(self):
+        series(self.path("series.inp"), 4)
+        self.run_program("--hdf5", "2", "series")
+        with h5py.File(self.path("series.h5"), "r") as file:
+            for case in range(1, 5):
+                group = file["case_%04d/patch_1" % case]
+                columns = table(self.path("series.%04d.mat" % case))
+                self.assertEqual(group["grid/x"].shape, (13,))
+                for name, column in (("pn", "PN"), ("px", "PX"), ("py", "PY"), ("ux", "UX"), ("h", "H"), ("mu", "MU")):
+                    field = group["fields/" + name]
+                    self.assertEqual(field.shape, (11, 13))
+                    self.assertTrue(field.attrs["units"] and field.attrs["long_name"])
+                    np.testing.assert_allclose(field[...].ravel(), columns[column], rtol=1e-5, atol=1e-9 * abs(columns[column]).max())
+                np.testing.assert_array_equal(group["fields/eldiv"][...].ravel(), columns["IGS"])
+                slip = np.hypot(group["fields/sx"][...], group["fields/sy"][...]).ravel()
+                np.testing.assert_allclose(slip, columns["SREL"], rtol=1e-5, atol=1e-12)
+                self.assertAlmostEqual(group["totals/fn"][()], 2000.0, delta=0.1)
+                self.assertEqual(file["patches/cksi"][case - 1], file["case_%04d/inputs/kinematics/cksi" % case][()])
+            self.assertEqual(file["patches/fx"].attrs["units"], b"N")
+            # what does not change is stored once
+            first, last = file["case_0001"], file["case_0004"]
+            for same in ("inputs/material", "patch_1/fields/pn", "patch_1/grid", "patch_1/solver"):
+                self.assertEqual(h5py.h5o.get_info(first[same].id).addr, h5py.h5o.get_info(last[same].id).addr, same)
+            self.assertNotEqual(h5py.h5o.get_info(first["patch_1/fields/px"].id).addr,
+                                h5py.h5o.get_info(last["patch_1/fields/px"].id).addr)
+
+    def test_shifts_and_rolling_have_columns_of_their_own(self):
+        with self.run_example("cattaneo") as file:
+            self.assertTrue(np.isnan(file["patches/shift_x"][0]))
+            self.assertGreater(abs(file["patches/shift_x"][1]), 0.0)
+            self.assertNotIn("cksi", file["patches"])
+            self.assertEqual(file["patches/shift_x"].attrs["units"], b"mm")
+
+    def test_subsurface_blocks(self):
+        with self.run_example("subsurface") as file:
+            block = file["case_0001/patch_1/subsurface/block_1"]
+            shape = tuple(block["points"][axis].size for axis in "zyx")
+            self.assertEqual(block["sigvm"].shape, shape)
+            tensor = {name: block["sig" + name][...] for name in ("xx", "yy", "zz", "xy", "xz", "yz")}
+            np.testing.assert_allclose(block["sighyd"][...], (tensor["xx"] + tensor["yy"] + tensor["zz"]) / 3, rtol=1e-9,
+                                       atol=1e-9 * abs(tensor["zz"]).max())
+            mises = np.sqrt(0.5 * ((tensor["xx"] - tensor["yy"])**2 + (tensor["yy"] - tensor["zz"])**2
+                                   + (tensor["zz"] - tensor["xx"])**2)
+                            + 3 * (tensor["xy"]**2 + tensor["xz"]**2 + tensor["yz"]**2))
+            np.testing.assert_allclose(block["sigvm"][...], mises, rtol=1e-9, atol=1e-9 * mises.max())
+
+    def test_wheel_on_rail(self):
+        with self.run_example("wheel_on_rail") as file:
+            lefts = rights = 0
+            for name in file:
+                if not name.startswith("case_"):
+                    continue
+                case = file[name]
+                left = bool(case["inputs/search/left"][()])
+                lefts, rights = lefts + left, rights + (not left)
+                total = case["totals/fx_tr"][()]
+                fields = case["patch_1/fields"]
+                grid = case["patch_1/grid"]
+                area = grid["dx"][()] * grid["dy"][()]
+                for field, force in (("px", "fx"), ("py", "fy"), ("pn", "fn")):
+                    self.assertAlmostEqual(fields[field][...].sum() * area, case["patch_1/totals/" + force][()],
+                                           delta=1e-6 * case["patch_1/totals/fn"][()], msg=name + force)
+                self.assertGreater(abs(total), 0.0)
+                # the contact reference lies on the rail's profile in its place in the track
+                roll, s = case["markers/roll_r"][()], -1.0 if left else 1.0
+                y, z = case["profiles/rail/y"][...], case["profiles/rail/z"][...]
+                yt = case["markers/y_r"][()] + y * np.cos(roll) - z * np.sin(roll)
+                zt = case["markers/z_r"][()] + y * np.sin(roll) + z * np.cos(roll)
+                at = case["patch_1/totals/ycp_tr"][()], case["patch_1/totals/zcp_tr"][()]
+                self.assertGreater(s * at[0], 0.0)
+                self.assertLess(np.hypot(yt - at[0], zt - at[1]).min(), 1.5)
+            self.assertGreater(lefts, 0)
+            self.assertGreater(rights, 0)
+
+    def test_case_without_result(self):
+        with open(self.path("faulty.inp"), "w") as file:
+            file.write(FIRST.format(creep=0) + FIRST.format(creep=0).replace("0.28 0.28 8", "0.28 0.98 8") + "0\n")
+        run = subprocess.run([PROGRAM, "--quiet", "--hdf5", "2", "faulty"], cwd=self.folder, stdin=subprocess.DEVNULL,
+                             stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=60)
+        self.assertEqual(run.returncode, 1)
+        with h5py.File(self.path("faulty.h5"), "r") as file:
+            self.assertEqual(list(file["cases/solved"]), [1.0, 0.0])
+            self.assertIn(b"input", file["case_0002/failure/reason"][()])
+
+    def test_readable_after_a_violent_end(self):
+        series(self.path("long.inp"), 8000)
+        shown = 0
+        for pause in (0.0, 0.5, 1.1, 1.7, 2.3):
+            if os.path.exists(self.path("long.h5")):
+                os.remove(self.path("long.h5"))
+            run = subprocess.Popen([PROGRAM, "--quiet", "--hdf5", "2", "long"], cwd=self.folder, stdin=subprocess.DEVNULL)
+            # under its name the file is one that can be opened
+            patience = time.monotonic() + 60
+            while not os.path.exists(self.path("long.h5")) and time.monotonic() < patience:
+                time.sleep(0.01)
+            time.sleep(pause)
+            run.send_signal(signal.SIGKILL)
+            run.wait()
+            with h5py.File(self.path("long.h5"), "r") as file:
+                names = [name for name in file if name.startswith("case_") and len(file[name])]
+                for name in names:
+                    self.assertEqual(file[name + "/patch_1/fields/px"].shape, (11, 13))
+                    self.assertAlmostEqual(file[name + "/patch_1/fields/pn"][...].sum() * 0.04, 2000.0, delta=0.5)
+                shown = max(shown, len(names))
+        self.assertGreater(shown, 10)
+
+    def test_octave_loads_it(self):
+        octave = shutil.which("octave-cli") or shutil.which("octave")
+        if not octave:
+            self.skipTest("there is no octave")
+        self.run_example("cattaneo").close()
+        script = """d = load("cattaneo.h5"); p = d.case_0002.patch_1;
+assert(size(p.fields.pn), [double(p.grid.mx), double(p.grid.my)]);
+assert(p.totals.fn, d.patches.fn(2)); assert(ischar(p.solver.normal_method)); disp("it loads");
+"""
+        run = subprocess.run([octave, "--quiet", "--no-gui", "--eval", script], cwd=self.folder, stdin=subprocess.DEVNULL,
+                             stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=300)
+        self.assertIn("it loads", run.stdout)
+
+
+if __name__ == "__main__":
+    unittest.main()

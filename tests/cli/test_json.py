@@ -1,0 +1,134 @@
+#!/usr/bin/env python3
+"""contact --json: every case a line that any JSON reader takes, with the values of the .out file.
+
+The environment tells CONTACT_PROGRAM and CONTACT_SOURCE.
+"""
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+
+PROGRAM = os.environ["CONTACT_PROGRAM"]
+SOURCE = os.environ["CONTACT_SOURCE"]
+sys.path.insert(0, os.path.join(SOURCE, "tests", "regression"))
+import out_file  # noqa: E402
+
+EMPTY = """3
+200100
+022020
+0000201
+100 100 30 1 1e-5
+{pen} 0 0 0
+0.3 0.3
+0.28 0.28 82000 82000
+1
+5 5 -1.0 -1.0 0.4 0.4
+1 1
+0.001 0 0.001 0 0 0
+"""
+
+
+def refuse(constant):
+    raise ValueError("not JSON: " + constant)
+
+
+def read(text):
+    return [json.loads(line, parse_constant=refuse) for line in text.splitlines()]
+
+
+class Json(unittest.TestCase):
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(scratch.cleanup)
+        self.folder = scratch.name
+
+    def run_program(self, *arguments):
+        return subprocess.run([PROGRAM, *arguments], cwd=self.folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                              stderr=subprocess.PIPE, text=True, timeout=120)
+
+    def run_example(self, name):
+        run = self.run_program("--quiet", "--json", "--output-dir", ".", "2", os.path.join(SOURCE, "examples", name))
+        self.assertEqual(run.returncode, 0, run.stderr[-2000:])
+        with open(os.path.join(self.folder, name + ".jsonl"), encoding="utf-8") as file:
+            return read(file.read()), out_file.read(os.path.join(self.folder, name + ".out"))
+
+    def agrees(self, total, printed, unit):
+        """A total has this unit and the printed value, to the figures that are printed"""
+        self.assertEqual(total["unit"], unit)
+        self.assertAlmostEqual(total["value"], printed, delta=2e-4*abs(printed) + 1e-9)
+
+    def test_values_are_those_of_the_out_file(self):
+        lines, printed = self.run_example("cattaneo")
+        self.assertEqual([line["case"] for line in lines], sorted(printed))
+        for line in lines:
+            self.assertTrue(line["solved"] and line["converged"])
+            self.assertEqual(line["module"], 3)
+            self.assertEqual(len(line["patches"]), 1)
+            totals = line["patches"][0]["totals"]
+            for name, column, unit in (("fn", "FN", "N"), ("fx", "FX", "N"), ("pmax", "PMAX", "N/mm2"), ("pen", "APPROACH", "mm")):
+                self.agrees(totals[name], printed[line["case"]][column], unit)
+            self.assertEqual(totals["ncon"], printed[line["case"]]["NCON"])
+        shift = lines[1]["patches"][0]
+        self.assertEqual(shift["totals"]["shift_x"]["unit"], "mm")
+        self.assertNotIn("cksi", shift["totals"])
+        self.assertEqual(shift["solver"]["tangential_ended"], "converged")
+        self.assertLessEqual(shift["solver"]["tangential_residual"], shift["solver"]["tangential_tolerance"])
+
+    def test_wheel_on_rail_has_its_patches_inside(self):
+        lines, printed = self.run_example("wheel_on_rail")
+        self.assertEqual(len(lines), len(printed))
+        sides = set()
+        for line in lines:
+            self.assertEqual(line["module"], 1)
+            sides.add(line["side"])
+            self.assertEqual(line["totals"]["fz_tr"]["unit"], "N")
+            self.assertGreaterEqual(len(line["patches"]), 1)
+            for patch in line["patches"]:
+                self.assertEqual(patch["totals"]["deltcp_tr"]["unit"], "rad")
+                y = patch["totals"]["ycp_tr"]["value"]
+                self.assertGreater(y if line["side"] == "right" else -y, 0.0)
+        with open(os.path.join(self.folder, "wheel_on_rail.out")) as file:
+            told = file.read().count("DATA FOR CONTACT PATCH")
+        self.assertEqual(sum(len(line["patches"]) for line in lines), told)
+        self.assertEqual(sides, {"left", "right"})
+
+    def test_no_contact_and_no_nan(self):
+        with open(os.path.join(self.folder, "empty.inp"), "w") as file:
+            file.write(EMPTY.format(pen=-1).replace("200100", "200000") + "0\n")
+        run = self.run_program("--json=-", "2", "empty")
+        self.assertEqual((run.returncode, run.stderr), (0, ""), run.stdout)
+        line, = read(run.stdout)
+        self.assertEqual(line["patches"][0]["totals"]["ncon"], 0)
+        self.assertEqual(line["patches"][0]["totals"]["fn"], {"value": 0, "unit": "N"})
+
+    def test_faulty_case_has_a_line(self):
+        with open(os.path.join(self.folder, "faulty.inp"), "w") as file:
+            file.write(EMPTY.format(pen=1) + EMPTY.format(pen=1).replace("0.28 0.28 8", "0.28 0.98 8") + "0\n")
+        run = self.run_program("--json=-", "2", "faulty")
+        self.assertEqual(run.returncode, 1)
+        first, second = read(run.stdout)
+        self.assertTrue(first["solved"])
+        self.assertFalse(second["solved"])
+        self.assertEqual(second["patches"], [])
+        self.assertIn("input", second["failure"])
+
+    def test_without_the_flag_nothing_is_written(self):
+        name = os.path.join(SOURCE, "examples", "carter2d")
+        self.assertEqual(self.run_program("--quiet", "--output-dir", ".", "2", name).returncode, 0)
+        self.assertFalse([file for file in os.listdir(self.folder) if file.endswith(".jsonl")])
+
+    def test_a_folder_that_is_missing_and_a_wrong_value(self):
+        name = os.path.join(SOURCE, "examples", "carter2d")
+        run = self.run_program("--quiet", "--json=yes", "2", name)
+        self.assertEqual(run.returncode, 1)
+        self.assertIn("--json", run.stderr)
+        os.mkdir(os.path.join(self.folder, "carter2d.jsonl"))
+        run = self.run_program("--quiet", "--json", "--output-dir", ".", "2", name)
+        self.assertEqual(run.returncode, 1)
+        self.assertIn("carter2d.jsonl", run.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,187 @@
+#!/usr/bin/env python3
+"""The page in a real browser: no errors, drawn maps, stepping, values under the pointer, pan and zoom.
+
+Skipped (exit status 77) without h5py, Playwright for Python or Debian's chromium.
+The environment tells CONTACT_PROGRAM and CONTACT_SOURCE.
+"""
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+BROWSER = shutil.which("chromium") or shutil.which("chromium-browser")
+try:
+    import h5py  # noqa: F401
+    from playwright.sync_api import sync_playwright
+    if not BROWSER:
+        raise ImportError("there is no chromium")
+except ImportError as reason:
+    print("SKIPPED: %s" % reason)
+    sys.exit(77)
+
+PROGRAM = os.environ["CONTACT_PROGRAM"]
+SOURCE = os.environ["CONTACT_SOURCE"]
+sys.path.insert(0, os.path.join(SOURCE, "python"))
+from contact.report import write_page  # noqa: E402
+
+# Number of different colours on a canvas: a canvas that was not drawn has one
+COLOURS = """id => { const c = document.getElementById(id), p = c.getContext('2d').getImageData(0, 0, c.width, c.height).data;
+const seen = new Set(); for (let i = 0; i < p.length; i += 4) seen.add(p[i] * 65536 + p[i + 1] * 256 + p[i + 2]); return seen.size; }"""
+SETTLED = "index => window.contactReport && contactReport.state.ready && contactReport.state.index === index"
+
+MANY = """3
+203100
+022020
+0000001
+999 100 30 1 1e-5
+2000 {creep:.9f} 0 0
+0.3 0.3
+0 0.2 1000
+0.28 0.28 82000 82000
+1
+25 25 -2.5 -2.5 0.2 0.2
+1 1
+0.01 0 0.01 0 0 0
+"""
+NEXT = """3
+203100
+100000
+0110001
+2000 {creep:.9f} 0 0
+"""
+
+
+class Browser(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.scratch = tempfile.TemporaryDirectory()
+        cls.playwright = sync_playwright().start()
+        cls.browser = cls.playwright.chromium.launch(executable_path=BROWSER, args=["--no-sandbox", "--disable-gpu"])
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.browser.close()
+        cls.playwright.stop()
+        cls.scratch.cleanup()
+
+    def page_of(self, name, path=None):
+        folder = self.scratch.name
+        subprocess.run([PROGRAM, "--quiet", "--hdf5", "--output-dir", folder, "2", path or os.path.join(SOURCE, "examples", name)],
+                       check=True, stdin=subprocess.DEVNULL, timeout=300)
+        return "file://" + write_page(os.path.join(folder, name + ".h5"))
+
+    def open(self, address):
+        page = self.browser.new_page(viewport={"width": 1400, "height": 1300})
+        self.addCleanup(page.close)
+        self.troubles = []
+        page.on("console", lambda message: self.troubles.append(message.text) if message.type in ("error", "warning") else None)
+        page.on("pageerror", lambda error: self.troubles.append(str(error)))
+        page.on("request", lambda request: None if request.url.startswith(("file:", "data:", "blob:")) else self.troubles.append(request.url))
+        page.goto(address)
+        page.wait_for_function(SETTLED, arg=0, timeout=60000)
+        return page
+
+    def test_shift_of_a_ball(self):
+        page = self.open(self.page_of("cattaneo"))
+        for canvas in ("map-pn", "map-eldiv", "plot-section", "plot-curve"):
+            self.assertGreater(page.evaluate(COLOURS, canvas), 5, canvas)
+        self.assertTrue(page.is_hidden("#card-pt"))
+        self.assertTrue(page.is_hidden("#card-profiles"))
+        page.keyboard.press("ArrowRight")
+        page.wait_for_function(SETTLED, arg=1)
+        self.assertIn("case 2", page.inner_text("#where"))
+        self.assertTrue(page.is_visible("#card-pt"))
+        self.assertGreater(page.evaluate(COLOURS, "map-pt"), 20)
+        self.assertIn("NormCG", page.inner_text("#solution"))
+        # the middle of the contact sticks, and its pressure is the largest
+        box = page.locator("#map-pn").bounding_box()
+        page.mouse.move(box["x"] + 58 + (box["width"] - 142) / 2, box["y"] + 12 + (box["height"] - 52) / 2)
+        told = page.inner_text("#readout").replace("\n", " ")
+        self.assertIn("adhesion", told)
+        largest = page.evaluate("Math.max(...contactReport.state.fields.pn)")
+        self.assertRegex(told, r"pn\s*%.2f" % largest)
+        # zoom and pan change the view, a double click shows all again
+        before = page.evaluate("contactReport.state.view")
+        page.mouse.wheel(0, -300)
+        page.wait_for_function("w => contactReport.state.view[1] - contactReport.state.view[0] < 0.8 * w", arg=before[1] - before[0])
+        zoomed = page.evaluate("contactReport.state.view")
+        page.mouse.down()
+        page.mouse.move(box["x"] + 120, box["y"] + 60, steps=4)
+        page.mouse.up()
+        self.assertGreater(abs(page.evaluate("contactReport.state.view")[0] - zoomed[0]), 1e-3)
+        page.mouse.dblclick(box["x"] + 150, box["y"] + 100)
+        for old, new in zip(before, page.evaluate("contactReport.state.view")):
+            self.assertAlmostEqual(old, new, places=9)
+        self.assertEqual(self.troubles, [])
+
+    def test_wheel_on_rail(self):
+        page = self.open(self.page_of("wheel_on_rail"))
+        self.assertTrue(page.is_visible("#card-profiles"))
+        self.assertGreater(page.evaluate(COLOURS, "plot-profiles"), 10)
+        page.select_option("#quantity", "slip")
+        page.click("#cases tbody tr:nth-child(4)")
+        page.wait_for_function(SETTLED, arg=3)
+        self.assertIn("fz_tr", page.inner_text("#totals"))
+        page.fill("#slider", "9")
+        page.wait_for_function(SETTLED, arg=9)
+        self.assertTrue(page.is_disabled("#next"))
+        self.assertEqual(self.troubles, [])
+
+    def test_temperatures_and_one_row(self):
+        page = self.open(self.page_of("sliding_temperature"))
+        self.assertEqual(page.input_value("#quantity"), "temp1")
+        self.assertGreater(page.evaluate(COLOURS, "map-more"), 20)
+        page = self.open(self.page_of("carter2d"))
+        self.assertGreater(page.evaluate(COLOURS, "plot-section"), 10)
+        self.assertEqual(self.troubles, [])
+
+    def test_a_thousand_cases(self):
+        path = os.path.join(self.scratch.name, "many")
+        with open(path + ".inp", "w") as file:
+            for k in range(1000):
+                file.write((MANY if k == 0 else NEXT).format(creep=-4e-6 * k))
+            file.write("0\n")
+        address = self.page_of("many", path)
+        started = time.monotonic()
+        page = self.open(address)
+        self.assertLess(time.monotonic() - started, 30.0)
+        self.assertEqual(page.input_value("#curve-x"), "cksi")
+        page.fill("#slider", "999")
+        page.wait_for_function(SETTLED, arg=999)
+        self.assertIn("1000 of 1000", page.inner_text("#where"))
+        self.assertEqual(self.troubles, [])
+
+    def test_the_server_in_the_browser(self):
+        from contact.report.server import Server
+        import threading
+        folder = os.path.join(self.scratch.name, "served")
+        os.mkdir(folder)
+        shutil.copy(os.path.join(SOURCE, "examples", "cattaneo.inp"), folder)
+        server = Server(folder, 0)
+        threading.Thread(target=server.serve_forever, daemon=True).start()
+        self.addCleanup(server.server_close)
+        self.addCleanup(server.shutdown)
+        page = self.browser.new_page()
+        self.addCleanup(page.close)
+        troubles = []
+        page.on("console", lambda message: troubles.append(message.text) if message.type == "error" else None)
+        page.goto("http://127.0.0.1:%d/" % server.server_port)
+        page.click("tr[data-name=cattaneo] button:has-text('check')")
+        page.wait_for_selector("#state.good")
+        page.click("tr[data-name=cattaneo] button:has-text('run')")
+        page.wait_for_selector("tr[data-name=cattaneo] a")
+        page.wait_for_selector("#state.good")
+        self.assertIn("Case     2", page.inner_text("#messages"))
+        with page.expect_popup() as popup:
+            page.click("tr[data-name=cattaneo] a")
+        result = popup.value
+        result.wait_for_function(SETTLED, arg=0)
+        self.assertGreater(result.evaluate(COLOURS, "map-pn"), 20)
+        self.assertEqual([text for text in troubles if "favicon" not in text and "404" not in text], [])
+
+
+if __name__ == "__main__":
+    unittest.main()
