@@ -124,8 +124,9 @@ class WheelRail(Element):
             Rolling step relative to dx [-].
         """
         millimetre = 1.0 if self.units == "mm" else 1e-3
-        self._do(cntc.setpotcontact, self.number, -1, -1, [dx, ds, a_sep, 8 * millimetre if d_sep is None else d_sep,
-                                                 4 * millimetre if d_comb is None else d_comb])
+        self._do(cntc.setpotcontact, self.number, -1, -1,
+                 [dx, ds, a_sep, 8 * millimetre if d_sep is None else d_sep,
+                  4 * millimetre if d_comb is None else d_comb])
         self._do(cntc.setrollingstepsize, self.number, -1, 0.0, step)
 
     def set_rail(self, profile: str | os.PathLike[str] | ArrayLike, scale: float = 1.0, smooth: float = 0.0) -> None:
@@ -167,8 +168,8 @@ class WheelRail(Element):
         """
         if not gauge_height > 0.0:
             raise ValueError("gauge_height has to be positive; set_rail_position places a rail without gauge point")
-        self._do(cntc.settrackdimensions, self.number, 3, [gauge_height, gauge_sequence, gauge_width, cant, roller_radius,
-                                                 *deviation])
+        self._do(cntc.settrackdimensions, self.number, 3,
+                 [gauge_height, gauge_sequence, gauge_width, cant, roller_radius, *deviation])
 
     def set_rail_position(self, y: float, z: float, cant: float = 0.0, *, roller_radius: float = 0.0,
                           deviation: Sequence[float] = (0.0,) * 6) -> None:

@@ -6,11 +6,13 @@ import sys
 import threading
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "conformance"))
-from checks import check, close, finish, same
+from checks import SOURCE, check, close, finish, same
 import numpy as np
 import contact
 from contact import cntc
 from contact._library import call
+
+PROFILES = os.path.join(SOURCE, "examples/profiles")
 
 
 def raises(kind, call, word, what):
@@ -156,6 +158,68 @@ def threads():
     check(forces == alone, "threads and one by one")
 
 
+def wheel(pair):
+    """A wheel on a rail, in mm"""
+    pair.set_material(g=82000.0, nu=0.28)
+    pair.set_friction(0.3)
+    pair.set_grid(dx=0.4, ds=0.4)
+    pair.set_track(gauge_height=14.0, gauge_width=1435.0, cant=0.025)
+    pair.set_wheelset(flange_back=1360.0, flange_back_position=-70.0, radius=460.0)
+    pair.set_rail(os.path.join(PROFILES, "60E1.prr"))
+    pair.set_wheel(os.path.join(PROFILES, "S1002.prw"))
+    pair.set_position(y=2.0, yaw=0.0048)
+    pair.set_velocity(2000.0, pitch=-2000.0 / 460.0)
+    pair.set_vertical_force(10e3)
+
+
+def wheel_on_rail():
+    """Sums, sides, profiles as arrays, heights in place of forces, stresses"""
+    with contact.WheelRail("right") as pair:
+        wheel(pair)
+        result = pair.solve()
+        same(len(result.patches), 1, "patches")
+        patch = result.patches[0]
+        close(result.forces.track.force[2], 10e3, 1.0, "vertical force")
+        turned = patch.fn * np.cos(patch.angle) + patch.fy * np.sin(patch.angle)
+        close(turned, result.forces.track.force[2], 1.0, "forces of the patch, turned into the track system")
+        close(patch.pn.sum() * patch.dx * patch.dy, patch.fn, 1.0, "sum of pressures")
+        sizes = [np.linalg.norm(part.force) for part in (result.forces.wheel, result.forces.wheelset, result.forces.rail)]
+        close(sizes, 3 * [np.linalg.norm(result.forces.track.force)], 1e-3, "one force in four directions")
+
+        pair.add_block(x=[0.0, 1.0], y=[0.0], z=[0.0, 1.0, 3.0])
+        stresses = pair.stresses()
+        same((len(stresses), stresses[0].von_mises.shape), (1, (3, 1, 2)), "stresses of one patch")
+        tensor = stresses[0].tensor[:, :, 1, 0, 1]
+        close(tensor, tensor.T, 1e-9 * np.abs(tensor).max(), "the tensor is symmetric")
+        close(np.sort(np.linalg.eigvalsh(tensor)), np.sort(stresses[0].principal[:, 1, 0, 1]),
+              1e-6 * np.abs(tensor).max(), "principal stresses")
+        close(np.trace(tensor) / 3, stresses[0].hydrostatic[1, 0, 1], 1e-6 * np.abs(tensor).max(), "hydrostatic stress")
+
+        pair.set_position(y=2.0, yaw=0.0048, z=result.wheelset_position[2])
+        given = pair.solve()
+        close(given.forces.track.force, result.forces.track.force, 20.0, "the height gives the force")
+        pair.set_position(y=2.0, yaw=0.0048, z=-50.0)
+        apart = pair.solve()
+        same(len(apart.patches), 0, "a wheel above the rail touches nowhere")
+        close(apart.forces.track.force, np.zeros(3), 0.0, "and has no force")
+
+        pair.set_position(y=2.0, yaw=0.0048)
+        pair.set_vertical_force(10e3)
+        for setter, kind in ((pair.set_rail, 0), (pair.set_wheel, 1)):
+            setter(cntc.getprofilevalues(pair.number, 1, [kind, 0]))
+        arrays = pair.solve()
+        close(arrays.forces.track.force, result.forces.track.force, 20.0, "profiles as arrays")
+    with contact.WheelRail("left") as pair:
+        wheel(pair)
+        pair.set_position(y=-2.0, yaw=-0.0048)
+        left = pair.solve()
+    close(left.forces.track.force, result.forces.track.force * [1, -1, 1], 1e-3, "left and right are mirror images")
+    close(left.patches[0].pn, patch.pn[::-1], 1e-6 * patch.max_pressure, "pressures too")
+    with contact.WheelRail("right") as pair:
+        raises(contact.ContactError, pair.solve, "profile", "no profiles")
+    raises(ValueError, lambda: contact.WheelRail("middle"), "middle", "side")
+
+
 def output():
     """Files go where they are wanted"""
     contact.output_to("results", "run")
@@ -168,6 +232,6 @@ def output():
 
 
 if __name__ == "__main__":
-    for part in (results, distance, prescribed_and_transient, errors, many, threads, output):
+    for part in (results, distance, prescribed_and_transient, errors, many, threads, wheel_on_rail, output):
         part()
     finish()
