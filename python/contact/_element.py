@@ -17,7 +17,7 @@ from ._library import last_error
 from .cntc import CNTC
 from .errors import ContactError
 
-Field = NDArray[np.float64]
+Field = NDArray[np.floating[Any]]
 _Self = TypeVar("_Self", bound="Element")
 
 _UNITS = {"mm": "un_cntc", "si": "un_si", "simpack": "un_spck"}
@@ -210,7 +210,8 @@ def read_stresses(ire: int, icp: int, block: int) -> Stresses:
     values = cntc.subs_getresults(ire, icp, block, range(1, 22)).reshape(21, nz, ny, nx)
     # The tensor comes by columns: xx, yx, zx, xy, ...
     tensor = values[12:21].reshape(3, 3, nz, ny, nx).swapaxes(0, 1)
-    return Stresses(values[0, 0, 0, :], values[1, 0, :, 0], values[2, :, 0, 0], *values[3:9], values[9:12], tensor)
+    x, y, z, ux, uy, uz, hydrostatic, von_mises, tresca = values[:9]
+    return Stresses(x[0, 0, :], y[0, :, 0], z[:, 0, 0], ux, uy, uz, hydrostatic, von_mises, tresca, values[9:12], tensor)
 
 
 class Element:

@@ -102,7 +102,8 @@ def call(name: str, *values: Any) -> Any:
             continue
         value = next(given)
         if kind in _KINDS:
-            passed.append(ctypes.byref(_KINDS[kind](int(value) if kind == "i" else float(value))))
+            number = ctypes.c_int(int(value)) if kind == "i" else ctypes.c_double(float(value))
+            passed.append(ctypes.byref(number))
         elif kind == "s":
             passed.append(ctypes.c_char_p(value))
         elif is_result:

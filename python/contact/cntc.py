@@ -22,7 +22,7 @@ from ._signatures import MAGIC_NUMBERS
 
 Number = Union[int, Sequence[int], None]
 Text = Union[str, "os.PathLike[str]", None]
-Field = NDArray[np.float64]
+Field = NDArray[np.floating[Any]]
 
 #: The named numbers without CNTC_; ``CNTC["if_units"]`` is 1933
 CNTC: dict[str, int] = {**MAGIC_NUMBERS, "if_debug": MAGIC_NUMBERS["if_idebug"]}
