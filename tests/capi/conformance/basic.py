@@ -109,6 +109,36 @@ def stresses():
     close(table[3], [-675.66, -634.96, -578.13, -502.48], 0.005 * 676, "stress on the axis")
 
 
+def sensitivities():
+    """Derivatives of forces: figures of version 25.2.0, and differences of two runs"""
+    start()
+    case_a(1, eps=1e-7)
+    cntc.setsolverflags(1, 1, 6, [60], [1e-5])
+    cntc.setflags(1, 1, CNTC["ic_sens"], 3)
+    same(cntc.calculate(1, 1), 0, "error code")
+    found = cntc.getsensitivities(1, 1)
+    expected = np.array([[1.26112e6, 0, 0, 0], [0, -365.852, 10.3737, 578.869], [0, 30.3307, -427.989, -617.874],
+                         [0, 6.56364e6, 5.81353e6, -3.77877e7]])
+    size = np.abs(expected).max(axis=1, keepdims=True)
+    # Version 25.2.0 does not compute tangential forces by the approach; those by the spin are secants and up to 6 %
+    # from the differences below, which ours agree with
+    close(found[:, 1:3], expected[:, 1:3], 0.01 * size * np.ones((4, 2)), "by the creepages")
+    close(found[:, 3], expected[:, 3], 0.06 * size[:, 0], "by the spin")
+    close(found[0, 0], expected[0, 0], 0.01 * size[0, 0], "normal force by the approach")
+    fn = cntc.getcontactforces(1, 1)[0]
+    close(found[0, 0], 1.5 * fn / 0.05, 0.01 * size[0, 0], "normal force by the approach, Hertz")
+    for column, (at, step) in enumerate(((0.001, 2e-6), (0.0, 2e-6), (0.0004, 2e-7)), 1):
+        forces = []
+        for sign in (1, -1):
+            creepages = [0.001, 0.0, 0.0004]
+            creepages[column - 1] = at + sign * step
+            cntc.setcreepages(1, 1, *creepages)
+            same(cntc.calculate(1, 1), 0, "error code")
+            forces.append(np.array(cntc.getcontactforces(1, 1)) / [1, 0.3 * fn, 0.3 * fn, 1])
+        difference = (forces[0] - forces[1]) / (2 * step)
+        close(found[:, column], difference, 0.002 * np.abs(found).max(axis=1), f"differences, {column}")
+
+
 def codes():
     """Wrong numbers of elements and problems: codes where a routine has one, outputs as they were"""
     start()
@@ -358,7 +388,7 @@ if __name__ == "__main__":
     for stale in os.listdir("."):
         if stale.endswith((".mat", ".out", ".inp", ".subs")):
             os.remove(stale)
-    scenarios = (conventions, variations, stresses, codes, wrong_counts, clamps, case_number, replay, second_run, array_lengths,
+    scenarios = (conventions, variations, stresses, sensitivities, codes, wrong_counts, clamps, case_number, replay, second_run, array_lengths,
                  kalker, names)
     chosen = [scenario for scenario in scenarios if scenario.__name__ == sys.argv[-1]]
     if not chosen:
