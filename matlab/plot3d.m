@@ -162,7 +162,7 @@ function [ p ] = in_case_coordinates( p, sol )
       side = -1;
    end
    if (isfield(p, 'prof'))
-      p = resample_slices(p, 1);
+      p = resample_slices(p);
       p.vy = side * p.vy;
    else
       p.ProfileY = side * p.ProfileY;

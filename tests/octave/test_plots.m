@@ -127,6 +127,24 @@ plot3d(w, opt, prr, prw);
 check_near(xlim(), [-20 20], 0, 'xrange');
 snap('plot3d_both');
 
+% --- slices that are all the same are the rail itself
+if (exist('slices','dir')~=7)
+   mkdir('slices');
+end
+f = fopen('same.slcs', 'w');
+fprintf(f, "0 1\n5\n0 0 0\n1\n");
+for i = 1 : 5
+   write_simpack(prr, sprintf('slices/%d.prr', i));
+   fprintf(f, "%d 'slices/%d.prr'\n", 20*i-60, i);
+end
+fclose(f);
+opt = plot3d;   opt.field = 'pn';   opt.rw_surf = 'prr';
+plot3d(w, opt, prr);
+z = get(colors_shown(), 'zdata');
+plot3d(w, opt, 'same.slcs');
+check_near(get(colors_shown(),'zdata'), z, 5e-3, 'contact on slices');
+snap('plot3d_slices');
+
 % --- rear and side view
 opt = plot3d;   opt.field = 'pn';   opt.rw_surf = 'both';   opt.vecscale = 10/2000;
 for kind = {'rw_rear','rw_side'}
@@ -152,6 +170,41 @@ near = abs(yw-w.meta.ycp_r)<15;
 overlap = interp1(yw, zw, y) - zr;
 pen = parse_out1('wheel_on_rail').cp_creep.pen(1,9);
 check(max(overlap)>0.3*pen && max(overlap)<2.5*pen, 'wheel and rail overlap by the approach in the rear view');
+
+% --- places and directions: tractions on the rows as drawn add up to the total forces that the program tells. In a conformal
+%     contact the program's surface lies between rail and wheel and not on the rail, hence one percent
+text = fileread('wheel_on_rail.inp');
+f = fopen('curved.inp', 'w');
+fwrite(f, regexprep(text, '\n 0022033 ', "\n 0042033 "));
+fclose(f);
+[status, output] = system(sprintf('"%s" --quiet 2 curved 2>&1', getenv('CONTACT_PROGRAM')));
+check(status==0, ['the program ran with D = 4: ' output]);
+tolerance = [1e-3 1.2e-2];
+names = {'wheel_on_rail', 'curved'};
+opt = plot3d;
+opt.typplot = 'rw_rear';   opt.rw_surf = 'prr';   opt.field = 'pn';   opt.vecscale = 0.01;
+opt.iyrange = 'all';       opt.numvecy = 1e4;
+for k = 1 : 2
+   out = parse_out1(names{k});
+   for icase = [4 5 9]
+      s = loadcase(names{k}, icase);
+      check(numel(s)==1, 'one patch');
+      plot3d(s, opt, prr);
+      lines = findobj(gca, 'type','line');
+      bars = lines(2);
+      y = get(bars,'xdata');   z = get(bars,'ydata');
+      d = [y(2:3:end)-y(1:3:end); z(2:3:end)-z(1:3:end)];
+      r = s.meta.roll_r;
+      n = [cos(r) -sin(r); sin(r) cos(r)] * (d ./ hypot(d(1,:),d(2,:)));
+      loaded = any(s.pn>0, 2)';
+      pn = sum(s.pn(loaded,:),2) * s.dx*s.dy;
+      ps = sum(s.py(loaded,:),2) * s.dx*s.dy;
+      n  = n(:,loaded);
+      force = n*pn + [n(2,:); -n(1,:)]*ps;
+      check_near(force', [out.tot_forc.fy_tr(icase) out.tot_forc.fz_tr(icase)], tolerance(k)*60000, ...
+                 sprintf('forces of %s, case %d', names{k}, icase));
+   end
+end
 
 % --- plotstrs
 b = loadstrs('subsurface', 1);
