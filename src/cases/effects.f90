@@ -52,6 +52,7 @@ contains
          if (problem%motion == motion%steady_rolling) text = text // ", " // law // " in steady rolling"
          if (problem%motion /= motion%none .and. problem%remembers_yield) text = text // ", plastic shearing"
          if (problem%motion /= motion%none .and. problem%model%coupled() .and. .not. allocated(problem%model%tabulated) &
+            & .and. (problem%model%material%coupled() .or. .not. allocated(problem%model%inclination)) &
             & .and. .not. allocated(problem%simplified)) text = text // ", dissimilar bodies"
          if (allocated(problem%extra_slip) .and. problem%motion /= motion%none) text = text // ", extra rigid slip"
          if (allocated(problem%thermal)) text = text // ", surface temperatures"
