@@ -31,8 +31,14 @@ function [ varargout ] = cntc_call( name, varargin )
       else
          cntc_mex('call', name, letters, varargin{:});
       end
+   elseif (isempty(letters))
+      calllib(cntc_library('name'), name);
+      out = {};
    else
       % all arguments are addresses, so Matlab returns each of them
+      for i = find(letters=='i' | letters=='I')
+         varargin{i} = int32(varargin{i});
+      end
       out = cell(1, numel(letters));
       [out{:}] = calllib(cntc_library('name'), name, varargin{:});
       out = cellfun(@double, out(is_result), 'uniformoutput',false);

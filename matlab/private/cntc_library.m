@@ -24,9 +24,7 @@ function [ answer ] = cntc_library( question, value )
             if (state.mex)
                cntc_mex('open', file);
             elseif (~libisloaded(state.name))
-               here   = fileparts(fileparts(mfilename('fullpath')));
-               header = fullfile(here, '..', 'include', 'contact_addon.h');
-               loadlibrary(file, header, 'alias', state.name);
+               loadlibrary(file, find_header(file), 'alias', state.name);
             end
             state.loaded = true;
          end
@@ -84,6 +82,19 @@ function [ file, name ] = find_library( )
    error('contact: the library %s is neither in bin or build/release/bin of %s nor named by CONTACT_LIBRARY.', name, top);
 
 end % function find_library
+
+%------------------------------------------------------------------------------------------------------
+
+function [ header ] = find_header( file )
+% The header for loadlibrary, in include beside this folder or beside that of the library
+
+   top = fileparts(fileparts(fileparts(mfilename('fullpath'))));
+   header = fullfile(top, 'include', 'contact_addon.h');
+   if (exist(header,'file')~=2)
+      header = fullfile(fileparts(file), '..', 'include', 'contact_addon.h');
+   end
+
+end % function find_header
 
 %------------------------------------------------------------------------------------------------------
 
