@@ -324,13 +324,13 @@ def setprofileinputvalues(ire: Number, values: ArrayLike, iparam: ArrayLike | No
 def settrackdimensions(ire: Number, ztrack: int, params: ArrayLike | None = None) -> None:
     """Track: 0 keep; 1 gaught, gaugsq, gaugwd (or raily0, railz0), cant, nomrad, [curv]; 2 deviations of the
     rail; 3 both; 32, 33 springs."""
-    reals = _reals(params)
+    reals = _reals(params if ztrack != 0 else None)
     call("cntc_settrackdimensions", _element(ire), ztrack, reals.size, reals)
 
 
 def setwheelsetdimensions(ire: Number, ewheel: int, params: ArrayLike | None = None) -> None:
     """fbdist, fbpos, nomrad, [ytape] [L], for ewheel 3 and 5; the others keep them."""
-    reals = _reals(params)
+    reals = _reals(params if ewheel in (3, 5) else None)
     call("cntc_setwheelsetdimensions", _element(ire), ewheel, reals.size, reals)
 
 
@@ -349,7 +349,7 @@ def setwheelsetvelocity(ire: Number, ewheel: Number, params: ArrayLike) -> None:
 def setwheelsetflexibility(ire: Number, ewheel: Number, params: ArrayLike | None = None) -> None:
     """Deviations of the wheel from the rigid wheelset, twelve values for ewheel 4 and 5; zero for the others."""
     kind = _number(ewheel, 0)
-    reals = _reals(params)
+    reals = _reals(params if kind > 3 else None)
     call("cntc_setwheelsetflexibility", _element(ire), kind, reals.size, reals)
 
 

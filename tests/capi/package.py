@@ -10,7 +10,7 @@ from checks import SOURCE, check, close, finish, same
 import numpy as np
 import contact
 from contact import cntc
-from contact._library import call
+from contact._library import call, last_error
 
 PROFILES = os.path.join(SOURCE, "examples/profiles")
 
@@ -220,6 +220,21 @@ def wheel_on_rail():
     raises(ValueError, lambda: contact.WheelRail("middle"), "middle", "side")
 
 
+def older_scripts():
+    """Scripts for the published package: its name, and values that the options do not need"""
+    import python_intfc
+    same(python_intfc.getmagicnumbers()["if_units"], 1933, "named numbers")
+    check(cntc.cntc_setflags is cntc.setflags is python_intfc.setflags, "names with and without cntc_")
+    raises(AttributeError, lambda: cntc.cntc_nothing, "cntc_nothing", "a name that is none")
+    with contact.WheelRail() as pair:
+        cntc.setwheelsetdimensions(pair.number, 2, [1360.0, -70.0, 460.0])
+        cntc.setwheelsetflexibility(pair.number, 1, np.zeros(12))
+        cntc.settrackdimensions(pair.number, 0, [14.0, 0.0, 1435.0])
+        same(last_error(pair.number, -1), (0, ""), "values that are not needed are left out")
+        cntc.setflags(pair.number, None, cntc.CNTC["ic_tang"], 1)
+        same(cntc.getflags(pair.number, [], cntc.CNTC["ic_tang"]).tolist(), [1], "None and [] are the default")
+
+
 def output():
     """Files go where they are wanted"""
     contact.output_to("results", "run")
@@ -232,6 +247,6 @@ def output():
 
 
 if __name__ == "__main__":
-    for part in (results, distance, prescribed_and_transient, errors, many, threads, wheel_on_rail, output):
+    for part in (results, distance, prescribed_and_transient, errors, many, threads, wheel_on_rail, older_scripts, output):
         part()
     finish()
