@@ -186,6 +186,30 @@ def profile_values():
     same(cntc.getprofilevalues(2, 3, [1, 0]), CNTC["err_profil"], "a wheel has no gauge point")
 
 
+def replay():
+    """Cases written as input give the same forces in the program"""
+    for level in (1, 2):
+        cntc.initlibrary(expnam=f"replay{level}")
+        set_up(1, 0)
+        cntc.setflags(1, -1, [CNTC["if_wrtinp"], CNTC["ic_output"]], [level, 2])
+        forces = []
+        for y in (2.0, 1.0):
+            cntc.setwheelsetposition(1, 1, [0, y, 0, 0, 0.0024 * y, 0])
+            same(cntc.calculate(1, -1), 0, "error code")
+            forces.append(cntc.getglobalforces(1, -1)[:3])
+        cntc.finalize(1)
+        os.makedirs("program", exist_ok=True)
+        subprocess.run([os.environ["CONTACT_PROGRAM"], "--quiet", "--output-dir", "program", "2", f"replay{level}"],
+                       check=True)
+        with open(f"program/replay{level}.out", encoding="utf-8") as file:
+            lines = file.read().splitlines()
+        rows = [number + 1 for number, line in enumerate(lines) if "FX(TR)" in line]
+        same(len(rows), 2, f"level {level}: cases of the program")
+        for row, force in zip(rows, forces):
+            printed = [float(word) for word in lines[row].split()[:3]]
+            close(force, printed, 5.1e-4 * np.abs(printed), f"level {level}: forces to the printed digits")
+
+
 def from_inputs():
     """The first case of input files: by the library and by the program"""
     names = [os.path.join(SOURCE, "examples/wheel_on_rail")]
@@ -213,7 +237,7 @@ def from_inputs():
 
 
 if __name__ == "__main__":
-    scenarios = (conventions, patch_as_in_matlab, mirrored, profile_values, from_inputs)
+    scenarios = (conventions, patch_as_in_matlab, mirrored, profile_values, replay, from_inputs)
     chosen = [scenario for scenario in scenarios if scenario.__name__ == sys.argv[-1]]
     if not chosen:
         raise SystemExit("usage: wheel_rail.py " + " | ".join(scenario.__name__ for scenario in scenarios))
