@@ -2,6 +2,7 @@
 """The Python package: objects, errors, wrong use, threads."""
 import gc
 import os
+import re
 import sys
 import threading
 
@@ -235,6 +236,20 @@ def older_scripts():
         same(cntc.getflags(pair.number, [], cntc.CNTC["ic_tang"]).tolist(), [1], "None and [] are the default")
 
 
+def documents():
+    """The pieces of Python in the documents run as they stand"""
+    folder = os.getcwd()
+    os.chdir(SOURCE)
+    for name in ("README.md", "python/README.md", "doc/user/python.md"):
+        with open(name, encoding="utf-8") as file:
+            pieces = re.findall(r"^```python\n(.*?)^```", file.read(), re.M | re.S)
+        check(len(pieces) > 0, f"{name} has pieces of Python")
+        room = {}
+        for piece in pieces:
+            exec(compile(piece, name, "exec"), room)
+    os.chdir(folder)
+
+
 def output():
     """Files go where they are wanted"""
     contact.output_to("results", "run")
@@ -247,6 +262,6 @@ def output():
 
 
 if __name__ == "__main__":
-    for part in (results, distance, prescribed_and_transient, errors, many, threads, wheel_on_rail, older_scripts, output):
+    for part in (results, distance, prescribed_and_transient, errors, many, threads, wheel_on_rail, older_scripts, documents, output):
         part()
     finish()
