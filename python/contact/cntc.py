@@ -412,8 +412,8 @@ def getprofilevalues(ire: Number, itask: int, iparam: ArrayLike | None = None,
     ----------
     itask
         -1 state (two numbers), 0 number of points, 1 y, z of the profile (n, 2) [mm], 2 y, z in the track
-        system (n, 2) [mm], 3 gauge point (6,) [L], 4 arc length (n,) [mm], 5 angle (n,) [A], 6, 7, 8 x, y, z
-        along lines on a surface (n, 3) [mm], 9 writes a file.
+        system (n, 2) [mm], 3 gauge point (6,) [L], 4 arc length (n,) [mm], 5 angle (n,) [A], 6, 8 x, y, z
+        along lines on a surface (n, 3) [mm].
     iparam
         Kind (0 rail, 1 wheel) and sampling (-1 as given, 0 spline, 1 uniform, n parts per interval).
     rparam

@@ -186,6 +186,36 @@ def profile_values():
     same(cntc.getprofilevalues(2, 3, [1, 0]), CNTC["err_profil"], "a wheel has no gauge point")
 
 
+def slices():
+    """A nose of a crossing in slices, with the rail placed absolutely; figures of version 25.2.0"""
+    folder = os.path.join(os.path.dirname(REFERENCE), "testbank/profiles")
+    if not os.path.isfile(os.path.join(folder, "cross_nose.slcs")):
+        print("skipped: the profiles of the crossing are not here")
+        sys.exit(77)
+    cntc.initialize(1, 1)
+    cntc.setflags(1, -1, [CNTC[name] for name in ("ic_config", "ic_tang", "ic_pvtime", "ic_discns")], [1, 3, 2, 2])
+    cntc.setsolverflags(1, -1, 0, [999, 100, 30, 1], [1e-5])
+    cntc.setmaterialparameters(1, -1, 0, [0.28, 0.28, 82e3, 82e3])
+    cntc.setfrictionmethod(1, -1, 0, [0.3, 0.3])
+    cntc.setpotcontact(1, -1, -1, [0.2, 0.05, np.pi / 2, 8.0, 4.0])
+    cntc.setrollingstepsize(1, -1, 0.0, 1.0)
+    cntc.settrackdimensions(1, 3, [-1.0, 750.0] + 9 * [0.0])
+    cntc.setprofileinputfname(1, os.path.join(folder, "cross_nose.slcs"), [0, 0, 0, -1], [1.0, 0.0])
+    cntc.setprofileinputfname(1, os.path.join(folder, "MBench_S1002_v3.prw"), [1, 0, 0, -1], [1.0, 0.0])
+    cntc.setwheelsetdimensions(1, 3, [1360.0, -70.0, 460.0])
+    cntc.setwheelsetposition(1, 1, [0, 0, -2.1275, 0, 0, 0])
+    cntc.setwheelsetvelocity(1, 2, [2000.0, 0, 0, 0, 0, -4.3481181])
+    cntc.setflags(1, -1, CNTC["ic_norm"], 0)
+    same(cntc.calculate(1, -1), 0, "error code")
+    close(cntc.getglobalforces(1, -1)[:3], [2814.0, -915.0, 10110.0], 0.002 * 10110, "forces")
+    across, along = (cntc.getprofilevalues(1, task, [0, 1], [0.5, 0.5]) for task in (6, 8))
+    check(bool(np.all(across[:, 0] == 0.5)) and across.shape[1] == 3, "a line across the rail at x = 0.5")
+    check(bool(np.all(along[:, 1] == 0.5)) and along.shape[1] == 3, "a line along the rail at y = 0.5")
+    close(np.interp(0.5, across[:, 1], across[:, 2]), np.interp(0.5, along[:, 0], along[:, 2]), 2e-2, "they cross")
+    cntc.settrackdimensions(1, 3, [14.0, 0.0, 1435.0] + 8 * [0.0])
+    same(cntc.calculate(1, -1, idebug=0), CNTC["err_profil"], "a rail in slices has no gauge point")
+
+
 def replay():
     """Cases written as input give the same forces in the program"""
     for level in (1, 2):
@@ -237,7 +267,7 @@ def from_inputs():
 
 
 if __name__ == "__main__":
-    scenarios = (conventions, patch_as_in_matlab, mirrored, profile_values, replay, from_inputs)
+    scenarios = (conventions, patch_as_in_matlab, mirrored, profile_values, slices, replay, from_inputs)
     chosen = [scenario for scenario in scenarios if scenario.__name__ == sys.argv[-1]]
     if not chosen:
         raise SystemExit("usage: wheel_rail.py " + " | ".join(scenario.__name__ for scenario in scenarios))
