@@ -1,0 +1,259 @@
+/* What callers may do without harm: codes of wrong calls, many rounds without growth, threads.
+ *
+ * usage: robust codes | rounds COUNT | threads */
+#include <contact.h>
+#include <contact_addon.h>
+#include <math.h>
+#include <pthread.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+/* Exported, in no header */
+extern void cntc_calculate1(const int *ire, int *ierror);
+extern void cntc_calculate3(const int *ire, const int *icp, int *ierror);
+
+static int failed = 0, checks = 0;
+
+static void check(int good, const char *what) {
+  checks++;
+  if (good) return;
+  failed++;
+  printf("FAILED %s\n", what);
+}
+
+static void same(int got, int expected, const char *what) {
+  char text[200];
+  snprintf(text, sizeof text, "%s: got %d, expected %d", what, got, expected);
+  check(got == expected, text);
+}
+
+/* A result element of a module */
+static int start(int ire, int module) {
+  int version = 0, error = 7, length = 1;
+  cntc_initialize(&ire, &module, &version, &error, " ", &length);
+  return error;
+}
+
+/* Hertzian rolling contact on a grid of n x n elements, without output */
+static void set_up(int ire, int icp, int n, double cksi) {
+  int zero = 0, two = 2, four = 4, five = 5, hertz = -3, flags = 2, list[2] = {1984, 1985}, none[2] = {0, 0};
+  int limits[4] = {999, 30, 30, 1}, one = 1;
+  double eps = 1e-6, material[4] = {0.28, 0.28, 82000, 82000}, friction[2] = {0.3, 0.3}, pen = 0.05, spin = 4e-4, lateral = 0.0;
+  double geometry[5] = {n, n, 4.25, 7.0, 21.0 / 17.0};
+  cntc_setflags(&ire, &icp, &flags, list, none);
+  cntc_setmaterialparameters(&ire, &icp, &zero, &four, material);
+  cntc_setfrictionmethod(&ire, &icp, &zero, &two, friction);
+  cntc_setsolverflags(&ire, &icp, &zero, &four, limits, &one, &eps);
+  cntc_sethertzcontact(&ire, &icp, &hertz, &five, geometry);
+  cntc_setpenetration(&ire, &icp, &pen);
+  cntc_setcreepages(&ire, &icp, &cksi, &lateral, &spin);
+}
+
+static int calculate(int ire, int icp) {
+  int error = 99;
+  cntc_calculate(&ire, &icp, &error);
+  return error;
+}
+
+static void forces(int ire, int icp, double *f) {
+  cntc_getcontactforces(&ire, &icp, f, f + 1, f + 2, f + 3);
+}
+
+static int stresses(int ire, int icp) {
+  int error = 99;
+  subs_calculate(&ire, &icp, &error);
+  return error;
+}
+
+static int exists(const char *file) { return access(file, F_OK) == 0; }
+
+/* Codes of calls that cannot be meant */
+static void codes(void) {
+  char text[300];
+  double pen = 0.1, f[4] = {-1, -2, -3, -4};
+  int one = 1, flag = 2000, zero = 0, ire, icp, k;
+
+  /* nothing was initialised: a flag of the library, then a problem that makes itself */
+  remove("contact_addon.out");
+  cntc_setglobalflags(&one, &flag, &zero);
+  check(!exists("contact_addon.out"), "a flag alone does not start a run");
+  cntc_setpenetration(&one, &one, &pen);
+  check(exists("contact_addon.out"), "the first problem starts a run");
+
+  same(start(2, 3), 0, "initialise");
+  same(start(2, 3), 0, "initialise again");
+  same(start(2, 1), 0, "initialise with another module");
+  same(start(0, 3), -31, "element 0");
+  same(start(1000, 3), -31, "element 1000");
+  same(start(3, 2), -99, "module 2");
+  same(start(4, 1), 0, "wheel and rail");
+
+  same(stresses(0, 1), -101, "stresses of element 0");
+  same(stresses(1000, 1), -101, "stresses of element 1000");
+  same(calculate(2, 0), -104, "patch 0");
+  same(calculate(2, 10), -104, "patch 10");
+  same(calculate(2, -1), -104, "patch -1 of a contact problem");
+  same(stresses(4, 3), -31, "patch 3 of no patches");
+  same(calculate(4, 1), -106, "one patch of wheel and rail");
+  same(calculate(4, -1), -32, "no profiles");
+  ire = 4, icp = 1;
+  cntc_calculate3(&ire, &icp, &k);
+  same(k, -102, "a contact problem of wheel and rail");
+  ire = 2;
+  cntc_calculate1(&ire, &k);
+  same(k, -103, "wheel and rail of a contact problem");
+  same(stresses(2, 1), -99, "stresses before a calculation");
+  forces(2, 1, f);
+  check(f[0] == -1 && f[3] == -4, "forces before a calculation are left alone");
+  same(calculate(2, 1), 0, "the default problem, one element without a border");
+
+  /* the reason is told */
+  set_up(2, 1, 7, 1e-3);
+  same(calculate(2, 1), 0, "a good case");
+  check(contact_last_error(2, 1, text, sizeof text) == 0 && !*text, "nothing to tell after a good case");
+  f[0] = NAN;
+  ire = 2;
+  cntc_setpenetration(&ire, &one, f);
+  check(contact_last_error(2, 1, text, sizeof text) == -99 && strstr(text, "not a number"), "not a number is refused");
+  check(contact_last_error(2, 1, text, sizeof text) == 0, "what was told is forgotten");
+  check(contact_last_error(77, 1, text, 5) == 0 && !*text, "no such element");
+  contact_last_error(0, 0, NULL, 0);
+
+  /* at most a hundred elements, in any order */
+  for (k = 10; k < 107; k++) same(start(k, 3), 0, "one element more");
+  same(start(107, 3), -12, "element 101");
+  ire = 10;
+  cntc_finalize(&ire);
+  same(start(107, 3), 0, "a place was free again");
+  cntc_finalizelast();
+
+  /* freeing one element leaves the others alone */
+  start(1, 3), start(2, 3);
+  set_up(1, 1, 7, 1e-3), set_up(2, 1, 7, 2e-3);
+  calculate(1, 1), calculate(2, 1);
+  forces(2, 1, f);
+  pen = f[1];
+  cntc_finalize(&one);
+  start(3, 3), set_up(3, 1, 7, 5e-4), calculate(3, 1);
+  forces(2, 1, f);
+  check(f[1] == pen, "the second element has its results");
+  same(calculate(2, 1), 0, "and is solved again");
+  cntc_finalizelast();
+}
+
+/* Resident memory [kB] */
+static long resident(void) {
+  long total = 0, pages = 0;
+  FILE *file = fopen("/proc/self/statm", "r");
+  if (!file || fscanf(file, "%ld %ld", &total, &pages) != 2) pages = 0;
+  if (file) fclose(file);
+  return pages * (sysconf(_SC_PAGESIZE) / 1024);
+}
+
+/* Create, solve, look, free, as often as wanted: memory stays what it is after the first tenth */
+static void rounds(int count) {
+  int k, one = 1, free_points = 9;
+  double f[4], x[1] = {0.0}, first = 0.0, growth;
+  long before = 0, after;
+  for (k = 0; k < count; k++) {
+    start(1, 3);
+    set_up(1, 1, 7, 1e-3);
+    subs_addblock(&one, &one, &one, &free_points, &one, &one, &one, x, x, x);
+    same(calculate(1, 1), 0, "round");
+    if (k % 100 == 0) same(stresses(1, 1), 0, "stresses");
+    forces(1, 1, f);
+    if (k == 0) first = f[1];
+    check(f[1] == first, "the same force in every round");
+    cntc_finalize(&one);
+    if (k == count / 10) before = resident();
+  }
+  after = resident();
+  growth = (double)(after - before);
+  printf("%d rounds, resident memory %ld kB, then %ld kB\n", count, before, after);
+  check(before == 0 || growth < 500, "memory grows");
+}
+
+enum { workers = 4, cases = 25, elements = 15 };
+static double alone[workers][cases][4], together[workers][cases][4];
+
+static void solve_all(int worker, double (*list)[4]) {
+  int k;
+  for (k = 0; k < cases; k++) {
+    set_up(worker + 1, 1, elements, 1e-4 * (1 + k + cases * worker));
+    if (calculate(worker + 1, 1) != 0) list[k][0] = NAN;
+    forces(worker + 1, 1, list[k]);
+  }
+}
+
+static void *work(void *number) {
+  int worker = *(int *)number;
+  solve_all(worker, together[worker]);
+  return NULL;
+}
+
+static volatile int is_over;
+static int code_of_long;
+
+static void *long_case(void *unused) {
+  (void)unused;
+  code_of_long = calculate(9, 1);
+  is_over = 1;
+  return NULL;
+}
+
+/* Different problems at the same time give what they give alone, bit by bit; one problem has one thread */
+static void threads(void) {
+  pthread_t thread[workers];
+  int number[workers], k, most, refused = 0, others = 0, code, ire = 9, round;
+  double f[4], once;
+
+  for (k = 0; k < workers; k++) start(k + 1, 3);
+  cntc_getmaxnumthreads(&most);
+  check(most >= workers, "OMP_NUM_THREADS tells how many calculations may run");
+  for (k = 0; k < workers; k++) solve_all(k, alone[k]);
+  for (k = 0; k < workers; k++) cntc_finalize((number[k] = k + 1, &number[k]));
+  for (k = 0; k < workers; k++) start(k + 1, 3);
+  for (k = 0; k < workers; k++) {
+    number[k] = k;
+    pthread_create(&thread[k], NULL, work, &number[k]);
+  }
+  for (k = 0; k < workers; k++) pthread_join(thread[k], NULL);
+  check(memcmp(alone, together, sizeof alone) == 0, "results of threads are those of one thread");
+
+  start(9, 3);
+  for (round = 0; round < 5 && !refused; round++) {
+    set_up(9, 1, 99, 1e-3);
+    is_over = 0;
+    pthread_create(&thread[0], NULL, long_case, NULL);
+    while (!is_over) {
+      code = calculate(9, 1);
+      if (code == 305) refused++;
+      if (code != 305 && code != 0) others++;
+      if (code == 305) cntc_finalize(&ire);
+    }
+    pthread_join(thread[0], NULL);
+    if (code_of_long == 305) refused++;
+    check(code_of_long == 0 || code_of_long == 305, "the other thread");
+  }
+  check(refused > 0, "a problem in use is refused with 305");
+  same(others, 0, "other codes");
+  same(calculate(9, 1), 0, "afterwards it is free");
+  forces(9, 1, f);
+  once = f[1];
+  set_up(9, 1, 99, 1e-3);
+  calculate(9, 1);
+  forces(9, 1, f);
+  check(f[1] == once, "and its results are whole");
+  cntc_finalizelast();
+}
+
+int main(int argc, char **argv) {
+  const char *what = argc > 1 ? argv[1] : "";
+  if (!strcmp(what, "codes")) codes();
+  if (!strcmp(what, "rounds")) rounds(argc > 2 ? atoi(argv[2]) : 10000);
+  if (!strcmp(what, "threads")) threads();
+  printf("%d checks, %d failed\n", checks, failed);
+  return failed || !checks;
+}
