@@ -2,13 +2,12 @@
 module contact_capi_calculate
    use, intrinsic :: iso_c_binding, only : c_int
    use omp_lib, only : omp_get_max_threads, omp_set_num_threads
-   use contact_base_error, only : error_type
-   use contact_base_log, only : log_type
+   use contact_base_kinds, only : wp
    use contact_capi_arguments, only : give, integer_of
    use contact_capi_calculate1, only : calculate_pair
    use contact_capi_calculate3, only : calculate_contact
-   use contact_capi_problem, only : library_problem
-   use contact_capi_registry, only : complain, enter_calculation, entry_type, forget_complaint, leave_calculation, say, &
+   use contact_capi_problem, only : library_problem, most_patches
+   use contact_capi_registry, only : enter_calculation, entry_type, forget_complaint, leave_calculation, say, &
       & scope, scope_type, threads_inside
    use contact_control_library_codes, only : code_text, library_code
    implicit none (type, external)
@@ -48,6 +47,7 @@ contains
       type(scope_type), intent(in) :: allowed
       integer(c_int), intent(inout), optional :: ierror
       type(library_problem), pointer :: problem
+      real(wp) :: cpu, wall
       integer :: code, threads
 
       call enter_calculation(this, allowed, problem, code)
@@ -56,6 +56,8 @@ contains
          call say(1, this, "calculating...")
          threads = omp_get_max_threads()
          call omp_set_num_threads(threads_inside())
+         cpu = problem%watch%cpu
+         wall = problem%watch%wall
          call problem%watch%start()
          call problem%total%start()
          if (problem%module_number == 1) then
@@ -65,6 +67,7 @@ contains
          end if
          call problem%total%halt()
          call problem%watch%halt()
+         if (problem%module_number == 1) call book_patches(problem, problem%watch%cpu - cpu, problem%watch%wall - wall)
          call omp_set_num_threads(threads)
          if (code > 0) call say(1, this, code_text(code))
          call say(1, this, "done...")
@@ -72,4 +75,22 @@ contains
       end if
       call give(code, ierror)
    end subroutine calculate
+
+   !> The time of wheel and rail is that of its patches, in proportion to their elements
+   subroutine book_patches(problem, cpu, wall)
+      type(library_problem), intent(inout) :: problem
+      !> Processor and elapsed time of the calculation [s]
+      real(wp), intent(in) :: cpu, wall
+      real(wp) :: share(most_patches)
+      integer :: k, n
+
+      n = min(most_patches, size(problem%pair_result%patches))
+      if (n == 0) return
+      do k = 1, n
+         share(k) = real(problem%pair_result%patches(k)%contact%grid%npot(), wp)
+      end do
+      share(:n) = share(:n)/max(1.0_wp, sum(share(:n)))
+      problem%patch_cpu(:n) = problem%patch_cpu(:n) + share(:n)*cpu
+      problem%patch_wall(:n) = problem%patch_wall(:n) + share(:n)*wall
+   end subroutine book_patches
 end module contact_capi_calculate

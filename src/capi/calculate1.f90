@@ -198,7 +198,8 @@ contains
       !$omp critical (contact_printing)
       call write_pair(log, problem%spec, problem%pair_result)
       !$omp end critical (contact_printing)
-      call write_pair_files(result_file("caddon"), problem%cases, problem%ire, problem%spec, problem%pair_result, error)
+      call write_pair_files(result_file("caddon"), problem%cases, problem%ire, problem%spec, problem%pair_result, error, &
+         & problem%metadata%time)
       if (allocated(error)) call complain(this, full_text(error))
    end subroutine write_results
 

@@ -17,7 +17,7 @@ module contact_capi_calculate3
    use contact_input_control3, only : check_physics, control_words, name_choices, refuse_unbuilt_digits
    use contact_input_grid3, only : frame_of, grid_frame
    use contact_input_problems, only : problem_list, severity
-   use contact_output_mat_file, only : write_mat_file
+   use contact_output_mat_file, only : mat_place, write_mat_file
    use contact_output_report, only : write_case
    use contact_patch_result, only : patch_result
    implicit none (type, external)
@@ -193,9 +193,21 @@ contains
       !$omp end critical (contact_printing)
       if (problem%spec%mat_file < 1) return
       write(name, '("caddon_re", i3.3, "_cp", i1, ".", i0.4, ".mat")') problem%ire, problem%icp, problem%cases
-      call write_mat_file(result_file(trim(name)), problem%spec, problem%result, error)
+      call write_mat_file(result_file(trim(name)), problem%spec, problem%result, error, place_of(problem))
       if (allocated(error)) call complain(this, full_text(error))
    end subroutine write_results
+
+   !> Where the case comes from, as callers told
+   pure function place_of(problem) result(place)
+      type(library_problem), intent(in) :: problem
+      type(mat_place) :: place
+
+      associate (metadata => problem%metadata)
+         place%rail(1:2) = [metadata%time, metadata%s_wheel]
+         place%reference(1:2) = [metadata%x_rail, metadata%y_rail]
+         place%reference(5:6) = [metadata%x_wheel, metadata%y_wheel]
+      end associate
+   end function place_of
 
    !> How it ended: solvers that did not converge, else elements in contact at the border
    subroutine judge(this, problem, code)

@@ -145,11 +145,12 @@ contains
       end associate
    end subroutine locate
 
-   !> x and y in the track of the mean of the elements, weighted by their pressures
+   !> x and y in the track of the mean of the elements, weighted by their pressures; rows of a curved patch have places
+   !> of their own
    pure function pressure_centre(patch) result(centre)
       type(pair_patch), intent(in) :: patch
       real(wp) :: centre(2)
-      real(wp) :: weight, x, y
+      real(wp) :: weight, x, y, row_y
       integer :: ix, iy
 
       weight = least_pressure
@@ -157,14 +158,16 @@ contains
       y = 0.0_wp
       associate (grid => patch%contact%grid, pn => patch%contact%pn)
          do iy = 1, grid%my
+            row_y = grid%y(iy)*cos(patch%delta)
+            if (allocated(patch%curve)) row_y = patch%curve(1, iy) - patch%y
             do ix = 1, grid%mx
                weight = weight + pn(ix, iy)
                x = x + pn(ix, iy)*grid%x(ix)
-               y = y + pn(ix, iy)*grid%y(iy)
+               y = y + pn(ix, iy)*row_y
             end do
          end do
       end associate
-      centre = [patch%x + x/weight, patch%y + y/weight*cos(patch%delta)]
+      centre = [patch%x + x/weight, patch%y + y/weight]
    end function pressure_centre
 
    !> Forces and moments of one patch, or of all of them with -1, in four systems of axes
@@ -215,7 +218,7 @@ contains
       force = patch%force
       if (allocated(patch%contact%damping)) force = force + patch%contact%damping([2, 3, 1])
       force = matmul(axes, force)
-      moment = matmul(axes, [patch%contact%mx, patch%contact%my, patch%contact%mz])
+      moment = matmul(axes, patch%moment)
       about_rail = moment + cross([patch%x, patch%y, patch%z] - frames%rail%origin, force)
       about_wheel = moment + cross([patch%x, patch%y, patch%z] - frames%wheel%origin, force)
       list(1:6) = [force, about_rail]

@@ -217,7 +217,7 @@ contains
       type(library_problem), pointer :: problem
       type(entry_type) :: this
       type(result_view) :: view
-      real(wp) :: first_y
+      real(wp) :: first_x, first_y, origin(2)
 
       this = entry_type("cntc_getPotContact", integer_of(ire), integer_of(icp))
       call enter(this, scope%one_patch, problem)
@@ -225,9 +225,12 @@ contains
       view = look_at(this, problem)
       if (associated(view%patch)) then
          associate (grid => view%patch%grid, length => outward(view%units, quantity%length))
-            first_y = grid%y(1)
-            if (view%left) first_y = -grid%y(grid%my)
-            call give_list([real(grid%mx, wp), real(grid%my, wp), grid%x(1)*length, first_y*length, grid%dx*length, &
+            origin = 0.0_wp
+            if (problem%module_number == 1) origin = problem%pair_result%patches(this%icp)%grid_reference
+            first_x = grid%x(1) + origin(1)
+            first_y = grid%y(1) + origin(2)
+            if (view%left) first_y = -(grid%y(grid%my) + origin(2))
+            call give_list([real(grid%mx, wp), real(grid%my, wp), first_x*length, first_y*length, grid%dx*length, &
                & grid%dy*length], lenarr, rvalues)
             call give_zeros(7, lenarr, rvalues)
          end associate

@@ -1,6 +1,7 @@
 !> Entries for stresses below the surface
 module contact_capi_subsurface
    use, intrinsic :: iso_c_binding, only : c_double, c_int
+   use omp_lib, only : omp_get_max_threads, omp_set_num_threads
    use contact_base_choices, only : stress_choice
    use contact_base_error, only : add_context, error_type, full_text
    use contact_base_kinds, only : wp
@@ -8,7 +9,7 @@ module contact_capi_subsurface
    use contact_capi_arguments, only : give, integer_of, integers_of, reals_of
    use contact_capi_problem, only : library_problem
    use contact_capi_registry, only : are_finite, complain, count_fits, enter, enter_calculation, entry_type, &
-      & forget_complaint, leave, leave_calculation, library_log, result_file, scope
+      & forget_complaint, leave, leave_calculation, library_log, result_file, scope, threads_inside
    use contact_capi_view, only : look_at, result_view
    use contact_cases_spec, only : case_spec
    use contact_cases_subsurface, only : subsurface_stresses
@@ -161,12 +162,14 @@ contains
       integer(c_int), intent(inout), optional :: ierror
       type(library_problem), pointer :: problem
       type(entry_type) :: this
-      integer :: code, k
+      integer :: code, k, threads
 
       this = entry_type("subs_calculate", integer_of(ire), integer_of(icp))
       call enter_calculation(this, scope%any, problem, code)
       if (associated(problem)) then
          call forget_complaint(problem)
+         threads = omp_get_max_threads()
+         call omp_set_num_threads(threads_inside())
          if (.not. problem%has_result) then
             code = library_code%other
             call complain(this, "nothing has been calculated yet", code)
@@ -180,6 +183,7 @@ contains
                if (code /= library_code%success) exit
             end do
          end if
+         call omp_set_num_threads(threads)
          call leave_calculation(problem)
       end if
       call give(code, ierror)

@@ -15,7 +15,7 @@ module contact_output_pair_files
 contains
 
    !> Write the files that the case asks for; the first error ends it
-   subroutine write_pair_files(base, case_number, result_element, spec, result, error)
+   subroutine write_pair_files(base, case_number, result_element, spec, result, error, time)
       !> Folder and name of the experiment
       character(len=*), intent(in) :: base
       !> Result element 0 for none
@@ -23,6 +23,8 @@ contains
       type(case_spec), intent(in) :: spec
       type(pair_result), intent(in) :: result
       type(error_type), allocatable, intent(out) :: error
+      !> Time of the case, for the header [s]; default 0
+      real(wp), intent(in), optional :: time
       type(patch_result) :: mirror
       integer :: k
 
@@ -32,10 +34,10 @@ contains
                if (spec%wheel_rail%left) then
                   mirror = mirrored(in_element_coordinates(patch))
                   call write_mat_file(mat_file_name(base, case_number, result_element, k), spec, mirror, error, &
-                     & place_of(spec, result, patch, k))
+                     & place_of(spec, result, patch, k, time))
                else
                   call write_mat_file(mat_file_name(base, case_number, result_element, k), spec, &
-                     & in_element_coordinates(patch), error, place_of(spec, result, patch, k))
+                     & in_element_coordinates(patch), error, place_of(spec, result, patch, k, time))
                end if
                if (allocated(error)) return
             end if
@@ -48,11 +50,12 @@ contains
    end subroutine write_pair_files
 
    !> Where the patch is
-   pure function place_of(spec, result, patch, number) result(place)
+   pure function place_of(spec, result, patch, number, time) result(place)
       type(case_spec), intent(in) :: spec
       type(pair_result), intent(in) :: result
       type(pair_patch), intent(in) :: patch
       integer, intent(in) :: number
+      real(wp), intent(in), optional :: time
       type(mat_place) :: place
       real(wp) :: s
 
@@ -65,6 +68,7 @@ contains
       place%reference = [patch%x, s*patch%y_rail, patch%z_rail, s*patch%delta_rail, patch%x_wheel, s*patch%y_wheel, &
          & patch%z_wheel]
       place%spin_centre = [patch%grid_reference(1), s*patch%grid_reference(2)]
+      if (present(time)) place%rail(1) = time
       place%patches = size(result%patches)
       place%patch = number
       place%c1 = spec%digits%c1

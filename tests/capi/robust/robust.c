@@ -172,7 +172,7 @@ static void rounds(int count) {
   after = resident();
   growth = (double)(after - before);
   printf("%d rounds, resident memory %ld kB, then %ld kB\n", count, before, after);
-  check(before == 0 || growth < 500, "memory grows");
+  check(count < 1000 || growth < 500, "memory grows");
 }
 
 enum { workers = 4, cases = 25, elements = 15 };
