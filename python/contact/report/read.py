@@ -60,6 +60,7 @@ class _Reader:
         self._input_numbers: dict[tuple[Any, ...], int] = {}
         self._groups: dict[int, dict[str, Any]] = {}
         self._fields: dict[int, int] = {}
+        self._meanings: dict[tuple[Any, ...], tuple[str, str]] = {}
 
     def address(self, item: Any) -> int:
         return int(self.h5py.h5o.get_info(item.id).addr)
@@ -71,12 +72,17 @@ class _Reader:
             self._groups[at] = {name: _plain(item[()]) for name, item in group.items()}
         return self._groups[at]
 
-    def described(self, group: Any) -> dict[str, list[Any]]:
-        """Values of a group with unit and description"""
+    def meaning(self, key: tuple[Any, ...], item: Any) -> tuple[str, str]:
+        """Unit and description, which all items with the same key have in common; attributes are slow to read"""
+        if key not in self._meanings:
+            self._meanings[key] = _plain(item.attrs.get("units", b"")), _plain(item.attrs.get("long_name", b""))
+        return self._meanings[key]
+
+    def described(self, kind: str, group: Any) -> dict[str, list[Any]]:
+        """Values of a group of inputs with unit and description"""
         at = -self.address(group)
         if at not in self._groups:
-            self._groups[at] = {name: [_plain(item[()]), _plain(item.attrs.get("units", b"")),
-                                       _plain(item.attrs.get("long_name", b""))] for name, item in group.items()}
+            self._groups[at] = {name: [_plain(item[()]), *self.meaning((kind, name), item)] for name, item in group.items()}
         return self._groups[at]
 
     def columns(self, name: str) -> tuple[dict[str, Any], dict[str, dict[str, str]]]:
@@ -95,18 +101,21 @@ class _Reader:
         key = tuple((name, self.address(groups[name])) for name in groups)
         if key not in self._input_numbers:
             self._input_numbers[key] = len(self.inputs)
-            self.inputs.append({name: self.described(groups[name]) for name in groups})
+            self.inputs.append({name: self.described(name, groups[name]) for name in groups})
         return self._input_numbers[key]
 
     def patch(self, group: Any, number: int, totals: dict[str, Any]) -> dict[str, Any]:
-        fields, units = {}, {}
+        fields: dict[str, int] = {}
+        units: dict[str, str] = {}
+        rolling = "cksi" in totals
+        arrays = group["fields"]
         grid = {name: value for name, value in self.values(group["grid"]).items() if name not in ("x", "y")}
         pen = totals.get("pen") or 0.0
         for name in SHOWN_FIELDS:
-            if name not in group["fields"]:
+            if name not in arrays:
                 continue
-            item = group["fields"][name]
-            units[name] = _plain(item.attrs.get("units", b""))
+            item = arrays[name]
+            units[name] = self.meaning(("fields", name, rolling), item)[0]
             at = self.address(item)
             if name == "h":
                 gap = item[...] - pen
