@@ -172,6 +172,12 @@ contains
       call record%number("xcp_w", "mm", "contact reference, longitudinal, wheel profile", patch%x_wheel)
       call record%number("ycp_w", "mm", "contact reference, lateral, wheel profile", s*patch%y_wheel)
       call record%number("zcp_w", "mm", "contact reference, vertical, wheel profile", patch%z_wheel)
+      if (.not. allocated(patch%curve)) return
+      ! FN, FX and FY are plain sums of the tractions then
+      call record%number("bar_fn", "N", "normal force of a curved patch, axes of the contact reference", patch%force(3))
+      call record%number("bar_fx", "N", "longitudinal force of a curved patch, axes of the contact reference", patch%force(1))
+      call record%number("bar_fs", "N", "lateral force of a curved patch, axes of the contact reference", s*patch%force(2))
+      call record%number("bar_mn", "N mm", "moment of a curved patch about the normal of the contact reference", s*patch%moment(3))
    end subroutine describe_place
 
    !> Which methods ended the solution of a patch, and how well
