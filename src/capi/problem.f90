@@ -6,17 +6,14 @@ module contact_capi_problem
    use omp_lib, only : omp_destroy_lock, omp_init_lock, omp_lock_kind
    use contact_base_choices, only : kernel_model, pressure_model, stress_choice
    use contact_base_kinds, only : wp
-   use contact_cases_pair_session, only : pair_session, release_pair_session
-   use contact_cases_session, only : contact_session, release_session
+   use contact_cases_slot, only : open_contact, open_pair, problem_slot, release_slot
    use contact_cases_spec, only : case_spec, friction_set
    use contact_control_units, only : unit_convention
    use contact_experiment_stopwatch, only : stopwatch
    use contact_input_grid3, only : grid_frame
-   use contact_patch_result, only : patch_result
    use contact_profile_curve, only : profile_curve
    use contact_profile_surface, only : profile_surface
    use contact_subsurface_points, only : point_block
-   use contact_wheelrail_result, only : pair_result
    use contact_wheelrail_spec, only : wheel_rail_spec
    implicit none (type, external)
    private
@@ -48,20 +45,15 @@ module contact_capi_problem
       type(profile_surface), allocatable :: surface
    end type given_profile
 
-   !> One problem
-   type :: library_problem
+   !> One problem, with what it keeps from case to case
+   type, extends(problem_slot) :: library_problem
       !> Result element; contact patch, -1 in module 1; module
       integer :: ire = 0, icp = -1, module_number = 3
       !> Units of the caller
       type(unit_convention) :: units
       !> What the next calculation solves; its digits are what callers gave, its choices what acts
       type(case_spec) :: spec
-      !> Contact problem of its own (module 3), with what it keeps from case to case
-      type(contact_session), allocatable :: session
-      type(patch_result), allocatable :: result
-      !> Wheel on rail (module 1)
-      type(pair_session), allocatable :: pair
-      type(pair_result), allocatable :: pair_result
+      !> Profiles of module 1
       type(given_profile) :: rail, wheel
       !> Grid for which influence coefficients were last asked for (C of 1 and above); mx = 0 before
       type(grid_frame) :: coefficients
@@ -103,11 +95,11 @@ contains
       call set_common_defaults(problem%spec)
       if (module_number == 1) then
          call set_pair_defaults(problem%spec)
-         allocate(problem%pair, problem%pair_result)
+         call open_pair(problem%problem_slot)
          allocate(problem%pair_result%patches(0))
       else
          call set_contact_defaults(problem%spec)
-         allocate(problem%session, problem%result)
+         call open_contact(problem%problem_slot)
       end if
    end function new_problem
 
@@ -115,8 +107,7 @@ contains
    subroutine release_problem(problem)
       type(library_problem), pointer, intent(inout) :: problem
 
-      if (allocated(problem%session)) call release_session(problem%session)
-      if (allocated(problem%pair)) call release_pair_session(problem%pair)
+      call release_slot(problem%problem_slot)
       call omp_destroy_lock(problem%lock)
       deallocate(problem)
       nullify(problem)

@@ -11,8 +11,9 @@ module contact_experiment_run
    use contact_base_error, only : add_context, error_kind, error_type, fatal_error, full_text
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
-   use contact_cases_pair_session, only : check_profiles, pair_session, release_pair_session, solve_pair_case
-   use contact_cases_session, only : contact_session, release_session, solve_case
+   use contact_cases_pair_session, only : check_profiles, solve_pair_case
+   use contact_cases_session, only : solve_case
+   use contact_cases_slot, only : open_contact, open_pair, problem_slot, release_slot
    use contact_cases_spec, only : case_spec
    use contact_experiment_exports, only : export_files, export_request
    use contact_experiment_place, only : experiment_place, locate_experiment
@@ -30,7 +31,6 @@ module contact_experiment_run
    use contact_output_subs_file, only : subs_file_name, write_subs_file
    use contact_patch_result, only : patch_result
    use contact_text_words, only : integer_text
-   use contact_wheelrail_result, only : pair_result
    implicit none (type, external)
    private
 
@@ -62,14 +62,9 @@ module contact_experiment_run
    end type run_settings
 
    !> The problem of one result element and contact patch
-   type :: problem_slot
+   type, extends(problem_slot) :: numbered_slot
       integer :: reid = 0, cpid = 1
-      type(contact_session), allocatable :: session
-      type(patch_result), allocatable :: result
-      !> The same for wheel on rail; unallocated until the result element is used in module 1
-      type(pair_session), allocatable :: pair
-      type(pair_result), allocatable :: pair_result
-   end type problem_slot
+   end type numbered_slot
 
    !> Everything that a run keeps from case to case
    type :: experiment_state
@@ -80,7 +75,7 @@ module contact_experiment_run
       type(export_files) :: exports
       !> Slots 1...used are in use
       integer :: used = 0
-      type(problem_slot), allocatable :: slots(:)
+      type(numbered_slot), allocatable :: slots(:)
       !> Unit for errors, or no_unit
       integer :: complaints = no_unit
       !> Numbers of cases read, of cases that did not reach their tolerance, of errors
@@ -140,10 +135,11 @@ contains
       type(experiment_state), intent(inout) :: state
       type(error_type), allocatable :: error
       type(input_case) :: this
-      type(pair_session) :: pair
+      type(problem_slot) :: slot
       integer :: faulty
 
       faulty = 0
+      call open_pair(slot)
       do
          call state%reader%next_case(this, error)
          if (allocated(error)) then
@@ -157,14 +153,14 @@ contains
             faulty = faulty + 1
          else if (this%module_number == 1) then
             if (.not. (this%spec%wheel_rail%new_rail_profile .or. this%spec%wheel_rail%new_wheel_profile)) cycle
-            call check_profiles(pair, this%spec, state%place%folder, state%log, error)
+            call check_profiles(slot%pair, this%spec, state%place%folder, state%log, error)
             if (.not. allocated(error)) cycle
             call add_context(error, "case " // integer_text(this%number))
             call report_error(state, error)
             faulty = faulty + 1
          end if
       end do
-      call release_pair_session(pair)
+      call release_slot(slot)
       call state%log%line(" " // state%place%input // ": " // counted(state%cases, "case") // " checked, " // &
          & counted(faulty, "faulty case") // ", " // counted(state%errors, "error") // ", " // &
          & counted(state%log%warnings, "warning"))
@@ -229,8 +225,7 @@ contains
       if (allocated(error)) call report_error(state, error)
       call close_out_file(state)
       do k = 1, state%used
-         call release_session(state%slots(k)%session)
-         if (allocated(state%slots(k)%pair)) call release_pair_session(state%slots(k)%pair)
+         call release_slot(state%slots(k)%problem_slot)
       end do
    end subroutine compute_all_cases
 
@@ -264,9 +259,10 @@ contains
          call state%solving%start()
          state%log%level = this%spec%flow_level
          if (this%module_number == 1) then
-            if (.not. allocated(slot%pair)) allocate(slot%pair, slot%pair_result)
+            call open_pair(slot%problem_slot)
             call solve_pair_case(slot%pair, this%spec, state%place%folder, state%log, slot%pair_result, error)
          else
+            call open_contact(slot%problem_slot)
             call solve_case(slot%session, this%spec, state%log, slot%result, error, state%place%folder)
          end if
          call state%solving%halt()
@@ -331,29 +327,20 @@ contains
       type(experiment_state), intent(inout) :: state
       integer, intent(in) :: reid, cpid
       integer, intent(out) :: k
-      type(problem_slot), allocatable :: longer(:)
-      integer :: i
+      type(numbered_slot), allocatable :: longer(:)
 
       do k = 1, state%used
          if (state%slots(k)%reid == reid .and. state%slots(k)%cpid == cpid) return
       end do
       if (state%used == size(state%slots)) then
          allocate(longer(2*state%used))
-         do i = 1, state%used
-            longer(i)%reid = state%slots(i)%reid
-            longer(i)%cpid = state%slots(i)%cpid
-            call move_alloc(state%slots(i)%session, longer(i)%session)
-            call move_alloc(state%slots(i)%result, longer(i)%result)
-            call move_alloc(state%slots(i)%pair, longer(i)%pair)
-            call move_alloc(state%slots(i)%pair_result, longer(i)%pair_result)
-         end do
+         longer(:state%used) = state%slots
          call move_alloc(longer, state%slots)
       end if
       state%used = state%used + 1
       k = state%used
       state%slots(k)%reid = reid
       state%slots(k)%cpid = cpid
-      allocate(state%slots(k)%session, state%slots(k)%result)
    end subroutine find_slot
 
    !> Tell the files for other programs which cases will come

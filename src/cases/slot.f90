@@ -1,0 +1,52 @@
+!> What a program keeps of one problem between its cases: sessions and results, made and freed here only
+!>
+!> They are pointers so that the long code that frees such a tree stands in this module once, and not in
+!> every procedure that holds one; so that a slot can move in a table; and so that nobody copies them.
+module contact_cases_slot
+   use contact_cases_pair_session, only : pair_session, release_pair_session
+   use contact_cases_session, only : contact_session, release_session
+   use contact_patch_result, only : patch_result
+   use contact_wheelrail_result, only : pair_result
+   implicit none (type, external)
+   private
+
+   public :: open_contact, open_pair, problem_slot, release_slot
+
+   !> One problem; null: not opened for that module
+   type :: problem_slot
+      !> Contact problem (module 3)
+      type(contact_session), pointer :: session => null()
+      type(patch_result), pointer :: result => null()
+      !> Wheel on rail (module 1)
+      type(pair_session), pointer :: pair => null()
+      type(pair_result), pointer :: pair_result => null()
+   end type problem_slot
+
+contains
+
+   !> Make ready for contact problems; nothing when that was done before
+   subroutine open_contact(slot)
+      type(problem_slot), intent(inout) :: slot
+      if (.not. associated(slot%session)) allocate(slot%session, slot%result)
+   end subroutine open_contact
+
+   !> Make ready for wheel on rail; nothing when that was done before
+   subroutine open_pair(slot)
+      type(problem_slot), intent(inout) :: slot
+      if (.not. associated(slot%pair)) allocate(slot%pair, slot%pair_result)
+   end subroutine open_pair
+
+   !> Free all that was opened
+   subroutine release_slot(slot)
+      type(problem_slot), intent(inout) :: slot
+
+      if (associated(slot%session)) then
+         call release_session(slot%session)
+         deallocate(slot%session, slot%result)
+      end if
+      if (associated(slot%pair)) then
+         call release_pair_session(slot%pair)
+         deallocate(slot%pair, slot%pair_result)
+      end if
+   end subroutine release_slot
+end module contact_cases_slot
