@@ -7,7 +7,8 @@ function cntc_setfrictionmethod( ire, icp, imeth, params )
 %   L        params
 %   0        fstat, fkin [-]                                                       Coulomb
 %   1        none                                                                  as before
-%   2, 3, 4  fkin, coef1 [-], sabsh1 [V], coef2 [-], sabsh2 [V], memdst [L], mem_s0 [V]   falling, linear, rational, exponential
+%   2, 3, 4  fkin, coef1 [-], sabsh1 [V], coef2 [-], sabsh2 [V], memdst [L], mem_s0 [V]
+%                                                  falls with slip: linear, rational, exponential
 %   5        fstat [-], polach_a [-], polach_b [1/V]                               exponential, after Polach
 %   6        fref [-], tref [degC], dfheat [-], dtheat [degC], memdst [L], mem_s0 [V]     with temperature
 %   For V = 1 and 2 (wheel and rail) params are n, then n times an angle [A] or a position [L] with the values above.

@@ -24,7 +24,8 @@ function write_simpack( p, fname, comment )
 
    f = open_for_writing(fname, 'write_simpack');
    fprintf(f, 'header.begin\n  version = 1\n  type    = %d\nheader.end\n', type);
-   fprintf(f, 'spline.begin\n  comment     = ''%s''\n  units.len.f = 1000.\n  point.begin\n', strrep(comment, '''', ' '));
+   fprintf(f, 'spline.begin\n  comment     = ''%s''\n', strrep(comment, '''', ' '));
+   fprintf(f, '  units.len.f = 1000.\n  point.begin\n');
    fprintf(f, '    %18.10f %18.10f\n', yz');
    fprintf(f, '  point.end\nspline.end\n');
    fclose(f);

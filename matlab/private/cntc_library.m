@@ -79,7 +79,8 @@ function [ file, name ] = find_library( )
          end
       end
    end
-   error('contact: the library %s is neither in bin or build/release/bin of %s nor named by CONTACT_LIBRARY.', name, top);
+   error('contact: the library %s is neither in bin or build/release/bin of %s nor named by CONTACT_LIBRARY.', ...
+         name, top);
 
 end % function find_library
 

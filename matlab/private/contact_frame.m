@@ -6,8 +6,9 @@ function [ c ] = contact_frame( sol, body, p )
 %   p      profile in the coordinates of the case
 %
 %   c      x, y, z: contact reference [mm]; delta: angle from the body's y-axis to the lateral contact
-%          axis [rad]; radius: of the surface of revolution [mm], Inf for a rail, negative for a roller, whose centre
-%          is below; py, pz: section of the profile [mm]; conformal: is the lateral coordinate measured along the profile?
+%          axis [rad]; radius: of the surface of revolution [mm], Inf for a rail, negative for a roller, whose
+%          centre is below; py, pz: section of the profile [mm]; conformal: is the lateral coordinate measured
+%          along the profile?
 
    m = sol.meta;
    c.conformal = (sol.d_digit==4);

@@ -1,8 +1,9 @@
 function [ z ] = revolve( z, x, radius )
 % REVOLVE  Height z [mm] of a surface of revolution at a distance x from the plane through its axis.
 %
-%   radius   from the axis to z = 0: positive with the axis above (wheel), negative below (roller), Inf for rails. NaN where
-%            the surface does not reach
+%   radius   from the axis to z = 0: positive with the axis above (wheel), negative below (roller), Inf for rails
+%
+% The height is NaN where the surface does not reach.
 
    if (isinf(radius))
       z = z + 0*x;

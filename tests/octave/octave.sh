@@ -26,7 +26,7 @@ command -v Xvfb >/dev/null 2>&1 || skip "there is no Xvfb for plots (Debian: apt
 number=$(mktemp)
 Xvfb -displayfd 3 -screen 0 1280x1024x24 -nolisten tcp 3>"$number" 2>/dev/null &
 server=$!
-trap 'kill $server 2>/dev/null; rm -f "$number"' EXIT
+trap 'kill $server 2>/dev/null; wait $server 2>/dev/null; rm -f "$number"' EXIT
 for _ in 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20; do
   [ -s "$number" ] && break
   sleep 0.5
