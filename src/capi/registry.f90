@@ -483,21 +483,35 @@ contains
       if (library%debugging < 0 .or. library%timer_level < 1) return
       allocate(lines(1 + 100*most_patches))
       n = 1
-      lines(1) = timer_line("Total", library%total%calls, library%total%cpu, library%total%wall)
+      call fill_line("Total", library%total, lines(1))
       do k = 1, most_elements
          if (library%elements(k)%module_number == 0) cycle
          do i = 1, most_patches
             if (.not. associated(library%elements(k)%patch(i)%p)) cycle
             associate (problem => library%elements(k)%patch(i)%p)
                n = n + 1
-               lines(n) = timer_line("Result element " // integer_text(k), problem%total%calls, problem%total%cpu, &
-                  & problem%total%wall)
-               if (problem%module_number == 3) lines(n)%name = "Cp." // integer_text(i) // " on Res.el." // integer_text(k)
+               if (problem%module_number == 3) then
+                  call fill_line("Cp." // integer_text(i) // " on Res.el." // integer_text(k), problem%total, lines(n))
+               else
+                  call fill_line("Result element " // integer_text(k), problem%total, lines(n))
+               end if
             end associate
          end do
       end do
       call write_end(library%log, library%most_threads, lines(:n))
    end subroutine write_timers
+
+   !> A stopwatch as a line of the table; component by component, because constructors with texts leak
+   subroutine fill_line(name, watch, line)
+      character(len=*), intent(in) :: name
+      type(stopwatch), intent(in) :: watch
+      type(timer_line), intent(inout) :: line
+
+      line%name = name
+      line%calls = watch%calls
+      line%cpu = watch%cpu
+      line%wall = watch%wall
+   end subroutine fill_line
 
    !> A copy of the sinks of messages
    type(log_type) function library_log() result(log)
