@@ -84,7 +84,8 @@ contains
       call set_yield_limit(spec, problem, error)
       if (allocated(error)) return
       problem%want_exterior = spec%mat_file >= 2 .or. spec%output_level >= 6
-      call set_rolling(spec, problem, log)
+      call set_rolling(spec, problem, log, error)
+      if (allocated(error)) return
       if (allocated(problem%extra_slip)) deallocate(problem%extra_slip)
       if (spec%slip_source == slip_source%given .or. spec%slip_source == slip_source%keep) then
          if (.not. allocated(spec%extra_slip)) then
@@ -276,41 +277,66 @@ contains
       end select
    end subroutine check_pressure_model
 
-   !> Rolling direction and step; steady solvers work with steps of one element along x
-   subroutine set_rolling(spec, problem, log)
+   !> Rolling direction and step; steady solvers but ConvexGS work with steps of one element along x
+   subroutine set_rolling(spec, problem, log, error)
       type(case_spec), intent(in) :: spec
       type(patch_problem), intent(inout) :: problem
       type(log_type), intent(inout) :: log
+      type(error_type), allocatable, intent(out) :: error
       real(wp), parameter :: angle_tolerance = 0.01_wp, step_tolerance = 0.01_wp
       character(len=:), allocatable :: what
-      logical :: rolling, layer
+      logical :: oblique, other_step
 
-      rolling = spec%motion == motion%transient_rolling .or. spec%motion == motion%steady_rolling
       problem%chi = 0.0_wp
       problem%dq = 1.0_wp
       problem%veloc = 1.0_wp
       problem%spin_offset = 0.0_wp
-      if (.not. rolling) return
+      problem%corrects_leading_edge = .false.
+      problem%general_step = .false.
+      if (spec%motion /= motion%transient_rolling .and. spec%motion /= motion%steady_rolling) return
       problem%chi = spec%rolling%chi
       problem%dq = spec%rolling%dq
       problem%veloc = spec%rolling%veloc
       problem%spin_offset = spec%rolling%facphi
+      oblique = abs(sin(problem%chi)) > angle_tolerance
+      other_step = abs(problem%dq - problem%grid%dx) > step_tolerance*problem%grid%dx
       ! particles of a layer are followed from element to element
-      layer = spec%material_model == material_model%interfacial_layer
-      if (spec%motion /= motion%steady_rolling .and. .not. layer) then
-         if (allocated(problem%simplified)) return
-         if (problem%dq > (1.0_wp + step_tolerance)*problem%grid%dx) call log%warning( &
-            & "DQ is larger than DX: slip near the leading edge is less accurate, it is not corrected in this version")
+      if (spec%motion /= motion%steady_rolling .and. spec%material_model /= material_model%interfacial_layer) then
+         if (allocated(problem%simplified) .or. problem%dq <= (1.0_wp + step_tolerance)*problem%grid%dx) return
+         problem%corrects_leading_edge = problem%n_forces == 0 .and. .not. oblique
+         if (.not. problem%corrects_leading_edge) call log%warning("DQ is larger than DX: slip near the leading edge is " // &
+            & "corrected for given creepages (F=0) and rolling along x only; DQ at most DX needs no correction")
+         return
+      end if
+      problem%general_step = (oblique .or. other_step) .and. takes_any_step(spec, problem)
+      if (problem%general_step) then
+         if (problem%dq > (1.0_wp + step_tolerance)*problem%grid%dx) call log%warning("DQ is larger than DX: slip near the " // &
+            & "leading edge is less accurate; in steady rolling it is not corrected")
          return
       end if
       what = "steady rolling"
       if (spec%motion /= motion%steady_rolling) what = "rolling with an interfacial layer"
-      if (abs(sin(problem%chi)) > angle_tolerance) then
-         call log%warning(what // " goes along x: CHI is set to 0")
-         problem%chi = 0.0_wp
+      if (oblique) then
+         call fatal_error(error, what // " goes along x, CHI = 0 or 180 degrees. In other directions: a grid with its x-axis " // &
+            & "along the rolling direction, T = 2, or T = 3 with ConvexGS (G = 2), flat elastic bodies and Coulomb friction", &
+            & error_kind%unsupported)
+         return
       end if
-      if (abs(problem%dq - problem%grid%dx) > step_tolerance*problem%grid%dx .and. .not. allocated(problem%simplified)) &
-         & call log%warning(what // " advances by one element per step: DQ is set to DX")
+      if (other_step .and. .not. allocated(problem%simplified)) &
+         & call log%warning(what // " advances by one element per step: DQ is set to DX; ConvexGS (G=2) takes other steps")
       problem%dq = problem%grid%dx
    end subroutine set_rolling
+
+   !> Can steady rolling be solved with coefficients at any distance, and does nothing else follow particles?
+   pure logical function takes_any_step(spec, problem)
+      type(case_spec), intent(in) :: spec
+      type(patch_problem), intent(in) :: problem
+
+      takes_any_step = spec%motion == motion%steady_rolling .and. spec%solver == solver_choice%convex_gs &
+         & .and. problem%model%is_flat() .and. .not. allocated(problem%model%memory) &
+         & .and. .not. allocated(problem%simplified) .and. .not. problem%remembers_yield &
+         & .and. .not. allocated(problem%thermal)
+      if (takes_any_step .and. allocated(problem%friction)) takes_any_step = .not. problem%friction_memory%acts() &
+         & .and. problem%friction%driver /= friction_driver%temperature
+   end function takes_any_step
 end module contact_cases_patch_setup

@@ -11,36 +11,59 @@ module contact_elastic_new_compliance
 
    public :: new_compliance
 
+   !> Kinds of operators
+   integer, parameter :: homogeneous = 1, curved = 2, viscoelastic = 3, from_table = 4
+
 contains
 
    !> Make an operator of the kind that a model needs; one that is of this kind already is kept
    subroutine new_compliance(model, operator)
       type(elastic_model), intent(in) :: model
       class(compliance), allocatable, intent(inout) :: operator
-      class(compliance), allocatable :: wanted
+      integer :: kind_
 
-      call make_kind(model, wanted)
+      kind_ = kind_needed(model)
       if (allocated(operator)) then
-         if (same_type_as(operator, wanted)) return
+         if (kind_of(operator) == kind_) return
          call operator%release()
          deallocate(operator)
       end if
-      call move_alloc(wanted, operator)
+      select case (kind_)
+      case (viscoelastic)
+         allocate(one_sided_operator :: operator)
+      case (from_table)
+         allocate(tabulated_operator :: operator)
+      case (curved)
+         allocate(conformal_operator :: operator)
+      case default
+         allocate(elastic_operator :: operator)
+      end select
    end subroutine new_compliance
 
-   !> An empty operator
-   subroutine make_kind(model, operator)
+   pure integer function kind_needed(model)
       type(elastic_model), intent(in) :: model
-      class(compliance), allocatable, intent(out) :: operator
 
+      kind_needed = homogeneous
       if (allocated(model%memory)) then
-         allocate(one_sided_operator :: operator)
+         kind_needed = viscoelastic
       else if (allocated(model%tabulated)) then
-         allocate(tabulated_operator :: operator)
+         kind_needed = from_table
       else if (allocated(model%inclination) .and. .not. model%rotates_by_offset()) then
-         allocate(conformal_operator :: operator)
-      else
-         allocate(elastic_operator :: operator)
+         kind_needed = curved
       end if
-   end subroutine make_kind
+   end function kind_needed
+
+   pure integer function kind_of(operator)
+      class(compliance), intent(in) :: operator
+
+      kind_of = homogeneous
+      select type (operator)
+      type is (one_sided_operator)
+         kind_of = viscoelastic
+      type is (tabulated_operator)
+         kind_of = from_table
+      type is (conformal_operator)
+         kind_of = curved
+      end select
+   end function kind_of
 end module contact_elastic_new_compliance

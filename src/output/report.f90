@@ -5,7 +5,7 @@ module contact_output_report
    use contact_cases_spec, only : case_spec
    use contact_output_element_table, only : write_element_table
    use contact_output_formats, only : fixed, whole
-   use contact_output_picture, only : write_picture
+   use contact_grid_picture, only : write_picture
    use contact_output_report_input, only : write_input
    use contact_output_report_result, only : write_sensitivities, write_solution_line, write_statistics, write_totals
    use contact_output_report_subsurface, only : write_subsurface

@@ -13,7 +13,7 @@ module contact_output_report_pair
    use contact_wheelrail_spec, only : profile_spec, wheel_rail_spec
    use contact_output_element_table, only : write_element_table
    use contact_output_formats, only : fixed, general, generals, heading, smart, smarts, whole
-   use contact_output_picture, only : write_picture
+   use contact_grid_picture, only : write_picture
    use contact_output_report_input, only : write_friction
    use contact_output_report_result, only : shown_totals, without_noise, write_solution_line, write_statistics
    use contact_output_report_subsurface, only : write_subsurface

@@ -46,9 +46,14 @@ contains
       type(patch_problem), intent(in) :: problem
       type(patch_state), intent(in) :: state
       type(patch_workspace), intent(inout) :: workspace
+      real(wp), allocatable :: edge(:, :, :)
       real(wp) :: shift_x, shift_y
 
       workspace%old_displacement = 0.0_wp
+      if (problem%corrects_leading_edge) then
+         call displacement_of(problem, state%before, workspace, edge)
+         call move_alloc(edge, workspace%edge_displacement)
+      end if
       if (.not. any(state%before%division > element%exterior)) return
       shift_x = 0.0_wp
       shift_y = 0.0_wp
@@ -75,13 +80,10 @@ contains
       type(traction_fields), intent(in) :: before
       type(patch_workspace), intent(inout) :: workspace
       logical, intent(in) :: moved
+      real(wp), allocatable :: displacement(:, :, :)
 
-      call prepare_window(problem, workspace)
-      workspace%pt(:, :, 1) = before%px
-      workspace%pt(:, :, 2) = before%py
-      call workspace%window%tangential(workspace%pt, workspace%old_displacement)
-      call workspace%window%tangential_by_normal(before%pn, workspace%ut)
-      workspace%old_displacement = workspace%old_displacement + workspace%ut
+      call displacement_of(problem, before, workspace, displacement)
+      workspace%old_displacement = displacement
       if (.not. moved) return
       ! A' = A - (A - A')
       call workspace%window%steady(workspace%pt, workspace%ut)
@@ -89,4 +91,23 @@ contains
       call workspace%window%steady_by_normal(before%pn, workspace%ut)
       workspace%old_displacement = workspace%old_displacement - workspace%ut
    end subroutine curved_displacement
+
+   !> Tangential displacements by the tractions of a moment, at the places of the elements
+   subroutine displacement_of(problem, moment, workspace, displacement)
+      type(patch_problem), intent(in) :: problem
+      type(traction_fields), intent(in) :: moment
+      type(patch_workspace), intent(inout) :: workspace
+      !> [mm], shape (mx, my, 2)
+      real(wp), allocatable, intent(out) :: displacement(:, :, :)
+      real(wp), allocatable :: by_normal(:, :, :)
+
+      call prepare_window(problem, workspace)
+      workspace%pt(:, :, 1) = moment%px
+      workspace%pt(:, :, 2) = moment%py
+      allocate(displacement, by_normal, mold=workspace%pt)
+      call workspace%window%tangential(workspace%pt, displacement)
+      if (.not. problem%model%coupled()) return
+      call workspace%window%tangential_by_normal(moment%pn, by_normal)
+      displacement = displacement + by_normal
+   end subroutine displacement_of
 end module contact_patch_kinematics

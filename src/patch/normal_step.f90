@@ -6,6 +6,7 @@ module contact_patch_normal_step
    use contact_base_log, only : log_type
    use contact_base_solve_report, only : ending, failure_text
    use contact_grid_element_division, only : element
+   use contact_grid_picture, only : trace_picture
    use contact_normal_approximate, only : approximate_pressure
    use contact_normal_conjugate_gradient, only : solve_normal
    use contact_patch_problem, only : patch_problem, patch_state
@@ -14,7 +15,7 @@ module contact_patch_normal_step
    implicit none (type, external)
    private
 
-   public :: normal_step
+   public :: normal_step, shear_lift
 
 contains
 
@@ -47,10 +48,11 @@ contains
             normal%h = problem%h
             if (allocated(normal%parts)) deallocate(normal%parts)
             if (allocated(problem%parts)) allocate(normal%parts, source=problem%parts)
-            if (problem%model%coupled() .and. problem%motion /= motion%none .and. .not. allocated(problem%simplified)) then
-               workspace%pt(:, :, 1) = state%now%px
-               workspace%pt(:, :, 2) = state%now%py
-               call workspace%window%normal_by_tangential(workspace%pt, workspace%un)
+            if (problem%couples()) then
+               if (first) then
+                  call shear_lift(problem, state, workspace)
+                  workspace%un = workspace%lift
+               end if
                where (normal%h < excluded_threshold) normal%h = normal%h + workspace%un
             end if
             normal%force_prescribed = problem%force_prescribed
@@ -90,6 +92,7 @@ contains
                & problem%grid%npot() - result%ncon, "  ItCG=", result%normal%iterations
             call log%trace(3, trim(line))
          end if
+         call trace_picture(log, state%now%division)
          if (.not. result%normal%succeeded()) call log%warning(failure_text("normal", result%normal))
       end if
       if (.not. problem%force_prescribed) result%fn = problem%grid%dx*problem%grid%dy*sum(state%now%pn)
@@ -97,4 +100,16 @@ contains
          where (state%now%division > element%exterior) state%now%division = element%adhesion
       end if
    end subroutine normal_step
+
+   !> Normal displacements by the present tangential tractions
+   subroutine shear_lift(problem, state, workspace)
+      type(patch_problem), intent(in) :: problem
+      type(patch_state), intent(in) :: state
+      type(patch_workspace), intent(inout) :: workspace
+
+      call prepare_window(problem, workspace)
+      workspace%pt(:, :, 1) = state%now%px
+      workspace%pt(:, :, 2) = state%now%py
+      call workspace%window%normal_by_tangential(workspace%pt, workspace%lift)
+   end subroutine shear_lift
 end module contact_patch_normal_step

@@ -82,6 +82,11 @@ module contact_patch_problem
       real(wp) :: fdecay = 0.9_wp, betath = 0.1_wp
       integer :: kdowfb = 1
       real(wp) :: d_ifc = 1.0_wp, d_lin = 1.0_wp, d_cns = 1.0_wp, d_slp = 1.0_wp, pow_s = 0.9_wp
+      !> Are elements that entered the contact during the step treated as such? Only with steps longer than an
+      !> element, along x, creepages given
+      logical :: corrects_leading_edge = .false.
+      !> Steady rolling in any direction, with steps of any length (ConvexGS)? Otherwise one element per step along x
+      logical :: general_step = .false.
       !> Member of sensitivity_choice; tolerance and largest number of iterations for them
       integer :: sensitivity = 0, mxsens = 30
       real(wp) :: epsens = 1.0e-4_wp
@@ -92,6 +97,8 @@ module contact_patch_problem
    contains
       !> Do the pressures fulfil the contact conditions, or are they given or approximate?
       procedure :: solves_for_pressure
+      !> Do pressures depend on the tangential tractions?
+      procedure :: couples
    end type patch_problem
 
    !> A quantity that particles carry along from moment to moment
@@ -138,4 +145,10 @@ contains
       class(patch_problem), intent(in) :: self
       solves = self%pressure == pressure_model%full .and. .not. allocated(self%given_pressure)
    end function solves_for_pressure
+
+   pure logical function couples(self)
+      class(patch_problem), intent(in) :: self
+      couples = self%model%coupled() .and. self%motion /= motion%none .and. .not. allocated(self%given_pressure) &
+         & .and. .not. allocated(self%simplified)
+   end function couples
 end module contact_patch_problem

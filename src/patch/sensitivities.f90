@@ -7,6 +7,7 @@
 module contact_patch_sensitivities
    use contact_base_choices, only : motion, sensitivity_choice
    use contact_base_kinds, only : wp
+   use contact_base_log, only : log_type
    use contact_elastic_compliance, only : compliance
    use contact_grid_element_division, only : bounding_box, contact_box, element
    use contact_normal_stiffness, only : pressure_derivative
@@ -23,36 +24,56 @@ module contact_patch_sensitivities
    integer, parameter :: row_fn = 1, row_fx = 2, row_fy = 3, row_mz = 4
    integer, parameter :: to_pen = 1, to_ksi = 2, to_eta = 3, to_phi = 4
 
+   !> Residuals up to this many times EPSENS are not worth a message
+   real(wp), parameter :: accepted = 10.0_wp
+
 contains
 
    !> Fill the table of sensitivities as far as the problem asks for it
-   subroutine find_sensitivities(problem, workspace, result)
+   subroutine find_sensitivities(problem, workspace, result, log)
       type(patch_problem), intent(in) :: problem
       !> Compliances, and the tangential problem with its solution
       type(patch_workspace), intent(inout) :: workspace
       !> Totals are known
       type(patch_result), intent(inout) :: result
+      !> Hears of linear systems that were not solved accurately enough
+      type(log_type), intent(inout) :: log
       real(wp), allocatable :: q(:, :)
+      real(wp) :: reached
       logical :: wanted(4)
+      character(len=12) :: text
 
+      reached = 0.0_wp
       if (problem%sensitivity == sensitivity_choice%none .or. result%ncon == 0) return
       if (problem%sensitivity >= sensitivity_choice%normal .and. problem%solves_for_pressure()) &
-         & call normal_stiffness(problem, workspace%window, result, q)
-      if (problem%motion == motion%none .or. allocated(problem%simplified)) return
-      wanted = [.false., problem%n_forces >= 1, problem%n_forces >= 2, .false.]
-      if (problem%sensitivity >= sensitivity_choice%all) wanted = [allocated(q), .true., .true., .true.]
-      if (any(wanted)) call force_changes(problem, wanted, q, workspace, result)
+         & call normal_stiffness(problem, workspace%window, result, q, reached)
+      ! the linearised problem of any other step than one element is not at hand
+      if (problem%motion /= motion%none .and. .not. allocated(problem%simplified) .and. .not. problem%general_step) &
+         & call tangential_part()
+      if (reached <= accepted*problem%epsens) return
+      write(text, '(es8.1)') reached
+      call log%warning("sensitivities are less accurate than EPSENS: a relative residual of " // trim(adjustl(text)) // &
+         & " is left after MXSENS iterations")
+
+   contains
+
+      subroutine tangential_part()
+         wanted = [.false., problem%n_forces >= 1, problem%n_forces >= 2, .false.]
+         if (problem%sensitivity >= sensitivity_choice%all) wanted = [allocated(q), .true., .true., .true.]
+         if (any(wanted)) call force_changes(problem, wanted, q, workspace, result, reached)
+      end subroutine tangential_part
    end subroutine find_sensitivities
 
    !> dFn/dpen [N/mm] and the derivative of the pressures
-   subroutine normal_stiffness(problem, operator, result, q)
+   subroutine normal_stiffness(problem, operator, result, q, reached)
       type(patch_problem), intent(in) :: problem
       class(compliance), intent(inout) :: operator
       type(patch_result), intent(inout) :: result
       !> [N/mm3], shape (mx, my)
       real(wp), allocatable, intent(out) :: q(:, :)
+      !> Relative residual
+      real(wp), intent(out) :: reached
       logical, allocatable :: contact(:, :)
-      real(wp) :: reached
 
       contact = result%division > element%exterior
       allocate(q, mold=result%pn)
@@ -61,7 +82,7 @@ contains
    end subroutine normal_stiffness
 
    !> Changes of the tangential forces by the wanted inputs
-   subroutine force_changes(problem, wanted, q, workspace, result)
+   subroutine force_changes(problem, wanted, q, workspace, result, worst)
       type(patch_problem), intent(in) :: problem
       !> Columns of the table to fill
       logical, intent(in) :: wanted(4)
@@ -69,6 +90,8 @@ contains
       real(wp), allocatable, intent(in) :: q(:, :)
       type(patch_workspace), intent(inout) :: workspace
       type(patch_result), intent(inout) :: result
+      !> Largest relative residual so far
+      real(wp), intent(inout) :: worst
       type(bounding_box) :: box
       real(wp), allocatable :: shift(:, :, :), bound(:, :), change(:, :, :), box_q(:, :)
       real(wp) :: x0, y0, scale, moment, reached
@@ -108,8 +131,11 @@ contains
                   end do
                end do
             end select
+            if (problem%corrects_leading_edge .and. input /= to_pen) &
+               & shift = spread(workspace%share, 3, 2)*shift
             call traction_derivative(t, operator, problem%epsens, workspace%tangential_work, workspace%solution, shift, bound, &
                & change, reached)
+            worst = max(worst, reached)
             result%sensitivity(row_fx, input) = scale*sum(change(:, :, 1))
             result%sensitivity(row_fy, input) = scale*sum(change(:, :, 2))
             moment = 0.0_wp

@@ -1,10 +1,12 @@
 !> Solves one contact patch: normal and tangential problem, and what follows from them
 !>
 !> With K = 0 the two problems are solved once, one after the other (Johnson). Otherwise they
-!> alternate with the tractions of the other one frozen (Panagiotopoulos) until the tractions
-!> no longer change.
+!> alternate with the tractions of the other one frozen (Panagiotopoulos), until the pressures
+!> belong to the tangential tractions that follow from them. What passes from one pass to the next are the normal
+!> displacements by tangential tractions, extrapolated from the passes before (contact_numeric_anderson).
 module contact_patch_solve
    use contact_base_choices, only : motion
+   use contact_base_constants, only : excluded_threshold
    use contact_base_error, only : error_kind, error_type, fatal_error
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
@@ -12,7 +14,7 @@ module contact_patch_solve
    use contact_patch_derived, only : derive, remember_friction, reset_result
    use contact_patch_heat, only : derive_temperatures
    use contact_patch_kinematics, only : previous_displacement, rigid_slip
-   use contact_patch_normal_step, only : normal_step
+   use contact_patch_normal_step, only : normal_step, shear_lift
    use contact_patch_problem, only : patch_problem, patch_state
    use contact_patch_result, only : patch_result
    use contact_patch_sensitivities, only : find_sensitivities
@@ -24,8 +26,8 @@ module contact_patch_solve
 
    public :: solve_patch
 
-   !> Outer iterations stop when the tractions change by less than this many times eps
-   real(wp), parameter :: outer_factor = 5.0_wp
+   !> Passes that the extrapolation remembers
+   integer, parameter :: outer_depth = 10
 
 contains
 
@@ -39,8 +41,7 @@ contains
       type(patch_result), intent(inout) :: result
       type(error_type), allocatable, intent(out) :: error
       integer :: outer
-      real(wp) :: change, size_
-      character(len=96) :: line
+      logical :: ended
 
       call check_problem(problem, error)
       if (allocated(error)) return
@@ -56,11 +57,6 @@ contains
 
       do outer = 1, max(1, problem%maxout)
          result%outer_iterations = outer
-         if (problem%maxout > 1) then
-            workspace%last(:, :, 1) = state%now%px
-            workspace%last(:, :, 2) = state%now%py
-            workspace%last(:, :, 3) = state%now%pn
-         end if
          call normal_step(problem, state, workspace, log, result)
          if (problem%motion == motion%none) exit
          if (allocated(problem%simplified)) then
@@ -69,23 +65,42 @@ contains
             exit
          end if
          call tangential_step(problem, state, workspace, log, result)
-         if (problem%maxout <= 1 .or. result%ncon == 0) exit
+         if (problem%maxout <= 1 .or. result%ncon == 0 .or. .not. problem%couples()) exit
          if (.not. (result%normal%succeeded() .and. result%tangential%succeeded())) exit
-         change = sqrt((sum((state%now%px - workspace%last(:, :, 1))**2) + sum((state%now%py - workspace%last(:, :, 2))**2) &
-            & + sum((state%now%pn - workspace%last(:, :, 3))**2))/(3.0_wp*result%ncon))
-         size_ = sqrt((sum(state%now%px**2) + sum(state%now%py**2) + sum(state%now%pn**2))/(3.0_wp*result%ncon))
-         write(line, '(i3,a,2es12.3)') outer, ", Panag/Out: |Pk - Pk-1|,  5 Eps |Pk| :", change, outer_factor*problem%eps*size_
-         call log%trace(1, trim(line))
-         if (change <= outer_factor*problem%eps*size_) exit
+         call next_pass(problem, state, workspace, log, result, ended)
+         if (ended) exit
          if (outer == problem%maxout) call log%warning("the outer iteration did not reach its tolerance in MAXOUT passes")
       end do
       call derive(problem, state, workspace, result)
       call remember_forces(problem, state, result)
-      call find_sensitivities(problem, workspace, result)
+      call find_sensitivities(problem, workspace, result, log)
       call remember_friction(problem, result, state)
       call derive_temperatures(problem, result)
       state%started = .true.
    end subroutine solve_patch
+
+   !> Judge a pass; choose what the pressures of the next one belong to
+   subroutine next_pass(problem, state, workspace, log, result, ended)
+      type(patch_problem), intent(in) :: problem
+      type(patch_state), intent(in) :: state
+      type(patch_workspace), intent(inout) :: workspace
+      type(log_type), intent(inout) :: log
+      type(patch_result), intent(in) :: result
+      logical, intent(out) :: ended
+      real(wp) :: change, scale
+      character(len=96) :: line
+
+      call shear_lift(problem, state, workspace)
+      change = maxval(abs(workspace%lift - workspace%un), problem%h < excluded_threshold)
+      scale = max(abs(result%pen - minval(problem%h)), maxval(abs(workspace%lift)), tiny(scale))
+      write(line, '(i3,a,2es12.3)') result%outer_iterations, ", Panag/Out: |Uk - Uk-1|,    Eps |Uk| :", change, &
+         & problem%eps*scale
+      call log%trace(merge(0, 1, result%outer_iterations >= problem%maxout - 1), trim(line))
+      ended = change <= problem%eps*scale
+      if (ended) return
+      if (result%outer_iterations == 1) call workspace%outer%start(size(workspace%un), outer_depth)
+      call workspace%outer%advance(workspace%un, workspace%lift)
+   end subroutine next_pass
 
    !> Forces of this moment for the next one, and damping by their change since the previous one
    subroutine remember_forces(problem, state, result)

@@ -4,8 +4,11 @@ module contact_patch_tangential_step
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
    use contact_base_solve_report, only : ending, failure_text, solve_report
+   use contact_elastic_coefficients, only : fill_shifted_coefficients
    use contact_friction_law, only : friction_driver
    use contact_grid_element_division, only : bounding_box, contact_box, element
+   use contact_grid_picture, only : trace_picture
+   use contact_patch_leading_edge, only : correct_leading_edge
    use contact_patch_problem, only : patch_problem, patch_state, rolling_direction
    use contact_patch_result, only : patch_result
    use contact_patch_workspace, only : patch_workspace, prepare_box
@@ -36,15 +39,19 @@ contains
          return
       end if
       call prepare_box(problem, box, workspace)
+      if (problem%general_step) call prepare_step(problem, workspace)
       if (iterates_friction(problem)) call workspace%friction%start(problem, state, result%dt, &
          & result%outer_iterations == 1, result%mu)
       call set_tangential(problem, state, box, workspace, result)
+      if (problem%corrects_leading_edge) call correct_leading_edge(problem, state, box, result, workspace, log)
+      if (problem%model%coupled()) call add_by_pressures(problem, state, box, workspace)
       if (log%shows(2)) call log%trace(2, " TANG: " // type_of_motion(problem%motion))
       if (iterates_friction(problem)) then
          call solve_with_friction(problem, state, box, workspace, log, result)
       else
          call choose_and_solve(problem, workspace, log, result%tangential)
          result%tangential%passes = result%tangential%passes + 1
+         if (log%shows(9)) call show_division(state, box, workspace%solution, log)
       end if
 
       associate (solution => workspace%solution)
@@ -79,6 +86,7 @@ contains
       do
          call choose_and_solve(problem, workspace, log, result%tangential)
          result%tangential%passes = result%tangential%passes + 1
+         if (log%shows(9)) call show_division(state, box, workspace%solution, log)
          call workspace%friction%advance(problem, state, box, workspace%solution, log, result%mu)
          if (workspace%friction%ended /= ending%not_started) exit
          call set_bound(state, box, result%mu, workspace%tangential, workspace%solution)
@@ -131,12 +139,12 @@ contains
       associate (t => workspace%tangential, s => workspace%solution)
          if (allocated(t%contact)) then
             if (any(shape(t%contact) /= [mx, my])) then
-               deallocate(t%contact, t%bound, t%shift, workspace%box_un, workspace%box_pn, workspace%box_ut)
+               deallocate(t%contact, t%bound, t%shift, workspace%box_un, workspace%box_pn, workspace%box_ut, workspace%share)
             end if
          end if
          if (.not. allocated(t%contact)) then
             allocate(t%contact(mx, my), t%bound(mx, my), t%shift(mx, my, 2))
-            allocate(workspace%box_un(mx, my), workspace%box_pn(mx, my), workspace%box_ut(mx, my, 2))
+            allocate(workspace%box_un(mx, my), workspace%box_pn(mx, my), workspace%box_ut(mx, my, 2), workspace%share(mx, my))
          end if
          t%mx = mx
          t%my = my
@@ -144,6 +152,7 @@ contains
          t%dy = problem%grid%dy
          t%steady = problem%motion == motion%steady_rolling
          t%direction = rolling_direction(problem)
+         t%row_direction = merge(-1, 1, problem%general_step .and. sin(problem%chi) < 0.0_wp)
          t%dq = problem%dq
          t%n_forces = problem%n_forces
          t%target = problem%force*result%mu_scal*result%fn/(problem%grid%dx*problem%grid%dy)
@@ -180,17 +189,46 @@ contains
          end do
          if (problem%remembers_yield) call set_yield(problem, state%before, box, t)
          if (.not. t%steady) t%shift = t%shift - workspace%old_displacement(box%ix0:box%ix1, box%iy0:box%iy1, :)
-         if (problem%model%coupled()) then
-            workspace%box_pn = state%now%pn(box%ix0:box%ix1, box%iy0:box%iy1)
-            if (t%steady) then
-               call workspace%box%steady_by_normal(workspace%box_pn, workspace%box_ut)
-            else
-               call workspace%box%tangential_by_normal(workspace%box_pn, workspace%box_ut)
-            end if
-            t%shift = t%shift + workspace%box_ut
-         end if
       end associate
    end subroutine set_tangential
+
+   !> Coefficients of the same particles a step ago, for steps of any length and direction
+   subroutine prepare_step(problem, workspace)
+      type(patch_problem), intent(in) :: problem
+      type(patch_workspace), intent(inout) :: workspace
+      real(wp) :: shift_x, shift_y
+
+      shift_x = problem%dq*cos(problem%chi)
+      shift_y = problem%dq*sin(problem%chi)
+      associate (box => workspace%box)
+         call fill_shifted_coefficients(workspace%shifted, problem%model, box%dx, box%dy, box%mx, box%my, shift_x, shift_y)
+         if (problem%model%coupled()) call workspace%previous%prepare(problem%model, box%dx, box%dy, box%mx, box%my, &
+            & shift_x, shift_y)
+      end associate
+   end subroutine prepare_step
+
+   !> Contribution of the present pressures to the slip
+   subroutine add_by_pressures(problem, state, box, workspace)
+      type(patch_problem), intent(in) :: problem
+      type(patch_state), intent(in) :: state
+      type(bounding_box), intent(in) :: box
+      type(patch_workspace), intent(inout) :: workspace
+
+      workspace%box_pn = state%now%pn(box%ix0:box%ix1, box%iy0:box%iy1)
+      if (problem%general_step) then
+         call workspace%box%tangential_by_normal(workspace%box_pn, workspace%box_ut)
+         workspace%tangential%shift = workspace%tangential%shift + workspace%box_ut
+         workspace%box_un = 0.0_wp
+         call workspace%previous%tangential(workspace%box_un, workspace%box_un, workspace%box_pn, &
+            & workspace%box_ut(:, :, 1), workspace%box_ut(:, :, 2))
+         workspace%box_ut = -workspace%box_ut
+      else if (workspace%tangential%steady) then
+         call workspace%box%steady_by_normal(workspace%box_pn, workspace%box_ut)
+      else
+         call workspace%box%tangential_by_normal(workspace%box_pn, workspace%box_ut)
+      end if
+      workspace%tangential%shift = workspace%tangential%shift + workspace%box_ut
+   end subroutine add_by_pressures
 
    !> Relaxation of the Gauss-Seidel methods: from the input, or by the shape of the elements
    pure subroutine set_relaxation(problem, ncon, t)
@@ -229,6 +267,11 @@ contains
       method = classical_method%tang_cg
       if (problem%motion == motion%steady_rolling) method = classical_method%steady_gs
       choice = problem%solver
+      if (problem%general_step) then
+         call solve_classical(workspace%tangential, workspace%box, classical_method%convex_gs, workspace%solution, report, log, &
+            & workspace%shifted)
+         return
+      end if
       if (.not. workspace%box%has_table()) then
          ! Gauss-Seidel methods and GDsteady need one table of coefficients for all elements
          method = classical_method%tang_cg
@@ -265,6 +308,19 @@ contains
       if (choice == motion%shift) text = "SHIFT TRANSIENT"
       if (choice == motion%transient_rolling) text = "TRANSIENT ROLLING CONTACT"
    end function type_of_motion
+
+   !> Picture of a solution on the box, in its place on the grid
+   subroutine show_division(state, box, solution, log)
+      type(patch_state), intent(in) :: state
+      type(bounding_box), intent(in) :: box
+      type(tangential_solution), intent(in) :: solution
+      type(log_type), intent(inout) :: log
+      integer, allocatable :: division(:, :)
+
+      division = state%now%division
+      division(box%ix0:box%ix1, box%iy0:box%iy1) = solution%division
+      call trace_picture(log, division)
+   end subroutine show_division
 
    !> Line of the flow trace about the adhesion and slip areas
    subroutine trace_division(log, solution, report)

@@ -2,9 +2,11 @@
 module contact_patch_workspace
    use contact_base_kinds, only : wp
    use contact_elastic_compliance, only : compliance
+   use contact_elastic_halfspace, only : kernel_table
    use contact_elastic_new_compliance, only : new_compliance
    use contact_elastic_previous, only : previous_operator
    use contact_grid_element_division, only : bounding_box
+   use contact_numeric_anderson, only : anderson_iteration
    use contact_normal_conjugate_gradient, only : normal_problem, normal_workspace, release_normal
    use contact_patch_friction_iteration, only : friction_iteration
    use contact_patch_problem, only : patch_problem, rolling_direction
@@ -21,21 +23,33 @@ module contact_patch_workspace
       !> Compliance on the whole window and on the bounding box of the contact area
       class(compliance), allocatable :: window, box
       type(previous_operator) :: previous
+      !> Coefficients of the same particles a step ago, in steady rolling with steps of any length
+      type(kernel_table) :: shifted
       type(normal_problem) :: normal
       type(normal_workspace) :: normal_work
       type(tangential_problem) :: tangential
       type(tangential_solution) :: solution
       type(nested_workspace) :: tangential_work
       type(friction_iteration) :: friction
+      !> Acceleration of the outer iteration
+      type(anderson_iteration) :: outer
       !> The tangential problem and its solution where simplified theory is asked for
       type(simplified_problem) :: simplified
       type(simplified_solution) :: simplified_solution
       !> Displacements at the previous time [mm], shape (mx, my, 2)
       real(wp), allocatable :: old_displacement(:, :, :)
-      !> Scratch on the window, shapes (mx, my) and (mx, my, 2)
-      real(wp), allocatable :: un(:, :), ut(:, :, :), pt(:, :, :), last(:, :, :)
+      !> For the leading-edge correction: displacements by the previous tractions at the places of the elements [mm],
+      !> shape (mx, my, 2)
+      real(wp), allocatable :: edge_displacement(:, :, :)
+      !> Normal displacements that the pressures belong to, and those by the present tangential
+      !> tractions [mm], shape (mx, my)
+      real(wp), allocatable :: un(:, :), lift(:, :)
+      !> Scratch on the window, shape (mx, my, 2)
+      real(wp), allocatable :: ut(:, :, :), pt(:, :, :)
       !> Scratch on the box
       real(wp), allocatable :: box_un(:, :), box_pn(:, :), box_ut(:, :, :)
+      !> Part of the step that the elements of the box have been in contact; of meaning with the leading-edge correction
+      real(wp), allocatable :: share(:, :)
    end type patch_workspace
 
 contains
@@ -50,9 +64,9 @@ contains
       my = problem%grid%my
       if (allocated(workspace%un)) then
          if (all(shape(workspace%un) == [mx, my])) return
-         deallocate(workspace%un, workspace%ut, workspace%pt, workspace%last, workspace%old_displacement)
+         deallocate(workspace%un, workspace%lift, workspace%ut, workspace%pt, workspace%old_displacement)
       end if
-      allocate(workspace%un(mx, my), workspace%ut(mx, my, 2), workspace%pt(mx, my, 2), workspace%last(mx, my, 3), &
+      allocate(workspace%un(mx, my), workspace%lift(mx, my), workspace%ut(mx, my, 2), workspace%pt(mx, my, 2), &
          & workspace%old_displacement(mx, my, 2), source=0.0_wp)
    end subroutine fit_workspace
 

@@ -35,6 +35,8 @@ module contact_tangential_classical
 
    !> Tolerance of the tractions relative to that of prescribed forces
    real(wp), parameter :: inner_share = 0.2_wp
+   !> True residual at which updates that have become small mean a standstill, not a solution
+   real(wp), parameter :: no_solution = 0.2_wp
 
 contains
 
@@ -145,6 +147,7 @@ contains
          end if
       end if
       report%residual = true_residual(problem, solution%p, solution%slip, r)
+      if (report%residual > no_solution .and. report%ended == ending%converged) report%ended = ending%stagnated
       call settle(problem, r, solution)
       report%products = report%products + operator%products - products_before
       if (with_rows) then

@@ -1,7 +1,7 @@
 !> ConvexGS: Gauss-Seidel on the tractions, for shifts, transient and steady rolling
 !>
-!> One element problem after the other, rows by ascending y, elements from trailing to leading
-!> edge: in steady rolling the other order does not converge. In a shift every step decreases
+!> One element problem after the other, rows and elements from trailing to leading edge: in steady rolling the
+!> other order does not converge. In a shift every step decreases
 !> the energy of a convex problem, hence it converges always; Kalker (1990).
 module contact_tangential_convex_gs
    use contact_base_kinds, only : wp
@@ -38,7 +38,7 @@ contains
       !> Displacements within a row by a unit change of traction, offset "receiving minus loaded"
       real(wp) :: kxx(0:rows%mx - 1), kyy(0:rows%mx - 1), kxy(0:rows%mx - 1)
       real(wp) :: slip(rows%mx, 2), s0(2), old(2), p(2), change(2)
-      integer :: i, iy, sweep, n
+      integer :: i, iy, row, sweep, n
       logical :: increments, skew, rest
 
       n = rows%mx
@@ -57,7 +57,8 @@ contains
       do sweep = 1, problem%maxgs
          before = rows%p
          rest = sweep > patience .and. mod(sweep, 2) == 0
-         do iy = 1, rows%my
+         do row = 1, rows%my
+            iy = merge(row, rows%my + 1 - row, problem%row_direction > 0)
             if (rows%first(iy) > rows%last(iy)) cycle
             call rows%row_slip(iy, slip)
             do i = rows%first(iy), rows%last(iy)

@@ -11,6 +11,7 @@ module contact_tangential_nested
    use contact_elastic_model, only : elastic_model
    use contact_elastic_new_compliance, only : new_compliance
    use contact_grid_coarsening, only : coarse_neighbours, coarse_size, coarsening_factor, shortest_side
+   use contact_tangential_local_estimate, only : estimate_locally
    use contact_tangential_newton, only : newton_derivative, newton_outcome, newton_solve, newton_workspace
    use contact_tangential_problem, only : prepare_solution, residual_scale, settle, slip_of, &
       & tangential_problem, tangential_solution, true_residual
@@ -74,6 +75,7 @@ contains
             call solve_coarse(problem, operator, workspace, 2, solution, log)
          end if
       end if
+      call estimate_from_nothing(problem, operator, solution)
       call newton_solve(problem, operator, problem%eps, workspace%level(1)%newton, solution, outcome, log)
       call settle(problem, residual_scale(problem, operator), solution)
       report%ended = outcome%ended
@@ -125,6 +127,17 @@ contains
       is_large = problem%mx*problem%my >= smallest .and. max(problem%mx, problem%my) >= shortest_side
    end function is_large
 
+   !> Estimate where there is none yet and creepages are given; with forces prescribed the method starts by itself
+   subroutine estimate_from_nothing(problem, operator, solution)
+      type(tangential_problem), intent(in) :: problem
+      class(compliance), intent(inout) :: operator
+      type(tangential_solution), intent(inout) :: solution
+
+      if (problem%n_forces > 0 .or. problem%hardens()) return
+      if (.not. any(problem%bound > 0.0_wp) .or. any(abs(solution%p) > 0.0_wp)) return
+      call estimate_locally(problem, operator, solution%p, solution%slip)
+   end subroutine estimate_from_nothing
+
    !> Estimate for a problem from the next coarser level
    recursive subroutine solve_coarse(fine, fine_operator, workspace, k, solution, log)
       type(tangential_problem), intent(in) :: fine
@@ -147,6 +160,7 @@ contains
             & level%problem%my, fine%direction, fine_operator%y_first + 0.5_wp*(level%problem%dy - fine%dy))
          if (k < size(workspace%level) .and. is_large(level%problem)) &
             & call solve_coarse(level%problem, level%operator, workspace, k + 1, level%solution, log)
+         call estimate_from_nothing(level%problem, level%operator, level%solution)
          call newton_solve(level%problem, level%operator, coarse_tolerance, level%newton, level%solution, outcome, log)
          ! a coarse solution without success is an estimate all the same: it lies inside the discs
          if (outcome%ended == ending%diverged) return

@@ -85,7 +85,7 @@ contains
       type(linear_system) :: system
       real(wp) :: residual, previous, forcing, history(0:max_steps), alpha, best, longest, &
          & creep_range, creep(2), best_creep(2), trial
-      real(wp) :: correction(2), unbalance(2), reached
+      real(wp) :: correction(2), unbalance(2)
       integer :: step, k, attempt
       real(wp), parameter :: lengths(6) = [1.0_wp, 0.5_wp, 0.25_wp, 0.1_wp, 0.03_wp, 0.01_wp]
 
@@ -146,7 +146,7 @@ contains
          forcing = min(0.2_wp, 0.5_wp*(residual/max(previous, residual))**1.5_wp)
          forcing = max(forcing, min(0.1_wp, 0.3_wp*tolerance/residual))
          if (step == 0) forcing = 0.2_wp
-         call solve_linear(problem, operator, system, workspace, unbalance, forcing, correction, outcome%preconditionings, reached)
+         call solve_linear(problem, operator, system, workspace, unbalance, forcing, correction, outcome%preconditionings)
 
          best = huge(best)
          best_creep = solution%creep
@@ -617,8 +617,8 @@ contains
       !> Correction of the creepages
       real(wp), intent(out) :: correction(2)
       integer, intent(inout) :: preconditionings
-      !> Relative residual that was reached
-      real(wp), intent(out) :: reached
+      !> Relative residual that was reached; a Newton step is judged by the residual of the tractions it leads to
+      real(wp), intent(out), optional :: reached
       real(wp) :: h(restart + 1, restart), cs(restart), sn(restart), s(restart + 1), y(restart)
       real(wp) :: start, beta, before, after, t
       integer :: n, m, j, k, cycle_, used
@@ -633,7 +633,6 @@ contains
          v(:n, 1) = b(:n)
          start = norm2(v(:n, 1))
          beta = start
-         reached = 1.0_wp
          do cycle_ = 1, max_cycles
             if (.not. beta > tolerance*start) exit
             v(:n, 1) = v(:n, 1)/beta
@@ -682,12 +681,12 @@ contains
                x(:n) = x(:n) + y(k)*z(:n, k)
             end do
             beta = abs(s(used + 1))
-            reached = beta/start
             if (beta <= tolerance*start .or. cycle_ == max_cycles) exit
             call apply_jacobian(problem, operator, system, workspace, x(:n), workspace%work(:n))
             v(:n, 1) = b(:n) - workspace%work(:n)
             beta = norm2(v(:n, 1))
          end do
+         if (present(reached)) reached = beta/start
          m = system%n
          call unfold(x, workspace%step)
          correction = 0.0_wp

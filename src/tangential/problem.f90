@@ -37,6 +37,8 @@ module contact_tangential_problem
       logical :: steady = .false.
       !> Rolling towards increasing (+1) or decreasing (-1) x
       integer :: direction = 1
+      !> Rolling towards increasing (+1) or decreasing (-1) y as well, where rolling goes in any direction
+      integer :: row_direction = 1
       !> Distance per step [mm]; multiplies unknown creepages
       real(wp) :: dq = 1.0_wp
       !> Number of prescribed forces: 0, 1 (Fx), 2 (Fx, Fy)

@@ -223,6 +223,14 @@ class Runs(Cli):
         self.assertEqual(self.read("ball.out").count("TOTAL FORCES"), 1)
         self.assertEqual(self.files(), ["ball.0002.mat", "ball.inp", "ball.out"])
 
+    def test_pictures_in_the_flow_trace(self):
+        for level, pictures in (("8", 0), ("9", 1)):
+            self.write("ball.inp", case(third="00002" + level + "1") + "0\n")
+            run = self.run_program("2", "ball")
+            self.succeeds(run)
+            rows = re.findall(r"^ +\d+   o( [.*]){5} o$", run.stdout, re.MULTILINE)
+            self.assertEqual(len(rows), 2*pictures, "corner rows of the element division")
+
     def test_threads(self):
         self.write("ball.inp", case() + "0\n")
         self.succeeds(self.run_program("2", "ball", "--threads", "3"))

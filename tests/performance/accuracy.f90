@@ -5,7 +5,7 @@
 !> normal problem, the finest grid with a tight tolerance elsewhere.
 program performance_accuracy
    use, intrinsic :: iso_fortran_env, only : output_unit
-   use contact_base_choices, only : pressure_model
+   use contact_base_choices, only : material_model, normal_control, pressure_model
    use contact_base_constants, only : pi
    use contact_base_kinds, only : wp
    use contact_bench_measure, only : measure, measurement, pair_clock
@@ -70,21 +70,21 @@ contains
       logical, intent(in) :: rolling
       type(figures) :: exact
       type(measurement) :: result
-      integer :: k, l, m, methods(3)
+      integer :: k, l, m
+      integer, allocatable :: methods(:)
       logical :: too_slow
       character(len=:), allocatable :: name, group
 
       group = "shift"
-      methods = [0, classical_method%tang_cg, -1]
+      methods = [0, classical_method%tang_cg, classical_method%convex_gs]
       if (rolling) then
          group = "steady rolling"
-         methods = [0, classical_method%steady_gs, classical_method%gd_steady]
+         methods = [0, classical_method%steady_gs, classical_method%gd_steady, classical_method%convex_gs]
       end if
       call make(rolling, finest, tight, 0)
       call tangential%run(result%report)
       exact = tangential_figures()
       do m = 1, size(methods)
-         if (methods(m) < 0) cycle
          name = "Newton-Krylov"
          if (methods(m) > 0) name = method_name(methods(m))
          too_slow = .false.
@@ -126,22 +126,35 @@ contains
 
    !> Normal and tangential problem by the session, with the true pressures and with given ones
    subroutine complete_group()
+      integer :: k
       integer, parameter :: widths(*) = [11, 19, 35, 71, 141], widest = 283
       real(wp), parameter :: few(*) = [1.0e-2_wp, 1.0e-3_wp, 1.0e-4_wp, 1.0e-6_wp]
-      integer, parameter :: models(*) = [pressure_model%full, pressure_model%elliptical, pressure_model%parabolical]
-      character(len=*), parameter :: names(*) = [character(len=24) :: "full (B=0)", "elliptical (B=2)", "parabolical (B=3)"]
+      !> Pressures, members of pressure_model, and tangential theories, of material_model
+      integer, parameter :: pressures(*) = [pressure_model%full, pressure_model%elliptical, pressure_model%parabolical, &
+         & pressure_model%kpec, pressure_model%analyn, pressure_model%parabolical, pressure_model%full, pressure_model%elliptical]
+      integer, parameter :: theories(*) = [(material_model%elastic, k=1, 5), material_model%fastsim, material_model%fastsim, &
+         & material_model%fastrip]
+      character(len=*), parameter :: names(*) = [character(len=24) :: "full (B=0)", "elliptical (B=2)", "parabolical (B=3)", &
+         & "KPEC (B=5)", "ANALYN (B=6)", "Fastsim (M=3, B=3)", "Fastsim (M=3, B=0)", "FaStrip (M=5, B=2)"]
       type(figures) :: exact
       type(session_case) :: case
       type(measurement) :: result
-      integer :: k, l, m
+      real(wp) :: pen
+      integer :: l, m
 
-      call make_complete(case, widest, tight, pressure_model%full)
+      call make_complete(case, widest, tight, pressure_model%full, material_model%elastic)
       call solve_one(case)
       exact = complete_figures(case)
-      do m = 1, size(models)
+      pen = case%result%pen
+      do m = 1, size(pressures)
          do k = 1, size(widths)
             do l = 1, size(few)
-               call make_complete(case, widths(k), few(l), models(m))
+               call make_complete(case, widths(k), few(l), pressures(m), theories(m))
+               ! approximate methods start from the approach
+               if (any(pressures(m) == [pressure_model%kpec, pressure_model%analyn])) then
+                  case%spec%normal = normal_control%approach
+                  case%spec%kinematics%pen = pen
+               end if
                call measure(case, clock, 0.3_wp, result)
                if (.not. result%report%succeeded()) cycle
                call point("complete case", trim(names(m)), case%result%ncon, widths(k), few(l), result%seconds, &
@@ -152,13 +165,14 @@ contains
       call case%release()
    end subroutine complete_group
 
-   subroutine make_complete(case, mx, eps, pressures)
+   subroutine make_complete(case, mx, eps, pressures, theory)
       type(session_case), intent(inout) :: case
-      integer, intent(in) :: mx, pressures
+      integer, intent(in) :: mx, pressures, theory
       real(wp), intent(in) :: eps
 
       call new_table_case(mx, case)
       case%spec%pressure = pressures
+      case%spec%material_model = theory
       case%spec%iteration%eps = eps
       case%spec%kinematics%cksi = 1.0e-3_wp
       case%spec%kinematics%ceta = 5.0e-4_wp

@@ -7,9 +7,11 @@ import os
 import platform
 import sys
 
-COLOURS = ["#1f5fa8", "#d1495b", "#2e8b57", "#8a5fbf"]
+COLOURS = ["#1f5fa8", "#d1495b", "#2e8b57", "#8a5fbf", "#c77f1a", "#3aa0a0", "#6b6b6b", "#a0522d"]
 MEASURES = [("force", "error in the forces"), ("peak", "error in the peak traction")]
-WIDTH, HEIGHT, LEFT, TOP, GAP_X, GAP_Y = 270, 210, 62, 52, 62, 74
+WIDTH, HEIGHT, LEFT, GAP_X, GAP_Y = 270, 210, 62, 62, 74
+# Legends: entries per line and height of a line
+ENTRIES, LINE = 2, 16
 
 
 def read(lines):
@@ -75,11 +77,13 @@ def seconds_text(d):
 def picture(points):
     groups = unique(p["group"] for p in points)
     total_x = LEFT + len(groups)*(WIDTH + GAP_X)
-    total_y = TOP + 2*(HEIGHT + GAP_Y) + 10
+    most = max(len(unique(p["method"] for p in points if p["group"] == group)) for group in groups)
+    top = 36 + LINE*math.ceil(most/ENTRIES)
+    total_y = top + 2*(HEIGHT + GAP_Y) + 10
     out = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {total_x} {total_y}" font-family="sans-serif" font-size="11">',
            f'<rect width="{total_x}" height="{total_y}" fill="white"/>']
     for row, (measure, title) in enumerate(MEASURES):
-        y0 = TOP + row*(HEIGHT + GAP_Y)
+        y0 = top + row*(HEIGHT + GAP_Y)
         y_range = max(-8, math.floor(math.log10(max(1e-9, min(p[measure] for p in points))))), \
             math.ceil(math.log10(max(p[measure] for p in points)))
         out.append(f'<text x="14" y="{y0 + HEIGHT/2}" transform="rotate(-90 14 {y0 + HEIGHT/2})" text-anchor="middle">{title}</text>')
@@ -90,10 +94,10 @@ def picture(points):
             panel(out, x0, y0, own, measure, methods, y_range)
             if row == 0:
                 out.append(f'<text x="{x0}" y="18" font-size="14" font-weight="bold">{group}</text>')
-                at = x0
                 for k, method in enumerate(methods):
-                    out.append(f'<circle cx="{at + 4}" cy="35" r="4" fill="{COLOURS[k]}"/><text x="{at + 12}" y="39">{method}</text>')
-                    at += 26 + 6.2*len(method)
+                    at, line = x0 + k % ENTRIES*WIDTH//ENTRIES, 35 + LINE*(k//ENTRIES)
+                    out.append(f'<circle cx="{at + 4}" cy="{line}" r="4" fill="{COLOURS[k]}"/>'
+                               f'<text x="{at + 12}" y="{line + 4}">{method}</text>')
             else:
                 out.append(f'<text x="{x0 + WIDTH/2}" y="{y0 + HEIGHT + 34}" text-anchor="middle">processor time of one case</text>')
     out.append("</svg>")
@@ -132,9 +136,10 @@ from a finest grid carry an error of their own, about half the one of the grid b
   reference: 320 x 320 elements, tolerance 1e-9.
 - *Shift*: the same contact shifted by (5, -3) micrometres.
 - *Complete case*: normal and tangential problem of a contact of 6 x 4 mm as in a creep-force table,
-  with the true pressures (B=0) or given ones (B=2, B=3); reference: 283 x 283 elements, B=0,
+  with the true pressures (B=0), given ones (B=2, B=3) or approximate ones (B=5, B=6, from the approach of the reference),
+  and with simplified theory instead of the complete one (M=3, M=5); reference: 283 x 283 elements, B=0, M=0,
   tolerance 1e-9. Parabolical pressures are the bound of the simplified theory and not an
-  approximation of the true ones; their error does not vanish.
+  approximation of the true ones; their error does not vanish, nor do those of the other approximations.
 
 The tolerance is that of each method: a bound on the true residual for Newton-Krylov, on the last
 update for the classical ones.

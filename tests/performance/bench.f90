@@ -4,8 +4,9 @@
 !>     performance_bench --allocations                       where repeated cases ask for memory
 !>     performance_bench --input MX FILE                     writes the cases of a table as an .inp file
 !>     performance_bench --case NAME N                       milliseconds of a rolling contact, without and with set-up
-!>     performance_bench --profile NAME                      runs one kind of case for 10 s, for a profiler:
-!>                                                           table11, table35, rolling160, normal160
+!>     performance_bench --profile NAME [N]                  runs one kind of case for 10 s or N times, for a profiler:
+!>                                                           table11, table19, table25, table35 (from the previous
+!>                                                           case), fresh11... (from scratch), rolling160, normal160
 program performance_bench
    use, intrinsic :: iso_fortran_env, only : output_unit
    use contact_base_choices, only : estimate_choice
@@ -449,32 +450,39 @@ contains
       call case%release()
    end subroutine list_allocations
 
-   !> Ten seconds of one kind of case
+   !> Ten seconds or a number of one kind of case
    subroutine profile()
       real(wp), parameter :: duration = 10.0_wp
       type(session_case) :: table
       type(solve_report) :: report
-      character(len=80) :: name
+      character(len=80) :: name, text
       real(wp) :: start
-      integer :: k
+      integer :: k, mx, cases
 
       call get_command_argument(2, name)
+      call get_command_argument(3, text)
+      cases = 0
+      if (len_trim(text) > 0) read(text, *) cases
       select case (name)
-      case ("table11")
-         call new_table_case(11, table)
-      case ("table35")
-         call new_table_case(35, table)
+      case ("table11", "table19", "table25", "table35", "fresh11", "fresh19", "fresh25", "fresh35")
+         read(name(6:7), *) mx
+         call new_table_case(mx, table)
+         table%spec%estimate = merge(estimate_choice%fresh, estimate_choice%previous, name(:5) == "fresh")
       case ("rolling160")
          call new_rolling_case(rolling_contacts(1), 160, 1.0e-6_wp, tangential)
       case ("normal160")
          call new_normal_case(160, .true., 1.0e-8_wp, normal)
       case default
-         error stop "usage: performance_bench --profile table11|table35|rolling160|normal160"
+         error stop "usage: performance_bench --profile table11|...|table35|fresh11|...|fresh35|rolling160|normal160 [N]"
       end select
-      table%spec%estimate = estimate_choice%previous
       start = cpu_seconds()
       k = 0
-      do while (cpu_seconds() - start < duration)
+      do
+         if (cases > 0) then
+            if (k == cases) exit
+         else if (cpu_seconds() - start >= duration) then
+            exit
+         end if
          k = k + 1
          select case (name)
          case ("rolling160")

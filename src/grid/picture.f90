@@ -1,15 +1,17 @@
 !> Picture of the element division in characters
-module contact_output_picture
+module contact_grid_picture
    use contact_base_choices, only : motion
    use contact_base_constants, only : pi
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
    use contact_grid_element_division, only : bounding_box, contact_box, element
-   use contact_output_formats, only : fixed, whole
    implicit none (type, external)
    private
 
-   public :: picture_window, write_picture
+   public :: picture_window, trace_picture, write_picture
+
+   !> Flow trace level of intermediate element divisions
+   integer, parameter :: picture_level = 9
 
    !> Up to so many columns are shown with a blank before each symbol
    integer, parameter :: spaced_columns = 46
@@ -20,7 +22,7 @@ module contact_output_picture
 
 contains
 
-   !> Write the picture, highest row first, and the column numbers below it
+   !> Picture of a solution, with its title and the rolling direction
    subroutine write_picture(log, division, motion_kind, chi)
       type(log_type), intent(inout) :: log
       !> Element states, shape (mx, my)
@@ -29,39 +31,67 @@ contains
       integer, intent(in) :: motion_kind
       !> Rolling direction [rad]
       real(wp), intent(in) :: chi
+      character(len=:), allocatable :: lines(:)
+      character(len=40) :: last_line
+      integer :: k
+
+      call log%result("")
+      call log%line(" FORM OF THE CONTACT, ADHESION AND SLIP-AREA`S:")
+      call draw(division, lines)
+      do k = 1, size(lines)
+         call log%line(trim(lines(k)))
+      end do
+      last_line = "     X  -->"
+      if (motion_kind == motion%transient_rolling .or. motion_kind == motion%steady_rolling) &
+         & write(last_line, '(a, f6.2, a)') "     X  -->        Chi=", chi*180.0_wp/pi, " degrees"
+      call log%line(trim(last_line))
+   end subroutine write_picture
+
+   !> An intermediate element division, for the most detailed flow trace
+   subroutine trace_picture(log, division)
+      type(log_type), intent(inout) :: log
+      !> Element states, shape (mx, my)
+      integer, intent(in) :: division(:, :)
+      character(len=:), allocatable :: lines(:)
+      integer :: k
+
+      if (.not. log%shows(picture_level)) return
+      call draw(division, lines)
+      do k = 1, size(lines)
+         call log%trace(picture_level, trim(lines(k)))
+      end do
+   end subroutine trace_picture
+
+   !> Rows of the picture, highest first, and the column numbers below them
+   pure subroutine draw(division, lines)
+      integer, intent(in) :: division(:, :)
+      character(len=:), allocatable, intent(out) :: lines(:)
       type(bounding_box) :: window
-      character(len=:), allocatable :: row, last_line
-      integer :: ix, iy, step, shown, position
+      integer :: ix, iy, k, step, shown, digits, position
+      !> Columns of text before the first element
+      integer, parameter :: margin = 8
 
       window = picture_window(division)
       shown = window%ix1 - window%ix0 + 1
       step = merge(2, 1, shown <= spaced_columns)
-
-      call log%result("")
-      call log%line(" FORM OF THE CONTACT, ADHESION AND SLIP-AREA`S:")
-      allocate(character(len=step*shown) :: row)
+      digits = 1 + count(shown >= [10, 200])
+      allocate(character(len=margin + step*shown) :: lines(window%iy1 - window%iy0 + 1 + digits))
+      lines = ""
       do iy = window%iy1, window%iy0, -1
-         row = repeat(" ", step*shown)
-         do ix = window%ix0, window%ix1
-            position = step*(ix - window%ix0 + 1)
-            row(position:position) = symbol(division(ix, iy))
-         end do
-         if (iy == window%iy0 .or. iy == window%iy1) then
-            if (row(step:step) == ".") row(step:step) = "o"
-            position = step*shown
-            if (row(position:position) == ".") row(position:position) = "o"
-         end if
-         call log%line(whole(iy, 6) // "  " // row)
+         associate (row => lines(window%iy1 - iy + 1))
+            write(row, '(i6)') iy
+            do ix = window%ix0, window%ix1
+               position = margin + step*(ix - window%ix0 + 1)
+               row(position:position) = symbol(division(ix, iy))
+               if (row(position:position) == "." .and. any(ix == [window%ix0, window%ix1]) &
+                  & .and. any(iy == [window%iy0, window%iy1])) row(position:position) = "o"
+            end do
+         end associate
       end do
-
-      if (shown >= 200) call log%line("        " // column_digits(window, step, 100))
-      if (shown >= 10) call log%line("        " // column_digits(window, step, 10))
-      call log%line("        " // column_digits(window, step, 1))
-      last_line = "     X  -->"
-      if (motion_kind == motion%transient_rolling .or. motion_kind == motion%steady_rolling) &
-         & last_line = last_line // "        Chi=" // fixed(chi*180.0_wp/pi, 6, 2) // " degrees"
-      call log%line(last_line)
-   end subroutine write_picture
+      do k = 1, digits
+         lines(size(lines) - k + 1)(margin + 1:) = column_digits(window, step, 10**(k - 1))
+      end do
+   end subroutine draw
 
    !> Part of the grid that is shown
    pure function picture_window(division) result(window)
@@ -116,7 +146,6 @@ contains
          position = step*(ix - window%ix0 + 1)
          line(position:position) = achar(48 + mod(ix/unit, 10))
       end do
-      line = trim(line)
    end function column_digits
 
    !> Symbol of an element state
@@ -133,4 +162,4 @@ contains
          symbol = "|"
       end if
    end function symbol
-end module contact_output_picture
+end module contact_grid_picture

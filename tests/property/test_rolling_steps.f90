@@ -1,0 +1,117 @@
+!> Steps and directions of rolling: longer than an element with the leading-edge correction, and any with ConvexGS
+program test_rolling_steps
+   use contact_base_choices, only : estimate_choice, motion, solver_choice, time_link
+   use contact_base_constants, only : pi
+   use contact_base_error, only : error_type
+   use contact_base_kinds, only : wp
+   use contact_cases_spec, only : case_spec
+   use contact_test_case_builder, only : creep, ellipse_case, forces, test_case
+   use contact_test_harness, only : test_suite
+   implicit none (type, external)
+   !> Elements along the window, and their side [mm]
+   integer, parameter :: n = 21
+   real(wp), parameter :: side = 6.6_wp/n
+   type(test_suite) :: suite
+   type(test_case) :: steady
+
+   call suite%start("steps of rolling")
+   steady%spec = rolling_case()
+   call steady%run(suite, "steady rolling")
+   call long_steps(0.0_wp)
+   call long_steps(pi)
+   call directions()
+   call limits()
+   call steady%release()
+   call suite%finish()
+
+contains
+
+   !> Sphere with longitudinal creepage and some spin, partial slip
+   function rolling_case() result(spec)
+      type(case_spec) :: spec
+
+      spec = ellipse_case(3.0_wp, 3.0_wp, 2000.0_wp, n, n, eps=1.0e-7_wp)
+      call creep(spec, motion%steady_rolling, 2.0e-3_wp, 0.0_wp, 2.0e-4_wp, 0.3_wp)
+      spec%rolling%dq = side
+   end function rolling_case
+   !> Transient rolling with constant creepages ends in the steady state, also when particles enter in the middle of a step
+   subroutine long_steps(chi)
+      !> Rolling direction [rad]; the other way round longitudinal creepage changes its sign
+      real(wp), intent(in) :: chi
+      type(test_case) :: case
+      integer :: m, step
+      character(len=40) :: what
+      !> Errors that steps of one, two and three elements leave, relative; without the correction fx is wrong by 4 and 8 %
+      real(wp), parameter :: of_fx(3) = [1.0e-3_wp, 5.0e-3_wp, 1.0e-2_wp], of_mz(3) = [1.0e-3_wp, 0.06_wp, 0.12_wp]
+
+      do m = 1, 3
+         write(what, '(a, i0, a, f4.0)') "DQ = ", m, " DX, CHI = ", chi*180.0_wp/pi
+         case%spec = steady%spec
+         case%spec%motion = motion%transient_rolling
+         case%spec%rolling%dq = m*side
+         case%spec%rolling%chi = chi
+         case%spec%kinematics%cksi = cos(chi)*steady%spec%kinematics%cksi
+         do step = 1, 130/m
+            case%spec%link = merge(time_link%initiate, time_link%continue_all, step == 1)
+            case%spec%new_grid = step == 1
+            case%spec%estimate = merge(estimate_choice%fresh, estimate_choice%previous, step == 1)
+            call case%run(suite, trim(what))
+         end do
+         call suite%equal(case%log%warnings, 0, trim(what) // ": nothing to complain about")
+         call suite%close_to(cos(chi)*case%result%fx, steady%result%fx, of_fx(m), trim(what) // ": Fx of steady rolling", &
+            & relative=.true.)
+         call suite%close_to(case%result%mz, steady%result%mz, of_mz(m), trim(what) // ": Mz of steady rolling", relative=.true.)
+         call case%release()
+      end do
+   end subroutine long_steps
+
+   !> Steady rolling of a sphere in any direction: the same forces in directions along and across
+   subroutine directions()
+      type(test_case) :: case
+      real(wp) :: chi, along, across
+      integer :: k
+      character(len=24) :: what
+
+      do k = 0, 11
+         chi = k*pi/6.0_wp
+         write(what, '(a, i0)') "ConvexGS, CHI = ", 30*k
+         case%spec = steady%spec
+         case%spec%solver = solver_choice%convex_gs
+         case%spec%iteration%eps = 1.0e-6_wp
+         case%spec%iteration%omegah = 0.5_wp
+         case%spec%iteration%omegas = 0.5_wp
+         case%spec%rolling%chi = chi
+         ! steps of one element, but once
+         case%spec%rolling%dq = merge(0.5_wp, 1.0_wp, k == 0)*side
+         case%spec%kinematics%cksi = steady%spec%kinematics%cksi*cos(chi)
+         case%spec%kinematics%ceta = steady%spec%kinematics%cksi*sin(chi)
+         call case%run(suite, trim(what))
+         along = cos(chi)*case%result%fx + sin(chi)*case%result%fy
+         across = cos(chi)*case%result%fy - sin(chi)*case%result%fx
+         call suite%close_to(along, steady%result%fx, 1.0e-2_wp, trim(what) // ": force along", relative=.true.)
+         call suite%close_to(across, steady%result%fy, 0.05_wp, trim(what) // ": force across", relative=.true.)
+         if (mod(k, 3) == 0 .and. k > 0) call suite%close_to([along, across], [steady%result%fx, steady%result%fy], 1.0e-4_wp, &
+            & trim(what) // ": grid and direction turned together", relative=.true.)
+         call case%release()
+      end do
+   end subroutine directions
+
+   !> What is not corrected says so, what cannot be done is refused
+   subroutine limits()
+      type(test_case) :: case
+      type(error_type), allocatable :: error
+
+      case%spec = steady%spec
+      case%spec%rolling%chi = 0.5_wp
+      call case%try(error)
+      call suite%check(allocated(error), "steady rolling in an oblique direction is refused without ConvexGS")
+      case%spec = steady%spec
+      case%spec%motion = motion%transient_rolling
+      case%spec%rolling%dq = 2.0_wp*side
+      call forces(case%spec, -0.5_wp)
+      call case%try(error)
+      call suite%check(.not. allocated(error), "long steps with a prescribed force are solved")
+      call suite%equal(case%log%warnings, 1, "long steps with a prescribed force: a warning")
+      call case%release()
+   end subroutine limits
+end program test_rolling_steps
