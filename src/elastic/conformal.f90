@@ -12,7 +12,7 @@
 module contact_elastic_conformal
    use contact_base_kinds, only : wp
    use contact_elastic_model, only : elastic_model
-   use contact_elastic_operator, only : elastic_operator
+   use contact_elastic_moving, only : moving_operator
    implicit none (type, external)
    private
 
@@ -33,7 +33,7 @@ module contact_elastic_conformal
    end type term_type
 
    !> Half-space kernels with rows turned against each other
-   type, extends(elastic_operator) :: conformal_operator
+   type, extends(moving_operator) :: conformal_operator
       type(term_type), allocatable, private :: term(:)
       !> Weights of rows, shape (my, 5)
       real(wp), allocatable, private :: weight(:, :)
@@ -44,11 +44,9 @@ module contact_elastic_conformal
    contains
       procedure :: prepare
       procedure :: normal
-      procedure :: tangential
-      procedure :: steady
       procedure :: normal_by_tangential
-      procedure :: tangential_by_normal
-      procedure :: steady_by_normal
+      procedure :: pair_product
+      procedure :: by_normal
       procedure :: has_table
    end type conformal_operator
 
@@ -276,20 +274,6 @@ contains
       u = all_u(:, :, 1)
    end subroutine normal
 
-   subroutine tangential(self, p, u)
-      class(conformal_operator), intent(inout) :: self
-      real(wp), contiguous, intent(in) :: p(:, :, :)
-      real(wp), contiguous, intent(inout) :: u(:, :, :)
-      call product(self, [x, s], p, [x, s], u, .false.)
-   end subroutine tangential
-
-   subroutine steady(self, p, u)
-      class(conformal_operator), intent(inout) :: self
-      real(wp), contiguous, intent(in) :: p(:, :, :)
-      real(wp), contiguous, intent(inout) :: u(:, :, :)
-      call product(self, [x, s], p, [x, s], u, .true.)
-   end subroutine steady
-
    subroutine normal_by_tangential(self, p, u)
       class(conformal_operator), intent(inout) :: self
       real(wp), contiguous, intent(in) :: p(:, :, :)
@@ -301,17 +285,19 @@ contains
       u = all_u(:, :, 1)
    end subroutine normal_by_tangential
 
-   subroutine tangential_by_normal(self, p, u)
+   subroutine pair_product(self, p, u, change)
       class(conformal_operator), intent(inout) :: self
-      real(wp), contiguous, intent(in) :: p(:, :)
+      real(wp), contiguous, intent(in) :: p(:, :, :)
       real(wp), contiguous, intent(inout) :: u(:, :, :)
-      call product(self, [n], reshape(p, [self%mx, self%my, 1]), [x, s], u, .false.)
-   end subroutine tangential_by_normal
+      logical, intent(in) :: change
+      call product(self, [x, s], p, [x, s], u, change)
+   end subroutine pair_product
 
-   subroutine steady_by_normal(self, p, u)
+   subroutine by_normal(self, p, u, change)
       class(conformal_operator), intent(inout) :: self
       real(wp), contiguous, intent(in) :: p(:, :)
       real(wp), contiguous, intent(inout) :: u(:, :, :)
-      call product(self, [n], reshape(p, [self%mx, self%my, 1]), [x, s], u, .true.)
-   end subroutine steady_by_normal
+      logical, intent(in) :: change
+      call product(self, [n], reshape(p, [self%mx, self%my, 1]), [x, s], u, change)
+   end subroutine by_normal
 end module contact_elastic_conformal

@@ -5,7 +5,7 @@
 module contact_elastic_one_sided
    use contact_base_kinds, only : wp
    use contact_elastic_model, only : elastic_model
-   use contact_elastic_operator, only : elastic_operator
+   use contact_elastic_moving, only : moving_operator
    use contact_fft_plan, only : kernel_spectrum
    implicit none (type, external)
    private
@@ -13,18 +13,16 @@ module contact_elastic_one_sided
    public :: one_sided_operator
 
    !> Compliance of viscoelastic bodies
-   type, extends(elastic_operator) :: one_sided_operator
+   type, extends(moving_operator) :: one_sided_operator
       !> Spectra, shape (py, kx), scaled for the back transform: nn, xx, yy, xy, xn, yn [mm/(N/mm2)]
       complex(wp), allocatable, private :: kernel(:, :, :)
       complex(wp), allocatable, private :: sn(:, :), mixed(:, :)
    contains
       procedure :: prepare
       procedure :: normal
-      procedure :: tangential
-      procedure :: steady
       procedure :: normal_by_tangential
-      procedure :: tangential_by_normal
-      procedure :: steady_by_normal
+      procedure :: pair_product
+      procedure :: by_normal
    end type one_sided_operator
 
 contains
@@ -103,20 +101,6 @@ contains
       self%transforms = self%transforms + 2
    end subroutine normal
 
-   subroutine tangential(self, p, u)
-      class(one_sided_operator), intent(inout) :: self
-      real(wp), contiguous, intent(in) :: p(:, :, :)
-      real(wp), contiguous, intent(inout) :: u(:, :, :)
-      call pair_product(self, p, u, .false.)
-   end subroutine tangential
-
-   subroutine steady(self, p, u)
-      class(one_sided_operator), intent(inout) :: self
-      real(wp), contiguous, intent(in) :: p(:, :, :)
-      real(wp), contiguous, intent(inout) :: u(:, :, :)
-      call pair_product(self, p, u, .true.)
-   end subroutine steady
-
    !> Both tangential components, of displacements or of their change from step to step
    subroutine pair_product(self, p, u, change)
       class(one_sided_operator), intent(inout) :: self
@@ -164,20 +148,6 @@ contains
       self%products = self%products + 1
       self%transforms = self%transforms + 3
    end subroutine normal_by_tangential
-
-   subroutine tangential_by_normal(self, p, u)
-      class(one_sided_operator), intent(inout) :: self
-      real(wp), contiguous, intent(in) :: p(:, :)
-      real(wp), contiguous, intent(inout) :: u(:, :, :)
-      call by_normal(self, p, u, .false.)
-   end subroutine tangential_by_normal
-
-   subroutine steady_by_normal(self, p, u)
-      class(one_sided_operator), intent(inout) :: self
-      real(wp), contiguous, intent(in) :: p(:, :)
-      real(wp), contiguous, intent(inout) :: u(:, :, :)
-      call by_normal(self, p, u, .true.)
-   end subroutine steady_by_normal
 
    !> Tangential displacements by pressures, or their change from step to step
    subroutine by_normal(self, p, u, change)

@@ -7,7 +7,7 @@
 module contact_elastic_tabulated
    use contact_base_kinds, only : wp
    use contact_elastic_model, only : elastic_model
-   use contact_elastic_operator, only : elastic_operator
+   use contact_elastic_moving, only : moving_operator
    use contact_fft_plan, only : fft_plan
    implicit none (type, external)
    private
@@ -18,7 +18,7 @@ module contact_elastic_tabulated
    integer, parameter :: n = 1, x = 2, y = 3
 
    !> Rows with spectra in x
-   type, extends(elastic_operator) :: tabulated_operator
+   type, extends(moving_operator) :: tabulated_operator
       !> Transforms of one row: of the window, and of a whole period
       type(fft_plan), private :: row, period
       !> Position in the table of the first row of the window, minus 1; 0 when all rows are alike
@@ -31,11 +31,9 @@ module contact_elastic_tabulated
    contains
       procedure :: prepare
       procedure :: normal
-      procedure :: tangential
-      procedure :: steady
       procedure :: normal_by_tangential
-      procedure :: tangential_by_normal
-      procedure :: steady_by_normal
+      procedure :: pair_product
+      procedure :: by_normal
       procedure :: release
       procedure :: can_coarsen
       procedure :: has_table
@@ -199,21 +197,7 @@ contains
       self%products = self%products + 1
    end subroutine normal
 
-   subroutine tangential(self, p, u)
-      class(tabulated_operator), intent(inout) :: self
-      real(wp), contiguous, intent(in) :: p(:, :, :)
-      real(wp), contiguous, intent(inout) :: u(:, :, :)
-      call tangential_product(self, p, u, .false.)
-   end subroutine tangential
-
-   subroutine steady(self, p, u)
-      class(tabulated_operator), intent(inout) :: self
-      real(wp), contiguous, intent(in) :: p(:, :, :)
-      real(wp), contiguous, intent(inout) :: u(:, :, :)
-      call tangential_product(self, p, u, .true.)
-   end subroutine steady
-
-   subroutine tangential_product(self, p, u, change)
+   subroutine pair_product(self, p, u, change)
       class(tabulated_operator), intent(inout) :: self
       real(wp), contiguous, intent(in) :: p(:, :, :)
       real(wp), contiguous, intent(inout) :: u(:, :, :)
@@ -229,7 +213,7 @@ contains
          call fetch(self, u(:, :, i - 1), change)
       end do
       self%products = self%products + 1
-   end subroutine tangential_product
+   end subroutine pair_product
 
    subroutine normal_by_tangential(self, p, u)
       class(tabulated_operator), intent(inout) :: self
@@ -246,21 +230,7 @@ contains
       self%products = self%products + 1
    end subroutine normal_by_tangential
 
-   subroutine tangential_by_normal(self, p, u)
-      class(tabulated_operator), intent(inout) :: self
-      real(wp), contiguous, intent(in) :: p(:, :)
-      real(wp), contiguous, intent(inout) :: u(:, :, :)
-      call product_by_normal(self, p, u, .false.)
-   end subroutine tangential_by_normal
-
-   subroutine steady_by_normal(self, p, u)
-      class(tabulated_operator), intent(inout) :: self
-      real(wp), contiguous, intent(in) :: p(:, :)
-      real(wp), contiguous, intent(inout) :: u(:, :, :)
-      call product_by_normal(self, p, u, .true.)
-   end subroutine steady_by_normal
-
-   subroutine product_by_normal(self, p, u, change)
+   subroutine by_normal(self, p, u, change)
       class(tabulated_operator), intent(inout) :: self
       real(wp), contiguous, intent(in) :: p(:, :)
       real(wp), contiguous, intent(inout) :: u(:, :, :)
@@ -274,7 +244,7 @@ contains
          call fetch(self, u(:, :, i - 1), change)
       end do
       self%products = self%products + 1
-   end subroutine product_by_normal
+   end subroutine by_normal
 
    subroutine release(self)
       class(tabulated_operator), intent(inout) :: self

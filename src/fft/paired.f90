@@ -6,7 +6,7 @@
 module contact_fft_paired
    use, intrinsic :: iso_c_binding, only : c_associated, c_null_ptr, c_ptr
    use contact_base_kinds, only : wp
-   use contact_fft_fftw, only : fftw_backward, fftw_destroy_plan, fftw_estimate, fftw_execute_dft, fftw_forward, &
+   use contact_fft_fftw, only : destroy, fftw_backward, fftw_estimate, fftw_execute_dft, fftw_forward, &
       & fftw_plan_many_dft
    implicit none (type, external)
    private
@@ -119,15 +119,11 @@ contains
       class(paired_plan), intent(inout) :: self
 
       !$omp critical (contact_fft_planner)
-      if (c_associated(self%row_forward)) call fftw_destroy_plan(self%row_forward)
-      if (c_associated(self%row_backward)) call fftw_destroy_plan(self%row_backward)
-      if (c_associated(self%column_forward)) call fftw_destroy_plan(self%column_forward)
-      if (c_associated(self%column_backward)) call fftw_destroy_plan(self%column_backward)
+      call destroy(self%row_forward)
+      call destroy(self%row_backward)
+      call destroy(self%column_forward)
+      call destroy(self%column_backward)
       !$omp end critical (contact_fft_planner)
-      self%row_forward = c_null_ptr
-      self%row_backward = c_null_ptr
-      self%column_forward = c_null_ptr
-      self%column_backward = c_null_ptr
       self%mx = 0
       if (allocated(self%rows)) deallocate(self%rows, self%rows_back, self%columns, self%columns_back, self%spectrum)
    end subroutine release

@@ -7,7 +7,7 @@
 module contact_fft_plan
    use, intrinsic :: iso_c_binding, only : c_associated, c_loc, c_null_ptr, c_ptr
    use contact_base_kinds, only : wp
-   use contact_fft_fftw, only : fftw_backward, fftw_destroy_plan, fftw_estimate, &
+   use contact_fft_fftw, only : destroy, fftw_backward, fftw_destroy_plan, fftw_estimate, &
       & fftw_execute_dft_c2r, fftw_execute_dft_r2c, fftw_forward, fftw_plan_dft_r2c_2d, &
       & fftw_plan_many_dft_c2r, fftw_plan_many_dft_r2c, fftw_destroy_input
    use contact_fft_in_place, only : execute_in_place, plan_in_place
@@ -172,15 +172,11 @@ contains
       class(fft_plan), intent(inout) :: self
 
       !$omp critical (contact_fft_planner)
-      if (c_associated(self%row_forward)) call fftw_destroy_plan(self%row_forward)
-      if (c_associated(self%row_backward)) call fftw_destroy_plan(self%row_backward)
-      if (c_associated(self%column_forward)) call fftw_destroy_plan(self%column_forward)
-      if (c_associated(self%column_backward)) call fftw_destroy_plan(self%column_backward)
+      call destroy(self%row_forward)
+      call destroy(self%row_backward)
+      call destroy(self%column_forward)
+      call destroy(self%column_backward)
       !$omp end critical (contact_fft_planner)
-      self%row_forward = c_null_ptr
-      self%row_backward = c_null_ptr
-      self%column_forward = c_null_ptr
-      self%column_backward = c_null_ptr
       self%mx = 0
       if (allocated(self%rows)) deallocate(self%rows)
    end subroutine release_plan
