@@ -31,6 +31,17 @@ enum {
 int contact_run(const char *experiment, int mode, const char *output_dir, int threads,
                 char *message, int message_length);
 
+/* Files that contact_run_with writes beside the usual ones; add up what is wanted */
+enum {
+  CONTACT_WRITE_JSON = 1, /* <experiment>.jsonl: totals of every case as JSON lines */
+  CONTACT_WRITE_HDF5 = 2, /* <experiment>.h5: inputs, totals, fields and stresses of all cases */
+  CONTACT_WRITE_VTK = 4   /* <experiment>.pvd and others: surfaces and stresses for ParaView */
+};
+
+/* The same as contact_run, with more files: outputs is 0 or a sum of CONTACT_WRITE_... */
+int contact_run_with(const char *experiment, int mode, const char *output_dir, int threads,
+                     int outputs, char *message, int message_length);
+
 /* What went wrong last, for callers of contact_addon.h.
  *
  * ire, icp        result element and contact patch (-1 for wheel and rail); ire 0: the library as a whole

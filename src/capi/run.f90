@@ -6,10 +6,13 @@ module contact_capi_run
    implicit none (type, external)
    private
 
-   public :: contact_run
+   public :: contact_run, contact_run_with
 
    !> What a host may ask for, as in the header
    integer(c_int), parameter :: mode_run = 2, mode_check = 3
+   !> Bits that ask for more files, and all of them together
+   integer, parameter :: json_bit = 0, hdf5_bit = 1, vtk_bit = 2
+   integer(c_int), parameter :: all_outputs = 7
    !> Failures by their cause start here, so that 1 stays free for a wrong call
    integer(c_int), parameter :: wrong_call = 1, first_failure = 10
 
@@ -24,11 +27,26 @@ module contact_capi_run
 
 contains
 
+   !> Run or check one experiment silently, with the usual files
+   function contact_run(experiment, mode, output_dir, threads, message, message_length) result(status) &
+      & bind(c, name="contact_run")
+      !> As for contact_run_with
+      type(c_ptr), value :: experiment
+      integer(c_int), value :: mode
+      type(c_ptr), value :: output_dir
+      integer(c_int), value :: threads
+      type(c_ptr), value :: message
+      integer(c_int), value :: message_length
+      integer(c_int) :: status
+
+      status = contact_run_with(experiment, mode, output_dir, threads, 0_c_int, message, message_length)
+   end function contact_run
+
    !> Run or check one experiment silently
    !>
    !> 0 is success, 1 a call with unusable arguments, 10 and above a failure by its error_kind.
-   function contact_run(experiment, mode, output_dir, threads, message, message_length) result(status) &
-      & bind(c, name="contact_run")
+   function contact_run_with(experiment, mode, output_dir, threads, outputs, message, message_length) result(status) &
+      & bind(c, name="contact_run_with")
       !> Path of the experiment, null-terminated
       type(c_ptr), value :: experiment
       integer(c_int), value :: mode
@@ -36,6 +54,8 @@ contains
       type(c_ptr), value :: output_dir
       !> Number of threads, 0 for the default
       integer(c_int), value :: threads
+      !> Files beside the usual ones, a sum of bits as in the header
+      integer(c_int), value :: outputs
       !> Buffer of the reason of a failure, null if not wanted, and its size
       type(c_ptr), value :: message
       integer(c_int), value :: message_length
@@ -47,12 +67,17 @@ contains
       settings%output_folder = text_of(output_dir)
       settings%check_only = mode == mode_check
       settings%threads = int(threads)
+      if (btest(outputs, json_bit)) settings%exports%json = ""
+      settings%exports%hdf5 = btest(outputs, hdf5_bit)
+      settings%exports%vtk = btest(outputs, vtk_bit)
       if (len_trim(settings%experiment) == 0) then
          call fatal_error(error, "contact_run: the name of the experiment is missing")
       else if (mode /= mode_run .and. mode /= mode_check) then
          call fatal_error(error, "contact_run: the mode is neither CONTACT_RUN nor CONTACT_CHECK")
       else if (threads < 0) then
          call fatal_error(error, "contact_run: the number of threads is negative")
+      else if (outputs < 0 .or. outputs > all_outputs) then
+         call fatal_error(error, "contact_run_with: the outputs are not a sum of CONTACT_WRITE_JSON, _HDF5 and _VTK")
       end if
       status = 0
       if (allocated(error)) then
@@ -66,7 +91,7 @@ contains
       else
          call give_message("", message, message_length)
       end if
-   end function contact_run
+   end function contact_run_with
 
    !> A null-terminated text as a Fortran one, "" for a null pointer
    function text_of(pointer) result(text)

@@ -18,14 +18,14 @@ module contact_hdf5_file
    use, intrinsic :: iso_c_binding, only : c_int, c_int64_t
    use hdf5, only : h5aclose_f, h5acreate_f, h5awrite_f, h5d_compact_f, h5d_fill_time_never_f, h5dclose_f, h5dcreate_f, &
       & h5dget_space_f, h5dset_extent_f, h5dwrite_f, h5eset_auto_f, h5f_acc_trunc_f, h5f_libver_v18_f, h5f_scope_local_f, &
-      & h5fclose_f, h5fcreate_f, h5fflush_f, h5gclose_f, h5gcreate_anon_f, h5gcreate_f, h5iinc_ref_f, h5ldelete_f, &
-      & h5oclose_f, h5olink_f, h5open_f, h5p_dataset_create_f, h5p_default_f, h5p_file_access_f, h5p_file_create_f, &
-      & h5p_group_create_f, h5pclose_f, h5pcopy_f, h5pcreate_f, h5pset_chunk_f, h5pset_deflate_f, h5pset_est_link_info_f, &
-      & h5pset_fill_time_f, h5pset_fill_value_f, h5pset_istore_k_f, h5pset_layout_f, h5pset_libver_bounds_f, &
-      & h5pset_link_phase_change_f, h5pset_obj_track_times_f, h5pset_shuffle_f, h5s_scalar_f, h5s_select_set_f, &
-      & h5s_unlimited_f, h5sclose_f, h5screate_f, h5screate_simple_f, h5sselect_hyperslab_f, h5t_fortran_s1, h5t_ieee_f64le, &
-      & h5t_native_double, h5t_native_integer, h5t_std_i32le, h5t_std_i8le, h5tclose_f, h5tcopy_f, h5tset_size_f, hid_t, &
-      & hsize_t, size_t
+      & h5fclose_f, h5fcreate_f, h5fflush_f, h5gclose_f, h5gcreate_anon_f, h5gcreate_f, h5iinc_ref_f, h5lcreate_hard_f, &
+      & h5ldelete_f, h5oclose_f, h5olink_f, h5open_f, h5p_dataset_create_f, h5p_default_f, h5p_file_access_f, &
+      & h5p_file_create_f, h5p_group_create_f, h5pclose_f, h5pcopy_f, h5pcreate_f, h5pset_chunk_f, h5pset_deflate_f, &
+      & h5pset_est_link_info_f, h5pset_fill_time_f, h5pset_fill_value_f, h5pset_istore_k_f, h5pset_layout_f, &
+      & h5pset_libver_bounds_f, h5pset_link_phase_change_f, h5pset_obj_track_times_f, h5pset_shuffle_f, h5s_scalar_f, &
+      & h5s_select_set_f, h5s_unlimited_f, h5sclose_f, h5screate_f, h5screate_simple_f, h5sselect_hyperslab_f, &
+      & h5t_fortran_s1, h5t_ieee_f64le, h5t_native_double, h5t_native_integer, h5t_std_i32le, h5t_std_i8le, h5tclose_f, &
+      & h5tcopy_f, h5tset_size_f, hid_t, hsize_t, size_t
    use contact_base_error, only : error_kind, error_type, fatal_error
    use contact_base_kinds, only : long, wp
    use contact_output_finished_file, only : move_file
@@ -482,7 +482,7 @@ contains
       self%count_items = 0
    end subroutine open_group
 
-   !> Write the group of values, or link the one of the case before when it is the same
+   !> Write the group of values; what is as in the case before is linked, as a whole or one by one
    !>
    !> An empty name is that of values which are columns only.
    subroutine close_group(self)
@@ -531,15 +531,20 @@ contains
       end if
       call self%check(status)
       do i = 1, self%count_items
+         if (allocated(self%kept(k)%items)) then
+            if (i <= size(self%kept(k)%items)) then
+               if (same_item(self%kept(k)%items(i), self%items(i))) then
+                  call h5lcreate_hard_f(self%kept(k)%id, trim(self%items(i)%name), group, trim(self%items(i)%name), status)
+                  call self%check(status)
+                  cycle
+               end if
+            end if
+         end if
          call write_item(self, group, self%items(i))
       end do
       if (self%depth == 0) then
          call h5iinc_ref_f(group, references, status)
          call self%remember_member(self%leaf, group)
-      end if
-      if (self%as_columns .and. .not. self%only_texts) then
-         call h5gclose_f(group, status)
-         return
       end if
       allocate(same(self%count_items))
       same = self%items(:self%count_items)
@@ -556,18 +561,28 @@ contains
       same = .false.
       if (size(old) /= size(new)) return
       do i = 1, size(new)
-         if (old(i)%name /= new(i)%name .or. old(i)%kind /= new(i)%kind) return
-         if (.not. same_number(old(i)%value, new(i)%value)) return
-         if (allocated(new(i)%values)) then
-            if (size(old(i)%values) /= size(new(i)%values)) return
-            if (.not. all(same_number(old(i)%values, new(i)%values))) return
-         end if
-         if (allocated(new(i)%text)) then
-            if (old(i)%text /= new(i)%text) return
-         end if
+         if (.not. same_item(old(i), new(i))) return
       end do
       same = .true.
    end function same_items
+
+   !> Have two values the same name and value?
+   pure logical function same_item(old, new) result(same)
+      type(item), intent(in) :: old, new
+
+      same = .false.
+      if (old%name /= new%name .or. old%kind /= new%kind) return
+      if (.not. same_number(old%value, new%value)) return
+      if (allocated(new%values)) then
+         if (size(old%values) /= size(new%values)) return
+         if (.not. all(same_number(old%values, new%values))) return
+      end if
+      if (allocated(new%text)) then
+         if (len(old%text) /= len(new%text)) return
+         if (old%text /= new%text) return
+      end if
+      same = .true.
+   end function same_item
 
    !> Equal bit by bit
    elemental logical function same_number(a, b) result(same)

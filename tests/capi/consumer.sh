@@ -27,7 +27,9 @@ prefix/bin/contact --version
 run() {
   mkdir -p "results/$1"
   "$2" "$CONTACT_SOURCE/examples/cattaneo" "results/$1"
-  test -s "results/$1/cattaneo.out" || { echo "no results/$1/cattaneo.out"; exit 1; }
+  for suffix in out jsonl h5 pvd; do
+    test -s "results/$1/cattaneo.$suffix" || { echo "no results/$1/cattaneo.$suffix"; exit 1; }
+  done
 }
 
 echo "-- CMake package"

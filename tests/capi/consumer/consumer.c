@@ -37,6 +37,12 @@ int main(int argc, char **argv) {
   check(status != 0 && strlen(small) <= 4, "a long message is cut to fit");
   check(small[5] == 'x' && small[7] == 'x', "nothing is written behind the message");
 
+  status = contact_run_with(argv[1], CONTACT_RUN, argv[2], 1,
+                            CONTACT_WRITE_JSON | CONTACT_WRITE_HDF5 | CONTACT_WRITE_VTK, message, sizeof message);
+  check(status == 0 && message[0] == '\0', "more files");
+  check(contact_run_with(argv[1], CONTACT_RUN, argv[2], 1, 8, message, sizeof message) == 1 && message[0] != '\0',
+        "outputs that do not exist");
+
   check(contact_run(NULL, CONTACT_RUN, argv[2], 0, message, sizeof message) != 0, "NULL is no name");
   check(message[0] != '\0', "NULL as a name is explained");
   check(contact_run("", CONTACT_RUN, NULL, 0, message, sizeof message) != 0, "empty name");
