@@ -130,7 +130,8 @@ module contact_hdf5_file
       !> The groups around it
       integer(hid_t), private :: around(deepest) = -1
       integer, private :: depth = 0
-      character(len=:), allocatable, private :: slot, place
+      !> Its place among kept objects
+      character(len=:), allocatable, private :: place
       !> The group of values in the making
       character(len=:), allocatable, private :: leaf
       logical, private :: as_columns = .false., only_texts = .false.
@@ -375,7 +376,6 @@ contains
          self%latest = self%announced_count
       end if
       self%has_come(self%latest) = .true.
-      self%slot = slot
       self%place = slot
    end subroutine begin_case
 
