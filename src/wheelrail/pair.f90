@@ -193,8 +193,8 @@ contains
          memory%here%bodies%rail = memory%here%rail_in_track
          memory%here%bodies%wheel = problem%wheel
          memory%here%bodies%placement = memory%here%placement
-         call place_bodies(memory%here%bodies, problem%spec%wheelset%s, problem%spec%wheelset%pitch, problem%rail_surface, &
-            & problem%wheel_surface)
+         call place_bodies(memory%here%bodies, problem%spec%wheelset%s, problem%spec%wheelset%pitch, &
+            & problem%spec%search%dx, problem%rail_surface, problem%wheel_surface)
       end if
       if (memory%here%searches_table) then
          call measure_variable_gap(memory%here%bodies, problem%spec%search%ds, allocated(problem%wheel_surface) &

@@ -9,6 +9,7 @@ program test_variable
    use contact_grid_potential_contact, only : potential_contact
    use contact_profile_request, only : profile_request, profile_side
    use contact_profile_store, only : load_profile, prepared_profile
+   use contact_profile_surface, only : surface_cut
    use contact_test_harness, only : environment, reference_folder, test_suite
    use contact_wheelrail_bodies, only : find_rail, pair_bodies, place_bodies
    use contact_wheelrail_flat_patch, only : patch_frame, patch_grid, undeformed_distance
@@ -29,6 +30,7 @@ program test_variable
    if (ready) call same_as_profiles(suite)
    if (ready) call ramp(suite)
    if (ready) call wave(suite)
+   if (ready) call dent(suite)
    call published(suite)
    call suite%finish()
 
@@ -181,11 +183,11 @@ contains
       logical, intent(in) :: with_rail, with_wheel
 
       if (with_rail .and. with_wheel) then
-         call place_bodies(bodies, pair%wheelset%s, pair%wheelset%pitch, rail_slices%surface, wheel_slices%surface)
+         call place_bodies(bodies, pair%wheelset%s, pair%wheelset%pitch, pair%search%dx, rail_slices%surface, wheel_slices%surface)
       else if (with_rail) then
-         call place_bodies(bodies, pair%wheelset%s, pair%wheelset%pitch, rail_slices%surface, wheel%surface)
+         call place_bodies(bodies, pair%wheelset%s, pair%wheelset%pitch, pair%search%dx, rail_slices%surface, wheel%surface)
       else
-         call place_bodies(bodies, pair%wheelset%s, pair%wheelset%pitch, rail%surface, wheel_slices%surface)
+         call place_bodies(bodies, pair%wheelset%s, pair%wheelset%pitch, pair%search%dx, rail%surface, wheel_slices%surface)
       end if
    end subroutine put_sections
 
@@ -224,7 +226,7 @@ contains
       call place_pair(pair, cylinder%curve, 0.0_wp, 0.0_wp, 0.0_wp, [0.0_wp, 0.0_wp], bodies%placement)
       bodies%rail = rail_in_track(plane%curve, bodies%placement)
       bodies%wheel = cylinder%curve
-      call place_bodies(bodies, 37.0_wp, 0.0_wp, plane%surface, cylinder%surface)
+      call place_bodies(bodies, 37.0_wp, 0.0_wp, 1.0_wp, plane%surface, cylinder%surface)
       call measure_variable_gap(bodies, 0.5_wp, .true., gap)
       ! On the slope z = -(37 + x)/10: nearest where the circle has it, too
       angle = atan(0.1_wp)
@@ -295,7 +297,7 @@ contains
       bodies%rail = rail_in_track(plane%curve, bodies%placement)
       bodies%wheel = spot%curve
       do i = 1, 3
-         call place_bodies(bodies, 0.0_wp, pitch(i), plane%surface, spot%surface)
+         call place_bodies(bodies, 0.0_wp, pitch(i), 1.0_wp, plane%surface, spot%surface)
          call measure_variable_gap(bodies, 0.5_wp, .true., gap(i))
       end do
       j = gap(1)%n/2
@@ -306,6 +308,60 @@ contains
       call suite%close_to(gap(3)%gap(j), gap(2)%gap(j), 1.0e-8_wp, "symmetric in the pitch")
       call suite%close_to(gap(3)%x(j), -gap(2)%x(j), 1.0e-6_wp, "and the place along the track")
    end subroutine wave
+
+   !> Slices 1.5 mm apart, of which one is 0.01 mm higher: heights between the sections are those of the surface
+   subroutine dent(suite)
+      type(test_suite), intent(inout) :: suite
+      type(prepared_profile) :: plane, wheel
+      type(wheel_rail_spec) :: pair
+      type(pair_bodies) :: bodies
+      type(surface_cut) :: exact
+      character(len=:), allocatable :: text
+      character(len=2) :: k
+      real(wp) :: theta, z, z_y, y_there, u_there, there, worst
+      logical :: found
+      integer :: i
+
+      call write_file("flat.txt", plane_table(0.0_wp))
+      call load(suite, "flat.txt", profile_side%rail, plane)
+      call write_file("round.txt", straight(0.0_wp))
+      call write_file("high.txt", straight(0.01_wp))
+      text = "0 1" // nl // "13" // nl // "0 0 0" // nl // "1" // nl
+      do i = 1, 13
+         k = merge("'h", "'r", i == 7)
+         text = text // number(1.5_wp*(i - 7)/460.0_wp) // " " // k // trim(merge("igh  ", "ound ", i == 7)) // ".txt'" // nl
+      end do
+      call write_file("dent.slcw", text)
+      call load(suite, "dent.slcw", profile_side%wheel, wheel)
+      if (.not. ready) return
+      pair = pair_at(0.0_wp, 0.0_wp)
+      call place_pair(pair, wheel%curve, 0.0_wp, 0.0_wp, 0.0_wp, [0.0_wp, 0.0_wp], bodies%placement)
+      bodies%rail = rail_in_track(plane%curve, bodies%placement)
+      bodies%wheel = wheel%curve
+      call place_bodies(bodies, 0.0_wp, 1.0e-3_wp, 0.4_wp, plane%surface, wheel%surface)
+      worst = 0.0_wp
+      do i = -100, 100
+         theta = 0.05_wp*i/460.0_wp
+         call bodies%wheel_strip%at(theta, 0.1_wp, z, z_y, found)
+         call suite%check(found, "the wheel is there")
+         call wheel%surface%cut(theta - 1.0e-3_wp, exact)
+         call exact%at(0.1_wp, there, y_there, u_there, found)
+         worst = max(worst, abs(z - there))
+      end do
+      call suite%close_to(worst, 0.0_wp, 2.0e-5_wp, "heights between sections")
+   end subroutine dent
+
+   !> Points of a straight profile at a height [mm]
+   function straight(z) result(text)
+      real(wp), intent(in) :: z
+      character(len=:), allocatable :: text
+      integer :: j
+
+      text = ""
+      do j = -40, 40
+         text = text // number(-real(j, wp)) // " " // number(z) // nl
+      end do
+   end function straight
 
    !> Contact references of the published tests of crossings and of wheels with a flat (original program,
    !> revision 2707; the vertical position is given)
@@ -356,7 +412,7 @@ contains
       call cpu_time(start)
       call place_pair(pair, round%curve, 0.0_wp, 0.0_wp, z_ws, [0.0_wp, 0.0_wp], bodies%placement)
       bodies%wheel = round%curve
-      call place_bodies(bodies, s_ws, 0.0_wp, nose%surface, round%surface)
+      call place_bodies(bodies, s_ws, 0.0_wp, pair%search%dx, nose%surface, round%surface)
       call cpu_time(end)
       print '(2a, f8.3, a)', name, ": sections in", end - start, " s"
       call measure_variable_gap(bodies, pair%search%ds, .true., gap)
