@@ -30,7 +30,7 @@ function draw_figures( program, target, names )
    copyfile(fullfile(here,'..','profiles'), fullfile(work,'profiles'));
    back    = cd(work);
    leave   = onCleanup(@() clean_up(back, work));
-   addpath(here);
+   addpath(here, fullfile(here,'..','..','matlab'));
    done    = {};
 
    for i = 1 : numel(names)

@@ -61,25 +61,23 @@ function draw_body( sol, opt, body, p, xrange, lift )
 
    x = linspace(xrange(1), xrange(2), 25);
    [Y, Z] = surface_points(sol, body, p, x);
-   if (body=='r')
-      Z = Z + lift;
-   else
-      Z = Z - lift;
-   end
+   inward = 1 - 2*(body=='w');
+   Z = Z + inward*lift;
    X = ones(size(Y,1),1) * x;
    surf(X, Y, Z, repmat(reshape([0.82 0.82 0.80],1,1,3), size(Z)), 'edgecolor','none', 'facecolor','flat');
 
    [dx, dy] = line_steps(opt.xysteps, xrange, Y);
    xl = unique([xrange(1), ceil(xrange(1)/dx)*dx : dx : xrange(2), xrange(2)]);
    [yl, zl] = surface_points(sol, body, p, xl);
-   toward = (2*(body=='w')-1) * 0.3*lift;
+   % between surface and contact: the soft rims of lines hide what is as far away as they are
+   zl = zl + 0.8*inward*lift;
    for i = 1 : numel(xl)
       plot3(xl(i)+0*yl(:,i), yl(:,i), zl(:,i), '-', 'color',[0.6 0.6 0.6]);
    end
    len = chord_sums(Y(:,1), Z(:,1));
    for s = 0 : dy : len(end)
       [~, k] = min(abs(len-s));
-      plot3(x, Y(k,:), Z(k,:)+toward, '-', 'color',[0.6 0.6 0.6]);
+      plot3(x, Y(k,:), Z(k,:)-0.2*inward*lift, '-', 'color',[0.6 0.6 0.6]);
    end
 
 end % function draw_body
