@@ -76,10 +76,12 @@ contains
       type(case_spec), intent(in) :: spec
       type(error_type), allocatable, intent(out) :: error
 
-      if (spec%force /= force_control%creepages) then
-         call refuse("F = 1, 3, prescribed longitudinal force or rail on springs, in wheel-rail contact")
-      else if (any(spec%wheel_rail%search%location == [contact_location%oblique_locus, contact_location%oblique_grid])) then
+      if (any(spec%wheel_rail%search%location == [contact_location%oblique_locus, contact_location%oblique_grid])) then
          call refuse("D = 8, 9, a search in a fixed oblique view that fits a few profiles only,")
+      else if (spec%force == force_control%massless_rail .and. spec%normal == normal_control%approach &
+         & .and. .not. spec%wheel_rail%rail%kz > 0.0_wp) then
+         call fatal_error(error, "a rail on springs with a prescribed height, F = 3 and N = 0, needs a " &
+            & // "vertical stiffness above 0", error_kind%input)
       else if (any(spec%material_model == [material_model%viscoelastic])) then
          call refuse("M = 1, viscoelastic material in wheel-rail contact,")
       else if (spec%pressure == pressure_model%thin_sheet) then
@@ -129,6 +131,7 @@ contains
          problem%force_prescribed = spec%normal == normal_control%force
          problem%geometry_only = .not. spec%solve
          problem%use_previous = spec%estimate /= estimate_choice%fresh .and. spec%link /= time_link%initiate
+         problem%force = spec%force
          problem%link = spec%link
          problem%weight_power = spec%wheel_rail%search%weight_power
          problem%most_elements = spec%iteration%npot_max
@@ -169,7 +172,8 @@ contains
          end if
          template%want_exterior = spec%mat_file >= 2 .or. spec%output_level >= 6
          ! the contact stiffness leads the search for the height
-         template%sensitivity = merge(sensitivity_choice%normal, sensitivity_choice%none, problem%force_prescribed)
+         template%sensitivity = merge(sensitivity_choice%normal, sensitivity_choice%none, &
+            & problem%force_prescribed .or. problem%force == force_control%massless_rail)
          template%mxsens = spec%iteration%mxsens
          template%epsens = spec%iteration%epsens
       end associate

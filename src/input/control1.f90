@@ -175,8 +175,6 @@ contains
       type(problem_list), intent(inout) :: problems
 
       associate (digits => spec%digits)
-         if (digits%f == 1 .and. digits%n /= 1) call add_for_digit(problems, words, severity%error, "F", &
-            & "F = 1, longitudinal force prescribed, needs the vertical force too, N = 1")
          if (digits%f /= 0 .and. digits%t == 0) call add_for_digit(problems, words, severity%error, "F", "F = " // &
             & integer_text(digits%f) // " needs a tangential problem, T = 1, 2 or 3")
       end associate

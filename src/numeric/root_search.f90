@@ -27,6 +27,8 @@ module contact_numeric_root_search
       logical :: finished = .false., found = .false., bracketed = .false.
       !> Number of answers
       integer :: evaluations = 0
+      !> Intervals this short count as a point; set it after the start
+      real(wp) :: resolution = 0.0_wp
       !> Two points with values of different sign once bracketed; before, the last one is a
       real(wp), private :: a = 0.0_wp, fa = 0.0_wp, b = 0.0_wp, fb = 0.0_wp
       real(wp), private :: step = 1.0_wp, tolerance = 0.0_wp
@@ -59,6 +61,7 @@ contains
       self%evaluations = 0
       self%step = max(step, tiny(x))
       self%tolerance = tolerance
+      self%resolution = 0.0_wp
    end subroutine start
 
    !> Take the value of the function at x, and think of the next question
@@ -138,6 +141,7 @@ contains
          self%steps = 0
       end if
       if ((self%x - self%a)*(self%b - self%x) <= 0.0_wp) self%x = 0.5_wp*(self%a + self%b)
-      if (abs(self%b - self%a) <= 4.0_wp*epsilon(1.0_wp)*max(abs(self%a), abs(self%b))) self%finished = .true.
+      if (abs(self%b - self%a) <= max(self%resolution, 4.0_wp*epsilon(1.0_wp)*max(abs(self%a), abs(self%b)))) &
+         & self%finished = .true.
    end subroutine next_inside
 end module contact_numeric_root_search

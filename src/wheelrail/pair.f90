@@ -6,12 +6,14 @@
 !> and corrects that ratio. References and grids belong to the height of each trial.
 module contact_wheelrail_pair
    use contact_base_constants, only : excluded_distance
-   use contact_base_choices, only : contact_location, estimate_choice, friction_model, motion, time_link, variation
+   use contact_base_choices, only : contact_location, estimate_choice, force_control, friction_model, motion, time_link, variation
    use contact_base_error, only : add_context, error_type
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
    use contact_friction_law, only : friction_parameters
    use contact_friction_new_law, only : new_friction_law
+   use contact_grid_element_division, only : element
+   use contact_numeric_root_search, only : root_search
    use contact_patch_moments, only : link_moments
    use contact_patch_problem, only : patch_problem, patch_state, traction_fields
    use contact_patch_result, only : patch_result
@@ -49,6 +51,8 @@ module contact_wheelrail_pair
       type(patch_problem) :: template
       !> Is the vertical force prescribed? Otherwise the height of the wheelset
       logical :: force_prescribed = .false.
+      !> What is found besides, member of force_control: nothing, the pitch rate, or the deflection of the rail
+      integer :: force = force_control%creepages
       !> Only search for contact?
       logical :: geometry_only = .false.
       !> Start from the previous case?
@@ -121,8 +125,12 @@ module contact_wheelrail_pair
       type(pair_bodies) :: bodies
       logical :: searches_table = .false.
       type(pair_placement) :: placement
-      !> Height at which the gap was measured [mm]
-      real(wp) :: gap_height = 0.0_wp
+      !> Height at which the gap was measured, and that of first touch [mm]
+      real(wp) :: gap_height = 0.0_wp, touch = 0.0_wp
+      !> Penetration that carries the prescribed force [mm]: of the last search of this case, or 0
+      real(wp) :: penetration = 0.0_wp
+      !> Lateral deflection of the rail [mm] and pitch rate of the wheelset [rad/s]: prescribed, or the present trial
+      real(wp) :: deflection = 0.0_wp, pitch_rate = 0.0_wp
       !> Top of the canted rail and its gauge point [mm]
       real(wp) :: top_z = 0.0_wp, gauge_y = 0.0_wp
       !> Where the tractions of the previous moment are
@@ -133,7 +141,7 @@ module contact_wheelrail_pair
 
    !> What a pair remembers from case to case, and scratch
    type :: pair_memory
-      !> Height of the wheelset in the previous case [mm]
+      !> Height of the wheelset above a rail without vertical deflection in the previous case [mm]
       real(wp) :: z_ws = 0.0_wp
       logical :: started = .false.
       !> Patches 1...used are those of the last evaluation
@@ -154,6 +162,8 @@ module contact_wheelrail_pair
    real(wp), parameter :: small_step = 1.0e-4_wp
    !> Forces below this value ask for a wheel that just touches [N]
    real(wp), parameter :: no_force = 1.0e-9_wp
+   !> Heights and deflections this far away are out of reach [mm]
+   real(wp), parameter :: out_of_sight = 500.0_wp
 
 contains
 
@@ -164,7 +174,7 @@ contains
       type(log_type), intent(inout) :: log
       type(pair_result), intent(inout) :: result
       type(error_type), allocatable, intent(out) :: error
-      real(wp) :: z, touch
+      real(wp) :: z
 
       if (.not. allocated(memory%slot)) allocate(memory%slot(most_patches))
       if (.not. problem%use_previous) then
@@ -175,15 +185,60 @@ contains
       call begin_step(problem, memory, log)
       result%solved = .false.
       result%force_evaluations = 0
-      result%vpitch = problem%spec%wheelset%vpitch
+      memory%here%penetration = 0.0_wp
+      if (.not. (memory%started .and. problem%use_previous)) then
+         memory%here%deflection = 0.0_wp
+         memory%here%pitch_rate = rate_of_pure_rolling(problem)
+      end if
+      if (problem%force /= force_control%massless_rail) memory%here%deflection = 0.0_wp
+      if (problem%force /= force_control%longitudinal_force) memory%here%pitch_rate = problem%spec%wheelset%vpitch
       if (problem%spec%track%gaught > 0.0_wp) &
          & call gauge_point(problem%rail, problem%spec%track%cant, problem%spec%track%gaught, memory%here%top_z, &
          & memory%here%gauge_y)
-      z = problem%spec%wheelset%z
-      if (problem%force_prescribed) then
-         z = 0.0_wp
-         if (memory%started) z = memory%z_ws
+      if (problem%geometry_only .or. problem%force == force_control%creepages) then
+         call settle(problem, memory, z, log, result, error)
+      else if (problem%force == force_control%longitudinal_force) then
+         call search_pitch_rate(problem, memory, z, log, result, error)
+      else
+         call search_deflection(problem, memory, z, log, result, error)
       end if
+      if (allocated(error)) then
+         call memory%last%clear()
+         return
+      end if
+      memory%z_ws = z
+      memory%started = .true.
+      if (.not. problem%geometry_only) call keep_moment(problem, memory)
+      result%smallest_gap = memory%here%touch - z
+      result%vpitch = memory%here%pitch_rate
+      result%dy_defl = memory%here%deflection
+      result%dz_defl = 0.0_wp
+      if (problem%force == force_control%massless_rail) call lower_rail(problem, memory, z, result)
+      call place(problem, memory, z, result%dz_defl)
+      result%z_ws = z
+      call gather(problem, memory, result)
+   end subroutine solve_pair
+
+   !> Pitch rate at which the circumference of the wheel is as fast as the rail [rad/s]
+   pure real(wp) function rate_of_pure_rolling(problem) result(rate)
+      type(pair_problem), intent(in) :: problem
+
+      associate (pair => problem%spec)
+         if (pair%roller) then
+            rate = -pair%wheelset%rpitch*pair%track%nomradr/pair%wheelset%nomradw
+         else
+            rate = -pair%wheelset%vs/pair%wheelset%nomradw
+         end if
+      end associate
+   end function rate_of_pure_rolling
+
+   !> Gap between the bodies, and the height of first touch
+   subroutine measure(problem, memory, z)
+      type(pair_problem), intent(in) :: problem
+      type(pair_memory), intent(inout) :: memory
+      !> Height of the wheelset [mm]
+      real(wp), intent(in) :: z
+
       call place(problem, memory, z)
       memory%here%rail_in_track = rail_at(problem, memory%here%placement, 0.0_wp)
       memory%here%profile_origin = memory%here%rail_in_track%s_at(memory%here%placement%rail%origin(2))
@@ -203,30 +258,234 @@ contains
          call measure_gap(memory%here%rail_in_track, problem%wheel, memory%here%placement, problem%spec%search%ds, memory%here%gap)
       end if
       memory%here%gap_height = z
-      touch = z + smallest_gap(memory%here%gap)
+      memory%here%touch = z + smallest_gap(memory%here%gap)
+   end subroutine measure
 
-      if (.not. problem%force_prescribed) then
+   !> Height and contact for the present deflection of the rail and the present pitch rate
+   subroutine settle(problem, memory, z, log, result, error)
+      type(pair_problem), intent(in) :: problem
+      type(pair_memory), intent(inout) :: memory
+      !> Height of the wheelset above a rail without vertical deflection [mm]
+      real(wp), intent(out) :: z
+      type(log_type), intent(inout) :: log
+      type(pair_result), intent(inout) :: result
+      type(error_type), allocatable, intent(out) :: error
+      real(wp) :: target, spring
+      logical :: height_is_unknown
+
+      result%solved = .false.
+      height_is_unknown = problem%force_prescribed .or. problem%force == force_control%massless_rail
+      z = problem%spec%wheelset%z
+      if (height_is_unknown) then
+         z = 0.0_wp
+         if (memory%started) z = memory%z_ws
+      end if
+      call measure(problem, memory, z)
+      if (.not. height_is_unknown) then
          call evaluate(problem, memory, z, with_friction=.true., log=log, error=error)
          result%solved = .not. allocated(error)
-      else if (problem%spec%wheelset%fz <= no_force .or. touch - z > 500.0_wp) then
-         memory%used = 0
-         z = touch
-         if (touch - z > 500.0_wp) call log%warning("wheel and rail do not meet: their lateral positions are apart")
-      else
-         call balance_forces(problem, memory, touch, z, log, result, error)
-      end if
-      if (allocated(error)) then
-         call memory%last%clear()
          return
       end if
-      call place(problem, memory, z)
-      memory%z_ws = z
-      memory%started = .true.
-      if (.not. problem%geometry_only) call keep_moment(problem, memory)
-      result%z_ws = z
-      result%smallest_gap = touch - z
-      call gather(problem, memory, result)
-   end subroutine solve_pair
+      if (memory%here%touch - z > out_of_sight) then
+         memory%used = 0
+         z = memory%here%touch
+         call log%warning("wheel and rail do not meet: their lateral positions are apart")
+         return
+      end if
+      associate (touch => memory%here%touch, rail => problem%spec%rail)
+         if (problem%force_prescribed) then
+            spring = 0.0_wp
+            target = problem%spec%wheelset%fz
+         else
+            ! the rail's springs give way by what the wheel does not penetrate
+            spring = rail%kz
+            target = rail%kz*(problem%spec%wheelset%z - touch) - rail%fz
+         end if
+         if (target > no_force) then
+            call balance_forces(problem, memory, target, spring, z, log, result, error)
+         else
+            memory%used = 0
+            result%solved = .true.
+            z = touch
+            if (.not. problem%force_prescribed) z = problem%spec%wheelset%z - rail%fz/rail%kz
+         end if
+      end associate
+   end subroutine settle
+
+   !> Vertical deflection of a rail on springs: everything moves down with it
+   subroutine lower_rail(problem, memory, z, result)
+      type(pair_problem), intent(in) :: problem
+      type(pair_memory), intent(inout) :: memory
+      !> Height of the wheelset above a rail without vertical deflection on entry, above the track on exit [mm]
+      real(wp), intent(inout) :: z
+      type(pair_result), intent(inout) :: result
+      integer :: k
+
+      if (.not. problem%force_prescribed) then
+         result%dz_defl = problem%spec%wheelset%z - z
+      else if (problem%spec%rail%kz > 0.0_wp) then
+         result%dz_defl = (vertical_force(memory) + problem%spec%rail%fz)/problem%spec%rail%kz
+      end if
+      z = z + result%dz_defl
+      do k = 1, memory%used
+         memory%slot(k)%plane%origin(3) = memory%slot(k)%plane%origin(3) + result%dz_defl
+      end do
+   end subroutine lower_rail
+
+   !> Search the lateral deflection of a rail on springs
+   !>
+   !> The lateral force falls when the rail gives way, and the force of the spring rises.
+   subroutine search_deflection(problem, memory, z, log, result, error)
+      type(pair_problem), intent(in) :: problem
+      type(pair_memory), intent(inout) :: memory
+      !> Height of the wheelset above a rail without vertical deflection [mm]
+      real(wp), intent(out) :: z
+      type(log_type), intent(inout) :: log
+      type(pair_result), intent(inout) :: result
+      type(error_type), allocatable, intent(out) :: error
+      type(root_search) :: search
+      type(log_type) :: silent
+      real(wp) :: first, step, tolerance, residual
+      character(len=12) :: missed
+
+      first = memory%here%deflection
+      associate (rail => problem%spec%rail)
+         call settle(problem, memory, z, silent, result, error)
+         if (allocated(error)) return
+         residual = unbalanced()
+         step = rail%first_step
+         if (rail%ky > 0.0_wp) step = min(step, 1.05_wp*abs(residual)/rail%ky)
+         tolerance = problem%template%eps*max(abs(rail%fy), norm2(total_force(memory)))
+         call search%start(first, step, tolerance)
+         search%resolution = 1.0e-8_wp
+         if (rail%ky > 0.0_wp) search%resolution = min(search%resolution, 0.1_wp*tolerance/rail%ky)
+         do
+            call search%answer(residual, abs(search%x - first) > out_of_sight)
+            if (search%finished) exit
+            memory%here%deflection = search%x
+            call settle(problem, memory, z, silent, result, error)
+            if (allocated(error)) return
+            residual = unbalanced()
+         end do
+         memory%here%deflection = search%best
+         call settle(problem, memory, z, log, result, error)
+         if (allocated(error)) return
+         residual = unbalanced()
+         if (abs(residual) <= max(tolerance, small_step*norm2(total_force(memory)))) return
+         result%solved = .false.
+         write(missed, '(es10.2)') residual
+         if (search%bracketed) then
+            call log%warning("the lateral force on the rail misses that of its spring by " // trim(adjustl(missed)) // &
+               & " N: it jumps where contact patches appear, join or separate")
+         else
+            call log%warning("the lateral force on the rail misses that of its spring by " // trim(adjustl(missed)) // &
+               & " N: no deflection balances them")
+         end if
+      end associate
+
+   contains
+
+      !> Lateral force that neither the spring nor the static force takes [N], right-hand pair
+      real(wp) function unbalanced()
+         real(wp) :: force(3)
+         force = total_force(memory)
+         unbalanced = force(2) + side_sign(problem%spec)*problem%spec%rail%fy - problem%spec%rail%ky*memory%here%deflection
+      end function unbalanced
+   end subroutine search_deflection
+
+   !> Search the pitch rate at which the prescribed longitudinal force acts
+   !>
+   !> A wheel that turns faster about the axis to the right drags the rail forward.
+   subroutine search_pitch_rate(problem, memory, z, log, result, error)
+      type(pair_problem), intent(in) :: problem
+      type(pair_memory), intent(inout) :: memory
+      !> Height of the wheelset [mm]
+      real(wp), intent(out) :: z
+      type(log_type), intent(inout) :: log
+      type(pair_result), intent(inout) :: result
+      type(error_type), allocatable, intent(out) :: error
+      type(root_search) :: search
+      type(log_type) :: silent
+      real(wp) :: slope, tolerance, residual, moving
+      character(len=12) :: wanted, missed
+
+      call settle(problem, memory, z, silent, result, error)
+      if (allocated(error)) return
+      residual = missing()
+      slope = force_per_pitch_rate(memory)
+      tolerance = problem%template%eps*max(abs(problem%spec%wheelset%fx), norm2(total_force(memory)))
+      if (memory%used > 0 .and. slope > 0.0_wp) then
+         call search%start(memory%here%pitch_rate, 1.1_wp*abs(residual)/slope, tolerance)
+         moving = maxval(memory%slot(:memory%used)%motion%veloc)/memory%here%placement%wheel_radius
+         search%resolution = 1.0e-10_wp*moving
+         do
+            call search%answer(residual, slides_fully(memory))
+            if (search%finished) exit
+            memory%here%pitch_rate = search%x
+            call settle(problem, memory, z, silent, result, error)
+            if (allocated(error)) return
+            residual = missing()
+         end do
+         memory%here%pitch_rate = search%best
+      end if
+      call settle(problem, memory, z, log, result, error)
+      if (allocated(error)) return
+      residual = missing()
+      if (abs(residual) <= max(tolerance, small_step*norm2(total_force(memory)))) return
+      result%solved = .false.
+      write(wanted, '(es10.3)') problem%spec%wheelset%fx
+      write(missed, '(es10.2)') -residual
+      if (memory%used == 0) then
+         call log%warning("the longitudinal force " // trim(adjustl(wanted)) // " N needs contact, and there is none")
+      else if (search%bracketed) then
+         call log%warning("the longitudinal force " // trim(adjustl(wanted)) // " N is missed by " // trim(adjustl(missed)) // &
+            & " N: the force jumps over it")
+      else
+         call log%warning("the longitudinal force " // trim(adjustl(wanted)) // " N is missed by " // trim(adjustl(missed)) // &
+            & " N: the whole contact slides, friction cannot do more")
+      end if
+
+   contains
+
+      !> Longitudinal force in wheelset axes that is missing [N]
+      real(wp) function missing()
+         missing = problem%spec%wheelset%fx - dot_product(total_force(memory), memory%here%placement%wheelset%axes(:, 1))
+      end function missing
+   end subroutine search_pitch_rate
+
+   !> Order of magnitude of the change of the longitudinal force with the pitch rate, without slip [N s/rad]
+   !>
+   !> A contact area pi a**2 holds 2.5 G a per mm of rigid displacement, which comes about in a shift, in a
+   !> step of transient rolling, or in rolling over the length a.
+   real(wp) function force_per_pitch_rate(memory) result(slope)
+      type(pair_memory), intent(in) :: memory
+      real(wp), parameter :: pi = acos(-1.0_wp)
+      real(wp) :: a, length
+      integer :: k
+
+      slope = 0.0_wp
+      do k = 1, memory%used
+         associate (patch => memory%slot(k)%problem, contact => memory%slot(k)%result)
+            a = sqrt(contact%ncon*patch%grid%dx*patch%grid%dy/pi)
+            length = 1.0_wp
+            if (patch%motion == motion%transient_rolling) length = patch%dq
+            if (patch%motion == motion%steady_rolling) length = a
+            slope = slope + 2.5_wp*patch%model%material%gg*a*length*memory%here%placement%wheel_radius &
+               & /max(patch%veloc, epsilon(1.0_wp))
+         end associate
+      end do
+   end function force_per_pitch_rate
+
+   !> Do all contact elements slip?
+   pure logical function slides_fully(memory)
+      type(pair_memory), intent(in) :: memory
+      integer :: k
+
+      slides_fully = .true.
+      do k = 1, memory%used
+         if (any(memory%slot(k)%state%now%division == element%adhesion)) slides_fully = .false.
+      end do
+   end function slides_fully
 
    !> What the case continues from, according to its link to the previous one
    subroutine begin_step(problem, memory, log)
@@ -343,36 +602,43 @@ contains
    end subroutine release_pair
 
    !> Put the wheelset at a height
-   subroutine place(problem, memory, z)
+   subroutine place(problem, memory, z, dz)
       type(pair_problem), intent(in) :: problem
       type(pair_memory), intent(inout) :: memory
       real(wp), intent(in) :: z
+      !> Vertical deflection of the rail [mm], default 0
+      real(wp), intent(in), optional :: dz
+      real(wp) :: deflection(2)
 
-      call place_pair(problem%spec, problem%wheel, memory%here%top_z, memory%here%gauge_y, z, [0.0_wp, 0.0_wp], &
+      deflection = [memory%here%deflection, 0.0_wp]
+      if (present(dz)) deflection(2) = dz
+      call place_pair(problem%spec, problem%wheel, memory%here%top_z, memory%here%gauge_y, z, deflection, &
          & memory%here%placement)
    end subroutine place
 
-   !> Search the height at which the prescribed vertical force acts
-   subroutine balance_forces(problem, memory, touch, z, log, result, error)
+   !> Search the height at which the vertical force acts
+   subroutine balance_forces(problem, memory, target, spring, z, log, result, error)
       type(pair_problem), intent(in) :: problem
       type(pair_memory), intent(inout) :: memory
-      !> Height of first touch [mm]
-      real(wp), intent(in) :: touch
-      !> Height: estimate on entry, found on exit [mm]
-      real(wp), intent(inout) :: z
+      !> Prescribed force [N]: of the contact, and of a spring that is free of force at first touch, with its stiffness [N/mm]
+      real(wp), intent(in) :: target, spring
+      !> Height found [mm]
+      real(wp), intent(out) :: z
       type(log_type), intent(inout) :: log
       type(pair_result), intent(inout) :: result
       type(error_type), allocatable, intent(out) :: error
       type(force_balance) :: balance
-      real(wp) :: target, force, trial, guess
+      real(wp) :: force, trial, guess, touch, slope
       logical :: separate
       integer :: round
 
-      target = problem%spec%wheelset%fz
+      touch = memory%here%touch
       ! friction decouples from the pressures for bodies that are alike
       separate = problem%template%motion /= motion%none .and. .not. problem%template%model%coupled()
       guess = touch + penetration_guess(problem, memory, touch, target)
+      if (spring > 0.0_wp) guess = min(guess, touch + target/spring)
       if (problem%use_previous .and. memory%started .and. memory%z_ws > touch) guess = memory%z_ws
+      if (memory%here%penetration > 0.0_wp) guess = touch + memory%here%penetration
       do round = 1, most_rounds
          call balance%start(target, problem%template%eps, touch, touch + 1.1_wp*memory%here%placement%wheel_radius, &
             & problem%template%maxnr)
@@ -380,10 +646,11 @@ contains
             trial = balance%next_trial(guess)
             call evaluate(problem, memory, trial, with_friction=.not. separate, log=log, error=error)
             if (allocated(error)) return
-            force = vertical_force(memory)
-            call balance%record(trial, force, vertical_slope(memory))
+            force = vertical_force(memory) + spring*(trial - touch)
+            slope = vertical_slope(memory) + spring
+            call balance%record(trial, force, slope)
             result%force_evaluations = result%force_evaluations + 1
-            call trace_trial(log, result%force_evaluations, trial, force, vertical_slope(memory))
+            call trace_trial(log, result%force_evaluations, trial, force, slope)
          end do
          z = balance%z
          if (.not. separate) exit
@@ -391,21 +658,23 @@ contains
          call evaluate(problem, memory, z, with_friction=.true., log=log, error=error)
          if (allocated(error)) return
          call learn_shares(memory)
-         force = vertical_force(memory)
+         force = vertical_force(memory) + spring*(z - touch)
+         slope = vertical_slope(memory) + spring
          result%force_evaluations = result%force_evaluations + 1
-         call trace_trial(log, result%force_evaluations, z, force, vertical_slope(memory))
+         call trace_trial(log, result%force_evaluations, z, force, slope)
          balance%force = force
          if (abs(force - target) <= balance%tolerance) exit
          if (balance%ended /= balance_ending%reached) exit
-         guess = z + (target - force)/max(vertical_slope(memory), 0.1_wp*target/max(z - touch, 1.0e-6_wp))
+         guess = z + (target - force)/max(slope, 0.1_wp*target/max(z - touch, 1.0e-6_wp))
          if (guess <= touch) guess = z
       end do
-      if (.not. separate .and. abs(balance%force - vertical_force(memory)) > 0.0_wp) then
+      if (.not. separate .and. abs(balance%force - force) > 0.0_wp) then
          ! the last trial need not be the best one
          call evaluate(problem, memory, z, with_friction=.true., log=log, error=error)
          if (allocated(error)) return
       end if
-      result%force_error = vertical_force(memory) - target
+      memory%here%penetration = z - touch
+      result%force_error = vertical_force(memory) + spring*(z - touch) - target
       ! grids follow the contact in whole elements, which leaves small steps in the force
       result%solved = abs(result%force_error) <= max(balance%tolerance, small_step*target)
       if (.not. result%solved) call complain(balance, target, result%force_error, log)
@@ -472,17 +741,27 @@ contains
       pen = min(max(pen, 1.0e-6_wp), 5.0_wp + 0.0_wp*touch)
    end function penetration_guess
 
-   !> Vertical force on the rail [N], lateral forces from the last tangential solution
-   pure real(wp) function vertical_force(memory) result(force)
+   !> Force on the rail in track axes [N], friction from the last tangential solution
+   pure function total_force(memory) result(force)
       type(pair_memory), intent(in) :: memory
+      real(wp) :: force(3)
       integer :: k
 
       force = 0.0_wp
       do k = 1, memory%used
          associate (slot => memory%slot(k))
-            force = force + dot_product(slot%plane%axes(3, :), slot%pressure_force + slot%friction_share*slot%result%fn)
+            force = force + matmul(slot%plane%axes, slot%pressure_force + slot%friction_share*slot%result%fn)
          end associate
       end do
+   end function total_force
+
+   !> Vertical force on the rail [N], friction from the last tangential solution
+   pure real(wp) function vertical_force(memory) result(force)
+      type(pair_memory), intent(in) :: memory
+      real(wp) :: all(3)
+
+      all = total_force(memory)
+      force = all(3)
    end function vertical_force
 
    !> Derivative of the vertical force to the height, from the contact stiffness where it is known [N/mm]
@@ -885,7 +1164,7 @@ contains
       type(rigid_motion) :: rail, wheel
       real(wp) :: on_wheel(3), pitch_rate
 
-      pitch_rate = problem%spec%wheelset%vpitch
+      pitch_rate = here%pitch_rate
       rail = rail_motion(problem%spec, here%placement)
       wheel = wheel_motion(problem%spec, here%placement, pitch_rate)
       associate (plane => slot%plane)
