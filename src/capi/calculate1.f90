@@ -1,6 +1,6 @@
 !> Wheel on rail of a caller from its settings to its results and files (module 1)
 module contact_capi_calculate1
-   use contact_base_choices, only : force_control, heat_model, motion, normal_control
+   use contact_base_choices, only : heat_model, motion
    use contact_base_error, only : error_kind, error_type, fatal_error, full_text
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
@@ -167,9 +167,7 @@ contains
             & ", is known but not built in this version", error_kind%unsupported)
          return
       end do
-      if (spec%force == force_control%longitudinal_force .and. spec%normal /= normal_control%force) then
-         call fatal_error(error, "F = 1, longitudinal force prescribed, needs the vertical force too, N = 1")
-      else if (spec%wheel_rail%roller .and. .not. spec%wheel_rail%track%nomradr > 0.0_wp) then
+      if (spec%wheel_rail%roller .and. .not. spec%wheel_rail%track%nomradr > 0.0_wp) then
          call fatal_error(error, "a wheel on a roller needs the nominal radius of the roller")
       else if (.not. (spec%wheel_rail%search%dx > 0.0_wp .and. spec%wheel_rail%search%ds > 0.0_wp)) then
          call fatal_error(error, "the sides of the elements must be positive")

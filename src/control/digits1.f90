@@ -24,8 +24,8 @@ module contact_control_digits1
       & digit_row("B", 5, pressure_model%kpec, .true., "Kik-Piotrowski approach with ellipse correction (KPEC)"), &
       & digit_row("B", 6, pressure_model%analyn, .true., "modified ANALYN approach"), &
       & digit_row("F", 0, force_control%creepages, .true., "velocities prescribed"), &
-      & digit_row("F", 1, force_control%longitudinal_force, .false., "longitudinal force in place of the pitch velocity"), &
-      & digit_row("F", 3, force_control%massless_rail, .false., "rail without mass on springs"), &
+      & digit_row("F", 1, force_control%longitudinal_force, .true., "longitudinal force in place of the pitch velocity"), &
+      & digit_row("F", 3, force_control%massless_rail, .true., "rail without mass on springs"), &
       & digit_row("V", 0, variation%none, .true., "one set of friction parameters"), &
       & digit_row("V", 1, variation%by_angle, .true., "friction parameters by the inclination of the rail surface"), &
       & digit_row("V", 2, variation%by_position, .true., "friction parameters by the position along the track"), &

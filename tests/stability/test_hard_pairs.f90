@@ -1,0 +1,129 @@
+!> Wheel on rail through long sequences in which patches appear, vanish, join and separate
+!>
+!> Every step must end with a solution, tractions must obey friction, and forces must not jump where the
+!> number of patches changes: friction forces change there by no more than where it stays.
+program test_hard_pairs
+   use contact_base_choices, only : estimate_choice, motion, time_link
+   use contact_base_kinds, only : wp
+   use contact_test_harness, only : test_suite
+   use contact_test_pair_builder, only : ball_case, pair_case, write_profile
+   implicit none (type, external)
+   real(wp), parameter :: pi = acos(-1.0_wp)
+   integer, parameter :: steps = 240
+   type(test_suite) :: suite
+
+   call suite%start("hard pairs")
+   call swinging_wheel(motion%shift, "shifts")
+   call swinging_wheel(motion%transient_rolling, "rolling")
+   call hopping_wheel()
+   call suite%finish()
+
+contains
+
+   !> A rail with two humps, 0.02 mm above the hollow between them
+   subroutine prepare(pair)
+      type(pair_case), intent(inout) :: pair
+      integer :: i
+      real(wp) :: y(161)
+
+      pair%spec = ball_case(0.1_wp)
+      y = [(-16.0_wp + 0.2_wp*(i - 1), i=1, size(y))]
+      call write_profile("humps.dat", y, 0.01_wp*(1.0_wp + cos(pi*y/4.0_wp)) + (y/20.0_wp)**4)
+      associate (r => pair%spec%wheel_rail)
+         r%rail_profile%name = "humps.dat"
+         r%search%dx = 0.5_wp
+         r%search%ds = 0.5_wp
+         r%search%d_comb = 0.3_wp
+         r%search%d_sep = 1.0_wp
+         r%search%d_turn = 0.0_wp
+      end associate
+   end subroutine prepare
+
+   !> The wheel is pressed down and lifted again and again, moves sideways, drives and brakes
+   subroutine swinging_wheel(kind, name)
+      integer, intent(in) :: kind
+      character(len=*), intent(in) :: name
+      type(pair_case) :: pair
+      real(wp) :: force(3), previous(3), jump(2)
+      integer :: step, patches, changes, most, fewest
+      character(len=60) :: line
+
+      call prepare(pair)
+      pair%spec%motion = kind
+      jump = 0.0_wp
+      changes = 0
+      patches = 0
+      most = 0
+      fewest = 99
+      previous = 0.0_wp
+      do step = 1, steps
+         associate (w => pair%spec%wheel_rail%wheelset)
+            w%z = 0.045_wp + 0.035_wp*sin(2.0_wp*pi*step/40.0_wp)
+            w%y = 0.4_wp*sin(2.0_wp*pi*step/90.0_wp)
+            w%s = 0.1_wp*step
+            w%vs = merge(0.1_wp, 100.0_wp, kind == motion%shift)
+            w%vpitch = -w%vs/100.0_wp*(1.0_wp + 0.01_wp*sin(2.0_wp*pi*step/60.0_wp))
+         end associate
+         call pair%run(suite, name)
+         call obeys_friction(pair, name)
+         force = pair%result%force_track
+         associate (n => size(pair%result%patches))
+            if (step > 1) then
+               if (n /= patches) then
+                  changes = changes + 1
+                  jump(1) = max(jump(1), abs(force(1) - previous(1)))
+               else
+                  jump(2) = max(jump(2), abs(force(1) - previous(1)))
+               end if
+            end if
+            patches = n
+            most = max(most, n)
+            fewest = min(fewest, n)
+         end associate
+         previous = force
+         pair%spec%link = time_link%continue_all
+         pair%spec%estimate = estimate_choice%previous
+      end do
+      write(line, '(2(a,f0.3))') ": ", jump(1), " N where patches change, elsewhere ", jump(2)
+      call suite%check(changes >= 10 .and. most == 2 .and. fewest == 1, name // ": patches join and separate")
+      call suite%check(jump(1) <= 1.5_wp*jump(2), name // ": friction does not jump" // trim(line))
+      call pair%release()
+   end subroutine swinging_wheel
+
+   !> The wheel leaves the rail and comes back: no contact in every second part of the sequence
+   subroutine hopping_wheel()
+      type(pair_case) :: pair
+      integer :: step, without
+
+      call prepare(pair)
+      pair%spec%motion = motion%transient_rolling
+      without = 0
+      do step = 1, 60
+         pair%spec%wheel_rail%wheelset%z = 0.05_wp*sin(2.0_wp*pi*step/20.0_wp)
+         call pair%run(suite, "hopping")
+         call obeys_friction(pair, "hopping")
+         if (size(pair%result%patches) == 0) then
+            without = without + 1
+            call suite%check(all(abs(pair%result%force_track) <= 0.0_wp), "hopping: no contact, no force")
+         end if
+         pair%spec%link = time_link%continue_all
+      end do
+      call suite%check(without > 20 .and. without < 40, "hopping: the contact is lost and comes back")
+      call pair%release()
+   end subroutine hopping_wheel
+
+   !> Tractions within the friction bound in every element, and numbers that are numbers
+   subroutine obeys_friction(pair, name)
+      type(pair_case), intent(in) :: pair
+      character(len=*), intent(in) :: name
+      integer :: k
+
+      do k = 1, size(pair%result%patches)
+         associate (c => pair%result%patches(k)%contact)
+            if (.not. all(c%px**2 + c%py**2 <= (0.4_wp*c%pn*(1.0_wp + 1.0e-6_wp) + 1.0e-9_wp)**2)) &
+               & call suite%check(.false., name // ": tractions beyond friction")
+         end associate
+      end do
+      if (.not. all(abs(pair%result%force_track) < huge(1.0_wp))) call suite%check(.false., name // ": the force is a number")
+   end subroutine obeys_friction
+end program test_hard_pairs
