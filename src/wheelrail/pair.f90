@@ -329,6 +329,7 @@ contains
       z = z + result%dz_defl
       do k = 1, memory%used
          memory%slot(k)%plane%origin(3) = memory%slot(k)%plane%origin(3) + result%dz_defl
+         if (allocated(memory%slot(k)%curve)) memory%slot(k)%curve%z = memory%slot(k)%curve%z + result%dz_defl
       end do
    end subroutine lower_rail
 
@@ -662,9 +663,9 @@ contains
          slope = vertical_slope(memory) + spring
          result%force_evaluations = result%force_evaluations + 1
          call trace_trial(log, result%force_evaluations, z, force, slope)
-         balance%force = force
          if (abs(force - target) <= balance%tolerance) exit
-         if (balance%ended /= balance_ending%reached) exit
+         ! a force that was not reached is not mended by friction, but for the small steps of the grids
+         if (balance%ended /= balance_ending%reached .and. abs(balance%force - target) > small_step*target) exit
          guess = z + (target - force)/max(slope, 0.1_wp*target/max(z - touch, 1.0e-6_wp))
          if (guess <= touch) guess = z
       end do
