@@ -8,17 +8,16 @@
 !>
 !> Groups and fields that are as they were in the case before are stored once and linked.
 !>
-!> The file shall open after the end of the program, however violent. HDF5 writes what has changed in an
-!> order of its own, so nothing that is on disk may change in more than one place. All cases are therefore announced
-!> at the start, before the file gets its name, as empty groups with room for their members. The members of a case are built without a link to them;
-!> once a second they are written, and only then linked into their groups, each of which is one piece on disk.
-!> Columns grow and cannot be written that way: they follow every half minute and at the end. Small arrays lie in the heads of their objects, large ones are compressed.
+!> HDF5 writes what has changed in an order of its own, so a file that is being written may be unreadable at any moment.
+!> It has therefore a name of its own until it is closed. From time to time it is brought up to date and copied, and the
+!> copy takes the name of the results in one step: under that name stands a readable file at all times, however
+!> violently the program ends. Small arrays lie in the heads of their objects, large ones are compressed.
 module contact_hdf5_file
    use, intrinsic :: ieee_arithmetic, only : ieee_quiet_nan, ieee_value
    use, intrinsic :: iso_c_binding, only : c_int, c_int64_t
    use hdf5, only : h5aclose_f, h5acreate_f, h5awrite_f, h5d_compact_f, h5d_fill_time_never_f, h5dclose_f, h5dcreate_f, &
       & h5dget_space_f, h5dset_extent_f, h5dwrite_f, h5eset_auto_f, h5f_acc_trunc_f, h5f_libver_v18_f, h5f_scope_local_f, &
-      & h5fclose_f, h5fcreate_f, h5fflush_f, h5gclose_f, h5gcreate_anon_f, h5gcreate_f, h5iinc_ref_f, h5lcreate_hard_f, &
+      & h5fclose_f, h5fcreate_f, h5fflush_f, h5gclose_f, h5gcreate_f, h5lcreate_hard_f, &
       & h5ldelete_f, h5oclose_f, h5olink_f, h5open_f, h5p_dataset_create_f, h5p_default_f, h5p_file_access_f, &
       & h5p_file_create_f, h5p_group_create_f, h5pclose_f, h5pcopy_f, h5pcreate_f, h5pset_chunk_f, h5pset_deflate_f, &
       & h5pset_est_link_info_f, h5pset_fill_time_f, h5pset_fill_value_f, h5pset_istore_k_f, h5pset_layout_f, &
@@ -41,18 +40,16 @@ module contact_hdf5_file
    integer, parameter :: case_length = 60, name_length = 32, unit_length = 16, title_length = 80
    !> Rows of the columns that are kept back at most, and rows of a chunk
    integer, parameter :: most_rows = 4096, chunk_rows = 64
-   !> Members of cases that wait for their links at most; members of a case and their names for which room is left
-   integer, parameter :: most_members = 2000, usual_members = 8, usual_name = 10
-   !> Added to the name until all cases are announced
-   character(len=*), parameter :: unfinished = ".tmp"
+   !> Members of a case and length of their names for which room is left
+   integer, parameter :: usual_members = 8, usual_name = 10
+   !> Added to the name of the file that is being written, and of a copy until it is complete
+   character(len=*), parameter :: unfinished = ".tmp", incomplete = ".part"
    !> Arrays of at least this size are compressed [bytes]; elements of a chunk at most
    integer, parameter :: large = 4096, most_of_a_chunk = 131072
    !> A usual and cheap level of deflate
    integer, parameter :: effort = 4
-   !> The file on disk is not older than this [s]
-   real(wp), parameter :: longest_wait = 1.0_wp
-   !> The same for columns [s]
-   real(wp), parameter :: longest_wait_of_columns = 30.0_wp
+   !> The readable file is brought up to date after this time [s], or this many times the time that a copy takes
+   real(wp), parameter :: shortest_wait = 1.0_wp, wait_per_copy = 20.0_wp
 
    !> Groups inside each other at most
    integer, parameter :: deepest = 8
@@ -87,14 +84,6 @@ module contact_hdf5_file
       integer(hsize_t), allocatable :: dims(:)
       type(item), allocatable :: items(:)
    end type kept_object
-
-   !> A member of a case that is not linked yet
-   type :: new_member
-      !> Case, by its place among the announced ones
-      integer :: case_index = 0
-      integer(hid_t) :: id = -1
-      character(len=name_length) :: name
-   end type new_member
 
    !> One column of totals over all cases or patches
    type :: column
@@ -143,14 +132,11 @@ module contact_hdf5_file
       !> Totals of cases and of patches; which of them is open
       type(column_table), private :: cases, patches
       logical, private :: in_patch = .false.
-      real(wp), private :: last_flush = 0.0_wp, last_rows = 0.0_wp
+      real(wp), private :: last_copy = 0.0_wp, wait = shortest_wait
       !> Cases that were announced, in their order; which of them have a result, and which one came last
       character(len=case_length), allocatable, private :: announced(:)
       logical, allocatable, private :: has_come(:)
       integer, private :: announced_count = 0, latest = 0
-      !> Members of complete cases that are not linked yet
-      type(new_member), allocatable, private :: members(:)
-      integer, private :: unlinked = 0
    contains
       procedure :: open_file
       procedure :: close_file
@@ -182,7 +168,6 @@ module contact_hdf5_file
       procedure, private :: describe
       procedure, private :: check
       procedure, private :: flush_file
-      procedure, private :: remember_member
    end type hdf5_file
 
 contains
@@ -223,7 +208,7 @@ contains
       call h5pset_fill_time_f(self%small, h5d_fill_time_never_f, status)
       call h5pcopy_f(self%small, self%bare, status)
       call set_no_attributes(self%bare)
-      allocate(self%items(100), self%kept(50), self%members(most_members), self%announced(64), self%has_come(64))
+      allocate(self%items(100), self%kept(50), self%announced(64), self%has_come(64))
       call start_table(self%cases, "cases")
       call start_table(self%patches, "patches")
       call self%describe(self%file, "title", "results of CONTACT")
@@ -301,6 +286,7 @@ contains
       call h5fclose_f(self%file, status)
       call self%check(status)
       self%is_open = .false.
+      call self%check(-abs(move_file(self%name // unfinished, self%name)))
       if (self%failed) call fatal_error(error, "the file is not complete; is the disk full?", error_kind%file, self%name)
    end subroutine close_file
 
@@ -349,14 +335,15 @@ contains
       self%has_come(self%announced_count) = .false.
    end subroutine announce
 
-   !> Write what is there and give the file its name, under which it can be opened at any time from now on
+   !> Write what is there: from now on a readable file has the name of the results
    subroutine take_name(self, error)
       class(hdf5_file), intent(inout) :: self
       type(error_type), allocatable, intent(out) :: error
 
       call self%flush_file()
-      if (move_file(self%name // unfinished, self%name) /= 0) &
-         & call fatal_error(error, "the file cannot be written", error_kind%file, self%name)
+      call renew_copy(self)
+      if (self%failed) call fatal_error(error, "the file cannot be written", error_kind%file, self%name)
+      self%last_copy = clock()
    end subroutine take_name
 
    !> Begin a case
@@ -379,23 +366,62 @@ contains
       self%place = slot
    end subroutine begin_case
 
-   !> End a case; it is written now or soon
+   !> End a case; the readable file has it now or soon
    subroutine end_case(self)
       class(hdf5_file), intent(inout) :: self
-      real(wp) :: seconds
+      real(wp) :: before
+
+      before = clock()
+      if (before - self%last_copy < self%wait) return
+      call write_rows(self, self%cases)
+      call write_rows(self, self%patches)
+      call self%flush_file()
+      call renew_copy(self)
+      self%last_copy = clock()
+      self%wait = max(shortest_wait, wait_per_copy*(self%last_copy - before))
+   end subroutine end_case
+
+   !> Time since some moment [s]
+   real(wp) function clock() result(seconds)
       integer(long) :: ticks, rate
 
       call system_clock(ticks, rate)
       seconds = real(ticks, wp)/real(rate, wp)
-      if (seconds - self%last_flush < longest_wait) return
-      if (seconds - self%last_rows >= longest_wait_of_columns) then
-         call write_rows(self, self%cases)
-         call write_rows(self, self%patches)
-         self%last_rows = seconds
+   end function clock
+
+   !> Copy the file, which has been brought up to date; the copy takes the name of the results when it is complete
+   subroutine renew_copy(self)
+      class(hdf5_file), intent(inout) :: self
+      integer, parameter :: piece = 2**20
+      character(len=:), allocatable :: buffer
+      integer :: source, copy, status
+      integer(long) :: left
+      logical :: opened
+
+      inquire(file=self%name // unfinished, size=left)
+      open(newunit=source, file=self%name // unfinished, access="stream", action="read", status="old", iostat=status)
+      if (status == 0) then
+         open(newunit=copy, file=self%name // incomplete, access="stream", action="write", status="replace", iostat=status)
+         opened = status == 0
+         do while (status == 0 .and. left > 0)
+            allocate(character(len=int(min(left, int(piece, long)))) :: buffer)
+            read(source, iostat=status) buffer
+            if (status == 0) write(copy, iostat=status) buffer
+            left = left - len(buffer)
+            deallocate(buffer)
+         end do
+         close(source)
+         if (opened) then
+            if (status == 0) then
+               close(copy, iostat=status)
+            else
+               close(copy, status="delete")
+            end if
+         end if
       end if
-      call self%flush_file()
-      self%last_flush = seconds
-   end subroutine end_case
+      if (status == 0) status = move_file(self%name // incomplete, self%name)
+      call self%check(-abs(status))
+   end subroutine renew_copy
 
    !> Go into a new group of the case
    subroutine enter(self, name)
@@ -404,12 +430,7 @@ contains
       integer(hid_t) :: inner
       integer :: status
 
-      if (self%depth == 0) then
-         call h5gcreate_anon_f(self%file, inner, status, gcpl_id=self%groups)
-         call self%remember_member(name, inner)
-      else
-         call h5gcreate_f(self%here, name, inner, status, gcpl_id=self%groups)
-      end if
+      call new_group(self, name, inner, status)
       call self%check(status)
       self%depth = self%depth + 1
       self%around(self%depth) = self%here
@@ -417,29 +438,26 @@ contains
       self%place = self%place // "/" // name
    end subroutine enter
 
-   !> A member of the case that is to be linked
-   subroutine remember_member(self, name, id)
+   !> Make a group in the present one, which is that of the case at depth 0
+   subroutine new_group(self, name, group, status)
       class(hdf5_file), intent(inout) :: self
       character(len=*), intent(in) :: name
-      !> Open object, which is closed when the link is made
-      integer(hid_t), intent(in) :: id
-      type(new_member), allocatable :: longer(:)
+      integer(hid_t), intent(out) :: group
+      integer, intent(out) :: status
 
-      if (self%unlinked == size(self%members)) then
-         allocate(longer(2*self%unlinked))
-         longer(:self%unlinked) = self%members
-         call move_alloc(longer, self%members)
+      if (self%depth == 0) then
+         call h5gcreate_f(self%file, trim(self%announced(self%latest)) // "/" // name, group, status, gcpl_id=self%groups)
+      else
+         call h5gcreate_f(self%here, name, group, status, gcpl_id=self%groups)
       end if
-      self%unlinked = self%unlinked + 1
-      self%members(self%unlinked) = new_member(self%latest, id, name)
-   end subroutine remember_member
+   end subroutine new_group
 
    !> Back to the group around it
    subroutine leave(self)
       class(hdf5_file), intent(inout) :: self
       integer :: status
 
-      if (self%depth > 1) call h5gclose_f(self%here, status)
+      call h5gclose_f(self%here, status)
       self%here = self%around(self%depth)
       self%depth = self%depth - 1
       self%place = self%place(:index(self%place, "/", back=.true.) - 1)
@@ -489,7 +507,7 @@ contains
       class(hdf5_file), intent(inout) :: self
       type(item), allocatable :: same(:)
       integer(hid_t) :: group
-      integer :: i, k, references, status
+      integer :: i, k, status
 
       if (self%as_columns) then
          do i = 1, self%count_items
@@ -514,9 +532,7 @@ contains
       if (allocated(self%kept(k)%items)) then
          if (same_items(self%kept(k)%items, self%items(:self%count_items))) then
             if (self%depth == 0) then
-               ! the kept object may be replaced before this link is made
-               call h5iinc_ref_f(self%kept(k)%id, references, status)
-               call self%remember_member(self%leaf, self%kept(k)%id)
+               call h5olink_f(self%kept(k)%id, self%file, trim(self%announced(self%latest)) // "/" // self%leaf, status)
             else
                call h5olink_f(self%kept(k)%id, self%here, self%leaf, status)
             end if
@@ -524,11 +540,7 @@ contains
             return
          end if
       end if
-      if (self%depth == 0) then
-         call h5gcreate_anon_f(self%file, group, status, gcpl_id=self%groups)
-      else
-         call h5gcreate_f(self%here, self%leaf, group, status, gcpl_id=self%groups)
-      end if
+      call new_group(self, self%leaf, group, status)
       call self%check(status)
       do i = 1, self%count_items
          if (allocated(self%kept(k)%items)) then
@@ -542,10 +554,6 @@ contains
          end if
          call write_item(self, group, self%items(i))
       end do
-      if (self%depth == 0) then
-         call h5iinc_ref_f(group, references, status)
-         call self%remember_member(self%leaf, group)
-      end if
       allocate(same(self%count_items))
       same = self%items(:self%count_items)
       call move_alloc(same, self%kept(k)%items)
@@ -853,22 +861,11 @@ contains
       table%waiting = 0
    end subroutine write_rows
 
-   !> Bring the cases on disk up to date: first the new objects, which nothing refers to, then the links
+   !> Bring the file on disk up to date
    subroutine flush_file(self)
       class(hdf5_file), intent(inout) :: self
-      integer :: k, status
+      integer :: status
 
-      call h5fflush_f(self%file, h5f_scope_local_f, status)
-      call self%check(status)
-      if (self%unlinked == 0) return
-      do k = 1, self%unlinked
-         associate (member => self%members(k))
-            call h5olink_f(member%id, self%file, trim(self%announced(member%case_index)) // "/" // trim(member%name), status)
-            call self%check(status)
-            call h5oclose_f(member%id, status)
-         end associate
-      end do
-      self%unlinked = 0
       call h5fflush_f(self%file, h5f_scope_local_f, status)
       call self%check(status)
    end subroutine flush_file

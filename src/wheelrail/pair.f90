@@ -1193,6 +1193,9 @@ contains
             if (patch%motion == motion%steady_rolling) patch%dq = patch%grid%dx
             patch%spin_offset = 1.0_wp/6.0_wp
          end if
+         ! as in module 3: a layer that yields follows its particles, simplified theory starts anew at each edge
+         patch%corrects_leading_edge = patch%motion == motion%transient_rolling .and. patch%dq > 1.01_wp*patch%grid%dx &
+            & .and. .not. allocated(patch%simplified) .and. .not. patch%remembers_yield
       end associate
    end subroutine set_motion
 

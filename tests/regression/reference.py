@@ -12,7 +12,10 @@ import sys
 INPUTS = ["examples/" + name for name in (
     "cattaneo", "carter2d", "bentall", "catt_to_cart", "spence35", "subsurf", "veldep_fric", "ertz_temperature", "fastsim",
     "plastic_3bl", "visc_cylindr", "mbench_a22_left", "mbench_a22_right")] + \
-    ["testbank/examples_plast/" + name for name in ("carter_plast", "catt2d_plast", "catt3d_plast")] + \
+    ["testbank/examples_plast/" + name for name in ("carter_plast", "catt2d_plast", "catt3d_plast",
+                                                      "mbench_a22_left")] + \
+    ["testbank/examples_trans/m1_" + name for name in ("catt_shift", "steady_roll", "totforce", "trans_dqrel", "trans_roll")] + \
+    ["testbank/examples_conformal/groove_li"] + \
     ["testbank/examples_temp/m3_tempdep"] + ["testbank/examples_s+c/" + name for name in ("cross_locus", "wing_locus")]
 
 reference = os.environ["CONTACT_REFERENCE"]
