@@ -32,10 +32,6 @@ module contact_experiment_exports
    contains
       procedure :: open_files
       procedure :: close_files
-      !> Must the cases be announced before the first is written? If so, announce each
-      procedure :: wants_announcements
-      procedure :: announce
-      procedure :: all_announced
       !> Is anything asked for?
       procedure :: wanted
       procedure :: write_failure
@@ -49,27 +45,6 @@ contains
       class(export_files), intent(in) :: self
       wanted = allocated(self%json) .or. allocated(self%hdf5) .or. allocated(self%vtk)
    end function wanted
-
-   pure logical function wants_announcements(self)
-      class(export_files), intent(in) :: self
-      wants_announcements = allocated(self%hdf5)
-   end function wants_announcements
-
-   !> A case that is to come
-   subroutine announce(self, head)
-      class(export_files), intent(inout) :: self
-      type(case_head), intent(in) :: head
-
-      if (allocated(self%hdf5)) call self%hdf5%announce(head)
-   end subroutine announce
-
-   !> No more cases will be announced
-   subroutine all_announced(self, error)
-      class(export_files), intent(inout) :: self
-      type(error_type), allocatable, intent(out) :: error
-
-      if (allocated(self%hdf5)) call self%hdf5%take_name(error)
-   end subroutine all_announced
 
    !> Open what is asked for
    subroutine open_files(self, request, results, experiment, version, error)

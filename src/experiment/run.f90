@@ -200,8 +200,6 @@ contains
          call close_out_file(state)
          return
       end if
-      if (state%exports%wants_announcements()) call announce_cases(state, error)
-      if (allocated(error)) call report_error(state, error)
       call write_banner(state%log, settings%version)
       if (settings%progress) call state%progress%begin(number_of_cases(state%place%input))
       allocate(state%slots(4))
@@ -342,25 +340,6 @@ contains
       state%slots(k)%reid = reid
       state%slots(k)%cpid = cpid
    end subroutine find_slot
-
-   !> Tell the files for other programs which cases will come
-   subroutine announce_cases(state, error)
-      type(experiment_state), intent(inout) :: state
-      type(error_type), allocatable, intent(out) :: error
-      type(experiment_reader) :: reader
-      type(input_case) :: this
-      type(error_type), allocatable :: unreadable
-
-      call reader%open_file(state%place%input, unreadable)
-      do while (.not. allocated(unreadable))
-         call reader%next_case(this, unreadable)
-         if (allocated(unreadable)) exit
-         if (this%module_number == 0) exit
-         if (this%spec%solve) call state%exports%announce(case_head(this%number, this%reid, this%cpid, this%module_number))
-         if (.not. this%problems%is_usable()) exit
-      end do
-      call state%exports%all_announced(error)
-   end subroutine announce_cases
 
    !> Number of cases in the input as far as it can be read, for the progress line
    integer function number_of_cases(file) result(n)

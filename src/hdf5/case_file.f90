@@ -24,9 +24,6 @@ module contact_hdf5_case_file
    contains
       procedure :: open_file
       procedure :: close_file
-      !> Tell that a case is to come; all are told before the first is written
-      procedure :: announce
-      procedure :: take_name
       !> A case without result, of module 3, and of module 1
       procedure :: write_failure
       procedure :: write_contact
@@ -50,21 +47,6 @@ contains
 
       call self%file%close_file(error)
    end subroutine close_file
-
-   subroutine announce(self, head)
-      class(hdf5_case_file), intent(inout) :: self
-      type(case_head), intent(in) :: head
-
-      call self%file%announce(case_name(head))
-   end subroutine announce
-
-   !> All cases have been told
-   subroutine take_name(self, error)
-      class(hdf5_case_file), intent(inout) :: self
-      type(error_type), allocatable, intent(out) :: error
-
-      call self%file%take_name(error)
-   end subroutine take_name
 
    !> A case that has no result: a row of /cases, and why
    subroutine write_failure(self, head)

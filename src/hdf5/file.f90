@@ -18,9 +18,9 @@ module contact_hdf5_file
    use hdf5, only : h5aclose_f, h5acreate_f, h5awrite_f, h5d_compact_f, h5d_fill_time_never_f, h5dclose_f, h5dcreate_f, &
       & h5dget_space_f, h5dset_extent_f, h5dwrite_f, h5eset_auto_f, h5f_acc_trunc_f, h5f_libver_v18_f, h5f_scope_local_f, &
       & h5fclose_f, h5fcreate_f, h5fflush_f, h5gclose_f, h5gcreate_f, h5lcreate_hard_f, &
-      & h5ldelete_f, h5oclose_f, h5olink_f, h5open_f, h5p_dataset_create_f, h5p_default_f, h5p_file_access_f, &
+      & h5oclose_f, h5olink_f, h5open_f, h5p_dataset_create_f, h5p_default_f, h5p_file_access_f, &
       & h5p_file_create_f, h5p_group_create_f, h5pclose_f, h5pcopy_f, h5pcreate_f, h5pset_chunk_f, h5pset_deflate_f, &
-      & h5pset_est_link_info_f, h5pset_fill_time_f, h5pset_fill_value_f, h5pset_istore_k_f, h5pset_layout_f, &
+      & h5pset_fill_time_f, h5pset_fill_value_f, h5pset_istore_k_f, h5pset_layout_f, &
       & h5pset_libver_bounds_f, h5pset_link_phase_change_f, h5pset_obj_track_times_f, h5pset_shuffle_f, h5s_scalar_f, &
       & h5s_select_set_f, h5s_unlimited_f, h5sclose_f, h5screate_f, h5screate_simple_f, h5sselect_hyperslab_f, &
       & h5t_fortran_s1, h5t_ieee_f64le, h5t_native_double, h5t_native_integer, h5t_std_i32le, h5t_std_i8le, h5tclose_f, &
@@ -37,11 +37,9 @@ module contact_hdf5_file
    !> Number of this layout
    integer, parameter :: layout = 1
    !> Longest name of a value, unit, description
-   integer, parameter :: case_length = 60, name_length = 32, unit_length = 16, title_length = 80
+   integer, parameter :: name_length = 32, unit_length = 16, title_length = 80
    !> Rows of the columns that are kept back at most, and rows of a chunk
    integer, parameter :: most_rows = 4096, chunk_rows = 64
-   !> Members of a case and length of their names for which room is left
-   integer, parameter :: usual_members = 8, usual_name = 10
    !> Added to the name of the file that is being written, and of a copy until it is complete
    character(len=*), parameter :: unfinished = ".tmp", incomplete = ".part"
    !> Arrays of at least this size are compressed [bytes]; elements of a chunk at most
@@ -133,17 +131,9 @@ module contact_hdf5_file
       type(column_table), private :: cases, patches
       logical, private :: in_patch = .false.
       real(wp), private :: last_copy = 0.0_wp, wait = shortest_wait
-      !> Cases that were announced, in their order; which of them have a result, and which one came last
-      character(len=case_length), allocatable, private :: announced(:)
-      logical, allocatable, private :: has_come(:)
-      integer, private :: announced_count = 0, latest = 0
    contains
       procedure :: open_file
       procedure :: close_file
-      !> Make an empty group for a case that is to come
-      procedure :: announce
-      !> All cases are announced: the file gets its name
-      procedure :: take_name
       !> Begin and end a case
       procedure :: begin_case
       procedure :: end_case
@@ -167,12 +157,11 @@ module contact_hdf5_file
       procedure, private :: text_type
       procedure, private :: describe
       procedure, private :: check
-      procedure, private :: flush_file
    end type hdf5_file
 
 contains
 
-   !> Make the file; an older one stays until take_name
+   !> Make the file
    subroutine open_file(self, name, experiment, version, error)
       class(hdf5_file), intent(inout) :: self
       character(len=*), intent(in) :: name
@@ -208,7 +197,7 @@ contains
       call h5pset_fill_time_f(self%small, h5d_fill_time_never_f, status)
       call h5pcopy_f(self%small, self%bare, status)
       call set_no_attributes(self%bare)
-      allocate(self%items(100), self%kept(50), self%announced(64), self%has_come(64))
+      allocate(self%items(100), self%kept(50))
       call start_table(self%cases, "cases")
       call start_table(self%patches, "patches")
       call self%describe(self%file, "title", "results of CONTACT")
@@ -216,6 +205,9 @@ contains
       call self%describe(self%file, "program", version)
       call self%describe(self%file, "axes", "datasets of fields have the shape (my, mx) in C, h5py and NumPy")
       call write_layout(self)
+      call renew_copy(self)
+      self%last_copy = clock()
+      if (self%failed) call fatal_error(error, "the file cannot be written", error_kind%file, name)
 
    contains
 
@@ -265,12 +257,8 @@ contains
       integer :: k, status
 
       if (.not. self%is_open) return
-      call self%flush_file()
       call write_rows(self, self%cases)
       call write_rows(self, self%patches)
-      do k = 1, self%announced_count
-         if (.not. self%has_come(k)) call h5ldelete_f(self%file, trim(self%announced(k)), status)
-      end do
       do k = 1, self%kept_count
          call h5oclose_f(self%kept(k)%id, status)
       end do
@@ -307,62 +295,16 @@ contains
       if (status < 0) self%failed = .true.
    end subroutine check
 
-   !> Make an empty group for a case that is to come
-   subroutine announce(self, name)
-      class(hdf5_file), intent(inout) :: self
-      character(len=*), intent(in) :: name
-      character(len=case_length), allocatable :: longer(:)
-      logical, allocatable :: also(:)
-      integer(hid_t) :: group, properties
-      integer :: status
-
-      if (self%announced_count == size(self%announced)) then
-         allocate(longer(2*self%announced_count), also(2*self%announced_count))
-         longer(:self%announced_count) = self%announced
-         also(:self%announced_count) = self%has_come
-         call move_alloc(longer, self%announced)
-         call move_alloc(also, self%has_come)
-      end if
-      call h5pcopy_f(self%groups, properties, status)
-      call h5pset_est_link_info_f(properties, usual_members, usual_name, status)
-      call h5gcreate_f(self%file, name, group, status, gcpl_id=properties)
-      call self%check(status)
-      if (status < 0) return
-      call h5gclose_f(group, status)
-      call h5pclose_f(properties, status)
-      self%announced_count = self%announced_count + 1
-      self%announced(self%announced_count) = name
-      self%has_come(self%announced_count) = .false.
-   end subroutine announce
-
-   !> Write what is there: from now on a readable file has the name of the results
-   subroutine take_name(self, error)
-      class(hdf5_file), intent(inout) :: self
-      type(error_type), allocatable, intent(out) :: error
-
-      call self%flush_file()
-      call renew_copy(self)
-      if (self%failed) call fatal_error(error, "the file cannot be written", error_kind%file, self%name)
-      self%last_copy = clock()
-   end subroutine take_name
-
    !> Begin a case
    subroutine begin_case(self, name, slot)
       class(hdf5_file), intent(inout) :: self
       character(len=*), intent(in) :: name
       !> Name of the contact problem to which the case belongs, as objects are kept for each
       character(len=*), intent(in) :: slot
-      integer :: i
+      integer :: status
 
-      do i = 1, self%announced_count
-         self%latest = modulo(self%latest, self%announced_count) + 1
-         if (self%announced(self%latest) == name) exit
-      end do
-      if (i > self%announced_count) then
-         call self%announce(name)
-         self%latest = self%announced_count
-      end if
-      self%has_come(self%latest) = .true.
+      call h5gcreate_f(self%file, name, self%here, status, gcpl_id=self%groups)
+      call self%check(status)
       self%place = slot
    end subroutine begin_case
 
@@ -370,12 +312,13 @@ contains
    subroutine end_case(self)
       class(hdf5_file), intent(inout) :: self
       real(wp) :: before
+      integer :: status
 
+      call h5gclose_f(self%here, status)
       before = clock()
       if (before - self%last_copy < self%wait) return
       call write_rows(self, self%cases)
       call write_rows(self, self%patches)
-      call self%flush_file()
       call renew_copy(self)
       self%last_copy = clock()
       self%wait = max(shortest_wait, wait_per_copy*(self%last_copy - before))
@@ -389,7 +332,7 @@ contains
       seconds = real(ticks, wp)/real(rate, wp)
    end function clock
 
-   !> Copy the file, which has been brought up to date; the copy takes the name of the results when it is complete
+   !> Bring the file up to date and copy it; the copy takes the name of the results when it is complete
    subroutine renew_copy(self)
       class(hdf5_file), intent(inout) :: self
       integer, parameter :: piece = 2**20
@@ -398,6 +341,8 @@ contains
       integer(long) :: left
       logical :: opened
 
+      call h5fflush_f(self%file, h5f_scope_local_f, status)
+      call self%check(status)
       inquire(file=self%name // unfinished, size=left)
       open(newunit=source, file=self%name // unfinished, access="stream", action="read", status="old", iostat=status)
       if (status == 0) then
@@ -430,27 +375,13 @@ contains
       integer(hid_t) :: inner
       integer :: status
 
-      call new_group(self, name, inner, status)
+      call h5gcreate_f(self%here, name, inner, status, gcpl_id=self%groups)
       call self%check(status)
       self%depth = self%depth + 1
       self%around(self%depth) = self%here
       self%here = inner
       self%place = self%place // "/" // name
    end subroutine enter
-
-   !> Make a group in the present one, which is that of the case at depth 0
-   subroutine new_group(self, name, group, status)
-      class(hdf5_file), intent(inout) :: self
-      character(len=*), intent(in) :: name
-      integer(hid_t), intent(out) :: group
-      integer, intent(out) :: status
-
-      if (self%depth == 0) then
-         call h5gcreate_f(self%file, trim(self%announced(self%latest)) // "/" // name, group, status, gcpl_id=self%groups)
-      else
-         call h5gcreate_f(self%here, name, group, status, gcpl_id=self%groups)
-      end if
-   end subroutine new_group
 
    !> Back to the group around it
    subroutine leave(self)
@@ -531,16 +462,12 @@ contains
       call self%find_kept(self%place // "/" // self%leaf, k)
       if (allocated(self%kept(k)%items)) then
          if (same_items(self%kept(k)%items, self%items(:self%count_items))) then
-            if (self%depth == 0) then
-               call h5olink_f(self%kept(k)%id, self%file, trim(self%announced(self%latest)) // "/" // self%leaf, status)
-            else
-               call h5olink_f(self%kept(k)%id, self%here, self%leaf, status)
-            end if
+            call h5olink_f(self%kept(k)%id, self%here, self%leaf, status)
             call self%check(status)
             return
          end if
       end if
-      call new_group(self, self%leaf, group, status)
+      call h5gcreate_f(self%here, self%leaf, group, status, gcpl_id=self%groups)
       call self%check(status)
       do i = 1, self%count_items
          if (allocated(self%kept(k)%items)) then
@@ -860,15 +787,6 @@ contains
       table%written = table%written + table%waiting
       table%waiting = 0
    end subroutine write_rows
-
-   !> Bring the file on disk up to date
-   subroutine flush_file(self)
-      class(hdf5_file), intent(inout) :: self
-      integer :: status
-
-      call h5fflush_f(self%file, h5f_scope_local_f, status)
-      call self%check(status)
-   end subroutine flush_file
 
    !> An array over the elements
    subroutine field(self, name, unit, title, values)
