@@ -17,7 +17,9 @@ module contact_cases_pair_session
    use contact_profile_request, only : profile_request, profile_side
    use contact_profile_store, only : prepared_profile, profile_store
    use contact_profile_surface, only : profile_surface
-   use contact_wheelrail_pair, only : pair_memory, pair_problem, release_pair, solve_pair
+   use contact_wheelrail_memory, only : pair_memory, release_pair
+   use contact_wheelrail_pair, only : solve_pair
+   use contact_wheelrail_problem, only : pair_problem
    use contact_wheelrail_result, only : pair_result
    use contact_wheelrail_spec, only : profile_spec
    implicit none (type, external)

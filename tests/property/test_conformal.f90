@@ -17,7 +17,9 @@ program test_conformal
    use contact_wheelrail_creepage, only : contact_motion, rigid_motion
    use contact_wheelrail_curved_patch, only : curved_reference, fit_creepages, straight_reference, surface_slip
    use contact_wheelrail_frame, only : new_frame
-   use contact_wheelrail_pair, only : pair_memory, pair_problem, release_pair, solve_pair
+   use contact_wheelrail_memory, only : pair_memory, release_pair
+   use contact_wheelrail_pair, only : solve_pair
+   use contact_wheelrail_problem, only : pair_problem
    use contact_wheelrail_result, only : pair_result
    implicit none (type, external)
    !> Sphere and groove [mm], how far their centres are moved together beyond first touch [mm]

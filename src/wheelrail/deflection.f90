@@ -1,0 +1,100 @@
+!> Deflection of a rail on springs under the forces of the wheel
+module contact_wheelrail_deflection
+   use contact_base_error, only : error_type
+   use contact_base_kinds, only : wp
+   use contact_base_log, only : log_type
+   use contact_numeric_root_search, only : root_search
+   use contact_wheelrail_height, only : out_of_sight, settle, small_step
+   use contact_wheelrail_memory, only : pair_memory, total_force, vertical_force
+   use contact_wheelrail_placement, only : side_sign
+   use contact_wheelrail_problem, only : pair_problem
+   use contact_wheelrail_result, only : pair_result
+   implicit none (type, external)
+   private
+
+   public :: search_deflection, lower_rail
+
+contains
+
+   !> Search the lateral deflection of a rail on springs
+   !>
+   !> The lateral force falls when the rail gives way, and the force of the spring rises.
+   subroutine search_deflection(problem, memory, z, log, result, error)
+      type(pair_problem), intent(in) :: problem
+      type(pair_memory), intent(inout) :: memory
+      !> Height of the wheelset above a rail without vertical deflection [mm]
+      real(wp), intent(out) :: z
+      type(log_type), intent(inout) :: log
+      type(pair_result), intent(inout) :: result
+      type(error_type), allocatable, intent(out) :: error
+      type(root_search) :: search
+      type(log_type) :: silent
+      real(wp) :: first, step, tolerance, residual
+      character(len=12) :: missed
+
+      first = memory%here%deflection
+      associate (rail => problem%spec%rail)
+         call settle(problem, memory, z, silent, result, error)
+         if (allocated(error)) return
+         residual = unbalanced()
+         step = rail%first_step
+         if (rail%ky > 0.0_wp) step = min(step, 1.05_wp*abs(residual)/rail%ky)
+         tolerance = problem%template%eps*max(abs(rail%fy), norm2(total_force(memory)))
+         call search%start(first, step, tolerance)
+         search%resolution = 1.0e-8_wp
+         if (rail%ky > 0.0_wp) search%resolution = min(search%resolution, 0.1_wp*tolerance/rail%ky)
+         do
+            call search%answer(residual, abs(search%x - first) > out_of_sight)
+            if (search%finished) exit
+            memory%here%deflection = search%x
+            call settle(problem, memory, z, silent, result, error)
+            if (allocated(error)) return
+            residual = unbalanced()
+         end do
+         memory%here%deflection = search%best
+         call settle(problem, memory, z, log, result, error)
+         if (allocated(error)) return
+         residual = unbalanced()
+         if (abs(residual) <= max(tolerance, small_step*norm2(total_force(memory)))) return
+         result%solved = .false.
+         write(missed, '(es10.2)') residual
+         if (search%bracketed) then
+            call log%warning("the lateral force on the rail misses that of its spring by " // trim(adjustl(missed)) // &
+               & " N: it jumps where contact patches appear, join or separate")
+         else
+            call log%warning("the lateral force on the rail misses that of its spring by " // trim(adjustl(missed)) // &
+               & " N: no deflection balances them")
+         end if
+      end associate
+
+   contains
+
+      !> Lateral force that neither the spring nor the static force takes [N], right-hand pair
+      real(wp) function unbalanced()
+         real(wp) :: force(3)
+         force = total_force(memory)
+         unbalanced = force(2) + side_sign(problem%spec)*problem%spec%rail%fy - problem%spec%rail%ky*memory%here%deflection
+      end function unbalanced
+   end subroutine search_deflection
+
+   !> Vertical deflection of a rail on springs: everything moves down with it
+   subroutine lower_rail(problem, memory, z, result)
+      type(pair_problem), intent(in) :: problem
+      type(pair_memory), intent(inout) :: memory
+      !> Height of the wheelset above a rail without vertical deflection on entry, above the track on exit [mm]
+      real(wp), intent(inout) :: z
+      type(pair_result), intent(inout) :: result
+      integer :: k
+
+      if (.not. problem%force_prescribed) then
+         result%dz_defl = problem%spec%wheelset%z - z
+      else if (problem%spec%rail%kz > 0.0_wp) then
+         result%dz_defl = (vertical_force(memory) + problem%spec%rail%fz)/problem%spec%rail%kz
+      end if
+      z = z + result%dz_defl
+      do k = 1, memory%used
+         memory%slot(k)%plane%origin(3) = memory%slot(k)%plane%origin(3) + result%dz_defl
+         if (allocated(memory%slot(k)%curve)) memory%slot(k)%curve%z = memory%slot(k)%curve%z + result%dz_defl
+      end do
+   end subroutine lower_rail
+end module contact_wheelrail_deflection

@@ -1,0 +1,103 @@
+!> Result of a pair from the solutions of its patches
+module contact_wheelrail_gather
+   use contact_base_choices, only : contact_location, motion
+   use contact_base_kinds, only : wp
+   use contact_wheelrail_frame, only : frame
+   use contact_wheelrail_geometry, only : pair_geometry
+   use contact_wheelrail_memory, only : pair_memory, patch_slot
+   use contact_wheelrail_problem, only : friction_by_row, pair_problem
+   use contact_wheelrail_result, only : pair_patch, pair_result
+   implicit none (type, external)
+   private
+
+   public :: gather
+
+contains
+
+   !> Collect the patches and sum up their forces
+   subroutine gather(problem, memory, result)
+      type(pair_problem), intent(in) :: problem
+      type(pair_memory), intent(in) :: memory
+      type(pair_result), intent(inout) :: result
+      real(wp) :: force(3), moment(3), axes(3, 3), local(3)
+      integer :: k
+
+      associate (p => memory%here%placement, material => problem%template%model%material)
+         result%gg = material%gg
+         result%nu = material%nu
+         result%ak = material%ak
+         result%rail_y = p%rail%origin(2)
+         result%rail_z = p%rail%origin(3)
+         result%rail_roll = p%rail%roll()
+         result%wheel_x = p%wheel%origin(1)
+         result%wheel_y = p%wheel%origin(2)
+         result%wheel_z = p%wheel%origin(3)
+         result%wheel_roll = p%wheel%roll()
+         result%wheel_yaw = p%wheel%yaw()
+         local = p%wheelset%to_local(p%wheel%origin)
+         result%wheel_offset = local(2)
+         result%force_track = 0.0_wp
+         result%moment_rail = 0.0_wp
+         result%moment_wheel = 0.0_wp
+         if (allocated(result%patches)) then
+            if (size(result%patches) /= memory%used) deallocate(result%patches)
+         end if
+         if (.not. allocated(result%patches)) allocate(result%patches(memory%used))
+         do k = 1, memory%used
+            call describe_patch(memory%here, memory%slot(k), result%patches(k))
+            if (allocated(result%patches(k)%curve)) deallocate(result%patches(k)%curve)
+            if (problem%spec%search%location == contact_location%conformal) then
+               associate (curve => memory%slot(k)%curve)
+                  result%patches(k)%curve = transpose(reshape([curve%y, curve%z, curve%alpha], [size(curve%y), 3]))
+               end associate
+            end if
+            result%patches(k)%friction_varies = friction_by_row(problem)
+            axes = memory%slot(k)%plane%axes
+            force = matmul(axes, result%patches(k)%force)
+            moment = matmul(axes, result%patches(k)%moment)
+            result%force_track = result%force_track + force
+            result%moment_rail = result%moment_rail + moment + cross(memory%slot(k)%plane%origin - p%rail%origin, force)
+            result%moment_wheel = result%moment_wheel + moment + cross(memory%slot(k)%plane%origin - p%wheel%origin, force)
+         end do
+         result%force_wheelset = matmul(result%force_track, p%wheelset%axes)
+         result%moment_wheel = matmul(result%moment_wheel, p%wheelset%axes)
+      end associate
+   end subroutine gather
+
+   pure function cross(a, b) result(c)
+      real(wp), intent(in) :: a(3), b(3)
+      real(wp) :: c(3)
+      c = [a(2)*b(3) - a(3)*b(2), a(3)*b(1) - a(1)*b(3), a(1)*b(2) - a(2)*b(1)]
+   end function cross
+
+   !> Place and forces of one patch
+   subroutine describe_patch(here, slot, patch)
+      type(pair_geometry), intent(in) :: here
+      type(patch_slot), intent(in) :: slot
+      type(pair_patch), intent(inout) :: patch
+      real(wp) :: local(3)
+      type(frame) :: seen
+
+      patch%previous = slot%previous
+      patch%grid_reference = 0.0_wp
+      if (slot%problem%motion == motion%shift .or. slot%problem%motion == motion%transient_rolling) &
+         & patch%grid_reference = slot%reference
+
+      patch%x = slot%plane%origin(1)
+      patch%y = slot%plane%origin(2)
+      patch%z = slot%plane%origin(3)
+      patch%delta = slot%plane%roll()
+      seen = here%placement%rail%seen_from_here(slot%plane)
+      patch%y_rail = seen%origin(2)
+      patch%z_rail = seen%origin(3)
+      patch%delta_rail = seen%roll()
+      local = here%placement%wheel%to_local(slot%plane%origin)
+      patch%x_wheel = local(1)
+      patch%y_wheel = local(2)
+      patch%z_wheel = local(3)
+      patch%contact = slot%result
+      patch%force = slot%force
+      patch%moment = slot%moment
+      patch%tilde_fn = slot%result%fn
+   end subroutine describe_patch
+end module contact_wheelrail_gather

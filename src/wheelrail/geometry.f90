@@ -1,0 +1,148 @@
+!> Where the bodies are at a height of the wheelset, and the gap between them
+module contact_wheelrail_geometry
+   use contact_base_choices, only : contact_location, motion
+   use contact_base_kinds, only : wp
+   use contact_profile_curve, only : profile_curve
+   use contact_profile_surface, only : surface_cut
+   use contact_wheelrail_bodies, only : pair_bodies, place_bodies, rail_section
+   use contact_wheelrail_carry_over, only : carried_moment, lattice_box
+   use contact_wheelrail_gap, only : gap_curve, measure_gap, rail_in_track
+   use contact_wheelrail_placement, only : pair_placement, place_pair
+   use contact_wheelrail_problem, only : follows_surface, pair_problem
+   use contact_wheelrail_regions, only : contact_region, smallest_gap
+   use contact_wheelrail_variable, only : measure_variable_gap
+   implicit none (type, external)
+   private
+
+   public :: most_patches, learned_share, pair_geometry, place, measure, rail_at, lattice_x, box_on_lattice
+
+   !> Most patches of a pair
+   integer, parameter :: most_patches = 10
+
+   !> Force of friction relative to the normal force that a tangential solution has found, and where
+   type :: learned_share
+      !> Lateral position [mm] and contact angle [rad]
+      real(wp) :: y = 0.0_wp, alpha = 0.0_wp
+      real(wp) :: share(3) = 0.0_wp
+   end type learned_share
+
+   !> Where the bodies are and what the search for contact found: what the patches of a trial share
+   type :: pair_geometry
+      !> Shares 1...shares are known. They serve all trials until the next tangential solution, whether
+      !> patches come and go or not, so that the force is one function of the height
+      integer :: shares = 0
+      type(learned_share) :: learned(most_patches)
+      type(gap_curve) :: gap
+      !> The rail at the wheelset
+      type(profile_curve) :: rail_in_track
+      !> Sections of bodies that vary; used when `searches_table` or with curved reference surfaces
+      type(pair_bodies) :: bodies
+      logical :: searches_table = .false.
+      type(pair_placement) :: placement
+      !> Height at which the gap was measured, and that of first touch [mm]
+      real(wp) :: gap_height = 0.0_wp, touch = 0.0_wp
+      !> Penetration that carries the prescribed force [mm]: of the last search of this case, or 0
+      real(wp) :: penetration = 0.0_wp
+      !> Lateral deflection of the rail [mm] and pitch rate of the wheelset [rad/s]: prescribed, or the present trial
+      real(wp) :: deflection = 0.0_wp, pitch_rate = 0.0_wp
+      !> Top of the canted rail and its gauge point [mm]
+      real(wp) :: top_z = 0.0_wp, gauge_y = 0.0_wp
+      !> Where the tractions of the previous moment are
+      type(carried_moment) :: before
+      !> Position of the wheelset along the rail [mm], and the arc length of the rail's profile at its origin [mm]
+      real(wp) :: travel = 0.0_wp, profile_origin = 0.0_wp
+   end type pair_geometry
+
+contains
+
+   !> Put the wheelset at a height
+   subroutine place(problem, here, z, dz)
+      type(pair_problem), intent(in) :: problem
+      type(pair_geometry), intent(inout) :: here
+      real(wp), intent(in) :: z
+      !> Vertical deflection of the rail [mm], default 0
+      real(wp), intent(in), optional :: dz
+      real(wp) :: deflection(2)
+
+      deflection = [here%deflection, 0.0_wp]
+      if (present(dz)) deflection(2) = dz
+      call place_pair(problem%spec, problem%wheel, here%top_z, here%gauge_y, z, deflection, &
+         & here%placement)
+   end subroutine place
+
+   !> Gap between the bodies, and the height of first touch
+   subroutine measure(problem, here, z)
+      type(pair_problem), intent(in) :: problem
+      type(pair_geometry), intent(inout) :: here
+      !> Height of the wheelset [mm]
+      real(wp), intent(in) :: z
+
+      call place(problem, here, z)
+      here%rail_in_track = rail_at(problem, here%placement, 0.0_wp)
+      here%profile_origin = here%rail_in_track%s_at(here%placement%rail%origin(2))
+      here%searches_table = allocated(problem%rail_surface) .or. allocated(problem%wheel_surface) &
+         & .or. any(problem%spec%search%location == [contact_location%grid, contact_location%steep_grid])
+      if (here%searches_table .or. follows_surface(problem)) then
+         here%bodies%rail = here%rail_in_track
+         here%bodies%wheel = problem%wheel
+         here%bodies%placement = here%placement
+         call place_bodies(here%bodies, problem%spec%wheelset%s, problem%spec%wheelset%pitch, &
+            & problem%spec%search%dx, problem%rail_surface, problem%wheel_surface)
+      end if
+      if (here%searches_table) then
+         call measure_variable_gap(here%bodies, problem%spec%search%ds, allocated(problem%wheel_surface) &
+            & .or. any(problem%spec%search%location == [contact_location%grid, contact_location%steep_grid]), here%gap)
+      else
+         call measure_gap(here%rail_in_track, problem%wheel, here%placement, problem%spec%search%ds, here%gap)
+      end if
+      here%gap_height = z
+      here%touch = z + smallest_gap(here%gap)
+   end subroutine measure
+
+   !> The rail's profile in track coordinates at a place along it; of a variable one within its slices
+   function rail_at(problem, placement, x) result(curve)
+      type(pair_problem), intent(in) :: problem
+      type(pair_placement), intent(in) :: placement
+      !> From the wheelset on [mm]
+      real(wp), intent(in) :: x
+      type(profile_curve) :: curve
+      type(surface_cut) :: section
+      real(wp) :: u
+
+      if (allocated(problem%rail_surface)) then
+         associate (range => problem%rail_surface%u_range)
+            u = min(max(problem%spec%wheelset%s + x, range(1)), range(2))
+         end associate
+         call rail_section(problem%rail_surface, placement, u, section)
+         if (section%present) then
+            curve = section%curve
+            return
+         end if
+      end if
+      curve = rail_in_track(problem%rail, placement)
+   end function rail_at
+
+   !> Position along the track, relative to the origin of the lattice [mm]
+   pure real(wp) function lattice_x(problem, here, x)
+      type(pair_problem), intent(in) :: problem
+      type(pair_geometry), intent(in) :: here
+      !> In the track [mm]
+      real(wp), intent(in) :: x
+
+      lattice_x = x
+      if (problem%template%motion == motion%shift) lattice_x = x + here%travel
+   end function lattice_x
+
+   !> Bounds of a region on the lattice
+   function box_on_lattice(problem, here, region) result(box)
+      type(pair_problem), intent(in) :: problem
+      type(pair_geometry), intent(in) :: here
+      type(contact_region), intent(in) :: region
+      type(lattice_box) :: box
+      real(wp) :: s(2)
+
+      box%x = [lattice_x(problem, here, region%box%x(1)), lattice_x(problem, here, region%box%x(2))]
+      s = here%rail_in_track%s_at(region%box%y) - here%profile_origin
+      box%s = [minval(s), maxval(s)]
+   end function box_on_lattice
+end module contact_wheelrail_geometry

@@ -1,0 +1,212 @@
+!> Height of the wheelset: prescribed, or that at which the vertical force acts
+!>
+!> The search itself is that of contact_wheelrail_force_balance. Where tangential tractions do not change the
+!> pressures, only normal problems are solved on the way, with the tangential forces in a fixed ratio to the
+!> normal ones; the tangential problem comes last and corrects that ratio. References and grids belong to the
+!> height of each trial.
+module contact_wheelrail_height
+   use contact_base_choices, only : force_control, motion
+   use contact_base_error, only : error_type
+   use contact_base_kinds, only : wp
+   use contact_base_log, only : log_type
+   use contact_wheelrail_force_balance, only : balance_ending, force_balance
+   use contact_wheelrail_geometry, only : measure
+   use contact_wheelrail_memory, only : pair_memory, vertical_force, vertical_slope
+   use contact_wheelrail_problem, only : pair_problem
+   use contact_wheelrail_result, only : pair_result
+   use contact_wheelrail_trial, only : evaluate, learn_shares
+   implicit none (type, external)
+   private
+
+   public :: settle, out_of_sight, small_step
+
+   !> Rounds of tangential solutions with a new search for the height
+   integer, parameter :: most_rounds = 8
+
+   !> Steps of the force that are due to the grids, relative to the force
+   real(wp), parameter :: small_step = 1.0e-4_wp
+
+   !> Forces below this value ask for a wheel that just touches [N]
+   real(wp), parameter :: no_force = 1.0e-9_wp
+
+   !> Heights and deflections this far away are out of reach [mm]
+   real(wp), parameter :: out_of_sight = 500.0_wp
+
+contains
+
+   !> Height and contact for the present deflection of the rail and the present pitch rate
+   subroutine settle(problem, memory, z, log, result, error)
+      type(pair_problem), intent(in) :: problem
+      type(pair_memory), intent(inout) :: memory
+      !> Height of the wheelset above a rail without vertical deflection [mm]
+      real(wp), intent(out) :: z
+      type(log_type), intent(inout) :: log
+      type(pair_result), intent(inout) :: result
+      type(error_type), allocatable, intent(out) :: error
+      real(wp) :: target, spring
+      logical :: height_is_unknown
+
+      result%solved = .false.
+      height_is_unknown = problem%force_prescribed .or. problem%force == force_control%massless_rail
+      z = problem%spec%wheelset%z
+      if (height_is_unknown) then
+         z = 0.0_wp
+         if (memory%started) z = memory%z_ws
+      end if
+      call measure(problem, memory%here, z)
+      if (.not. height_is_unknown) then
+         call evaluate(problem, memory, z, with_friction=.true., log=log, error=error)
+         result%solved = .not. allocated(error)
+         return
+      end if
+      if (memory%here%touch - z > out_of_sight) then
+         memory%used = 0
+         z = memory%here%touch
+         call log%warning("wheel and rail do not meet: their lateral positions are apart")
+         return
+      end if
+      associate (touch => memory%here%touch, rail => problem%spec%rail)
+         if (problem%force_prescribed) then
+            spring = 0.0_wp
+            target = problem%spec%wheelset%fz
+         else
+            ! the rail's springs give way by what the wheel does not penetrate
+            spring = rail%kz
+            target = rail%kz*(problem%spec%wheelset%z - touch) - rail%fz
+         end if
+         if (target > no_force) then
+            call balance_forces(problem, memory, target, spring, z, log, result, error)
+         else
+            memory%used = 0
+            result%solved = .true.
+            z = touch
+            if (.not. problem%force_prescribed) z = problem%spec%wheelset%z - rail%fz/rail%kz
+         end if
+      end associate
+   end subroutine settle
+
+   !> Search the height at which the vertical force acts
+   subroutine balance_forces(problem, memory, target, spring, z, log, result, error)
+      type(pair_problem), intent(in) :: problem
+      type(pair_memory), intent(inout) :: memory
+      !> Prescribed force [N]: of the contact, and of a spring that is free of force at first touch, with its stiffness [N/mm]
+      real(wp), intent(in) :: target, spring
+      !> Height found [mm]
+      real(wp), intent(out) :: z
+      type(log_type), intent(inout) :: log
+      type(pair_result), intent(inout) :: result
+      type(error_type), allocatable, intent(out) :: error
+      type(force_balance) :: balance
+      real(wp) :: force, trial, guess, touch, slope
+      logical :: separate
+      integer :: round
+
+      touch = memory%here%touch
+      ! friction decouples from the pressures for bodies that are alike
+      separate = problem%template%motion /= motion%none .and. .not. problem%template%model%coupled()
+      guess = touch + penetration_guess(problem, memory, target)
+      if (spring > 0.0_wp) guess = min(guess, touch + target/spring)
+      if (problem%use_previous .and. memory%started .and. memory%z_ws > touch) guess = memory%z_ws
+      if (memory%here%penetration > 0.0_wp) guess = touch + memory%here%penetration
+      do round = 1, most_rounds
+         call balance%start(target, problem%template%eps, touch, touch + 1.1_wp*memory%here%placement%wheel_radius, &
+            & problem%template%maxnr)
+         do while (balance%ended == balance_ending%running)
+            trial = balance%next_trial(guess)
+            call evaluate(problem, memory, trial, with_friction=.not. separate, log=log, error=error)
+            if (allocated(error)) return
+            force = vertical_force(memory) + spring*(trial - touch)
+            slope = vertical_slope(memory) + spring
+            call balance%record(trial, force, slope)
+            result%force_evaluations = result%force_evaluations + 1
+            call trace_trial(log, result%force_evaluations, trial, force, slope)
+         end do
+         z = balance%z
+         if (.not. separate) exit
+         ! the tangential problem at the height found corrects the lateral forces
+         call evaluate(problem, memory, z, with_friction=.true., log=log, error=error)
+         if (allocated(error)) return
+         call learn_shares(memory)
+         force = vertical_force(memory) + spring*(z - touch)
+         slope = vertical_slope(memory) + spring
+         result%force_evaluations = result%force_evaluations + 1
+         call trace_trial(log, result%force_evaluations, z, force, slope)
+         if (abs(force - target) <= balance%tolerance) exit
+         ! a force that was not reached is not mended by friction, but for the small steps of the grids
+         if (balance%ended /= balance_ending%reached .and. abs(balance%force - target) > small_step*target) exit
+         guess = z + (target - force)/max(slope, 0.1_wp*target/max(z - touch, 1.0e-6_wp))
+         if (guess <= touch) guess = z
+      end do
+      if (.not. separate .and. abs(balance%force - force) > 0.0_wp) then
+         ! the last trial need not be the best one
+         call evaluate(problem, memory, z, with_friction=.true., log=log, error=error)
+         if (allocated(error)) return
+      end if
+      memory%here%penetration = z - touch
+      result%force_error = vertical_force(memory) + spring*(z - touch) - target
+      ! grids follow the contact in whole elements, which leaves small steps in the force
+      result%solved = abs(result%force_error) <= max(balance%tolerance, small_step*target)
+      if (.not. result%solved) call complain(balance, target, result%force_error, log)
+   end subroutine balance_forces
+
+   !> Line of the flow trace
+   subroutine trace_trial(log, number, z, force, slope)
+      type(log_type), intent(inout) :: log
+      integer, intent(in) :: number
+      real(wp), intent(in) :: z, force, slope
+      character(len=100) :: line
+
+      if (.not. log%shows(1)) return
+      write(line, '(4x,i6,a,f12.4,es12.4,a,es12.3)') number, ", NR,  z_ws, Fz: ", z, force, ", dFz/dz:", slope
+      call log%trace(1, trim(line))
+   end subroutine trace_trial
+
+   !> Say why the force was not reached
+   subroutine complain(balance, target, force_error, log)
+      type(force_balance), intent(in) :: balance
+      real(wp), intent(in) :: target, force_error
+      type(log_type), intent(inout) :: log
+      character(len=12) :: wanted, missed
+      character(len=:), allocatable :: why
+
+      write(wanted, '(es10.3)') target
+      write(missed, '(es10.2)') force_error
+      select case (balance%ended)
+      case (balance_ending%jump)
+         why = "the force jumps over it where contact patches join or separate"
+      case (balance_ending%out_of_reach)
+         why = "it is out of reach"
+      case (balance_ending%trial_limit)
+         why = "all MAXNR trials were used"
+      case default
+         why = "the lateral forces do not settle"
+      end select
+      call log%warning("the vertical force " // trim(adjustl(wanted)) // " N is missed by " // trim(adjustl(missed)) // &
+         & " N: " // why)
+   end subroutine complain
+
+   !> Penetration by Hertz's theory for the place of first touch [mm]
+   real(wp) function penetration_guess(problem, memory, force) result(pen)
+      type(pair_problem), intent(in) :: problem
+      type(pair_memory), intent(in) :: memory
+      real(wp), intent(in) :: force
+      real(wp) :: a, b, bend, modulus
+      integer :: i, k
+
+      associate (gap => memory%here%gap)
+         i = minloc(gap%gap, dim=1)
+         a = gap%kappa
+         b = a
+         ! the curvature over a width as large as a patch
+         k = max(1, nint(2.0_wp/gap%dy))
+         if (i - k >= 1 .and. i + k <= gap%n) then
+            bend = (gap%gap(i - k) - 2.0_wp*gap%gap(i) + gap%gap(i + k))/(k*gap%dy)**2
+            if (bend > 0.0_wp .and. bend < 10.0_wp) b = 0.5_wp*bend
+         end if
+      end associate
+      modulus = problem%template%model%material%gg/(1.0_wp - problem%template%model%material%nu)
+      ! a sphere with the mean of the curvatures
+      pen = (0.75_wp*force*sqrt(2.0_wp*max(sqrt(a*b), 1.0e-8_wp))/modulus)**(2.0_wp/3.0_wp)
+      pen = min(max(pen, 1.0e-6_wp), 5.0_wp)
+   end function penetration_guess
+end module contact_wheelrail_height

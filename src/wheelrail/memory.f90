@@ -1,0 +1,112 @@
+!> What a pair remembers from trial to trial and from case to case, and its sums over the patches
+module contact_wheelrail_memory
+   use contact_base_choices, only : motion
+   use contact_base_kinds, only : wp
+   use contact_patch_problem, only : patch_problem, patch_state
+   use contact_patch_result, only : patch_result
+   use contact_patch_workspace, only : patch_workspace, release_workspace
+   use contact_wheelrail_carry_over, only : carried_moment, lattice_window
+   use contact_wheelrail_creepage, only : contact_motion
+   use contact_wheelrail_curved_patch, only : curved_reference
+   use contact_wheelrail_frame, only : frame
+   use contact_wheelrail_geometry, only : pair_geometry
+   use contact_wheelrail_regions, only : contact_region
+   implicit none (type, external)
+   private
+
+   public :: patch_slot, pair_memory, release_pair, total_force, vertical_force, vertical_slope
+
+   !> One patch with its memory
+   type :: patch_slot
+      type(patch_problem) :: problem
+      type(patch_state) :: state
+      type(patch_workspace) :: workspace
+      type(patch_result) :: result
+      type(contact_region) :: region
+      type(frame) :: plane
+      !> Curved reference surface; unallocated for a flat patch whose slip is that of its reference
+      type(curved_reference), allocatable :: curve
+      !> Heights of rail and wheel over that surface [mm], shape (mx, my)
+      real(wp), allocatable :: on_rail(:, :), on_wheel(:, :)
+      type(contact_motion) :: motion
+      !> Place of the contact reference on the lattice of the pair [mm]
+      real(wp) :: reference(2) = 0.0_wp
+      !> Window of the grid on the lattice, and that of the solution in `state`
+      type(lattice_window) :: window, solved_window
+      !> Patches of the previous moment that this one continues
+      integer, allocatable :: previous(:)
+      !> Forces [N] and moment [N mm] on the rail in the axes x, s, n of the plane
+      real(wp) :: force(3) = 0.0_wp, moment(3) = 0.0_wp
+      !> Force of the pressures on the rail in the axes x, s, n of the plane [N]
+      real(wp) :: pressure_force(3) = 0.0_wp
+      !> Force of friction in the same axes, relative to the normal force [-]: of the last tangential
+      !> solution, or an estimate
+      real(wp) :: friction_share(3) = 0.0_wp
+   end type patch_slot
+
+   !> What a pair remembers from case to case, and scratch
+   type :: pair_memory
+      !> Height of the wheelset above a rail without vertical deflection in the previous case [mm]
+      real(wp) :: z_ws = 0.0_wp
+      logical :: started = .false.
+      !> Patches 1...used are those of the last evaluation
+      integer :: used = 0
+      type(patch_slot), allocatable :: slot(:)
+      type(pair_geometry) :: here
+      !> Tractions of the last solved case
+      type(carried_moment) :: last
+      !> Motion of the last case
+      integer :: motion = motion%none
+   end type pair_memory
+
+contains
+
+   !> Free what the memory holds outside Fortran's own
+   subroutine release_pair(memory)
+      type(pair_memory), intent(inout) :: memory
+      integer :: k
+
+      if (.not. allocated(memory%slot)) return
+      do k = 1, size(memory%slot)
+         call release_workspace(memory%slot(k)%workspace)
+      end do
+   end subroutine release_pair
+
+   !> Force on the rail in track axes [N], friction from the last tangential solution
+   pure function total_force(memory) result(force)
+      type(pair_memory), intent(in) :: memory
+      real(wp) :: force(3)
+      integer :: k
+
+      force = 0.0_wp
+      do k = 1, memory%used
+         associate (slot => memory%slot(k))
+            force = force + matmul(slot%plane%axes, slot%pressure_force + slot%friction_share*slot%result%fn)
+         end associate
+      end do
+   end function total_force
+
+   !> Vertical force on the rail [N], friction from the last tangential solution
+   pure real(wp) function vertical_force(memory) result(force)
+      type(pair_memory), intent(in) :: memory
+      real(wp) :: all(3)
+
+      all = total_force(memory)
+      force = all(3)
+   end function vertical_force
+
+   !> Derivative of the vertical force to the height, from the contact stiffness where it is known [N/mm]
+   pure real(wp) function vertical_slope(memory) result(slope)
+      type(pair_memory), intent(in) :: memory
+      integer :: k
+
+      slope = 0.0_wp
+      do k = 1, memory%used
+         associate (slot => memory%slot(k))
+            ! the normal force changes by the stiffness, the vertical one along with it
+            if (slot%result%fn > 0.0_wp) slope = slope + slot%plane%axes(3, 3)*slot%result%sensitivity(1, 1) &
+               & *dot_product(slot%plane%axes(3, :), slot%pressure_force/slot%result%fn + slot%friction_share)
+         end associate
+      end do
+   end function vertical_slope
+end module contact_wheelrail_memory

@@ -1,0 +1,245 @@
+!> Grid, undeformed distance, creepages and friction of one patch of a pair
+module contact_wheelrail_patch_inputs
+   use contact_base_choices, only : contact_location, friction_model, motion, variation
+   use contact_base_constants, only : excluded_distance
+   use contact_base_error, only : error_type
+   use contact_base_kinds, only : wp
+   use contact_friction_law, only : friction_parameters
+   use contact_friction_new_law, only : new_friction_law
+   use contact_profile_curve, only : profile_curve
+   use contact_wheelrail_carry_over, only : place_on_lattice
+   use contact_wheelrail_creepage, only : flat_creepage, flat_shift, rigid_motion
+   use contact_wheelrail_curved_patch, only : curved_rows, fit_creepages, new_curved_reference, straight_reference, &
+      & surface_heights, surface_slip
+   use contact_wheelrail_flat_patch, only : patch_frame, patch_grid, undeformed_distance
+   use contact_wheelrail_geometry, only : lattice_x, pair_geometry, rail_at
+   use contact_wheelrail_memory, only : patch_slot
+   use contact_wheelrail_placement, only : rail_motion, wheel_motion
+   use contact_wheelrail_problem, only : follows_surface, friction_by_row, keeps_lattice, pair_problem, parameters_at
+   use contact_wheelrail_variable, only : variable_distance
+   implicit none (type, external)
+   private
+
+   public :: set_up_patch
+
+   !> Parts of a blended patch reach this far beyond their bounds, relative to D_COMB
+   real(wp), parameter :: part_margin = 0.4_wp
+
+contains
+
+   !> Problem of one patch for its region: everything but where the solution starts
+   subroutine set_up_patch(problem, here, number, slot, error)
+      type(pair_problem), intent(in) :: problem
+      type(pair_geometry), intent(in) :: here
+      !> Number of the patch
+      integer, intent(in) :: number
+      type(patch_slot), intent(inout) :: slot
+      type(error_type), allocatable, intent(out) :: error
+      type(profile_curve) :: rail
+      real(wp), allocatable :: h(:, :)
+      real(wp) :: approach
+
+      rail = here%rail_in_track
+      if (allocated(problem%rail_surface)) rail = rail_at(problem, here%placement, slot%region%x)
+      slot%plane = patch_frame(rail, here%placement, slot%region)
+      call move_alloc(slot%problem%h, h)
+      slot%problem = problem%template
+      if (allocated(slot%curve)) deallocate(slot%curve)
+      slot%reference = [lattice_x(problem, here, slot%region%x), rail%s_at(slot%region%y) - here%profile_origin]
+      if (keeps_lattice(problem)) then
+         call patch_grid(rail, problem%spec%search, slot%region, slot%plane, slot%reference, huge(1), slot%problem%grid)
+      else
+         ! the reference is the centre of an element
+         call patch_grid(rail, problem%spec%search, slot%region, slot%plane, [0.0_wp, 0.0_wp], problem%most_elements, &
+            & slot%problem%grid)
+      end if
+      if (problem%spec%search%location == contact_location%conformal) &
+         & call curved_rows(rail, here%bodies, slot%region, slot%plane, slot%problem%grid)
+      if (keeps_lattice(problem)) then
+         slot%window = place_on_lattice(slot%problem%grid, slot%reference)
+         call here%before%widen(number, slot%window, slot%problem%grid)
+      else
+         slot%window = place_on_lattice(slot%problem%grid, [0.0_wp, 0.0_wp])
+      end if
+      if (follows_surface(problem)) then
+         call follow_surface(problem, here, rail, slot, h, approach)
+      else if (here%searches_table) then
+         call variable_distance(here%bodies, slot%plane, slot%problem%grid, h, approach)
+      else
+         call undeformed_distance(rail, problem%wheel, here%placement, slot%plane, slot%problem%grid, h, approach)
+      end if
+      call move_alloc(h, slot%problem%h)
+      slot%problem%force_prescribed = .false.
+      slot%problem%pen = approach
+      if (size(slot%region%part) > 1) call divide_patch(problem, slot)
+      slot%problem%n_forces = 0
+      if (problem%geometry_only) slot%problem%motion = motion%none
+      call set_patch_friction(problem, slot, error)
+      if (allocated(error)) return
+      call set_motion(problem, here, slot, approach)
+   end subroutine set_up_patch
+
+   !> Reference surface of a patch at the rows of its grid, and the undeformed distance along its normals
+   subroutine follow_surface(problem, here, rail, slot, h, approach)
+      type(pair_problem), intent(in) :: problem
+      type(pair_geometry), intent(in) :: here
+      !> The rail in track coordinates in the section of the reference
+      type(profile_curve), intent(in) :: rail
+      !> With its grid
+      type(patch_slot), intent(inout) :: slot
+      !> Undeformed distance [mm] with its minimum at zero, shape (mx, my)
+      real(wp), allocatable, intent(inout) :: h(:, :)
+      !> Largest interpenetration along normals [mm]
+      real(wp), intent(out) :: approach
+      integer :: iy
+
+      associate (patch => slot%problem)
+         if (problem%spec%search%location == contact_location%conformal) then
+            slot%curve = new_curved_reference(rail, here%bodies, slot%plane, patch%grid)
+         else
+            slot%curve = straight_reference(slot%plane, patch%grid)
+         end if
+         call surface_heights(here%bodies, slot%curve, patch%grid, slot%on_rail, slot%on_wheel)
+         h = slot%on_rail - slot%on_wheel
+         approach = -minval(h)
+         h = h + approach
+         if (allocated(patch%model%inclination)) then
+            patch%model%inclination%s = [(patch%grid%y(iy), iy=1, patch%grid%my)]
+            patch%model%inclination%alpha = slot%curve%alpha
+         end if
+      end associate
+   end subroutine follow_surface
+
+   !> Elements of the parts of a blended patch; what is outside of all parts cannot make contact
+   subroutine divide_patch(problem, slot)
+      type(pair_problem), intent(in) :: problem
+      type(patch_slot), intent(inout) :: slot
+      real(wp) :: margin, y
+      integer :: ix, iy, k
+
+      allocate(slot%problem%parts)
+      associate (parts => slot%problem%parts, grid => slot%problem%grid, plane => slot%plane)
+         margin = part_margin*problem%spec%search%d_comb
+         allocate(parts%label(grid%mx, grid%my), source=0)
+         parts%interaction = slot%region%interaction
+         do iy = 1, grid%my
+            y = plane%origin(2) + cos(plane%roll())*grid%y(iy)
+            if (allocated(slot%curve)) y = slot%curve%y(iy)
+            do ix = 1, grid%mx
+               do k = 1, size(slot%region%part)
+                  associate (box => slot%region%part(k))
+                     if (y < box%y(1) - margin .or. y > box%y(2) + margin) cycle
+                     if (plane%origin(1) + grid%x(ix) < box%x(1) - margin) cycle
+                     if (plane%origin(1) + grid%x(ix) > box%x(2) + margin) cycle
+                  end associate
+                  parts%label(ix, iy) = k
+                  exit
+               end do
+               if (parts%label(ix, iy) == 0) slot%problem%h(ix, iy) = excluded_distance
+            end do
+         end do
+      end associate
+   end subroutine divide_patch
+
+   !> Friction of the patch: where it varies, that of the contact angle or of the place along the track
+   subroutine set_patch_friction(problem, slot, error)
+      type(pair_problem), intent(in) :: problem
+      type(patch_slot), intent(inout) :: slot
+      type(error_type), allocatable, intent(out) :: error
+      type(friction_parameters) :: here
+      integer :: iy
+
+      associate (patch => slot%problem)
+         if (allocated(patch%static_mu)) deallocate(patch%static_mu)
+         if (friction_by_row(problem) .and. problem%template%motion /= motion%none) then
+            call new_friction_law(problem%friction_law, [(parameters_at(problem, slot%curve%alpha(iy)), iy=1, patch%grid%my)], &
+               & patch%friction, error)
+            if (allocated(error)) return
+            patch%mu = 1.0_wp
+            patch%static_mu = patch%friction%sets%static
+            return
+         end if
+         if (problem%variation /= variation%none .and. problem%template%motion /= motion%none) then
+            if (problem%variation == variation%by_angle) then
+               here = parameters_at(problem, slot%plane%roll())
+            else
+               here = parameters_at(problem, problem%spec%wheelset%s)
+            end if
+            patch%mu = here%static
+            if (problem%friction_law /= friction_model%coulomb) then
+               call new_friction_law(problem%friction_law, [here], patch%friction, error)
+               if (allocated(error)) return
+            end if
+         end if
+         if (allocated(patch%friction)) allocate(patch%static_mu(patch%grid%my), source=patch%mu)
+      end associate
+   end subroutine set_patch_friction
+
+   !> Creepages of a patch from the motion of the bodies
+   subroutine set_motion(problem, here, slot, approach)
+      type(pair_problem), intent(in) :: problem
+      type(pair_geometry), intent(in) :: here
+      type(patch_slot), intent(inout) :: slot
+      real(wp), intent(in) :: approach
+      type(rigid_motion) :: rail, wheel
+      real(wp) :: on_wheel(3), pitch_rate
+
+      pitch_rate = here%pitch_rate
+      rail = rail_motion(problem%spec, here%placement)
+      wheel = wheel_motion(problem%spec, here%placement, pitch_rate)
+      associate (plane => slot%plane)
+         on_wheel = plane%origin + approach*plane%axes(:, 3)
+         if (problem%template%motion == motion%shift) then
+            slot%motion = flat_shift(rail, wheel, plane%origin, on_wheel, plane%roll())
+         else
+            slot%motion = flat_creepage(rail, wheel, here%placement%wheelset%axes(:, 2), pitch_rate, plane%origin, on_wheel, &
+               & plane%roll(), problem%spec%roller)
+         end if
+      end associate
+      if (allocated(slot%curve)) call set_surface_slip(problem, rail, wheel, slot)
+      associate (patch => slot%problem)
+         patch%creep = [slot%motion%cksi, slot%motion%ceta]
+         patch%spin = slot%motion%cphi
+         patch%spin_centre = 0.0_wp
+         patch%chi = 0.0_wp
+         patch%dq = 1.0_wp
+         patch%veloc = 1.0_wp
+         patch%spin_offset = 0.0_wp
+         if (patch%motion == motion%transient_rolling .or. patch%motion == motion%steady_rolling) then
+            patch%chi = slot%motion%chi
+            patch%veloc = max(slot%motion%veloc, tiny(1.0_wp))
+            patch%dq = problem%spec%search%dqrel*patch%grid%dx
+            if (patch%motion == motion%steady_rolling) patch%dq = patch%grid%dx
+            patch%spin_offset = 1.0_wp/6.0_wp
+         end if
+         ! as in module 3: a layer that yields follows its particles, simplified theory starts anew at each edge
+         patch%corrects_leading_edge = patch%motion == motion%transient_rolling .and. patch%dq > 1.01_wp*patch%grid%dx &
+            & .and. .not. allocated(patch%simplified) .and. .not. patch%remembers_yield
+      end associate
+   end subroutine set_motion
+
+   !> Slip element by element on a reference surface: creepages that describe it best, and the remainder
+   subroutine set_surface_slip(problem, rail, wheel, slot)
+      type(pair_problem), intent(in) :: problem
+      type(rigid_motion), intent(in) :: rail, wheel
+      !> With the motion at the contact reference on entry
+      type(patch_slot), intent(inout) :: slot
+      real(wp) :: before
+
+      associate (patch => slot%problem)
+         before = slot%motion%veloc
+         ! on the track the rolling velocity is the forward one, unless the wheel turns on the spot
+         if (problem%template%motion /= motion%shift .and. .not. problem%spec%roller &
+            & .and. abs(problem%spec%wheelset%vs) > 0.0_wp) slot%motion%veloc = abs(problem%spec%wheelset%vs)
+         call surface_slip(rail, wheel, slot%curve, patch%grid, slot%on_rail, slot%on_wheel, problem%rail_share, &
+            & patch%extra_slip)
+         if (.not. slot%motion%veloc > 0.0_wp) then
+            patch%extra_slip = 0.0_wp
+            return
+         end if
+         patch%extra_slip = patch%extra_slip/slot%motion%veloc
+         slot%motion%cphi = slot%motion%cphi*before/slot%motion%veloc
+         call fit_creepages(patch%grid, slot%on_rail < slot%on_wheel, patch%extra_slip, slot%motion)
+      end associate
+   end subroutine set_surface_slip
+end module contact_wheelrail_patch_inputs

@@ -1,0 +1,136 @@
+!> Solution of one patch of a pair, and its forces on the rail
+module contact_wheelrail_patch_solution
+   use contact_base_choices, only : estimate_choice, motion, time_link
+   use contact_base_error, only : error_type
+   use contact_base_kinds, only : wp
+   use contact_base_log, only : log_type
+   use contact_patch_moments, only : link_moments
+   use contact_patch_problem, only : traction_fields
+   use contact_patch_solve, only : solve_patch
+   use contact_wheelrail_carry_over, only : carried_moment
+   use contact_wheelrail_curved_patch, only : curved_forces
+   use contact_wheelrail_geometry, only : pair_geometry
+   use contact_wheelrail_memory, only : patch_slot
+   use contact_wheelrail_patch_inputs, only : set_up_patch
+   use contact_wheelrail_problem, only : pair_problem
+   implicit none (type, external)
+   private
+
+   public :: solve_slot
+
+   !> A ratio is taken over by patches within this distance [mm] and angle [rad]
+   real(wp), parameter :: same_place = 5.0_wp, same_angle = 0.2_wp
+
+contains
+
+   !> Problem and solution of one patch
+   subroutine solve_slot(problem, here, number, slot, with_friction, log, error)
+      type(pair_problem), intent(in) :: problem
+      type(pair_geometry), intent(in) :: here
+      !> Number of the patch
+      integer, intent(in) :: number
+      type(patch_slot), intent(inout) :: slot
+      logical, intent(in) :: with_friction
+      type(log_type), intent(inout) :: log
+      type(error_type), allocatable, intent(out) :: error
+
+      call set_up_patch(problem, here, number, slot, error)
+      if (allocated(error)) return
+      if (.not. with_friction) slot%problem%motion = motion%none
+      slot%friction_share = share_at(problem, here, slot)
+      if (problem%geometry_only) return
+
+      call link_slot(here%before, number, slot, error)
+      if (allocated(error)) return
+      call solve_patch(slot%problem, slot%state, slot%workspace, log, slot%result, error)
+      if (allocated(error)) return
+      if (allocated(slot%curve)) then
+         call curved_forces(slot%curve, slot%plane, slot%result, slot%pressure_force, slot%force, slot%moment)
+      else
+         slot%pressure_force = [0.0_wp, 0.0_wp, slot%result%fn]
+         slot%force = [slot%result%fx, slot%result%fy, slot%result%fn]
+         slot%moment = [slot%result%mx, slot%result%my, slot%result%mz]
+      end if
+      if (with_friction .and. problem%template%motion /= motion%none .and. slot%result%fn > 0.0_wp) then
+         slot%friction_share = (slot%force - slot%pressure_force)/slot%result%fn
+      end if
+   end subroutine solve_slot
+
+   !> Estimate and previous moment on the window of this solution
+   !>
+   !> Within a case, and from a previous case when asked for, the last solution is the estimate. The
+   !> previous moment is that of the previous case in every solution of this one.
+   subroutine link_slot(before, number, slot, error)
+      type(carried_moment), intent(in) :: before
+      !> Number of the patch
+      integer, intent(in) :: number
+      type(patch_slot), intent(inout) :: slot
+      type(error_type), allocatable, intent(out) :: error
+      type(traction_fields) :: estimate
+      logical :: continues, transient
+
+      associate (problem => slot%problem, state => slot%state)
+         transient = problem%motion == motion%shift .or. problem%motion == motion%transient_rolling
+         continues = state%started .and. same_elements(slot)
+         if (continues) then
+            ! the window of the last solution, seen from the reference of this one
+            state%now%grid%xl = problem%grid%xl + (slot%solved_window%first(1) - slot%window%first(1))*problem%grid%dx
+            state%now%grid%yl = problem%grid%yl + (slot%solved_window%first(2) - slot%window%first(2))*problem%grid%dy
+         end if
+         slot%solved_window = slot%window
+         problem%estimate = merge(estimate_choice%previous, estimate_choice%fresh, continues)
+         state%started = continues
+         call link_moments(problem, time_link%initiate, state, error)
+         if (allocated(error)) return
+         if (transient) then
+            estimate = state%now
+            call before%hand_over(number, problem, slot%window, state%now)
+            state%started = .true.
+            call link_moments(problem, time_link%continue_all, state, error)
+            if (allocated(error)) return
+            state%now%division = estimate%division
+            state%now%pn = estimate%pn
+            state%now%px = estimate%px
+            state%now%py = estimate%py
+            state%now%pen = estimate%pen
+         else if (size(slot%previous) > 0) then
+            state%before%is_solved = .true.
+            state%before%force = before%total_force(number)
+         end if
+      end associate
+   end subroutine link_slot
+
+   !> Were the elements of the last solution of the same size?
+   pure logical function same_elements(slot)
+      type(patch_slot), intent(in) :: slot
+      real(wp), parameter :: same = 1.0e-6_wp
+
+      associate (old => slot%state%now%grid, new => slot%problem%grid)
+         same_elements = abs(old%dx - new%dx) < same*new%dx .and. abs(old%dy - new%dy) < same*new%dy
+      end associate
+   end function same_elements
+
+   !> Force of friction relative to the normal force at a place: learned there, or that of full sliding down the slope
+   pure function share_at(problem, here, slot) result(share)
+      type(pair_problem), intent(in) :: problem
+      type(pair_geometry), intent(in) :: here
+      type(patch_slot), intent(in) :: slot
+      real(wp) :: share(3)
+      integer :: k
+      real(wp) :: nearest, mu
+
+      share = 0.0_wp
+      if (problem%template%motion == motion%none) return
+      mu = slot%problem%mu
+      if (allocated(slot%problem%static_mu)) mu = sum(slot%problem%static_mu)/size(slot%problem%static_mu)
+      share(2) = mu*sin(slot%plane%roll())
+      nearest = same_place
+      do k = 1, here%shares
+         associate (known => here%learned(k))
+            if (abs(known%y - slot%plane%origin(2)) > nearest .or. abs(known%alpha - slot%plane%roll()) > same_angle) cycle
+            nearest = abs(known%y - slot%plane%origin(2))
+            share = known%share
+         end associate
+      end do
+   end function share_at
+end module contact_wheelrail_patch_solution

@@ -1,0 +1,113 @@
+!> Pitch rate of a wheelset whose longitudinal force is prescribed
+module contact_wheelrail_pitch_rate
+   use contact_base_choices, only : motion
+   use contact_base_error, only : error_type
+   use contact_base_kinds, only : wp
+   use contact_base_log, only : log_type
+   use contact_grid_element_division, only : element
+   use contact_numeric_root_search, only : root_search
+   use contact_wheelrail_height, only : settle, small_step
+   use contact_wheelrail_memory, only : pair_memory, total_force
+   use contact_wheelrail_problem, only : pair_problem
+   use contact_wheelrail_result, only : pair_result
+   implicit none (type, external)
+   private
+
+   public :: search_pitch_rate
+
+contains
+
+   !> Search the pitch rate at which the prescribed longitudinal force acts
+   !>
+   !> A wheel that turns faster about the axis to the right drags the rail forward.
+   subroutine search_pitch_rate(problem, memory, z, log, result, error)
+      type(pair_problem), intent(in) :: problem
+      type(pair_memory), intent(inout) :: memory
+      !> Height of the wheelset [mm]
+      real(wp), intent(out) :: z
+      type(log_type), intent(inout) :: log
+      type(pair_result), intent(inout) :: result
+      type(error_type), allocatable, intent(out) :: error
+      type(root_search) :: search
+      type(log_type) :: silent
+      real(wp) :: slope, tolerance, residual, moving
+      character(len=12) :: wanted, missed
+
+      call settle(problem, memory, z, silent, result, error)
+      if (allocated(error)) return
+      residual = missing()
+      slope = force_per_pitch_rate(memory)
+      tolerance = problem%template%eps*max(abs(problem%spec%wheelset%fx), norm2(total_force(memory)))
+      if (memory%used > 0 .and. slope > 0.0_wp) then
+         call search%start(memory%here%pitch_rate, 1.1_wp*abs(residual)/slope, tolerance)
+         moving = maxval(memory%slot(:memory%used)%motion%veloc)/memory%here%placement%wheel_radius
+         search%resolution = 1.0e-10_wp*moving
+         do
+            call search%answer(residual, slides_fully(memory))
+            if (search%finished) exit
+            memory%here%pitch_rate = search%x
+            call settle(problem, memory, z, silent, result, error)
+            if (allocated(error)) return
+            residual = missing()
+         end do
+         memory%here%pitch_rate = search%best
+      end if
+      call settle(problem, memory, z, log, result, error)
+      if (allocated(error)) return
+      residual = missing()
+      if (abs(residual) <= max(tolerance, small_step*norm2(total_force(memory)))) return
+      result%solved = .false.
+      write(wanted, '(es10.3)') problem%spec%wheelset%fx
+      write(missed, '(es10.2)') -residual
+      if (memory%used == 0) then
+         call log%warning("the longitudinal force " // trim(adjustl(wanted)) // " N needs contact, and there is none")
+      else if (search%bracketed) then
+         call log%warning("the longitudinal force " // trim(adjustl(wanted)) // " N is missed by " // trim(adjustl(missed)) // &
+            & " N: the force jumps over it")
+      else
+         call log%warning("the longitudinal force " // trim(adjustl(wanted)) // " N is missed by " // trim(adjustl(missed)) // &
+            & " N: the whole contact slides, friction cannot do more")
+      end if
+
+   contains
+
+      !> Longitudinal force in wheelset axes that is missing [N]
+      real(wp) function missing()
+         missing = problem%spec%wheelset%fx - dot_product(total_force(memory), memory%here%placement%wheelset%axes(:, 1))
+      end function missing
+   end subroutine search_pitch_rate
+
+   !> Order of magnitude of the change of the longitudinal force with the pitch rate, without slip [N s/rad]
+   !>
+   !> A contact area pi a**2 holds 2.5 G a per mm of rigid displacement, which comes about in a shift, in a
+   !> step of transient rolling, or in rolling over the length a.
+   real(wp) function force_per_pitch_rate(memory) result(slope)
+      type(pair_memory), intent(in) :: memory
+      real(wp), parameter :: pi = acos(-1.0_wp)
+      real(wp) :: a, length
+      integer :: k
+
+      slope = 0.0_wp
+      do k = 1, memory%used
+         associate (patch => memory%slot(k)%problem, contact => memory%slot(k)%result)
+            a = sqrt(contact%ncon*patch%grid%dx*patch%grid%dy/pi)
+            length = 1.0_wp
+            if (patch%motion == motion%transient_rolling) length = patch%dq
+            if (patch%motion == motion%steady_rolling) length = a
+            slope = slope + 2.5_wp*patch%model%material%gg*a*length*memory%here%placement%wheel_radius &
+               & /max(patch%veloc, epsilon(1.0_wp))
+         end associate
+      end do
+   end function force_per_pitch_rate
+
+   !> Do all contact elements slip?
+   pure logical function slides_fully(memory)
+      type(pair_memory), intent(in) :: memory
+      integer :: k
+
+      slides_fully = .true.
+      do k = 1, memory%used
+         if (any(memory%slot(k)%state%now%division == element%adhesion)) slides_fully = .false.
+      end do
+   end function slides_fully
+end module contact_wheelrail_pitch_rate

@@ -1,0 +1,107 @@
+!> What is asked for a wheel on a rail, and what follows from it without looking at the contact
+module contact_wheelrail_problem
+   use contact_base_choices, only : contact_location, force_control, friction_model, motion, time_link, variation
+   use contact_base_kinds, only : wp
+   use contact_friction_law, only : friction_parameters
+   use contact_patch_problem, only : patch_problem
+   use contact_profile_curve, only : profile_curve
+   use contact_profile_surface, only : profile_surface
+   use contact_wheelrail_spec, only : wheel_rail_spec
+   implicit none (type, external)
+   private
+
+   public :: pair_problem, friction_by_row, follows_surface, keeps_lattice, parameters_at, rate_of_pure_rolling
+
+   !> What is asked for a pair
+   type :: pair_problem
+      type(wheel_rail_spec) :: spec
+      !> Prepared profiles in their own coordinates
+      type(profile_curve) :: rail, wheel
+      !> A rail that varies along the track, a wheel that is out of round; then the profile is that of the first slice
+      type(profile_surface), allocatable :: rail_surface, wheel_surface
+      !> Settings that all patches share: material, friction, motion, solvers
+      type(patch_problem) :: template
+      !> Is the vertical force prescribed? Otherwise the height of the wheelset
+      logical :: force_prescribed = .false.
+      !> What is found besides, member of force_control: nothing, the pitch rate, or the deflection of the rail
+      integer :: force = force_control%creepages
+      !> Only search for contact?
+      logical :: geometry_only = .false.
+      !> Start from the previous case?
+      logical :: use_previous = .false.
+      !> How the case continues the previous one, member of time_link
+      integer :: link = time_link%initiate
+      !> Power of the interpenetration in the weights of the contact reference
+      integer :: weight_power = 2
+      !> How friction varies, member of variation, and its law, member of friction_model
+      integer :: variation = variation%none, friction_law = friction_model%coulomb
+      !> Parameters at control points: angles [rad] or positions along the track [mm], rising
+      real(wp), allocatable :: control_point(:)
+      type(friction_parameters), allocatable :: control(:)
+      !> The rail's part of the compliance of both bodies [-]
+      real(wp) :: rail_share = 0.5_wp
+      !> Elements of a patch at most
+      integer :: most_elements = 20000
+   end type pair_problem
+
+contains
+
+   !> Pitch rate at which the circumference of the wheel is as fast as the rail [rad/s]
+   pure real(wp) function rate_of_pure_rolling(problem) result(rate)
+      type(pair_problem), intent(in) :: problem
+
+      associate (pair => problem%spec)
+         if (pair%roller) then
+            rate = -pair%wheelset%rpitch*pair%track%nomradr/pair%wheelset%nomradw
+         else
+            rate = -pair%wheelset%vs/pair%wheelset%nomradw
+         end if
+      end associate
+   end function rate_of_pure_rolling
+
+   !> Do the elements stand on the lattice of the pair, as a transient motion needs it?
+   pure logical function keeps_lattice(problem) result(keeps)
+      type(pair_problem), intent(in) :: problem
+      keeps = problem%template%motion == motion%shift .or. problem%template%motion == motion%transient_rolling
+   end function keeps_lattice
+
+   !> Do distances and slip of a patch follow a reference surface row by row?
+   pure logical function follows_surface(problem) result(follows)
+      type(pair_problem), intent(in) :: problem
+      follows = any(problem%spec%search%location == [contact_location%conformal, contact_location%locus_extended])
+   end function follows_surface
+
+   !> Does friction follow the inclination of the rail within a patch?
+   pure logical function friction_by_row(problem) result(by_row)
+      type(pair_problem), intent(in) :: problem
+      by_row = problem%variation == variation%by_angle .and. problem%spec%search%location == contact_location%conformal
+   end function friction_by_row
+
+   !> Parameters between control points, by linear interpolation; constant beyond them
+   pure function parameters_at(problem, position) result(here)
+      type(pair_problem), intent(in) :: problem
+      !> [rad] or [mm]
+      real(wp), intent(in) :: position
+      type(friction_parameters) :: here
+      real(wp) :: t
+      integer :: k, n
+
+      n = size(problem%control_point)
+      k = count(problem%control_point <= position)
+      if (k == 0 .or. n == 1) then
+         here = problem%control(1)
+         return
+      end if
+      here = problem%control(min(k, n))
+      if (k >= n) return
+      t = (position - problem%control_point(k))/(problem%control_point(k + 1) - problem%control_point(k))
+      associate (a => problem%control(k), b => problem%control(k + 1))
+         here%static = (1.0_wp - t)*a%static + t*b%static
+         here%kinetic = (1.0_wp - t)*a%kinetic + t*b%kinetic
+         here%term = (1.0_wp - t)*a%term + t*b%term
+         here%half_speed = (1.0_wp - t)*a%half_speed + t*b%half_speed
+         here%onset = (1.0_wp - t)*a%onset + t*b%onset
+         here%range = (1.0_wp - t)*a%range + t*b%range
+      end associate
+   end function parameters_at
+end module contact_wheelrail_problem
