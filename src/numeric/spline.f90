@@ -20,6 +20,9 @@ module contact_numeric_spline
       procedure :: value => spline_value
       procedure :: slope => spline_slope
       procedure :: bend => spline_bend
+      !> Piece and place in it, and value and slope there: one search for several splines with the same pieces
+      procedure :: place => place_in_piece
+      procedure :: in_piece
       !> Values at all ends of pieces
       procedure :: nodes => spline_nodes
    end type cubic_spline
@@ -38,15 +41,40 @@ module contact_numeric_spline
 
 contains
 
-   !> Number of the piece that holds s, by bisection; the first and the last reach to infinity
+   !> Number of the piece that holds s; the first and the last reach to infinity
+   !>
+   !> Profiles have fairly even points: from where an even division has the piece, the search doubles its steps
+   !> until they enclose s, and bisects.
    pure integer function piece_of(breaks, s) result(piece)
       !> Ends of the pieces, increasing; at least two
       real(wp), intent(in) :: breaks(:)
       real(wp), intent(in) :: s
-      integer :: high, middle
+      integer :: high, middle, n, step
 
+      n = size(breaks)
       piece = 1
-      high = size(breaks)
+      high = n
+      if (n == 2) return
+      middle = 1 + int(min(max((s - breaks(1))/(breaks(n) - breaks(1)), 0.0_wp), 1.0_wp)*(n - 1))
+      middle = min(max(middle, 1), n - 1)
+      step = 1
+      if (s < breaks(middle)) then
+         high = middle
+         do while (high > 1)
+            piece = max(1, high - step)
+            if (.not. s < breaks(piece)) exit
+            high = piece
+            step = 2*step
+         end do
+      else
+         piece = middle
+         do while (piece < n - 1)
+            high = min(n, piece + step)
+            if (s < breaks(high)) exit
+            piece = min(high, n - 1)
+            step = 2*step
+         end do
+      end if
       do while (high - piece > 1)
          middle = (piece + high)/2
          if (s < breaks(middle)) then
@@ -63,7 +91,7 @@ contains
       real(wp) :: t
       integer :: j
 
-      call place(self, s, j, t)
+      call place_in_piece(self, s, j, t)
       value = self%c(0, j) + t*(self%c(1, j) + t*(self%c(2, j) + t*self%c(3, j)))
    end function spline_value
 
@@ -73,7 +101,7 @@ contains
       real(wp) :: t
       integer :: j
 
-      call place(self, s, j, t)
+      call place_in_piece(self, s, j, t)
       slope = self%c(1, j) + t*(2.0_wp*self%c(2, j) + t*3.0_wp*self%c(3, j))
    end function spline_slope
 
@@ -83,7 +111,7 @@ contains
       real(wp) :: t
       integer :: j
 
-      call place(self, s, j, t)
+      call place_in_piece(self, s, j, t)
       bend = 2.0_wp*self%c(2, j) + 6.0_wp*t*self%c(3, j)
    end function spline_bend
 
@@ -96,15 +124,26 @@ contains
    end function spline_nodes
 
    !> Piece and place in it, the place kept between the ends of the spline
-   pure subroutine place(self, s, piece, t)
-      type(cubic_spline), intent(in) :: self
+   pure subroutine place_in_piece(self, s, piece, t)
+      class(cubic_spline), intent(in) :: self
       real(wp), intent(in) :: s
       integer, intent(out) :: piece
       real(wp), intent(out) :: t
 
       piece = piece_of(self%s, s)
       t = min(max(s, self%s(1)), self%s(size(self%s))) - self%s(piece)
-   end subroutine place
+   end subroutine place_in_piece
+
+   pure subroutine in_piece(self, piece, t, value, slope)
+      class(cubic_spline), intent(in) :: self
+      !> From place_in_piece
+      integer, intent(in) :: piece
+      real(wp), intent(in) :: t
+      real(wp), intent(out) :: value, slope
+
+      value = self%c(0, piece) + t*(self%c(1, piece) + t*(self%c(2, piece) + t*self%c(3, piece)))
+      slope = self%c(1, piece) + t*(2.0_wp*self%c(2, piece) + t*3.0_wp*self%c(3, piece))
+   end subroutine in_piece
 
    !> Natural splines through all points: smoothing splines without smoothing
    subroutine natural_splines(s, f, splines, solved, is_kink)

@@ -12,12 +12,22 @@ module contact_profile_curve
 
    public :: profile_curve, new_curve
 
+   !> A range of s in which y rises or falls throughout
+   type :: stretch
+      !> Its ends
+      real(wp) :: s_low, s_high
+      !> The pieces that hold them
+      integer :: first, last
+      !> Does y rise with s?
+      logical :: rises
+   end type stretch
+
    !> A visible part between two values of y on which y rises or falls with s
    type :: visible_part
       !> Its ends in y, the lower first
       real(wp) :: low, high
-      !> The monotone stretch of s that it is cut from
-      real(wp) :: s_low, s_high
+      !> What it is cut from
+      type(stretch) :: along
    end type visible_part
 
    !> One profile of a rail or a wheel
@@ -34,6 +44,10 @@ module contact_profile_curve
       procedure :: y_range
       !> Place s of the visible point with a given y
       procedure :: s_at => place_at
+      !> The same, when there is one
+      procedure :: find => find_point
+      !> Both coordinates at s with their slopes
+      procedure :: point => point_at
       !> Is there a visible point with this y?
       procedure :: has => has_point
       !> Height of the visible point
@@ -73,6 +87,7 @@ contains
    subroutine find_visible(curve)
       type(profile_curve), intent(inout) :: curve
       real(wp), allocatable :: turns(:), ends(:), low(:), high(:)
+      type(stretch), allocatable :: stretches(:)
       real(wp) :: middle, best, here
       integer :: i, j, n, chosen, previous
 
@@ -82,6 +97,10 @@ contains
       low = min(curve%y%value(turns(:n)), curve%y%value(turns(2:)))
       high = max(curve%y%value(turns(:n)), curve%y%value(turns(2:)))
       ends = sorted([low, high])
+      allocate(stretches(n))
+      do j = 1, n
+         stretches(j) = stretch_between(curve%y, turns(j), turns(j + 1))
+      end do
       allocate(curve%parts(0))
       previous = 0
       do i = 1, size(ends) - 1
@@ -91,7 +110,7 @@ contains
          best = 0.0_wp
          do j = 1, n
             if (low(j) > middle .or. high(j) < middle) cycle
-            here = curve%z%value(place_in_stretch(curve%y, turns(j), turns(j + 1), middle))
+            here = curve%z%value(place_in_stretch(curve%y, stretches(j), middle))
             if (curve%side == profile_side%wheel) here = -here
             if (chosen /= 0 .and. here >= best) cycle
             chosen = j
@@ -104,7 +123,7 @@ contains
          if (chosen == previous) then
             curve%parts(size(curve%parts))%high = ends(i + 1)
          else
-            curve%parts = [curve%parts, visible_part(ends(i), ends(i + 1), turns(chosen), turns(chosen + 1))]
+            curve%parts = [curve%parts, visible_part(ends(i), ends(i + 1), stretches(chosen))]
             call close_gap(curve%parts)
          end if
          previous = chosen
@@ -151,26 +170,39 @@ contains
       turns = [found(:count), y%s(pieces + 1)]
    end subroutine find_turns
 
-   !> Place with a given y in a stretch where y is monotone; the nearer end when there is none
-   pure real(wp) function place_in_stretch(y, s_low, s_high, target) result(s)
+   !> The stretch between two places
+   pure function stretch_between(y, s_low, s_high) result(along)
       type(cubic_spline), intent(in) :: y
-      real(wp), intent(in) :: s_low, s_high, target
-      integer :: first, last, middle
-      logical :: rises
+      real(wp), intent(in) :: s_low, s_high
+      type(stretch) :: along
 
-      rises = y%value(s_high) > y%value(s_low)
-      first = piece_of(y%s, s_low)
-      last = piece_of(y%s, s_high)
+      along%s_low = s_low
+      along%s_high = s_high
+      along%first = piece_of(y%s, s_low)
+      along%last = piece_of(y%s, s_high)
+      along%rises = y%value(s_high) > y%value(s_low)
+   end function stretch_between
+
+   !> Place with a given y in a stretch where y is monotone; the nearer end when there is none
+   pure real(wp) function place_in_stretch(y, along, target) result(s)
+      type(cubic_spline), intent(in) :: y
+      type(stretch), intent(in) :: along
+      real(wp), intent(in) :: target
+      integer :: first, last, middle
+
+      first = along%first
+      last = along%last
       do while (last > first)
          middle = (first + last + 1)/2
-         if (y%c(0, middle) < target .eqv. rises) then
+         if (y%c(0, middle) < target .eqv. along%rises) then
             first = middle
          else
             last = middle - 1
          end if
       end do
       associate (start => y%s(first))
-         s = start + monotone_cubic_root(y%c(:, first), max(s_low, start) - start, min(s_high, y%s(first + 1)) - start, target)
+         s = start + monotone_cubic_root(y%c(:, first), max(along%s_low, start) - start, &
+            & min(along%s_high, y%s(first + 1)) - start, target)
       end associate
    end function place_in_stretch
 
@@ -225,9 +257,37 @@ contains
          end do
       end if
       associate (p => self%parts(part))
-         s = place_in_stretch(self%y, p%s_low, p%s_high, min(max(y, p%low), p%high))
+         s = place_in_stretch(self%y, p%along, min(max(y, p%low), p%high))
       end associate
    end function place_at
+
+   !> Place of the visible point with a given y
+   pure subroutine find_point(self, y, s, found)
+      class(profile_curve), intent(in) :: self
+      real(wp), intent(in) :: y
+      !> Unchanged when there is none
+      real(wp), intent(inout) :: s
+      logical, intent(out) :: found
+      integer :: part
+
+      part = part_of(self, y)
+      found = part > 0
+      if (found) s = place_in_stretch(self%y, self%parts(part)%along, y)
+   end subroutine find_point
+
+   !> Coordinates at a place and their slopes; beyond the ends those of the nearest end
+   pure subroutine point_at(self, s, y, z, y_s, z_s)
+      class(profile_curve), intent(in) :: self
+      real(wp), intent(in) :: s
+      !> [mm], [-]
+      real(wp), intent(out) :: y, z, y_s, z_s
+      real(wp) :: t
+      integer :: j
+
+      call self%y%place(s, j, t)
+      call self%y%in_piece(j, t, y, y_s)
+      call self%z%in_piece(j, t, z, z_s)
+   end subroutine point_at
 
    elemental logical function has_point(self, y) result(has)
       class(profile_curve), intent(in) :: self
@@ -272,8 +332,7 @@ contains
       seen = 0.0_wp
       do k = 1, size(self%parts)
          associate (p => self%parts(k))
-            seen = seen + abs(place_in_stretch(self%y, p%s_low, p%s_high, p%high) - &
-               & place_in_stretch(self%y, p%s_low, p%s_high, p%low))
+            seen = seen + abs(place_in_stretch(self%y, p%along, p%high) - place_in_stretch(self%y, p%along, p%low))
          end associate
       end do
       range = self%s_range()

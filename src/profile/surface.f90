@@ -323,20 +323,23 @@ contains
       real(wp), intent(out) :: z, z_y, z_u
       !> False where the section has no point with this y
       logical, intent(out) :: found
-      real(wp) :: s, across
+      real(wp) :: s, across, along, y_u, bend, t
+      integer :: j
 
       z = 0.0_wp
       z_y = 0.0_wp
       z_u = 0.0_wp
       found = self%present
-      if (found) found = self%curve%has(y)
+      if (found) call self%curve%find(y, s, found)
       if (.not. found) return
-      s = self%curve%s_at(y)
-      z = self%curve%z%value(s)
-      across = self%curve%y%slope(s)
+      call self%curve%point(s, along, z, across, z_y)
       across = sign(max(abs(across), vertical), across)
-      z_y = self%curve%z%slope(s)/across
-      z_u = self%z_u%value(s) - z_y*self%y_u%value(s)
+      z_y = z_y/across
+      ! all four functions have the same pieces
+      call self%z_u%place(s, j, t)
+      call self%z_u%in_piece(j, t, z_u, bend)
+      call self%y_u%in_piece(j, t, y_u, bend)
+      z_u = z_u - z_y*y_u
    end subroutine at
 
    !> As for curves: origin (y, z) and roll angle of the new axes in those of the section

@@ -39,6 +39,8 @@ module contact_wheelrail_bodies
    real(wp), parameter :: furthest_section = 1.0_wp
    !> How far sections reach to both sides, of the wheel's radius
    real(wp), parameter :: reach = 0.16_wp
+   !> Least dy/ds of a rail: a steeper one counts as vertical
+   real(wp), parameter :: steepest = 1.0e-6_wp
 
 contains
 
@@ -147,19 +149,22 @@ contains
       !> Estimate on entry, solution on exit [mm]
       real(wp), intent(inout) :: n
       logical, intent(out) :: found
-      real(wp) :: point(3), z, z_y, correction, rho
+      real(wp) :: point(3), z, z_y, correction, rho, place, along, across
+      logical :: vertical
       integer :: step
       real(wp), parameter :: tolerance = 1.0e-10_wp
 
+      ! along a vertical line the surface is found at once
+      vertical = all(abs(plane%axes(1:2, 3)) <= 0.0_wp)
       do step = 1, 30
          point = plane%to_parent([x, s, n])
          if (allocated(bodies%rail_strip)) then
             call bodies%rail_strip%at(point(1), point(2), z, z_y, found)
          else
-            found = bodies%rail%has(point(2))
+            call bodies%rail%find(point(2), place, found)
             if (found) then
-               z = bodies%rail%height(point(2))
-               z_y = tan(bodies%rail%inclination(bodies%rail%s_at(point(2))))
+               call bodies%rail%point(place, along, z, across, z_y)
+               z_y = z_y/max(across, steepest)
             end if
          end if
          if (.not. found) return
@@ -171,7 +176,7 @@ contains
          end if
          correction = (z - point(3))/(plane%axes(3, 3) - z_y*plane%axes(2, 3))
          n = n + correction
-         if (abs(correction) <= tolerance) return
+         if (vertical .or. abs(correction) <= tolerance) return
       end do
       found = .false.
    end subroutine find_rail

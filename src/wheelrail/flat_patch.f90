@@ -95,7 +95,10 @@ contains
       real(wp), intent(out) :: approach
       type(profile_curve) :: section
       type(frame) :: seen
-      real(wp) :: delta, s, n_rail, n_wheel, start_s, start_n, row_s, row_n, place
+      !> Place on the profile and height over the last three points of a row, the last one first; over the first of a row
+      real(wp) :: last(2, 3), row(2), wheel_at(2)
+      real(wp) :: delta, s, n_rail
+      integer :: known
       logical :: found
       integer :: ix, iy
 
@@ -107,28 +110,27 @@ contains
       section = rail%seen_from(plane%origin(2:3) - [0.0_wp, roller_lift()], delta)
       ! the plane seen from the wheel
       seen = placement%wheel%seen_from_here(plane)
-      row_s = wheel%s_at(seen%origin(2))
-      row_n = 0.0_wp
+      row = [wheel%s_at(seen%origin(2)), 0.0_wp]
       do iy = 1, grid%my
          s = grid%y(iy)
-         start_s = row_s
-         start_n = row_n
+         last(:, 1) = row
+         known = 0
+         n_rail = rail_height(0.0_wp, s)
          do ix = 1, grid%mx
-            n_rail = rail_height(grid%x(ix), s)
-            place = start_s
-            n_wheel = start_n
-            call wheel_height(wheel, placement%wheel_radius, seen, grid%x(ix), s, place, n_wheel, found)
+            if (placement%roller_radius > 0.0_wp) n_rail = rail_height(grid%x(ix), s)
+            wheel_at = last(:, 1)
+            if (known == 3) wheel_at = 3.0_wp*(last(:, 1) - last(:, 2)) + last(:, 3)
+            call wheel_height(wheel, placement%wheel_radius, seen, grid%x(ix), s, wheel_at(1), wheel_at(2), found)
             if (found) then
-               start_s = place
-               start_n = n_wheel
-               if (ix == 1) then
-                  row_s = place
-                  row_n = n_wheel
-               end if
+               if (ix == 1) row = wheel_at
+               last(:, 2:3) = last(:, 1:2)
+               last(:, 1) = wheel_at
+               known = min(known + 1, 3)
             else
-               n_wheel = -nothing_there
+               wheel_at(2) = -nothing_there
+               known = 0
             end if
-            h(ix, iy) = n_rail - n_wheel
+            h(ix, iy) = n_rail - wheel_at(2)
          end do
       end do
       approach = -minval(h)
@@ -197,9 +199,10 @@ contains
       !> Estimates on entry, solution on exit
       real(wp), intent(inout) :: place, n
       logical, intent(out) :: found
-      real(wp) :: q(3), k(3), z, r, f(2), j(2, 2), det, step(2), range(2)
+      real(wp) :: q(3), k(3), y, z, y_s, z_s, r, depth, f(2), j(2, 2), det, step(2), range(2)
       integer :: iteration
-      real(wp), parameter :: tolerance = 1.0e-12_wp
+      !> Of a step, relative to the radius: what remains after it is of the order of its square
+      real(wp), parameter :: tolerance = 1.0e-10_wp
 
       found = .false.
       range = wheel%s_range()
@@ -207,15 +210,16 @@ contains
       place = min(max(place, range(1)), range(2))
       do iteration = 1, 30
          q = seen%to_parent([x, s, n])
-         z = wheel%z%value(place)
+         call wheel%point(place, y, z, y_s, z_s)
          r = radius + z
          if (abs(q(1)) >= r) return
-         f(1) = q(2) - wheel%y%value(place)
-         f(2) = q(3) + radius - sqrt(r**2 - q(1)**2)
-         j(1, 1) = -wheel%y%slope(place)
+         depth = sqrt(r**2 - q(1)**2)
+         f(1) = q(2) - y
+         f(2) = q(3) + radius - depth
+         j(1, 1) = -y_s
          j(1, 2) = k(2)
-         j(2, 1) = -r*wheel%z%slope(place)/sqrt(r**2 - q(1)**2)
-         j(2, 2) = k(3) + q(1)*k(1)/sqrt(r**2 - q(1)**2)
+         j(2, 1) = -r*z_s/depth
+         j(2, 2) = k(3) + q(1)*k(1)/depth
          det = j(1, 1)*j(2, 2) - j(1, 2)*j(2, 1)
          if (.not. abs(det) > 0.0_wp) return
          step = [f(1)*j(2, 2) - j(1, 2)*f(2), j(1, 1)*f(2) - f(1)*j(2, 1)]/det

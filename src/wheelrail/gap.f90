@@ -63,19 +63,19 @@ contains
       !> Place on the profile [mm]
       real(wp), intent(in) :: s
       real(wp) :: point(3)
-      real(wp) :: radius, slope, x, z
+      real(wp) :: radius, slope, x, y, z, across
       !> A profile that is steeper than this counts as vertical [-]
       real(wp), parameter :: steepest = -1.0e-6_wp
 
-      z = wheel%z%value(s)
+      call wheel%point(s, y, z, across, slope)
       radius = placement%wheel_radius + z
-      slope = wheel%z%slope(s)/min(steepest, wheel%y%slope(s))
+      slope = slope/min(steepest, across)
       associate (axes => placement%wheel%axes)
          x = (radius*slope*axes(1, 2) - placement%wheel_radius*axes(1, 3))/axes(1, 1)
       end associate
       x = max(-furthest*placement%wheel_radius, min(furthest*placement%wheel_radius, x))
       if (placement%roller_radius > 0.0_wp) x = roller_locus(x)
-      point = placement%wheel%to_parent([x, wheel%y%value(s), sqrt(radius**2 - x**2) - placement%wheel_radius])
+      point = placement%wheel%to_parent([x, y, sqrt(radius**2 - x**2) - placement%wheel_radius])
 
    contains
 
@@ -89,7 +89,7 @@ contains
          associate (axes => placement%wheel%axes)
             do step = 1, 3
                d = place*axes(3, 1) - radius*slope*axes(3, 2) + placement%wheel_radius*axes(3, 3)
-               here = placement%wheel%to_parent([place, wheel%y%value(s), sqrt(radius**2 - place**2) - placement%wheel_radius])
+               here = placement%wheel%to_parent([place, y, sqrt(radius**2 - place**2) - placement%wheel_radius])
                place = (-d*here(1)/placement%roller_radius + d*place/placement%roller_radius + radius*slope*axes(1, 2) &
                   & - (placement%wheel_radius + z)*axes(1, 3))/(axes(1, 1) + d/placement%roller_radius)
                place = max(-furthest*placement%wheel_radius, min(furthest*placement%wheel_radius, place))
@@ -124,6 +124,7 @@ contains
       real(wp), allocatable :: places(:), lateral(:)
       real(wp) :: range(2), s, point(3)
       integer :: i, cell
+      logical :: found
 
       if (allocated(gap%table)) deallocate(gap%table, gap%x_table)
       call trim_wheel(wheel, placement, places, lateral)
@@ -143,8 +144,8 @@ contains
          gap%gap(i) = no_surface
          gap%z(i) = 0.0_wp
          gap%alpha(i) = 0.0_wp
-         if (.not. rail%has(gap%y(i))) cycle
-         s = rail%s_at(gap%y(i))
+         call rail%find(gap%y(i), s, found)
+         if (.not. found) cycle
          gap%z(i) = rail%z%value(s)
          gap%alpha(i) = rail%inclination(s)
          if (cell < 1) cycle

@@ -4,7 +4,7 @@ program test_spline
    use contact_base_kinds, only : wp
    use contact_numeric_b_spline, only : basis_values, knot_interval, not_a_knot_splines, smooth_b_splines
    use contact_numeric_polynomial, only : monotone_cubic_root, quadratic_roots
-   use contact_numeric_spline, only : cubic_spline, natural_splines, smoothing_splines
+   use contact_numeric_spline, only : cubic_spline, natural_splines, piece_of, smoothing_splines
    use contact_test_harness, only : test_suite
    implicit none (type, external)
    !> Roundings in systems of some hundred equations
@@ -12,6 +12,7 @@ program test_spline
    type(test_suite) :: suite
 
    call suite%start("spline")
+   call pieces(suite)
    call exact(suite)
    call convergence(suite)
    call filters(suite)
@@ -35,6 +36,29 @@ contains
          s(i) = s(i - 1) + step*(0.6_wp + 0.4_wp*sin(7.0_wp*i))
       end do
    end function uneven
+
+   !> The piece is the last one that starts at or before a place, however unevenly pieces are long
+   subroutine pieces(suite)
+      type(test_suite), intent(inout) :: suite
+      real(wp), allocatable :: breaks(:)
+      real(wp) :: s
+      integer :: shape, n, k, missed
+
+      missed = 0
+      do shape = 1, 3
+         do n = 2, 40
+            breaks = [(real(k, wp), k=1, n)]
+            if (shape == 2) breaks = breaks**5
+            if (shape == 3) breaks = exp(-breaks(n:1:-1))
+            do k = -3, 4*n + 3
+               s = breaks(1) + (breaks(n) - breaks(1))*k/(4.0_wp*n)
+               if (mod(k, 3) == 0) s = breaks(min(max(k/3, 1), n))
+               if (piece_of(breaks, s) /= min(max(count(breaks <= s), 1), n - 1)) missed = missed + 1
+            end do
+         end do
+      end do
+      call suite%check(missed == 0, "pieces of even and uneven breaks, at breaks, between and beyond them")
+   end subroutine pieces
 
    !> Each family keeps the polynomials that its penalty does not see
    subroutine exact(suite)
