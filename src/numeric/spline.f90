@@ -1,7 +1,7 @@
 !> Cubic splines in pieces of polynomials: interpolation and smoothing of one or several functions
 !>
 !> Debian holds no Fortran library of smoothing splines with weights and kinks, so the few lines that
-!> set up the systems are our own; the banded systems are solved by LAPACK. doc/theory/profiles.md.
+!> set up the systems are our own; the systems are solved by LAPACK. doc/theory/profiles.md.
 module contact_numeric_spline
    use contact_base_kinds, only : wp
    implicit none (type, external)
@@ -37,6 +37,15 @@ module contact_numeric_spline
          real(wp), intent(inout) :: ab(ldab, *), b(ldb, *)
          integer, intent(out) :: info
       end subroutine dpbsv
+
+      !> LAPACK: the same for a tridiagonal matrix
+      subroutine dptsv(n, nrhs, d, e, b, ldb, info)
+         import :: wp
+         implicit none (type, external)
+         integer, intent(in) :: n, nrhs, ldb
+         real(wp), intent(inout) :: d(*), e(*), b(ldb, *)
+         integer, intent(out) :: info
+      end subroutine dptsv
    end interface
 
 contains
@@ -210,7 +219,12 @@ contains
          if (free(j - 1)) band(2, j) = h(j - 1) + strength(j - 1)*q(0, j - 1)*q(-1, j) + strength(j)*q(1, j - 1)*q(0, j)
          if (free(max(1, j - 2))) band(1, j) = strength(j - 1)*q(1, j - 2)*q(-1, j)
       end do
-      call dpbsv("U", n, 2, size(f, 2), band, 3, b, n, info)
+      if (lambda > 0.0_wp) then
+         call dpbsv("U", n, 2, size(f, 2), band, 3, b, n, info)
+      else
+         ! Three diagonals only
+         call dptsv(n, size(f, 2), band(3, :), band(2, 2:), b, n, info)
+      end if
       solved = info == 0
       if (.not. solved) return
 
