@@ -21,12 +21,15 @@ module contact_base_solve_report
    !> Names of the ways in which an iteration ends
    type(ending_list), parameter :: ending = ending_list()
 
+   !> Length of the names of methods; of fixed length, a report is set without a request to the heap
+   integer, parameter :: name_length = 24
+
    !> Outcome of one iterative method
    type :: solve_report
-      !> Name of the method that ended the iteration; unallocated when none ran
-      character(len=:), allocatable :: method
-      !> Name of the method that was tried first and given up; unallocated normally
-      character(len=:), allocatable :: gave_up
+      !> Name of the method that ended the iteration; blank when none ran
+      character(len=name_length) :: method = ""
+      !> Name of the method that was tried first and given up; blank normally
+      character(len=name_length) :: gave_up = ""
       !> Member of ending
       integer :: ended = 0
       !> Iterations of the method (conjugate gradients, sweeps, Newton steps), last call
@@ -72,7 +75,7 @@ contains
       case default
          how = "diverged"
       end select
-      text = "the " // name // " problem: " // report%method // " " // how // "; relative residual " &
+      text = "the " // name // " problem: " // trim(report%method) // " " // how // "; relative residual " &
          & // trim(adjustl(residual))
    end function failure_text
 end module contact_base_solve_report

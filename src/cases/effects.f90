@@ -18,47 +18,83 @@ contains
       type(patch_problem), intent(in) :: problem
       !> Its `effects` are set; what acts depends on whether there is contact
       type(patch_result), intent(inout) :: result
-      character(len=:), allocatable :: text, law, on_curve
+      !> Room for all names that can come together
+      character(len=512) :: text
+      integer :: n
 
-      on_curve = ""
-      law = "Coulomb friction"
-      if (allocated(problem%friction)) then
-         law = problem%friction%name
-         if (problem%friction%varies_by_row()) law = law // " by row"
-         if (problem%friction_memory%acts() .and. problem%remembers_friction) law = law // " with memory"
+      n = 0
+      text = ""
+      if (allocated(problem%model%tabulated)) then
+         call add("elastic bodies with tabulated influence coefficients")
+      else if (allocated(problem%model%inclination)) then
+         call add("elastic half-spaces with coefficients corrected for inclination")
+      else
+         call add("elastic half-spaces")
       end if
       if (allocated(spec%wheel_rail)) then
-         if (spec%wheel_rail%search%location == contact_location%conformal) on_curve = ", curved reference surface"
-         if (spec%variation == variation%by_angle) law = law // " by inclination"
-         if (spec%variation == variation%by_position) law = law // " by position"
+         if (spec%wheel_rail%search%location == contact_location%conformal) call add(", curved reference surface")
       end if
-      text = "elastic half-spaces"
-      if (allocated(problem%model%inclination)) text = "elastic half-spaces with coefficients corrected for inclination"
-      if (allocated(problem%model%tabulated)) text = "elastic bodies with tabulated influence coefficients"
-      text = text // on_curve
-      if (allocated(problem%parts)) text = text // ", blended parts"
+      if (allocated(problem%parts)) call add(", blended parts")
       select case (spec%pressure)
       case (pressure_model%elliptical, pressure_model%parabolical)
-         text = text // ", Hertzian pressure"
+         call add(", Hertzian pressure")
       case (pressure_model%sdec)
-         text = text // ", double-elliptical pressure"
+         call add(", double-elliptical pressure")
       case (pressure_model%kpec, pressure_model%analyn)
-         text = text // ", approximate pressure"
+         call add(", approximate pressure")
       end select
       if (result%ncon > 0) then
-         if (allocated(problem%simplified)) text = text // ", simplified theory (" // result%tangential%method // ")"
-         if (problem%motion == motion%shift) text = text // ", " // law // " in a shift"
-         if (problem%motion == motion%transient_rolling) text = text // ", " // law // " in transient rolling"
-         if (problem%motion == motion%steady_rolling) text = text // ", " // law // " in steady rolling"
-         if (problem%motion /= motion%none .and. problem%remembers_yield) text = text // ", plastic shearing"
-         if (problem%motion /= motion%none .and. problem%model%coupled() .and. .not. allocated(problem%model%tabulated) &
-            & .and. (problem%model%material%coupled() .or. .not. allocated(problem%model%inclination)) &
-            & .and. .not. allocated(problem%simplified)) text = text // ", dissimilar bodies"
-         if (allocated(problem%extra_slip) .and. problem%motion /= motion%none) text = text // ", extra rigid slip"
-         if (allocated(problem%thermal)) text = text // ", surface temperatures"
-         if (spec%stress /= stress_choice%none) text = text // ", subsurface stresses"
+         if (allocated(problem%simplified)) then
+            call add(", simplified theory (")
+            call add(result%tangential%method(:len_trim(result%tangential%method)))
+            call add(")")
+         end if
+         if (problem%motion /= motion%none) then
+            call add_friction()
+            if (problem%remembers_yield) call add(", plastic shearing")
+            if (problem%model%coupled() .and. .not. allocated(problem%model%tabulated) &
+               & .and. (problem%model%material%coupled() .or. .not. allocated(problem%model%inclination)) &
+               & .and. .not. allocated(problem%simplified)) call add(", dissimilar bodies")
+            if (allocated(problem%extra_slip)) call add(", extra rigid slip")
+         end if
+         if (allocated(problem%thermal)) call add(", surface temperatures")
+         if (spec%stress /= stress_choice%none) call add(", subsurface stresses")
       end if
-      if (allocated(problem%damping)) text = text // ", damping forces"
-      result%effects = text
+      if (allocated(problem%damping)) call add(", damping forces")
+      result%effects = text(:n)
+
+   contains
+
+      !> The next words; a buffer, because joining texts would ask for memory in every case
+      subroutine add(words)
+         character(len=*), intent(in) :: words
+
+         text(n + 1:) = words
+         n = min(len(text), n + len(words))
+      end subroutine add
+
+      !> Friction law and motion
+      subroutine add_friction()
+         call add(", ")
+         if (allocated(problem%friction)) then
+            call add(problem%friction%name)
+            if (problem%friction%varies_by_row()) call add(" by row")
+            if (problem%friction_memory%acts() .and. problem%remembers_friction) call add(" with memory")
+         else
+            call add("Coulomb friction")
+         end if
+         if (allocated(spec%wheel_rail)) then
+            if (spec%variation == variation%by_angle) call add(" by inclination")
+            if (spec%variation == variation%by_position) call add(" by position")
+         end if
+         select case (problem%motion)
+         case (motion%shift)
+            call add(" in a shift")
+         case (motion%transient_rolling)
+            call add(" in transient rolling")
+         case (motion%steady_rolling)
+            call add(" in steady rolling")
+         end select
+      end subroutine add_friction
    end subroutine name_effects
 end module contact_cases_effects

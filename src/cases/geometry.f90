@@ -41,13 +41,16 @@ contains
       real(wp), intent(in) :: fn, pen
       !> Combined modulus of rigidity [N/mm2] and Poisson ratio [-]
       real(wp), intent(in) :: gg, nu
-      !> Complete solution; unallocated for other options
-      type(hertz_result), allocatable, intent(out) :: hertz
+      !> Complete solution; unallocated for other options, unchanged after errors
+      type(hertz_result), allocatable, intent(inout) :: hertz
       type(error_type), allocatable, intent(out) :: error
       type(hertz_load) :: load
       type(hertz_contact) :: solution
 
-      if (spec%ipotcn < -5 .or. spec%ipotcn > -1) return
+      if (spec%ipotcn < -5 .or. spec%ipotcn > -1) then
+         if (allocated(hertz)) deallocate(hertz)
+         return
+      end if
       call check_hertz(spec, control, fn, pen, gg, nu, error)
       if (allocated(error)) return
       load%control = control
@@ -69,7 +72,7 @@ contains
       case (-5)
          solution = line_contact_by_axes(load, spec%aa, spec%bb)
       end select
-      allocate(hertz)
+      if (.not. allocated(hertz)) allocate(hertz)
       hertz = hertz_result(a1=solution%a1, b1=solution%b1, aa=solution%aa, bb=solution%bb, &
          & aob=solution%aob, rho=solution%rho, cp=solution%cp, fn=solution%fn, pen=solution%pen)
    end subroutine solve_hertz

@@ -11,7 +11,7 @@ module contact_cases_patch_setup
    use contact_cases_numbers, only : check_numbers
    use contact_cases_spec, only : case_spec
    use contact_friction_law, only : friction_driver
-   use contact_grid_potential_contact, only : potential_contact
+   use contact_grid_potential_contact, only : fit_field, potential_contact
    use contact_normal_estimate, only : elliptic_pressure, parabolic_pressure, sdec_pressure
    use contact_patch_damping, only : damping_law
    use contact_patch_problem, only : patch_problem
@@ -168,30 +168,29 @@ contains
       type(patch_problem), intent(inout) :: problem
       type(error_type), allocatable, intent(out) :: error
 
-      if (allocated(problem%given_pressure)) deallocate(problem%given_pressure)
       problem%pressure = spec%pressure
       call check_pressure_model(spec, allocated(result%hertz), error)
       if (allocated(error)) return
       select case (spec%pressure)
       case (pressure_model%sdec)
-         allocate(problem%given_pressure(problem%grid%mx, problem%grid%my))
+         call fit_field(problem%grid, problem%given_pressure)
          call sdec_pressure(problem%grid, spec%grid%aa, spec%grid%bneg, spec%grid%bpos, problem%fn, problem%given_pressure)
          ! the undeformed distance, and with it the approach, is not computed
          problem%pen = 0.0_wp
-         return
-      case (pressure_model%elliptical)
-         allocate(problem%given_pressure(problem%grid%mx, problem%grid%my))
-         call elliptic_pressure(problem%grid, result%hertz%aa, result%hertz%bb, is_line_contact(spec%grid), &
-            & result%hertz%fn, problem%given_pressure)
-      case (pressure_model%parabolical)
-         allocate(problem%given_pressure(problem%grid%mx, problem%grid%my))
-         call parabolic_pressure(problem%grid, result%hertz%aa, result%hertz%bb, is_line_contact(spec%grid), &
-            & result%hertz%fn, problem%given_pressure)
-      end select
-      if (allocated(problem%given_pressure)) then
+      case (pressure_model%elliptical, pressure_model%parabolical)
+         call fit_field(problem%grid, problem%given_pressure)
+         if (spec%pressure == pressure_model%elliptical) then
+            call elliptic_pressure(problem%grid, result%hertz%aa, result%hertz%bb, is_line_contact(spec%grid), &
+               & result%hertz%fn, problem%given_pressure)
+         else
+            call parabolic_pressure(problem%grid, result%hertz%aa, result%hertz%bb, is_line_contact(spec%grid), &
+               & result%hertz%fn, problem%given_pressure)
+         end if
          problem%fn = result%hertz%fn
          problem%pen = result%hertz%pen
-      end if
+      case default
+         if (allocated(problem%given_pressure)) deallocate(problem%given_pressure)
+      end select
    end subroutine set_pressures
 
    !> Simplified theory for the tangential problem, if the material model asks for it
@@ -284,7 +283,6 @@ contains
       type(log_type), intent(inout) :: log
       type(error_type), allocatable, intent(out) :: error
       real(wp), parameter :: angle_tolerance = 0.01_wp, step_tolerance = 0.01_wp
-      character(len=:), allocatable :: what
       logical :: oblique, other_step
 
       problem%chi = 0.0_wp
@@ -314,18 +312,26 @@ contains
             & "leading edge is less accurate; in steady rolling it is not corrected")
          return
       end if
-      what = "steady rolling"
-      if (spec%motion /= motion%steady_rolling) what = "rolling with an interfacial layer"
       if (oblique) then
-         call fatal_error(error, what // " goes along x, CHI = 0 or 180 degrees. In other directions: a grid with its x-axis " // &
-            & "along the rolling direction, T = 2, or T = 3 with ConvexGS (G = 2), flat elastic bodies and Coulomb friction", &
-            & error_kind%unsupported)
+         call fatal_error(error, kind_of_rolling(spec) // " goes along x, CHI = 0 or 180 degrees. In other directions: " // &
+            & "a grid with its x-axis along the rolling direction, T = 2, or T = 3 with ConvexGS (G = 2), flat elastic bodies " // &
+            & "and Coulomb friction", error_kind%unsupported)
          return
       end if
       if (other_step .and. .not. allocated(problem%simplified)) &
-         & call log%warning(what // " advances by one element per step: DQ is set to DX; ConvexGS (G=2) takes other steps")
+         & call log%warning(kind_of_rolling(spec) // " advances by one element per step: DQ is set to DX; " // &
+         & "ConvexGS (G=2) takes other steps")
       problem%dq = problem%grid%dx
    end subroutine set_rolling
+
+   !> Name of what advances by one element per step
+   pure function kind_of_rolling(spec) result(text)
+      type(case_spec), intent(in) :: spec
+      character(len=:), allocatable :: text
+
+      text = "rolling with an interfacial layer"
+      if (spec%motion == motion%steady_rolling) text = "steady rolling"
+   end function kind_of_rolling
 
    !> Can steady rolling be solved with coefficients at any distance, and does nothing else follow particles?
    pure logical function takes_any_step(spec, problem)

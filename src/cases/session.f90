@@ -10,6 +10,7 @@ module contact_cases_session
    use contact_cases_spec, only : case_spec
    use contact_cases_subsurface, only : subsurface_stresses
    use contact_grid_element_division, only : element
+   use contact_grid_potential_contact, only : fit_field
    use contact_normal_estimate, only : elliptic_pressure
    use contact_patch_moments, only : clear_moment, link_moments
    use contact_patch_problem, only : patch_problem, patch_state
@@ -87,7 +88,14 @@ contains
       type(patch_result), intent(in) :: result
 
       associate (problem => session%problem, now => session%state%now)
-         if (allocated(problem%pressure_estimate)) deallocate(problem%pressure_estimate)
+         if (spec%estimate == estimate_choice%fresh .and. allocated(result%hertz) &
+            & .and. problem%pressure == pressure_model%full) then
+            call fit_field(problem%grid, problem%pressure_estimate)
+            call elliptic_pressure(problem%grid, result%hertz%aa, result%hertz%bb, is_line_contact(spec%grid), &
+               & result%hertz%fn, problem%pressure_estimate)
+         else if (allocated(problem%pressure_estimate)) then
+            deallocate(problem%pressure_estimate)
+         end if
          select case (spec%estimate)
          case (estimate_choice%fresh)
             now%px = 0.0_wp
@@ -95,11 +103,6 @@ contains
             now%pn = 0.0_wp
             now%division = element%exterior
             session%state%creep = 0.0_wp
-            if (allocated(result%hertz) .and. problem%pressure == pressure_model%full) then
-               allocate(problem%pressure_estimate(problem%grid%mx, problem%grid%my))
-               call elliptic_pressure(problem%grid, result%hertz%aa, result%hertz%bb, is_line_contact(spec%grid), &
-                  & result%hertz%fn, problem%pressure_estimate)
-            end if
          case (estimate_choice%previous_normal)
             now%px = 0.0_wp
             now%py = 0.0_wp

@@ -7,12 +7,10 @@ option(CONTACT_COVERAGE "Count executed lines (gcov)" OFF)
 add_library(contact_warnings INTERFACE)
 target_compile_options(contact_warnings INTERFACE
   $<$<COMPILE_LANGUAGE:Fortran>:-std=f2018 -Wall -Wextra -Wimplicit-interface -Wimplicit-procedure
-    -Wtrampolines -Wno-compare-reals -Wno-maybe-uninitialized -frecursive -ffree-line-length-132>
+    -Wtrampolines -Wno-compare-reals -Wno-uninitialized -Wno-maybe-uninitialized -frecursive -ffree-line-length-132>
   $<$<COMPILE_LANGUAGE:C,CXX>:-Wall -Wextra>)
-# Optimised, gfortran takes the bounds of an unallocated array that is about to be assigned for
-# uninitialized (12.2); debug builds keep the warning and set reals to signalling NaN
-target_compile_options(contact_warnings INTERFACE
-  $<$<AND:$<COMPILE_LANGUAGE:Fortran>,$<NOT:$<CONFIG:Debug>>>:-Wno-uninitialized>)
+# -Wno-uninitialized: gfortran takes the bounds of an unallocated array that is about to be assigned for
+# uninitialized (12.2); debug builds set reals to signalling NaN
 if(CONTACT_WERROR)
   target_compile_options(contact_warnings INTERFACE -Werror)
 endif()

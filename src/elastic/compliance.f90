@@ -60,6 +60,8 @@ module contact_elastic_compliance
       procedure :: is_for
       !> Pairs of forward and backward transforms so far
       procedure :: fft_pairs
+      !> Add up pairs of a coarse level, and count anew
+      procedure :: settle_account
    end type compliance
 
    abstract interface
@@ -167,4 +169,16 @@ contains
       class(compliance), intent(in) :: self
       pairs = 0.5_wp*self%transforms
    end function fft_pairs
+
+   pure subroutine settle_account(self, elements, pairs)
+      class(compliance), intent(inout) :: self
+      !> Elements of the finest window
+      integer, intent(in) :: elements
+      !> Pairs of transforms of the finest window that would cost as much
+      real(wp), intent(inout) :: pairs
+
+      pairs = pairs + self%fft_pairs()*self%mx*self%my/elements
+      self%transforms = 0
+      self%products = 0
+   end subroutine settle_account
 end module contact_elastic_compliance

@@ -3,14 +3,14 @@
 !> Rows that are known to be zero are not transformed, and rows of the result that
 !> nobody asks for are not transformed back; that leaves about three quarters of the work of
 !> a plain two-dimensional transform of the padded window. Spectra are stored transposed,
-!> shape (py, kx), so that the second pass runs along contiguous memory.
+!> shape (py, kx), so that the second pass runs along contiguous memory: one column after the other into a
+!> buffer and back, which is faster than transforms in place, and asks for no memory.
 module contact_fft_plan
-   use, intrinsic :: iso_c_binding, only : c_associated, c_loc, c_null_ptr, c_ptr
+   use, intrinsic :: iso_c_binding, only : c_associated, c_null_ptr, c_ptr
    use contact_base_kinds, only : wp
    use contact_fft_fftw, only : destroy, fftw_backward, fftw_destroy_plan, fftw_estimate, &
-      & fftw_execute_dft_c2r, fftw_execute_dft_r2c, fftw_forward, fftw_plan_dft_r2c_2d, &
+      & fftw_execute_dft, fftw_execute_dft_c2r, fftw_execute_dft_r2c, fftw_forward, fftw_plan_dft_1d, fftw_plan_dft_r2c_2d, &
       & fftw_plan_many_dft_c2r, fftw_plan_many_dft_r2c, fftw_destroy_input
-   use contact_fft_in_place, only : execute_in_place, plan_in_place
    implicit none (type, external)
    private
 
@@ -32,6 +32,8 @@ module contact_fft_plan
       integer :: kx = 0
       !> Rows of the window, padded in x, one set for each of two concurrent transforms, shape (px, my, 2)
       real(wp), allocatable, private :: rows(:, :, :)
+      !> A transformed column of the spectrum, one for each of two concurrent transforms, shape (py, 2)
+      complex(wp), allocatable, private :: column(:, :)
       type(c_ptr), private :: row_forward = c_null_ptr, row_backward = c_null_ptr
       type(c_ptr), private :: column_forward = c_null_ptr, column_backward = c_null_ptr
    contains
@@ -80,7 +82,7 @@ contains
       class(fft_plan), intent(inout) :: self
       !> Window and padded window; px even or 1, px >= mx, py >= my
       integer, intent(in) :: mx, my, px, py
-      complex(wp), allocatable, target :: spectrum(:, :)
+      complex(wp), allocatable :: spectrum(:, :)
 
       if (self%mx == mx .and. self%my == my .and. self%px == px .and. self%py == py &
          & .and. c_associated(self%row_forward)) return
@@ -91,17 +93,15 @@ contains
       self%py = py
       self%kx = px/2 + 1
       allocate(self%rows(px, my, 2), source=0.0_wp)
-      allocate(spectrum(py, self%kx), source=(0.0_wp, 0.0_wp))
+      allocate(self%column(py, 2), spectrum(py, self%kx), source=(0.0_wp, 0.0_wp))
       ! the planner of FFTW is not thread-safe; estimated plans make results reproducible
       !$omp critical (contact_fft_planner)
       self%row_forward = fftw_plan_many_dft_r2c(1, [px], my, self%rows, [px], 1, px, &
          & spectrum, [self%kx], py, 1, fftw_estimate)
       self%row_backward = fftw_plan_many_dft_c2r(1, [px], my, spectrum, [self%kx], py, 1, &
          & self%rows, [px], 1, px, ior(fftw_estimate, fftw_destroy_input))
-      self%column_forward = plan_in_place(1, [py], self%kx, c_loc(spectrum), [py], 1, py, &
-         & c_loc(spectrum), [py], 1, py, fftw_forward, fftw_estimate)
-      self%column_backward = plan_in_place(1, [py], self%kx, c_loc(spectrum), [py], 1, py, &
-         & c_loc(spectrum), [py], 1, py, fftw_backward, fftw_estimate)
+      self%column_forward = fftw_plan_dft_1d(py, spectrum, self%column, fftw_forward, fftw_estimate)
+      self%column_backward = fftw_plan_dft_1d(py, spectrum, self%column, fftw_backward, fftw_estimate)
       !$omp end critical (contact_fft_planner)
    end subroutine prepare_plan
 
@@ -110,7 +110,7 @@ contains
       !> Window, shape (mx, my)
       real(wp), contiguous, intent(in) :: field(:, :)
       !> Spectrum, shape (py, kx)
-      complex(wp), contiguous, target, intent(inout) :: spectrum(:, :)
+      complex(wp), contiguous, intent(inout) :: spectrum(:, :)
       !> 1 or 2: set of buffers; transforms that run at the same time need different ones. Default 1
       integer, intent(in), optional :: channel
       integer :: iy, k, c
@@ -125,23 +125,29 @@ contains
       if (self%py == 1) return
       do k = 1, self%kx
          spectrum(self%my + 1:, k) = (0.0_wp, 0.0_wp)
+         call fftw_execute_dft(self%column_forward, spectrum(:, k), self%column(:, c))
+         spectrum(:, k) = self%column(:, c)
       end do
-      call execute_in_place(self%column_forward, c_loc(spectrum), c_loc(spectrum))
    end subroutine transform_forward
 
    subroutine transform_backward(self, spectrum, field, channel)
       class(fft_plan), intent(inout) :: self
       !> Spectrum, shape (py, kx); destroyed
-      complex(wp), contiguous, target, intent(inout) :: spectrum(:, :)
+      complex(wp), contiguous, intent(inout) :: spectrum(:, :)
       !> Window, shape (mx, my)
       real(wp), contiguous, intent(inout) :: field(:, :)
       !> 1 or 2: set of buffers. Default 1
       integer, intent(in), optional :: channel
-      integer :: iy, c
+      integer :: iy, k, c
 
       c = 1
       if (present(channel)) c = channel
-      if (self%py > 1) call execute_in_place(self%column_backward, c_loc(spectrum), c_loc(spectrum))
+      if (self%py > 1) then
+         do k = 1, self%kx
+            call fftw_execute_dft(self%column_backward, spectrum(:, k), self%column(:, c))
+            spectrum(:self%my, k) = self%column(:self%my, c)
+         end do
+      end if
       call fftw_execute_dft_c2r(self%row_backward, spectrum, self%rows(:, :, c))
       do iy = 1, self%my
          field(:, iy) = self%rows(1:self%mx, iy, c)
@@ -178,7 +184,7 @@ contains
       call destroy(self%column_backward)
       !$omp end critical (contact_fft_planner)
       self%mx = 0
-      if (allocated(self%rows)) deallocate(self%rows)
+      if (allocated(self%rows)) deallocate(self%rows, self%column)
    end subroutine release_plan
 
 end module contact_fft_plan

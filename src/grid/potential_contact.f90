@@ -4,7 +4,7 @@ module contact_grid_potential_contact
    implicit none (type, external)
    private
 
-   public :: potential_contact
+   public :: fit_field, potential_contact
 
    !> A grid of mx by my rectangular elements; element (ix, iy) has number ix + mx (iy - 1)
    type :: potential_contact
@@ -36,6 +36,19 @@ contains
       integer, intent(in) :: iy
       y = self%yl + (real(iy, wp) - 0.5_wp)*self%dy
    end function centre_y
+
+   !> Room for one value per element; kept with its values when the shape is right
+   pure subroutine fit_field(grid, field)
+      type(potential_contact), intent(in) :: grid
+      !> Shape (mx, my)
+      real(wp), allocatable, intent(inout) :: field(:, :)
+
+      if (allocated(field)) then
+         if (all(shape(field) == [grid%mx, grid%my])) return
+         deallocate(field)
+      end if
+      allocate(field(grid%mx, grid%my))
+   end subroutine fit_field
 
    elemental integer function number_of_elements(self) result(n)
       class(potential_contact), intent(in) :: self

@@ -106,7 +106,7 @@ contains
       type(solve_report), intent(inout) :: report
       !> Gets a line per iteration from flow-trace level 6 on; absent: no trace
       type(log_type), intent(inout), optional :: log
-      real(wp) :: pairs_before, fine_size
+      real(wp) :: pairs_before
       integer :: k, products_before
       logical :: traced
 
@@ -130,15 +130,9 @@ contains
       call note_answer(workspace%last, problem, p, pen, report)
       report%products = report%products + operator%products - products_before
       report%fft_pairs = report%fft_pairs + operator%fft_pairs() - pairs_before
-      fine_size = real(problem%mx, wp)*problem%my
       do k = 2, size(workspace%level)
-         associate (level => workspace%level(k))
-            if (.not. allocated(level%operator)) cycle
-            if (level%operator%transforms == 0) cycle
-            report%fft_pairs = report%fft_pairs + level%operator%fft_pairs()*level%problem%mx*level%problem%my/fine_size
-            level%operator%transforms = 0
-            level%operator%products = 0
-         end associate
+         if (.not. allocated(workspace%level(k)%operator)) cycle
+         call workspace%level(k)%operator%settle_account(problem%mx*problem%my, report%fft_pairs)
       end do
    end subroutine solve_normal
 
@@ -326,13 +320,8 @@ contains
          report%iterations = it
 
          level%free = (p > 0.0_wp .or. level%r > 0.0_wp) .and. problem%h < excluded_threshold
-         where (level%free)
-            level%q = level%r
-         elsewhere
-            level%q = 0.0_wp
-         end where
-         level%r = level%q
-         call operator%normal_inverse(level%q, level%z)
+         level%r = merge(level%r, 0.0_wp, level%free)
+         call operator%normal_inverse(level%r, level%z)
          call project(problem, level%free, level%z)
          rz = sum(level%r*level%z)
          if (.not. rz > 0.0_wp) then
@@ -351,11 +340,7 @@ contains
          if (.not. fresh) beta = max(0.0_wp, (rz - rz_cross)/rz_old)
          rz_old = rz
          level%previous = level%r
-         where (level%free)
-            level%d = level%z + beta*level%d
-         elsewhere
-            level%d = 0.0_wp
-         end where
+         level%d = merge(level%z + beta*level%d, 0.0_wp, level%free)
          call project(problem, level%free, level%d)
          dr = sum(level%d*level%r)
          if (.not. dr > 0.0_wp) then
@@ -449,11 +434,7 @@ contains
 
       mean = 0.0_wp
       if (problem%force_prescribed) mean = sum(v, free)/max(1, count(free))
-      where (free)
-         v = v - mean
-      elsewhere
-         v = 0.0_wp
-      end where
+      v = merge(v - mean, 0.0_wp, free)
    end subroutine project
 
    !> Pressures that are not negative, zero where contact is impossible, and of the right total

@@ -20,8 +20,11 @@ module contact_numeric_anderson
       integer, private :: used = 0, next_column = 1
       !> Differences of f and of g from step to step, shape (n, depth)
       real(wp), allocatable, private :: df(:, :), dg(:, :)
-      !> Last f and g, shape (n)
-      real(wp), allocatable, private :: f(:), g(:)
+      !> Last f and g, and the present f, shape (n)
+      real(wp), allocatable, private :: f(:), g(:), present_f(:)
+      !> For the fit of weights: matrix, right-hand side and weights, scratch of LAPACK
+      real(wp), allocatable, private :: a(:, :), b(:), work(:)
+      integer, allocatable, private :: pivots(:)
       !> Length of a plain step, in (0, 1]
       real(wp), private :: length = 1.0_wp
       logical, private :: begun = .false.
@@ -54,9 +57,11 @@ contains
       integer, intent(in) :: n, depth
 
       if (allocated(self%f)) then
-         if (size(self%f) /= n .or. self%depth /= depth) deallocate(self%f, self%g, self%df, self%dg)
+         if (size(self%f) /= n .or. self%depth /= depth) deallocate(self%f, self%g, self%present_f, self%df, self%dg, &
+            & self%a, self%b, self%work, self%pivots)
       end if
-      if (.not. allocated(self%f)) allocate(self%f(n), self%g(n), self%df(n, depth), self%dg(n, depth))
+      if (.not. allocated(self%f)) allocate(self%f(n), self%g(n), self%present_f(n), self%df(n, depth), self%dg(n, depth), &
+         & self%a(n, depth), self%b(max(n, depth)), self%work(4*depth + 1 + 64*(depth + 1)), self%pivots(depth))
       self%depth = depth
       self%used = 0
       self%next_column = 1
@@ -69,52 +74,51 @@ contains
       !> What g was computed from on entry, what it is to be computed from next on exit
       real(wp), intent(inout) :: x(size(self%f))
       real(wp), intent(in) :: g(size(self%f))
-      real(wp), allocatable :: f(:), weight(:)
+      integer :: k
       !> Growth of f at which the history is dropped
       real(wp), parameter :: growth = 5.0_wp
 
-      f = g - x
+      self%present_f = g - x
       if (self%begun) then
-         if (norm2(f) > growth*norm2(self%f)) then
+         if (norm2(self%present_f) > growth*norm2(self%f)) then
             self%used = 0
             self%next_column = 1
             self%length = 0.5_wp*self%length
          else
-            self%df(:, self%next_column) = f - self%f
+            self%df(:, self%next_column) = self%present_f - self%f
             self%dg(:, self%next_column) = g - self%g
             self%used = max(self%used, self%next_column)
             self%next_column = 1 + mod(self%next_column, self%depth)
          end if
       end if
-      self%f = f
+      self%f = self%present_f
       self%g = g
       self%begun = .true.
       if (self%used == 0) then
-         x = x + self%length*f
+         x = x + self%length*self%f
          return
       end if
-      call fit(self%df(:, :self%used), f, weight)
-      x = x + f - matmul(self%dg(:, :self%used), weight)
+      call fit(self)
+      x = x + self%f
+      do k = 1, self%used
+         x = x - self%b(k)*self%dg(:, k)
+      end do
    end subroutine advance
 
-   !> Weights w that make |f - df w| smallest
-   subroutine fit(df, f, weight)
-      real(wp), intent(in) :: df(:, :), f(:)
-      real(wp), allocatable, intent(out) :: weight(:)
-      real(wp), allocatable :: a(:, :), b(:, :), work(:)
-      integer :: pivots(size(df, 2)), n, m, rank, info
+   !> Weights w that make |f - df w| smallest, as the first values of b
+   subroutine fit(self)
+      class(anderson_iteration), intent(inout) :: self
+      integer :: n, rank, info
       !> Directions that are known less accurately than this are left out
       real(wp), parameter :: smallest = 1.0e-10_wp
 
-      n = size(df, 1)
-      m = size(df, 2)
-      a = df
-      allocate(b(max(n, m), 1), source=0.0_wp)
-      b(:n, 1) = f
-      pivots = 0
-      allocate(work(4*m + 1 + 64*(m + 1)))
-      call dgelsy(n, m, 1, a, n, b, size(b, 1), pivots, smallest, rank, work, size(work), info)
-      weight = b(:m, 1)
-      if (info /= 0) weight = 0.0_wp
+      n = size(self%f)
+      self%a(:, :self%used) = self%df(:, :self%used)
+      self%b(:n) = self%f
+      self%b(n + 1:) = 0.0_wp
+      self%pivots = 0
+      call dgelsy(n, self%used, 1, self%a, n, self%b, size(self%b), self%pivots, smallest, rank, self%work, size(self%work), &
+         & info)
+      if (info /= 0) self%b(:self%used) = 0.0_wp
    end subroutine fit
 end module contact_numeric_anderson

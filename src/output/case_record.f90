@@ -204,10 +204,10 @@ contains
       type(solve_report), intent(in) :: report
       character(len=:), allocatable :: method
 
-      method = "none"
-      if (allocated(report%method)) method = report%method
+      method = trim(report%method)
+      if (method == "") method = "none"
       call record%text(problem // "_method", "method that ended the iteration", method)
-      if (allocated(report%gave_up)) call record%text(problem // "_gave_up", "method that was given up", report%gave_up)
+      if (report%gave_up /= "") call record%text(problem // "_gave_up", "method that was given up", trim(report%gave_up))
       call record%text(problem // "_ended", "how the iteration ended", ending_name(report))
       call record%count(problem // "_iterations", "iterations of the last call", report%iterations)
       if (report%residual >= 0.0_wp) call record%number(problem // "_residual", "", "relative residual", report%residual)

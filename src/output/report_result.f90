@@ -228,8 +228,7 @@ contains
       type(solve_report), intent(in) :: report
       character(len=:), allocatable :: name
 
-      name = "none"
-      if (allocated(report%method)) name = harmless(report%method)
+      name = harmless(report%method)
       if (len_trim(name) == 0) name = "none"
    end function method_name
 
@@ -249,8 +248,7 @@ contains
       character(len=:), allocatable :: text
 
       text = ""
-      if (.not. allocated(report%gave_up)) return
-      if (len_trim(report%gave_up) == 0) return
+      if (report%gave_up == "") return
       text = "; FALL-BACK: " // harmless(report%gave_up) // " to " // method_name(report)
    end function fall_back_text
 

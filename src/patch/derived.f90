@@ -145,10 +145,15 @@ contains
          call displacements(problem, state, box, workspace, result)
       end if
       if (problem%motion /= motion%none .and. .not. allocated(problem%simplified)) then
-         where (workspace%solution%division == element%slip)
-            result%sx(box%ix0:box%ix1, box%iy0:box%iy1) = workspace%solution%slip(:, :, 1)
-            result%sy(box%ix0:box%ix1, box%iy0:box%iy1) = workspace%solution%slip(:, :, 2)
-         end where
+         associate (solution => workspace%solution)
+            do iy = box%iy0, box%iy1
+               do ix = box%ix0, box%ix1
+                  if (solution%division(ix - box%ix0 + 1, iy - box%iy0 + 1) /= element%slip) cycle
+                  result%sx(ix, iy) = solution%slip(ix - box%ix0 + 1, iy - box%iy0 + 1, 1)
+                  result%sy(ix, iy) = solution%slip(ix - box%ix0 + 1, iy - box%iy0 + 1, 2)
+               end do
+            end do
+         end associate
          result%friction_power = area/(1000.0_wp*result%dt)*(sum(result%px*result%sx) + sum(result%py*result%sy))
          if (problem%model%coupled()) call coupled_residual(problem, box, result)
       end if
@@ -198,6 +203,7 @@ contains
       type(bounding_box), intent(in) :: box
       type(patch_workspace), intent(inout) :: workspace
       type(patch_result), intent(inout) :: result
+      integer :: ix, iy
 
       if (problem%want_exterior .or. problem%motion == motion%none) then
          call prepare_window(problem, workspace)
@@ -236,11 +242,14 @@ contains
             uy = uy + workspace%box_ut(:, :, 2)
          end associate
       end if
-      where (result%division == element%exterior)
-         result%un = 0.0_wp
-         result%ux = 0.0_wp
-         result%uy = 0.0_wp
-      end where
+      do iy = 1, problem%grid%my
+         do ix = 1, problem%grid%mx
+            if (result%division(ix, iy) /= element%exterior) cycle
+            result%un(ix, iy) = 0.0_wp
+            result%ux(ix, iy) = 0.0_wp
+            result%uy(ix, iy) = 0.0_wp
+         end do
+      end do
    end subroutine displacements
 
    !> Residual of the coupled conditions: normal gaps with the final tangential tractions

@@ -34,6 +34,9 @@ module contact_patch_friction_iteration
       real(wp), allocatable, private :: speed(:, :)
       !> Temperature of body 1 with the present coefficients [degC], shape (mx, my)
       real(wp), allocatable, private :: temperature(:, :)
+      !> Scratch: velocities or temperatures of the new solution and of the last one, and coefficients of the last
+      !> one, shape (mx, my)
+      real(wp), allocatable, private :: new(:, :), last(:, :), last_mu(:, :)
       !> Time step [s]
       real(wp), private :: dt = 1.0_wp
       !> Factor of the changes where friction has risen, see problem%slip_relaxation
@@ -98,26 +101,33 @@ contains
       type(log_type), intent(inout) :: log
       !> Coefficients of the solution on entry, the next ones on exit [-], shape (mx, my)
       real(wp), contiguous, intent(inout) :: mu(:, :)
-      real(wp), allocatable :: speed(:, :), last(:, :), last_mu(:, :)
       real(wp) :: tolerance
-      integer :: slipping, patience
+      integer :: slipping, patience, ix, iy
       logical :: by_temperature
 
       by_temperature = problem%friction%driver == friction_driver%temperature
       self%passes = self%passes + 1
-      allocate(speed(size(mu, 1), size(mu, 2)), source=0.0_wp)
-      where (solution%division == element%slip) speed(box%ix0:box%ix1, box%iy0:box%iy1) = &
-         & hypot(solution%slip(:, :, 1), solution%slip(:, :, 2))/self%dt
       slipping = count(solution%division == element%slip)
-      last = self%speed
-      last_mu = mu
+      self%last = self%speed
+      self%last_mu = mu
+      ! of the shape of the grid
+      self%new = mu
+      self%new = 0.0_wp
+      do iy = box%iy0, box%iy1
+         do ix = box%ix0, box%ix1
+            associate (jx => ix - box%ix0 + 1, jy => iy - box%iy0 + 1)
+               if (solution%division(jx, jy) == element%slip) self%new(ix, iy) = &
+                  & hypot(solution%slip(jx, jy, 1), solution%slip(jx, jy, 2))/self%dt
+            end associate
+         end do
+      end do
       if (by_temperature) then
-         last = self%temperature
-         self%speed = speed
+         self%last = self%temperature
+         self%speed = self%new
          call self%set_coefficients(problem, state, mu)
-         speed = self%temperature
+         self%new = self%temperature
       end if
-      call measure(speed, last, state%now%division, self%change, self%size)
+      call measure(self%new, self%last, state%now%division, self%change, self%size)
       tolerance = merge(temperature_tolerance, speed_tolerance, by_temperature)
       call trace_pass(log, self, by_temperature, count(solution%division == element%adhesion), slipping, tolerance)
       patience = merge(temperature_patience, speed_patience, by_temperature)
@@ -131,19 +141,20 @@ contains
       end if
       if (by_temperature) then
          ! the tractions are those of the coefficients that they were computed with
-         if (self%ended /= ending%not_started .and. slipping > 0) mu = last_mu
+         if (self%ended /= ending%not_started .and. slipping > 0) mu = self%last_mu
          return
       end if
       if (self%ended /= ending%not_started) then
-         self%speed = speed
+         self%speed = self%new
          if (slipping == 0) call self%set_coefficients(problem, state, mu)
          return
       end if
       if (self%passes > 1) then
-         call bring_along(problem, state, mu, last_mu)
-         where (speed > 0.0_wp .and. mu > last_mu) speed = max(0.0_wp, speed + (self%omega - 1.0_wp)*(speed - last))
+         call bring_along(problem, state, mu, self%last_mu)
+         where (self%new > 0.0_wp .and. mu > self%last_mu) &
+            & self%new = max(0.0_wp, self%new + (self%omega - 1.0_wp)*(self%new - self%last))
       end if
-      self%speed = speed
+      self%speed = self%new
       call self%set_coefficients(problem, state, mu)
    end subroutine advance
 

@@ -48,16 +48,18 @@ contains
       case default
          call clear_moment(state%before, problem%grid)
       end select
-      if (.not. linked .or. .not. problem%remembers_friction) call forget_friction(state)
-      if (.not. linked .or. .not. problem%remembers_yield) call forget_yield(state)
-      call link_memory(problem, link, kx, ky, state)
+      if (.not. problem%remembers_friction) call forget_friction(state)
+      if (.not. problem%remembers_yield) call forget_yield(state)
+      call link_memory(problem, link, linked, kx, ky, state)
    end subroutine link_moments
 
    !> What particles carry along, for the effects that ask for it
-   subroutine link_memory(problem, link, kx, ky, state)
+   subroutine link_memory(problem, link, linked, kx, ky, state)
       type(patch_problem), intent(in) :: problem
       !> Member of time_link
       integer, intent(in) :: link
+      !> Is there a previous case to go on from? Otherwise all particles are without history
+      logical, intent(in) :: linked
       !> Elements by which the window was moved
       integer, intent(in) :: kx, ky
       type(patch_state), intent(inout) :: state
@@ -67,14 +69,14 @@ contains
       allocate(zero(problem%grid%my), source=0.0_wp)
       associate (now => state%now, before => state%before)
          if (problem%remembers_friction) then
-            call hand_over(problem, link, kx, ky, problem%static_mu, now%mu, before%mu)
-            call hand_over(problem, link, kx, ky, zero, now%sx, before%sx)
-            call hand_over(problem, link, kx, ky, zero, now%sy, before%sy)
+            call hand_over(problem, link, linked, kx, ky, problem%static_mu, now%mu, before%mu)
+            call hand_over(problem, link, linked, kx, ky, zero, now%sx, before%sx)
+            call hand_over(problem, link, linked, kx, ky, zero, now%sy, before%sy)
          end if
          if (problem%remembers_yield) then
-            call hand_over(problem, link, kx, ky, zero + problem%initial_yield_limit, now%tau_c, before%tau_c)
-            call hand_over(problem, link, kx, ky, zero, now%uplx, before%uplx)
-            call hand_over(problem, link, kx, ky, zero, now%uply, before%uply)
+            call hand_over(problem, link, linked, kx, ky, zero + problem%initial_yield_limit, now%tau_c, before%tau_c)
+            call hand_over(problem, link, linked, kx, ky, zero, now%uplx, before%uplx)
+            call hand_over(problem, link, linked, kx, ky, zero, now%uply, before%uply)
          end if
       end associate
    end subroutine link_memory
@@ -109,10 +111,12 @@ contains
    !>
    !> In rolling the window moves by one step, and the particles that are in its elements now
    !> were that far ahead in it: values in between are interpolated bilinearly.
-   subroutine hand_over(problem, link, kx, ky, fresh, now, before)
+   subroutine hand_over(problem, link, linked, kx, ky, fresh, now, before)
       type(patch_problem), intent(in) :: problem
       !> Member of time_link
       integer, intent(in) :: link
+      !> See link_memory
+      logical, intent(in) :: linked
       !> Elements by which the window was moved
       integer, intent(in) :: kx, ky
       !> Value of particles without history, per row
@@ -121,6 +125,11 @@ contains
 
       call fit_memory(problem%grid, kx, ky, fresh, now)
       call fit_memory(problem%grid, kx, ky, fresh, before)
+      if (.not. linked) then
+         call fill_rows(fresh, now%value)
+         call fill_rows(fresh, before%value)
+         return
+      end if
       select case (link)
       case (time_link%repeat_step)
          continue
@@ -132,7 +141,7 @@ contains
             before%value = now%value
          end if
       case default
-         before%value = spread(fresh, 1, problem%grid%mx)
+         call fill_rows(fresh, before%value)
       end select
    end subroutine hand_over
 
@@ -151,7 +160,8 @@ contains
          if (kx == 0 .and. ky == 0 .and. all(shape(field%value) == [grid%mx, grid%my])) return
          call move_alloc(field%value, old)
       end if
-      allocate(field%value(grid%mx, grid%my), source=spread(fresh, 1, grid%mx))
+      allocate(field%value(grid%mx, grid%my))
+      call fill_rows(fresh, field%value)
       if (.not. allocated(old)) return
       do iy = max(1, 1 - ky), min(grid%my, size(old, 2) - ky)
          do ix = max(1, 1 - kx), min(grid%mx, size(old, 1) - kx)
@@ -159,6 +169,18 @@ contains
          end do
       end do
    end subroutine fit_memory
+
+   !> One value per row
+   pure subroutine fill_rows(fresh, field)
+      real(wp), intent(in) :: fresh(:)
+      !> Shape (mx, size(fresh))
+      real(wp), intent(inout) :: field(:, :)
+      integer :: iy
+
+      do iy = 1, size(field, 2)
+         field(:, iy) = fresh(iy)
+      end do
+   end subroutine fill_rows
 
    !> Field at places a number of elements ahead, interpolated; fresh values beyond the window
    pure subroutine sample_ahead(field, steps_x, steps_y, fresh, sampled)

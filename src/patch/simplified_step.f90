@@ -77,8 +77,16 @@ contains
       integer :: ix, iy
 
       window%model = problem%simplified
-      window%x = [(problem%grid%x(ix), ix = box%ix0, box%ix1)]
-      window%y = [(problem%grid%y(iy), iy = box%iy0, box%iy1)]
+      if (allocated(window%contact)) then
+         if (any(shape(window%contact) /= [box%ix1 - box%ix0 + 1, box%iy1 - box%iy0 + 1])) deallocate(window%x, window%y)
+      end if
+      if (.not. allocated(window%x)) allocate(window%x(box%ix1 - box%ix0 + 1), window%y(box%iy1 - box%iy0 + 1))
+      do ix = box%ix0, box%ix1
+         window%x(ix - box%ix0 + 1) = problem%grid%x(ix)
+      end do
+      do iy = box%iy0, box%iy1
+         window%y(iy - box%iy0 + 1) = problem%grid%y(iy)
+      end do
       window%dx = problem%grid%dx
       window%dy = problem%grid%dy
       window%contact = state%now%division(box%ix0:box%ix1, box%iy0:box%iy1) > element%exterior

@@ -88,14 +88,18 @@ contains
       type(patch_result), intent(in) :: result
       logical, intent(out) :: ended
       real(wp) :: change, scale
+      integer :: level
       character(len=96) :: line
 
       call shear_lift(problem, state, workspace)
       change = maxval(abs(workspace%lift - workspace%un), problem%h < excluded_threshold)
       scale = max(abs(result%pen - minval(problem%h)), maxval(abs(workspace%lift)), tiny(scale))
-      write(line, '(i3,a,2es12.3)') result%outer_iterations, ", Panag/Out: |Uk - Uk-1|,    Eps |Uk| :", change, &
-         & problem%eps*scale
-      call log%trace(merge(0, 1, result%outer_iterations >= problem%maxout - 1), trim(line))
+      level = merge(0, 1, result%outer_iterations >= problem%maxout - 1)
+      if (log%shows(level)) then
+         write(line, '(i3,a,2es12.3)') result%outer_iterations, ", Panag/Out: |Uk - Uk-1|,    Eps |Uk| :", change, &
+            & problem%eps*scale
+         call log%trace(level, trim(line))
+      end if
       ended = change <= problem%eps*scale
       if (ended) return
       if (result%outer_iterations == 1) call workspace%outer%start(size(workspace%un), outer_depth)

@@ -20,8 +20,8 @@ module contact_simplified_problem
       !> Flexibility [mm3/N] of the model with a single one
       real(wp) :: flx = 0.0_wp
       type(slope_reduction) :: reduction
-      !> Ellipse of the Hertz solution; unallocated for other geometries
-      type(ellipse), allocatable :: hertz
+      !> Ellipse of the Hertz solution; zero for other geometries
+      type(ellipse) :: hertz
    end type simplified_model
 
    !> Data on a window; constant during the solution
@@ -95,23 +95,24 @@ contains
       type(simplified_problem), intent(inout) :: problem
       type(simplified_solution), intent(inout) :: solution
       integer :: mx, my
-      logical, allocatable :: columns(:), rows(:)
+      real(wp) :: lowest(2), highest(2)
+      integer :: ix, iy
 
       mx = size(problem%contact, 1)
       my = size(problem%contact, 2)
-      columns = any(problem%contact, dim=2)
-      rows = any(problem%contact, dim=1)
-      if (any(rows)) then
-         problem%centre(1) = 0.5_wp*(problem%x(findloc(columns, .true., dim=1)) &
-            & + problem%x(findloc(columns, .true., dim=1, back=.true.)))
-         problem%centre(2) = 0.5_wp*(problem%y(findloc(rows, .true., dim=1)) &
-            & + problem%y(findloc(rows, .true., dim=1, back=.true.)))
-      end if
+      lowest = huge(lowest)
+      highest = -huge(highest)
+      do iy = 1, my
+         do ix = 1, mx
+            if (.not. problem%contact(ix, iy)) cycle
+            lowest = min(lowest, [problem%x(ix), problem%y(iy)])
+            highest = max(highest, [problem%x(ix), problem%y(iy)])
+         end do
+      end do
+      if (lowest(1) <= highest(1)) problem%centre = 0.5_wp*(lowest + highest)
       problem%area = equivalent_ellipse(problem%contact, problem%dx, problem%dy)
       problem%reference = problem%area
-      if (allocated(problem%model%hertz)) then
-         if (min(problem%model%hertz%aa, problem%model%hertz%bb) > 0.0_wp) problem%reference = problem%model%hertz
-      end if
+      if (min(problem%model%hertz%aa, problem%model%hertz%bb) > 0.0_wp) problem%reference = problem%model%hertz
       if (problem%model%choice == material_model%fastsim_single) then
          problem%flx0 = problem%model%flx
       else

@@ -89,7 +89,7 @@ contains
       report%iterations = 0
       report%residual = 0.0_wp
       report%tolerance = problem%eps
-      if (allocated(report%gave_up)) deallocate(report%gave_up)
+      report%gave_up = ""
       products_before = operator%products
       pairs_before = operator%fft_pairs()
       general = present(shifted) .and. problem%steady

@@ -13,7 +13,7 @@ module contact_tangential_gd_steady
    use contact_base_solve_report, only : ending, solve_report
    use contact_elastic_compliance, only : compliance
    use contact_grid_element_division, only : element
-   use contact_tangential_problem, only : tangential_problem
+   use contact_tangential_problem, only : slip_of, tangential_problem
    use contact_tangential_sweep, only : trace_iteration, update_watch
    implicit none (type, external)
    private
@@ -54,7 +54,7 @@ contains
       type(solve_report), intent(inout) :: report
       type(log_type), intent(inout) :: log
       type(update_watch) :: watch
-      real(wp), allocatable, dimension(:, :, :) :: shift, slip, r, v, q, before, best
+      real(wp), allocatable, dimension(:, :, :) :: slip, r, v, q, before, best
       real(wp), allocatable :: weight(:, :)
       !> Compliance of an element on itself, its change carried one element downstream [mm/(N/mm2)]
       real(wp) :: own(2)
@@ -62,16 +62,11 @@ contains
       integer :: k, iteration, mode, held, since_best
       logical :: moved
 
-      allocate(shift, slip, r, v, q, before, best, mold=p)
+      allocate(slip, r, v, q, before, best, mold=p)
       allocate(weight(problem%mx, problem%my))
-      shift = problem%shift
-      do k = 1, problem%n_forces
-         shift(:, :, k) = shift(:, :, k) + problem%dq*creep(k)
-      end do
       own = operator%diagonal(2:3) - [operator%table%xx(1, 0), operator%table%yy(1, 0)]
       watch = update_watch(eps=eps, n_contact=count(problem%contact), largest_bound=maxval(problem%bound))
-      call operator%steady(p, slip)
-      slip = slip + shift
+      call slip_of(problem, operator, p, creep, slip)
       usual = 0.0_wp
       held = 0
       progress = 1.0_wp
@@ -106,8 +101,7 @@ contains
          call search_line()
          before = p
          call trial_tractions(alpha, p)
-         call operator%steady(p, slip)
-         slip = slip + shift
+         call slip_of(problem, operator, p, creep, slip)
          moved = move_elements()
          call residual(p, slip, r)
          new_size = sum((r*spread(weight, 3, 2))**2)

@@ -59,7 +59,7 @@ contains
       !> For the flow trace; absent: none
       type(log_type), intent(inout), optional :: log
       type(newton_outcome) :: outcome
-      real(wp) :: residual, pairs_before, fine_size
+      real(wp) :: residual, pairs_before
       integer :: k, products_before
 
       if (.not. allocated(workspace%level)) allocate(workspace%level(levels))
@@ -83,15 +83,9 @@ contains
       report%residual = outcome%residual
       report%products = report%products + operator%products - products_before
       report%fft_pairs = report%fft_pairs + operator%fft_pairs() - pairs_before
-      fine_size = real(problem%mx, wp)*problem%my
       do k = 2, size(workspace%level)
-         associate (level => workspace%level(k))
-            if (.not. allocated(level%operator)) cycle
-            if (level%operator%transforms == 0) cycle
-            report%fft_pairs = report%fft_pairs + level%operator%fft_pairs()*level%problem%mx*level%problem%my/fine_size
-            level%operator%transforms = 0
-            level%operator%products = 0
-         end associate
+         if (.not. allocated(workspace%level(k)%operator)) cycle
+         call workspace%level(k)%operator%settle_account(problem%mx*problem%my, report%fft_pairs)
       end do
    end subroutine solve_newton_krylov
 

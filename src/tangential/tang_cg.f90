@@ -13,7 +13,7 @@ module contact_tangential_tang_cg
    use contact_base_solve_report, only : ending, solve_report
    use contact_elastic_compliance, only : compliance
    use contact_grid_element_division, only : element
-   use contact_tangential_problem, only : tangential_problem
+   use contact_tangential_problem, only : slip_of, tangential_problem
    use contact_tangential_sweep, only : trace_iteration, update_watch
    implicit none (type, external)
    private
@@ -44,19 +44,15 @@ contains
       type(solve_report), intent(inout) :: report
       type(log_type), intent(inout) :: log
       type(update_watch) :: watch
-      real(wp), allocatable, dimension(:, :, :) :: shift, slip, r, z, v, q, before, at_check
+      real(wp), allocatable, dimension(:, :, :) :: slip, r, z, v, q, before, at_check
       real(wp), allocatable :: sigma(:, :)
       real(wp) :: alpha, beta, vq, zq, rv, moved, size_p, step
-      integer :: k, n_contact, n_slip, inner, ended, iterations
+      integer :: n_contact, n_slip, inner, ended, iterations
       logical :: precondition, restart, check
 
-      allocate(shift, slip, r, z, v, q, before, at_check, mold=p)
+      allocate(slip, r, z, v, q, before, at_check, mold=p)
       allocate(sigma(problem%mx, problem%my))
       n_contact = count(problem%contact)
-      shift = problem%shift
-      do k = 1, problem%n_forces
-         shift(:, :, k) = shift(:, :, k) + problem%dq*creep(k)
-      end do
       watch = update_watch(eps=eps, n_contact=n_contact, largest_bound=maxval(problem%bound))
       precondition = .true.
       restart = .true.
@@ -66,8 +62,7 @@ contains
       inner = 0
       moved = 0.0_wp
       size_p = norm(sum(p**2))
-      call operator%tangential(p, slip)
-      slip = slip + shift
+      call slip_of(problem, operator, p, creep, slip)
       call release(restart)
       restart = .true.
       call set_residual()
@@ -252,8 +247,7 @@ contains
                end if
             end do
          end do
-         call operator%tangential(p, slip)
-         slip = slip + shift
+         call slip_of(problem, operator, p, creep, slip)
          call release(any_moved)
       end function move_elements
 

@@ -1,7 +1,7 @@
 !> The benchmark: one table of what cases cost, in seconds and in pairs of transforms
 !>
 !>     performance_bench [--large] [--quick] [SECTION ...]   sections: normal rolling shift classical line table setup
-!>     performance_bench --allocations                       where repeated cases ask for memory
+!>     performance_bench --allocations [KIND [MX]]           where repeated cases ask for memory
 !>     performance_bench --input MX FILE                     writes the cases of a table as an .inp file
 !>     performance_bench --case NAME N                       milliseconds of a rolling contact, without and with set-up
 !>     performance_bench --profile NAME [N]                  runs one kind of case for 10 s or N times, for a profiler:
@@ -15,7 +15,8 @@ program performance_bench
    use contact_bench_measure, only : allocations, cpu_seconds, measure, measurement, pair_clock, peak_memory, print_places, &
       & trace_allocations
    use contact_bench_problems, only : new_line_case, new_normal_case, new_rolling_case, new_shift_case, new_table_case, &
-      & normal_case, rolling_contact, rolling_contacts, session_case, solve_one, table_creepage, table_size, tangential_case
+      & normal_case, rolling_contact, rolling_contacts, session_case, set_table_kind, solve_one, table_creepage, table_size, &
+      & tangential_case
    use contact_elastic_material, only : combine
    use contact_elastic_model, only : elastic_model
    use contact_elastic_operator, only : elastic_operator
@@ -319,7 +320,7 @@ contains
       character(len=:), allocatable :: text
 
       text = ""
-      if (allocated(report%gave_up)) text = " (given up for " // report%method // ")"
+      if (report%gave_up /= "") text = " (given up for " // trim(report%method) // ")"
    end function given_up
 
    !> Problems of one row
@@ -388,7 +389,7 @@ contains
             products = products + report%products
             steps = steps + report%iterations
             if (.not. report%succeeded()) failed = failed + 1
-            if (allocated(report%gave_up)) handed_over = handed_over + 1
+            if (report%gave_up /= "") handed_over = handed_over + 1
          end associate
       end do
       result%seconds = result%seconds/cases
@@ -432,18 +433,24 @@ contains
    !> Where 50 repeated cases ask for memory: PLACE count addresses, to be named by addr2line
    subroutine list_allocations()
       type(session_case) :: case
-      integer :: k
+      type(solve_report) :: report
+      character(len=80) :: kind, text
+      integer :: k, mx
 
-      call new_table_case(11, case)
-      case%spec%estimate = estimate_choice%previous
+      call get_command_argument(2, kind)
+      call get_command_argument(3, text)
+      mx = 11
+      if (len_trim(text) > 0) read(text, *) mx
+      call new_table_case(mx, case)
+      call set_table_kind(kind, case)
       do k = 1, 20
          call set_creepage(case, k)
-         call solve_one(case)
+         call case%run(report)
       end do
       call trace_allocations(.true.)
       do k = 21, 70
          call set_creepage(case, k)
-         call solve_one(case)
+         call case%run(report)
       end do
       call trace_allocations(.false.)
       call print_places()

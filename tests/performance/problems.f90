@@ -1,6 +1,7 @@
 !> The problems of the benchmark: those of the specification of the fast solver, and tables
 module contact_bench_problems
-   use contact_base_choices, only : estimate_choice, motion, normal_control, pressure_model, solver_choice, time_link
+   use contact_base_choices, only : estimate_choice, friction_model, material_model, motion, normal_control, pressure_model, &
+      & solver_choice, time_link
    use contact_base_constants, only : pi
    use contact_base_error, only : error_type, full_text
    use contact_base_kinds, only : wp
@@ -22,7 +23,7 @@ module contact_bench_problems
 
    public :: normal_case, tangential_case, session_case, rolling_contact, rolling_contacts
    public :: new_normal_case, new_rolling_case, new_shift_case, new_table_case, new_line_case, table_creepage
-   public :: solve_one, table_size
+   public :: table_kind, table_kinds, set_table_kind, solve_one, table_size
 
    !> A ball on a flat, free boundary
    type, extends(timed_case) :: normal_case
@@ -93,6 +94,15 @@ module contact_bench_problems
       & rolling_contact("F (-0.999, 0)", 3.0_wp, 5.0_wp, load, 0.0_wp, 0.0_wp, spin, 2, [-0.999_wp, 0.0_wp]), &
       & rolling_contact("F (-0.7, 0.7)", 3.0_wp, 5.0_wp, load, 0.0_wp, 0.0_wp, spin, 2, [-0.7_wp, 0.7_wp])]
    real(wp), parameter :: mu = 0.3_wp, poisson = 0.28_wp, modulus = 82000.0_wp
+   !> A kind of repeated cases: its name in set_table_kind, and how often a case may ask for memory
+   type :: table_kind
+      character(len=12) :: name
+      integer :: requests
+   end type table_kind
+   !> Friction laws and the model of simplified theory are made anew for each case
+   type(table_kind), parameter :: table_kinds(*) = [table_kind("scratch", 0), table_kind("previous", 0), &
+      & table_kind("forces", 0), table_kind("hertz", 0), table_kind("shift", 0), table_kind("transient", 0), &
+      & table_kind("dissimilar", 0), table_kind("simplified", 1), table_kind("falling", 11)]
    !> Cases in a creep-force table
    integer, parameter :: table_size = 3000
 
@@ -259,6 +269,43 @@ contains
          spec%kinematics%fn = 75000.0_wp
       end associate
    end subroutine new_table_case
+
+   !> A case of a table of another kind than from scratch
+   subroutine set_table_kind(kind, case)
+      !> Name of a member of table_kinds
+      character(len=*), intent(in) :: kind
+      !> From new_table_case
+      type(session_case), intent(inout) :: case
+
+      associate (spec => case%spec)
+         select case (kind)
+         case ("previous")
+            spec%estimate = estimate_choice%previous
+         case ("forces")
+            spec%force = 2
+            spec%kinematics%fx = -0.5_wp
+            spec%kinematics%fy = 0.2_wp
+         case ("hertz")
+            spec%pressure = pressure_model%elliptical
+         case ("shift")
+            spec%motion = motion%shift
+         case ("transient")
+            spec%motion = motion%transient_rolling
+            spec%link = time_link%continue_all
+         case ("dissimilar")
+            spec%material%gg = [modulus, 2.0_wp*modulus]
+            spec%iteration%maxout = 20
+         case ("simplified")
+            spec%pressure = pressure_model%parabolical
+            spec%material_model = material_model%fastsim
+         case ("falling")
+            spec%friction_law = friction_model%linear
+            spec%friction%sets(1)%fkin = 0.5_wp*mu
+            spec%friction%sets(1)%coef1 = 0.5_wp*mu
+            spec%friction%sets(1)%sabsh1 = 300.0_wp
+         end select
+      end associate
+   end subroutine set_table_kind
 
    !> Carter's problem with 800 elements in contact and 40 around them, from scratch each time
    subroutine new_line_case(case)

@@ -112,7 +112,7 @@ contains
          call case%release()
          return
       end if
-      if (allocated(case%result%tangential%gave_up)) write(*, '(2a)') "FALL-BACK  ", name
+      if (case%result%tangential%gave_up /= "") write(*, '(2a)') "FALL-BACK  ", name
       px = case%result%px
       py = case%result%py
       fx = case%result%grid%dx*case%result%grid%dy*sum(px)/(mu*fn)
@@ -135,20 +135,20 @@ contains
             dp = sqrt(sum((r%px - px)**2) + sum((r%py - py)**2))/bound
             if (.not. r%tangential%succeeded()) then
                refused(steady(k)) = refused(steady(k)) + 1
-               write(*, '(4a, i0, 4(a, es8.1))') "GAVE UP ", r%tangential%method, " ", name, r%tangential%ended, &
+               write(*, '(4a, i0, 4(a, es8.1))') "GAVE UP ", trim(r%tangential%method), " ", name, r%tangential%ended, &
                   & " forces differ", df, ", tractions", dp, " residual", r%tangential%residual
                cycle
             end if
             if (df > tol_force .or. dp > tol_traction) then
-               write(*, '(4a, 4(a, es8.1))') "DIFFERS ", r%tangential%method, " ", name, &
+               write(*, '(4a, 4(a, es8.1))') "DIFFERS ", trim(r%tangential%method), " ", name, &
                   & " forces differ", df, ", tractions", dp, " residual", r%tangential%residual
-               if (allocated(r%tangential%gave_up)) write(*, '(2a)') "   after fall-back from ", r%tangential%gave_up
+               if (r%tangential%gave_up /= "") write(*, '(2a)') "   after fall-back from ", trim(r%tangential%gave_up)
             end if
-            call remember(r%tangential%method, df, dp)
-            call suite%close_to(df, 0.0_wp, tol_force, name // ": forces by " // r%tangential%method)
-            call suite%close_to(dp, 0.0_wp, tol_traction, name // ": tractions by " // r%tangential%method)
-            call suite%close_to(r%cksi, cksi, 1.0e-3_wp*rough, name // ": ksi by " // r%tangential%method)
-            call suite%close_to(r%ceta, ceta, 1.0e-3_wp*rough, name // ": eta by " // r%tangential%method)
+            call remember(trim(r%tangential%method), df, dp)
+            call suite%close_to(df, 0.0_wp, tol_force, name // ": forces by " // trim(r%tangential%method))
+            call suite%close_to(dp, 0.0_wp, tol_traction, name // ": tractions by " // trim(r%tangential%method))
+            call suite%close_to(r%cksi, cksi, 1.0e-3_wp*rough, name // ": ksi by " // trim(r%tangential%method))
+            call suite%close_to(r%ceta, ceta, 1.0e-3_wp*rough, name // ": eta by " // trim(r%tangential%method))
          end associate
       end do
       call case%release()

@@ -473,9 +473,9 @@ contains
       end if
       associate (res => run%result, n => run%result%normal, t => run%result%tangential)
          write(normal, '(i0, a, i0, a, es8.1)') n%iterations, " / ", n%products, " / ", max(0.0_wp, n%residual)
-         method = "-"
-         if (allocated(t%method)) method = t%method
-         if (allocated(t%gave_up)) method = t%gave_up // ", then " // method
+         method = trim(t%method)
+         if (method == "") method = "-"
+         if (t%gave_up /= "") method = trim(t%gave_up) // ", then " // method
          write(counts(1), '(i0, a, i0)') res%ncon, " | ", res%nadh
          write(counts(2), '(i0)') t%iterations
          write(counts(3), '(i0)') t%products
@@ -497,7 +497,7 @@ contains
 
       if (normal%succeeded() .and. tangential%succeeded()) then
          text = "converged"
-         if (warnings > 0 .and. .not. allocated(tangential%gave_up)) text = "outer iteration at its limit (warning)"
+         if (warnings > 0 .and. tangential%gave_up == "") text = "outer iteration at its limit (warning)"
          return
       end if
       text = ""

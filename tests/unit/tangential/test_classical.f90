@@ -121,7 +121,7 @@ contains
          & solution%creep, report%ended
       call suite%check(all(hypot(solution%p(:, :, 1), solution%p(:, :, 2)) <= problem%bound*(1.0_wp + 1e-12_wp)), &
          & what // ", " // method_name(method) // ": admissible")
-      if (allocated(report%gave_up)) print '(6x, 2a)', "gave up: ", report%gave_up
+      if (report%gave_up /= "") print '(6x, 2a)', "gave up: ", trim(report%gave_up)
    end subroutine solve
 
    !> Conditions of one element, by definition

@@ -438,7 +438,7 @@ contains
          & report%products, real(finish - start, wp)/rate, report%residual, sum(solution%p(:, :, 1))/sum(problem%bound), &
          & sum(solution%p(:, :, 2))/sum(problem%bound), count(solution%division == element%adhesion), &
          & count(solution%division == element%slip), count(solution%division == element%plastic), solution%creep
-      call suite%check(report%succeeded(), what // ": " // report%method // " converges")
+      call suite%check(report%succeeded(), what // ": " // trim(report%method) // " converges")
    end subroutine solve
 
    !> Tractions, plastic displacements and limits agree
