@@ -1,12 +1,13 @@
 function [ varargout ] = loadcase( expnam, icase, ipatch )
-% LOADCASE  Load the surface results of one case from its .mat file(s).
+% LOADCASE  Load the surface results of one case from its .mat file(s), or from the HDF5 file of the experiment.
 %
 %   s = loadcase( expnam )                 case 1
 %   s = loadcase( expnam, icase )          all patches of a wheel-rail case, in an array of structs
 %   s = loadcase( expnam, icase, ipatch )  one patch
 %   [s1, s2, ...] = loadcase( expnam, icase, -1 )  one struct for each patch, [] where there is none
 %
-%   expnam   experiment name, with a folder if need be, without extension
+%   expnam   experiment name, with a folder if need be, without extension. Cases without .mat files are read from
+%            expnam.h5 (contact --hdf5), which the name with this extension asks for in any case
 %   icase    number of the case (default 1)
 %   ipatch   number of the contact patch in a wheel-rail case (default 0: all of them)
 %
@@ -29,8 +30,8 @@ function [ varargout ] = loadcase( expnam, icase, ipatch )
 %   temp1, temp2      with temperatures: those of the surfaces of bodies 1 and 2 [degC]
 %   trcbnd            traction bound [N/mm2]
 %
-% With A=1 the file holds the elements in contact only; tractions are zero elsewhere, and what is not
-% known there (h, mu, displacements, slip, temperatures) is NaN.
+% With A=1 a .mat file holds the elements in contact only; tractions are zero elsewhere, and what is not
+% known there (h, mu, displacements, slip, temperatures) is NaN. HDF5 files hold all elements.
 %
 % See also: diffcase, plot2d, plot3d, loadstrs.
 
@@ -42,20 +43,20 @@ function [ varargout ] = loadcase( expnam, icase, ipatch )
    end
    separate = (ipatch==-1);
 
-   if (ipatch>0)
-      fname = result_file(expnam, icase, ipatch, '.mat');
-      require_file(fname, 'loadcase', expnam, icase);
-      varargout{1} = read_mat_file(fname, icase);
-      return
+   patches = {};
+   if (isempty(regexp(expnam, '\.h5$', 'once')))
+      patches = mat_patches(expnam, icase, ipatch);
+   end
+   if (isempty(patches))
+      patches = hdf5_patches(expnam, icase);
+      if (ipatch>0)
+         patches = patches(ipatch : min(ipatch,numel(patches)));
+      end
+   end
+   if (isempty(patches))
+      require_file('', 'loadcase', expnam, icase);
    end
 
-   % module 3 has no letters
-   fname = result_file(expnam, icase, 0, '.mat');
-   if (~isempty(fname))
-      patches = {read_mat_file(fname, icase)};
-   else
-      patches = all_patches(expnam, icase);
-   end
    if (separate)
       varargout = cell(1, max(1,nargout));
       n = min(numel(varargout), numel(patches));
@@ -68,19 +69,32 @@ end % function loadcase
 
 %------------------------------------------------------------------------------------------------------
 
-function [ patches ] = all_patches( expnam, icase )
-% The patches a, b, ... of a case; files left over from an earlier run with more patches are not read
+function [ patches ] = mat_patches( expnam, icase, ipatch )
+% Structs of the .mat files of a case: of one patch, or all of them; {} when there are no files
 
-   fname = result_file(expnam, icase, 1, '.mat');
-   require_file(fname, 'loadcase', expnam, icase);
+   patches = {};
+   fname = '';
+   if (ipatch<=0)
+      % module 3 has no letters
+      fname = result_file(expnam, icase, 0, '.mat');
+   end
+   if (isempty(fname))
+      fname = result_file(expnam, icase, max(1,ipatch), '.mat');
+   end
+   if (isempty(fname))
+      return
+   end
    patches = {read_mat_file(fname, icase)};
-   for ipatch = 2 : patches{1}.meta.npatch
-      fname = result_file(expnam, icase, ipatch, '.mat');
+   if (ipatch>0)
+      return
+   end
+   % files left over from an earlier run with more patches are not read
+   for k = 2 : patches{1}.meta.npatch
+      fname = result_file(expnam, icase, k, '.mat');
       if (isempty(fname))
-         error('loadcase: patch %d of %d of case %d of "%s" has no .mat file.', ipatch, ...
-               patches{1}.meta.npatch, icase, expnam);
+         error('loadcase: patch %d of %d of case %d of "%s" has no .mat file.', k, patches{1}.meta.npatch, icase, expnam);
       end
-      patches{ipatch} = read_mat_file(fname, icase);
+      patches{k} = read_mat_file(fname, icase);
    end
 
-end % function all_patches
+end % function mat_patches

@@ -1,9 +1,10 @@
 function [ varargout ] = loadstrs( expnam, icase, ipatch )
-% LOADSTRS  Load displacements and stresses below the surface from a .subs file.
+% LOADSTRS  Load displacements and stresses below the surface from a .subs file, or from the HDF5 file of the experiment.
 %
 %   [blk1, blk2, ...] = loadstrs( expnam, icase, ipatch )
 %
-%   expnam   experiment name, with a folder if need be, without extension
+%   expnam   experiment name, with a folder if need be, without extension. Without .subs file the case is read from
+%            expnam.h5 (contact --hdf5), which the name with this extension asks for in any case
 %   icase    number of the case (default 1)
 %   ipatch   number of the contact patch of a wheel-rail case (default 0: none, then the first)
 %
@@ -13,7 +14,7 @@ function [ varargout ] = loadstrs( expnam, icase, ipatch )
 %   x, y, z               their coordinates, column vectors [mm]
 %   ux, uy, uz            displacements [mm], arrays of nx * ny * nz, as all that follow
 %   sighyd, sigvm         mean hydrostatic and von Mises stress [N/mm2], tension positive
-%   sigxx, sigxy, sigxz, sigyy, sigyz, sigzz   full stress tensor [N/mm2], if the file has it
+%   sigxx, sigxy, sigxz, sigyy, sigyz, sigzz   full stress tensor [N/mm2], if the file has it; HDF5 files have it
 %   sigtr, sigma1, sigma2, sigma3   with the full tensor: Tresca's maximum shear stress (sigma1 - sigma3)
 %                         and the principal stresses, sigma1 >= sigma2 >= sigma3 [N/mm2]
 %
@@ -28,9 +29,18 @@ function [ varargout ] = loadstrs( expnam, icase, ipatch )
       ipatch = 0;
    end
 
-   fname = subs_file(expnam, icase, ipatch);
-   require_file(fname, 'loadstrs', expnam, icase);
-   blocks = read_blocks(fname);
+   fname = '';
+   if (isempty(regexp(expnam, '\.h5$', 'once')))
+      fname = subs_file(expnam, icase, ipatch);
+   end
+   if (~isempty(fname))
+      blocks = read_blocks(fname);
+   else
+      [blocks, fname] = hdf5_blocks(expnam, icase, max(1,ipatch));
+   end
+   if (isempty(blocks))
+      require_file('', 'loadstrs', expnam, icase);
+   end
    if (nargout>numel(blocks))
       error('loadstrs: "%s" has %d blocks, %d were asked for.', fname, numel(blocks), nargout);
    end
@@ -93,3 +103,32 @@ function [ blocks ] = read_blocks( fname )
    end
 
 end % function read_blocks
+
+%------------------------------------------------------------------------------------------------------
+
+function [ blocks, fname ] = hdf5_blocks( expnam, icase, ipatch )
+% Blocks of a patch in the HDF5 file of an experiment; {} when there is no file, case or block
+
+   patch  = sprintf('patch_%d', ipatch);
+   blocks = {};
+   [c, fname] = hdf5_case(expnam, icase, {patch});
+   if (~isfield(c, patch) || ~isfield(c.(patch), 'subsurface'))
+      return
+   end
+   all   = c.(patch).subsurface;
+   names = {'ux','uy','uz','sighyd','sigvm','sigxx','sigxy','sigxz','sigyy','sigyz','sigzz', ...
+            'sigma1','sigma3','sigma2','sigtr'};
+   for k = 1 : numel(fieldnames(all))
+      from = all.(sprintf('block_%d', k));
+      nx = numel(from.points.x);   ny = numel(from.points.y);   nz = numel(from.points.z);
+      b = struct('nx',nx, 'ny',ny, 'nz',nz, 'npoints',nx*ny*nz);
+      b.x = from.points.x(:);
+      b.y = from.points.y(:);
+      b.z = from.points.z(:);
+      for i = 1 : numel(names)
+         b.(names{i}) = reshape(from.(names{i}), [nx ny nz]);
+      end
+      blocks{k} = b;
+   end
+
+end % function hdf5_blocks

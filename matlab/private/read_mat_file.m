@@ -137,11 +137,7 @@ function [ s ] = read_elements( s, table, fname )
       s.(names{i}) = v.(names{i});
    end
 
-   s.trcbnd = s.mu .* s.pn;
-   if (plastic)
-      s.trcbnd = min(s.trcbnd, s.taucrt);
-   end
-   s.trcbnd(s.pn==0) = 0;
+   s = add_bound(s);
 
 end % function read_elements
 

@@ -200,6 +200,7 @@ contains
       type(case_spec) :: request
       type(error_type), allocatable :: error
       type(log_type) :: log
+      logical :: left
 
       request%kernel = problem%spec%kernel
       request%material = problem%spec%material
@@ -210,7 +211,9 @@ contains
          if (allocated(problem%blocks(number)%list)) request%subsurface%blocks = problem%blocks(number)%list
       end if
       code = library_code%success
-      call subsurface_stresses(request, patch, error)
+      left = .false.
+      if (allocated(problem%spec%wheel_rail)) left = problem%spec%wheel_rail%left
+      call subsurface_stresses(request, patch, error, left)
       if (.not. allocated(error) .and. allocated(patch%subsurface)) then
          log = library_log()
          !$omp critical (contact_printing)

@@ -59,7 +59,8 @@ contains
       do k = 1, size(result%patches)
          associate (contact => result%patches(k)%contact)
             if (allocated(contact%subsurface)) deallocate(contact%subsurface)
-            if (spec%stress /= stress_choice%none) call subsurface_stresses(spec, contact, error)
+            if (spec%stress /= stress_choice%none) &
+               & call subsurface_stresses(spec, contact, error, spec%wheel_rail%left)
             call name_effects(spec, session%memory%slot(k)%problem, contact)
          end associate
          if (allocated(error)) return

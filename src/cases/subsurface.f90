@@ -9,6 +9,7 @@ module contact_cases_subsurface
    use contact_subsurface_load, only : new_surface_load, surface_load
    use contact_subsurface_points, only : expand_points, list_points, point_block, point_set
    use contact_subsurface_stress, only : subsurface_field
+   use contact_wheelrail_result, only : mirrored
    implicit none (type, external)
    private
 
@@ -20,19 +21,28 @@ module contact_cases_subsurface
 contains
 
    !> Displacements, stresses and their invariants in the blocks of points of a case
-   subroutine subsurface_stresses(spec, result, error)
+   subroutine subsurface_stresses(spec, result, error, left)
       type(case_spec), intent(in) :: spec
       !> A solved patch; columns and rows of the blocks are those of its grid
       type(patch_result), intent(inout) :: result
       type(error_type), allocatable, intent(out) :: error
+      !> Does the patch belong to a wheel on the left side, of which it is the mirror image? Points and results are then
+      !> in the coordinates of the left side. Default: no
+      logical, intent(in), optional :: left
       type(surface_load) :: load
       character(len=60) :: text
       integer :: k
+      logical :: mirror
 
       if (allocated(result%subsurface)) deallocate(result%subsurface)
       if (.not. allocated(spec%subsurface%blocks)) return
-      call new_surface_load(load, result%grid, result%pn, result%px, result%py, spec%material%gg, spec%material%poiss, &
-         & spec%kernel == kernel_model%bilinear)
+      mirror = .false.
+      if (present(left)) mirror = left
+      if (mirror) then
+         call take_load(mirrored(result))
+      else
+         call take_load(result)
+      end if
       allocate(result%subsurface(size(spec%subsurface%blocks)))
       do k = 1, size(result%subsurface)
          call block_stresses(load, spec%subsurface%blocks(k), result%subsurface(k), error)
@@ -42,6 +52,15 @@ contains
          deallocate(result%subsurface)
          return
       end do
+
+   contains
+
+      subroutine take_load(patch)
+         type(patch_result), intent(in) :: patch
+
+         call new_surface_load(load, patch%grid, patch%pn, patch%px, patch%py, spec%material%gg, spec%material%poiss, &
+            & spec%kernel == kernel_model%bilinear)
+      end subroutine take_load
    end subroutine subsurface_stresses
 
    !> One block

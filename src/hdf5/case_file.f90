@@ -8,11 +8,10 @@ module contact_hdf5_case_file
    use contact_output_case_record, only : case_head, describe_head, describe_pair, describe_patch, describe_place, &
       & describe_solution, is_rolling, side_sign
    use contact_output_input_record, only : describe_input
-   use contact_output_pair_files, only : mirrored
    use contact_patch_result, only : patch_result, subsurface_result
    use contact_profile_curve, only : profile_curve
    use contact_text_words, only : integer_text
-   use contact_wheelrail_result, only : pair_patch, pair_result
+   use contact_wheelrail_result, only : mirrored, pair_patch, pair_result
    implicit none (type, external)
    private
 
@@ -161,11 +160,16 @@ contains
          call file%text("names", "effects that acted", contact%effects)
          call file%close_group()
       end if
+      if (any(contact%flx > 0.0_wp)) then
+         call file%open_group("simplified")
+         call file%numbers("flx", "mm3/N", "flexibilities L1, L2, L3 of simplified theory, given or found", contact%flx)
+         call file%close_group()
+      end if
       if (present(mirror)) then
-         call write_grid(file, spec, mirror)
+         call write_grid(file, spec, mirror, place)
          call write_fields(file, spec, mirror)
       else
-         call write_grid(file, spec, contact)
+         call write_grid(file, spec, contact, place)
          call write_fields(file, spec, contact)
       end if
       if (present(place)) then
@@ -175,7 +179,7 @@ contains
          call file%enter("subsurface")
          do k = 1, size(contact%subsurface)
             call file%enter("block_" // integer_text(k))
-            call write_block(file, spec, contact%subsurface(k))
+            call write_block(file, contact%subsurface(k))
             call file%leave()
          end do
          call file%leave()
@@ -184,10 +188,12 @@ contains
    end subroutine write_patch
 
    !> The elements
-   subroutine write_grid(file, spec, contact)
+   subroutine write_grid(file, spec, contact, place)
       type(hdf5_file), intent(inout) :: file
       type(case_spec), intent(in) :: spec
       type(patch_result), intent(in) :: contact
+      !> In module 1
+      type(pair_patch), intent(in), optional :: place
       integer :: i
 
       associate (grid => contact%grid)
@@ -203,7 +209,12 @@ contains
          if (is_rolling(spec)) then
             call file%number("chi", "rad", "rolling direction", contact%chi)
             call file%number("dq", "mm", "distance of a step", contact%dq)
-            call file%number("veloc", "mm/s", "velocity", contact%veloc)
+         end if
+         call file%number("veloc", "mm/s", "velocity", contact%veloc)
+         if (present(place)) then
+            call file%number("x_elem", "mm", "contact reference in the coordinates of the elements", place%grid_reference(1))
+            call file%number("y_elem", "mm", "contact reference in the coordinates of the elements", &
+               & side_sign(spec)*place%grid_reference(2))
          end if
          call file%close_group()
       end associate
@@ -222,8 +233,8 @@ contains
       call file%field("h", "mm", "undeformed distance, approach not subtracted", contact%h)
       call file%field("pn", "N/mm2", "pressure", contact%pn)
       call file%field("un", "mm", "normal displacement difference", contact%un)
+      call file%field("mu", "-", "coefficient of friction", contact%mu)
       if (spec%motion /= motion%none) then
-         call file%field("mu", "-", "coefficient of friction", contact%mu)
          call file%field("px", "N/mm2", "longitudinal traction on body 1", contact%px)
          call file%field("py", "N/mm2", "lateral traction on body 1", contact%py)
          call file%field("ux", "mm", "longitudinal displacement difference", contact%ux)
@@ -295,6 +306,7 @@ contains
       call file%number("z_w", "mm", "wheel marker, vertical", pair%wheel_z)
       call file%number("roll_w", "rad", "roll angle of the wheel", s*pair%wheel_roll)
       call file%number("yaw_w", "rad", "yaw angle of the wheel", s*pair%wheel_yaw)
+      call file%number("ynom_whl", "mm", "origin of the profile from the middle of the wheelset, outwards", pair%wheel_offset)
       call file%close_group()
    end subroutine write_markers
 
@@ -312,47 +324,38 @@ contains
    end subroutine write_profile
 
    !> Displacements and stresses of a block of points
-   subroutine write_block(file, spec, right)
+   subroutine write_block(file, block)
       type(hdf5_file), intent(inout) :: file
-      type(case_spec), intent(in) :: spec
-      !> For a right-hand pair
-      type(subsurface_result), intent(in) :: right
+      type(subsurface_result), intent(in) :: block
       character(len=2), parameter :: component(6) = ["xx", "xy", "xz", "yy", "yz", "zz"]
-      integer, allocatable :: order(:)
-      real(wp) :: s
-      integer :: ix, iy, iz, k, n
+      integer :: k
 
-      s = side_sign(spec)
-      associate (nx => right%nx, ny => right%ny, nz => right%nz)
-         n = nx*ny*nz
-         ! on the left side rows stand in reversed order
-         order = [(((ix + nx*(merge(iy, ny + 1 - iy, s > 0.0_wp) - 1 + ny*(iz - 1)), ix = 1, nx), iy = 1, ny), iz = 1, nz)]
+      associate (nx => block%nx, ny => block%ny, nz => block%nz)
          call file%open_group("points")
-         call file%numbers("x", "mm", "columns of points", right%position(1, order(:nx)))
-         call file%numbers("y", "mm", "rows of points", s*right%position(2, order(:nx*ny:nx)))
-         call file%numbers("z", "mm", "depths, positive in body 1", right%position(3, order(:n:nx*ny)))
+         call file%numbers("x", "mm", "columns of points", block%position(1, :nx))
+         call file%numbers("y", "mm", "rows of points", block%position(2, :nx*ny:nx))
+         call file%numbers("z", "mm", "depths, positive in body 1", block%position(3, :nx*ny*nz:nx*ny))
          call file%close_group()
-         call put("ux", "mm", "displacement", right%displacement(1, order))
-         call put("uy", "mm", "displacement", s*right%displacement(2, order))
-         call put("uz", "mm", "displacement", right%displacement(3, order))
-         do k = 1, 6
-            call put("sig" // component(k), "N/mm2", "stress, tension positive", &
-               & merge(s, 1.0_wp, k == 2 .or. k == 5)*right%stress(k, order))
-         end do
-         call put("sighyd", "N/mm2", "mean stress", right%sighyd(order))
-         call put("sigvm", "N/mm2", "equivalent stress of von Mises", right%sigvm(order))
-         call put("sigtr", "N/mm2", "equivalent stress of Tresca", right%sigtr(order))
-         call put("sigma1", "N/mm2", "largest principal stress", right%sigma1(order))
-         call put("sigma2", "N/mm2", "middle principal stress", right%sigma2(order))
-         call put("sigma3", "N/mm2", "smallest principal stress", right%sigma3(order))
       end associate
+      do k = 1, 3
+         call put("u" // "xyz"(k:k), "mm", "displacement", block%displacement(k, :))
+      end do
+      do k = 1, 6
+         call put("sig" // component(k), "N/mm2", "stress, tension positive", block%stress(k, :))
+      end do
+      call put("sighyd", "N/mm2", "mean stress", block%sighyd)
+      call put("sigvm", "N/mm2", "equivalent stress of von Mises", block%sigvm)
+      call put("sigtr", "N/mm2", "equivalent stress of Tresca", block%sigtr)
+      call put("sigma1", "N/mm2", "largest principal stress", block%sigma1)
+      call put("sigma2", "N/mm2", "middle principal stress", block%sigma2)
+      call put("sigma3", "N/mm2", "smallest principal stress", block%sigma3)
 
    contains
 
       subroutine put(name, unit, title, values)
          character(len=*), intent(in) :: name, unit, title
          real(wp), intent(in) :: values(:)
-         call file%block(name, unit, title, values, right%nx, right%ny, right%nz)
+         call file%block(name, unit, title, values, block%nx, block%ny, block%nz)
       end subroutine put
    end subroutine write_block
 end module contact_hdf5_case_file

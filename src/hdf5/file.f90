@@ -16,8 +16,8 @@ module contact_hdf5_file
    use, intrinsic :: ieee_arithmetic, only : ieee_quiet_nan, ieee_value
    use, intrinsic :: iso_c_binding, only : c_int, c_int64_t
    use hdf5, only : h5aclose_f, h5acreate_f, h5awrite_f, h5d_compact_f, h5d_fill_time_never_f, h5dclose_f, h5dcreate_f, &
-      & h5dget_space_f, h5dset_extent_f, h5dwrite_f, h5eset_auto_f, h5f_acc_trunc_f, h5f_libver_v18_f, h5f_scope_local_f, &
-      & h5fclose_f, h5fcreate_f, h5fflush_f, h5gclose_f, h5gcreate_f, h5lcreate_hard_f, &
+      & h5dget_space_f, h5dset_extent_f, h5dwrite_f, h5eset_auto_f, h5f_acc_trunc_f, h5f_libver_earliest_f, &
+      & h5f_libver_v18_f, h5f_scope_local_f, h5fclose_f, h5fcreate_f, h5fflush_f, h5gclose_f, h5gcreate_f, h5lcreate_hard_f, &
       & h5oclose_f, h5olink_f, h5open_f, h5p_dataset_create_f, h5p_default_f, h5p_file_access_f, &
       & h5p_file_create_f, h5p_group_create_f, h5pclose_f, h5pcopy_f, h5pcreate_f, h5pset_chunk_f, h5pset_deflate_f, &
       & h5pset_fill_time_f, h5pset_fill_value_f, h5pset_istore_k_f, h5pset_layout_f, &
@@ -175,8 +175,9 @@ contains
       call h5open_f(status)
       call h5eset_auto_f(0, status)
       call h5pcreate_f(h5p_file_access_f, access, status)
-      ! newer layouts mark an open file, and refuse it after the end of a program that was killed
-      call h5pset_libver_bounds_f(access, h5f_libver_v18_f, h5f_libver_v18_f, status)
+      ! newer layouts mark an open file, and refuse it after the end of a program that was killed. The group of all cases
+      ! has the oldest layout: of the newer ones Octave looks through all names for each name
+      call h5pset_libver_bounds_f(access, h5f_libver_earliest_f, h5f_libver_v18_f, status)
       call h5pcreate_f(h5p_file_create_f, creation, status)
       call h5pset_istore_k_f(creation, 8, status)
       call h5fcreate_f(name // unfinished, h5f_acc_trunc_f, self%file, status, creation, access)
@@ -185,6 +186,8 @@ contains
          return
       end if
       self%is_open = .true.
+      call use_small_headers(self%file, status)
+      call self%check(status)
       call h5pclose_f(creation, status)
       call h5pclose_f(access, status)
       call h5screate_f(h5s_scalar_f, self%scalar, status)
@@ -220,6 +223,22 @@ contains
          allocate(table%columns(64), table%pending(most_rows, 64))
       end subroutine start_table
    end subroutine open_file
+
+   !> Objects that are made from now on have the layout of HDF5 1.8, with smaller heads than the oldest
+   subroutine use_small_headers(file, status)
+      integer(hid_t), intent(in) :: file
+      integer, intent(out) :: status
+      interface
+         function set_bounds(file, lowest, highest) result(status) bind(c, name="H5Fset_libver_bounds")
+            import :: c_int, c_int64_t
+            integer(c_int64_t), value :: file
+            integer(c_int), value :: lowest, highest
+            integer(c_int) :: status
+         end function set_bounds
+      end interface
+
+      status = set_bounds(int(file, c_int64_t), int(h5f_libver_v18_f, c_int), int(h5f_libver_v18_f, c_int))
+   end subroutine use_small_headers
 
    !> No room for attributes in the head of small datasets without any
    subroutine set_no_attributes(properties)

@@ -220,6 +220,7 @@ contains
          call record%open_group("search")
          call record%flag("left", "left side of the track?", pair%left)
          call record%flag("roller", "on a roller?", pair%roller)
+         call record%count("location", "digit D in effect: how the contact reference and its plane are found", pair%search%location)
          call record%number("dx", "mm", "element size", pair%search%dx)
          call record%number("ds", "mm", "element size along the profile", pair%search%ds)
          call record%number("dqrel", "-", "step in elements", pair%search%dqrel)

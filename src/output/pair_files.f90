@@ -6,11 +6,11 @@ module contact_output_pair_files
    use contact_output_mat_file, only : mat_file_name, mat_place, write_mat_file
    use contact_output_subs_file, only : subs_file_name, write_subs_file
    use contact_patch_result, only : patch_result
-   use contact_wheelrail_result, only : in_element_coordinates, pair_patch, pair_result
+   use contact_wheelrail_result, only : in_element_coordinates, mirrored, pair_patch, pair_result
    implicit none (type, external)
    private
 
-   public :: mirrored, write_pair_files
+   public :: write_pair_files
 
 contains
 
@@ -75,35 +75,4 @@ contains
       place%d = spec%wheel_rail%search%location
       place%wheel_offset = result%wheel_offset
    end function place_of
-
-   !> The mirror image of a patch: rows in reversed order, lateral components with the other sign
-   function mirrored(right) result(left)
-      type(patch_result), intent(in) :: right
-      type(patch_result) :: left
-      integer :: n
-
-      left = right
-      n = right%grid%my
-      left%grid%yl = -(right%grid%yl + n*right%grid%dy)
-      left%division = right%division(:, n:1:-1)
-      left%h = right%h(:, n:1:-1)
-      left%mu = right%mu(:, n:1:-1)
-      left%pn = right%pn(:, n:1:-1)
-      left%px = right%px(:, n:1:-1)
-      left%py = -right%py(:, n:1:-1)
-      left%un = right%un(:, n:1:-1)
-      left%ux = right%ux(:, n:1:-1)
-      left%uy = -right%uy(:, n:1:-1)
-      left%sx = right%sx(:, n:1:-1)
-      left%sy = -right%sy(:, n:1:-1)
-      if (allocated(right%tau_c)) then
-         left%tau_c = right%tau_c(:, n:1:-1)
-         left%uplx = right%uplx(:, n:1:-1)
-         left%uply = -right%uply(:, n:1:-1)
-      end if
-      if (allocated(right%temp1)) then
-         left%temp1 = right%temp1(:, n:1:-1)
-         left%temp2 = right%temp2(:, n:1:-1)
-      end if
-   end function mirrored
 end module contact_output_pair_files

@@ -242,15 +242,15 @@ contains
       n = size(block%position, 2)
       allocate(points(3, n), displacement(3, n), tensor(6, n))
       do k = 1, n
-         points(:, k) = in_track(block%position(:, k), s, place)
-         displacement(:, k) = turned(block%displacement(:, k), s, place)
+         points(:, k) = in_track(block%position(:, k)*[1.0_wp, s, 1.0_wp], s, place)
+         displacement(:, k) = turned(block%displacement(:, k)*[1.0_wp, s, 1.0_wp], s, place)
       end do
       ! the order of VTK is xx, yy, zz, xy, yz, xz; axes of the patch
       tensor(1, :) = block%stress(1, :)
       tensor(2, :) = block%stress(4, :)
       tensor(3, :) = block%stress(6, :)
-      tensor(4, :) = s*block%stress(2, :)
-      tensor(5, :) = s*block%stress(5, :)
+      tensor(4, :) = block%stress(2, :)
+      tensor(5, :) = block%stress(5, :)
       tensor(6, :) = block%stress(3, :)
       call start_grid(grid, [block%nx, block%ny, block%nz], .false., 20*n)
       call put(grid, "von Mises [N/mm2]", 1, block%sigvm)

@@ -8,7 +8,7 @@ module contact_wheelrail_result
    implicit none (type, external)
    private
 
-   public :: pair_result, pair_patch, profile_points, in_element_coordinates
+   public :: pair_result, pair_patch, profile_points, in_element_coordinates, mirrored
 
    !> One contact patch of the pair
    type :: pair_patch
@@ -88,4 +88,36 @@ contains
          contact%grid%yl = contact%grid%yl + s
       end associate
    end function in_element_coordinates
+
+   !> The mirror image of a patch: rows in reversed order, lateral components with the other sign. Totals and stresses
+   !> below the surface stay
+   function mirrored(right) result(left)
+      type(patch_result), intent(in) :: right
+      type(patch_result) :: left
+      integer :: n
+
+      left = right
+      n = right%grid%my
+      left%grid%yl = -(right%grid%yl + n*right%grid%dy)
+      left%division = right%division(:, n:1:-1)
+      left%h = right%h(:, n:1:-1)
+      left%mu = right%mu(:, n:1:-1)
+      left%pn = right%pn(:, n:1:-1)
+      left%px = right%px(:, n:1:-1)
+      left%py = -right%py(:, n:1:-1)
+      left%un = right%un(:, n:1:-1)
+      left%ux = right%ux(:, n:1:-1)
+      left%uy = -right%uy(:, n:1:-1)
+      left%sx = right%sx(:, n:1:-1)
+      left%sy = -right%sy(:, n:1:-1)
+      if (allocated(right%tau_c)) then
+         left%tau_c = right%tau_c(:, n:1:-1)
+         left%uplx = right%uplx(:, n:1:-1)
+         left%uply = -right%uply(:, n:1:-1)
+      end if
+      if (allocated(right%temp1)) then
+         left%temp1 = right%temp1(:, n:1:-1)
+         left%temp2 = right%temp2(:, n:1:-1)
+      end if
+   end function mirrored
 end module contact_wheelrail_result

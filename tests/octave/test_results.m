@@ -107,12 +107,19 @@ if (exist(fullfile(reference,'subsurf.ref_subs'),'file')==2)
    check(all(d.sigvm(:)==0) && all(d.uz(:)==0), 'a block differs by nothing from itself');
    check_error(@() diffstrs(b1, b2), 'points');
    check_error(@() nthargout(3, @loadstrs, 'subsurf', 1), 'has 2 blocks');
-   for name = {'mbench_a22_right','conformal','spence35','wheelflat','plastic_3bl','ertz_temperature'}
-      file = fullfile(reference, [name{1} '.ref_out']);
-      s3 = parse_out3(file);
-      s1 = parse_out1(file);
-      solved = ~isnan(s3.force.fn) | s1.npatch>0;
-      check(all(solved), ['every case of ' name{1} ' has results']);
+   files = [glob(fullfile(reference,'*.ref_out')); glob(fullfile(reference,'..','testbank','*','*.ref_out'))];
+   check(numel(files)>=40, 'published outputs');
+   for i = 1 : numel(files)
+      s3  = parse_out3(files{i});
+      s1  = parse_out1(files{i});
+      txt = fileread(files{i});
+      ncase = numel(regexp(txt, '\n Case +\d'));
+      check(numel(s1.icase)==ncase && numel(s3.icase)==ncase, ['cases of ' files{i}]);
+      npatch = numel(regexp(txt, 'DATA FOR CONTACT PATCH'));
+      check(sum(s1.npatch)==npatch && sum(~isnan(s1.cp_force.fn(:)))==npatch && sum(~isnan(s1.cp_pos.ycp_r(:)))==npatch, ...
+            ['patches of ' files{i}]);
+      check(sum(~isnan(s3.force.fn))+npatch==numel(strfind(txt,'ELAST.EN.')), ['results of ' files{i}]);
+      check(isequal(isnan(s1.config), isnan(s1.tot_forc.fx_tr)), ['total forces of ' files{i}]);
    end
 else
    disp('published results are not at hand; not compared');

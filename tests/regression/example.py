@@ -4,11 +4,13 @@
 examples/NAME.inp is run into the current folder. NAME/figures.json beside this file says what shall
 come out: case, quantity, value, absolute tolerance; and where the figures come from.
 """
+import glob
 import json
 import os
 import subprocess
 import sys
 
+import contract
 import out_file
 
 HERE = os.path.dirname(os.path.abspath(__file__))
@@ -47,6 +49,8 @@ def main(name):
                   "case %d, %s = %s instead of %s within %.2g" % (case, quantity, found, value, tolerance))
     for file in stored.get("files", []):
         check(os.path.isfile(file) and os.path.getsize(file) > 0, "there is no file " + file)
+    complaints, files = contract.check_files(glob.escape(name) + ".*")
+    check(files > 0 and not complaints, "\n".join(complaints[:20]))
     if name == "catt_to_cart":
         corresponding_cases(cases, check)
     print("%s: %d cases, %d figures, %d failures; figures from %s"

@@ -14,7 +14,7 @@ import unittest
 
 BROWSER = shutil.which("chromium") or shutil.which("chromium-browser")
 try:
-    import h5py  # noqa: F401
+    import h5py
     from playwright.sync_api import sync_playwright
     if not BROWSER:
         raise ImportError("there is no chromium")
@@ -77,7 +77,9 @@ class Browser(unittest.TestCase):
         page = self.browser.new_page(viewport={"width": 1400, "height": 1300})
         self.addCleanup(page.close)
         self.troubles = []
-        page.on("console", lambda message: self.troubles.append(message.text) if message.type in ("error", "warning") else None)
+        # reading the colours of a canvas again and again is what these tests do, not the page
+        page.on("console", lambda message: self.troubles.append(message.text) if message.type in ("error", "warning")
+                and "willReadFrequently" not in message.text else None)
         page.on("pageerror", lambda error: self.troubles.append(str(error)))
         page.on("request", lambda request: None if request.url.startswith(("file:", "data:", "blob:")) else self.troubles.append(request.url))
         page.goto(address)
@@ -136,6 +138,53 @@ class Browser(unittest.TestCase):
         self.assertGreater(page.evaluate(COLOURS, "map-more"), 20)
         page = self.open(self.page_of("carter2d"))
         self.assertGreater(page.evaluate(COLOURS, "plot-section"), 10)
+        self.assertEqual(self.troubles, [])
+
+    def test_stresses_below_the_surface(self):
+        page = self.open(self.page_of("subsurface"))
+        self.assertTrue(page.is_visible("#card-block"))
+        page.evaluate("contactReport.go(1)")
+        page.wait_for_function(SETTLED, arg=1)
+        self.assertGreater(page.evaluate(COLOURS, "map-block"), 100)
+        block = page.evaluate("contactReport.state.block")
+        self.assertEqual((block["name"], block["plane"]), ("sigvm", "y"))
+        # what the pointer tells is the value of the file in the nearest point
+        with h5py.File(os.path.join(self.scratch.name, "subsurface.h5")) as file:
+            values = file["case_0002/patch_1/subsurface/block_1/sigvm"][...]
+            points = {axis: file["case_0002/patch_1/subsurface/block_1/points/" + axis][...] for axis in "xyz"}
+        place = block["place"]
+        at = page.evaluate("([x, z]) => ({ x: contactReport.plots.block.X(x), y: contactReport.plots.block.Y(z) })",
+                           [float(points["x"][10]), float(points["z"][1])])
+        page.hover("#map-block", position=at)
+        told = page.inner_text("#readout").replace("\n", " ")
+        self.assertRegex(told, "von Mises stress ?%s" % float("%.5g" % values[1, place, 10]))
+        # another plane, its place, another stress
+        page.select_option("#plane", "z")
+        page.fill("#depth", "2")
+        page.select_option("#stress", "sigzz")
+        page.wait_for_function("(() => { const b = contactReport.state.block; return b.plane === 'z' && b.place === 2 && b.name === 'sigzz'; })()")
+        self.assertGreater(page.evaluate(COLOURS, "map-block"), 100)
+        # a line of points, and a case whose patch has none
+        page.select_option("#block", "1")
+        page.wait_for_function("contactReport.state.block.x.length === 1")
+        self.assertGreater(page.evaluate(COLOURS, "map-block"), 10)
+        self.assertEqual(self.troubles, [])
+        page = self.open(self.page_of("carter2d"))
+        self.assertTrue(page.is_hidden("#card-block"))
+        self.assertEqual(self.troubles, [])
+
+    def test_narrow_and_other_side(self):
+        page = self.open(self.page_of("wheel_on_rail"))
+        page.set_viewport_size({"width": 400, "height": 800})
+        page.wait_for_timeout(200)
+        self.assertLessEqual(page.evaluate("document.documentElement.scrollWidth"), 400)
+        # right and left side: the contact is in view on both
+        for index in (0, 5):
+            page.evaluate("contactReport.go(%d)" % index)
+            page.wait_for_function(SETTLED, arg=index)
+            low, high = page.evaluate("contactReport.plots.profiles.shown.slice(0, 2)")
+            at = page.evaluate("contactReport.data.cases[%d].patches[0].totals.ycp_tr" % index)
+            self.assertTrue(low < at < high)
         self.assertEqual(self.troubles, [])
 
     def test_a_thousand_cases(self):

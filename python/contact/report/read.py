@@ -9,6 +9,10 @@ import zlib
 from typing import Any
 
 SHOWN_FIELDS = ("eldiv", "h", "pn", "px", "py", "sx", "sy", "mu", "taucrt", "uplsx", "uplsy", "temp1", "temp2")
+# Below the surface: what is shown of any block, and what of blocks of some size only
+SHOWN_STRESSES = ("sigvm", "sighyd", "sigtr", "sigma1", "sigma3")
+MORE_STRESSES = ("sigma2", "sigxx", "sigyy", "sigzz", "sigxy", "sigxz", "sigyz", "ux", "uy", "uz")
+MOST_POINTS = 20000
 LAYOUT = 1
 
 
@@ -128,11 +132,21 @@ class _Reader:
         found = {"number": number, "totals": totals, "grid": grid, "fields": fields, "units": units,
                  "solver": self.values(group["solver"]),
                  "effects": self.values(group["effects"])["names"] if "effects" in group else ""}
+        if "subsurface" in group:
+            blocks = group["subsurface"]
+            found["blocks"] = [self.block(blocks["block_%d" % (k + 1)]) for k in range(len(blocks))]
         if "curve" in group:
             import numpy as np
             curve = group["curve"]
             found["curveBlob"] = self.blobs.add(np.concatenate([curve[name][...] for name in ("y", "z", "angle")]))
         return found
+
+    def block(self, group: Any) -> dict[str, Any]:
+        """Points below the surface, x fastest in the arrays"""
+        points = {axis: _plain(group["points"][axis][...]) for axis in "xyz"}
+        count = len(points["x"]) * len(points["y"]) * len(points["z"])
+        names = SHOWN_STRESSES + (MORE_STRESSES if count <= MOST_POINTS else ())
+        return {**points, "fields": {name: self.blobs.add(group[name][...]) for name in names if name in group}}
 
 
 def _case_name(head: dict[str, Any]) -> str:

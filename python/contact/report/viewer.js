@@ -205,18 +205,7 @@ class ElementMap extends Frame {
     let colour, low = 0, high = 1;
     const discrete = name === "eldiv";
     if (!values) { c.restore(); return blank(this, "not part of this case"); }
-    if (!discrete) {
-      low = Infinity; high = -Infinity;
-      for (let i = 0; i < values.length; i++) if (inside[i] > 0 || !patch.anywhere) { if (inside[i] > 0) { low = Math.min(low, values[i]); high = Math.max(high, values[i]); } }
-      if (!(high >= low)) { low = 0; high = 1; }
-      const negative = low < 0 && high <= -0.02 * low;
-      const signed = low < 0 && high > 0 && -low > 0.02 * high && !negative;
-      if (signed) { high = Math.max(high, -low); low = -high; } else if (low > 0 && low < 0.6 * high) low = 0;
-      if (high <= low) { const middle = low; low = middle - 0.5 * Math.max(Math.abs(middle), 1e-30); high = middle + 0.5 * Math.max(Math.abs(middle), 1e-30); }
-      if (negative && high < 0 && high > 0.6 * low) high = 0;
-      const scale = ramp(signed ? "signed" : name === "pn" ? "pressure" : name.startsWith("temp") ? "pressure" : "calm");
-      colour = negative ? t => scale(1 - t) : scale;
-    }
+    if (!discrete) ({ low, high, colour } = coloursFor(values.filter((_, i) => inside[i] > 0), name === "pn" || name.startsWith("temp") ? "pressure" : "calm"));
     for (let iy = 0; iy < my; iy++) for (let ix = 0; ix < mx; ix++) {
       const i = ix + mx * iy, at = 4 * (ix + mx * (my - 1 - iy));
       let rgb;
@@ -241,14 +230,7 @@ class ElementMap extends Frame {
         c.fillStyle = s[1]; c.fillRect(left, MARGIN.top + 4 + 20 * k, 12, 12); c.strokeStyle = "#b7c2cd"; c.strokeRect(left + .5, MARGIN.top + 4.5 + 20 * k, 12, 12);
         c.fillStyle = "#33414f"; c.fillText(s[0], left + 17, MARGIN.top + 10 + 20 * k);
       });
-    } else {
-      const height = this.h - 22;
-      for (let k = 0; k < height; k++) { c.fillStyle = `rgb(${colour(1 - k / height)})`; c.fillRect(left, MARGIN.top + 20 + k, 12, 1.5); }
-      c.strokeStyle = "#b7c2cd"; c.strokeRect(left + .5, MARGIN.top + 20.5, 12, height);
-      c.fillStyle = "#33414f"; c.fillText(pretty(unitOf(patch, name)), left, MARGIN.top + 8);
-      c.fillStyle = "#5b6b7b";
-      for (const t of ticks(low, high, 5)) c.fillText(tickText(t, high - low), left + 16, MARGIN.top + 20 + height * (high - t) / (high - low));
-    }
+    } else colourBar(this, low, high, colour, pretty(unitOf(patch, name)));
   }
   // Border of the contact and of the slip area
   outline(c, patch, inside) {
@@ -288,6 +270,28 @@ class ElementMap extends Frame {
     }
   }
 }
+// Range of values and a colour for each of its parts: symmetric about zero when both signs occur, from zero when that is near
+function coloursFor(values, map) {
+  let low = Infinity, high = -Infinity;
+  for (const v of values) { low = Math.min(low, v); high = Math.max(high, v); }
+  if (!(high >= low)) { low = 0; high = 1; }
+  const negative = low < 0 && high <= -0.02 * low;
+  const signed = low < 0 && high > 0 && -low > 0.02 * high && !negative;
+  if (signed) { high = Math.max(high, -low); low = -high; } else if (low > 0 && low < 0.6 * high) low = 0;
+  if (high <= low) { const middle = low; low = middle - 0.5 * Math.max(Math.abs(middle), 1e-30); high = middle + 0.5 * Math.max(Math.abs(middle), 1e-30); }
+  if (negative && high < 0 && high > 0.6 * low) high = 0;
+  const scale = ramp(signed ? "signed" : map);
+  return { low, high, colour: negative ? t => scale(1 - t) : scale };
+}
+function colourBar(frame, low, high, colour, unit) {
+  const c = frame.context, left = frame.width - frame.right + 12, height = frame.h - 22;
+  for (let k = 0; k < height; k++) { c.fillStyle = `rgb(${colour(1 - k / height)})`; c.fillRect(left, MARGIN.top + 20 + k, 12, 1.5); }
+  c.strokeStyle = "#b7c2cd"; c.strokeRect(left + .5, MARGIN.top + 20.5, 12, height);
+  c.textAlign = "left"; c.textBaseline = "middle";
+  c.fillStyle = "#33414f"; c.fillText(unit, left, MARGIN.top + 8);
+  c.fillStyle = "#5b6b7b";
+  for (const t of ticks(low, high, 5)) c.fillText(tickText(t, high - low), left + 16, MARGIN.top + 20 + height * (high - t) / (high - low));
+}
 const ratioIsPlain = view => { const r = (view[1] - view[0]) / (view[3] - view[2]); return r < 6 && r > 1 / 6; };
 function blank(frame, text = "no contact") {
   frame.own = frame.own || [0, 1, 0, 1];
@@ -295,6 +299,112 @@ function blank(frame, text = "no contact") {
   frame.canvas.width = box.width * ratio; frame.canvas.height = box.height * ratio; c.setTransform(ratio, 0, 0, ratio, 0, 0);
   c.fillStyle = "#8a98a6"; c.font = "14px system-ui, 'DejaVu Sans', sans-serif"; c.textAlign = "center"; c.fillText(text, box.width / 2, box.height / 2);
   frame.shown = null;
+}
+
+// Stresses in a plane through a block of points, or along a line of points
+const PLANES = { y: ["x", "z"], x: ["y", "z"], z: ["x", "y"] };
+const STRESSES = { sigvm: "von Mises stress", sighyd: "mean stress", sigtr: "Tresca's stress", sigma1: "largest principal stress",
+  sigma2: "middle principal stress", sigma3: "smallest principal stress", sigxx: "\u03c3xx", sigyy: "\u03c3yy", sigzz: "\u03c3zz", sigxy: "\u03c3xy",
+  sigxz: "\u03c3xz", sigyz: "\u03c3yz", ux: "displacement ux", uy: "displacement uy", uz: "displacement uz" };
+const stressUnit = name => name.startsWith("u") ? "mm" : "N/mm\u00b2";
+class Plane extends Frame {
+  constructor(id) { super(id, { right: 78 }); }
+  // Number of a point, from its numbers along the two axes of the plane
+  at(block, i, j) {
+    const n = [block.x.length, block.y.length], { plane, place } = block;
+    const [ix, iy, iz] = plane === "y" ? [i, place, j] : plane === "x" ? [place, i, j] : [i, j, place];
+    return ix + n[0] * (iy + n[1] * iz);
+  }
+  draw() {
+    const b = state.block;
+    if (!b) return;
+    const [across, along] = PLANES[b.plane].map(axis => b[axis]);
+    const values = Array.from({ length: along.length }, (_, j) => across.map((_, i) => b.values[this.at(b, i, j)]));
+    const flat = values.flat(), { low, high, colour } = coloursFor(flat, b.name === "sigvm" || b.name === "sigtr" ? "pressure" : "calm");
+    this.down = b.plane !== "z";
+    if (across.length < 2 || along.length < 2) return this.line(b, across, along, flat);
+    const first = list => list[0], last = list => list[list.length - 1];
+    if (!this.own) this.own = [first(across), last(across), first(along), last(along)];
+    this.equal = ratioIsPlain(this.own);
+    const c = this.begin(), ratio = window.devicePixelRatio || 1;
+    const x0 = Math.max(MARGIN.left, this.X(first(across))), x1 = Math.min(MARGIN.left + this.w, this.X(last(across)));
+    const ya = this.Y(first(along)), yb = this.Y(last(along)), y0 = Math.max(MARGIN.top, Math.min(ya, yb)), y1 = Math.min(MARGIN.top + this.h, Math.max(ya, yb));
+    const width = Math.round((x1 - x0) * ratio), height = Math.round((y1 - y0) * ratio);
+    if (width > 0 && height > 0) {
+      // linear between the points
+      const cells = (list, n, place) => Array.from({ length: n }, (_, k) => {
+        const p = place((k + .5) / ratio);
+        let i = 0;
+        while (i < list.length - 2 && p > list[i + 1]) i++;
+        return [i, Math.min(1, Math.max(0, (p - list[i]) / (list[i + 1] - list[i])))];
+      });
+      const columns = cells(across, width, k => this.back(x0 + k, 0)[0]), rows = cells(along, height, k => this.back(0, y0 + k)[1]);
+      const image = document.createElement("canvas"); image.width = width; image.height = height;
+      const pixels = new ImageData(width, height), table = Array.from({ length: 257 }, (_, k) => colour(k / 256));
+      rows.forEach(([j, g], ky) => columns.forEach(([i, f], kx) => {
+        const v = (values[j][i] * (1 - f) + values[j][i + 1] * f) * (1 - g) + (values[j + 1][i] * (1 - f) + values[j + 1][i + 1] * f) * g;
+        const rgb = table[Math.round(256 * Math.min(1, Math.max(0, (v - low) / (high - low))))];
+        pixels.data.set([rgb[0], rgb[1], rgb[2], 255], 4 * (kx + width * ky));
+      }));
+      image.getContext("2d").putImageData(pixels, 0, 0);
+      c.drawImage(image, x0, y0, x1 - x0, y1 - y0);
+    }
+    if (this.down) { c.strokeStyle = "rgba(29,39,51,.5)"; c.beginPath(); c.moveTo(0, this.Y(0)); c.lineTo(this.width, this.Y(0)); c.stroke(); }
+    const names = PLANES[b.plane];
+    this.end(names[0] + " [mm]", names[1] + (names[1] === "z" ? " [mm], positive in body 1" : " [mm]"));
+    colourBar(this, low, high, colour, stressUnit(b.name));
+  }
+  // A line or a single point
+  line(b, across, along, values) {
+    const k = across.length > 1 ? 0 : 1, places = [across, along][k];
+    if (places.length < 2) return blank(this, `${STRESSES[b.name]} ${figures(values[0], 5)} ${stressUnit(b.name)} in the only point`);
+    this.down = this.equal = false;
+    let low = Math.min(0, ...values), high = Math.max(0, ...values);
+    if (high === low) high = low + 1;
+    if (!this.own) this.own = [places[0], places[places.length - 1], low - .06 * (high - low), high + .06 * (high - low)];
+    const c = this.begin(); this.grid();
+    c.strokeStyle = "#c2452d"; c.lineWidth = 2; c.beginPath();
+    places.forEach((p, i) => { if (i) c.lineTo(this.X(p), this.Y(values[i])); else c.moveTo(this.X(p), this.Y(values[i])); });
+    c.stroke();
+    this.end(PLANES[b.plane][k] + " [mm]", stressUnit(b.name));
+  }
+  point(u, v) {
+    const b = state.block, nearest = (list, p) => list.reduce((best, q, i) => Math.abs(q - p) < Math.abs(list[best] - p) ? i : best, 0);
+    if (!b) return;
+    const [across, along] = PLANES[b.plane].map(axis => b[axis]);
+    const one = across.length < 2, i = one ? 0 : nearest(across, u), j = along.length < 2 ? 0 : nearest(along, one ? u : v), k = this.at(b, i, j);
+    const place = { [PLANES[b.plane][0]]: across[i], [PLANES[b.plane][1]]: along[j], [b.plane]: b[b.plane][b.place] };
+    read([...["x", "y", "z"].map(axis => [axis, `${figures(place[axis])} mm`]), [STRESSES[b.name], `${figures(b.values[k], 5)} ${stressUnit(b.name)}`]]);
+  }
+}
+// The chosen block, stress and plane of the patch; keeps what was chosen where it can
+async function chosenBlock(p) {
+  const blocks = p && p.blocks ? p.blocks : [];
+  byId("card-block").hidden = !blocks.length;
+  if (!blocks.length) return null;
+  const offer = (id, names, fallback) => {
+    const select = byId(id), keep = select.value, values = names.map(n => n[0]);
+    select.replaceChildren(...names.map(n => new Option(n[1], n[0])));
+    select.value = values.includes(keep) ? keep : fallback;
+    return select.value;
+  };
+  const block = blocks[Number(offer("block", blocks.map((b, k) => [String(k), `block ${k + 1}`]), "0"))];
+  byId("block").hidden = blocks.length < 2;
+  const name = offer("stress", Object.keys(STRESSES).filter(n => n in block.fields).map(n => [n, STRESSES[n]]), "sigvm");
+  const size = axis => block[axis].length > 1 ? 1 : 0, best = ["y", "x", "z"].sort((a, b) => size(a) - size(b))[0];
+  const fits = ["y", "x", "z"].filter(axis => PLANES[axis].reduce((sum, other) => sum + size(other), 0) === PLANES[best].reduce((sum, other) => sum + size(other), 0));
+  const plane = offer("plane", fits.map(axis => [axis, `${axis} = constant`]), fits[0]);
+  const count = block[plane].length, slider = byId("depth"), key = `${plane}${count}`;
+  slider.max = count - 1;
+  if (slider.dataset.key !== key) {
+    // through the middle; with depths a little below the surface
+    slider.dataset.key = key;
+    slider.value = Math.floor((count - 1) / 2);
+  }
+  slider.hidden = count < 2;
+  const place = Number(slider.value);
+  byId("depth-text").textContent = `${plane} = ${figures(block[plane][place])} mm`;
+  return { ...block, name, plane, place, values: await load(block.fields[name]) };
 }
 
 // Pressure bound and tractions along one row of elements
@@ -407,6 +517,10 @@ class Profiles extends Frame {
     };
     const rail = path(state.profiles.rail, m.y_r, m.z_r, m.roll_r), wheel = path(state.profiles.wheel, m.y_w, m.z_w, m.roll_w);
     const near = c0.patches.length ? c0.patches.map(p => [p.totals.ycp_tr, p.totals.zcp_tr]) : rail.slice(0, 1);
+    // a step to the other side of the track, or far along the rail's head, moves the view
+    const inView = ([y, z]) => y > this.own[0] && y < this.own[1] && z > this.own[2] && z < this.own[3];
+    if (this.own && this.seen !== state.index && !near.some(inView)) this.own = null;
+    this.seen = state.index;
     if (!this.own) {
       const ys = near.map(p => p[0]), zs = near.map(p => p[1]), reach = 45;
       this.own = [Math.min(...ys) - reach, Math.max(...ys) + reach, Math.min(...zs) - 14, Math.max(...zs) + 22];
@@ -587,9 +701,10 @@ async function go(index, patch = 0) {
     q.rowPressure = Array.from({ length: q.grid.my }, (_, iy) => { let most = 0; for (let ix = 0; ix < q.grid.mx; ix++) most = Math.max(most, pn[ix + q.grid.mx * iy]); return most; });
     if (q.curveBlob !== undefined) { const k = await load(q.curveBlob), n = q.grid.my; q.curve = { y: k.slice(0, n), z: k.slice(n, 2 * n), angle: k.slice(2 * n) }; }
   }
+  const block = await chosenBlock(p);
   if (mine !== turn) return;   // a later step was faster
   const other = !before || !p || before.grid.xl !== p.grid.xl || before.grid.dx !== p.grid.dx || before.grid.mx !== p.grid.mx || before.grid.my !== p.grid.my || !state.view;
-  Object.assign(state, { index, patch, fields, profiles, ready: true });
+  Object.assign(state, { index, patch, fields, profiles, block, ready: true });
   if (state.row !== null && other) state.row = null;
   byId("slider").value = index;
   byId("where").textContent = `case ${c.label} (${index + 1} of ${data.cases.length})`;
@@ -627,6 +742,12 @@ function start() {
   tableOfCases(); 
   maps.push(new ElementMap("map-pn", () => "pn"), new ElementMap("map-pt", () => "pt"), new ElementMap("map-eldiv", () => "eldiv"), new ElementMap("map-more", () => byId("quantity").value));
   plots.section = new Section("plot-section"); plots.curve = new Curve("plot-curve"); plots.profiles = new Profiles("plot-profiles");
+  plots.block = new Plane("map-block");
+  for (const id of ["block", "stress", "plane", "depth"]) byId(id).addEventListener("input", async () => {
+    if (id === "block" || id === "plane") plots.block.own = null;
+    state.block = await chosenBlock(nowPatch());
+    draw();
+  });
   chooseCurves();
   byId("previous").onclick = () => go(state.index - 1, state.patch);
   byId("next").onclick = () => go(state.index + 1, state.patch);
@@ -644,5 +765,5 @@ function start() {
   const index = begin ? data.cases.findIndex(c => c.number === Number(begin[1])) : -1;
   go(index >= 0 ? index : 0);
 }
-window.contactReport = { state, data, go };
+window.contactReport = { state, data, plots, go };
 start();

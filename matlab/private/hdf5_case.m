@@ -1,0 +1,36 @@
+function [ g, fname ] = hdf5_case( expnam, icase, wanted )
+% HDF5_CASE  Group of a case in the HDF5 file of an experiment, see HDF5_GROUP; [] when there is no file or no such case.
+%
+%   expnam   experiment name with folder; with the ending .h5 or without. _re001 behind it stands for a result
+%            element, as in the names of .mat files; the HDF5 file holds all of them
+%   icase    number of the case
+%   wanted   cell array of the groups that are needed
+%
+%   fname    name of the HDF5 file, '' when there is none
+
+   g = [];
+   [folder, name, ending] = fileparts(expnam);
+   if (~strcmp(ending, '.h5'))
+      name = [name, ending];
+   end
+   prefix = '';
+   fname  = fullfile(folder, [name '.h5']);
+   at     = regexp(name, '_re\d+$');
+   if (exist(fname,'file')~=2 && ~isempty(at))
+      prefix = [name(at+1:end) '_'];
+      fname  = fullfile(folder, [name(1:at-1) '.h5']);
+   end
+   if (exist(fname,'file')~=2)
+      fname = '';
+      return
+   end
+   % a byte, HDF and line ends begin each of them
+   f = fopen(fname, 'r');
+   signature = fread(f, [1 8], 'uint8');
+   fclose(f);
+   if (~isequal(signature, [137 72 68 70 13 10 26 10]))
+      error('"%s" is not an HDF5 file.', fname);
+   end
+   g = hdf5_group(fname, sprintf('%scase_%04d', prefix, icase), wanted);
+
+end % function hdf5_case
