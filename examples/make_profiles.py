@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Write the wheel profile S1002 and the rail head 60E1 as Simpack files, from their standard geometry.
 
-    python3 make_profiles.py [folder]          writes S1002.prw and 60E1.prr (default: profiles)
+    python3 make_profiles.py [folder]          writes S1002.prw, 60E1.prr and flat.slcw (default: profiles)
     python3 make_profiles.py --joints          tells how well neighbouring sections fit
 
 Sources: EN 13715 (wheel S1002), EN 13674-1 (rail 60E1). Coordinates in mm, y to the field side, z down.
@@ -105,6 +105,32 @@ def rail_points():
     return [(-y, z) for y, z in reversed(half[1:])] + half
 
 
+# ---- A wheel flat with rounded ends: slices of S1002 with a smaller radius --------------------------
+FLAT_DEPTH, FLAT_LENGTH, FLAT_RADIUS = 0.4, 60.0, 460.0  # [mm]
+FLAT_SLICES = [3.0 * k for k in range(-12, 13)]  # along the circumference [mm]
+
+
+def flat_depth(x):
+    """Radial deviation at a distance from the middle of the flat"""
+    return 0.5 * FLAT_DEPTH * (1.0 + math.cos(2.0 * math.pi * x / FLAT_LENGTH)) if abs(x) < 0.5 * FLAT_LENGTH else 0.0
+
+
+def write_flat(folder):
+    """The slices, every fourth point of tread and throat, and the file that lists them"""
+    points = [p for p in wheel_points() if -45.0 < p[0] < 40.0][::4]
+    os.makedirs(os.path.join(folder, "flat"), exist_ok=True)
+    with open(os.path.join(folder, "flat.slcw"), "w", newline="\n") as f:
+        f.write("%% A flat of %g mm, %g mm deep, on a wheel S1002 of radius %g mm; written by make_profiles.py\n\n"
+                % (FLAT_LENGTH, FLAT_DEPTH, FLAT_RADIUS))
+        f.write("0.0  %.12f    TH_OFFSET [mm], TH_SCALE [rad/mm]\n%d              NSLC\n0 0 0           NFEAT NKINK NACCEL\n"
+                "1               TH_INTPOL: 1 = through the slices\n\n" % (1.0 / FLAT_RADIUS, len(FLAT_SLICES)))
+        for k, x in enumerate(FLAT_SLICES):
+            name = "flat/slice_%02d.prw" % (k + 1)
+            f.write("%6.1f  '%s'\n" % (x, name))
+            write(os.path.join(folder, name), 1, "S1002, %g mm from the middle of a flat" % x,
+                  [(y, z - flat_depth(x)) for y, z in points])
+
+
 # ---- Output ----------------------------------------------------------------------------------------
 def write(name, kind, comment, points):
     with open(name, "w", newline="\n") as f:
@@ -135,3 +161,4 @@ if __name__ == "__main__":
         folder = sys.argv[1] if len(sys.argv) > 1 else os.path.join(os.path.dirname(os.path.abspath(__file__)), "profiles")
         write(os.path.join(folder, "S1002.prw"), 1, "S1002, EN 13715", wheel_points())
         write(os.path.join(folder, "60E1.prr"), 0, "60E1, EN 13674-1, not inclined", rail_points())
+        write_flat(folder)

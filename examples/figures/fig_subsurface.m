@@ -1,11 +1,12 @@
 % Von Mises stress and vertical displacement below the pressed ball
-s = loadstrs('subsurface', 1);
+blocks = cell(1, 8);
+[blocks{:}] = loadstrs('subsurface', 1);
 opt = plotstrs;
 opt.yslc    = 0;
 opt.addplot = 1;
 subplot(1, 2, 1);
-plotstrs(s, opt);
+plotstrs(blocks{8}, opt);
 subplot(1, 2, 2);
 opt.field   = 'uz';
 opt.typplot = 'surf';
-plotstrs(s, opt);
+plotstrs(blocks{8}, opt);

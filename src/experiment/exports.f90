@@ -1,6 +1,7 @@
 !> What a run writes for other programs beside its usual files, when it is asked to
 module contact_experiment_exports
    use contact_base_error, only : error_type
+   use contact_base_kinds, only : wp
    use contact_cases_pair_session, only : pair_session
    use contact_cases_spec, only : case_spec
    use contact_hdf5_case_file, only : hdf5_case_file
@@ -8,6 +9,8 @@ module contact_experiment_exports
    use contact_output_json_file, only : json_file
    use contact_output_vtk_files, only : vtk_files
    use contact_patch_result, only : patch_result
+   use contact_profile_curve, only : profile_curve
+   use contact_profile_surface, only : profile_surface, surface_cut
    use contact_wheelrail_result, only : pair_result
    implicit none (type, external)
    private
@@ -120,18 +123,38 @@ contains
       type(pair_session), intent(in) :: session
       type(pair_result), intent(in) :: pair
       type(error_type), allocatable, intent(out) :: error
+      type(profile_curve), allocatable :: rail, wheel
+      ! where the first contact is in rail and wheel, along the track [mm]
+      real(wp) :: place(2)
 
       if (allocated(self%vtk)) call self%vtk%write_pair(head, spec, pair, error)
       if (allocated(self%json)) call self%json%write_pair(head, spec, pair)
       if (.not. allocated(self%hdf5)) return
-      associate (problem => session%problem)
-         if (allocated(problem%rail_surface)) then
-            call self%hdf5%write_pair(head, spec, pair, wheel=problem%wheel)
-         else if (allocated(problem%wheel_surface)) then
-            call self%hdf5%write_pair(head, spec, pair, rail=problem%rail)
-         else
-            call self%hdf5%write_pair(head, spec, pair, problem%rail, problem%wheel)
-         end if
+      associate (problem => session%problem, w => spec%wheel_rail%wheelset)
+         place = 0.0_wp
+         if (size(pair%patches) > 0) place = [pair%patches(1)%x, pair%patches(1)%x_wheel]
+         call take_section(problem%rail, problem%rail_surface, w%s + place(1), rail)
+         call take_section(problem%wheel, problem%wheel_surface, &
+            & asin(min(1.0_wp, max(-1.0_wp, place(2)/w%nomradw))) - w%pitch, wheel)
+         call self%hdf5%write_pair(head, spec, pair, rail, wheel)
       end associate
    end subroutine write_pair
+
+   !> The profile of a body; of one that varies along it the section at a position
+   subroutine take_section(profile, surface, position, curve)
+      type(profile_curve), intent(in) :: profile
+      type(profile_surface), intent(in), optional :: surface
+      !> Along the rail [mm], around the wheel [rad]
+      real(wp), intent(in) :: position
+      !> Unallocated where a surface has no section
+      type(profile_curve), allocatable, intent(out) :: curve
+      type(surface_cut) :: there
+
+      if (.not. present(surface)) then
+         allocate(curve, source=profile)
+         return
+      end if
+      call surface%cut(position, there)
+      if (there%present) allocate(curve, source=there%curve)
+   end subroutine take_section
 end module contact_experiment_exports

@@ -77,7 +77,7 @@ contains
       type(case_head), intent(in) :: head
       type(case_spec), intent(in) :: spec
       type(pair_result), intent(in) :: pair
-      !> Profiles in their own axes, for a right-hand pair; absent where the body varies
+      !> Profiles, or sections at the first contact, in their own axes for a right-hand pair
       type(profile_curve), intent(in), optional :: rail, wheel
       integer :: k
 

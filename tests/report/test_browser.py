@@ -142,6 +142,7 @@ class Browser(unittest.TestCase):
 
     def test_stresses_below_the_surface(self):
         page = self.open(self.page_of("subsurface"))
+        page.set_viewport_size({"width": 1400, "height": 2200})
         self.assertTrue(page.is_visible("#card-block"))
         page.evaluate("contactReport.go(1)")
         page.wait_for_function(SETTLED, arg=1)
