@@ -45,6 +45,8 @@ measure() {
   [ -n "$sections" ] && return 0
   printf '\n## The whole program\n\n'
   python3 "$here/whole_program.py" "$programs/bin/contact" "$bench"
+  printf '\n## Files for other programs\n\n'
+  python3 "$here/exports.py" "$programs/bin/contact"
   printf '\n## Requests to the heap in repeated cases, 11 x 11\n\n'
   "$bench" --allocations | python3 "$here/name_places.py" "$bench"
   printf '\n## Against the numpy prototype\n\n'
