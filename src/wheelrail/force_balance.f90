@@ -59,6 +59,8 @@ module contact_wheelrail_force_balance
 
    !> Without a bracket from above the penetration grows at most by this factor per trial
    real(wp), parameter :: largest_growth = 4.0_wp
+   !> Slopes that differ by more than this part are not the same
+   real(wp), parameter :: alike = 0.2_wp
    !> Trials stay this part of a bracket away from its ends
    real(wp), parameter :: margin = 1.0e-3_wp
 
@@ -126,12 +128,16 @@ contains
       end if
    end function next_trial
 
-   !> Newton's step for F**(2/3) from the last trial; the interpolation where the slope is not known
+   !> Newton's step for F**(2/3) from the last trial; the interpolation where the slope is not known, or is not that of the
+   !> bracket: the caller's slope leaves out that steep patches turn
    pure real(wp) function newton_step(self) result(z)
       class(force_balance), intent(in) :: self
-      real(wp) :: ratio
+      real(wp) :: ratio, chord
 
-      if (.not. (self%last_slope > 0.0_wp .and. self%last_force > 0.0_wp)) then
+      chord = self%last_slope
+      if (self%has_high .and. self%low > self%touch) chord = (self%high_force - self%low_force)/(self%high - self%low)
+      if (.not. (self%last_slope > 0.0_wp .and. self%last_force > 0.0_wp) &
+         & .or. abs(chord - self%last_slope) > alike*abs(self%last_slope)) then
          z = interpolated(self)
          return
       end if
