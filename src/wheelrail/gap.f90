@@ -121,13 +121,12 @@ contains
       !> Lateral size of the elements [mm]
       real(wp), intent(in) :: ds
       type(gap_curve), intent(inout) :: gap
-      real(wp), allocatable :: places(:), lateral(:)
-      real(wp) :: range(2), s, point(3)
-      integer :: i, cell
-      logical :: found
+      real(wp), allocatable :: lateral(:)
+      logical, allocatable :: on_rail(:)
+      real(wp) :: range(2), s
+      integer :: i, k
 
       if (allocated(gap%table)) deallocate(gap%table, gap%x_table)
-      call trim_wheel(wheel, placement, places, lateral)
       range = rail%y_range()
       gap%dy = mesh_share*ds
       gap%n = ceiling((range(2) - range(1))/gap%dy) + 1
@@ -137,60 +136,64 @@ contains
       if (.not. allocated(gap%y)) allocate(gap%y(gap%n), gap%x(gap%n), gap%gap(gap%n), gap%z(gap%n), gap%alpha(gap%n))
       gap%kappa = 0.5_wp/placement%wheel_radius
       if (placement%roller_radius > 0.0_wp) gap%kappa = gap%kappa + 0.5_wp/placement%roller_radius
-      cell = size(places) - 1
+      gap%x = 0.0_wp
+      gap%gap = no_surface
+      gap%z = 0.0_wp
+      gap%alpha = 0.0_wp
+      allocate(on_rail(gap%n))
       do i = 1, gap%n
          gap%y(i) = range(1) + (i - 1)*gap%dy
-         gap%x(i) = 0.0_wp
-         gap%gap(i) = no_surface
-         gap%z(i) = 0.0_wp
-         gap%alpha(i) = 0.0_wp
-         call rail%find(gap%y(i), s, found)
-         if (.not. found) cycle
+         call rail%find(gap%y(i), s, on_rail(i))
+         if (.not. on_rail(i)) cycle
          gap%z(i) = rail%z%value(s)
          gap%alpha(i) = rail%inclination(s)
-         if (cell < 1) cycle
-         ! places run with decreasing y, the mesh with increasing y
-         if (gap%y(i) < lateral(size(lateral)) .or. gap%y(i) > lateral(1)) cycle
-         do while (cell > 1 .and. lateral(cell) < gap%y(i))
-            cell = cell - 1
-         end do
-         point = locus_at(wheel, placement, gap%y(i), places(cell), places(cell + 1), lateral(cell), lateral(cell + 1))
-         gap%x(i) = point(1)
-         gap%gap(i) = gap%z(i) + roller_drop(placement, point(1), gap%z(i)) - point(3)
       end do
+      associate (nodes => wheel%y%s)
+         lateral = lateral_positions(wheel, placement, nodes)
+         do k = 1, size(nodes) - 1
+            ! the surface faces the rail where places run with falling y
+            if (lateral(k) > lateral(k + 1)) call add_piece(nodes(k:k + 1), lateral(k:k + 1))
+         end do
+      end associate
+
+   contains
+
+      !> A piece of the wheel's profile; where the locus of a rough profile folds, the lowest piece counts
+      subroutine add_piece(places, lateral)
+         !> Its ends on the profile, and their falling lateral positions [mm]
+         real(wp), intent(in) :: places(2), lateral(2)
+         !> Of the mesh width, so that no point is lost between two pieces
+         real(wp), parameter :: tiny_part = 1.0e-9_wp
+         real(wp) :: point(3), here
+         integer :: i
+
+         do i = max(1, ceiling((lateral(2) - range(1))/gap%dy - tiny_part) + 1), &
+            & min(gap%n, floor((lateral(1) - range(1))/gap%dy + tiny_part) + 1)
+            if (.not. on_rail(i)) cycle
+            point = locus_at(wheel, placement, gap%y(i), places(1), places(2), lateral(1), lateral(2))
+            here = gap%z(i) + roller_drop(placement, point(1), gap%z(i)) - point(3)
+            if (here >= gap%gap(i)) cycle
+            gap%x(i) = point(1)
+            gap%gap(i) = here
+         end do
+      end subroutine add_piece
    end subroutine measure_gap
 
-   !> Places of the wheel's profile between which y in the track falls steadily, around its middle
-   subroutine trim_wheel(wheel, placement, places, lateral)
+   !> Lateral positions in the track of the locus at places of the wheel's profile [mm]
+   function lateral_positions(wheel, placement, places) result(lateral)
       type(profile_curve), intent(in) :: wheel
       type(pair_placement), intent(in) :: placement
-      !> Nodes [mm] and their lateral positions in the track [mm], the latter falling
-      real(wp), allocatable, intent(out) :: places(:), lateral(:)
-      real(wp), allocatable :: nodes(:), y(:)
-      real(wp) :: point(3), middle
-      integer :: i, first, last, start
+      !> [mm]
+      real(wp), intent(in) :: places(:)
+      real(wp) :: lateral(size(places))
+      real(wp) :: point(3)
+      integer :: i
 
-      nodes = wheel%y%s
-      allocate(y(size(nodes)))
-      do i = 1, size(nodes)
-         point = locus_point(wheel, placement, nodes(i))
-         y(i) = point(2)
+      do i = 1, size(places)
+         point = locus_point(wheel, placement, places(i))
+         lateral(i) = point(2)
       end do
-      middle = 0.5_wp*(minval(y) + maxval(y))
-      start = minloc(abs(y - middle), dim=1)
-      first = start
-      do while (first > 1)
-         if (.not. y(first - 1) > y(first)) exit
-         first = first - 1
-      end do
-      last = start
-      do while (last < size(y))
-         if (.not. y(last + 1) < y(last)) exit
-         last = last + 1
-      end do
-      places = nodes(first:last)
-      lateral = y(first:last)
-   end subroutine trim_wheel
+   end function lateral_positions
 
    !> Point of the locus with a given lateral position between two places, by the Illinois method
    function locus_at(wheel, placement, y, s_high, s_low, y_high, y_low) result(point)

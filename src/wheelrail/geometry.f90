@@ -79,7 +79,9 @@ contains
 
       call place(problem, here, z)
       here%rail_in_track = rail_at(problem, here%placement, 0.0_wp)
-      here%profile_origin = here%rail_in_track%s_at(here%placement%rail%origin(2))
+      ! the length along a prismatic rail is counted from its origin; sections of a variable one have other ends each
+      here%profile_origin = 0.0_wp
+      if (allocated(problem%rail_surface)) here%profile_origin = here%rail_in_track%s_at(here%placement%rail%origin(2))
       here%searches_table = allocated(problem%rail_surface) .or. allocated(problem%wheel_surface) &
          & .or. any(problem%spec%search%location == [contact_location%grid, contact_location%steep_grid])
       if (here%searches_table .or. follows_surface(problem)) then

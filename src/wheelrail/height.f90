@@ -20,8 +20,9 @@ module contact_wheelrail_height
 
    public :: settle, out_of_sight, small_step
 
-   !> Rounds of tangential solutions with a new search for the height
-   integer, parameter :: most_rounds = 8
+   !> Rounds of tangential solutions with a new search for the height; in the first ones ratios of friction are kept while
+   !> the height is searched
+   integer, parameter :: most_rounds = 8, rounds_apart = 4
 
    !> Steps of the force that are due to the grids, relative to the force
    real(wp), parameter :: small_step = 1.0e-4_wp
@@ -109,6 +110,8 @@ contains
       if (problem%use_previous .and. memory%started .and. memory%z_ws > touch) guess = memory%z_ws
       if (memory%here%penetration > 0.0_wp) guess = touch + memory%here%penetration
       do round = 1, most_rounds
+         ! on steep flanks friction carries so much of the force that its ratio does not settle by itself
+         separate = separate .and. round <= rounds_apart
          call balance%start(target, problem%template%eps, touch, touch + 1.1_wp*memory%here%placement%wheel_radius, &
             & problem%template%maxnr)
          do while (balance%ended == balance_ending%running)

@@ -63,21 +63,61 @@ contains
       end if
       if (follows_surface(problem)) then
          call follow_surface(problem, here, rail, slot, h, approach)
-      else if (here%searches_table) then
-         call variable_distance(here%bodies, slot%plane, slot%problem%grid, h, approach)
       else
-         call undeformed_distance(rail, problem%wheel, here%placement, slot%plane, slot%problem%grid, h, approach)
+         call cover_overlap(problem, here, rail, slot, h, approach)
       end if
       call move_alloc(h, slot%problem%h)
       slot%problem%force_prescribed = .false.
       slot%problem%pen = approach
-      if (size(slot%region%part) > 1) call divide_patch(problem, slot)
+      if (size(slot%region%part) > 1) call divide_patch(problem, rail, slot)
       slot%problem%n_forces = 0
       if (problem%geometry_only) slot%problem%motion = motion%none
       call set_patch_friction(problem, slot, error)
       if (allocated(error)) return
       call set_motion(problem, here, slot, approach)
    end subroutine set_up_patch
+
+   !> Undeformed distance of a flat patch, on a grid that holds all of the overlap
+   !>
+   !> The bounds of a region come from the vertical gap. Along the normal of the plane the bodies may overlap elsewhere, when
+   !> the surface is steep or rough and the wheel turned; contact that is cut off there would make the force jump.
+   subroutine cover_overlap(problem, here, rail, slot, h, approach)
+      type(pair_problem), intent(in) :: problem
+      type(pair_geometry), intent(in) :: here
+      !> The rail in track coordinates in the section of the reference
+      type(profile_curve), intent(in) :: rail
+      !> With its grid and window
+      type(patch_slot), intent(inout) :: slot
+      !> Undeformed distance [mm] with its minimum at zero, shape (mx, my)
+      real(wp), allocatable, intent(inout) :: h(:, :)
+      !> Largest interpenetration along the normal [mm]
+      real(wp), intent(out) :: approach
+      !> The grid grows at most to this multiple in each direction
+      integer, parameter :: most_growth = 3
+      integer :: most(2), more(2, 2), side
+
+      associate (grid => slot%problem%grid)
+         most = most_growth*[grid%mx, grid%my]
+         do
+            if (here%searches_table) then
+               call variable_distance(here%bodies, slot%plane, grid, h, approach)
+            else
+               call undeformed_distance(rail, problem%wheel, here%placement, slot%plane, grid, h, approach)
+            end if
+            more(1, :) = merge(1, 0, [any(h(1, :) < approach), any(h(grid%mx, :) < approach)])
+            more(2, :) = merge(1, 0, [any(h(:, 1) < approach), any(h(:, grid%my) < approach)])
+            do side = 1, 2
+               more(:, side) = more(:, side)*(1 + [grid%mx, grid%my]/8)
+            end do
+            if (all(more == 0) .or. any([grid%mx, grid%my] + sum(more, dim=2) > most)) exit
+            grid%mx = grid%mx + sum(more(1, :))
+            grid%my = grid%my + sum(more(2, :))
+            grid%xl = grid%xl - more(1, 1)*grid%dx
+            grid%yl = grid%yl - more(2, 1)*grid%dy
+            slot%window%first = slot%window%first - more(:, 1)
+         end do
+      end associate
+   end subroutine cover_overlap
 
    !> Reference surface of a patch at the rows of its grid, and the undeformed distance along its normals
    subroutine follow_surface(problem, here, rail, slot, h, approach)
@@ -111,19 +151,25 @@ contains
    end subroutine follow_surface
 
    !> Elements of the parts of a blended patch; what is outside of all parts cannot make contact
-   subroutine divide_patch(problem, slot)
+   subroutine divide_patch(problem, rail, slot)
       type(pair_problem), intent(in) :: problem
+      !> The rail in track coordinates in the section of the reference
+      type(profile_curve), intent(in) :: rail
       type(patch_slot), intent(inout) :: slot
+      type(profile_curve) :: section
       real(wp) :: margin, y
       integer :: ix, iy, k
 
       allocate(slot%problem%parts)
       associate (parts => slot%problem%parts, grid => slot%problem%grid, plane => slot%plane)
          margin = part_margin*problem%spec%search%d_comb
+         section = rail%seen_from([plane%origin(2), rail%height(plane%origin(2))], plane%roll())
          allocate(parts%label(grid%mx, grid%my), source=0)
          parts%interaction = slot%region%interaction
          do iy = 1, grid%my
             y = plane%origin(2) + cos(plane%roll())*grid%y(iy)
+            ! the rail bends away from a steep plane
+            if (section%has(grid%y(iy))) y = y - sin(plane%roll())*section%height(grid%y(iy))
             if (allocated(slot%curve)) y = slot%curve%y(iy)
             do ix = 1, grid%mx
                do k = 1, size(slot%region%part)

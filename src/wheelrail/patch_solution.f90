@@ -110,27 +110,34 @@ contains
       end associate
    end function same_elements
 
-   !> Force of friction relative to the normal force at a place: learned there, or that of full sliding down the slope
+   !> Force of friction relative to the normal force at a place: learned nearby, or that of full sliding down the slope
+   !>
+   !> Weights by the inverse square of the distance make it a smooth function of the place: patches that move while the
+   !> height is searched leave no jump in the force.
    pure function share_at(problem, here, slot) result(share)
       type(pair_problem), intent(in) :: problem
       type(pair_geometry), intent(in) :: here
       type(patch_slot), intent(in) :: slot
       real(wp) :: share(3)
+      !> Weight of the first estimate; what was learned weighs 1 halfway to where it ends
+      real(wp), parameter :: first_weight = 0.01_wp
       integer :: k
-      real(wp) :: nearest, mu
+      real(wp) :: mu, weight, total, distance
 
       share = 0.0_wp
       if (problem%template%motion == motion%none) return
       mu = slot%problem%mu
       if (allocated(slot%problem%static_mu)) mu = sum(slot%problem%static_mu)/size(slot%problem%static_mu)
-      share(2) = mu*sin(slot%plane%roll())
-      nearest = same_place
+      total = first_weight
+      share(2) = total*mu*sin(slot%plane%roll())
       do k = 1, here%shares
          associate (known => here%learned(k))
-            if (abs(known%y - slot%plane%origin(2)) > nearest .or. abs(known%alpha - slot%plane%roll()) > same_angle) cycle
-            nearest = abs(known%y - slot%plane%origin(2))
-            share = known%share
+            distance = hypot((known%y - slot%plane%origin(2))/same_place, (known%alpha - slot%plane%roll())/same_angle)
+            weight = (max(0.0_wp, 1.0_wp - distance)/max(distance, 1.0e-6_wp))**2
+            share = share + weight*known%share
+            total = total + weight
          end associate
       end do
+      share = share/total
    end function share_at
 end module contact_wheelrail_patch_solution

@@ -16,6 +16,8 @@ program test_hard_pairs
    call swinging_wheel(motion%shift, "shifts")
    call swinging_wheel(motion%transient_rolling, "rolling")
    call hopping_wheel()
+   call notched_wheel()
+   call undercut_rail()
    call suite%finish()
 
 contains
@@ -38,6 +40,53 @@ contains
          r%search%d_turn = 0.0_wp
       end associate
    end subroutine prepare
+
+   !> A notch in the profile of a yawed wheel, where its contact locus folds, does not hide what lies beyond it
+   subroutine notched_wheel()
+      type(pair_case) :: pair
+      real(wp) :: z(61), force(2)
+      integer :: i, k
+      real(wp), parameter :: depth(2) = [0.0_wp, 2.0_wp]
+
+      do k = 1, 2
+         pair%spec = ball_case(0.1_wp)
+         z = 0.0_wp
+         ! 8 mm from the middle of the profile; contact is at 15 mm
+         z(23) = -depth(k)
+         call write_profile("notched.dat", [(30.0_wp - 1.0_wp*i, i=0, 60)], z)
+         associate (r => pair%spec%wheel_rail)
+            r%wheel_profile%name = "notched.dat"
+            r%wheelset%y = -15.0_wp
+            r%wheelset%yaw = 0.1_wp
+         end associate
+         call pair%run(suite, "notched wheel")
+         force(k) = pair%result%force_track(3)
+         call pair%release()
+      end do
+      call suite%check(force(1) > 100.0_wp, "notched wheel: there is contact")
+      call suite%close_to(force(2), force(1), 0.02_wp*force(1), "notched wheel: the contact beyond the notch is found")
+   end subroutine notched_wheel
+
+   !> The length along a rail with an undercut begins at the point nearest to its origin, and so does the lattice of elements
+   subroutine undercut_rail()
+      type(pair_case) :: pair
+      real(wp) :: y(162), z(162)
+      integer :: i
+      real(wp), parameter :: radius = 100.0_wp
+
+      pair%spec = ball_case(0.1_wp)
+      pair%spec%motion = motion%shift
+      y(2:) = [(-19.9_wp + 0.25_wp*i, i=0, 160)]
+      z(2:) = radius - sqrt(radius**2 - y(2:)**2)
+      y(1) = y(2) + 0.1_wp
+      z(1) = z(2) + 0.5_wp
+      call write_profile("undercut.dat", y, z)
+      pair%spec%wheel_rail%rail_profile%name = "undercut.dat"
+      call pair%run(suite, "undercut rail")
+      ! the points are at y = 0.1 and -0.15 mm, the contact is at y = 0
+      call suite%close_to(pair%result%patches(1)%grid_reference(2), -0.1_wp, 1.0e-3_wp, "undercut rail: origin of the lattice")
+      call pair%release()
+   end subroutine undercut_rail
 
    !> The wheel is pressed down and lifted again and again, moves sideways, drives and brakes
    subroutine swinging_wheel(kind, name)
