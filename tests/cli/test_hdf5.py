@@ -153,6 +153,35 @@ class Hdf5(unittest.TestCase):
             self.assertGreater(lefts, 0)
             self.assertGreater(rights, 0)
 
+    def test_section_of_a_wheel_in_slices(self):
+        with self.run_example("wheel_flat") as file:
+            def height(case, y):
+                profile = file["case_%04d/profiles/wheel" % case]
+                order = np.argsort(profile["y"][...])
+                return np.interp(y, profile["y"][...][order], profile["z"][...][order])
+            # the middle of the flat, 0.4 mm deep, is at the bottom in case 6; case 1 is beside it
+            for y in (-20.0, 0.0, 20.0):
+                self.assertAlmostEqual(height(6, y) - height(1, y), -0.4, delta=1e-6)
+            # a contact ahead of the bottom touches another section than the bottom has
+            self.assertAlmostEqual(height(5, 0.0), height(7, 0.0), delta=1e-3)
+            self.assertIn("rail", file["case_0001/profiles"])
+
+    def test_curve_of_conformal_contact(self):
+        with self.run_example("conformal_wheel") as file:
+            found = 0
+            for name in file:
+                patch = file[name]["patch_1"] if name.startswith("case_") and "patch_1" in file[name] else {}
+                if "curve" not in patch:
+                    continue
+                found += 1
+                y, z, angle = (patch["curve"][column][...] for column in ("y", "z", "angle"))
+                self.assertEqual(y.size, patch["grid/my"][()])
+                # neighbouring points are as far apart as rows, and the angle is that of the line between them
+                np.testing.assert_allclose(np.hypot(np.diff(y), np.diff(z)), patch["grid/dy"][()], rtol=2e-3)
+                middle = 0.5 * (angle[1:] + angle[:-1])
+                np.testing.assert_allclose(np.arctan2(np.diff(z), np.diff(y)), middle, atol=2e-3)
+            self.assertGreater(found, 0)
+
     def test_case_without_result(self):
         with open(self.path("faulty.inp"), "w") as file:
             file.write(FIRST.format(creep=0) + FIRST.format(creep=0).replace("0.28 0.28 8", "0.28 0.98 8") + "0\n")
