@@ -135,7 +135,7 @@ contains
       integer, parameter :: theories(*) = [(material_model%elastic, k=1, 5), material_model%fastsim, material_model%fastsim, &
          & material_model%fastrip]
       character(len=*), parameter :: names(*) = [character(len=24) :: "full (B=0)", "elliptical (B=2)", "parabolical (B=3)", &
-         & "KPEC (B=5)", "ANALYN (B=6)", "Fastsim (M=3, B=3)", "Fastsim (M=3, B=0)", "FaStrip (M=5, B=2)"]
+         & "KPEC (B=5)", "ANALYN (B=6)", "Fastsim (M=3 B=3)", "Fastsim (M=3 B=0)", "FaStrip (M=5 B=2)"]
       type(figures) :: exact
       type(session_case) :: case
       type(measurement) :: result

@@ -19,7 +19,7 @@ def read(lines):
     for line in lines:
         word = line.strip().split(",")
         if len(word) != 8:
-            continue
+            sys.exit("accuracy.py: not a line of performance_accuracy: " + line.strip())
         points.append(dict(group=word[0], method=word[1], contact=int(word[2]), grid=int(word[3]), eps=float(word[4]),
                            seconds=float(word[5]), force=float(word[6]), peak=float(word[7])))
     return points
