@@ -107,7 +107,8 @@ contains
             more(1, :) = merge(1, 0, [any(h(1, :) < approach), any(h(grid%mx, :) < approach)])
             more(2, :) = merge(1, 0, [any(h(:, 1) < approach), any(h(:, grid%my) < approach)])
             do side = 1, 2
-               more(:, side) = more(:, side)*(1 + [grid%mx, grid%my]/8)
+               ! by small steps, as the overlap of a neighbouring patch must stay outside
+               more(:, side) = more(:, side)*(1 + [grid%mx, grid%my]/32)
             end do
             if (all(more == 0) .or. any([grid%mx, grid%my] + sum(more, dim=2) > most)) exit
             grid%mx = grid%mx + sum(more(1, :))
