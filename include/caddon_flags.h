@@ -39,6 +39,7 @@ enum caddon_flags {
   CNTC_ic_npomax = 1993, /* largest number of elements of a patch, wheel/rail */
   /* Flags: the library as a whole */
   CNTC_if_idebug = 2000, /* how much the interface writes to the .out file, -1 to 5 */
+  CNTC_if_debug = 2000, /* the same by the name that the published guide uses */
   CNTC_if_licdbg = 2001, /* accepted, without effect */
   CNTC_if_wrtinp = 2002, /* write the cases as an .inp file: 0 no, 1 yes, 2 each complete (wheel/rail) */
   CNTC_if_openmp = 2003, /* threads per problem, -1 for all */

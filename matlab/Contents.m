@@ -53,6 +53,7 @@
 % The library: material, friction, kinematics.
 %
 %   cntc_setmaterialparameters  - set the material by the M digit, or damping by 10 + the M2 digit.
+%   cntc_setmaterialproperties  - set elastic bodies.
 %   cntc_settemperaturedata     - set thermal data by the H digit.
 %   cntc_setfrictionmethod      - set the friction law, imeth = 10 V + L.
 %   cntc_settimestep            - set the time step of shifts.

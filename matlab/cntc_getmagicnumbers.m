@@ -45,6 +45,7 @@ function [ CNTC ] = cntc_getmagicnumbers( )
 % Flags: the library as a whole
 %
 %   CNTC.if_idebug    how much the interface writes to the .out file, -1 to 5
+%   CNTC.if_debug     the same by the name that the published guide uses
 %   CNTC.if_licdbg    accepted, without effect
 %   CNTC.if_wrtinp    write the cases as an .inp file: 0 no, 1 yes, 2 each complete (wheel/rail)
 %   CNTC.if_openmp    threads per problem, -1 for all
@@ -139,6 +140,7 @@ function [ CNTC ] = cntc_getmagicnumbers( )
    CNTC.ic_sbsfil = 1992;
    CNTC.ic_npomax = 1993;
    CNTC.if_idebug = 2000;
+   CNTC.if_debug = 2000;
    CNTC.if_licdbg = 2001;
    CNTC.if_wrtinp = 2002;
    CNTC.if_openmp = 2003;

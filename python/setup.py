@@ -1,15 +1,43 @@
-"""A wheel that carries the library is bound to its platform; all else is in pyproject.toml."""
+"""A wheel carries the library where it is there, and is bound to its platform then; all else is in pyproject.toml.
+
+The library is, in this order: in the package's folder; named by CONTACT_LIBRARY; in build/release of the checkout.
+"""
+import os
+import shutil
 from pathlib import Path
 
 from setuptools import Distribution, setup
+from setuptools.command.build_py import build_py
+
+HERE = Path(__file__).resolve().parent
+ENDINGS = (".so", ".dll", ".dylib")
+
+
+def library_to_add():
+    """Path of the library to be copied into the wheel; None when it is in the package already, or nowhere"""
+    if any(path.suffix in ENDINGS for path in (HERE / "contact").iterdir()):
+        return None
+    chosen = os.environ.get("CONTACT_LIBRARY")
+    candidates = [Path(chosen)] if chosen else sorted((HERE.parent / "build/release/lib").glob("libcontact.*"))
+    return next((path for path in candidates if path.suffix in ENDINGS and path.is_file()), None)
 
 
 class PerhapsWithLibrary(Distribution):
-    """Distribution of the package, with the library if it was copied into its folder"""
+    """The package, with the library if there is one"""
 
     def has_ext_modules(self):
-        folder = Path(__file__).resolve().parent / "contact"
-        return any(path.suffix in (".so", ".dll", ".dylib") for path in folder.iterdir())
+        in_package = any(path.suffix in ENDINGS for path in (HERE / "contact").iterdir())
+        return in_package or library_to_add() is not None
 
 
-setup(distclass=PerhapsWithLibrary)
+class CopyLibrary(build_py):
+    """Copies the package and the library; an editable install finds the library itself"""
+
+    def run(self):
+        super().run()
+        library = library_to_add()
+        if library and not getattr(self, "editable_mode", False):
+            shutil.copy(library, Path(self.build_lib) / "contact" / f"libcontact{library.suffix}")
+
+
+setup(distclass=PerhapsWithLibrary, cmdclass={"build_py": CopyLibrary})

@@ -24,7 +24,7 @@ done
 
 install_missing
 install_octave
-install_numpy
+install_python_packages
 build "$preset" -DCONTACT_TESTS=ON -DCONTACT_WERROR=$werror
 say "Testing"
 cd "$top/build/$preset" || exit 1

@@ -36,7 +36,8 @@ def candidates() -> list[str]:
         return [chosen]
     here = Path(__file__).resolve().parent
     top = here.parent.parent
-    folders = [here, top / "build/release/lib", top / "build/release/bin", top / "bin", top / "lib"]
+    # the last one is bin of an installation, which has the package in share/contact/python
+    folders = [here, top / "build/release/lib", top / "build/release/bin", top / "bin", top / "lib", top.parent.parent / "bin"]
     found = [str(folder / name) for folder in folders for name in _names() if (folder / name).is_file()]
     system = ctypes.util.find_library("contact")
     return found + ([system] if system else []) + list(_names())

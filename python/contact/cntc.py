@@ -25,7 +25,7 @@ Text = Union[str, "os.PathLike[str]", None]
 Field = NDArray[np.floating[Any]]
 
 #: The named numbers without CNTC_; ``CNTC["if_units"]`` is 1933
-CNTC: dict[str, int] = {**MAGIC_NUMBERS, "if_debug": MAGIC_NUMBERS["if_idebug"]}
+CNTC: dict[str, int] = dict(MAGIC_NUMBERS)
 
 _MEANINGS = {
     -12: "not allowed: too many result elements or calculations at the same time",
@@ -124,7 +124,8 @@ def setfileunits(iunits: ArrayLike) -> None:
 
 def getmaxnumthreads() -> int:
     """Largest number of calculations at the same time."""
-    return call("cntc_getmaxnumthreads")
+    value: int = call("cntc_getmaxnumthreads")
+    return value
 
 
 def finalize(ire: Number = 1) -> None:
@@ -242,7 +243,8 @@ def settangentialforces(ire: Number, icp: Number, fx: float, fy: float) -> None:
 
 def readinpfile(ire: Number, inp_type: int, fname: Text) -> int:
     """Settings of wheel/rail contact from the first case of an input file; returns ierror."""
-    return call("cntc_readinpfile", _element(ire), inp_type, *text(fname))
+    value: int = call("cntc_readinpfile", _element(ire), inp_type, *text(fname))
+    return value
 
 
 # ---- settings of basic contact ----------------------------------------------------------------
@@ -358,14 +360,14 @@ def setwheelsetflexibility(ire: Number, ewheel: Number, params: ArrayLike | None
 
 def calculate(ire: Number = 1, icp: Number = -1, idebug: int = 1) -> int:
     """Solve. Returns 0, a negative code ``err_...``, or the number of contact elements on the border."""
-    ierror = call("cntc_calculate", _element(ire), _problem(icp))
+    ierror: int = call("cntc_calculate", _element(ire), _problem(icp))
     _tell("calculate", ierror, idebug)
     return ierror
 
 
 def subs_calculate(ire: Number = 1, icp: Number = -1, idebug: int = 1) -> int:
     """Stresses in all blocks, after calculate. Returns ierror."""
-    ierror = call("subs_calculate", _element(ire), _problem(icp))
+    ierror: int = call("subs_calculate", _element(ire), _problem(icp))
     _tell("subs_calculate", ierror, idebug)
     return ierror
 
@@ -471,7 +473,8 @@ def getwheelsetvelocity(ire: Number = 1) -> Field:
 
 def getnumcontactpatches(ire: Number = 1) -> int:
     """Number of contact patches."""
-    return call("cntc_getnumcontactpatches", _element(ire))
+    value: int = call("cntc_getnumcontactpatches", _element(ire))
+    return value
 
 
 def getcontactlocation(ire: Number = 1, icp: Number = 1) -> Field:
@@ -487,7 +490,8 @@ def getglobalforces(ire: Number = 1, icp: Number = -1) -> Field:
 
 def getreferencevelocity(ire: Number = 1, icp: Number = 1) -> float:
     """Rolling velocity [V]."""
-    return call("cntc_getreferencevelocity", _element(ire), _patch(icp))
+    value: float = call("cntc_getreferencevelocity", _element(ire), _patch(icp))
+    return value
 
 
 def gethertzcontact(ire: Number = 1, icp: Number = 1) -> Field:
@@ -497,12 +501,14 @@ def gethertzcontact(ire: Number = 1, icp: Number = 1) -> Field:
 
 def getnumelements(ire: Number = 1, icp: Number = 1) -> tuple[int, int]:
     """mx, my of the grid."""
-    return call("cntc_getnumelements", _element(ire), _patch(icp))
+    values: tuple[int, int] = call("cntc_getnumelements", _element(ire), _patch(icp))
+    return values
 
 
 def getgriddiscretization(ire: Number = 1, icp: Number = 1) -> tuple[float, float]:
     """Sides dx, dy of an element [L]; with icp = -1 those asked for in wheel/rail contact."""
-    return call("cntc_getgriddiscretization", _element(ire), _problem(icp, 1))
+    values: tuple[float, float] = call("cntc_getgriddiscretization", _element(ire), _problem(icp, 1))
+    return values
 
 
 def getpotcontact(ire: Number = 1, icp: Number = 1) -> tuple[int, int, float, float, float, float]:
@@ -513,17 +519,20 @@ def getpotcontact(ire: Number = 1, icp: Number = 1) -> tuple[int, int, float, fl
 
 def getpenetration(ire: Number = 1, icp: Number = 1) -> float:
     """Approach [L]."""
-    return call("cntc_getpenetration", _element(ire), _patch(icp))
+    value: float = call("cntc_getpenetration", _element(ire), _patch(icp))
+    return value
 
 
 def getcreepages(ire: Number = 1, icp: Number = 1) -> tuple[float, float, float]:
     """Creepages [-], [-], [A/L], or shifts."""
-    return call("cntc_getcreepages", _element(ire), _patch(icp))
+    values: tuple[float, float, float] = call("cntc_getcreepages", _element(ire), _patch(icp))
+    return values
 
 
 def getcontactforces(ire: Number = 1, icp: Number = 1) -> tuple[float, float, float, float]:
     """Normal force, tangential forces [F], spin moment [F L] in the directions of the contact."""
-    return call("cntc_getcontactforces", _element(ire), _patch(icp))
+    values: tuple[float, float, float, float] = call("cntc_getcontactforces", _element(ire), _patch(icp))
+    return values
 
 
 def getcontactpatchareas(ire: Number = 1, icp: Number = 1) -> tuple[float, float, float, float]:
@@ -534,17 +543,20 @@ def getcontactpatchareas(ire: Number = 1, icp: Number = 1) -> tuple[float, float
 
 def getmaximumpressure(ire: Number = 1, icp: Number = 1) -> float:
     """Largest pressure [F/L2]."""
-    return call("cntc_getmaximumpressure", _element(ire), _patch(icp))
+    value: float = call("cntc_getmaximumpressure", _element(ire), _patch(icp))
+    return value
 
 
 def getmaximumtraction(ire: Number = 1, icp: Number = 1) -> float:
     """Largest tangential traction [F/L2]."""
-    return call("cntc_getmaximumtraction", _element(ire), _patch(icp))
+    value: float = call("cntc_getmaximumtraction", _element(ire), _patch(icp))
+    return value
 
 
 def getmaximumtemperature(ire: Number = 1, icp: Number = 1) -> tuple[float, float]:
     """Largest surface temperatures of body 1 and 2 [degrees C]."""
-    return call("cntc_getmaximumtemperature", _element(ire), _patch(icp))
+    values: tuple[float, float] = call("cntc_getmaximumtemperature", _element(ire), _patch(icp))
+    return values
 
 
 def _fields(routine: str, count: int, ire: Number, icp: Number, *more: int, dtype: Any = np.float64) -> list[Any]:
@@ -558,12 +570,14 @@ def _fields(routine: str, count: int, ire: Number, icp: Number, *more: int, dtyp
 
 def getelementdivision(ire: Number = 1, icp: Number = 1) -> NDArray[np.intc]:
     """0 exterior, 1 adhesion, 2 slip, 3 plastic. Shape (my, mx)."""
-    return _fields("cntc_getelementdivision", 1, ire, icp, dtype=np.intc)[0]
+    field: NDArray[np.intc] = _fields("cntc_getelementdivision", 1, ire, icp, dtype=np.intc)[0]
+    return field
 
 
 def getfielddata(ire: Number = 1, icp: Number = 1, ifld: Number = None) -> Field:
     """One field by its code ``fld_...``, default the pressure. Shape (my, mx)."""
-    return _fields("cntc_getfielddata", 1, ire, icp, _number(ifld, CNTC["fld_pn"]))[0]
+    field: Field = _fields("cntc_getfielddata", 1, ire, icp, _number(ifld, CNTC["fld_pn"]))[0]
+    return field
 
 
 def gettractions(ire: Number = 1, icp: Number = 1) -> tuple[Field, Field, Field]:
@@ -591,7 +605,8 @@ def getsensitivities(ire: Number = 1, icp: Number = 1, lenout: int = 4, lenin: i
 
 def getcalculationtime(ire: Number = 1, icp: Number = 1) -> tuple[float, float]:
     """Processor and wall time of the calculations since the last reset [s]."""
-    return call("cntc_getcalculationtime", _element(ire), _patch(icp))
+    values: tuple[float, float] = call("cntc_getcalculationtime", _element(ire), _patch(icp))
+    return values
 
 
 def resetcalculationtime(ire: Number = 1, icp: Number = 1) -> None:
@@ -661,7 +676,8 @@ def subs_addblock(ire: Number, icp: Number, iblk: Number, isubs: int, xparam: Ar
 
 def subs_getblocksize(ire: Number = 1, icp: Number = 1, iblk: Number = 1) -> tuple[int, int, int]:
     """nx, ny, nz of a block; -1 each when there is none."""
-    return call("subs_getblocksize", _element(ire), _patch(icp), _number(iblk, 1))
+    values: tuple[int, int, int] = call("subs_getblocksize", _element(ire), _patch(icp), _number(iblk, 1))
+    return values
 
 
 def subs_getresults(ire: Number, icp: Number, iblk: Number, icol: ArrayLike) -> Field:

@@ -1,9 +1,10 @@
 !> Cases of callers written as an input file of the program (flag 2002)
 module contact_capi_input_dump
-   use contact_capi_problem, only : library_problem
-   use contact_capi_registry, only : complain, entry_type, input_dump_folder, open_input_dump, input_dump
+   use contact_capi_problem, only : given_profile, library_problem
+   use contact_capi_registry, only : complain, entry_type, input_dump, open_input_dump, result_file, seen_from_results
    use contact_cases_spec, only : case_spec
    use contact_output_input_case, only : write_contact_case, write_pair_case
+   use contact_wheelrail_spec, only : profile_spec
    implicit none (type, external)
    private
 
@@ -35,7 +36,7 @@ contains
    !> Wheel on rail, before it is solved
    subroutine dump_pair_case(this, problem)
       type(entry_type), intent(in) :: this
-      type(library_problem), intent(in) :: problem
+      type(library_problem), intent(inout) :: problem
       type(case_spec) :: written
       character(len=80) :: line
       integer :: unit, status
@@ -55,11 +56,9 @@ contains
             if (digits%e == 4) digits%e = 5
          end if
          if (digits%h == 1) digits%h = 3
-         if (digits%z == 3 .and. allocated(written%wheel_rail%rail_profile%points) .or. (digits%e == 3 .or. digits%e == 5) &
-            & .and. allocated(written%wheel_rail%wheel_profile%points)) then
-            call complain(this, "the case is not written as input: its profiles were given by values, not by files")
-            return
-         end if
+         if (digits%z == 3) call name_profile(this, problem%cases, "rail", written%wheel_rail%rail_profile, problem%rail)
+         if (digits%e == 3 .or. digits%e == 5) call name_profile(this, problem%cases, "wheel", written%wheel_rail%wheel_profile, &
+            & problem%wheel)
       end associate
       call open_input_dump()
       unit = input_dump()
@@ -67,8 +66,38 @@ contains
       write(line, '(i4, i5, a, i0)') 1, problem%ire, "   % MODULE, RE: case ", problem%cases
       !$omp critical (contact_printing)
       write(unit, '(a)', iostat=status) trim(line)
-      call write_pair_case(unit, written, input_dump_folder())
+      call write_pair_case(unit, written)
       write(unit, '(a)', iostat=status) ""
       !$omp end critical (contact_printing)
    end subroutine dump_pair_case
+
+   !> The name of a profile for the input file; one that was given by values gets a file, once
+   subroutine name_profile(this, number, body, profile, given)
+      type(entry_type), intent(in) :: this
+      !> Number of the case
+      integer, intent(in) :: number
+      !> "rail" or "wheel"
+      character(len=*), intent(in) :: body
+      type(profile_spec), intent(inout) :: profile
+      type(given_profile), intent(inout) :: given
+      character(len=40) :: name
+      integer :: unit, status, k
+
+      if (.not. allocated(profile%points)) then
+         profile%name = seen_from_results(profile%name)
+         return
+      end if
+      if (.not. allocated(given%written_as)) then
+         write(name, '("caddon_re", i3.3, ".", i0.4, ".", a, ".txt")') this%ire, number, body
+         given%written_as = trim(name)
+         open(newunit=unit, file=result_file(given%written_as), status="replace", action="write", iostat=status)
+         if (status == 0) then
+            write(unit, '(2es25.16)', iostat=status) (profile%points(:, k), k=1, size(profile%points, 2))
+            close(unit)
+         end if
+         if (status /= 0) call complain(this, "the file " // result_file(given%written_as) // &
+            & " for the profile in the input file cannot be written")
+      end if
+      profile%name = given%written_as
+   end subroutine name_profile
 end module contact_capi_input_dump

@@ -43,6 +43,8 @@ module contact_capi_problem
       type(profile_curve) :: curve
       !> Allocated for variable profiles
       type(profile_surface), allocatable :: surface
+      !> File into which points were written for the sake of an input file; unallocated: not yet
+      character(len=:), allocatable :: written_as
    end type given_profile
 
    !> One problem, with what it keeps from case to case

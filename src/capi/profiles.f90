@@ -167,6 +167,7 @@ contains
       profiles%watches_files = .false.
       call load_profile(profiles, profile, side, working_folder(), given%curve, given%surface, log, error)
       given%detail = 0
+      if (allocated(given%written_as)) deallocate(given%written_as)
       if (.not. allocated(error)) return
       given%detail = merge(no_file, no_use, error%kind == error_kind%file)
       call complain(this, full_text(error), library_code%profile)

@@ -5,6 +5,7 @@
 !> critical section that is short; calculations run outside.
 module contact_capi_registry
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
+   use, intrinsic :: iso_c_binding, only : c_associated, c_char, c_null_char, c_ptr, c_size_t
    use, intrinsic :: iso_fortran_env, only : output_unit
    use omp_lib, only : omp_get_max_threads, omp_get_num_threads, omp_get_thread_num, omp_in_parallel, omp_set_lock, &
       & omp_test_lock, omp_unset_lock
@@ -22,10 +23,12 @@ module contact_capi_registry
    public :: start_library, stop_library, is_running, register_element, remove_element, record_units
    public :: complain, say, library_log, level_of_debugging, set_debugging, set_threads, threads_inside, most_threads
    public :: set_timer_level, working_folder, result_file, last_complaint, forget_complaint
-   public :: open_input_dump, input_dump, input_dump_folder
+   public :: open_input_dump, input_dump, seen_from_results
    public :: are_finite, count_fits
 
    integer, parameter :: most_elements = 999, most_active = 100
+   !> Letters of the longest name of a folder
+   integer, parameter :: longest_path = 4096
 
    !> Which result elements and patches a routine accepts
    type :: scope_type
@@ -728,15 +731,45 @@ contains
       !$omp end critical (contact_registry)
    end subroutine open_input_dump
 
-   !> Where names in that file, which are relative to the working folder, start: "" when it lies there itself
-   function input_dump_folder() result(folder)
-      character(len=:), allocatable :: folder
+   !> The name of a file of the caller, relative to the working folder, as the input file in the folder of results must give it
+   function seen_from_results(name) result(path)
+      character(len=*), intent(in) :: name
+      character(len=:), allocatable :: path
 
+      path = name
+      if (name(:1) == "/") return
       !$omp critical (contact_registry)
-      folder = ""
-      if (len(library%out_folder) > 0) folder = library%work_folder
+      if (len(library%out_folder) > 0) then
+         path = library%work_folder // name
+         if (path(:1) /= "/") path = current_folder() // "/" // path
+      end if
       !$omp end critical (contact_registry)
-   end function input_dump_folder
+   end function seen_from_results
+
+   !> The current folder of the process; "." when the system does not tell it
+   function current_folder() result(folder)
+      character(len=:), allocatable :: folder
+      character(kind=c_char) :: letters(longest_path)
+      type(c_ptr) :: answer
+      integer :: i
+      interface
+         function getcwd(buffer, length) bind(c, name="getcwd") result(answer)
+            import :: c_char, c_ptr, c_size_t
+            character(kind=c_char), intent(out) :: buffer(*)
+            integer(c_size_t), value :: length
+            type(c_ptr) :: answer
+         end function getcwd
+      end interface
+
+      folder = "."
+      answer = getcwd(letters, int(longest_path, c_size_t))
+      if (.not. c_associated(answer)) return
+      folder = ""
+      do i = 1, longest_path
+         if (letters(i) == c_null_char) exit
+         folder = folder // letters(i)
+      end do
+   end function current_folder
 
    !> Unit of the file in which cases are written as input, 0 for none
    integer function input_dump() result(unit)

@@ -14,34 +14,38 @@ endforeach()
 list(REMOVE_DUPLICATES libraries)
 list(APPEND libraries OpenMP::OpenMP_Fortran)
 
-# The shared library shows C functions only; the version of its interface is its soname
-add_library(contact SHARED ${objects})
+# The shared library shows C functions only, and calls its own ones even where the host has others of these names
 set(map ${PROJECT_SOURCE_DIR}/src/cmake/contact.map)
-set_target_properties(contact PROPERTIES
-  LINKER_LANGUAGE Fortran
-  VERSION ${PROJECT_VERSION}
-  SOVERSION ${PROJECT_VERSION_MAJOR}
-  LINK_DEPENDS ${map})
-if(NOT APPLE AND NOT WIN32)
-  target_link_options(contact PRIVATE LINKER:--version-script=${map} LINKER:--as-needed)
-  if(NOT CONTACT_SANITIZE)
-    target_link_options(contact PRIVATE LINKER:--no-undefined)
+function(contact_shared target)
+  add_library(${target} SHARED ${objects})
+  set_target_properties(${target} PROPERTIES LINKER_LANGUAGE Fortran LINK_DEPENDS ${map})
+  if(NOT APPLE AND NOT WIN32)
+    target_link_options(${target} PRIVATE LINKER:--version-script=${map} LINKER:--as-needed LINKER:-Bsymbolic-functions)
+    if(NOT CONTACT_SANITIZE)
+      target_link_options(${target} PRIVATE LINKER:--no-undefined)
+    endif()
   endif()
-endif()
-target_link_libraries(contact PRIVATE ${libraries})
-target_include_directories(contact INTERFACE
-  $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
-  $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  target_link_libraries(${target} PRIVATE ${libraries})
+  target_include_directories(${target} INTERFACE
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
+    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+endfunction()
+
+# The version of its interface is its soname
+contact_shared(contact)
+set_target_properties(contact PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR})
 add_library(contact::contact ALIAS contact)
 
-# The same library under the file name that existing callers load, beside the program
+# The same under the file name that existing callers load and link, beside the program. As that one it has no
+# soname: programs linked with it look for this file, not for libcontact
 if(NOT APPLE AND NOT WIN32)
-  set(addon contact_addon_linux64.so)
-  file(RELATIVE_PATH addon_target ${CMAKE_RUNTIME_OUTPUT_DIRECTORY} ${CMAKE_LIBRARY_OUTPUT_DIRECTORY}/libcontact.so)
-  add_custom_command(TARGET contact POST_BUILD
-    COMMAND ${CMAKE_COMMAND} -E make_directory ${CMAKE_RUNTIME_OUTPUT_DIRECTORY}
-    COMMAND ${CMAKE_COMMAND} -E create_symlink ${addon_target} ${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/${addon})
-  install(FILES $<TARGET_FILE:contact> DESTINATION ${CMAKE_INSTALL_BINDIR} RENAME ${addon})
+  contact_shared(contact_addon)
+  set_target_properties(contact_addon PROPERTIES
+    PREFIX "" OUTPUT_NAME contact_addon_linux64 NO_SONAME ON
+    LIBRARY_OUTPUT_DIRECTORY ${CMAKE_RUNTIME_OUTPUT_DIRECTORY})
+  # Linkers write through links, as build folders of earlier versions have one to libcontact here
+  add_custom_command(TARGET contact_addon PRE_LINK COMMAND ${CMAKE_COMMAND} -E rm -f $<TARGET_FILE:contact_addon>)
+  install(TARGETS contact_addon LIBRARY DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()
 
 add_library(contact_static STATIC ${objects})
@@ -58,8 +62,8 @@ if(program_room)
   install(TARGETS contact_program RUNTIME)
 endif()
 
-# The pages of `contact report`, which the program looks for in this place
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/python/contact DESTINATION ${CMAKE_INSTALL_DATADIR}/contact/python
+# The Python package; the program looks for the pages of `contact report` in this place
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/python/contact ${PROJECT_SOURCE_DIR}/python/python_intfc DESTINATION ${CMAKE_INSTALL_DATADIR}/contact/python
   FILES_MATCHING PATTERN "*.py" PATTERN "*.html" PATTERN "*.js" PATTERN "__pycache__" EXCLUDE)
 
 set(headers contact.h contact_addon.h caddon_flags.h caddon_flags.inc contact_addon.ifc contact_addon.f90)

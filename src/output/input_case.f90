@@ -169,11 +169,10 @@ contains
    end subroutine put_extra_slip
 
    !> A case of module 1, with what its digits ask for
-   subroutine write_pair_case(unit, spec, folder)
+   subroutine write_pair_case(unit, spec)
       integer, intent(in) :: unit
+      !> Names of profiles are written as they are here
       type(case_spec), intent(in) :: spec
-      !> Folder to which names of profiles are relative, "" for that of the file
-      character(len=*), intent(in) :: folder
 
       call put_words(unit, spec%digits, is_pair=.true.)
       call put_iteration(unit, spec, with_elements=.true.)
@@ -187,15 +186,14 @@ contains
                & "DX DS DQREL A_SEP D_SEP D_COMB D_TURN G_MISS")
          end associate
       end if
-      call put_track(unit, spec, folder)
-      call put_wheelset(unit, spec, folder)
+      call put_track(unit, spec)
+      call put_wheelset(unit, spec)
    end subroutine write_pair_case
 
    !> Track, rail profile, deviations, springs
-   subroutine put_track(unit, spec, folder)
+   subroutine put_track(unit, spec)
       integer, intent(in) :: unit
       type(case_spec), intent(in) :: spec
-      character(len=*), intent(in) :: folder
       real(wp) :: place(3)
 
       associate (track => spec%wheel_rail%track, rail => spec%wheel_rail%rail, z => spec%digits%z)
@@ -209,7 +207,7 @@ contains
                call put_line(unit, numbers([place, track%cant, track%curvature]), "GAUGHT GAUGSQ|RAILY0 GAUGWD|RAILZ0 CANT CURV")
             end if
          end if
-         if (z == 3) call put_profile(unit, spec%wheel_rail%rail_profile, folder)
+         if (z == 3) call put_profile(unit, spec%wheel_rail%rail_profile)
          if (z >= 2) call put_line(unit, numbers([rail%dy, rail%dz, rail%roll, rail%vy, rail%vz, rail%vroll]), &
             & "DYRAIL DZRAIL DROLLR VYRAIL VZRAIL VROLLR")
          if (z >= 2 .and. spec%digits%f == 3) call put_line(unit, numbers([rail%ky, rail%fy, rail%kz, rail%fz, &
@@ -218,16 +216,15 @@ contains
    end subroutine put_track
 
    !> Wheelset, wheel profile, position, velocity, flexible deviations
-   subroutine put_wheelset(unit, spec, folder)
+   subroutine put_wheelset(unit, spec)
       integer, intent(in) :: unit
       type(case_spec), intent(in) :: spec
-      character(len=*), intent(in) :: folder
       real(wp) :: height, first
 
       associate (w => spec%wheel_rail%wheelset, e => spec%digits%e)
          if (e == 3 .or. e == 5) then
             call put_line(unit, numbers([w%fbdist, w%fbpos, w%nomradw, w%ytape]), "FBDIST FBPOS NOMRADW YTAPE")
-            call put_profile(unit, spec%wheel_rail%wheel_profile, folder)
+            call put_profile(unit, spec%wheel_rail%wheel_profile)
          end if
          if (e < 1) return
          height = merge(w%fz, w%z, spec%digits%n == 1)
@@ -243,15 +240,11 @@ contains
    end subroutine put_wheelset
 
    !> A profile with all that can be chosen
-   subroutine put_profile(unit, profile, folder)
+   subroutine put_profile(unit, profile)
       integer, intent(in) :: unit
       type(profile_spec), intent(in) :: profile
-      character(len=*), intent(in) :: folder
-      character(len=:), allocatable :: name
 
-      name = profile%name
-      if (name(:1) /= "/") name = folder // name
-      call put_line(unit, "'" // name // "' " // integers([profile%mirror_y]) // " " // numbers([profile%scale, &
+      call put_line(unit, "'" // profile%name // "' " // integers([profile%mirror_y]) // " " // numbers([profile%scale, &
          & profile%smoothing]) // " " // integers([profile%mirror_z, 2]), "FNAME MIRRORY SCALEYZ SMOOTH MIRRORZ PRFOPT")
       call put_line(unit, integers([profile%smoothing_method]) // " " // numbers([profile%zigzag, profile%kink_high, &
          & profile%kink_low, profile%kink_width]), "ISMOOTH ZIGTHRS KINKHIGH KINKLOW KINKWID")

@@ -122,7 +122,7 @@ check_near(hz(3), sqrt(0.5e-4), 1e-5, 'half-axis of the approach');
 cntc_setpotcontact(2, 3, 3, [7 5 -3 -2 1 1]);
 [x, y] = meshgrid(-3:3, -2:2);
 cntc_setundeformeddistc(2, 3, 9, 1e-3*x.^2 + 2e-3*y.^2);
-cntc_setmaterialparameters(2, 3, 0, [0.28 0.28 82000 82000]);
+cntc_setmaterialproperties(2, 3, 82000, 0.28, 82000, 0.28);
 cntc_setflags(2, 3, [CNTC.ic_norm CNTC.ic_tang], [0 3]);
 cntc_setfrictionmethod(2, 3, 0, [0.3 0.3]);
 cntc_setpenetration(2, 3, 0.01);

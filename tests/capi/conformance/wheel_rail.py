@@ -216,10 +216,31 @@ def slices():
     same(cntc.calculate(1, -1, idebug=0), CNTC["err_profil"], "a rail in slices has no gauge point")
 
 
+def program_forces(name, folder="."):
+    """Forces Fx, Fy, Fz in the track of all cases of an input file by the program, as printed"""
+    os.makedirs("program", exist_ok=True)
+    subprocess.run([os.environ["CONTACT_PROGRAM"], "--quiet", "--output-dir", "program", "2", os.path.join(folder, name)],
+                   check=True)
+    with open(f"program/{os.path.basename(name)}.out", encoding="utf-8") as file:
+        lines = file.read().splitlines()
+    return [[float(word) for word in lines[number + 1].split()[:3]] for number, line in enumerate(lines) if "FX(TR)" in line]
+
+
+def compare_replay(name, forces, label, folder="."):
+    """Cases that the library wrote as input give its forces in the program"""
+    printed = program_forces(name, folder)
+    same(len(printed), len(forces), f"{label}: cases of the program")
+    for number, (row, force) in enumerate(zip(printed, forces), 1):
+        # as many digits as are printed, the last ones of small components by the largest
+        close(force, row, 5.1e-4 * np.abs(row) + 1e-6 * np.abs(row).max(), f"{label}, case {number}: forces of the program")
+
+
 def replay():
-    """Cases written as input give the same forces in the program"""
-    for level in (1, 2):
-        cntc.initlibrary(expnam=f"replay{level}")
+    """Cases written as input give the same forces in the program, from folders of all kinds"""
+    for number, (level, folder) in enumerate(((1, "."), (2, "."), (1, "dumps"), (2, os.path.abspath("dumps"))), 1):
+        os.makedirs(folder, exist_ok=True)
+        name = f"replay{number}"
+        cntc.initlibrary(outdir=folder if folder != "." else "", expnam=name)
         set_up(1, 0)
         cntc.setflags(1, -1, [CNTC["if_wrtinp"], CNTC["ic_output"]], [level, 2])
         forces = []
@@ -228,16 +249,40 @@ def replay():
             same(cntc.calculate(1, -1), 0, "error code")
             forces.append(cntc.getglobalforces(1, -1)[:3])
         cntc.finalize(1)
-        os.makedirs("program", exist_ok=True)
-        subprocess.run([os.environ["CONTACT_PROGRAM"], "--quiet", "--output-dir", "program", "2", f"replay{level}"],
-                       check=True)
-        with open(f"program/replay{level}.out", encoding="utf-8") as file:
-            lines = file.read().splitlines()
-        rows = [number + 1 for number, line in enumerate(lines) if "FX(TR)" in line]
-        same(len(rows), 2, f"level {level}: cases of the program")
-        for row, force in zip(rows, forces):
-            printed = [float(word) for word in lines[row].split()[:3]]
-            close(force, printed, 5.1e-4 * np.abs(printed), f"level {level}: forces to the printed digits")
+        compare_replay(name, forces, f"level {level} in {folder}", folder)
+        # later runs keep the folder of results, unless they name another one
+        cntc.initlibrary(outdir=os.getcwd(), expnam="between")
+        cntc.finalizelast()
+
+
+def replay_values():
+    """Profiles given by values are written beside the input file that uses them"""
+    os.makedirs("dumps", exist_ok=True)
+    cntc.initlibrary(outdir="dumps", expnam="values")
+    rail, wheel = profiles()
+    set_up(1, 1)
+    forces = [cntc.getglobalforces(1, -1)[:3]]
+    cntc.setflags(1, -1, [CNTC["if_wrtinp"], CNTC["ic_output"]], [1, 2])
+    for kind, factor in ((0, 1.0), (1, 1e-3)):
+        table = cntc.getprofilevalues(1, 1, [kind, -1])
+        cntc.setprofileinputvalues(1, table * factor, [kind, 0, 0, 0], [1.0 / factor, 0.0])
+    same(cntc.calculate(1, -1), 0, "error code")
+    by_values = cntc.getglobalforces(1, -1)[:3]
+    close(by_values, forces[0], 2e-4 * 1e4, "the points of the file as values")
+    forces[0] = by_values
+    same(sorted(name for name in os.listdir("dumps") if name.startswith("caddon_re001")),
+         ["caddon_re001.0002.rail.txt", "caddon_re001.0002.wheel.txt"], "files of the profiles")
+    cntc.setwheelsetposition(1, 1, [0, 1.0, 0, 0, 0.0024, 0])
+    same(cntc.calculate(1, -1), 0, "error code")
+    forces.append(cntc.getglobalforces(1, -1)[:3])
+    # a new table gets a new file
+    cntc.setprofileinputvalues(1, cntc.getprofilevalues(1, 1, [0, -1]) + [0.0, 0.0], [0], [1.0, 0.0])
+    same(cntc.calculate(1, -1), 0, "error code")
+    forces.append(cntc.getglobalforces(1, -1)[:3])
+    check(os.path.isfile("dumps/caddon_re001.0004.rail.txt"), "a new table gets a file of its own")
+    check(not os.path.isfile("dumps/caddon_re001.0004.wheel.txt"), "the wheel keeps its file")
+    cntc.finalize(1)
+    compare_replay("values", forces, "profiles by values", "dumps")
 
 
 def from_inputs():
@@ -255,19 +300,14 @@ def from_inputs():
         same(cntc.readinpfile(ire, CNTC["inp_modul1"], name + ".inp"), 0, f"{label}: readinpfile")
         same(cntc.calculate(ire, -1), 0, f"{label}: error code")
         forces = cntc.getglobalforces(ire, -1)
-        os.makedirs("program", exist_ok=True)
-        subprocess.run([os.environ["CONTACT_PROGRAM"], "--quiet", "--output-dir", "program", "2", name], check=True)
-        with open(f"program/{label}.out", encoding="utf-8") as file:
-            lines = file.read().splitlines()
-        row = next(number for number, line in enumerate(lines) if "FX(TR)" in line) + 1
-        printed = [float(word) for word in lines[row].split()]
-        close(forces[[0, 1, 2]], printed[:3], 5.1e-4 * np.abs(printed[:3]), f"{label}: forces to the printed digits")
+        printed = program_forces(name)[0]
+        close(forces[[0, 1, 2]], printed, 5.1e-4 * np.abs(printed), f"{label}: forces to the printed digits")
     same(cntc.readinpfile(1, CNTC["inp_modul1"], "no_such_file.inp"), CNTC["err_input"], "a file that is not there")
     same(cntc.readinpfile(1, CNTC["inp_vamp"], "no_such_file.inp"), CNTC["err_input"], "a kind that is not there")
 
 
 if __name__ == "__main__":
-    scenarios = (conventions, patch_as_in_matlab, mirrored, profile_values, slices, replay, from_inputs)
+    scenarios = (conventions, patch_as_in_matlab, mirrored, profile_values, slices, replay, replay_values, from_inputs)
     chosen = [scenario for scenario in scenarios if scenario.__name__ == sys.argv[-1]]
     if not chosen:
         raise SystemExit("usage: wheel_rail.py " + " | ".join(scenario.__name__ for scenario in scenarios))
