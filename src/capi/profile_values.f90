@@ -4,15 +4,15 @@ module contact_capi_profile_values
    use contact_base_error, only : error_type
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
-   use contact_capi_arguments, only : give_list, integer_of, integers_of, reals_of
+   use contact_capi_arguments, only : count_of, give_list, integer_of, integers_of, reals_of
    use contact_capi_problem, only : given_profile, library_problem
-   use contact_capi_registry, only : complain, enter, entry_type, leave, say, scope, working_folder
+   use contact_capi_registry, only : complain, enter, entry_type, leave, result_file, say, scope, working_folder
    use contact_cases_pair_session, only : load_profile
    use contact_control_library_codes, only : library_code
    use contact_control_units, only : orientation, outward, quantity
    use contact_profile_curve, only : profile_curve
    use contact_profile_request, only : profile_side
-   use contact_profile_surface, only : surface_cut
+   use contact_profile_surface, only : profile_surface, surface_cut
    use contact_text_words, only : integer_text
    use contact_wheelrail_frame, only : frame, new_frame
    use contact_wheelrail_placement, only : gauge_point
@@ -45,6 +45,8 @@ module contact_capi_profile_values
    integer, parameter :: most_parts = 100
    !> Stands for points that are not there [mm]
    real(wp), parameter :: no_point_along = 99.0e9_wp, no_point = 999.0_wp
+   !> The file of a surface
+   character(len=*), parameter :: surface_file = "dump_spl2d.m"
 
 contains
 
@@ -314,7 +316,7 @@ contains
       end associate
    end function height_at
 
-   !> Lines on a variable profile: across the track, or along it
+   !> Lines on a variable profile: along one of its coordinates u and v, or along the track; or the surface itself
    subroutine answer_along(this, wanted, given, sample, length, values)
       type(entry_type), intent(in) :: this
       integer, intent(in) :: wanted
@@ -322,71 +324,112 @@ contains
       type(sampling), intent(in) :: sample
       integer(c_int), intent(in), optional :: length
       real(c_double), intent(inout), optional :: values(*)
-      real(wp), allocatable :: x(:), y(:), z(:)
-      real(wp) :: range(2)
+      real(wp), allocatable :: list(:)
+      real(wp) :: range(2), y, z
       integer :: i, n
 
       if (.not. allocated(given%surface)) then
          call complain(this, "the profile does not vary, task " // integer_text(wanted) // " is for variable profiles")
          return
-      else if (wanted == task%along_v .or. wanted == task%dump) then
-         call complain(this, "task " // integer_text(wanted) // ", lines of the spline's own second coordinate, is known but " // &
-            & "not built in this version; tasks 6 and 8 are")
+      else if (wanted == task%dump) then
+         call write_surface(this, given%surface)
          return
       end if
       range = given%surface%u_range
-      if (wanted == task%along_u) range = s_range_at(given, sample%place)
+      if (wanted == task%along_u) range = [0.0_wp, real(given%surface%lines - 1, wp)]
       if (sample%has_range) range = [sample%first, sample%last]
       n = int(max(0.0_wp, min(1.0e7_wp, (range(2) - range(1))/sample%step))) + 1
       if (integer_of(length) == 1) then
          call give_list([real(n, wp)], length, values)
          return
       end if
-      allocate(x(n), y(n), z(n))
-      do i = 1, n
-         call point_along(wanted, given, sample%place, range(1) + (i - 1)*sample%step, x(i), y(i), z(i))
+      ! no more points than the caller has room for
+      allocate(list(min(3*n, count_of(length, present(values)))))
+      do i = 1, min(n, size(list))
+         list(i) = range(1) + (i - 1)*sample%step
+         if (wanted == task%along_u) list(i) = sample%place
+         if (n + i > size(list)) cycle
+         call point_along(wanted, given%surface, sample%place, range(1) + (i - 1)*sample%step, y, z)
+         list(n + i) = y
+         if (2*n + i <= size(list)) list(2*n + i) = z
       end do
-      call give_list([x, y, z], length, values)
+      call give_list(list, length, values)
    end subroutine answer_along
 
-   !> Range of arc lengths of a section; empty where there is none
-   function s_range_at(given, place) result(range)
-      type(given_profile), intent(in) :: given
-      real(wp), intent(in) :: place
-      real(wp) :: range(2)
-      type(surface_cut) :: section
-
-      range = [0.0_wp, -1.0_wp]
-      call given%surface%cut(place, section)
-      if (section%present) range = section%curve%s_range()
-   end function s_range_at
-
-   !> One point: across the track at u = place and an arc length, or along it at u and y = place
-   subroutine point_along(wanted, given, place, position, x, y, z)
+   !> One point of a line: at u = place and v = position, v = place and u = position, or y = place and u = position
+   subroutine point_along(wanted, surface, place, position, y, z)
       integer, intent(in) :: wanted
-      type(given_profile), intent(in) :: given
+      type(profile_surface), intent(in) :: surface
       real(wp), intent(in) :: place, position
-      real(wp), intent(out) :: x, y, z
+      !> [mm]; what stands for no point when there is none
+      real(wp), intent(out) :: y, z
       type(surface_cut) :: section
-      real(wp) :: range(2)
+      logical :: found
 
-      if (wanted == task%along_u) then
-         x = place
+      call surface%cut(merge(place, position, wanted == task%along_u), section)
+      select case (wanted)
+      case (task%along_u)
+         call section%on_line(position, y, z, found)
+         if (found) return
          y = no_point_along
          z = no_point_along
-         call given%surface%cut(place, section)
-         if (.not. section%present) return
-         range = section%curve%s_range()
-         if (position < range(1) .or. position > range(2)) return
-         y = section%curve%y%value(position)
-         z = section%curve%z%value(position)
-      else
-         x = position
+      case (task%along_v)
+         call section%on_line(place, y, z, found)
+         if (found) return
+         y = no_point
+         z = no_point
+      case default
          y = place
          z = no_point
-         call given%surface%cut(position, section)
          if (.not. section%present) return
          if (section%curve%has(place)) z = section%curve%height(place)
-      end if
+      end select
    end subroutine point_along
+
+   !> The surface as a script of Matlab or Octave, a struct with its knots and coefficients
+   subroutine write_surface(this, surface)
+      type(entry_type), intent(in) :: this
+      type(profile_surface), intent(in) :: surface
+      integer :: unit, status, g, i
+
+      open(newunit=unit, file=result_file(surface_file), status="replace", action="write", iostat=status)
+      if (status == 0) then
+         write(unit, '(a)', iostat=status) "% Surface of a variable profile: lines v = 0, 1, ..., cubic B-splines along u", &
+            & "% A group has lines that exist over the same range of u: y(i,j), z(i,j) [mm] is coefficient i of line v(j)."
+         write(unit, '(a, i0, a)', iostat=status) "spl2d.is_wheel = ", merge(1, 0, surface%side == profile_side%wheel), ";"
+         call put_row("spl2d.u_range", surface%u_range)
+         do g = 1, size(surface%groups)
+            associate (group => surface%groups(g))
+               call put_row("spl2d.group(" // integer_text(g) // ").u_range", [group%low, group%high])
+               call put_row("spl2d.group(" // integer_text(g) // ").v", [(real(i - 1, wp), i=group%first, group%last)])
+               call put_row("spl2d.group(" // integer_text(g) // ").knots", group%t)
+               call put_table("spl2d.group(" // integer_text(g) // ").y", group%y)
+               call put_table("spl2d.group(" // integer_text(g) // ").z", group%z)
+            end associate
+         end do
+         close(unit)
+      end if
+      if (status /= 0) call complain(this, "the file " // result_file(surface_file) // " cannot be written")
+
+   contains
+
+      subroutine put_row(name, list)
+         character(len=*), intent(in) :: name
+         real(wp), intent(in) :: list(:)
+
+         call put_table(name, reshape(list, [1, size(list)]))
+      end subroutine put_row
+
+      subroutine put_table(name, table)
+         character(len=*), intent(in) :: name
+         real(wp), intent(in) :: table(:, :)
+         integer :: k
+
+         if (status == 0) write(unit, '(2a)', iostat=status) name, " = ["
+         do k = 1, size(table, 1)
+            if (status == 0) write(unit, '(*(es24.16))', iostat=status) table(k, :)
+         end do
+         if (status == 0) write(unit, '(a)', iostat=status) "];"
+      end subroutine put_table
+   end subroutine write_surface
 end module contact_capi_profile_values

@@ -14,13 +14,15 @@ endforeach()
 list(REMOVE_DUPLICATES libraries)
 list(APPEND libraries OpenMP::OpenMP_Fortran)
 
-# The shared library shows C functions only, and calls its own ones even where the host has others of these names
+# The shared library shows C functions only, and calls its own ones even where the host has others of these names. It
+# stays when its host unloads it: threads of the OpenMP run time would wait for work in code that is gone
 set(map ${PROJECT_SOURCE_DIR}/src/cmake/contact.map)
 function(contact_shared target)
   add_library(${target} SHARED ${objects})
   set_target_properties(${target} PROPERTIES LINKER_LANGUAGE Fortran LINK_DEPENDS ${map})
   if(NOT APPLE AND NOT WIN32)
-    target_link_options(${target} PRIVATE LINKER:--version-script=${map} LINKER:--as-needed LINKER:-Bsymbolic-functions)
+    target_link_options(${target} PRIVATE LINKER:--version-script=${map} LINKER:--as-needed LINKER:-Bsymbolic-functions
+      LINKER:-z,nodelete)
     if(NOT CONTACT_SANITIZE)
       target_link_options(${target} PRIVATE LINKER:--no-undefined)
     endif()

@@ -18,7 +18,7 @@ module contact_profile_surface
    implicit none (type, external)
    private
 
-   public :: profile_surface, surface_cut, new_surface
+   public :: profile_surface, surface_cut, line_group, new_surface
 
    !> Lines that exist in one unbroken row of slices
    type :: line_group
@@ -38,7 +38,7 @@ module contact_profile_surface
       !> Lines; those at kinks
       integer :: lines = 0
       logical, allocatable, private :: is_kink(:)
-      type(line_group), allocatable, private :: groups(:)
+      type(line_group), allocatable :: groups(:)
    contains
       procedure :: cut
    end type profile_surface
@@ -47,10 +47,14 @@ module contact_profile_surface
    type :: surface_cut
       !> Is there any surface at this position?
       logical :: present = .false.
+      !> Its nodes are lines of the surface; number of the first
       type(profile_curve) :: curve
+      integer, private :: first_line = 1
       !> Derivatives along u on the lines, as functions of the curve's s
       type(cubic_spline), private :: y_u, z_u
    contains
+      !> Point at a coordinate v
+      procedure :: on_line
       !> Derivative of the height along u at a fixed lateral position
       procedure :: slope_along
       !> Height of the visible point and its derivatives across and along
@@ -313,8 +317,36 @@ contains
       section%curve = new_curve(self%side, splines(1), splines(2))
       section%y_u = splines(3)
       section%z_u = splines(4)
+      section%first_line = first
       section%present = .true.
    end subroutine cut
+
+   !> The point at the second coordinate v of the surface: lines have whole numbers, the first one 0; between them v is
+   !> linear in the arc length
+   pure subroutine on_line(self, v, y, z, found)
+      class(surface_cut), intent(in) :: self
+      real(wp), intent(in) :: v
+      !> [mm]
+      real(wp), intent(out) :: y, z
+      !> False where the section has no line there
+      logical, intent(out) :: found
+      real(wp) :: place, s
+      integer :: i
+
+      y = 0.0_wp
+      z = 0.0_wp
+      found = .false.
+      if (.not. self%present) return
+      associate (nodes => self%curve%y%s)
+         place = v - (self%first_line - 1)
+         found = place >= 0.0_wp .and. place <= size(nodes) - 1
+         if (.not. found) return
+         i = min(int(place) + 1, size(nodes) - 1)
+         s = nodes(i) + (place - (i - 1))*(nodes(i + 1) - nodes(i))
+         y = self%curve%y%value(s)
+         z = self%curve%z%value(s)
+      end associate
+   end subroutine on_line
 
    !> Height z of the visible point at y, dz/dy and dz/du
    pure subroutine at(self, y, z, z_y, z_u, found)
@@ -350,6 +382,7 @@ contains
       type(surface_cut) :: section
 
       section%present = self%present
+      section%first_line = self%first_line
       if (.not. self%present) return
       section%curve = self%curve%seen_from(origin, angle)
       section%y_u = self%y_u

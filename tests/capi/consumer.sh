@@ -1,6 +1,6 @@
 #!/bin/sh
-# Install into a scratch folder, then build and run a C program against it in three ways:
-# CMake package, pkg-config with the shared library, pkg-config with the static one
+# Install into a scratch folder, then build and run programs of others against it: by CMake package, by pkg-config
+# with the shared and with the static library, and as callers of the published library are built, by its file names
 # usage: consumer.sh BUILD_FOLDER C_COMPILER FORTRAN_COMPILER
 set -eu
 build=$1
@@ -38,6 +38,56 @@ cmake -S "$here/consumer" -B cmake_build -DCMAKE_PREFIX_PATH="$work/prefix" \
 cmake --build cmake_build >> cmake.log
 run cmake cmake_build/consumer
 
+include=$work/prefix/include
+strict="-Wall -Wextra -Wpedantic -Werror"
+# same NAME PROGRAM: it prints what the first one printed
+same() {
+  "$2" > "$1.txt"
+  cmp stranger.txt "$1.txt"
+}
+# shellcheck disable=SC2086
+echo "-- file names of the published library, linked by name, by path, and as libcontact"
+"$compiler" -std=c90 $strict -I"$include" "$here/consumer/stranger.c" -o stranger_name -L"$work/prefix/bin" \
+  -l:contact_addon_linux64.so -lm
+# there is no other folder in which something else could be found
+mkdir -p swapped
+cp "$work/prefix/bin/contact_addon_linux64.so" swapped
+LD_LIBRARY_PATH=$work/swapped ./stranger_name > stranger.txt
+"$compiler" -std=c99 $strict -I"$include" "$here/consumer/stranger.c" -o stranger_path \
+  "$work/prefix/bin/contact_addon_linux64.so" -lm
+same stranger_path ./stranger_path
+"$compiler" -I"$include" "$here/consumer/stranger.c" -o stranger_lib -L"$library_folder" "-Wl,-rpath,$library_folder" -lcontact -lm
+same stranger_lib ./stranger_lib
+if command -v c++ > /dev/null 2>&1; then
+  c++ -x c++ $strict -I"$include" "$here/consumer/stranger.c" -x none -o stranger_plus "$work/prefix/bin/contact_addon_linux64.so"
+  same stranger_plus ./stranger_plus
+else
+  echo "-- no C++ compiler here, its headers are not tried"
+fi
+"$fortran" -cpp -fopenmp -I"$include" "$here/consumer/stranger.F90" -o stranger_fortran -L"$work/prefix/bin" \
+  -l:contact_addon_linux64.so "-Wl,-rpath,$work/prefix/bin"
+same stranger_fortran ./stranger_fortran
+
+echo "-- loaded and unloaded by its file name"
+"$compiler" -std=c99 -D_POSIX_C_SOURCE=200112L $strict "$here/consumer/loader.c" -o loader -ldl
+for _ in 1 2 3 4 5 6 7 8; do
+  OMP_NUM_THREADS=4 ./loader "$work/prefix/bin/contact_addon_linux64.so"
+done
+
+echo "-- Python from the installation"
+if python3 -c "import numpy" 2> /dev/null; then
+  (unset CONTACT_LIBRARY
+  PYTHONPATH=$work/prefix/share/contact/python python3 -c "
+import python_intfc as cntc
+CNTC, ifcver, ierror = cntc.initlibrary(expnam='installed')
+assert ifcver >= 2500 and ierror == 0 and CNTC['if_units'] == 1933
+import contact._library
+assert '$work/prefix/bin/' in contact._library.library()._name
+cntc.closelibrary()")
+else
+  echo "-- no numpy here, it is not tried"
+fi
+
 if ! command -v pkg-config > /dev/null 2>&1; then
   echo "-- no pkg-config here, its two ways are not tried"
   exit 0
@@ -67,9 +117,9 @@ caller module "$fortran" "$work/prefix/include/contact_addon.f90" "$examples/cre
 cmp caller_c.txt caller_module.txt
 caller fixed "$fortran" "$here/consumer/fixed.F"
 if command -v c++ > /dev/null 2>&1; then
-  caller plus c++ "$here/consumer/plus.cpp"
-else
-  echo "-- no C++ compiler here, its headers are not tried"
+  # shellcheck disable=SC2086
+  eval "c++ \$strict \"\$here/consumer/plus.cpp\" -o caller_plus $flags" '"-Wl,-rpath,$library_folder"'
+  ./caller_plus
 fi
 
 echo "-- pkg-config, static library"

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The table of the interface, what is made from it, what the library exports, and its sources: all the same.
 
-usage: interface.py LIBRARY C_COMPILER
+usage: interface.py C_COMPILER LIBRARIES
 """
 import glob
 import os
@@ -69,15 +69,17 @@ def implemented():
 
 def main():
     """Compare all"""
-    library, compiler = sys.argv[1:]
+    compiler, *libraries = sys.argv[1:]
+    check(libraries, "there are libraries to look at")
     table = routines()
     check(len(table) == 70, f"{len(table)} routines in the table")
     documented = {name for name in table if name not in ("cntc_calculate1", "cntc_calculate3")}
     check(declared(compiler, "contact_addon.h") == documented, "contact_addon.h declares what the table lists")
     expected = set(table) | {name + "_" for name in table} | declared(compiler, "contact.h")
-    shown = exported(library)
-    check(not expected - shown, f"not exported: {sorted(expected - shown)}")
-    check(not shown - expected, f"exported, but in no header: {sorted(shown - expected)}")
+    for library in libraries:
+        shown = exported(library)
+        check(not expected - shown, f"{library} does not export {sorted(expected - shown)}")
+        check(not shown - expected, f"{library} exports what no header has: {sorted(shown - expected)}")
     sources = implemented()
     for name, routine in table.items():
         if name not in sources:

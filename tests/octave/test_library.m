@@ -47,6 +47,7 @@ plot3d(sol);
 
 % --- all kinds of calls in one problem
 CNTC = cntc_initlibrary('', '', 'calls');
+check(isequal(CNTC, cntc_getmagicnumbers()), 'magic numbers without the library');
 check(CNTC.un_cntc==1934 && CNTC.fld_pn==5, 'magic numbers');
 [ifcver, ierror] = cntc_initialize(2, 3);
 check(ifcver>=2500 && ierror==0, 'version');
@@ -103,6 +104,17 @@ check_near(sens(1,1), 1.5*fn/pen, 0.03*fn/pen, 'stiffness after Hertz');
 [tcpu, twall] = cntc_getcalculationtime(2, 1);
 check(twall>=0, 'time');
 cntc_resetcalculationtime(2, 1);
+subs_addblock(2, 1, 1, 9, 0, [0 1], [0 1 2]);
+check(subs_calculate(2, 1)==0, 'stresses');
+[nx, ny, nz] = subs_getblocksize(2, 1, 1);
+check_near([nx ny nz], [1 2 3], 0, 'size of a block');
+cntc_settemperaturedata(2, 1, 3, [20 450 0.05 7.85e-6, 20 450 0.05 7.85e-6, 1]);
+check(cntc_calculate(2, 1)==0, 'with temperatures');
+[t1max, t2max] = cntc_getmaximumtemperature(2, 1);
+check_near([t1max t2max], [max(cntc_getfielddata(2,1,CNTC.fld_temp1)(:)) max(cntc_getfielddata(2,1,CNTC.fld_temp2)(:))], ...
+           1e-9, 'largest temperatures');
+check(t1max>20, 'friction heats');
+cntc_settemperaturedata(2, 1, 0);
 % Hertz, units of SI, prescribed forces
 cntc_setflags(2, 2, [CNTC.if_units CNTC.ic_norm CNTC.ic_tang CNTC.ic_force], [CNTC.un_si 0 3 2]);
 cntc_setmaterialparameters(2, 2, 0, [0.28 0.28 82e9 82e9]);

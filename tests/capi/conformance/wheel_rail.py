@@ -1,13 +1,14 @@
 #!/usr/bin/env python3
 """Wheel on rail by the library: conventions, left and right, profiles. usage: wheel_rail.py SCENARIO"""
 import os
+import re
 import subprocess
 import sys
 
 from checks import REFERENCE, SOURCE, check, close, finish, profiles, same
 import numpy as np
 from contact import cntc
-from contact._library import call
+from contact._library import call, last_error
 from contact.cntc import CNTC
 
 #: Signs of the 24 global forces when the wheelset is mirrored: longitudinal, lateral, vertical forces, moments
@@ -208,10 +209,31 @@ def slices():
     cntc.setflags(1, -1, CNTC["ic_norm"], 0)
     same(cntc.calculate(1, -1), 0, "error code")
     close(cntc.getglobalforces(1, -1)[:3], [2814.0, -915.0, 10110.0], 0.002 * 10110, "forces")
-    across, along = (cntc.getprofilevalues(1, task, [0, 1], [0.5, 0.5]) for task in (6, 8))
+    # lines u = 0.5 mm, v = line 40, y = 0.5 mm of the surface; v counts lines across the rail, which fall apart at most 0.5 mm
+    across, on_line, along = (cntc.getprofilevalues(1, task, [0, 1], [step, place])
+                              for task, step, place in ((6, 0.25, 0.5), (7, 0.5, 40.0), (8, 0.5, 0.5)))
     check(bool(np.all(across[:, 0] == 0.5)) and across.shape[1] == 3, "a line across the rail at x = 0.5")
     check(bool(np.all(along[:, 1] == 0.5)) and along.shape[1] == 3, "a line along the rail at y = 0.5")
-    close(np.interp(0.5, across[:, 1], across[:, 2]), np.interp(0.5, along[:, 0], along[:, 2]), 2e-2, "they cross")
+    there = np.isfinite(across[:, 1])
+    steps = np.hypot(*np.diff(across[there][:, 1:], axis=0).T)
+    check(bool(np.all(steps < 0.13)) and steps.max() > 0.1, f"quarters of lines are a quarter of the distance: {steps.max()}")
+    fine = cntc.getprofilevalues(1, 6, [0, 1], [0.01, 0.5])
+    fine = fine[np.isfinite(fine[:, 1])]
+    close(np.interp(0.5, fine[:, 1], fine[:, 2]), np.interp(0.5, along[:, 0], along[:, 2]), 1e-5, "two lines cross")
+    close(across[4 * 40, 1:], [np.interp(0.5, on_line[:, 0], on_line[:, k]) for k in (1, 2)], 1e-4, "line 40 crosses")
+    same(len(cntc.getprofilevalues(1, 6, [0, 1], [0.5, 0.5, 40.0, 45.0])), 11, "a part of a line")
+    beside = cntc.getprofilevalues(1, 7, [0, 1], [1.0, -3.0])
+    check(bool(np.all(np.isnan(beside[:, 1]))), "no points beside the surface")
+    room = np.full(20, 7.5)
+    call("cntc_getprofilevalues", 1, 7, 2, np.array([0, 1]), 4, np.array([0.5, 40.0, 0.0, 5.0]), 20, room)
+    close(room, np.concatenate([np.arange(11) * 0.5, [np.interp(k * 0.5, on_line[:, 0], on_line[:, 1]) for k in range(9)]]), 1e-9,
+          "an array that is too short for all points")
+    cntc.getprofilevalues(1, 9, [0, 1])
+    with open("dump_spl2d.m", encoding="utf-8") as file:
+        dumped = file.read()
+    number = [[float(word) for word in re.search(rf"group\({group}\)\.{name} = \[(.*?)\]", dumped, re.S).group(1).split()]
+              for group in (1,) for name in ("knots", "v", "y")]
+    same(len(number[2]), (len(number[0]) - 4) * len(number[1]), "coefficients of the written surface")
     cntc.settrackdimensions(1, 3, [14.0, 0.0, 1435.0] + 8 * [0.0])
     same(cntc.calculate(1, -1, idebug=0), CNTC["err_profil"], "a rail in slices has no gauge point")
 
@@ -285,6 +307,87 @@ def replay_values():
     compare_replay("values", forces, "profiles by values", "dumps")
 
 
+def _flag(name, value):
+    return lambda ire: cntc.setflags(ire, -1, CNTC[name], value)
+
+
+#: What can be chosen for wheel and rail: settings before the first and before the second case
+OPTIONS = {
+    "F = 1": ([_flag("ic_force", 1), lambda ire: cntc.settangentialforces(ire, -1, -700.0, 0.0)], []),
+    "F = 3": ([_flag("ic_force", 3), lambda ire: cntc.settrackdimensions(ire, 33, [5e3, 0.0, 8e4, 0.0, 0.5])], []),
+    "T = 1": ([_flag("ic_tang", 1), _flag("ic_pvtime", 2)], []),
+    "T = 2": ([_flag("ic_tang", 2)], [_flag("ic_pvtime", 0)]),
+    "V = 1": ([lambda ire: cntc.setfrictionmethod(ire, -1, 10, [2, -0.2, 0.1, 0.1, 0.1, 0.4, 0.4])], []),
+    "V = 2": ([lambda ire: cntc.setfrictionmethod(ire, -1, 20, [2, -100.0, 0.1, 0.1, 100.0, 0.4, 0.4])], []),
+    "V = 1, L = 2": ([lambda ire: cntc.setfrictionmethod(ire, -1, 12, [
+        2, -0.2, 0.2, 0.1, 100.0, 0.05, 50.0, 0.001, 10.0, 0.2, 0.3, 0.1, 100.0, 0.05, 50.0, 0.001, 10.0])], []),
+    "L = 2": ([lambda ire: cntc.setfrictionmethod(ire, -1, 2, [0.2, 0.1, 100.0, 0.05, 50.0, 0.001, 10.0])], []),
+    "L = 3": ([lambda ire: cntc.setfrictionmethod(ire, -1, 3, [0.2, 0.1, 100.0, 0.05, 50.0, 0.001, 10.0])], []),
+    "L = 4": ([lambda ire: cntc.setfrictionmethod(ire, -1, 4, [0.2, 0.1, 100.0, 0.05, 50.0, 0.001, 10.0])], []),
+    "L = 5": ([lambda ire: cntc.setfrictionmethod(ire, -1, 5, [0.4, 0.5, 1e-2])], []),
+    "L = 6, H = 3": ([lambda ire: cntc.setfrictionmethod(ire, -1, 6, [0.4, 0.0, -0.2, 100.0, 0.001, 10.0]),
+                      lambda ire: cntc.settemperaturedata(ire, -1, 3, 2 * [20.0, 450.0, 0.05, 7.85e-6] + [1.0])], []),
+    "M = 2": ([lambda ire: cntc.setmaterialparameters(ire, -1, 2, [0.28, 0.28, 82e3, 82e3, 6e-5, 1.0, 1.0, 1.0])], []),
+    "M = 3": ([lambda ire: cntc.setmaterialparameters(ire, -1, 3, [0.28, 0.28, 82e3, 82e3, 0.5, 1.0, 1.0])], []),
+    "M = 4": ([lambda ire: cntc.setmaterialparameters(ire, -1, 4, [0.28, 0.28, 82e3, 82e3, 4e3, 0.2, 0.0, 0.0])], []),
+    "M = 5": ([lambda ire: cntc.setmaterialparameters(ire, -1, 5, [0.28, 0.28, 82e3, 82e3, 0.5, 1.0, 1.0])], []),
+    "M2 = 2": ([_flag("ic_tang", 2), lambda ire: cntc.setmaterialparameters(ire, -1, 12, [1e-3, 1e-3, 1e9, 1e9])],
+               [_flag("ic_pvtime", 0)]),
+    "D = 3": ([_flag("ic_discns", 3)], []), "D = 4": ([_flag("ic_discns", 4)], []),
+    "D = 5": ([_flag("ic_discns", 5)], []), "D = 6": ([_flag("ic_discns", 6)], []),
+    "D = 7": ([_flag("ic_discns", 7)], []),
+    "B = 5": ([_flag("ic_bound", 5)], []), "B = 6": ([_flag("ic_bound", 6)], []),
+    "C = 3": ([_flag("ic_inflcf", 3)], []),
+    "G = 2": ([lambda ire: cntc.setsolverflags(ire, -1, 2, [999, 100, 30, 1, 0], [1e-6, 0.9, 1.0, 0.5])], []),
+    "E = 5": ([lambda ire: cntc.setwheelsetflexibility(ire, 5, [0, 0.3, 0, 1e-3, 1e-3, 0, 0, 3.0, 0, 0, 0, 0.01])], []),
+    "rail deviations": ([lambda ire: cntc.settrackdimensions(ire, 2, [0.5, 0.1, 5e-3, 1.0, 0.0, 0.0])], []),
+    "cant": ([lambda ire: cntc.settrackdimensions(ire, 1, [14.0, 0.0, 1435.0, 0.025, 0.0])], []),
+    "curve": ([lambda ire: cntc.settrackdimensions(ire, 1, [14.0, 0.0, 1435.0, 0.0, 0.0, 2e-6])], []),
+    "N = 0": ([_flag("ic_norm", 0), lambda ire: cntc.setwheelsetposition(ire, 1, [0, 2.0, 0.16, 0, 0.0048, 0])], []),
+    "roller": ([_flag("ic_config", 4), lambda ire: cntc.settrackdimensions(ire, 1, [14.0, 0.0, 1435.0, 0.0, 500.0]),
+                lambda ire: cntc.setwheelsetvelocity(ire, 2, [4.0, 0, 0, 0, 0, -4.35])], []),
+}
+
+
+def forces_without_damping(ire):
+    """Forces in the track as the program prints them, of flat patches"""
+    total = np.zeros(3)
+    for icp in range(1, cntc.getnumcontactpatches(ire) + 1):
+        (fn, tx, ty, _), angle = cntc.getcontactforces(ire, icp), cntc.getcontactlocation(ire, icp)[3]
+        total += [tx, ty * np.cos(angle) - fn * np.sin(angle), fn * np.cos(angle) + ty * np.sin(angle)]
+    return total
+
+
+def options():
+    """Every choice for wheel and rail acts, and is written into input files as it acts"""
+    set_up(999, 0)
+    plain = cntc.getglobalforces(999, -1)[:3]
+    cntc.finalize(999)
+    for number, (name, (first, second)) in enumerate(OPTIONS.items(), 1):
+        dump = f"option{number}"
+        cntc.initlibrary(expnam=dump)
+        set_up(1, 0)
+        cntc.setflags(1, -1, [CNTC["if_wrtinp"], CNTC["ic_output"], CNTC["if_ncase"]], [2, 2, 1])
+        forces = []
+        for setting in first:
+            setting(1)
+        for index in range(2):
+            if index == 1:
+                for setting in second:
+                    setting(1)
+                cntc.setwheelsetposition(1, 1, [0.8, 1.8, 0.16, 0, 0.0043, 0])
+            code, reason = cntc.calculate(1, -1, idebug=0), last_error(1, -1)[1]
+            same(code, 0, f"{name}: error code of case {index + 1} ({reason})")
+            forces.append(cntc.getglobalforces(1, -1)[:3])
+        check(np.abs(forces[0] - plain).max() > 1e-4, f"{name} acts: {forces[0]} instead of {plain}")
+        if name == "M2 = 2":
+            elastic = forces_without_damping(1)
+            check(np.abs(forces[1] - elastic).max() > 1.0, "the forces of the library include damping")
+            forces[1] = elastic
+        cntc.finalize(1)
+        compare_replay(dump, forces, name)
+
+
 def from_inputs():
     """The first case of input files: by the library and by the program"""
     names = [os.path.join(SOURCE, "examples/wheel_on_rail")]
@@ -307,7 +410,7 @@ def from_inputs():
 
 
 if __name__ == "__main__":
-    scenarios = (conventions, patch_as_in_matlab, mirrored, profile_values, slices, replay, replay_values, from_inputs)
+    scenarios = (conventions, patch_as_in_matlab, mirrored, profile_values, slices, replay, replay_values, options, from_inputs)
     chosen = [scenario for scenario in scenarios if scenario.__name__ == sys.argv[-1]]
     if not chosen:
         raise SystemExit("usage: wheel_rail.py " + " | ".join(scenario.__name__ for scenario in scenarios))
