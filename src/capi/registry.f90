@@ -5,12 +5,12 @@
 !> critical section that is short; calculations run outside.
 module contact_capi_registry
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
-   use, intrinsic :: iso_c_binding, only : c_associated, c_char, c_null_char, c_ptr, c_size_t
    use, intrinsic :: iso_fortran_env, only : output_unit
    use omp_lib, only : omp_get_max_threads, omp_get_num_threads, omp_get_thread_num, omp_in_parallel, omp_set_lock, &
       & omp_test_lock, omp_unset_lock
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
+   use contact_capi_host, only : current_folder, give_floats_back, hold_floats, is_forked
    use contact_capi_problem, only : library_problem, most_patches, new_problem, release_problem
    use contact_control_library_codes, only : code_text, library_code
    use contact_experiment_stopwatch, only : stopwatch
@@ -27,8 +27,6 @@ module contact_capi_registry
    public :: are_finite, count_fits
 
    integer, parameter :: most_elements = 999, most_active = 100
-   !> Letters of the longest name of a folder
-   integer, parameter :: longest_path = 4096
 
    !> Which result elements and patches a routine accepts
    type :: scope_type
@@ -257,6 +255,7 @@ contains
       call look_up(call_of, allowed, problem, found)
       if (associated(problem)) then
          call omp_set_lock(problem%lock)
+         call hold_floats()
          call check_patch(call_of, problem, found)
          if (found /= library_code%success) call leave(problem)
       end if
@@ -282,6 +281,7 @@ contains
          end if
       end if
       if (associated(problem)) then
+         call hold_floats()
          call check_patch(call_of, problem, code)
          if (code == library_code%success) then
             call count_calculation(counted)
@@ -374,6 +374,7 @@ contains
    subroutine leave(problem)
       type(library_problem), pointer, intent(inout) :: problem
 
+      call give_floats_back()
       call omp_unset_lock(problem%lock)
       call forget_user(problem)
       nullify(problem)
@@ -702,10 +703,11 @@ contains
       !$omp end critical (contact_registry)
    end subroutine set_threads
 
-   !> Threads that a calculation may use
+   !> Threads that a calculation may use; one in a forked process, which has no others
    integer function threads_inside() result(number)
       !$omp critical (contact_registry)
       number = library%threads
+      if (is_forked()) number = 1
       !$omp end critical (contact_registry)
    end function threads_inside
 
@@ -745,31 +747,6 @@ contains
       end if
       !$omp end critical (contact_registry)
    end function seen_from_results
-
-   !> The current folder of the process; "." when the system does not tell it
-   function current_folder() result(folder)
-      character(len=:), allocatable :: folder
-      character(kind=c_char) :: letters(longest_path)
-      type(c_ptr) :: answer
-      integer :: i
-      interface
-         function getcwd(buffer, length) bind(c, name="getcwd") result(answer)
-            import :: c_char, c_ptr, c_size_t
-            character(kind=c_char), intent(out) :: buffer(*)
-            integer(c_size_t), value :: length
-            type(c_ptr) :: answer
-         end function getcwd
-      end interface
-
-      folder = "."
-      answer = getcwd(letters, int(longest_path, c_size_t))
-      if (.not. c_associated(answer)) return
-      folder = ""
-      do i = 1, longest_path
-         if (letters(i) == c_null_char) exit
-         folder = folder // letters(i)
-      end do
-   end function current_folder
 
    !> Unit of the file in which cases are written as input, 0 for none
    integer function input_dump() result(unit)

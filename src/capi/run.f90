@@ -2,6 +2,7 @@
 module contact_capi_run
    use, intrinsic :: iso_c_binding, only : c_associated, c_char, c_f_pointer, c_int, c_null_char, c_ptr, c_size_t
    use contact_base_error, only : error_type, fatal_error, full_text
+   use contact_capi_host, only : give_floats_back, hold_floats
    use contact_experiment_run, only : run_experiment, run_settings
    implicit none (type, external)
    private
@@ -83,7 +84,9 @@ contains
       if (allocated(error)) then
          status = wrong_call
       else
+         call hold_floats()
          call run_experiment(settings, error)
+         call give_floats_back()
          if (allocated(error)) status = first_failure + int(error%kind, c_int)
       end if
       if (allocated(error)) then

@@ -3,8 +3,9 @@ module contact_cases_pair_session
    use contact_base_choices, only : contact_location, estimate_choice, force_control, kernel_model, material_model, &
       & normal_control, pressure_model, sensitivity_choice, stress_choice, time_link, variation
    use contact_base_error, only : add_context, error_kind, error_type, fatal_error
-   use contact_base_kinds, only : wp
+   use contact_base_kinds, only : long, wp
    use contact_base_log, only : log_type
+   use contact_base_memory, only : bytes_per_element, require_memory
    use contact_cases_effects, only : name_effects
    use contact_cases_elastic_setup, only : set_model
    use contact_cases_friction_setup, only : parameters_of, set_friction, set_thermal
@@ -138,7 +139,8 @@ contains
          problem%link = spec%link
          problem%weight_power = spec%wheel_rail%search%weight_power
          problem%most_elements = spec%iteration%npot_max
-         call set_model(spec, template%model, error)
+         call require_memory(int(spec%iteration%npot_max, long), bytes_per_element, "elements, as many as are allowed,", error)
+         if (.not. allocated(error)) call set_model(spec, template%model, error)
          if (allocated(error)) return
          ! the inclinations are those of each patch; in a plane there are none
          if (spec%kernel == kernel_model%conformal .and. spec%wheel_rail%search%location == contact_location%conformal) then

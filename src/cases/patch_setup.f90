@@ -3,8 +3,9 @@ module contact_cases_patch_setup
    use contact_base_choices, only : friction_model, material_model, motion, normal_control, pressure_model, sensitivity_choice, &
       & slip_source, solver_choice
    use contact_base_error, only : error_kind, error_type, fatal_error
-   use contact_base_kinds, only : wp
+   use contact_base_kinds, only : long, wp
    use contact_base_log, only : log_type
+   use contact_base_memory, only : bytes_per_element, require_memory
    use contact_cases_elastic_setup, only : set_coefficients, set_inclination, set_model
    use contact_cases_friction_setup, only : set_friction, set_thermal
    use contact_cases_geometry, only : build_grid, is_line_contact, require_positive, solve_hertz, undeformed_distance
@@ -154,6 +155,7 @@ contains
 
       problem%has_geometry = .false.
       call build_grid(spec%grid, result%hertz, grid, error)
+      if (.not. allocated(error)) call require_memory(int(grid%npot(), long), bytes_per_element, "elements", error)
       if (allocated(error)) return
       problem%grid = grid
       call undeformed_distance(spec%geometry, grid, result%hertz, problem%h, error)

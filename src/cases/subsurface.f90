@@ -3,6 +3,7 @@ module contact_cases_subsurface
    use contact_base_choices, only : kernel_model
    use contact_base_error, only : add_context, error_type, fatal_error
    use contact_base_kinds, only : long
+   use contact_base_memory, only : require_memory
    use contact_cases_spec, only : case_spec
    use contact_patch_result, only : patch_result, subsurface_result
    use contact_subsurface_invariants, only : stress_invariants
@@ -17,6 +18,8 @@ module contact_cases_subsurface
 
    !> Most points of one block, some 3 GB
    integer(long), parameter :: most_points = 20000000_long
+   !> The results of a point, its place included, and as much again while they are computed
+   integer(long), parameter :: bytes_per_point = 300_long
 
 contains
 
@@ -78,8 +81,10 @@ contains
          write(text, '(a, i0, a, i0, a)') "the block has ", points%n(), " points, more than ", most_points, &
             & " are not computed at once; several smaller blocks"
          call fatal_error(error, trim(text))
-         return
+      else
+         call require_memory(points%n(), bytes_per_point, "points below the surface", error)
       end if
+      if (allocated(error)) return
       n = int(points%n())
       result%nx = size(points%x)
       result%ny = size(points%y)

@@ -1,0 +1,54 @@
+!> What the library asks the process that it lives in; see host.c
+module contact_capi_host
+   use, intrinsic :: iso_c_binding, only : c_associated, c_char, c_int, c_null_char, c_ptr, c_size_t
+   implicit none (type, external)
+   private
+
+   public :: current_folder, give_floats_back, hold_floats, is_forked
+
+   !> Letters of the longest name of a folder
+   integer, parameter :: longest_path = 4096
+
+   interface
+      !> No floating point operation traps until the settings of the host are given back
+      subroutine hold_floats() bind(c, name="contact_hold_floats")
+      end subroutine hold_floats
+
+      subroutine give_floats_back() bind(c, name="contact_give_floats_back")
+      end subroutine give_floats_back
+
+      function is_child() result(answer) bind(c, name="contact_is_child")
+         import :: c_int
+         integer(c_int) :: answer
+      end function is_child
+
+      function getcwd(buffer, length) result(answer) bind(c, name="getcwd")
+         import :: c_char, c_ptr, c_size_t
+         character(kind=c_char), intent(out) :: buffer(*)
+         integer(c_size_t), value :: length
+         type(c_ptr) :: answer
+      end function getcwd
+   end interface
+
+contains
+
+   !> Is this process a fork of one that had the library? Only the forking thread is in it.
+   logical function is_forked()
+      is_forked = is_child() /= 0
+   end function is_forked
+
+   !> The current folder; "." when the system does not tell it
+   function current_folder() result(folder)
+      character(len=:), allocatable :: folder
+      character(kind=c_char) :: letters(longest_path)
+      integer :: i
+
+      folder = "."
+      if (.not. c_associated(getcwd(letters, int(longest_path, c_size_t)))) return
+      folder = ""
+      do i = 1, longest_path
+         if (letters(i) == c_null_char) exit
+         folder = folder // letters(i)
+      end do
+   end function current_folder
+end module contact_capi_host
