@@ -13,21 +13,30 @@ HERE = Path(__file__).resolve().parent
 ENDINGS = (".so", ".dll", ".dylib")
 
 
+def ending_of(path):
+    """The one of ENDINGS that a name has, versions may follow; None when it is no library"""
+    return next((ending for ending in ENDINGS if ending in path.suffixes), None)
+
+
+def library_is_in_package():
+    """Was a library put beside the modules by hand?"""
+    return any(ending_of(path) for path in (HERE / "contact").iterdir())
+
+
 def library_to_add():
     """Path of the library to be copied into the wheel; None when it is in the package already, or nowhere"""
-    if any(path.suffix in ENDINGS for path in (HERE / "contact").iterdir()):
+    if library_is_in_package():
         return None
     chosen = os.environ.get("CONTACT_LIBRARY")
     candidates = [Path(chosen)] if chosen else sorted((HERE.parent / "build/release/lib").glob("libcontact.*"))
-    return next((path for path in candidates if path.suffix in ENDINGS and path.is_file()), None)
+    return next((path for path in candidates if ending_of(path) and path.is_file()), None)
 
 
 class PerhapsWithLibrary(Distribution):
     """The package, with the library if there is one"""
 
     def has_ext_modules(self):
-        in_package = any(path.suffix in ENDINGS for path in (HERE / "contact").iterdir())
-        return in_package or library_to_add() is not None
+        return library_is_in_package() or library_to_add() is not None
 
 
 class CopyLibrary(build_py):
@@ -37,7 +46,7 @@ class CopyLibrary(build_py):
         super().run()
         library = library_to_add()
         if library and not getattr(self, "editable_mode", False):
-            shutil.copy(library, Path(self.build_lib) / "contact" / f"libcontact{library.suffix}")
+            shutil.copy(library, Path(self.build_lib) / "contact" / f"libcontact{ending_of(library)}")
 
 
 setup(distclass=PerhapsWithLibrary, cmdclass={"build_py": CopyLibrary})

@@ -1,10 +1,11 @@
 /* Hosts that are not as usual: each must get the forces of a quiet one, or a code, and live on.
  *
- * usage: host PROFILES_FOLDER traps | stack | folder | fork | memory */
+ * usage: host PROFILES_FOLDER traps | stack | folder | commas | fork | memory */
 #define _GNU_SOURCE
 #include <contact.h>
 #include <contact_addon.h>
 #include <fenv.h>
+#include <locale.h>
 #include <math.h>
 #include <pthread.h>
 #include <stdio.h>
@@ -150,6 +151,38 @@ static void folder(void) {
   check(basic(11, 9, force) == 0, "input and .mat files that cannot be written are no failure of the case");
 }
 
+/* A host that writes decimals with a comma; 0 when there is no such language here */
+static int commas(void) {
+  setenv("LOCPATH", ".", 1);
+  if (system("localedef -i de_DE -f UTF-8 ./de_DE.utf8 > localedef.log 2>&1") == -1) return 0;
+  if (setlocale(LC_ALL, "de_DE.utf8") == NULL || strtod("1,5", NULL) != 1.5) return 0;
+  compare("decimals with a comma");
+  start(11, 3);
+  cntc_setflags(INT(11), INT(1), INT(3), INTS(1984, 2002, 1987), INTS(3, 1, 1));
+  cntc_sethertzcontact(INT(11), INT(1), INT(-3), INT(5), REALS(9, 9, 4.25, 7.0, 1.2));
+  cntc_setpenetration(INT(11), INT(1), REAL(0.05));
+  check(calculate(11, 1) == 0, "a case with files");
+  cntc_finalizelast();
+  const char *const files[] = {"contact_addon.out", "contact_addon.inp", "caddon_re011_cp1.0001.mat"};
+  for (int k = 0; k < 3; k++) {
+    FILE *file = fopen(files[k], "r");
+    check(file != NULL, files[k]);
+    if (file == NULL) continue;
+    int before = ' ', last = ' ', letter, wrong = 0, points = 0;
+    while ((letter = getc(file)) != EOF) {
+      if (letter >= '0' && letter <= '9' && before >= '0' && before <= '9') {
+        wrong += last == ',';
+        points += last == '.';
+      }
+      before = last;
+      last = letter;
+    }
+    fclose(file);
+    check(wrong == 0 && points > 0, files[k]);
+  }
+  return 1;
+}
+
 /* Processes that are made of this one, while threads wait for work */
 static void forked(void) {
   for (int k = 0; k < 2; k++) {
@@ -215,7 +248,12 @@ int main(int argc, char **argv) {
   if (strcmp(argv[2], "traps") == 0) traps();
   else if (strcmp(argv[2], "stack") == 0) stack();
   else if (strcmp(argv[2], "folder") == 0) folder();
-  else if (strcmp(argv[2], "fork") == 0) forked();
+  else if (strcmp(argv[2], "commas") == 0) {
+    if (!commas()) {
+      printf("skipped: no locale with a comma can be made\n");
+      return 77;
+    }
+  } else if (strcmp(argv[2], "fork") == 0) forked();
   else if (strcmp(argv[2], "memory") == 0) memory();
   else return 2;
   cntc_finalizelast();
