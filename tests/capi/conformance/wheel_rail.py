@@ -388,6 +388,71 @@ def options():
         compare_replay(dump, forces, name)
 
 
+def _cases_of(name):
+    """The cases of an input file of module 1 as texts of their own, with full names of the profiles"""
+    bank = os.path.join(os.path.dirname(REFERENCE), "testbank")
+    if not os.path.isdir(bank):
+        print("skipped: the reference files are not here")
+        sys.exit(77)
+    with open(os.path.join(bank, name + ".inp"), encoding="utf-8") as file:
+        text = re.sub(r"'\.\./profiles/", "'" + os.path.join(bank, "profiles") + "/", file.read())
+    with open(os.path.join(bank, name + ".ref_out"), encoding="utf-8") as file:
+        lines = file.read().splitlines()
+    forces = [[float(word) for word in lines[number + 1].split()[:3]] for number, line in enumerate(lines) if "FX(TR)" in line]
+    starts = [match.start() for match in re.finditer(r"^ *1 +MODULE", text, re.M)]
+    return [text[one:other] for one, other in zip(starts, starts[1:] + [None])], forces
+
+
+def _move_wheelset(ire, text):
+    """A later case: the position, perhaps the velocity, by routines; all else is kept"""
+    rows = [line.split("%")[0].split() for line in text.splitlines()[1:] if line.split("%")[0].strip()]
+    force_is_given, wheelset = rows[0][0][-3] == "1", int(rows[1][0][-1])
+    numbers = [[np.radians(float(word[:-1])) if word.endswith("d") else float(word) for word in row[:6]]
+               for row in rows[3:3 + wheelset]]
+    if force_is_given:
+        cntc.setverticalforce(ire, numbers[0][2])
+    cntc.setwheelsetposition(ire, wheelset, numbers[0])
+    if wheelset == 2:
+        cntc.setwheelsetvelocity(ire, wheelset, numbers[1])
+
+
+def varying():
+    """Rails and wheels in slices, case after case with digits that keep what was given; figures of version 25.2.0
+
+    As in the published test of varying profiles. With the argument all: every case of the files.
+    """
+    most = None if "all" in sys.argv else 3
+    for ire, name in enumerate(("s+c/cross_locus", "s+c/wing_locus", "s+c/mbench_brute", "s+c/mbench_intrup", "s+c/mbench_locus",
+                                "oor/rounded_flat_d09"), 1):
+        cases, expected = _cases_of("examples_" + name)
+        same(len(expected), len(cases), f"{name}: cases of the reference")
+        cntc.initialize(ire, 1)
+        worst = 0.0
+        for number, (text, forces) in enumerate(zip(cases[:most], expected), 1):
+            if number == 1:
+                with open("one.inp", "w", encoding="utf-8") as file:
+                    file.write(text)
+                same(cntc.readinpfile(ire, CNTC["inp_modul1"], "one.inp"), 0, f"{name}: readinpfile")
+            else:
+                _move_wheelset(ire, text)
+            same(cntc.calculate(ire, -1), 0, f"{name} {number}: error code")
+            got = cntc.getglobalforces(ire, -1)[:3]
+            tolerance = 0.002 * np.abs(forces).max()
+            worst = max(worst, np.abs(got - forces).max() / tolerance)
+            close(got, forces, tolerance, f"{name} {number}: forces")
+            # what is kept must not change anything
+            cntc.setfrictionmethod(ire, -1, 1, [])
+            cntc.setmaterialparameters(ire, -1, 11, [])
+            cntc.settrackdimensions(ire, 0, [])
+            cntc.setwheelsetdimensions(ire, 0, [])
+            cntc.setsolverflags(ire, -1, 1)
+            cntc.setflags(ire, -1, [CNTC["ic_discns"], CNTC["ic_inflcf"]], [1, 1])
+            if number == 1:
+                same(cntc.calculate(ire, -1), 0, f"{name}, the first case again: error code")
+                close(cntc.getglobalforces(ire, -1)[:3], got, 1e-4 * np.abs(got).max(), f"{name}: the first case again")
+        print(f"{name}: {len(cases[:most])} cases, forces within {worst:.2f} of their tolerance")
+
+
 def from_inputs():
     """The first case of input files: by the library and by the program"""
     names = [os.path.join(SOURCE, "examples/wheel_on_rail")]
@@ -410,8 +475,8 @@ def from_inputs():
 
 
 if __name__ == "__main__":
-    scenarios = (conventions, patch_as_in_matlab, mirrored, profile_values, slices, replay, replay_values, options, from_inputs)
-    chosen = [scenario for scenario in scenarios if scenario.__name__ == sys.argv[-1]]
+    scenarios = (conventions, patch_as_in_matlab, mirrored, profile_values, slices, replay, replay_values, options, varying, from_inputs)
+    chosen = [scenario for scenario in scenarios if scenario.__name__ in sys.argv[1:]]
     if not chosen:
         raise SystemExit("usage: wheel_rail.py " + " | ".join(scenario.__name__ for scenario in scenarios))
     chosen[0]()
