@@ -20,6 +20,22 @@ module contact_capi_pair_settings
 
 contains
 
+   !> What each routine here begins with: the problem, null when the call cannot be meant, method and values
+   subroutine begin(name, ire, given_method, nparam, params, this, problem, method, v)
+      character(len=*), intent(in) :: name
+      integer(c_int), intent(in), optional :: ire, given_method, nparam
+      real(c_double), intent(in), optional :: params(*)
+      type(entry_type), intent(out) :: this
+      type(library_problem), pointer, intent(out) :: problem
+      integer, intent(out) :: method
+      real(wp), allocatable, intent(out) :: v(:)
+
+      this = entry_type(name, integer_of(ire))
+      method = integer_of(given_method)
+      v = reals_of(nparam, params)
+      call enter(this, scope%pair, problem)
+   end subroutine begin
+
    !> Prescribed vertical force on the rail (N = 1)
    subroutine cntc_setverticalforce(ire, fz) bind(c)
       integer(c_int), intent(in), optional :: ire
@@ -46,11 +62,8 @@ contains
       real(wp), allocatable :: v(:)
       integer :: method, n
 
-      this = entry_type("cntc_setTrackDimensions", integer_of(ire))
-      call enter(this, scope%pair, problem)
+      call begin("cntc_setTrackDimensions", ire, ztrack, nparam, params, this, problem, method, v)
       if (.not. associated(problem)) return
-      method = integer_of(ztrack)
-      v = reals_of(nparam, params)
       n = size(v)
       if (are_finite(this, v)) then
          select case (method)
@@ -140,11 +153,8 @@ contains
       real(wp), allocatable :: v(:)
       integer :: method
 
-      this = entry_type("cntc_setWheelsetDimensions", integer_of(ire))
-      call enter(this, scope%pair, problem)
+      call begin("cntc_setWheelsetDimensions", ire, ewheel, nparam, params, this, problem, method, v)
       if (.not. associated(problem)) return
-      method = integer_of(ewheel)
-      v = reals_of(nparam, params)
       select case (method)
       case (3, 5)
          if (count_fits(this, method, size(v), 3, 4)) then
@@ -197,12 +207,11 @@ contains
       type(library_problem), pointer :: problem
       type(entry_type) :: this
       real(wp), allocatable :: v(:)
+      integer :: method
 
-      this = entry_type("cntc_setWheelsetPosition", integer_of(ire))
-      call enter(this, scope%pair, problem)
+      call begin("cntc_setWheelsetPosition", ire, ewheel, nparam, params, this, problem, method, v)
       if (.not. associated(problem)) return
-      v = reals_of(nparam, params)
-      if (takes_values(this, integer_of(ewheel), size(v), 6, 6)) then
+      if (takes_values(this, method, size(v), 6, 6)) then
          if (are_finite(this, v)) then
             associate (wheelset => problem%spec%wheel_rail%wheelset, length => inward(problem%units, quantity%length), &
                & angle => inward(problem%units, quantity%angle))
@@ -244,11 +253,8 @@ contains
       real(wp), allocatable :: v(:)
       integer :: method
 
-      this = entry_type("cntc_setWheelsetVelocity", integer_of(ire))
-      call enter(this, scope%pair, problem)
+      call begin("cntc_setWheelsetVelocity", ire, ewheel, nparam, params, this, problem, method, v)
       if (.not. associated(problem)) return
-      method = integer_of(ewheel)
-      v = reals_of(nparam, params)
       if (takes_values(this, method, size(v), 6, 6)) then
          if (are_finite(this, v)) then
             if (method == 1) call say(1, this, "method 1 is taken for 2")
@@ -283,11 +289,8 @@ contains
       integer :: method
       logical :: given
 
-      this = entry_type("cntc_setWheelsetFlexibility", integer_of(ire))
-      call enter(this, scope%pair, problem)
+      call begin("cntc_setWheelsetFlexibility", ire, ewheel, nparam, params, this, problem, method, v)
       if (.not. associated(problem)) return
-      method = integer_of(ewheel)
-      v = reals_of(nparam, params)
       given = method == 4 .or. method == 5
       if (takes_values(this, method, size(v), merge(12, 0, given), merge(12, 1, given))) then
          associate (wheelset => problem%spec%wheel_rail%wheelset, e => problem%spec%digits%e)

@@ -70,8 +70,8 @@ module contact_capi_problem
       !> Calculations since the last reset; per patch in module 1
       type(stopwatch) :: watch
       real(wp) :: patch_cpu(most_patches) = 0.0_wp, patch_wall(most_patches) = 0.0_wp
-      !> Calculations in total, for the timer table
-      type(stopwatch) :: total
+      !> Calculations in total and stresses below the surface, for the timer table
+      type(stopwatch) :: total, stresses
       !> What went wrong last; unallocated when nothing did. Its code is a member of library_code
       character(len=:), allocatable :: last_error
       integer :: last_code = 0

@@ -27,6 +27,8 @@ module contact_capi_registry
    public :: are_finite, count_fits
 
    integer, parameter :: most_elements = 999, most_active = 100
+   !> Amount of timers
+   integer, parameter :: all_timers = 2
 
    !> Which result elements and patches a routine accepts
    type :: scope_type
@@ -62,6 +64,9 @@ module contact_capi_registry
 
    type :: problem_pointer
       type(library_problem), pointer :: p => null()
+      !> Calculations and stresses of problems with this number that were freed, for the timer table; their module
+      type(stopwatch) :: total, stresses
+      integer :: timed_module = 0
    end type problem_pointer
 
    !> A result element; in module 1 its one problem is the first
@@ -79,7 +84,7 @@ module contact_capi_registry
       integer :: active_elements = 0
       !> Calculations that are running now, largest number of threads seen, threads inside a problem
       integer :: calculations = 0, most_threads = 1, threads = 1
-      !> Amount of messages about calls; timer table 0 none, 1 overview, 2 all problems
+      !> Amount of messages about calls; timer table 0 none, 1 overview, 2 everything
       integer :: debugging = 0, timer_level = 1
       type(log_type) :: log
       !> Unit of the .inp file with the cases, 0 for none; was it tried to open it?
@@ -133,7 +138,7 @@ contains
    subroutine begin_run(work_folder, out_folder, name, screen)
       character(len=*), intent(in) :: work_folder, out_folder, name
       logical, intent(in) :: screen
-      integer :: status, unit, slash
+      integer :: status, unit, slash, k
 
       if (.not. allocated(library%name)) library%name = "contact_addon"
       if (.not. allocated(library%work_folder)) library%work_folder = ""
@@ -155,6 +160,11 @@ contains
       library%most_threads = max(1, min(999, omp_get_max_threads()))
       library%threads = 1
       library%total = stopwatch()
+      do k = 1, most_elements
+         library%elements(k)%patch%timed_module = 0
+         library%elements(k)%patch%total = stopwatch()
+         library%elements(k)%patch%stresses = stopwatch()
+      end do
       call library%total%start()
       call write_banner(library%log)
       if (status /= 0) call set_last_error(-1, "the file " // path_of_result(".out") // " cannot be written")
@@ -432,11 +442,33 @@ contains
       end do
       if (.not. freed) return
       do k = 1, most_patches
-         if (associated(element%patch(k)%p)) call release_problem(element%patch(k)%p)
+         if (.not. associated(element%patch(k)%p)) cycle
+         call book_times(element%patch(k))
+         call release_problem(element%patch(k)%p)
       end do
       element%module_number = 0
       library%active_elements = library%active_elements - 1
    end subroutine free_element
+
+   !> Keep the times of a problem that is going to be freed
+   subroutine book_times(slot)
+      type(problem_pointer), intent(inout) :: slot
+
+      slot%timed_module = slot%p%module_number
+      call add(slot%p%total, slot%total)
+      call add(slot%p%stresses, slot%stresses)
+
+   contains
+
+      subroutine add(watch, sum)
+         type(stopwatch), intent(in) :: watch
+         type(stopwatch), intent(inout) :: sum
+
+         sum%calls = sum%calls + watch%calls
+         sum%cpu = sum%cpu + watch%cpu
+         sum%wall = sum%wall + watch%wall
+      end subroutine add
+   end subroutine book_times
 
    !> End the run: free all elements, close the files; nothing when another thread is at work
    subroutine stop_library(stopped)
@@ -449,10 +481,10 @@ contains
       stopped = library%phase == running .and. .not. any_users()
       if (stopped) then
          call library%total%halt()
-         call write_timers()
          do k = 1, most_elements
             if (library%elements(k)%module_number /= 0) call free_element(library%elements(k), freed)
          end do
+         call write_timers()
          if (library%input_dump /= 0) then
             write(library%input_dump, '(a)') " 0  MODULE"
             close(library%input_dump)
@@ -479,26 +511,32 @@ contains
       end do
    end function any_users
 
-   !> Table of the time spent, in total and per problem
+   !> Table of the time spent, in total and per problem; with all timers that of stresses, too
    subroutine write_timers()
       type(timer_line), allocatable :: lines(:)
       integer :: k, i, n
 
       if (library%debugging < 0 .or. library%timer_level < 1) return
-      allocate(lines(1 + 100*most_patches))
+      n = 1
+      do k = 1, most_elements
+         n = n + 2*count(library%elements(k)%patch%timed_module /= 0)
+      end do
+      allocate(lines(n))
       n = 1
       call fill_line("Total", library%total, lines(1))
       do k = 1, most_elements
-         if (library%elements(k)%module_number == 0) cycle
          do i = 1, most_patches
-            if (.not. associated(library%elements(k)%patch(i)%p)) cycle
-            associate (problem => library%elements(k)%patch(i)%p)
+            associate (slot => library%elements(k)%patch(i))
+               if (slot%timed_module == 0) cycle
                n = n + 1
-               if (problem%module_number == 3) then
-                  call fill_line("Cp." // integer_text(i) // " on Res.el." // integer_text(k), problem%total, lines(n))
+               if (slot%timed_module == 3) then
+                  call fill_line("Cp." // integer_text(i) // " on Res.el." // integer_text(k), slot%total, lines(n))
                else
-                  call fill_line("Result element " // integer_text(k), problem%total, lines(n))
+                  call fill_line("Result element " // integer_text(k), slot%total, lines(n))
                end if
+               if (library%timer_level < all_timers .or. slot%stresses%calls == 0) cycle
+               n = n + 1
+               call fill_line("- stresses below", slot%stresses, lines(n))
             end associate
          end do
       end do

@@ -170,6 +170,7 @@ contains
          call forget_complaint(problem)
          threads = omp_get_max_threads()
          call omp_set_num_threads(threads_inside())
+         call problem%stresses%start()
          if (.not. problem%has_result) then
             code = library_code%other
             call complain(this, "nothing has been calculated yet", code)
@@ -183,6 +184,7 @@ contains
                if (code /= library_code%success) exit
             end do
          end if
+         call problem%stresses%halt()
          call omp_set_num_threads(threads)
          call leave_calculation(problem)
       end if

@@ -311,6 +311,20 @@ def second_run():
     same(cntc.calculate(1, 1), 0, "a third run")
 
 
+def timers():
+    """The table of times at the end: none, short, full"""
+    for level, lines in ((0, []), (1, ["Total", "Cp.1 on Res.el.1"]), (2, ["Total", "Cp.1 on Res.el.1", "- stresses below"])):
+        start()
+        case_a(1)
+        cntc.setflags(1, 1, CNTC["if_timers"], level)
+        same(cntc.calculate(1, 1), 0, "error code")
+        cntc.subs_addblock(1, 1, 1, 9, [0.0], [0.0], [1.0])
+        same(cntc.subs_calculate(1, 1), 0, "stresses")
+        cntc.finalize(1)
+        rows = re.findall(r"^ *\|(.+?) +\| +(\d+) \|", log_text(), re.M)
+        same(rows, [(line, "1") for line in lines], f"level {level}: lines and calls")
+
+
 def array_lengths():
     """Arrays of results that are too short are filled, the surplus of longer ones is left or zero"""
     start()
@@ -406,8 +420,8 @@ if __name__ == "__main__":
     for stale in os.listdir("."):
         if stale.endswith((".mat", ".out", ".inp", ".subs")):
             os.remove(stale)
-    scenarios = (conventions, variations, stresses, sensitivities, codes, wrong_counts, clamps, case_number, replay, second_run, array_lengths,
-                 kalker, names)
+    scenarios = (conventions, variations, stresses, sensitivities, codes, wrong_counts, clamps, case_number, replay, second_run, timers,
+                 array_lengths, kalker, names)
     chosen = [scenario for scenario in scenarios if scenario.__name__ == sys.argv[-1]]
     if not chosen:
         raise SystemExit("usage: basic.py " + " | ".join(scenario.__name__ for scenario in scenarios))
