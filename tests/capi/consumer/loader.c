@@ -6,12 +6,11 @@
 #include <string.h>
 #include <time.h>
 
-typedef void (*initialize_t)(int *, int *, int *, int *, char *, int *);
-typedef void (*flags_t)(int *, int *, int *);
-typedef void (*grid_t)(int *, int *, int *, int *, double *);
-typedef void (*approach_t)(int *, int *, double *);
-typedef void (*calculate_t)(int *, int *, int *);
-typedef void (*finalize_t)(void);
+/* ISO C has no conversion from objects to functions */
+#define LOAD(name) \
+  symbol = dlsym(library, #name); \
+  if (symbol == NULL) return 6; \
+  memcpy(&name, &symbol, sizeof symbol)
 
 int main(int argc, char **argv) {
   int round;
@@ -22,39 +21,32 @@ int main(int argc, char **argv) {
     double approach = 0.01, grid[] = {150.0, 150.0, 5.0, 5.0, 1.2};
     char blank[] = " ";
     struct timespec moment = {0, 20000000};
-    initialize_t initialize;
-    flags_t setglobalflags;
-    grid_t sethertzcontact;
-    approach_t setpenetration;
-    calculate_t calculate;
-    finalize_t finalize;
+    void (*cntc_initialize)(int *, int *, int *, int *, char *, int *);
+    void (*cntc_setglobalflags)(int *, int *, int *);
+    void (*cntc_sethertzcontact)(int *, int *, int *, int *, double *);
+    void (*cntc_setpenetration)(int *, int *, double *);
+    void (*cntc_calculate)(int *, int *, int *);
+    void (*cntc_finalizelast)(void);
     void *symbol, *library = dlopen(argv[1], RTLD_NOW | RTLD_LOCAL);
     if (library == NULL) {
       printf("%s\n", dlerror());
       return 1;
     }
-    /* ISO C has no conversion from objects to functions */
-    symbol = dlsym(library, "cntc_initialize");
-    memcpy(&initialize, &symbol, sizeof symbol);
-    symbol = dlsym(library, "cntc_setglobalflags");
-    memcpy(&setglobalflags, &symbol, sizeof symbol);
-    symbol = dlsym(library, "cntc_sethertzcontact");
-    memcpy(&sethertzcontact, &symbol, sizeof symbol);
-    symbol = dlsym(library, "cntc_setpenetration");
-    memcpy(&setpenetration, &symbol, sizeof symbol);
-    symbol = dlsym(library, "cntc_calculate");
-    memcpy(&calculate, &symbol, sizeof symbol);
-    symbol = dlsym(library, "cntc_finalizelast");
-    memcpy(&finalize, &symbol, sizeof symbol);
-    initialize(&ire, &module, &version, &error, blank, &length);
+    LOAD(cntc_initialize);
+    LOAD(cntc_setglobalflags);
+    LOAD(cntc_sethertzcontact);
+    LOAD(cntc_setpenetration);
+    LOAD(cntc_calculate);
+    LOAD(cntc_finalizelast);
+    cntc_initialize(&ire, &module, &version, &error, blank, &length);
     if (error != 0 || version < 2500) return 3;
-    setglobalflags(&length, &threads_flag, &all);
-    sethertzcontact(&ire, &icp, &hertz, &five, grid);
-    setpenetration(&ire, &icp, &approach);
-    calculate(&ire, &icp, &error);
+    cntc_setglobalflags(&length, &threads_flag, &all);
+    cntc_sethertzcontact(&ire, &icp, &hertz, &five, grid);
+    cntc_setpenetration(&ire, &icp, &approach);
+    cntc_calculate(&ire, &icp, &error);
     if (error != 0) return 4;
     /* the second time it is left to itself */
-    if (round != 1) finalize();
+    if (round != 1) cntc_finalizelast();
     if (dlclose(library) != 0) return 5;
     nanosleep(&moment, NULL);
   }
