@@ -2,6 +2,7 @@
 """Wheel on rail by the library: conventions, left and right, profiles. usage: wheel_rail.py SCENARIO"""
 import os
 import re
+import shutil
 import subprocess
 import sys
 
@@ -279,7 +280,8 @@ def replay():
 
 def replay_values():
     """Profiles given by values are written beside the input file that uses them"""
-    os.makedirs("dumps", exist_ok=True)
+    shutil.rmtree("dumps", ignore_errors=True)
+    os.makedirs("dumps")
     cntc.initlibrary(outdir="dumps", expnam="values")
     rail, wheel = profiles()
     set_up(1, 1)
