@@ -10,11 +10,11 @@ module contact_capi_calculate1
    use contact_capi_registry, only : complain, entry_type, library_log, result_file, say, working_folder
    use contact_cases_pair_session, only : solve_pair_case
    use contact_cases_spec, only : case_spec
-   use contact_control_digits, only : digit_text, digit_value, is_built, is_known
-   use contact_control_digits1, only : digit1_names, digit1_table, digit1_value_is_known
+   use contact_control_digits, only : digit_value
+   use contact_control_digits1, only : digit1_names, digit1_value_is_known
    use contact_control_library_codes, only : code_text, library_code
    use contact_input_control1, only : name_choices1
-   use contact_input_control3, only : check_physics, control_words
+   use contact_input_control3, only : check_physics, control_words, refuse_unbuilt_digits
    use contact_input_problems, only : problem_list
    use contact_output_pair_files, only : write_pair_files
    use contact_output_report_pair, only : write_pair
@@ -161,11 +161,6 @@ contains
             call fatal_error(error, name // " = " // integer_text(digit) // " is not a known digit of wheel-rail contact")
             return
          end if
-         if (any(digit1_table%name == name) .or. is_built(name, digit)) cycle
-         if (.not. is_known(name, digit)) cycle
-         call fatal_error(error, name // " = " // integer_text(digit) // ", " // digit_text(name, digit) // &
-            & ", is known but not built in this version", error_kind%unsupported)
-         return
       end do
       if (spec%wheel_rail%roller .and. .not. spec%wheel_rail%track%nomradr > 0.0_wp) then
          call fatal_error(error, "a wheel on a roller needs the nominal radius of the roller")
@@ -174,6 +169,7 @@ contains
       end if
       if (allocated(error)) return
       call problems%start("")
+      call refuse_unbuilt_digits(words, spec, on_rail=.true., problems=problems)
       call check_physics(words, spec, problems)
       call first_problem(problems, error)
    end subroutine check_settings

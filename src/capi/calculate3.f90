@@ -108,7 +108,7 @@ contains
       call problems%start("")
       call check_physics(words, spec, problems)
       call check_case(words, case_lines(), spec, .false., grid_frame(), spec, problems)
-      call refuse_unbuilt_digits(words, spec, problems)
+      call refuse_unbuilt_digits(words, spec, on_rail=.false., problems=problems)
       call first_problem(problems, error)
    end subroutine check_settings
 

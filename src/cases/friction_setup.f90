@@ -13,7 +13,7 @@ module contact_cases_friction_setup
    implicit none (type, external)
    private
 
-   public :: parameters_of, set_friction, set_thermal
+   public :: parameters_of, set_friction, set_thermal, set_of
 
 contains
 
@@ -66,6 +66,16 @@ contains
       parameters = friction_parameters(static=set%fstat, kinetic=set%fkin, term=[set%coef1, set%coef2], &
          & half_speed=[set%sabsh1, set%sabsh2], onset=set%tref, range=set%dtheat)
    end function parameters_of
+
+   !> The way back
+   elemental function set_of(parameters) result(set)
+      type(friction_parameters), intent(in) :: parameters
+      type(friction_set) :: set
+
+      set = friction_set(fstat=parameters%static, fkin=parameters%kinetic, coef1=parameters%term(1), &
+         & sabsh1=parameters%half_speed(1), coef2=parameters%term(2), sabsh2=parameters%half_speed(2), &
+         & fref=parameters%static, tref=parameters%onset, dfheat=parameters%kinetic - parameters%static, dtheat=parameters%range)
+   end function set_of
 
    !> Thermal constants, when temperatures are asked for
    subroutine set_thermal(spec, problem, error)

@@ -1,7 +1,7 @@
 !> Wheel on rail through its cases: specification in, result out
 module contact_cases_pair_session
    use contact_base_choices, only : contact_location, estimate_choice, force_control, kernel_model, material_model, &
-      & normal_control, pressure_model, sensitivity_choice, stress_choice, time_link, variation
+      & normal_control, sensitivity_choice, stress_choice, time_link, variation
    use contact_base_error, only : add_context, error_kind, error_type, fatal_error
    use contact_base_kinds, only : long, wp
    use contact_base_log, only : log_type
@@ -20,7 +20,7 @@ module contact_cases_pair_session
    use contact_profile_surface, only : profile_surface
    use contact_wheelrail_memory, only : pair_memory, release_pair
    use contact_wheelrail_pair, only : solve_pair
-   use contact_wheelrail_problem, only : pair_problem
+   use contact_wheelrail_problem, only : pair_problem, relaxing_bodies
    use contact_wheelrail_result, only : pair_result
    use contact_wheelrail_spec, only : profile_spec
    implicit none (type, external)
@@ -51,7 +51,7 @@ contains
       integer :: k
 
       log%level = spec%flow_level
-      call refuse_unbuilt(spec, error)
+      call check_combinations(spec, error)
       if (allocated(error)) return
       call set_pair(session, spec, folder, log, error)
       if (allocated(error)) return
@@ -75,30 +75,27 @@ contains
       call session%profiles%release()
    end subroutine release_pair_session
 
-   !> Refuse by name what module 1 knows but this version does not compute
-   subroutine refuse_unbuilt(spec, error)
+   !> What no digit alone forbids
+   subroutine check_combinations(spec, error)
       type(case_spec), intent(in) :: spec
       type(error_type), allocatable, intent(out) :: error
 
-      if (any(spec%wheel_rail%search%location == [contact_location%oblique_locus, contact_location%oblique_grid])) then
-         call refuse("D = 8, 9, a search in a fixed oblique view that fits a few profiles only,")
-      else if (spec%force == force_control%massless_rail .and. spec%normal == normal_control%approach &
+      if (spec%force == force_control%massless_rail .and. spec%normal == normal_control%approach &
          & .and. .not. spec%wheel_rail%rail%kz > 0.0_wp) then
          call fatal_error(error, "a rail on springs with a prescribed height, F = 3 and N = 0, needs a " &
             & // "vertical stiffness above 0", error_kind%input)
-      else if (any(spec%material_model == [material_model%viscoelastic])) then
-         call refuse("M = 1, viscoelastic material in wheel-rail contact,")
-      else if (spec%pressure == pressure_model%thin_sheet) then
-         call refuse("B = 1, an elastic thin sheet,")
+      else if (spec%material_model == material_model%viscoelastic .and. moves_backwards(spec)) then
+         call fatal_error(error, "viscoelastic material, M = 1, needs a wheel that rolls forward", error_kind%input)
       end if
+   end subroutine check_combinations
 
-   contains
+   !> Does the wheel roll towards -x?
+   pure logical function moves_backwards(spec)
+      type(case_spec), intent(in) :: spec
 
-      subroutine refuse(what)
-         character(len=*), intent(in) :: what
-         call fatal_error(error, what // " is known but not built in this version", error_kind%unsupported)
-      end subroutine refuse
-   end subroutine refuse_unbuilt
+      moves_backwards = spec%wheel_rail%wheelset%vs < 0.0_wp
+      if (spec%wheel_rail%roller) moves_backwards = spec%wheel_rail%wheelset%rpitch < 0.0_wp
+   end function moves_backwards
 
    !> Read and prepare the profiles of a case without solving it
    subroutine check_profiles(session, spec, folder, log, error)
@@ -142,6 +139,9 @@ contains
          call require_memory(int(spec%iteration%npot_max, long), bytes_per_element, "elements, as many as are allowed,", error)
          if (.not. allocated(error)) call set_model(spec, template%model, error)
          if (allocated(error)) return
+         if (allocated(problem%relaxation)) deallocate(problem%relaxation)
+         if (spec%material_model == material_model%viscoelastic) problem%relaxation = relaxing_bodies( &
+            & spec%material%poiss, spec%material%gg, spec%material%fg, spec%material%tc)
          ! the inclinations are those of each patch; in a plane there are none
          if (spec%kernel == kernel_model%conformal .and. spec%wheel_rail%search%location == contact_location%conformal) then
             allocate(template%model%inclination)

@@ -2,8 +2,7 @@
 !>
 !> Digits that mean the same in both modules are looked up in contact_control_digits.
 module contact_control_digits1
-   use contact_base_choices, only : contact_location, force_control, kernel_model, material_model, pressure_model, &
-      & variation
+   use contact_base_choices, only : contact_location, force_control, kernel_model, pressure_model, variation
    use contact_cases_spec, only : case_digits
    use contact_control_digits, only : common_names => digit_names, common_allowed => allowed_text, &
       & common_built => is_built, common_choice => choice_of, common_known => is_known, common_text => digit_text, &
@@ -37,8 +36,8 @@ module contact_control_digits1
       & digit_row("D", 5, contact_location%grid, .true., "flat contact, search over a grid"), &
       & digit_row("D", 6, contact_location%steep_grid, .true., "flat contact, search over a finer grid"), &
       & digit_row("D", 7, contact_location%first_contact, .true., "flat contact, first point of contact as reference"), &
-      & digit_row("D", 8, contact_location%oblique_locus, .false., "contact locus in a fixed oblique view"), &
-      & digit_row("D", 9, contact_location%oblique_grid, .false., "grid search in a fixed oblique view"), &
+      & digit_row("D", 8, contact_location%oblique_locus, .false., "contact locus in an oblique view that fits few profiles"), &
+      & digit_row("D", 9, contact_location%oblique_grid, .false., "grid search in an oblique view that fits few profiles"), &
       & digit_row("C", 0, 0, .true., "as 1"), &
       & digit_row("C", 1, 1, .true., "form the influence coefficients from the values in store"), &
       & digit_row("C", 2, kernel_model%piecewise_constant, .true., "half-space, piecewise constant; read materials"), &
@@ -54,10 +53,6 @@ module contact_control_digits1
       & digit_row("E", 3, 3, .true., "read wheelset dimensions, wheel profile, position and velocity"), &
       & digit_row("E", 4, 4, .true., "as 2, with the flexible deviations of the wheelset"), &
       & digit_row("E", 5, 5, .true., "as 3, with the flexible deviations of the wheelset")]
-
-   !> Values that mean the same in both modules but act in module 3 only
-   type(digit_row), parameter :: not_in_module1(*) = [ &
-      & digit_row("M", 1, material_model%viscoelastic, .false., "viscoelastic")]
 
    !> All digits in the order of the control words
    character(len=2), parameter :: digit1_names(*) = ["C1", common_names]
@@ -104,7 +99,7 @@ contains
          built = .false.
          if (row > 0) built = digit1_table(row)%built
       else
-         built = common_built(name, digit) .and. .not. any(not_in_module1%name == name .and. not_in_module1%digit == digit)
+         built = common_built(name, digit)
       end if
    end function digit1_is_built
 

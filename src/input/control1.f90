@@ -5,8 +5,7 @@ module contact_input_control1
    use contact_cases_spec, only : case_digits, case_spec
    use contact_wheelrail_spec, only : wheel_rail_spec
    use contact_control_digits, only : digit_value
-   use contact_control_digits1, only : allowed1_text, choice1_of, decode_words1, digit1_is_built, digit1_names, &
-      & digit1_text, digit1_value_is_known
+   use contact_control_digits1, only : allowed1_text, choice1_of, decode_words1, digit1_names, digit1_value_is_known
    use contact_input_control3, only : add_for_digit, check_kept, check_physics, check_signs, control_words, start_sequence
    use contact_input_problems, only : problem_list, severity
    use contact_text_lexer, only : input_lexer, input_value
@@ -14,7 +13,7 @@ module contact_input_control1
    implicit none (type, external)
    private
 
-   public :: read_control_words1, check_digits1, name_choices1, refuse_unbuilt_digits1
+   public :: read_control_words1, check_digits1, name_choices1
 
 contains
 
@@ -180,29 +179,4 @@ contains
       end associate
       call check_physics(words, spec, problems)
    end subroutine check_combinations
-
-   !> Refuse by name what the format knows but this version cannot compute in module 1
-   !>
-   !> A digit that keeps something counts as the one that is kept.
-   subroutine refuse_unbuilt_digits1(words, spec, problems)
-      type(control_words), intent(in) :: words
-      type(case_spec), intent(in) :: spec
-      type(problem_list), intent(inout) :: problems
-      character(len=:), allocatable :: name
-      integer :: digit, k
-
-      do k = 1, size(digit1_names)
-         name = trim(digit1_names(k))
-         digit = digit_value(spec%digits, name)
-         select case (name)
-         case ("L"); if (digit == 1) digit = spec%friction_law
-         case ("C"); if (digit <= 1) digit = spec%kernel
-         case ("D"); if (digit <= 1) digit = spec%wheel_rail%search%location
-         case ("M2"); if (digit == 1 .and. spec%has_damping) digit = 2
-         end select
-         if (digit1_is_built(name, digit) .or. .not. digit1_value_is_known(name, digit)) cycle
-         call add_for_digit(problems, words, severity%unsupported, name, name // " = " // integer_text(digit) // ", " // &
-            & digit1_text(name, digit) // ", is known but not built in this version for wheel on rail")
-      end do
-   end subroutine refuse_unbuilt_digits1
 end module contact_input_control1

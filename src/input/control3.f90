@@ -4,6 +4,7 @@ module contact_input_control3
    use contact_cases_spec, only : case_digits, case_spec
    use contact_control_digits, only : allowed_text, choice_of, decode_words, digit_names, digit_text, digit_value, &
       & is_built, is_known
+   use contact_control_digits1, only : digit1_is_built, digit1_names, digit1_text, digit1_value_is_known
    use contact_input_problems, only : problem_list, severity
    use contact_text_lexer, only : input_lexer, input_value
    use contact_text_words, only : integer_text
@@ -245,30 +246,48 @@ contains
       end associate
    end subroutine check_physics
 
-   !> Refuse by name what the format knows but this version cannot compute
+   !> Refuse by name what the format knows but this version cannot compute: the one door for files and calls of both modules
    !>
    !> A digit that keeps something counts as the one that is kept.
-   subroutine refuse_unbuilt_digits(words, spec, problems)
+   subroutine refuse_unbuilt_digits(words, spec, on_rail, problems)
       type(control_words), intent(in) :: words
       type(case_spec), intent(in) :: spec
+      !> Module 1, wheel on rail? Otherwise module 3
+      logical, intent(in) :: on_rail
       type(problem_list), intent(inout) :: problems
-      character(len=:), allocatable :: name
+      character(len=:), allocatable :: name, text
       integer :: digit, k
 
-      do k = 1, size(digit_names)
-         name = trim(digit_names(k))
-         digit = digit_value(spec%digits, name)
-         select case (name)
-         case ("L"); if (digit == 1) digit = spec%friction_law
-         case ("C"); if (digit <= 1) digit = spec%kernel
-         case ("E"); if (digit == 1) digit = spec%slip_source
-         case ("M2"); if (digit == 1 .and. spec%has_damping) digit = 2
-         end select
-         if (is_built(name, digit) .or. .not. is_known(name, digit)) cycle
-         call add_for_digit(problems, words, severity%unsupported, name, name // " = " // integer_text(digit) // ", " // &
-            & digit_text(name, digit) // ", is known but not built in this version")
+      do k = 1, size(digit1_names)
+         name = trim(digit1_names(k))
+         if (name == "C1" .and. .not. on_rail) cycle
+         digit = kept_digit(spec, name, on_rail)
+         if (on_rail) then
+            if (digit1_is_built(name, digit) .or. .not. digit1_value_is_known(name, digit)) cycle
+            text = digit1_text(name, digit) // ", is known but not built in this version for wheel on rail"
+         else
+            if (is_built(name, digit) .or. .not. is_known(name, digit)) cycle
+            text = digit_text(name, digit) // ", is known but not built in this version"
+         end if
+         call add_for_digit(problems, words, severity%unsupported, name, name // " = " // integer_text(digit) // ", " // text)
       end do
    end subroutine refuse_unbuilt_digits
+
+   !> A digit, or the one that it keeps
+   pure integer function kept_digit(spec, name, on_rail) result(digit)
+      type(case_spec), intent(in) :: spec
+      character(len=*), intent(in) :: name
+      logical, intent(in) :: on_rail
+
+      digit = digit_value(spec%digits, name)
+      select case (name)
+      case ("L"); if (digit == 1) digit = spec%friction_law
+      case ("C"); if (digit <= 1) digit = spec%kernel
+      case ("M2"); if (digit == 1 .and. spec%has_damping) digit = 2
+      case ("D"); if (on_rail .and. digit <= 1) digit = spec%wheel_rail%search%location
+      case ("E"); if (.not. on_rail .and. digit == 1) digit = spec%slip_source
+      end select
+   end function kept_digit
 
    !> Add a problem at the word to which a digit belongs
    subroutine add_for_digit(problems, words, kind, name, message)

@@ -4,8 +4,8 @@ module contact_input_reader1
    use contact_base_error, only : add_context, error_type
    use contact_base_kinds, only : wp
    use contact_cases_spec, only : case_spec
-   use contact_input_control1, only : check_digits1, read_control_words1, refuse_unbuilt_digits1
-   use contact_input_control3, only : add_for_digit, control_words
+   use contact_input_control1, only : check_digits1, read_control_words1
+   use contact_input_control3, only : add_for_digit, control_words, refuse_unbuilt_digits
    use contact_input_groups1, only : read_friction_points, read_search, read_track, read_wheelset
    use contact_input_groups3, only : read_damping, read_heat, read_iteration, read_materials
    use contact_input_problems, only : problem_list, severity
@@ -48,7 +48,7 @@ contains
          return
       end if
       call check_grid_is_kept(words, previous, has_previous, spec, problems)
-      call refuse_unbuilt_digits1(words, spec, problems)
+      call refuse_unbuilt_digits(words, spec, on_rail=.true., problems=problems)
    end subroutine read_case1
 
    !> The groups behind the control words

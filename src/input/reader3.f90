@@ -60,7 +60,7 @@ contains
       end if
 
       call check_case(words, lines, previous, has_previous, stored, spec, problems)
-      call refuse_unbuilt_digits(words, spec, problems)
+      call refuse_unbuilt_digits(words, spec, on_rail=.false., problems=problems)
       if (present(coefficients) .and. spec%digits%c /= 0) coefficients = frame_of(spec%grid)
    end subroutine read_case3
 

@@ -31,7 +31,8 @@ contains
       if (spec%digits%z >= kept_geometry .and. spec%grid%ipotcn < 0) call write_hertz(log, spec, result)
       if (spec%solver == solver_choice%gd_steady) call write_gd_steady(log, spec)
       if (spec%digits%c >= new_kernel) call write_materials(log, spec, result)
-      if (spec%digits%l /= kept_friction .and. allocated(spec%friction%sets)) call write_friction(log, spec)
+      if (spec%digits%l /= kept_friction .and. allocated(spec%friction%sets)) call write_friction(log, spec%friction_law, &
+         & spec%variation, spec%friction%sets, spec%output_level)
       call write_kinematics(log, spec, result)
    end subroutine write_input
 
@@ -272,14 +273,18 @@ contains
    end subroutine write_simplified_theory
 
    !> Friction law: one line, or one per control point or grid row
-   subroutine write_friction(log, spec)
+   subroutine write_friction(log, law, varies, sets, level)
       type(log_type), intent(inout) :: log
-      type(case_spec), intent(in) :: spec
+      !> Members of friction_model and variation
+      integer, intent(in) :: law, varies
+      type(friction_set), intent(in) :: sets(:)
+      !> Output level
+      integer, intent(in) :: level
       character(len=:), allocatable :: names
       integer :: i, count
       logical :: shorten
 
-      select case (spec%friction_law)
+      select case (law)
       case (friction_model%coulomb)
          names = heading([character(len=9) :: "FSTAT", "FKIN"])
       case (friction_model%linear)
@@ -293,24 +298,24 @@ contains
       end select
       call log%result("")
       call log%result(" FRICTION LAW PARAMETERS")
-      count = size(spec%friction%sets)
-      select case (spec%variation)
+      count = size(sets)
+      select case (varies)
       case (variation%none)
          call log%result(names)
-         if (count > 0) call log%result("  " // friction_values(spec%friction_law, spec%friction%sets(1)))
+         if (count > 0) call log%result("  " // friction_values(law, sets(1)))
       case (variation%by_row)
          call log%result("     IY     " // names)
-         shorten = spec%output_level < full_friction_table .and. count > 4
+         shorten = level < full_friction_table .and. count > 4
          do i = 1, count
             if (shorten .and. i == 3) call log%result(repeat(" ", 22) // "...")
             if (shorten .and. i > 2 .and. i < count - 1) cycle
-            call log%result("  " // whole(i, 8) // "    " // friction_values(spec%friction_law, spec%friction%sets(i)))
+            call log%result("  " // whole(i, 8) // "    " // friction_values(law, sets(i)))
          end do
       case default
-         call log%result(merge("     ALPHA  ", "     SVF    ", spec%variation == variation%by_angle) // names)
+         call log%result(merge("     ALPHA  ", "     SVF    ", varies == variation%by_angle) // names)
          do i = 1, count
-            call log%result("  " // general(spec%friction%sets(i)%position, 12, 4) &
-               & // friction_values(spec%friction_law, spec%friction%sets(i)))
+            call log%result("  " // general(sets(i)%position, 12, 4) &
+               & // friction_values(law, sets(i)))
          end do
       end select
    end subroutine write_friction

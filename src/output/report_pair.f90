@@ -9,14 +9,16 @@ module contact_output_report_pair
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
    use contact_cases_spec, only : case_digits, case_spec, material_spec
+   use contact_cases_friction_setup, only : set_of
    use contact_grid_element_division, only : bounding_box, contact_box
    use contact_wheelrail_spec, only : profile_spec, wheel_rail_spec
    use contact_output_element_table, only : write_element_table
    use contact_output_formats, only : fixed, general, generals, heading, smart, smarts, whole
    use contact_grid_picture, only : write_picture
    use contact_output_report_input, only : write_friction
-   use contact_output_report_result, only : shown_totals, without_noise, write_solution_line, write_statistics
+   use contact_output_report_result, only : highest_temperature, shown_totals, without_noise, write_solution_line, write_statistics
    use contact_output_report_subsurface, only : write_subsurface
+   use contact_patch_result, only : patch_result
    use contact_wheelrail_result, only : in_element_coordinates, pair_patch, pair_result
    implicit none (type, external)
    private
@@ -70,7 +72,7 @@ contains
       call write_problem(log, spec)
       if (spec%digits%c >= 2) call write_materials(log, spec, result)
       if (spec%motion /= motion%none .and. spec%digits%l /= 1 .and. allocated(spec%friction%sets)) &
-         & call write_friction(log, spec)
+         & call write_friction(log, spec%friction_law, spec%variation, spec%friction%sets, spec%output_level)
       if (spec%digits%d >= 2) call write_discretisation(log, spec%wheel_rail)
       if (spec%digits%z == 3) call write_profile_choice(log, spec%wheel_rail%rail_profile, body, spec%output_level)
       if (spec%digits%z == 1 .or. spec%digits%z == 3) call write_track(log, spec%wheel_rail)
@@ -420,6 +422,8 @@ contains
          if (spec%output_level >= 2) then
             call write_reference(log, patch, s)
             if (allocated(patch%curve)) call write_curved_contact(log, patch, s)
+            call write_patch_friction(log, spec, patch)
+            if (spec%motion /= motion%none) call write_patch_flexibility(log, spec%material_model, patch%contact)
             call write_patch_kinematics(log, patch, s)
          end if
          call write_patch_totals(log, spec, patch, s)
@@ -477,6 +481,40 @@ contains
       call log%line(" Moments about the reference MX, MS, MN:" // smarts([s, 1.0_wp, s]*patch%moment) // " N mm")
    end subroutine write_curved_contact
 
+   !> Friction in the patch, where it varies over the rail
+   subroutine write_patch_friction(log, spec, patch)
+      type(log_type), intent(inout) :: log
+      type(case_spec), intent(in) :: spec
+      type(pair_patch), intent(in) :: patch
+
+      if (.not. allocated(patch%friction)) return
+      call write_friction(log, spec%friction_law, merge(variation%by_row, variation%none, patch%friction_varies), &
+         & set_of(patch%friction), spec%output_level)
+   end subroutine write_patch_friction
+
+   !> Flexibilities of simplified theory, and what the slope reduction came to
+   subroutine write_patch_flexibility(log, model, contact)
+      type(log_type), intent(inout) :: log
+      !> Member of material_model
+      integer, intent(in) :: model
+      type(patch_result), intent(in) :: contact
+      character(len=7) :: method
+
+      if (.not. any(model == [material_model%fastsim_single, material_model%fastsim, material_model%fastrip])) return
+      if (model /= material_model%fastsim_single) then
+         call log%result("")
+         call log%result(" SIMPLIFIED THEORY MATERIAL CONSTANTS")
+         call log%result(heading([character(len=9) :: "FLX1", "FLX2", "FLX3"]))
+         call log%result("  " // generals(contact%flx))
+      end if
+      method = "FASTSIM"
+      if (model == material_model%fastrip) method = "FASTRIP"
+      call log%result("")
+      call log%result(" MODIFIED " // method // " SLOPE REDUCTION PARAMETERS")
+      call log%result(heading([character(len=9) :: "K0_EFF"]))
+      call log%result("  " // generals([contact%k_eff]))
+   end subroutine write_patch_flexibility
+
    !> Creepages of the patch
    subroutine write_patch_kinematics(log, patch, s)
       type(log_type), intent(inout) :: log
@@ -506,6 +544,7 @@ contains
       real(wp), intent(in) :: s
       type(shown_totals) :: totals
       character(len=12) :: names(3)
+      character(len=:), allocatable :: last_name, last
       real(wp) :: first, fx, fs
       logical :: conformal
 
@@ -535,8 +574,14 @@ contains
          if (patch%friction_varies) names(2:3) = [character(len=12) :: "   FX/FN    ", "   FS/FN    "]
          fx = totals%fx_rel
          fs = s*totals%fy_rel
-         call log%result("  " // names(1) // names(2) // names(3) // "   APPROACH     PMAX    ")
-         call log%result("  " // smarts([first, fx, fs]) // smart(contact%pen, 12, 6, 4) // smart(contact%pmax, 12, 4, 4))
+         last_name = ""
+         last = ""
+         if (allocated(contact%temp1)) then
+            last_name = "  MAX(T1,T2)"
+            last = smart(highest_temperature(contact), 12, 4, 4)
+         end if
+         call log%result("  " // names(1) // names(2) // names(3) // "   APPROACH     PMAX    " // last_name)
+         call log%result("  " // smarts([first, fx, fs]) // smart(contact%pen, 12, 6, 4) // smart(contact%pmax, 12, 4, 4) // last)
       end associate
    end subroutine write_patch_totals
 

@@ -11,7 +11,7 @@ module contact_output_report_result
    implicit none (type, external)
    private
 
-   public :: shown_totals, without_noise
+   public :: highest_temperature, shown_totals, without_noise
    public :: write_sensitivities, write_solution_line, write_statistics, write_totals
 
    !> Totals as they are printed: what is below the solver tolerance is zero

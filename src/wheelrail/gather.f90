@@ -79,6 +79,8 @@ contains
       type(frame) :: seen
 
       patch%previous = slot%previous
+      if (allocated(patch%friction)) deallocate(patch%friction)
+      if (allocated(slot%friction)) allocate(patch%friction, source=slot%friction)
       patch%grid_reference = 0.0_wp
       if (slot%problem%motion == motion%shift .or. slot%problem%motion == motion%transient_rolling) &
          & patch%grid_reference = slot%reference

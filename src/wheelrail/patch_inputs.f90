@@ -4,7 +4,6 @@ module contact_wheelrail_patch_inputs
    use contact_base_constants, only : excluded_distance
    use contact_base_error, only : error_type
    use contact_base_kinds, only : wp
-   use contact_friction_law, only : friction_parameters
    use contact_friction_new_law, only : new_friction_law
    use contact_profile_curve, only : profile_curve
    use contact_wheelrail_carry_over, only : place_on_lattice
@@ -193,14 +192,14 @@ contains
       type(pair_problem), intent(in) :: problem
       type(patch_slot), intent(inout) :: slot
       type(error_type), allocatable, intent(out) :: error
-      type(friction_parameters) :: here
       integer :: iy
 
       associate (patch => slot%problem)
          if (allocated(patch%static_mu)) deallocate(patch%static_mu)
+         if (allocated(slot%friction)) deallocate(slot%friction)
          if (friction_by_row(problem) .and. problem%template%motion /= motion%none) then
-            call new_friction_law(problem%friction_law, [(parameters_at(problem, slot%curve%alpha(iy)), iy=1, patch%grid%my)], &
-               & patch%friction, error)
+            slot%friction = [(parameters_at(problem, slot%curve%alpha(iy)), iy=1, patch%grid%my)]
+            call new_friction_law(problem%friction_law, slot%friction, patch%friction, error)
             if (allocated(error)) return
             patch%mu = 1.0_wp
             patch%static_mu = patch%friction%sets%static
@@ -208,13 +207,13 @@ contains
          end if
          if (problem%variation /= variation%none .and. problem%template%motion /= motion%none) then
             if (problem%variation == variation%by_angle) then
-               here = parameters_at(problem, slot%plane%roll())
+               slot%friction = [parameters_at(problem, slot%plane%roll())]
             else
-               here = parameters_at(problem, problem%spec%wheelset%s)
+               slot%friction = [parameters_at(problem, problem%spec%wheelset%s)]
             end if
-            patch%mu = here%static
+            patch%mu = slot%friction(1)%static
             if (problem%friction_law /= friction_model%coulomb) then
-               call new_friction_law(problem%friction_law, [here], patch%friction, error)
+               call new_friction_law(problem%friction_law, slot%friction, patch%friction, error)
                if (allocated(error)) return
             end if
          end if
@@ -258,6 +257,11 @@ contains
             patch%dq = problem%spec%search%dqrel*patch%grid%dx
             if (patch%motion == motion%steady_rolling) patch%dq = patch%grid%dx
             patch%spin_offset = 1.0_wp/6.0_wp
+         end if
+         if (allocated(problem%relaxation)) then
+            associate (bodies => problem%relaxation)
+               call patch%model%set_viscoelastic(bodies%poiss, bodies%gg, bodies%ratio, patch%veloc*bodies%time)
+            end associate
          end if
          ! as in module 3: a layer that yields follows its particles, simplified theory starts anew at each edge
          patch%corrects_leading_edge = patch%motion == motion%transient_rolling .and. patch%dq > 1.01_wp*patch%grid%dx &

@@ -10,7 +10,15 @@ module contact_wheelrail_problem
    implicit none (type, external)
    private
 
-   public :: pair_problem, friction_by_row, follows_surface, keeps_lattice, parameters_at, rate_of_pure_rolling
+   public :: pair_problem, relaxing_bodies, friction_by_row, follows_surface, keeps_lattice, parameters_at, rate_of_pure_rolling
+
+   !> Viscoelastic bodies, rail and wheel; see `set_viscoelastic` of contact_elastic_model
+   type :: relaxing_bodies
+      !> Poisson ratios [-], instantaneous moduli [N/mm2], late over instantaneous compliance minus 1 [-]
+      real(wp) :: poiss(2), gg(2), ratio(2)
+      !> Relaxation times [s]
+      real(wp) :: time(2)
+   end type relaxing_bodies
 
    !> What is asked for a pair
    type :: pair_problem
@@ -21,6 +29,8 @@ module contact_wheelrail_problem
       type(profile_surface), allocatable :: rail_surface, wheel_surface
       !> Settings that all patches share: material, friction, motion, solvers
       type(patch_problem) :: template
+      !> Viscoelastic bodies: the compliance of a patch follows from its rolling velocity; unallocated for other materials
+      type(relaxing_bodies), allocatable :: relaxation
       !> Is the vertical force prescribed? Otherwise the height of the wheelset
       logical :: force_prescribed = .false.
       !> What is found besides, member of force_control: nothing, the pitch rate, or the deflection of the rail

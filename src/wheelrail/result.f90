@@ -4,6 +4,7 @@
 !> image, and output mirrors it back. Track coordinates: x along the track, y to the right, z down.
 module contact_wheelrail_result
    use contact_base_kinds, only : wp
+   use contact_friction_law, only : friction_parameters
    use contact_patch_result, only : patch_result
    implicit none (type, external)
    private
@@ -28,6 +29,8 @@ module contact_wheelrail_result
       real(wp), allocatable :: curve(:, :)
       !> Sum of the local normal tractions of conformal contact [N]
       real(wp) :: tilde_fn = 0.0_wp
+      !> Where friction varies over the rail: its parameters in this patch, one set or one per row; otherwise unallocated
+      type(friction_parameters), allocatable :: friction(:)
       !> Does friction vary inside the patch?
       logical :: friction_varies = .false.
       !> Forces on the rail in the axes x, s, n of the reference [N]: those of `contact` for flat patches,
