@@ -217,7 +217,8 @@ contains
       call suite%equal(problems%number_of(severity%unsupported), 0, "a plain case asks for nothing that is missing")
       call read_text(new_case(word2="0082033"), spec, problems, error)
       call suite%equal(problems%number_of(severity%unsupported), 1, "an oblique view is refused")
-      call has_problem(suite, problems, "test:2:1: D = 8, contact locus in a fixed oblique view, is known but not built", &
+      call has_problem(suite, problems, "test:2:1: D = 8, contact locus in an oblique view that fits few profiles, " // &
+         & "is known but not built", &
          & "by its name, with its place", severity%unsupported)
       call read_text(new_case(word2="0011002", friction="", search="", rail="", &
          & wheelset="0. 0. 1. 0. 0. 0.;2000. 0. 0. 0. 0. -4."), later, problems, error, spec)
