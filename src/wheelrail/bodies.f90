@@ -39,6 +39,8 @@ module contact_wheelrail_bodies
    real(wp), parameter :: furthest_section = 1.0_wp
    !> How far sections reach to both sides, of the wheel's radius
    real(wp), parameter :: reach = 0.16_wp
+   !> Share of the distance of sections that is none
+   real(wp), parameter :: rounding = 1.0e-9_wp
    !> Least dy/ds of a rail: a steeper one counts as vertical
    real(wp), parameter :: steepest = 1.0e-6_wp
 
@@ -124,9 +126,14 @@ contains
       found = k >= 1 .and. k < size(self%sections)
       if (.not. found) return
       t = (place - self%first)/self%step - (k - 1)
+      ! a place on a section is one, in spite of rounding
+      if (t > 1.0_wp - rounding) then
+         k = k + 1
+         t = 0.0_wp
+      end if
       call self%sections(k)%at(y, low, low_y, low_u, found)
       if (.not. found) return
-      if (t <= 0.0_wp) then
+      if (t <= rounding) then
          z = low
          z_y = low_y
          return

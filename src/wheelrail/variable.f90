@@ -14,13 +14,13 @@ module contact_wheelrail_variable
 
    public :: measure_variable_gap, variable_distance
 
-   !> Coarse mesh: distance along the track [mm], and lateral one in fine steps
-   real(wp), parameter :: coarse_x = 4.0_wp
-   integer, parameter :: coarse_y = 8
-   !> Fine mesh along the track [mm]
+   !> Fine mesh along the track [mm], about: where the rail varies its points stand on sections
    real(wp), parameter :: fine_x = 0.5_wp
-   !> Gaps are found on the fine mesh where the coarse one is within this of the smallest [mm]
-   real(wp), parameter :: margin = 2.0_wp
+   !> Coarse mesh in fine steps, along the track and across it
+   integer, parameter :: coarse = 8
+   !> Gaps are found on the fine mesh where the coarse one is within this of the smallest [mm]: more than wheels
+   !> penetrate rails. Elsewhere they are interpolated, with errors of about a hundredth of a millimetre
+   real(wp), parameter :: margin = 0.5_wp
    !> Lateral mesh relative to the elements, and search along the track to both sides, of the radius
    real(wp), parameter :: mesh_share = 0.3_wp, reach = 0.125_wp
    !> Distance where a surface is missing [mm]
@@ -36,9 +36,9 @@ contains
       !> See `gap_curve`
       logical, intent(in) :: weighs_table
       type(gap_curve), intent(inout) :: gap
-      real(wp), allocatable :: coarse(:, :), xc(:), yc(:)
-      real(wp) :: range(2), limit
-      integer :: nx, nxc, nyc, i, j, ic, jc, ratio
+      real(wp), allocatable :: corner(:, :), xc(:), yc(:)
+      real(wp) :: range(2), limit, dx
+      integer :: nx, nxc, nyc, i, j, ic, jc
 
       range = lateral_range(bodies)
       gap%dy = mesh_share*ds
@@ -52,33 +52,56 @@ contains
       if (bodies%placement%roller_radius > 0.0_wp) gap%kappa = gap%kappa + 0.5_wp/bodies%placement%roller_radius
       gap%weighs_table = weighs_table
 
-      nxc = 2*ceiling(reach*bodies%placement%wheel_radius/coarse_x) + 1
-      nyc = (gap%n - 1 + coarse_y - 1)/coarse_y + 1
-      xc = bodies%placement%wheel%origin(1) + [(coarse_x*(i - (nxc + 1)/2), i=1, nxc)]
-      yc = gap%y(1) + [(gap%dy*coarse_y*(j - 1), j=1, nyc)]
-      allocate(coarse(nxc, nyc))
-      call fill(bodies, xc, yc, coarse)
-      limit = minval(coarse) + margin
+      dx = fine_x
+      if (allocated(bodies%rail_strip)) dx = bodies%rail_strip%step*max(1, nint(fine_x/bodies%rail_strip%step))
+      nxc = 2*ceiling(reach*bodies%placement%wheel_radius/(coarse*dx)) + 1
+      nyc = (gap%n - 1 + coarse - 1)/coarse + 1
+      xc = bodies%placement%wheel%origin(1) + [(dx*coarse*(i - (nxc + 1)/2), i=1, nxc)]
+      yc = gap%y(1) + [(gap%dy*coarse*(j - 1), j=1, nyc)]
+      allocate(corner(nxc, nyc))
+      call fill(bodies, xc, yc, corner)
+      limit = minval(corner) + margin
 
-      ratio = nint(coarse_x/fine_x)
-      nx = (nxc - 1)*ratio + 1
-      gap%x_table = xc(1) + [(fine_x*(i - 1), i=1, nx)]
+      nx = (nxc - 1)*coarse + 1
+      gap%x_table = xc(1) + [(dx*(i - 1), i=1, nx)]
       if (allocated(gap%table)) deallocate(gap%table)
       allocate(gap%table(nx, gap%n), source=no_surface)
       if (limit > no_surface) return
       do jc = 1, nyc - 1
          do ic = 1, nxc - 1
-            if (minval(coarse(ic:ic + 1, jc:jc + 1)) > limit) cycle
-            i = (ic - 1)*ratio + 1
-            j = (jc - 1)*coarse_y + 1
-            call fill(bodies, gap%x_table(i:i + ratio), gap%y(j:min(j + coarse_y, gap%n)), &
-               & gap%table(i:i + ratio, j:min(j + coarse_y, gap%n)))
+            i = (ic - 1)*coarse + 1
+            j = (jc - 1)*coarse + 1
+            if (minval(corner(ic:ic + 1, jc:jc + 1)) > limit) then
+               if (maxval(corner(ic:ic + 1, jc:jc + 1)) < no_surface) &
+                  & call interpolate(corner(ic:ic + 1, jc:jc + 1), gap%table(i:i + coarse, j:min(j + coarse, gap%n)))
+               cycle
+            end if
+            call fill(bodies, gap%x_table(i:i + coarse), gap%y(j:min(j + coarse, gap%n)), &
+               & gap%table(i:i + coarse, j:min(j + coarse, gap%n)))
          end do
       end do
       do j = 1, gap%n
          call smallest_along(bodies, j, gap)
       end do
    end subroutine measure_variable_gap
+
+   !> Gaps of the fine mesh inside a cell of the coarse one; what was found at its sides stays
+   pure subroutine interpolate(corners, cell)
+      real(wp), intent(in) :: corners(2, 2)
+      real(wp), intent(inout) :: cell(:, :)
+      real(wp) :: t, u
+      integer :: i, j
+
+      do j = 1, size(cell, 2)
+         u = real(j - 1, wp)/coarse
+         do i = 1, size(cell, 1)
+            if (cell(i, j) < no_surface) cycle
+            t = real(i - 1, wp)/(size(cell, 1) - 1)
+            cell(i, j) = (1.0_wp - u)*((1.0_wp - t)*corners(1, 1) + t*corners(2, 1)) &
+               & + u*((1.0_wp - t)*corners(1, 2) + t*corners(2, 2))
+         end do
+      end do
+   end subroutine interpolate
 
    !> Lateral range of all sections of the rail
    pure function lateral_range(bodies) result(range)
@@ -154,7 +177,7 @@ contains
             bend = gap%table(i - 1, j) - 2.0_wp*gap%table(i, j) + gap%table(i + 1, j)
             shift = 0.0_wp
             if (bend > 0.0_wp) shift = 0.5_wp*(gap%table(i - 1, j) - gap%table(i + 1, j))/bend
-            gap%x(j) = gap%x(j) + shift*fine_x
+            gap%x(j) = gap%x(j) + shift*(gap%x_table(2) - gap%x_table(1))
             gap%gap(j) = gap%gap(j) - 0.5_wp*bend*shift**2
          end if
       end if
