@@ -221,6 +221,7 @@ contains
       wanted%kink_low = profile%kink_low
       wanted%kink_width = profile%kink_width
       wanted%most_hidden = profile%largest_omission
+      wanted%doubt = profile%error_handling
       body = merge("rail ", "wheel", side == profile_side%rail)
       before = profiles%loads
       call profiles%get(wanted, prepared, log, error)

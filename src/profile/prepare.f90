@@ -10,7 +10,7 @@ module contact_profile_prepare
    use contact_profile_miniprof, only : read_miniprof
    use contact_profile_points, only : chord_lengths, drop_close_points, find_kinks, find_loop, keep_points, &
       & needs_mirror_z, needs_reversal, remove_zig_zags, runs_backwards
-   use contact_profile_request, only : profile_file, profile_request, profile_side, smoothing_method
+   use contact_profile_request, only : doubt, profile_file, profile_request, profile_side, smoothing_method
    use contact_profile_simpack, only : read_simpack
    use contact_text_lexer, only : input_lexer
    use contact_text_words, only : integer_text, real_text
@@ -26,8 +26,36 @@ module contact_profile_prepare
 
 contains
 
-   !> Read, clean and smooth the profile of a file, or of points in its place
+   !> Read and prepare a profile; what becomes of warnings is the user's choice
    subroutine read_profile(request, curve, log, error)
+      type(profile_request), intent(in) :: request
+      type(profile_curve), intent(out) :: curve
+      type(log_type), intent(inout) :: log
+      type(error_type), allocatable, intent(out) :: error
+      type(log_type) :: unheard
+      integer :: before
+
+      if (request%doubt < doubt%warn) then
+         call clean_profile(request, curve, unheard, error)
+         return
+      end if
+      before = log%warnings
+      call clean_profile(request, curve, log, error)
+      if (request%doubt == doubt%refuse .and. log%warnings > before .and. .not. allocated(error)) &
+         & call fatal_error(error, "ERRHND = 1 refuses a profile with warnings", file=name_of(request))
+   end subroutine read_profile
+
+   !> What messages call the profile
+   pure function name_of(request) result(name)
+      type(profile_request), intent(in) :: request
+      character(len=:), allocatable :: name
+
+      name = "profile"
+      if (allocated(request%file)) name = request%file
+   end function name_of
+
+   !> Read, clean and smooth the profile of a file, or of points in its place
+   subroutine clean_profile(request, curve, log, error)
       type(profile_request), intent(in) :: request
       type(profile_curve), intent(out) :: curve
       type(log_type), intent(inout) :: log
@@ -52,7 +80,7 @@ contains
       end if
       if (.not. allocated(error)) call normalise(file, request, y, z, log, error)
       if (.not. allocated(error)) call prepare_points(request, y, z, curve, error)
-   end subroutine read_profile
+   end subroutine clean_profile
 
    !> Small letters behind the last dot of the file name, at most four, of known kinds three
    pure function extension_of(file) result(extension)
@@ -182,8 +210,7 @@ contains
       logical :: solved
       character(len=:), allocatable :: file
 
-      file = "profile"
-      if (allocated(request%file)) file = request%file
+      file = name_of(request)
       s = chord_lengths(y, z)
       s = s - length_origin(s, y, z)
       is_kink = find_kinks(y, z, request%kink_high, request%kink_low, request%kink_width)
@@ -199,7 +226,7 @@ contains
          return
       end if
       curve = new_curve(request%side, splines(1), splines(2))
-      if (curve%hidden_part() > min(request%most_hidden, 0.999_wp)) then
+      if (request%doubt > doubt%ignore .and. curve%hidden_part() > min(request%most_hidden, 0.999_wp)) then
          call fatal_error(error, real_text(100.0_wp*curve%hidden_part()) // " % of the profile are hidden behind the rest; &
             &accepted are at most " // real_text(100.0_wp*request%most_hidden) // " % (is it upside down?)", file=file)
       end if

@@ -6,6 +6,7 @@ module contact_profile_request
    private
 
    public :: profile_request, profile_file, profile_side, smoothing_method, same_request
+   public :: doubt
 
    type :: profile_side_list
       integer :: rail = 1, wheel = 2
@@ -46,7 +47,22 @@ module contact_profile_request
       real(wp) :: kink_high = pi/6.0_wp, kink_low = pi/30.0_wp, kink_width = 2.0_wp
       !> Largest part of the length that may be hidden behind the rest, 0...1
       real(wp) :: most_hidden = 0.5_wp
+      !> Member of doubt
+      integer :: doubt = 0
    end type profile_request
+
+   type :: doubt_enum
+      !> Carry on in spite of more hidden points than allowed, without a word
+      integer :: ignore = -2
+      !> No warnings
+      integer :: silent = -1
+      !> Warnings
+      integer :: warn = 0
+      !> What would be a warning is an error
+      integer :: refuse = 1
+   end type doubt_enum
+   !> What to do about a profile that is not as it should be
+   type(doubt_enum), parameter :: doubt = doubt_enum()
 
    !> Points of a file with the processing that the file itself prescribes, in its own units
    type :: profile_file
@@ -81,6 +97,6 @@ contains
       same = a%file == b%file .and. len(a%file) == len(b%file) .and. a%side == b%side .and. a%mirror_y == b%mirror_y &
          & .and. a%mirror_z == b%mirror_z .and. a%scale == b%scale .and. a%method == b%method .and. a%smooth == b%smooth &
          & .and. a%zig_zag == b%zig_zag .and. a%kink_high == b%kink_high .and. a%kink_low == b%kink_low &
-         & .and. a%kink_width == b%kink_width .and. a%most_hidden == b%most_hidden
+         & .and. a%kink_width == b%kink_width .and. a%most_hidden == b%most_hidden .and. a%doubt == b%doubt
    end function same_request
 end module contact_profile_request

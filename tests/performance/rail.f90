@@ -131,6 +131,7 @@ contains
          write(*, '(a, f0.1, a, f0.1, a)') "| tensor spline at every point, without its set-up of ", 1.0e3_wp*setup, " ms | ", &
             & 1.0e3_wp*other, " |"
          write(*, '(a, f0.1, a)') "| the whole case, the second time | ", 1.0e3_wp*case, " |"
+         if (abs(minval(gap) - minval(here%gap%gap)) > 1.0e-3_wp) error stop "the two searches find different gaps"
          write(*, '(/, a, f0.1, a, es8.1, a)') "Ratio of the searches: ", other/own, "; their smallest gaps differ by ", &
             & abs(minval(gap) - minval(here%gap%gap)), " mm; goal: 20 times faster " // verdict(other >= 20.0_wp*own) // "."
       end associate

@@ -4,7 +4,7 @@
 #   --large    also 201,000 elements, and the prototype on 320 x 320
 #   --quick    smallest sizes only, tables of 100 cases
 #   --write    puts the result into doc/validation/performance.md
-#   sections   setup normal rolling shift classical line table; without any: all of them, the
+#   sections   setup normal rolling shift classical line table rail; without any: all of them, the
 #              whole program, requests to the heap, and the comparison with the prototype
 # BENCH_BUILD names a build folder that is up to date, to be used instead of building.
 set -u
@@ -15,11 +15,13 @@ prototype=${BENCH_PROTOTYPE:-$top/../shared/prototype}
 options=
 sections=
 write=no
+rail=no
 for argument; do
   case $argument in
     --large | --quick) options="$options $argument" ;;
     --write) write=yes ;;
     setup | normal | rolling | shift | classical | line | table) sections="$sections $argument" ;;
+    rail) rail=yes ;;
     *) fail "usage: sh tests/performance/run.sh [--large] [--quick] [--write] [section ...]" ;;
   esac
 done
@@ -34,6 +36,15 @@ OMP_NUM_THREADS=1
 OPENBLAS_NUM_THREADS=1
 export OMP_NUM_THREADS OPENBLAS_NUM_THREADS
 
+# Wheel on rail writes the slices of its crossing where it runs
+measure_rail() {
+  scratch=$(mktemp -d) || return 1
+  (cd "$scratch" && "$programs/tests/performance_rail" "$top")
+  status=$?
+  rm -rf "$scratch"
+  return $status
+}
+
 # shellcheck disable=SC2086
 measure() {
   printf '# What cases cost\n\n'
@@ -41,8 +52,13 @@ measure() {
   printf 'Commit %s, %s, %s processors, %s.\n\n' \
     "$(git -C "$top" rev-parse --short HEAD 2>/dev/null || echo unknown)" "$(date -u +%Y-%m-%d)" \
     "$(getconf _NPROCESSORS_ONLN)" "$(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo 2>/dev/null | head -1)"
-  "$bench" $options $sections || return 1
-  [ -n "$sections" ] && return 0
+  if [ $rail = no ] || [ -n "$sections" ]; then
+    "$bench" $options $sections || return 1
+    [ -n "$sections" ] && [ $rail = no ] && return 0
+  fi
+  printf '\n## Wheel on rail\n\n'
+  measure_rail || return 1
+  [ $rail = yes ] && return 0
   printf '\n## The whole program\n\n'
   python3 "$here/whole_program.py" "$programs/bin/contact" "$bench"
   printf '\n## Files for other programs\n\n'

@@ -8,7 +8,7 @@ program test_profile
    use contact_profile_points, only : chord_lengths, find_kinks, find_loop, needs_mirror_z, needs_reversal, &
       & remove_zig_zags
    use contact_profile_prepare, only : extension_of, length_origin, prepare_points, read_profile
-   use contact_profile_request, only : profile_request, profile_side, smoothing_method
+   use contact_profile_request, only : doubt, profile_request, profile_side, smoothing_method
    use contact_test_harness, only : reference_folder, test_suite
    implicit none (type, external)
    character(len=*), parameter :: nl = new_line("a")
@@ -30,6 +30,7 @@ program test_profile
    call refusals(suite)
    call arc(suite)
    call hidden(suite)
+   call doubts(suite)
    call smoothing(suite)
    call reference_files(suite)
    call suite%finish()
@@ -401,6 +402,10 @@ contains
       request%most_hidden = 0.1_wp
       call prepare_points(request, y, z, curve, error)
       call suite%check(allocated(error), "more hidden than allowed is refused")
+      request%doubt = doubt%ignore
+      call prepare_points(request, y, z, curve, error)
+      call suite%check(.not. allocated(error), "unless the user says that it does not matter")
+      request%doubt = doubt%warn
       ! A wall that hides nothing but has no width
       request%most_hidden = 1.0_wp
       call prepare_points(request, [0.0_wp, 0.0_wp, 0.0_wp], [0.0_wp, 5.0_wp, 10.0_wp], curve, error)
@@ -408,6 +413,35 @@ contains
       call prepare_points(request, [0.0_wp, 0.0_wp, 10.0_wp, 10.0_wp], [8.0_wp, 0.0_wp, 0.0_wp, 8.0_wp], curve, error)
       call suite%check(.not. allocated(error), "a box")
    end subroutine hidden
+
+   !> A zig-zag is told, kept secret, or an error
+   subroutine doubts(suite)
+      type(test_suite), intent(inout) :: suite
+      type(profile_curve) :: curve
+      type(profile_request) :: request
+      type(error_type), allocatable :: error
+      type(log_type) :: log
+      integer, parameter :: choices(4) = [doubt%ignore, doubt%silent, doubt%warn, doubt%refuse]
+      integer, parameter :: warnings(4) = [0, 0, 1, 1]
+      integer :: k, i
+
+      request%file = "zig_zag.dat"
+      allocate(request%points(2, 21), source=0.0_wp)
+      do i = 1, 21
+         request%points(1, i) = -20.0_wp + 2.0_wp*i
+         request%points(2, i) = 0.01_wp*request%points(1, i)**2
+      end do
+      request%points(:, 11) = [2.5_wp, 0.06_wp]
+      request%points(:, 12) = [1.9_wp, 0.05_wp]
+      do k = 1, size(choices)
+         request%doubt = choices(k)
+         log%warnings = 0
+         call read_profile(request, curve, log, error)
+         call suite%equal(log%warnings, warnings(k), "warnings about a zig-zag")
+         call suite%check(allocated(error) .eqv. choices(k) == doubt%refuse, "refused only when asked for")
+         if (allocated(error) .and. choices(k) /= doubt%refuse) call suite%check(.false., full_text(error))
+      end do
+   end subroutine doubts
 
    !> The three methods damp a wave on an arc as they should, and keep the points without a parameter
    subroutine smoothing(suite)
