@@ -11,7 +11,7 @@ module contact_hdf5_case_file
    use contact_patch_result, only : patch_result, subsurface_result
    use contact_profile_curve, only : profile_curve
    use contact_text_words, only : integer_text
-   use contact_wheelrail_result, only : mirrored, mirrored_points, pair_patch, pair_result
+   use contact_wheelrail_result, only : mirrored, pair_patch, pair_result
    implicit none (type, external)
    private
 
@@ -179,11 +179,7 @@ contains
          call file%enter("subsurface")
          do k = 1, size(contact%subsurface)
             call file%enter("block_" // integer_text(k))
-            if (present(mirror)) then
-               call write_block(file, mirrored_points(contact%subsurface(k)))
-            else
-               call write_block(file, contact%subsurface(k))
-            end if
+            call write_block(file, contact%subsurface(k))
             call file%leave()
          end do
          call file%leave()

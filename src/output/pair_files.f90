@@ -6,7 +6,7 @@ module contact_output_pair_files
    use contact_output_mat_file, only : mat_file_name, mat_place, write_mat_file
    use contact_output_subs_file, only : subs_file_name, write_subs_file
    use contact_patch_result, only : patch_result
-   use contact_wheelrail_result, only : in_element_coordinates, mirrored, mirrored_points, pair_patch, pair_result
+   use contact_wheelrail_result, only : in_element_coordinates, mirrored, pair_patch, pair_result
    implicit none (type, external)
    private
 
@@ -42,13 +42,7 @@ contains
                if (allocated(error)) return
             end if
             if (spec%digits%s >= 1 .and. spec%subsurface%matfil >= 1 .and. allocated(patch%contact%subsurface)) then
-               if (spec%wheel_rail%left) then
-                  mirror = patch%contact
-                  mirror%subsurface = mirrored_points(patch%contact%subsurface)
-                  call write_subs_file(subs_file_name(base, case_number, result_element, k), spec, mirror, error)
-               else
-                  call write_subs_file(subs_file_name(base, case_number, result_element, k), spec, patch%contact, error)
-               end if
+               call write_subs_file(subs_file_name(base, case_number, result_element, k), spec, patch%contact, error)
                if (allocated(error)) return
             end if
          end associate

@@ -5,11 +5,11 @@
 module contact_wheelrail_result
    use contact_base_kinds, only : wp
    use contact_friction_law, only : friction_parameters
-   use contact_patch_result, only : patch_result, subsurface_result
+   use contact_patch_result, only : patch_result
    implicit none (type, external)
    private
 
-   public :: pair_result, pair_patch, profile_points, in_element_coordinates, mirrored, mirrored_points
+   public :: pair_result, pair_patch, profile_points, in_element_coordinates, mirrored
 
    !> One contact patch of the pair
    type :: pair_patch
@@ -123,27 +123,4 @@ contains
          left%temp2 = right%temp2(:, n:1:-1)
       end if
    end function mirrored
-
-   !> The same for points below the surface
-   elemental function mirrored_points(right) result(left)
-      type(subsurface_result), intent(in) :: right
-      type(subsurface_result) :: left
-      integer, allocatable :: other(:)
-      integer :: ix, iy, iz
-
-      left = right
-      other = [(((ix + right%nx*(right%ny - iy + right%ny*(iz - 1)), ix=1, right%nx), iy=1, right%ny), iz=1, right%nz)]
-      left%position = right%position(:, other)
-      left%position(2, :) = -left%position(2, :)
-      left%displacement = right%displacement(:, other)
-      left%displacement(2, :) = -left%displacement(2, :)
-      left%stress = right%stress(:, other)
-      left%stress([2, 5], :) = -left%stress([2, 5], :)
-      left%sighyd = right%sighyd(other)
-      left%sigvm = right%sigvm(other)
-      left%sigtr = right%sigtr(other)
-      left%sigma1 = right%sigma1(other)
-      left%sigma2 = right%sigma2(other)
-      left%sigma3 = right%sigma3(other)
-   end function mirrored_points
 end module contact_wheelrail_result

@@ -7,8 +7,7 @@ program test_pair_options
    use contact_grid_element_division, only : element
    use contact_test_harness, only : test_suite
    use contact_test_pair_builder, only : ball_case, pair_case, railway_case
-   use contact_patch_result, only : subsurface_result
-   use contact_wheelrail_result, only : mirrored_points, pair_result
+   use contact_wheelrail_result, only : pair_result
    implicit none (type, external)
    type(test_suite) :: suite
 
@@ -21,7 +20,6 @@ program test_pair_options
    call viscoelastic_lag()
    call viscoelastic_backwards()
    call friction_in_the_patch()
-   call points_of_the_left_side()
    call suite%finish()
 
 contains
@@ -230,30 +228,4 @@ contains
       call suite%check(any(one%result%patches(1)%contact%division > element%exterior), "with contact")
       call one%release()
    end subroutine friction_in_the_patch
-
-   !> Points below the surface of a left wheel: rows in reverse, lateral components with the other sign
-   subroutine points_of_the_left_side()
-      type(subsurface_result) :: right, left, again
-      integer :: k
-
-      right%nx = 2
-      right%ny = 3
-      right%nz = 2
-      right%position = reshape([(real(k, wp), k=1, 36)], [3, 12])
-      right%displacement = right%position + 100.0_wp
-      right%stress = reshape([(real(k, wp), k=1, 72)], [6, 12])
-      right%sighyd = [(real(k, wp), k=1, 12)]
-      right%sigvm = right%sighyd
-      right%sigtr = right%sighyd
-      right%sigma1 = right%sighyd
-      right%sigma2 = right%sighyd
-      right%sigma3 = right%sighyd
-      left = mirrored_points(right)
-      call suite%close_to(left%sigvm, [5.0_wp, 6.0_wp, 3.0_wp, 4.0_wp, 1.0_wp, 2.0_wp, 11.0_wp, 12.0_wp, 9.0_wp, 10.0_wp, &
-         & 7.0_wp, 8.0_wp], tiny(1.0_wp), "rows in reverse, depths as they were")
-      call suite%close_to(left%position(:, 1), [13.0_wp, -14.0_wp, 15.0_wp], tiny(1.0_wp), "places")
-      call suite%close_to(left%stress(:, 1), [25.0_wp, -26.0_wp, 27.0_wp, 28.0_wp, -29.0_wp, 30.0_wp], tiny(1.0_wp), "stresses")
-      again = mirrored_points(left)
-      call suite%close_to(again%displacement(2, :), right%displacement(2, :), tiny(1.0_wp), "the mirror image of the mirror image")
-   end subroutine points_of_the_left_side
 end program test_pair_options
