@@ -250,6 +250,10 @@ contains
          call fill_quadratic(grid, [hertz%a1, 0.0_wp, hertz%b1, 0.0_wp, 0.0_wp, 0.0_wp], h)
          return
       end if
+      if (.not. all(ieee_is_finite([spec%b, spec%xm, spec%rm, spec%y1, spec%dy1]))) then
+         call fatal_error(error, "the numbers of the undeformed distance must be finite")
+         return
+      end if
       select case (spec%ibase)
       case (1)
          call fill_quadratic(grid, spec%b(1:6), h)
@@ -318,6 +322,10 @@ contains
       if (size(spec%profile) < 2) then
          call fatal_error(error, "the profile of IBASE = 2 needs 2 points at least, it has " &
             & // whole(size(spec%profile)))
+         return
+      end if
+      if (.not. all(ieee_is_finite(spec%profile))) then
+         call fatal_error(error, "the heights of the profile of IBASE = 2 must be finite")
          return
       end if
       do iy = 1, grid%my
@@ -406,7 +414,10 @@ contains
       case (1)
          return
       case (2, 3)
-         continue
+         if (.not. all(ieee_is_finite(spec%pl(:merge(6, 8, spec%iplan == 2))))) then
+            call fatal_error(error, "the numbers of the planform (IPLAN = " // whole(spec%iplan) // ") must be finite")
+            return
+         end if
       case (4)
          call fatal_error(error, "a planform of several patches (IPLAN = 4) is not supported; " &
             & // "1, 2 and 3 are", kind=error_kind%unsupported)

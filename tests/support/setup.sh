@@ -2,7 +2,7 @@
 #
 #   install_missing    installs the compiler, tools and libraries that are not there
 #   install_octave     the same for GNU Octave, which tests of matlab/ need; goes on without it
-#   install_python_packages   the same for numpy and others, which only tests need; goes on without them
+#   install_python_packages   the same for numpy, chromium and others, which only tests need; goes on without them
 #   build PRESET [-DX] configures and builds into build/PRESET
 
 say() { printf '%s\n' "== $*"; }
@@ -134,16 +134,19 @@ install_octave() {
 }
 
 # What the tests of Python ask for: numpy and h5py to run, pip, setuptools and wheel to install the package, mypy for its types
-has_python_packages() { python3 -c "import numpy, h5py, pip, setuptools, wheel, mypy" >/dev/null 2>&1; }
+has_python_packages() { python3 -c "import numpy, h5py, pip, setuptools, wheel, mypy, playwright" >/dev/null 2>&1; }
 
 # From the system's packages, or in a folder below build
 install_python_packages() {
+  # What an earlier run installed
+  [ -x "$top/build/python/bin/python3" ] && PATH=$top/build/python/bin:$PATH
+  export PATH
   if has_python_packages; then
     return 0
   fi
   say "Installing packages of Python for the tests"
   if command -v apt-get >/dev/null 2>&1 && { [ "$(id -u)" = 0 ] || sudo -n true 2>/dev/null; }; then
-    packages="python3-numpy python3-h5py python3-pip python3-setuptools python3-wheel python3-venv python3-mypy"
+    packages="python3-numpy python3-h5py python3-pip python3-setuptools python3-wheel python3-venv python3-mypy chromium"
     # shellcheck disable=SC2086
     { as_root apt-get update
       as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends $packages
@@ -153,7 +156,7 @@ install_python_packages() {
     return 0
   fi
   { [ -x "$top/build/python/bin/python3" ] || python3 -m venv "$top/build/python"; } &&
-    "$top/build/python/bin/python3" -m pip install --quiet numpy h5py setuptools wheel mypy
+    "$top/build/python/bin/python3" -m pip install --quiet numpy h5py setuptools wheel mypy playwright
   PATH=$top/build/python/bin:$PATH
   export PATH
   has_python_packages || say "Packages of Python are missing; tests that need them will be skipped"
