@@ -163,11 +163,11 @@ class Browser(unittest.TestCase):
         page.select_option("#plane", "z")
         page.fill("#depth", "2")
         page.select_option("#stress", "sigzz")
-        page.wait_for_function("(() => { const b = contactReport.state.block; return b.plane === 'z' && b.place === 2 && b.name === 'sigzz'; })()")
+        page.wait_for_function("() => { const b = contactReport.state.block; return b.plane === 'z' && b.place === 2 && b.name === 'sigzz'; }")
         self.assertGreater(page.evaluate(COLOURS, "map-block"), 100)
         # a line of points, and a case whose patch has none
         page.select_option("#block", "1")
-        page.wait_for_function("contactReport.state.block.x.length === 1")
+        page.wait_for_function("() => contactReport.state.block.x.length === 1")
         self.assertGreater(page.evaluate(COLOURS, "map-block"), 10)
         self.assertEqual(self.troubles, [])
         page = self.open(self.page_of("carter2d"))

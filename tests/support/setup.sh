@@ -133,7 +133,8 @@ install_octave() {
   octave_there || say "GNU Octave could not be installed; tests of matlab/ are skipped"
 }
 
-# What the tests of Python ask for: numpy and h5py to run, pip, setuptools and wheel to install the package, mypy for its types
+# What the tests of Python ask for: numpy and h5py to run, pip, setuptools and wheel to install the package, mypy for its types,
+# playwright for the browser
 has_python_packages() { python3 -c "import numpy, h5py, pip, setuptools, wheel, mypy, playwright" >/dev/null 2>&1; }
 
 # From the system's packages, or in a folder below build
