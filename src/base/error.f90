@@ -70,10 +70,10 @@ contains
       end if
    end subroutine add_context
 
-   !> "file:line:column: message (trail)", the form compilers print
-   pure function full_text(error) result(text)
+   !> Place, message and trail of an error in one text
+   pure subroutine join_parts(error, text)
       type(error_type), intent(in) :: error
-      character(len=:), allocatable :: text
+      character(len=:), allocatable, intent(out) :: text
       character(len=24) :: place
 
       text = ""
@@ -91,5 +91,24 @@ contains
       end if
       if (allocated(error%message)) text = text // error%message
       if (allocated(error%trail)) text = text // " (" // error%trail // ")"
+   end subroutine join_parts
+
+   !> Length of the text of an error
+   pure integer function full_length(error) result(length)
+      type(error_type), intent(in) :: error
+      character(len=:), allocatable :: parts
+
+      call join_parts(error, parts)
+      length = len(parts)
+   end function full_length
+
+   !> "file:line:column: message (trail)", the form compilers print
+   pure function full_text(error) result(text)
+      type(error_type), intent(in) :: error
+      character(len=full_length(error)) :: text
+      character(len=:), allocatable :: parts
+
+      call join_parts(error, parts)
+      text = parts
    end function full_text
 end module contact_base_error

@@ -57,14 +57,14 @@ contains
       succeeded = self%ended == ending%converged .or. self%ended == ending%not_started
    end function report_succeeded
 
-   !> One sentence about an iteration that did not reach its tolerance
+   !> One sentence about an iteration that did not reach its tolerance, with blanks behind
    function failure_text(name, report) result(text)
       !> Which problem was iterated, "normal" or "tangential"
       character(len=*), intent(in) :: name
       type(solve_report), intent(in) :: report
-      character(len=:), allocatable :: text
+      character(len=len(name) + name_length + 80) :: text
       character(len=32) :: residual
-      character(len=:), allocatable :: how
+      character(len=22) :: how
 
       write(residual, '(es10.2)') report%residual
       select case (report%ended)
@@ -75,7 +75,7 @@ contains
       case default
          how = "diverged"
       end select
-      text = "the " // name // " problem: " // trim(report%method) // " " // how // "; relative residual " &
+      text = "the " // name // " problem: " // trim(report%method) // " " // trim(how) // "; relative residual " &
          & // trim(adjustl(residual))
    end function failure_text
 end module contact_base_solve_report

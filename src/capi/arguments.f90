@@ -6,16 +6,17 @@ module contact_capi_arguments
    use, intrinsic :: ieee_arithmetic, only : ieee_quiet_nan, ieee_value
    use, intrinsic :: iso_c_binding, only : c_char, c_double, c_int, c_null_char
    use contact_base_kinds, only : wp
+   use contact_text_words, only : replaced
    implicit none (type, external)
    private
 
-   public :: no_number, integer_of, real_of, count_of, text_of, path_of, integers_of, reals_of
+   public :: no_number, integer_of, real_of, count_of, path_of, integers_of, reals_of
    public :: give, give_list, give_zeros
 
    !> Stands for an integer that was not given; no code, index or count is that large
    integer, parameter :: no_number = -huge(1)
-   !> Longest text that is copied
-   integer, parameter :: longest_text = 256
+   !> Longest name of a file that is copied
+   integer, parameter :: longest_path = 256
 
    interface give
       module procedure give_integer
@@ -54,33 +55,21 @@ contains
       if (present(length) .and. is_there) n = max(0, length)
    end function count_of
 
-   !> A text up to its length, a null character or 256 letters; without blanks around
-   pure function text_of(letters, length) result(text)
-      character(kind=c_char), intent(in), optional :: letters(*)
-      integer(c_int), intent(in), optional :: length
-      character(len=:), allocatable :: text
-      integer :: i, n
-
-      text = ""
-      n = min(longest_text, count_of(length, present(letters)))
-      do i = 1, n
-         if (letters(i) == c_null_char) exit
-         text = text // letters(i)
-      end do
-      text = trim(adjustl(text))
-   end function text_of
-
-   !> The name of a file or folder, with the separators of this platform
+   !> The name of a file or folder, with the separators of this platform and blanks behind only
+   !>
+   !> It ends at its length, a null character or 256 letters.
    pure function path_of(letters, length) result(path)
       character(kind=c_char), intent(in), optional :: letters(*)
       integer(c_int), intent(in), optional :: length
-      character(len=:), allocatable :: path
+      character(len=longest_path) :: path
       integer :: i
 
-      path = text_of(letters, length)
-      do i = 1, len(path)
-         if (path(i:i) == "\") path(i:i) = "/"
+      path = ""
+      do i = 1, min(longest_path, count_of(length, present(letters)))
+         if (letters(i) == c_null_char) exit
+         path(i:i) = letters(i)
       end do
+      path = replaced(adjustl(path), "\", "/")
    end function path_of
 
    !> The elements of an array of integers

@@ -69,7 +69,7 @@ contains
          call problem%watch%halt()
          if (problem%module_number == 1) call book_patches(problem, problem%watch%cpu - cpu, problem%watch%wall - wall)
          call omp_set_num_threads(threads)
-         if (code > 0) call say(1, this, code_text(code))
+         if (code > 0) call say(1, this, trim(code_text(code)))
          call say(1, this, "done...")
          call leave_calculation(problem)
       end if

@@ -7,7 +7,7 @@ module contact_capi_calculate1
    use contact_capi_calculate3, only : first_problem
    use contact_capi_input_dump, only : dump_pair_case
    use contact_capi_problem, only : library_problem, most_patches
-   use contact_capi_registry, only : complain, entry_type, library_log, result_file, say, working_folder
+   use contact_capi_registry, only : complain, entry_type, find_result_file, find_working_folder, library_log, say
    use contact_cases_pair_session, only : solve_pair_case
    use contact_cases_spec, only : case_spec
    use contact_control_digits, only : digit_value
@@ -34,6 +34,7 @@ contains
       integer, intent(out) :: code
       type(error_type), allocatable :: error
       type(log_type) :: log
+      character(len=:), allocatable :: folder
 
       log = library_log()
       problem%cases = problem%cases + 1
@@ -44,8 +45,8 @@ contains
          code = library_code%other
          call check_settings(problem%spec, error)
          if (.not. allocated(error)) call dump_pair_case(this, problem)
-         if (.not. allocated(error)) call solve_pair_case(problem%pair, problem%spec, working_folder(), log, &
-            & problem%pair_result, error)
+         call find_working_folder(folder)
+         if (.not. allocated(error)) call solve_pair_case(problem%pair, problem%spec, folder, log, problem%pair_result, error)
       end if
       if (allocated(error)) then
          call complain(this, full_text(error), code)
@@ -58,7 +59,7 @@ contains
          ! a wheel beside the rail has no contact to reach the force with, which is no failure
          if (.not. problem%pair_result%solved .and. size(problem%pair_result%patches) > 0) then
             code = library_code%tolerance
-            call complain(this, code_text(code) // ", by " // real_text(problem%pair_result%force_error) // " N", code)
+            call complain(this, trim(code_text(code)) // ", by " // real_text(problem%pair_result%force_error) // " N", code)
          end if
          call write_results(this, problem, log)
       end if
@@ -188,11 +189,13 @@ contains
       type(library_problem), intent(in) :: problem
       type(log_type), intent(inout) :: log
       type(error_type), allocatable :: error
+      character(len=:), allocatable :: path
 
       !$omp critical (contact_printing)
       call write_pair(log, problem%spec, problem%pair_result)
       !$omp end critical (contact_printing)
-      call write_pair_files(result_file("caddon"), problem%cases, problem%ire, problem%spec, problem%pair_result, error, &
+      call find_result_file("caddon", path)
+      call write_pair_files(path, problem%cases, problem%ire, problem%spec, problem%pair_result, error, &
          & problem%metadata%time)
       if (allocated(error)) call complain(this, full_text(error))
    end subroutine write_results

@@ -7,7 +7,7 @@ module contact_capi_calculate3
    use contact_base_solve_report, only : failure_text
    use contact_capi_input_dump, only : dump_contact_case
    use contact_capi_problem, only : library_problem
-   use contact_capi_registry, only : complain, entry_type, library_log, result_file, say, working_folder
+   use contact_capi_registry, only : complain, entry_type, find_result_file, find_working_folder, library_log, say
    use contact_cases_session, only : solve_case
    use contact_cases_spec, only : case_spec
    use contact_control_library_codes, only : library_code
@@ -35,6 +35,7 @@ contains
       integer, intent(out) :: code
       type(error_type), allocatable :: error
       type(log_type) :: log
+      character(len=:), allocatable :: folder
 
       log = library_log()
       problem%cases = problem%cases + 1
@@ -47,7 +48,8 @@ contains
          call check_coefficients(problem%spec, problem%coefficients, error)
       end if
       if (.not. allocated(error)) then
-         call solve_case(problem%session, problem%spec, log, problem%result, error, working_folder())
+         call find_working_folder(folder)
+         call solve_case(problem%session, problem%spec, log, problem%result, error, folder)
          code = library_code%other
          if (allocated(error)) then
             if (.not. continues(problem)) code = library_code%discretisation
@@ -187,13 +189,15 @@ contains
       type(log_type), intent(inout) :: log
       type(error_type), allocatable :: error
       character(len=40) :: name
+      character(len=:), allocatable :: path
 
       !$omp critical (contact_printing)
       call write_case(log, problem%spec, problem%result)
       !$omp end critical (contact_printing)
       if (problem%spec%mat_file < 1) return
       write(name, '("caddon_re", i3.3, "_cp", i1, ".", i0.4, ".mat")') problem%ire, problem%icp, problem%cases
-      call write_mat_file(result_file(trim(name)), problem%spec, problem%result, error, place_of(problem))
+      call find_result_file(trim(name), path)
+      call write_mat_file(path, problem%spec, problem%result, error, place_of(problem))
       if (allocated(error)) call complain(this, full_text(error))
    end subroutine write_results
 
@@ -220,11 +224,11 @@ contains
       if (problem%spec%solve) then
          if (.not. problem%result%normal%succeeded()) then
             code = library_code%normal
-            call complain(this, failure_text("normal", problem%result%normal), code)
+            call complain(this, trim(failure_text("normal", problem%result%normal)), code)
             return
          else if (.not. problem%result%tangential%succeeded()) then
             code = library_code%tangential
-            call complain(this, failure_text("tangential", problem%result%tangential), code)
+            call complain(this, trim(failure_text("tangential", problem%result%tangential)), code)
             return
          end if
       end if

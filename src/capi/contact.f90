@@ -5,7 +5,7 @@ module contact_capi_contact
    use contact_base_kinds, only : wp
    use contact_capi_arguments, only : integer_of, real_of, reals_of
    use contact_capi_problem, only : library_problem
-   use contact_capi_registry, only : are_finite, complain, count_fits, enter, entry_type, leave, say, scope
+   use contact_capi_registry, only : are_finite, complain, count_fits, enter, entry_type, is_heard, leave, say, scope
    use contact_cases_spec, only : geometry_spec, grid_spec
    use contact_control_units, only : inward, quantity
    use contact_text_words, only : integer_text
@@ -321,7 +321,7 @@ contains
          call move_alloc(slip, problem%spec%extra_slip)
          problem%spec%digits%e = slip_source%keep
          problem%spec%slip_source = slip_source%given
-         call say(2, this, integer_text(given) // " values for " // integer_text(n) // " elements")
+         if (is_heard(2)) call say(2, this, integer_text(given) // " values for " // integer_text(n) // " elements")
       end if
       call leave(problem)
    end subroutine cntc_setextrarigidslip

@@ -6,12 +6,12 @@ module contact_capi_flags
    use contact_capi_arguments, only : give_list, integer_of, integers_of, reals_of
    use contact_capi_lifecycle, only : set_global_flag
    use contact_capi_problem, only : library_problem
-   use contact_capi_registry, only : are_finite, complain, enter, entry_type, leave, say, scope, set_timer_level
+   use contact_capi_registry, only : are_finite, complain, enter, entry_type, is_heard, leave, say, scope, set_timer_level
    use contact_control_digits, only : choice_of, digit_value
    use contact_control_digits1, only : choice1_of
    use contact_control_flags, only : accepted_value, flag, flag_table, put_digit, row_of_flag
    use contact_control_units, only : convention_code, find_convention, inward, quantity
-   use contact_text_words, only : integer_text
+   use contact_text_words, only : columns_of, integer_text
    implicit none (type, external)
    private
 
@@ -53,29 +53,42 @@ contains
       type(library_problem), intent(inout) :: problem
       integer :: row, stored
       logical :: accepted
-      character(len=:), allocatable :: text
 
       row = row_of_flag(code)
-      text = "flag " // integer_text(code) // " = " // integer_text(number)
       if (row == 0) then
-         call complain(this, text // ": there is no such flag, it is ignored")
+         call refuse(": there is no such flag, it is ignored")
          return
       end if
       if (.not. flag_table(row)%can_set) then
-         if (code == flag%mater) call complain(this, text // ": the material is set by cntc_setMaterialParameters")
-         if (code == flag%frclaw) call complain(this, text // ": the friction law is set by cntc_setFrictionMethod")
-         if (code == flag%heat) call complain(this, text // ": temperatures are set by cntc_setTemperatureData")
+         if (code == flag%mater) call refuse(": the material is set by cntc_setMaterialParameters")
+         if (code == flag%frclaw) call refuse(": the friction law is set by cntc_setFrictionMethod")
+         if (code == flag%heat) call refuse(": temperatures are set by cntc_setTemperatureData")
          return
       end if
       call accepted_value(flag_table(row), number, problem%module_number, stored, accepted)
       if (.not. accepted) then
-         call complain(this, text // " is outside its range, it is ignored")
+         call refuse(" is outside its range, it is ignored")
          return
       end if
-      if (stored /= number) call say(1, this, text // " is replaced by " // integer_text(stored))
-      call say(2, this, "flag " // integer_text(code) // " = " // integer_text(stored))
+      if (stored /= number) call say(1, this, flag_text(code, number) // " is replaced by " // integer_text(stored))
+      if (is_heard(2)) call say(2, this, flag_text(code, stored))
       call store_flag(this, code, stored, problem)
+
+   contains
+
+      subroutine refuse(reason)
+         character(len=*), intent(in) :: reason
+         call complain(this, flag_text(code, number) // reason)
+      end subroutine refuse
    end subroutine set_flag
+
+   !> "flag 123 = 4"
+   pure function flag_text(code, number) result(text)
+      integer, intent(in) :: code, number
+      character(len=8 + columns_of(code) + columns_of(number)) :: text
+
+      text = "flag " // integer_text(code) // " = " // integer_text(number)
+   end function flag_text
 
    !> Put an accepted value where it acts
    subroutine store_flag(this, code, number, problem)

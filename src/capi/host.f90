@@ -4,7 +4,7 @@ module contact_capi_host
    implicit none (type, external)
    private
 
-   public :: current_folder, give_floats_back, hold_floats, is_forked
+   public :: find_current_folder, give_floats_back, hold_floats, is_forked
 
    !> Letters of the longest name of a folder
    integer, parameter :: longest_path = 4096
@@ -38,8 +38,8 @@ contains
    end function is_forked
 
    !> The current folder; "." when the system does not tell it
-   function current_folder() result(folder)
-      character(len=:), allocatable :: folder
+   subroutine find_current_folder(folder)
+      character(len=:), allocatable, intent(out) :: folder
       character(kind=c_char) :: letters(longest_path)
       integer :: i
 
@@ -50,5 +50,5 @@ contains
          if (letters(i) == c_null_char) exit
          folder = folder // letters(i)
       end do
-   end function current_folder
+   end subroutine find_current_folder
 end module contact_capi_host

@@ -1,7 +1,7 @@
 !> Cases of callers written as an input file of the program (flag 2002)
 module contact_capi_input_dump
    use contact_capi_problem, only : given_profile, library_problem
-   use contact_capi_registry, only : complain, entry_type, input_dump, open_input_dump, result_file, seen_from_results
+   use contact_capi_registry, only : complain, entry_type, find_result_file, input_dump, open_input_dump, relate_to_results
    use contact_cases_spec, only : case_spec
    use contact_output_input_case, only : write_contact_case, write_pair_case
    use contact_wheelrail_spec, only : profile_spec
@@ -81,21 +81,23 @@ contains
       type(profile_spec), intent(inout) :: profile
       type(given_profile), intent(inout) :: given
       character(len=40) :: name
+      character(len=:), allocatable :: path
       integer :: unit, status, k
 
       if (.not. allocated(profile%points)) then
-         profile%name = seen_from_results(profile%name)
+         call relate_to_results(profile%name)
          return
       end if
       if (.not. allocated(given%written_as)) then
          write(name, '("caddon_re", i3.3, ".", i0.4, ".", a, ".txt")') this%ire, number, body
          given%written_as = trim(name)
-         open(newunit=unit, file=result_file(given%written_as), status="replace", action="write", iostat=status)
+         call find_result_file(given%written_as, path)
+         open(newunit=unit, file=path, status="replace", action="write", iostat=status)
          if (status == 0) then
             write(unit, '(2es25.16)', iostat=status) (profile%points(:, k), k=1, size(profile%points, 2))
             close(unit)
          end if
-         if (status /= 0) call complain(this, "the file " // result_file(given%written_as) // &
+         if (status /= 0) call complain(this, "the file " // path // &
             & " for the profile in the input file cannot be written")
       end if
       profile%name = given%written_as

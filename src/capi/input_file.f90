@@ -6,7 +6,7 @@ module contact_capi_input_file
    use contact_capi_calculate3, only : first_problem
    use contact_capi_problem, only : library_problem
    use contact_capi_profiles, only : read_given_profile
-   use contact_capi_registry, only : complain, enter, entry_type, leave, say, scope, working_folder
+   use contact_capi_registry, only : complain, enter, entry_type, find_working_folder, leave, say, scope
    use contact_cases_spec, only : case_digits, case_spec
    use contact_control_digits, only : digit_value
    use contact_control_library_codes, only : input_type, library_code
@@ -15,7 +15,7 @@ module contact_capi_input_file
    use contact_input_reader1, only : read_case1
    use contact_profile_request, only : profile_side
    use contact_text_lexer, only : input_lexer, input_value
-   use contact_text_words, only : integer_text
+   use contact_text_words, only : integer_text, replaced
    use contact_wheelrail_spec, only : profile_spec
    implicit none (type, external)
    private
@@ -35,17 +35,18 @@ contains
       type(library_problem), pointer :: problem
       type(entry_type) :: this
       type(error_type), allocatable :: error
-      character(len=:), allocatable :: file
+      character(len=:), allocatable :: file, folder
       integer :: code
 
       this = entry_type("cntc_readInpFile", integer_of(ire))
       call enter(this, scope%pair, problem, code)
       if (associated(problem)) then
-         file = path_of(c_fname, len_fname)
+         file = trim(path_of(c_fname, len_fname))
          if (len(file) == 0) then
             call fatal_error(error, "the name of the input file is missing")
          else
-            if (file(:1) /= "/") file = working_folder() // file
+            call find_working_folder(folder)
+            if (file(:1) /= "/") file = folder // file
             select case (integer_of(inp_type))
             case (input_type%module_1)
                call take_first_case(this, file, problem, error)
@@ -187,22 +188,15 @@ contains
    subroutine place_beside(file, profile)
       character(len=*), intent(in) :: file
       type(profile_spec), intent(inout) :: profile
-      integer :: i
+      character(len=:), allocatable :: work
+      integer :: first
 
-      do i = 1, len(profile%name)
-         if (profile%name(i:i) == "\") profile%name(i:i) = "/"
-      end do
-      if (profile%name(:1) /= "/") profile%name = seen_from_work(file(:index(file, "/", back=.true.))) // profile%name
+      profile%name = replaced(profile%name, "\", "/")
+      if (profile%name(:1) == "/") return
+      ! the session adds the working folder
+      call find_working_folder(work)
+      first = 1
+      if (work(:min(1, len(work))) /= "/" .and. index(file, work) == 1) first = len(work) + 1
+      profile%name = file(first:index(file, "/", back=.true.)) // profile%name
    end subroutine place_beside
-
-   !> A folder without the working folder before it, to which names of profiles are relative
-   function seen_from_work(folder) result(path)
-      character(len=*), intent(in) :: folder
-      character(len=:), allocatable :: path, work
-
-      path = folder
-      work = working_folder()
-      if (len(work) == 0 .or. len(folder) < len(work)) return
-      if (folder(:len(work)) == work .and. work(:1) /= "/") path = folder(len(work) + 1:)
-   end function seen_from_work
 end module contact_capi_input_file

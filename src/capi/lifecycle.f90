@@ -41,8 +41,8 @@ contains
 
       this%name = "cntc_initializeFirst"
       if (is_parallel(this)) return
-      call start_library(path_of(c_wrkdir, len_wrkdir), path_of(c_outdir, len_outdir), path_of(c_expnam, len_expnam), &
-         & integer_of(ioutput) == 1, started)
+      call start_library(trim(path_of(c_wrkdir, len_wrkdir)), trim(path_of(c_outdir, len_outdir)), &
+         & trim(path_of(c_expnam, len_expnam)), integer_of(ioutput) == 1, started)
       call give(interface_version, ifcver)
       call give(library_code%success, ierror)
    end subroutine cntc_initializefirst
@@ -71,12 +71,12 @@ contains
 
       this = entry_type("cntc_initialize", integer_of(ire))
       if (is_parallel(this)) return
-      call start_library("", path_of(c_outdir, len_outdir), "", .false., started)
+      call start_library("", trim(path_of(c_outdir, len_outdir)), "", .false., started)
       call give(interface_version, ifcver)
       was_active = .false.
       if (integer_of(imodul) == 1 .or. integer_of(imodul) == 3) then
          call register_element(this%ire, integer_of(imodul), code, was_active)
-         if (code /= library_code%success) call complain(this, code_text(code), code)
+         if (code /= library_code%success) call complain(this, trim(code_text(code)), code)
          ! the published interface returns this code for a number that is out of range
          if (code == library_code%bad_element) code = library_code%no_patch
       else

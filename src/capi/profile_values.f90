@@ -6,7 +6,7 @@ module contact_capi_profile_values
    use contact_base_log, only : log_type
    use contact_capi_arguments, only : count_of, give_list, integer_of, integers_of, reals_of
    use contact_capi_problem, only : given_profile, library_problem
-   use contact_capi_registry, only : complain, enter, entry_type, leave, result_file, say, scope, working_folder
+   use contact_capi_registry, only : complain, enter, entry_type, find_result_file, find_working_folder, leave, say, scope
    use contact_cases_pair_session, only : load_profile
    use contact_control_library_codes, only : library_code
    use contact_control_units, only : orientation, outward, quantity
@@ -177,6 +177,7 @@ contains
       type(given_profile) :: points
       type(log_type) :: log
       type(error_type), allocatable :: error
+      character(len=:), allocatable :: folder
 
       if (allocated(given%surface)) then
          call given%surface%cut(sample%place, section)
@@ -191,8 +192,9 @@ contains
          if (is_wheel) plain = problem%spec%wheel_rail%wheel_profile
          plain%smoothing_method = 0
          plain%smoothing = 0.0_wp
+         call find_working_folder(folder)
          call load_profile(problem%pair%profiles, plain, merge(profile_side%wheel, profile_side%rail, is_wheel), &
-            & working_folder(), points%curve, points%surface, log, error)
+            & folder, points%curve, points%surface, log, error)
          curve = given%curve
          if (.not. allocated(error)) curve = points%curve
       else
@@ -390,9 +392,11 @@ contains
    subroutine write_surface(this, surface)
       type(entry_type), intent(in) :: this
       type(profile_surface), intent(in) :: surface
+      character(len=:), allocatable :: path
       integer :: unit, status, g, i
 
-      open(newunit=unit, file=result_file(surface_file), status="replace", action="write", iostat=status)
+      call find_result_file(surface_file, path)
+      open(newunit=unit, file=path, status="replace", action="write", iostat=status)
       if (status == 0) then
          write(unit, '(a)', iostat=status) "% Surface of a variable profile: lines v = 0, 1, ..., cubic B-splines along u", &
             & "% A group has lines that exist over the same range of u: y(i,j), z(i,j) [mm] is coefficient i of line v(j)."
@@ -409,7 +413,7 @@ contains
          end do
          close(unit)
       end if
-      if (status /= 0) call complain(this, "the file " // result_file(surface_file) // " cannot be written")
+      if (status /= 0) call complain(this, "the file " // path // " cannot be written")
 
    contains
 

@@ -10,7 +10,7 @@ module contact_capi_profiles
    use contact_base_log, only : log_type
    use contact_capi_arguments, only : integer_of, integers_of, path_of, reals_of
    use contact_capi_problem, only : library_problem, given_profile
-   use contact_capi_registry, only : are_finite, complain, enter, entry_type, leave, library_log, scope, working_folder
+   use contact_capi_registry, only : are_finite, complain, enter, entry_type, find_working_folder, leave, library_log, scope
    use contact_cases_pair_session, only : load_profile
    use contact_control_library_codes, only : library_code
    use contact_control_units, only : inward, quantity
@@ -46,7 +46,7 @@ contains
       if (.not. associated(problem)) return
       ints = integers_of(nints, iparam)
       reals = reals_of(nreals, rparam)
-      profile%name = path_of(c_fname, len_fname)
+      profile%name = trim(path_of(c_fname, len_fname))
       if (len(profile%name) == 0) then
          call complain(this, "the name of the file is missing; nothing is stored")
       else if (are_finite(this, reals)) then
@@ -159,13 +159,15 @@ contains
       type(given_profile), intent(inout) :: given
       type(error_type), allocatable :: error
       type(log_type) :: log
+      character(len=:), allocatable :: folder
 
       !> Details of failures: nothing was given, the file cannot be opened, its content cannot be used
       integer, parameter :: no_file = 2, no_use = 99
 
       log = library_log()
+      call find_working_folder(folder)
       profiles%watches_files = .false.
-      call load_profile(profiles, profile, side, working_folder(), given%curve, given%surface, log, error)
+      call load_profile(profiles, profile, side, folder, given%curve, given%surface, log, error)
       given%detail = 0
       if (allocated(given%written_as)) deallocate(given%written_as)
       if (.not. allocated(error)) return

@@ -10,7 +10,7 @@ module contact_capi_registry
       & omp_test_lock, omp_unset_lock
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
-   use contact_capi_host, only : current_folder, give_floats_back, hold_floats, is_forked
+   use contact_capi_host, only : find_current_folder, give_floats_back, hold_floats, is_forked
    use contact_capi_problem, only : library_problem, most_patches, new_problem, release_problem
    use contact_control_library_codes, only : code_text, library_code
    use contact_experiment_stopwatch, only : stopwatch
@@ -21,9 +21,9 @@ module contact_capi_registry
 
    public :: scope_type, scope, entry_type, enter, enter_calculation, leave, leave_calculation
    public :: start_library, stop_library, is_running, register_element, remove_element, record_units
-   public :: complain, say, library_log, level_of_debugging, set_debugging, set_threads, threads_inside, most_threads
-   public :: set_timer_level, working_folder, result_file, last_complaint, forget_complaint
-   public :: open_input_dump, input_dump, seen_from_results
+   public :: complain, say, is_heard, library_log, level_of_debugging, set_debugging, set_threads, threads_inside, most_threads
+   public :: set_timer_level, find_working_folder, find_result_file, last_complaint, forget_complaint
+   public :: open_input_dump, input_dump, relate_to_results
    public :: are_finite, count_fits
 
    integer, parameter :: most_elements = 999, most_active = 100
@@ -138,6 +138,7 @@ contains
    subroutine begin_run(work_folder, out_folder, name, screen)
       character(len=*), intent(in) :: work_folder, out_folder, name
       logical, intent(in) :: screen
+      character(len=:), allocatable :: path
       integer :: status, unit, slash, k
 
       if (.not. allocated(library%name)) library%name = "contact_addon"
@@ -152,7 +153,8 @@ contains
       end if
       library%log = log_type()
       if (screen) library%log%screen = output_unit
-      open(newunit=unit, file=path_of_result(".out"), status="replace", action="write", iostat=status)
+      call place_result(library%name // ".out", path)
+      open(newunit=unit, file=path, status="replace", action="write", iostat=status)
       if (status == 0) library%log%out = unit
       library%phase = running
       library%input_dump = 0
@@ -167,54 +169,46 @@ contains
       end do
       call library%total%start()
       call write_banner(library%log)
-      if (status /= 0) call set_last_error(-1, "the file " // path_of_result(".out") // " cannot be written")
+      if (status /= 0) call set_last_error(-1, "the file " // path // " cannot be written")
    end subroutine begin_run
 
    !> A folder with a separator at its end
    pure function with_separator(folder) result(path)
       character(len=*), intent(in) :: folder
-      character(len=:), allocatable :: path
+      character(len=len(folder) + merge(0, 1, folder(len(folder):) == "/")) :: path
 
       path = folder
-      if (folder(len(folder):) /= "/") path = folder // "/"
+      path(len(path):) = "/"
    end function with_separator
 
-   !> Folder and name of a file of results; folders that are relative start at the working folder
-   function path_of_result(ending) result(path)
-      character(len=*), intent(in) :: ending
-      character(len=:), allocatable :: path
-
-      path = in_out_folder(library%name // ending)
-   end function path_of_result
-
-   !> A file in the folder of results
-   function in_out_folder(file) result(path)
+   !> Path of a file in the folder of results; a folder that is relative starts at the working folder
+   subroutine find_result_file(file, path)
       character(len=*), intent(in) :: file
-      character(len=:), allocatable :: path
+      character(len=:), allocatable, intent(out) :: path
+
+      !$omp critical (contact_registry)
+      call place_result(file, path)
+      !$omp end critical (contact_registry)
+   end subroutine find_result_file
+
+   !> The same inside the critical section
+   subroutine place_result(file, path)
+      character(len=*), intent(in) :: file
+      character(len=:), allocatable, intent(out) :: path
 
       path = library%out_folder // file
       if (path(:1) /= "/") path = library%work_folder // path
-   end function in_out_folder
-
-   !> A file in the folder of results
-   function result_file(file) result(path)
-      character(len=*), intent(in) :: file
-      character(len=:), allocatable :: path
-
-      !$omp critical (contact_registry)
-      path = in_out_folder(file)
-      !$omp end critical (contact_registry)
-   end function result_file
+   end subroutine place_result
 
    !> Folder to which names of files are relative, with a separator at its end, "" for the current one
-   function working_folder() result(folder)
-      character(len=:), allocatable :: folder
+   subroutine find_working_folder(folder)
+      character(len=:), allocatable, intent(out) :: folder
 
       !$omp critical (contact_registry)
       folder = ""
       if (allocated(library%work_folder)) folder = library%work_folder
       !$omp end critical (contact_registry)
-   end function working_folder
+   end subroutine find_working_folder
 
    !> Make a result element known; one that is active stays as it is
    subroutine register_element(ire, module_number, code, was_active)
@@ -269,7 +263,7 @@ contains
          call check_patch(call_of, problem, found)
          if (found /= library_code%success) call leave(problem)
       end if
-      if (found /= library_code%success) call complain(call_of, code_text(found), found)
+      if (found /= library_code%success) call complain(call_of, trim(code_text(found)), found)
       if (present(code)) code = found
    end subroutine enter
 
@@ -299,7 +293,7 @@ contains
          end if
          if (code /= library_code%success) call leave(problem)
       end if
-      if (code /= library_code%success) call complain(call_of, code_text(code), code)
+      if (code /= library_code%success) call complain(call_of, trim(code_text(code)), code)
    end subroutine enter_calculation
 
    !> One calculation more, if there are threads for it
@@ -574,7 +568,7 @@ contains
       if (present(code)) number = code
       !$omp critical (contact_registry)
       if (number /= library_code%success) call set_last_error(number, trim(call_of%name) // ": " // text, call_of)
-      call library%log%line(prefix_of(call_of) // " " // text)
+      call library%log%line(trim(prefix_of(call_of)) // " " // text)
       if (library%log%out /= 0) flush(library%log%out)
       !$omp end critical (contact_registry)
    end subroutine complain
@@ -586,10 +580,17 @@ contains
       type(entry_type), intent(in) :: call_of
       character(len=*), intent(in) :: text
 
+      if (.not. is_heard(level)) return
       !$omp critical (contact_registry)
-      if (library%debugging >= level) call library%log%line(prefix_of(call_of) // " " // text)
+      call library%log%line(trim(prefix_of(call_of)) // " " // text)
       !$omp end critical (contact_registry)
    end subroutine say
+
+   !> Are messages of this level written?
+   logical function is_heard(level)
+      integer, intent(in) :: level
+      is_heard = level_of_debugging() >= level
+   end function is_heard
 
    !> A calculation begins: what went wrong with the problem before does not count any more
    subroutine forget_complaint(problem)
@@ -687,7 +688,7 @@ contains
    !> Start of a message: thread, routine, result element and patch
    function prefix_of(call_of) result(text)
       type(entry_type), intent(in) :: call_of
-      character(len=:), allocatable :: text
+      character(len=64) :: text
       character(len=30) :: name
       character(len=4) :: thread
       character(len=24) :: place
@@ -705,18 +706,16 @@ contains
    end function prefix_of
 
    integer function level_of_debugging() result(level)
-      !$omp critical (contact_registry)
+      !$omp atomic read
       level = library%debugging
-      !$omp end critical (contact_registry)
    end function level_of_debugging
 
    !> Amount of messages
    subroutine set_debugging(level)
       integer, intent(in) :: level
 
-      !$omp critical (contact_registry)
+      !$omp atomic write
       library%debugging = level
-      !$omp end critical (contact_registry)
    end subroutine set_debugging
 
    !> Timer table: 0 none, 1 overview, 2 everything
@@ -759,32 +758,36 @@ contains
 
    !> Open the file in which cases are written as input; a failure is not tried again
    subroutine open_input_dump()
+      character(len=:), allocatable :: path
       integer :: status, unit
 
       !$omp critical (contact_registry)
       if (.not. library%dump_was_tried) then
          library%dump_was_tried = .true.
-         open(newunit=unit, file=path_of_result(".inp"), status="replace", action="write", iostat=status)
+         call place_result(library%name // ".inp", path)
+         open(newunit=unit, file=path, status="replace", action="write", iostat=status)
          if (status == 0) library%input_dump = unit
-         if (status /= 0) call set_last_error(library_code%other, "the file " // path_of_result(".inp") // " cannot be written")
+         if (status /= 0) call set_last_error(library_code%other, "the file " // path // " cannot be written")
       end if
       !$omp end critical (contact_registry)
    end subroutine open_input_dump
 
    !> The name of a file of the caller, relative to the working folder, as the input file in the folder of results must give it
-   function seen_from_results(name) result(path)
-      character(len=*), intent(in) :: name
-      character(len=:), allocatable :: path
+   subroutine relate_to_results(name)
+      character(len=:), allocatable, intent(inout) :: name
+      character(len=:), allocatable :: folder
 
-      path = name
       if (name(:1) == "/") return
       !$omp critical (contact_registry)
       if (len(library%out_folder) > 0) then
-         path = library%work_folder // name
-         if (path(:1) /= "/") path = current_folder() // "/" // path
+         name = library%work_folder // name
+         if (name(:1) /= "/") then
+            call find_current_folder(folder)
+            name = folder // "/" // name
+         end if
       end if
       !$omp end critical (contact_registry)
-   end function seen_from_results
+   end subroutine relate_to_results
 
    !> Unit of the file in which cases are written as input, 0 for none
    integer function input_dump() result(unit)

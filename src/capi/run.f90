@@ -64,8 +64,8 @@ contains
       type(run_settings) :: settings
       type(error_type), allocatable :: error
 
-      settings%experiment = text_of(experiment)
-      settings%output_folder = text_of(output_dir)
+      call take_text(experiment, settings%experiment)
+      call take_text(output_dir, settings%output_folder)
       settings%check_only = mode == mode_check
       settings%threads = int(threads)
       if (btest(outputs, json_bit)) settings%exports%json = ""
@@ -97,9 +97,9 @@ contains
    end function contact_run_with
 
    !> A null-terminated text as a Fortran one, "" for a null pointer
-   function text_of(pointer) result(text)
+   subroutine take_text(pointer, text)
       type(c_ptr), intent(in) :: pointer
-      character(len=:), allocatable :: text
+      character(len=:), allocatable, intent(out) :: text
       character(kind=c_char), pointer :: letters(:)
       integer :: i
 
@@ -110,7 +110,7 @@ contains
       do i = 1, size(letters)
          text(i:i) = letters(i)
       end do
-   end function text_of
+   end subroutine take_text
 
    !> Copy a text into the buffer of the caller, cut to fit and null-terminated
    subroutine give_message(text, buffer, length)

@@ -9,7 +9,7 @@ module contact_capi_subsurface
    use contact_capi_arguments, only : give, integer_of, integers_of, reals_of
    use contact_capi_problem, only : library_problem
    use contact_capi_registry, only : are_finite, complain, count_fits, enter, enter_calculation, entry_type, &
-      & forget_complaint, leave, leave_calculation, library_log, result_file, scope, threads_inside
+      & forget_complaint, find_result_file, leave, leave_calculation, library_log, scope, threads_inside
    use contact_capi_view, only : look_at, result_view
    use contact_cases_spec, only : case_spec
    use contact_cases_subsurface, only : subsurface_stresses
@@ -202,6 +202,7 @@ contains
       type(case_spec) :: request
       type(error_type), allocatable :: error
       type(log_type) :: log
+      character(len=:), allocatable :: file
       logical :: left
 
       request%kernel = problem%spec%kernel
@@ -221,7 +222,10 @@ contains
          !$omp critical (contact_printing)
          call write_subsurface(log, request, patch)
          !$omp end critical (contact_printing)
-         if (request%subsurface%matfil >= 1) call write_subs_file(file_name(problem, number), request, patch, error)
+         if (request%subsurface%matfil >= 1) then
+            call find_file(problem, number, file)
+            call write_subs_file(file, request, patch, error)
+         end if
       end if
       if (.not. allocated(error)) return
       if (number > 0) call add_context(error, "contact patch " // integer_text(number))
@@ -230,19 +234,20 @@ contains
    end subroutine calculate_patch
 
    !> Name of the file with the stresses
-   function file_name(problem, number) result(name)
+   subroutine find_file(problem, number, file)
       type(library_problem), intent(in) :: problem
+      !> Patch of wheel and rail, 0 for a contact problem
       integer, intent(in) :: number
-      character(len=:), allocatable :: name
+      character(len=:), allocatable, intent(out) :: file
       character(len=20) :: base
 
       if (number > 0) then
-         name = subs_file_name(result_file("caddon"), problem%cases, problem%ire, number)
+         call find_result_file(subs_file_name("caddon", problem%cases, problem%ire, number), file)
       else
          write(base, '("caddon_re", i3.3, "_cp", i1)') problem%ire, problem%icp
-         name = subs_file_name(result_file(trim(base)), problem%cases)
+         call find_result_file(subs_file_name(trim(base), problem%cases, 0, 0), file)
       end if
-   end function file_name
+   end subroutine find_file
 
    !> Numbers of points of a block, -1 when there is none
    subroutine subs_getblocksize(ire, icp, iblk, nx, ny, nz) bind(c)

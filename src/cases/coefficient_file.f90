@@ -77,6 +77,7 @@ contains
       type(log_type), intent(inout) :: log
       type(error_type), allocatable, intent(out) :: error
       type(input_value) :: v(4)
+      character(len=:), allocatable :: sizes
 
       matrices = 0
       mx = 0
@@ -103,8 +104,10 @@ contains
       if (allocated(error)) return
       mx = v(1)%i
       my = v(2)%i
-      if (mx < grid%mx .or. my < grid%my) call log%warning(sizes() // ": coefficients at larger distances are 0")
-      if (mx > grid%mx .or. my > grid%my) call log%warning(sizes() // ": coefficients at larger distances are not used")
+      sizes = text%file // " has influence coefficients for " // integer_text(mx) // " by " // integer_text(my) // &
+         & " elements, the case has " // integer_text(grid%mx) // " by " // integer_text(grid%my)
+      if (mx < grid%mx .or. my < grid%my) call log%warning(sizes // ": coefficients at larger distances are 0")
+      if (mx > grid%mx .or. my > grid%my) call log%warning(sizes // ": coefficients at larger distances are not used")
 
    contains
 
@@ -141,12 +144,6 @@ contains
          call fatal_error(error, value%name // " = " // real_text(value%r) // " mm cannot be used; accepted is " // name // " = " &
             & // real_text(side) // " mm of the case, up to 1e-5 mm", file=text%file, line=value%line, column=value%column)
       end subroutine accept_side
-
-      function sizes() result(words)
-         character(len=:), allocatable :: words
-         words = text%file // " has influence coefficients for " // integer_text(mx) // " by " // integer_text(my) // &
-            & " elements, the case has " // integer_text(grid%mx) // " by " // integer_text(grid%my)
-      end function sizes
    end subroutine read_heading
 
    !> All coefficients, not yet divided by the modulus
@@ -171,9 +168,9 @@ contains
             headings = headings + 1
             if (headings == matrix .and. ix == 0 .and. iy == -my + 1 .and. matrix <= matrices &
                & .and. abs(values(1) - matrix) < 0.5_wp) cycle
-            call refuse("is not the heading that comes here; expected " // expected())
+            call refuse("is not the heading that comes here; expected " // trim(expected()))
          else if (n /= line_length) then
-            call refuse("has " // integer_text(n) // " numbers; expected " // expected())
+            call refuse("has " // integer_text(n) // " numbers; expected " // trim(expected()))
          else if (matrix > matrices) then
             call refuse("comes after the last coefficients; expected is the end of the file")
          end if
@@ -187,14 +184,14 @@ contains
          iy = -my + 1
          matrix = matrix + 1
       end do
-      if (matrix <= matrices) call fatal_error(error, "the end of the file is reached; expected " // expected(), &
+      if (matrix <= matrices) call fatal_error(error, "the end of the file is reached; expected " // trim(expected()), &
          & file=text%file, line=text%count_lines())
 
    contains
 
       !> What should come next
       function expected() result(words)
-         character(len=:), allocatable :: words
+         character(len=120) :: words
 
          words = "IXOFS XREL and the nine coefficients for offset " // integer_text(ix) // " in x, " // integer_text(iy) // &
             & " in y, of matrix " // integer_text(matrix) // " of " // integer_text(matrices)

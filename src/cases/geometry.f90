@@ -10,6 +10,7 @@ module contact_cases_geometry
    use contact_normal_hertz, only : hertz_by_axes, hertz_by_curvatures, hertz_by_ratio, hertz_contact, &
       & hertz_load, line_contact_by_axes, line_contact_by_curvature
    use contact_patch_result, only : hertz_result
+   use contact_text_words, only : integer_text, real_text
    implicit none (type, external)
    private
 
@@ -93,7 +94,7 @@ contains
       call require_finite("Poisson ratio", nu, error)
       if (allocated(error)) return
       if (nu >= 1.0_wp) then
-         call fatal_error(error, "the combined Poisson ratio must be below 1, it is " // text(nu))
+         call fatal_error(error, "the combined Poisson ratio must be below 1, it is " // real_text(nu))
          return
       end if
       select case (spec%ipotcn)
@@ -112,7 +113,7 @@ contains
       end select
       if (allocated(error)) return
       if (is_line_contact(spec) .and. control /= normal_control%force) &
-         & call fatal_error(error, "a Hertzian line contact (IPOTCN = " // whole(spec%ipotcn) &
+         & call fatal_error(error, "a Hertzian line contact (IPOTCN = " // integer_text(spec%ipotcn) &
          & // ") needs a prescribed normal force, N = 1")
    end subroutine check_hertz
 
@@ -126,12 +127,12 @@ contains
 
       if (spec%mx < 1 .or. spec%my < 1) then
          call fatal_error(error, "the numbers of elements MX, MY must be positive, they are " &
-            & // whole(spec%mx) // " and " // whole(spec%my))
+            & // integer_text(spec%mx) // " and " // integer_text(spec%my))
          return
       end if
       if (int(spec%mx, long)*int(spec%my, long) > int(huge(1), long)) then
          call fatal_error(error, "the potential contact has too many elements: MX = " &
-            & // whole(spec%mx) // ", MY = " // whole(spec%my))
+            & // integer_text(spec%mx) // ", MY = " // integer_text(spec%my))
          return
       end if
       if (spec%ipotcn >= -5 .and. spec%ipotcn <= -1 .and. .not. present(hertz)) then
@@ -161,7 +162,7 @@ contains
       case (1:4)
          call lay_out_given(spec, grid)
       case default
-         call fatal_error(error, "IPOTCN = " // whole(spec%ipotcn) // " is not an option for the " &
+         call fatal_error(error, "IPOTCN = " // integer_text(spec%ipotcn) // " is not an option for the " &
             & // "potential contact; -6...-1 and 1...4 are")
          return
       end select
@@ -242,7 +243,7 @@ contains
 
       allocate(h(grid%mx, grid%my), stat=status)
       if (status /= 0) then
-         call fatal_error(error, "no memory for " // whole(grid%mx) // " x " // whole(grid%my) &
+         call fatal_error(error, "no memory for " // integer_text(grid%mx) // " x " // integer_text(grid%my) &
             & // " elements", kind=error_kind%memory)
          return
       end if
@@ -264,7 +265,7 @@ contains
       case (9)
          call fill_given(spec, grid, h, error)
       case default
-         call fatal_error(error, "IBASE = " // whole(spec%ibase) &
+         call fatal_error(error, "IBASE = " // integer_text(spec%ibase) &
             & // " is not a form of the undeformed distance; 1, 2, 3 and 9 are")
       end select
       if (allocated(error)) return
@@ -321,7 +322,7 @@ contains
       end if
       if (size(spec%profile) < 2) then
          call fatal_error(error, "the profile of IBASE = 2 needs 2 points at least, it has " &
-            & // whole(size(spec%profile)))
+            & // integer_text(size(spec%profile)))
          return
       end if
       if (.not. all(ieee_is_finite(spec%profile))) then
@@ -396,9 +397,9 @@ contains
          return
       end if
       h = 0.0_wp
-      call fatal_error(error, "the undeformed distance is given for " // whole(given) &
-         & // " elements (IBASE = 9), the potential contact has " // whole(grid%mx) // " x " &
-         & // whole(grid%my) // " = " // whole(grid%npot()))
+      call fatal_error(error, "the undeformed distance is given for " // integer_text(given) &
+         & // " elements (IBASE = 9), the potential contact has " // integer_text(grid%mx) // " x " &
+         & // integer_text(grid%my) // " = " // integer_text(grid%npot()))
    end subroutine fill_given
 
    !> Exclude the elements whose centre lies outside the planform
@@ -415,7 +416,7 @@ contains
          return
       case (2, 3)
          if (.not. all(ieee_is_finite(spec%pl(:merge(6, 8, spec%iplan == 2))))) then
-            call fatal_error(error, "the numbers of the planform (IPLAN = " // whole(spec%iplan) // ") must be finite")
+            call fatal_error(error, "the numbers of the planform (IPLAN = " // integer_text(spec%iplan) // ") must be finite")
             return
          end if
       case (4)
@@ -423,7 +424,7 @@ contains
             & // "1, 2 and 3 are", kind=error_kind%unsupported)
          return
       case default
-         call fatal_error(error, "IPLAN = " // whole(spec%iplan) // " is not a planform; 1, 2 and 3 are")
+         call fatal_error(error, "IPLAN = " // integer_text(spec%iplan) // " is not a planform; 1, 2 and 3 are")
          return
       end select
       do iy = 1, grid%my
@@ -497,26 +498,6 @@ contains
       call require_finite(name, value, error)
       if (allocated(error)) return
       if (value > least_value) return
-      call fatal_error(error, "the " // name // " must be positive, it is " // text(value))
+      call fatal_error(error, "the " // name // " must be positive, it is " // real_text(value))
    end subroutine require_positive
-
-   !> A real number for a message
-   pure function text(value)
-      real(wp), intent(in) :: value
-      character(len=:), allocatable :: text
-      character(len=24) :: digits
-
-      write(digits, '(es12.4)') value
-      text = trim(adjustl(digits))
-   end function text
-
-   !> A whole number for a message
-   pure function whole(value)
-      integer, intent(in) :: value
-      character(len=:), allocatable :: whole
-      character(len=24) :: digits
-
-      write(digits, '(i0)') value
-      whole = trim(digits)
-   end function whole
 end module contact_cases_geometry

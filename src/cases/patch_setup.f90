@@ -315,13 +315,13 @@ contains
          return
       end if
       if (oblique) then
-         call fatal_error(error, kind_of_rolling(spec) // " goes along x, CHI = 0 or 180 degrees. In other directions: " // &
+         call fatal_error(error, trim(kind_of_rolling(spec)) // " goes along x, CHI = 0 or 180 degrees. In other directions: " // &
             & "a grid with its x-axis along the rolling direction, T = 2, or T = 3 with ConvexGS (G = 2), flat elastic bodies " // &
             & "and Coulomb friction", error_kind%unsupported)
          return
       end if
       if (other_step .and. .not. allocated(problem%simplified)) &
-         & call log%warning(kind_of_rolling(spec) // " advances by one element per step: DQ is set to DX; " // &
+         & call log%warning(trim(kind_of_rolling(spec)) // " advances by one element per step: DQ is set to DX; " // &
          & "ConvexGS (G=2) takes other steps")
       problem%dq = problem%grid%dx
    end subroutine set_rolling
@@ -329,7 +329,7 @@ contains
    !> Name of what advances by one element per step
    pure function kind_of_rolling(spec) result(text)
       type(case_spec), intent(in) :: spec
-      character(len=:), allocatable :: text
+      character(len=33) :: text
 
       text = "rolling with an interfacial layer"
       if (spec%motion == motion%steady_rolling) text = "steady rolling"

@@ -2,10 +2,12 @@
 module contact_cli_arguments
    use, intrinsic :: iso_fortran_env, only : error_unit, input_unit, output_unit
    use contact_base_error, only : error_type, fatal_error
+   use contact_cli_command_line, only : take_word
    use contact_cli_report, only : is_report, run_report
-   use contact_cli_versions, only : contact_version, version_text
+   use contact_cli_versions, only : contact_version, write_versions
    use contact_experiment_progress, only : is_terminal
    use contact_experiment_run, only : run_experiment, run_settings
+   use contact_text_words, only : replaced
    implicit none (type, external)
    private
 
@@ -69,7 +71,7 @@ contains
             call write_help()
             return
          else if (asked%version) then
-            write(output_unit, '(a)') version_text()
+            call write_versions(output_unit)
             return
          end if
          if (asked%mode == 0) call ask_mode(asked, error)
@@ -128,7 +130,7 @@ contains
       k = 0
       do while (k < command_argument_count())
          k = k + 1
-         word = argument(k)
+         call take_word(k, word)
          if (options .and. word == "--") then
             options = .false.
          else if (options .and. index(word, "-") == 1) then
@@ -207,7 +209,7 @@ contains
             value = word(equals + 1:)
          else if (k < command_argument_count()) then
             k = k + 1
-            value = argument(k)
+            call take_word(k, value)
          end if
          if (len_trim(value) == 0) call fatal_error(error, "the option " // name // " needs " // what)
       end subroutine take_value
@@ -270,23 +272,14 @@ contains
       flush(output_unit)
       read(input_unit, '(a)', iostat=status) line
       if (status == 0) then
-         answer = without_carriage_return(trim(adjustl(line)))
+         ! a carriage return ends the lines of foreign files
+         answer = trim(adjustl(replaced(line, achar(13), " ")))
       else
          answer = ""
          write(output_unit, '(a)') ""
          call fatal_error(error, "the input ended where an answer was expected")
       end if
    end subroutine ask
-
-   !> A line without the carriage return of foreign line ends
-   pure function without_carriage_return(line) result(text)
-      character(len=*), intent(in) :: line
-      character(len=:), allocatable :: text
-
-      text = line
-      if (len(line) == 0) return
-      if (line(len(line):) == achar(13)) text = trim(line(:len(line) - 1))
-   end function without_carriage_return
 
    !> An unsigned integer, -1 when the word is none
    pure integer function to_number(word) result(number)
@@ -298,17 +291,6 @@ contains
       read(word, *, iostat=status) number
       if (status /= 0) number = -1
    end function to_number
-
-   !> A word of the command line
-   function argument(k) result(word)
-      integer, intent(in) :: k
-      character(len=:), allocatable :: word
-      integer :: length
-
-      call get_command_argument(k, length=length)
-      allocate(character(len=length) :: word)
-      if (length > 0) call get_command_argument(k, word)
-   end function argument
 
    !> Answer to --help
    subroutine write_help()

@@ -2,6 +2,8 @@
 module contact_cli_report
    use, intrinsic :: iso_c_binding, only : c_char, c_null_char, c_size_t
    use, intrinsic :: iso_fortran_env, only : error_unit
+   use contact_cli_command_line, only : take_word
+   use contact_text_words, only : replaced
    implicit none (type, external)
    private
 
@@ -42,11 +44,11 @@ contains
 
    !> Do what `contact report ...` asks for; the result is the exit status
    integer function run_report() result(status)
-      character(len=:), allocatable :: command, place, program_name
+      character(len=:), allocatable :: command, place, program_name, word
       integer :: k
 
-      program_name = own_path()
-      place = package_place(program_name)
+      call find_program(program_name)
+      call find_package(program_name, place)
       status = 1
       if (run_quietly("command -v python3") /= 0) then
          write(error_unit, '(a)') "contact report: Python 3 is not found; install it together with NumPy and h5py " &
@@ -64,16 +66,17 @@ contains
       command = "python3 -c " // quoted(start) // " " // quoted(place)
       if (len(program_name) > 0) command = "CONTACT_PROGRAM=" // quoted(program_name) // " exec " // command
       do k = 2, command_argument_count()
-         command = command // " " // quoted(argument(k))
+         call take_word(k, word)
+         command = command // " " // quoted(word)
       end do
       call execute_command_line(command, exitstat=status)
    end function run_report
 
    !> Folder that holds the package, "" when there is none
-   function package_place(program_name) result(place)
+   subroutine find_package(program_name, place)
       !> Path of the program, "" when unknown
       character(len=*), intent(in) :: program_name
-      character(len=:), allocatable :: place
+      character(len=:), allocatable, intent(out) :: place
       character(len=4096) :: named
       integer :: k, length
       logical :: is_there
@@ -91,11 +94,11 @@ contains
          if (is_there) return
       end do
       place = ""
-   end function package_place
+   end subroutine find_package
 
    !> Path of this program, "" when the system does not tell
-   function own_path() result(path)
-      character(len=:), allocatable :: path
+   subroutine find_program(path)
+      character(len=:), allocatable, intent(out) :: path
       character(len=4096) :: buffer
       integer(c_size_t) :: used
 
@@ -107,7 +110,7 @@ contains
       end if
       call get_command_argument(0, buffer)
       if (index(buffer, "/") > 0) path = trim(buffer)
-   end function own_path
+   end subroutine find_program
 
    !> Exit status of a command whose output nobody wants
    integer function run_quietly(command) result(status)
@@ -118,28 +121,8 @@ contains
    !> A word as the shell leaves it alone
    pure function quoted(word) result(safe)
       character(len=*), intent(in) :: word
-      character(len=:), allocatable :: safe
-      integer :: i
+      character(len=len(replaced(word, "'", "'\''")) + 2) :: safe
 
-      safe = "'"
-      do i = 1, len(word)
-         if (word(i:i) == "'") then
-            safe = safe // "'\''"
-         else
-            safe = safe // word(i:i)
-         end if
-      end do
-      safe = safe // "'"
+      safe = "'" // replaced(word, "'", "'\''") // "'"
    end function quoted
-
-   !> A word of the command line
-   function argument(k) result(word)
-      integer, intent(in) :: k
-      character(len=:), allocatable :: word
-      integer :: length
-
-      call get_command_argument(k, length=length)
-      allocate(character(len=length) :: word)
-      if (length > 0) call get_command_argument(k, word)
-   end function argument
 end module contact_cli_report

@@ -5,7 +5,7 @@ module contact_cli_versions
    implicit none (type, external)
    private
 
-   public :: contact_version, version_text
+   public :: contact_version, write_versions
 
    !> The one place of the version number; CMake reads it from this line
    character(len=*), parameter :: contact_version = "0.1.0"
@@ -13,24 +13,19 @@ module contact_cli_versions
 contains
 
    !> Answer to `contact --version`: program, compiler and linked HDF5, one line each
-   function version_text() result(text)
-      character(len=:), allocatable :: text
+   subroutine write_versions(unit)
+      integer, intent(in) :: unit
 
-      text = "contact " // contact_version // new_line("a") &
-         & // "compiled by " // compiler_version() // new_line("a") &
-         & // "HDF5 " // hdf5_version()
-   end function version_text
+      write(unit, '(a)') "contact " // contact_version, "compiled by " // compiler_version(), "HDF5 " // trim(hdf5_version())
+   end subroutine write_versions
 
    !> Number of the HDF5 library this program is linked with, as the library itself says it
    function hdf5_version() result(text)
-      character(len=:), allocatable :: text
-      character(len=40) :: numbers
+      character(len=40) :: text
       integer :: major, minor, release, status
 
       text = "of unknown version"
       call h5get_libversion_f(major, minor, release, status)
-      if (status /= 0) return
-      write(numbers, '(i0, ".", i0, ".", i0)') major, minor, release
-      text = trim(numbers)
+      if (status == 0) write(text, '(i0, ".", i0, ".", i0)') major, minor, release
    end function hdf5_version
 end module contact_cli_versions

@@ -11,8 +11,11 @@ module contact_control_digits
    private
 
    public :: digit_row, digit_table, digit_names
-   public :: is_known, is_built, choice_of, digit_text, allowed_text, digit_value
+   public :: is_known, is_built, choice_of, digit_text, allowed_text, listed, digit_value
    public :: decode_words, encode_words, word_text
+
+   !> Length of the words for a value, and of the list of all values of a digit
+   integer, parameter, public :: text_length = 80, list_length = 28
 
    !> One value of one control digit
    type :: digit_row
@@ -25,7 +28,7 @@ module contact_control_digits
       !> Can this version compute it?
       logical :: built
       !> What it means; for what is not built: the name of the effect
-      character(len=80) :: text
+      character(len=text_length) :: text
    end type digit_row
 
    !> All digits in the order of the control words
@@ -187,27 +190,29 @@ contains
    pure function digit_text(name, digit) result(text)
       character(len=*), intent(in) :: name
       integer, intent(in) :: digit
-      character(len=:), allocatable :: text
+      character(len=text_length) :: text
       integer :: row
 
       row = row_of(name, digit)
       text = "unknown"
-      if (row > 0) text = trim(digit_table(row)%text)
+      if (row > 0) text = digit_table(row)%text
    end function digit_text
 
    !> The known values of a digit, "0, 1, 2, 3", for messages
    pure function allowed_text(name) result(text)
       character(len=*), intent(in) :: name
-      character(len=:), allocatable :: text
-      integer :: row
+      character(len=list_length) :: text
 
-      text = ""
-      do row = 1, size(digit_table)
-         if (digit_table(row)%name /= name) cycle
-         if (len(text) > 0) text = text // ", "
-         text = text // achar(iachar("0") + digit_table(row)%digit)
-      end do
+      text = listed(pack(digit_table%digit, digit_table%name == name))
    end function allowed_text
+
+   !> Digits with commas between
+   pure function listed(digits) result(text)
+      integer, intent(in) :: digits(:)
+      character(len=list_length) :: text
+
+      write(text, '(*(i1, :, ", "))') digits
+   end function listed
 
    !> Value of the digit with the given name
    pure integer function digit_value(digits, name) result(digit)

@@ -6,7 +6,7 @@ module contact_control_digits1
    use contact_cases_spec, only : case_digits
    use contact_control_digits, only : common_names => digit_names, common_allowed => allowed_text, &
       & common_built => is_built, common_choice => choice_of, common_known => is_known, common_text => digit_text, &
-      & decode_words, digit_row
+      & decode_words, digit_row, list_length, listed, text_length
    implicit none (type, external)
    private
 
@@ -122,7 +122,7 @@ contains
    pure function digit1_text(name, digit) result(text)
       character(len=*), intent(in) :: name
       integer, intent(in) :: digit
-      character(len=:), allocatable :: text
+      character(len=text_length) :: text
       integer :: row
 
       if (.not. is_own(name)) then
@@ -131,25 +131,19 @@ contains
       end if
       row = row_of(name, digit)
       text = "unknown"
-      if (row > 0) text = trim(digit1_table(row)%text)
+      if (row > 0) text = digit1_table(row)%text
    end function digit1_text
 
    !> The known values of a digit, "0, 1, 4, 5", for messages
    pure function allowed1_text(name) result(text)
       character(len=*), intent(in) :: name
-      character(len=:), allocatable :: text
-      integer :: row
+      character(len=list_length) :: text
 
-      if (.not. is_own(name)) then
+      if (is_own(name)) then
+         text = listed(pack(digit1_table%digit, digit1_table%name == name))
+      else
          text = common_allowed(name)
-         return
       end if
-      text = ""
-      do row = 1, size(digit1_table)
-         if (digit1_table(row)%name /= name) cycle
-         if (len(text) > 0) text = text // ", "
-         text = text // achar(iachar("0") + digit1_table(row)%digit)
-      end do
    end function allowed1_text
 
    !> Take the control words of module 1 apart, from the right; see decode_words

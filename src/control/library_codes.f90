@@ -74,7 +74,7 @@ contains
    pure function code_text(code) result(text)
       !> Member of library_code
       integer, intent(in) :: code
-      character(len=:), allocatable :: text
+      character(len=100) :: text
 
       select case (code)
       case (library_code%success); text = "success"

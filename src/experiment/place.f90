@@ -1,5 +1,6 @@
 !> Where the files of an experiment are
 module contact_experiment_place
+   use contact_text_words, only : replaced
    implicit none (type, external)
    private
 
@@ -36,7 +37,7 @@ contains
       character(len=:), allocatable :: path
       integer :: last
 
-      path = with_own_separators(trim(adjustl(typed)))
+      path = replaced(trim(adjustl(typed)), foreign_separator, separator)
       last = len(path) - len(input_suffix)
       if (last > 0) then
          if (path(last + 1:) == input_suffix .and. path(last:last) /= separator) then
@@ -49,27 +50,10 @@ contains
       place%name = path(last + 1:)
       place%input = path // input_suffix
       place%results = path
-      if (len_trim(output_folder) > 0) place%results = in_folder(with_own_separators(trim(output_folder)), place%name)
+      if (len_trim(output_folder) > 0) then
+         path = replaced(trim(output_folder), foreign_separator, separator)
+         if (path(len(path):) /= separator) path = path // separator
+         place%results = path // place%name
+      end if
    end function locate_experiment
-
-   !> A file name with the separators of this platform
-   pure function with_own_separators(name) result(own)
-      character(len=*), intent(in) :: name
-      character(len=len(name)) :: own
-      integer :: i
-
-      own = name
-      do i = 1, len(own)
-         if (own(i:i) == foreign_separator) own(i:i) = separator
-      end do
-   end function with_own_separators
-
-   !> Folder and name in one
-   pure function in_folder(folder, name) result(path)
-      character(len=*), intent(in) :: folder, name
-      character(len=:), allocatable :: path
-
-      path = folder // separator // name
-      if (folder(len(folder):) == separator) path = folder // name
-   end function in_folder
 end module contact_experiment_place

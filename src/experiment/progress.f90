@@ -70,7 +70,7 @@ contains
       if (now - self%changed < pause_between) return
       self%changed = now
       self%visible = .true.
-      write(error_unit, '(a)', advance="no") carriage_return // progress_text(done, self%total, now - self%started) // &
+      write(error_unit, '(a)', advance="no") carriage_return // trim(progress_text(done, self%total, now - self%started)) // &
          & clear_to_end // carriage_return
       flush(error_unit)
    end subroutine show
@@ -90,22 +90,20 @@ contains
       integer, intent(in) :: done, total
       !> Time that the cases have taken so far [s]
       real(wp), intent(in) :: elapsed
-      character(len=:), allocatable :: text
-      character(len=80) :: line
+      character(len=80) :: text
       integer :: seconds
 
       if (done < 1) then
-         write(line, '(" case ", i0, " of ", i0)') min(done + 1, total), total
+         write(text, '(" case ", i0, " of ", i0)') min(done + 1, total), total
       else
          seconds = nint(min(elapsed*real(total - done, wp)/real(done, wp), 3.0e7_wp))
          if (seconds >= 3600) then
-            write(line, '(" case ", i0, " of ", i0, ", ", i0, ":", i2.2, ":", i2.2, " left")') min(done + 1, total), total, &
+            write(text, '(" case ", i0, " of ", i0, ", ", i0, ":", i2.2, ":", i2.2, " left")') min(done + 1, total), total, &
                & seconds/3600, mod(seconds, 3600)/60, mod(seconds, 60)
          else
-            write(line, '(" case ", i0, " of ", i0, ", ", i0, ":", i2.2, " left")') min(done + 1, total), total, &
+            write(text, '(" case ", i0, " of ", i0, ", ", i0, ":", i2.2, " left")') min(done + 1, total), total, &
                & seconds/60, mod(seconds, 60)
          end if
       end if
-      text = trim(line)
    end function progress_text
 end module contact_experiment_progress

@@ -30,7 +30,7 @@ module contact_experiment_run
    use contact_output_report_pair, only : write_pair
    use contact_output_subs_file, only : subs_file_name, write_subs_file
    use contact_patch_result, only : patch_result
-   use contact_text_words, only : integer_text
+   use contact_text_words, only : columns_of, integer_text
    implicit none (type, external)
    private
 
@@ -170,10 +170,10 @@ contains
    pure function counted(n, what) result(text)
       integer, intent(in) :: n
       character(len=*), intent(in) :: what
-      character(len=:), allocatable :: text
+      character(len=columns_of(n) + 1 + len(what) + merge(0, 1, n == 1)) :: text
 
       text = integer_text(n) // " " // what
-      if (n /= 1) text = text // "s"
+      if (n /= 1) text(len(text):) = "s"
    end function counted
 
    !> Solve the cases one after the other and write the results
@@ -309,13 +309,13 @@ contains
 
       call write_case(state%log, this%spec, result)
       if (this%spec%mat_file >= 1) then
-         call write_mat_file(mat_file_name(state%place%results, this%number, this%reid), this%spec, result, error)
+         call write_mat_file(mat_file_name(state%place%results, this%number, this%reid, 0), this%spec, result, error)
          if (allocated(error)) call report_error(state, error)
       end if
       if (this%spec%digits%s < 1 .or. .not. allocated(result%subsurface)) return
       call write_subsurface(state%log, this%spec, result)
       if (this%spec%subsurface%matfil >= 1) then
-         call write_subs_file(subs_file_name(state%place%results, this%number, this%reid), this%spec, result, error)
+         call write_subs_file(subs_file_name(state%place%results, this%number, this%reid, 0), this%spec, result, error)
          if (allocated(error)) call report_error(state, error)
       end if
    end subroutine write_results

@@ -137,10 +137,10 @@ contains
       type(bounding_box), intent(in) :: window
       !> Columns of text per element; 1, 10 or 100
       integer, intent(in) :: step, unit
-      character(len=:), allocatable :: line
+      character(len=step*(window%ix1 - window%ix0 + 1)) :: line
       integer :: ix, position
 
-      line = repeat(" ", step*(window%ix1 - window%ix0 + 1))
+      line = ""
       do ix = window%ix0, window%ix1
          if (mod(ix, unit) /= 0) cycle
          position = step*(ix - window%ix0 + 1)

@@ -107,7 +107,7 @@ contains
       type(hdf5_file), intent(inout) :: file
       type(case_head), intent(in) :: head
 
-      call file%begin_case(case_name(head), integer_text(head%result_element) // "." // integer_text(head%contact_problem))
+      call file%begin_case(trim(case_name(head)), integer_text(head%result_element) // "." // integer_text(head%contact_problem))
       call file%begin_row(patch=.false.)
       call file%open_group("", columns=.true.)
       call describe_head(file, head)
@@ -121,13 +121,11 @@ contains
    !> Name of the group of a case: case_0001, with result elements re001_case_0001
    function case_name(head) result(name)
       type(case_head), intent(in) :: head
-      character(len=:), allocatable :: name
-      character(len=40) :: buffer
+      character(len=48) :: name
 
-      write(buffer, '(a, i0.4)') "case_", head%number
-      if (head%result_element > 0) write(buffer, '(a, i0.3, a, i0.4)') "re", head%result_element, "_case_", head%number
-      name = trim(buffer)
-      if (head%contact_problem > 1) name = name // "_cp" // integer_text(head%contact_problem)
+      write(name, '(a, i0.4)') "case_", head%number
+      if (head%result_element > 0) write(name, '(a, i0.3, a, i0.4)') "re", head%result_element, "_case_", head%number
+      if (head%contact_problem > 1) name = trim(name) // "_cp" // integer_text(head%contact_problem)
    end function case_name
 
    !> One contact patch

@@ -124,7 +124,8 @@ contains
          name = trim(digit1_names(k))
          if (digit1_value_is_known(name, digit_value(digits, name))) cycle
          call add_for_digit(problems, words, severity%error, name, name // " = " // &
-            & integer_text(digit_value(digits, name)) // " is not a known digit of module 1; allowed are " // allowed1_text(name))
+            & integer_text(digit_value(digits, name)) // " is not a known digit of module 1; allowed are " // &
+            & trim(allowed1_text(name)))
       end do
    end subroutine check_ranges
 

@@ -122,7 +122,7 @@ contains
          name = trim(digit_names(k))
          if (is_known(name, digit_value(digits, name))) cycle
          call add_for_digit(problems, words, severity%error, name, name // " = " // &
-            & integer_text(digit_value(digits, name)) // " is not a known digit; allowed are " // allowed_text(name))
+            & integer_text(digit_value(digits, name)) // " is not a known digit; allowed are " // trim(allowed_text(name)))
       end do
    end subroutine check_ranges
 
@@ -264,10 +264,10 @@ contains
          digit = kept_digit(spec, name, on_rail)
          if (on_rail) then
             if (digit1_is_built(name, digit) .or. .not. digit1_value_is_known(name, digit)) cycle
-            text = digit1_text(name, digit) // ", is known but not built in this version for wheel on rail"
+            text = trim(digit1_text(name, digit)) // ", is known but not built in this version for wheel on rail"
          else
             if (is_built(name, digit) .or. .not. is_known(name, digit)) cycle
-            text = digit_text(name, digit) // ", is known but not built in this version"
+            text = trim(digit_text(name, digit)) // ", is known but not built in this version"
          end if
          call add_for_digit(problems, words, severity%unsupported, name, name // " = " // integer_text(digit) // ", " // text)
       end do

@@ -244,6 +244,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(input_value) :: v(8)
       real(wp), allocatable :: list(:)
+      character(len=:), allocatable :: words
       integer :: n
 
       select case (option%i)
@@ -256,8 +257,13 @@ contains
          call lexer%read_group("rrrrrrrr", "XL1 XH1 YL1 YH1 XL2 XH2 YL2 YH2", v, error)
          if (allocated(error)) return
          geometry%pl = v%r
-         if (any(v(2::2)%r <= v(1::2)%r)) call problems%add(severity%error, "the rectangles of IPLAN = 3 need XL < XH " // &
-            & "and YL < YH; given are XL1, XH1, YL1, YH1, XL2, XH2, YL2, YH2 = " // joined(v), v(1)%line, v(1)%column)
+         if (all(v(1::2)%r < v(2::2)%r)) return
+         words = v(1)%word
+         do n = 2, size(v)
+            words = words // ", " // v(n)%word
+         end do
+         call problems%add(severity%error, "the rectangles of IPLAN = 3 need XL < XH " // &
+            & "and YL < YH; given are XL1, XH1, YL1, YH1, XL2, XH2, YL2, YH2 = " // words, v(1)%line, v(1)%column)
       case (4)
          call lexer%read_group("i", "NP", v, error)
          if (allocated(error)) return
@@ -273,18 +279,6 @@ contains
             & " is not a known option; allowed are 1 to 4", option%line, option%column)
       end select
    end subroutine read_planform
-
-   !> The words of values with commas between
-   pure function joined(values) result(text)
-      type(input_value), intent(in) :: values(:)
-      character(len=:), allocatable :: text
-      integer :: k
-
-      text = values(1)%word
-      do k = 2, size(values)
-         text = text // ", " // values(k)%word
-      end do
-   end function joined
 
    !> Extra term of the rigid slip (E); 0 removes it
    subroutine read_extra_slip(lexer, spec, error)

@@ -198,6 +198,8 @@ contains
       !> Control point that stands before the values: on entry its name, an angle when that is ALPHA
       type(input_value), intent(inout), optional :: control
       type(input_value) :: v(5), all_values(6)
+      !> What the coefficients are called in the laws that fall with slip velocity
+      character(len=4), parameter :: falling(2:4) = ["FLIN", "FRAT", "FEXP"]
       character(len=:), allocatable :: types, names
       integer :: k, first
 
@@ -207,7 +209,7 @@ contains
          names = "FSTAT FKIN"
       case (2, 3, 4)
          types = "rrrrr"
-         names = law_names(law)
+         names = "FKIN " // falling(law) // "1 SABSH1 " // falling(law) // "2 SABSH2"
       case (6)
          types = "rrrr"
          names = "FREF TREF DFHEAT DTHEAT"
@@ -260,15 +262,6 @@ contains
          set%fkin = set%fref + set%dfheat
       end select
    end subroutine read_friction_set
-
-   !> Names of the values of the laws that fall with slip velocity
-   pure function law_names(law) result(names)
-      integer, intent(in) :: law
-      character(len=:), allocatable :: names
-      character(len=4), parameter :: word(2:4) = ["FLIN", "FRAT", "FEXP"]
-
-      names = "FKIN " // word(law) // "1 SABSH1 " // word(law) // "2 SABSH2"
-   end function law_names
 
    !> Friction memory of the laws that are not Coulomb's
    subroutine read_friction_memory(lexer, spec, problems, error)

@@ -139,13 +139,20 @@ contains
          & value%line, value%column)
    end subroutine check_above
 
+   !> The words that begin a printed problem
+   pure function opening(problem) result(words)
+      type(input_problem), intent(in) :: problem
+      character(len=16) :: words
+
+      words = " Input: ERROR."
+      if (problem%severity == severity%warning) words = " Input: WARNING."
+   end function opening
+
    !> A problem as it is printed, " Input: ERROR. file:line:column: words"
    pure function problem_text(problem) result(text)
       type(input_problem), intent(in) :: problem
-      character(len=:), allocatable :: text
+      character(len=len_trim(opening(problem)) + 1 + len(full_text(problem%what))) :: text
 
-      text = " Input: ERROR. "
-      if (problem%severity == severity%warning) text = " Input: WARNING. "
-      text = text // full_text(problem%what)
+      text = trim(opening(problem)) // " " // full_text(problem%what)
    end function problem_text
 end module contact_input_problems

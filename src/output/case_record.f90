@@ -208,7 +208,7 @@ contains
       if (method == "") method = "none"
       call record%text(problem // "_method", "method that ended the iteration", method)
       if (report%gave_up /= "") call record%text(problem // "_gave_up", "method that was given up", trim(report%gave_up))
-      call record%text(problem // "_ended", "how the iteration ended", ending_name(report))
+      call record%text(problem // "_ended", "how the iteration ended", trim(ending_name(report)))
       call record%count(problem // "_iterations", "iterations of the last call", report%iterations)
       if (report%residual >= 0.0_wp) call record%number(problem // "_residual", "", "relative residual", report%residual)
       call record%number(problem // "_tolerance", "", "tolerance that was asked for", report%tolerance)
@@ -217,7 +217,7 @@ contains
    !> How an iteration ended, in words
    pure function ending_name(report) result(name)
       type(solve_report), intent(in) :: report
-      character(len=:), allocatable :: name
+      character(len=15) :: name
 
       if (report%ended == ending%not_started) then
          name = "nothing to do"

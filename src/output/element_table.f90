@@ -36,7 +36,7 @@ contains
                call log%result("")
                new_row = .false.
             end if
-            call log%result(element_line(spec%motion, result, ix, iy))
+            call write_element(log, spec%motion, result, ix, iy)
          end do
       end do
    end subroutine write_element_table
@@ -75,8 +75,9 @@ contains
       end if
    end subroutine write_table_head
 
-   !> Values of one element; slip per step becomes relative slip
-   function element_line(motion_kind, result, ix, iy) result(line)
+   !> Write the line of one element; slip per step becomes relative slip
+   subroutine write_element(log, motion_kind, result, ix, iy)
+      type(log_type), intent(inout) :: log
       !> Member of motion
       integer, intent(in) :: motion_kind
       type(patch_result), intent(in) :: result
@@ -101,5 +102,6 @@ contains
             & // general(result%wx(ix, iy)/result%dq, 11, 3) // general(result%wy(ix, iy)/result%dq, 11, 3)
          if (allocated(result%temp1)) line = line // general(result%temp1(ix, iy), 11, 4) // general(result%temp2(ix, iy), 11, 4)
       end if
-   end function element_line
+      call log%result(line)
+   end subroutine write_element
 end module contact_output_element_table

@@ -32,6 +32,21 @@ module contact_output_finished_file
 
 contains
 
+   !> What tells the files of cases apart: [_reNNN].<case>[<patch letter>], with blanks behind
+   pure function case_mark(case_text, result_element, patch) result(mark)
+      character(len=*), intent(in) :: case_text
+      integer, intent(in) :: result_element, patch
+      character(len=len(case_text) + 16) :: mark
+
+      mark = ""
+      if (result_element > 0) write(mark, '(a, i0.3)') "_re", result_element
+      if (patch > 0 .and. patch <= 26) then
+         mark = trim(mark) // "." // trim(case_text) // achar(iachar("a") + patch - 1)
+      else if (case_text /= "") then
+         mark = trim(mark) // "." // case_text
+      end if
+   end function case_mark
+
    !> Name of a file that belongs to one case: <base>[_reNNN].<case>[<patch letter>].<extension>
    pure function case_file_name(base, case_text, extension, result_element, patch) result(name)
       !> Folder and name of the experiment
@@ -40,26 +55,11 @@ contains
       character(len=*), intent(in) :: case_text
       !> Extension without dot
       character(len=*), intent(in) :: extension
-      !> Result element, absent or 0 for none; contact patch (1 = a), absent or 0 for none
-      integer, intent(in), optional :: result_element, patch
-      character(len=:), allocatable :: name
-      character(len=12) :: number
+      !> Result element and contact patch (1 = a), 0 for none
+      integer, intent(in) :: result_element, patch
+      character(len=len(base) + len_trim(case_mark(case_text, result_element, patch)) + 1 + len(extension)) :: name
 
-      name = base
-      if (present(result_element)) then
-         if (result_element > 0) then
-            write(number, '(i0.3)') result_element
-            name = name // "_re" // trim(number)
-         end if
-      end if
-      if (len_trim(case_text) > 0) name = name // "." // trim(case_text)
-      if (present(patch)) then
-         if (patch > 0 .and. patch <= 26) then
-            if (len_trim(case_text) == 0) name = name // "."
-            name = name // achar(iachar("a") + patch - 1)
-         end if
-      end if
-      name = name // "." // extension
+      name = base // trim(case_mark(case_text, result_element, patch)) // "." // extension
    end function case_file_name
 
    !> Open a temporary file in the folder of the final one

@@ -8,6 +8,7 @@
 module contact_output_formats
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite, ieee_is_nan
    use contact_base_kinds, only : long, wp
+   use contact_text_words, only : columns_of
    implicit none (type, external)
    private
 
@@ -42,7 +43,7 @@ contains
       integer, intent(in) :: value
       !> Number of columns
       integer, intent(in) :: width
-      character(len=:), allocatable :: text
+      character(len=max(width, columns_of(value))) :: text
       character(len=room) :: work
       integer :: first
 
@@ -50,8 +51,7 @@ contains
       first = room + 1
       call prepend(work, first, abs(int(value, long)), 1)
       if (value < 0) call prepend_sign(work, first)
-      first = min(first, room + 1 - width)
-      text = work(first:room)
+      text = work(room + 1 - len(text):)
    end function whole
 
    !> Fixed point with the given decimals, right-aligned; large values lose decimals, then
@@ -174,18 +174,22 @@ contains
       end do
    end function smarts
 
+   !> Length of a heading, without blanks behind the last name
+   pure integer function heading_length(names) result(length)
+      character(len=*), intent(in) :: names(:)
+      length = 12*size(names) - 7 + len_trim(names(size(names)))
+   end function heading_length
+
    !> Column names above values: two blanks, then three blanks and a name in each twelve columns
    pure function heading(names) result(text)
       character(len=*), intent(in) :: names(:)
-      character(len=:), allocatable :: text
-      character(len=2 + 12*size(names)) :: line
+      character(len=heading_length(names)) :: text
       integer :: i
 
-      line = ""
+      text = ""
       do i = 1, size(names)
-         line(12*i - 6:12*i + 2) = names(i)
+         text(12*i - 6:) = names(i)
       end do
-      text = trim(line)
    end function heading
 
    !> Round to significant digits

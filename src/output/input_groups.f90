@@ -21,37 +21,47 @@ contains
       write(unit, '(a)', iostat=status) " " // values // "   % " // names
    end subroutine put_line
 
-   !> Real numbers with all their figures
-   pure function numbers(values) result(text)
+   !> Real numbers with all their figures, with blanks behind
+   pure function number_row(values) result(text)
       real(wp), intent(in) :: values(:)
-      character(len=:), allocatable :: text
+      character(len=width*size(values)) :: text
       character(len=width) :: word
-      integer :: k
+      integer :: k, last
 
       text = ""
+      last = -1
       do k = 1, size(values)
          write(word, '(es23.15e3)') values(k)
          if (abs(values(k)) < 1.0e6_wp .and. abs(values(k)) >= 0.0_wp) then
             if (abs(values(k) - anint(values(k))) <= 0.0_wp) write(word, '(f10.1)') values(k)
          end if
-         text = text // " " // trim(adjustl(word))
+         text(last + 2:) = adjustl(word)
+         last = len_trim(text)
       end do
-      if (len(text) > 0) text = text(2:)
+   end function number_row
+
+   !> The same without the blanks
+   pure function numbers(values) result(text)
+      real(wp), intent(in) :: values(:)
+      character(len=len_trim(number_row(values))) :: text
+
+      text = number_row(values)
    end function numbers
 
-   !> Integers
+   !> Integers, with blanks behind
+   pure function integer_row(values) result(text)
+      integer, intent(in) :: values(:)
+      character(len=12*size(values)) :: text
+
+      write(text, '(*(i0, :, " "))') values
+   end function integer_row
+
+   !> The same without the blanks
    pure function integers(values) result(text)
       integer, intent(in) :: values(:)
-      character(len=:), allocatable :: text
-      character(len=12) :: word
-      integer :: k
+      character(len=len_trim(integer_row(values))) :: text
 
-      text = ""
-      do k = 1, size(values)
-         write(word, '(i0)') values(k)
-         text = text // " " // trim(word)
-      end do
-      if (len(text) > 0) text = text(2:)
+      text = integer_row(values)
    end function integers
 
    !> The three control words
@@ -119,26 +129,26 @@ contains
          do k = 1, size(friction%sets)
             start = ""
             if (spec%digits%v > 0) start = numbers([friction%sets(k)%position]) // " "
-            call put_line(unit, start // law_values(spec%digits%l, friction%sets(k)), trim(merge("POSITION ", "         ", &
-               & spec%digits%v > 0)) // " FRICTION LAW")
+            call put_line(unit, start // numbers(law_values(spec%digits%l, friction%sets(k))), &
+               & trim(merge("POSITION ", "         ", spec%digits%v > 0)) // " FRICTION LAW")
          end do
          if (any(spec%digits%l == [2, 3, 4, 6])) call put_line(unit, numbers([friction%memdst, friction%mem_s0]), "MEMDST MEM_S0")
       end associate
    end subroutine put_friction
 
    !> Values of one set
-   pure function law_values(law, set) result(text)
+   pure function law_values(law, set) result(values)
       integer, intent(in) :: law
       type(friction_set), intent(in) :: set
-      character(len=:), allocatable :: text
+      real(wp), allocatable :: values(:)
 
       select case (law)
       case (2, 3, 4)
-         text = numbers([set%fkin, set%coef1, set%sabsh1, set%coef2, set%sabsh2])
+         values = [set%fkin, set%coef1, set%sabsh1, set%coef2, set%sabsh2]
       case (6)
-         text = numbers([set%fref, set%tref, set%dfheat, set%dtheat])
+         values = [set%fref, set%tref, set%dfheat, set%dtheat]
       case default
-         text = numbers([set%fstat, set%fkin])
+         values = [set%fstat, set%fkin]
       end select
    end function law_values
 

@@ -51,6 +51,7 @@ module contact_output_json_file
       procedure :: flag => write_flag
       procedure, private :: key
       procedure, private :: add
+      procedure, private :: add_quoted
       procedure, private :: end_line
    end type json_file
 
@@ -196,9 +197,11 @@ contains
 
       call self%key(name)
       if (len(unit) == 0) then
-         call self%add(number_text(value))
+         call self%add(trim(number_text(value)))
       else
-         call self%add('{"value":' // number_text(value) // ',"unit":"' // escaped(unit) // '"}')
+         call self%add('{"value":' // trim(number_text(value)) // ',"unit":')
+         call self%add_quoted(unit)
+         call self%add("}")
       end if
       associate (unused => title)
       end associate
@@ -213,10 +216,14 @@ contains
       call self%key(name)
       if (len(unit) > 0) call self%add('{"value":')
       do k = 1, size(values)
-         call self%add(merge("[", ",", k == 1) // number_text(values(k)))
+         call self%add(merge("[", ",", k == 1) // trim(number_text(values(k))))
       end do
       call self%add(trim(merge("[]", "] ", size(values) == 0)))
-      if (len(unit) > 0) call self%add(',"unit":"' // escaped(unit) // '"}')
+      if (len(unit) > 0) then
+         call self%add(',"unit":')
+         call self%add_quoted(unit)
+         call self%add("}")
+      end if
       associate (unused => title)
       end associate
    end subroutine write_numbers
@@ -239,7 +246,7 @@ contains
       character(len=*), intent(in) :: name, title, value
 
       call self%key(name)
-      call self%add('"' // escaped(value) // '"')
+      call self%add_quoted(value)
       associate (unused => title)
       end associate
    end subroutine write_text
@@ -291,10 +298,10 @@ contains
       self%length = 0
    end subroutine end_line
 
-   !> A number in the fewest figures that read back as the same number; null when it is not finite
+   !> A number in the fewest figures that read back as the same number, with blanks behind; null when it is not finite
    pure function number_text(value) result(text)
       real(wp), intent(in) :: value
-      character(len=:), allocatable :: text
+      character(len=longest_number) :: text
       !> 15, 16 and 17 figures
       character(len=*), parameter :: form(3) = ["(es32.14e3)", "(es32.15e3)", "(es32.16e3)"]
       character(len=longest_number) :: buffer
@@ -330,42 +337,41 @@ contains
          text = "0." // repeat("0", -exponent - 1) // figures
       else
          write(exponent_text, '(i0)') exponent
-         text = figures(1:1)
-         if (len(figures) > 1) text = text // "." // figures(2:)
-         text = text // "e" // trim(exponent_text)
+         text = figures(1:1) // "e" // exponent_text
+         if (len(figures) > 1) text = figures(1:1) // "." // figures(2:) // "e" // exponent_text
       end if
-      if (value < 0.0_wp) text = "-" // text
+      if (value < 0.0_wp) text = "-" // text(:longest_number - 1)
    end function number_text
 
-   !> A text between quotation marks: those, backslashes and control characters are escaped
+   !> Add a text between quotation marks: those, backslashes and control characters are escaped
    !>
    !> Bytes beyond ASCII stay when the text is UTF-8; otherwise, in names of files of old systems, each becomes "?".
-   pure function escaped(text) result(safe)
+   subroutine add_quoted(self, text)
+      class(json_file), intent(inout) :: self
       character(len=*), intent(in) :: text
-      character(len=:), allocatable :: safe
       character(len=4) :: code
       integer :: byte, first, i
       logical :: good
 
       good = is_utf8(text)
-      safe = ""
+      call self%add('"')
       first = 1
       do i = 1, len(text)
          byte = iachar(text(i:i))
          if (byte >= 32 .and. (byte < 127 .or. good) .and. text(i:i) /= '"' .and. text(i:i) /= "\") cycle
-         safe = safe // text(first:i - 1)
+         call self%add(text(first:i - 1))
          if (byte < 32) then
             write(code, '(z4.4)') byte
-            safe = safe // "\u" // code
+            call self%add("\u" // code)
          else if (byte >= 127) then
-            safe = safe // "?"
+            call self%add("?")
          else
-            safe = safe // "\" // text(i:i)
+            call self%add("\" // text(i:i))
          end if
          first = i + 1
       end do
-      safe = safe // text(first:)
-   end function escaped
+      call self%add(text(first:) // '"')
+   end subroutine add_quoted
 
    !> Do the bytes of a text form characters of UTF-8?
    pure logical function is_utf8(text)

@@ -48,18 +48,24 @@ module contact_output_mat_file
 
 contains
 
+   !> The number of a case
+   pure function case_text(case_number) result(text)
+      integer, intent(in) :: case_number
+      character(len=12) :: text
+
+      write(text, '(i0.4)') case_number
+   end function case_text
+
    !> Name of the file: <base>[_reNNN].<case, at least four digits>[<patch>].mat
    pure function mat_file_name(base, case_number, result_element, patch) result(name)
       !> Folder and name of the experiment
       character(len=*), intent(in) :: base
       integer, intent(in) :: case_number
-      !> Result element, absent or 0 for none; contact patch (1 = a), absent or 0 for none
-      integer, intent(in), optional :: result_element, patch
-      character(len=:), allocatable :: name
-      character(len=12) :: number
+      !> Result element and contact patch (1 = a), 0 for none
+      integer, intent(in) :: result_element, patch
+      character(len=len(case_file_name(base, case_text(case_number), "mat", result_element, patch))) :: name
 
-      write(number, '(i0.4)') case_number
-      name = case_file_name(base, number, "mat", result_element, patch)
+      name = case_file_name(base, case_text(case_number), "mat", result_element, patch)
    end function mat_file_name
 
    !> Write the file of a solved case; under its name it is complete or does not exist

@@ -52,11 +52,10 @@ contains
    !> One line of the banner
    pure function framed(text) result(line)
       character(len=*), intent(in) :: text
-      character(len=:), allocatable :: line
-      character(len=66) :: field
+      character(len=75) :: line
 
-      field = text
-      line = "   |  " // field // "  |"
+      line = "   |  " // text
+      line(73:) = "  |"
    end function framed
 
    !> Line that opens a case

@@ -62,11 +62,11 @@ contains
       type(case_spec), intent(in) :: spec
 
       if (spec%pressure == pressure_model%full) then
-         call log%result(" NORMAL PROBLEM WITH PRESCRIBED " // prescribed(spec) // ", FULL SOLUTION")
+         call log%result(" NORMAL PROBLEM WITH PRESCRIBED " // trim(prescribed(spec)) // ", FULL SOLUTION")
       else if (spec%pressure == pressure_model%kpec) then
-         call log%result(" NORMAL PROBLEM WITH PRESCRIBED " // prescribed(spec) // ", APPROXIMATE KPEC SOLUTION")
+         call log%result(" NORMAL PROBLEM WITH PRESCRIBED " // trim(prescribed(spec)) // ", APPROXIMATE KPEC SOLUTION")
       else if (spec%pressure == pressure_model%analyn) then
-         call log%result(" NORMAL PROBLEM WITH PRESCRIBED " // prescribed(spec) // ", APPROXIMATE ANALYN SOLUTION")
+         call log%result(" NORMAL PROBLEM WITH PRESCRIBED " // trim(prescribed(spec)) // ", APPROXIMATE ANALYN SOLUTION")
       else if (spec%pressure == pressure_model%elliptical) then
          call log%result(" NORMAL PROBLEM SKIPPED, ELLIPTICAL TRACTION BOUND")
       else if (spec%pressure == pressure_model%parabolical) then
@@ -105,7 +105,7 @@ contains
    !> Prescribed quantity of the normal problem
    pure function prescribed(spec) result(text)
       type(case_spec), intent(in) :: spec
-      character(len=:), allocatable :: text
+      character(len=12) :: text
 
       text = "APPROACH"
       if (spec%normal == normal_control%force) text = "NORMAL FORCE"
@@ -124,11 +124,11 @@ contains
       call log%result("")
       select case (option)
       case (-6)
-         call log%result(" SDEC GEOMETRY WITH PRESCRIBED " // prescribed(spec))
+         call log%result(" SDEC GEOMETRY WITH PRESCRIBED " // trim(prescribed(spec)))
       case (-5, -4)
-         call log%result(" 2D HERTZIAN GEOMETRY WITH PRESCRIBED " // prescribed(spec))
+         call log%result(" 2D HERTZIAN GEOMETRY WITH PRESCRIBED " // trim(prescribed(spec)))
       case default
-         call log%result(" 3D HERTZIAN GEOMETRY WITH PRESCRIBED " // prescribed(spec))
+         call log%result(" 3D HERTZIAN GEOMETRY WITH PRESCRIBED " // trim(prescribed(spec)))
       end select
       select case (option)
       case (-1)
@@ -302,38 +302,38 @@ contains
       select case (varies)
       case (variation%none)
          call log%result(names)
-         if (count > 0) call log%result("  " // friction_values(law, sets(1)))
+         if (count > 0) call log%result("  " // generals(friction_values(law, sets(1))))
       case (variation%by_row)
          call log%result("     IY     " // names)
          shorten = level < full_friction_table .and. count > 4
          do i = 1, count
             if (shorten .and. i == 3) call log%result(repeat(" ", 22) // "...")
             if (shorten .and. i > 2 .and. i < count - 1) cycle
-            call log%result("  " // whole(i, 8) // "    " // friction_values(law, sets(i)))
+            call log%result("  " // whole(i, 8) // "    " // generals(friction_values(law, sets(i))))
          end do
       case default
          call log%result(merge("     ALPHA  ", "     SVF    ", varies == variation%by_angle) // names)
          do i = 1, count
             call log%result("  " // general(sets(i)%position, 12, 4) &
-               & // friction_values(law, sets(i)))
+               & // generals(friction_values(law, sets(i))))
          end do
       end select
    end subroutine write_friction
 
    !> Values of one set of friction parameters, in the order of the heading
-   pure function friction_values(law, set) result(text)
+   pure function friction_values(law, set) result(values)
       !> Member of friction_model
       integer, intent(in) :: law
       type(friction_set), intent(in) :: set
-      character(len=:), allocatable :: text
+      real(wp), allocatable :: values(:)
 
       select case (law)
       case (friction_model%coulomb)
-         text = generals([set%fstat, set%fkin])
+         values = [set%fstat, set%fkin]
       case (friction_model%temperature)
-         text = generals([set%fref, set%tref, set%dfheat, set%dtheat])
+         values = [set%fref, set%tref, set%dfheat, set%dtheat]
       case default
-         text = generals([set%fkin, set%coef1, set%sabsh1, set%coef2, set%sabsh2])
+         values = [set%fkin, set%coef1, set%sabsh1, set%coef2, set%sabsh2]
       end select
    end function friction_values
 

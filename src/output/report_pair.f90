@@ -63,7 +63,7 @@ contains
       integer, intent(in) :: patches
       character(len=:), allocatable :: body
 
-      body = side_text("RAIL", "ROLLER", spec%wheel_rail)
+      body = trim(merge("ROLLER", "RAIL  ", spec%wheel_rail%roller))
       call log%result("")
       call log%result(" WHEEL-" // body // " CONTACT, " // trim(merge("LEFT ", "RIGHT", spec%wheel_rail%left)) // " WHEEL," &
          & // whole(patches, 3) // " CONTACT PATCH" // trim(merge("  ", "ES", patches == 1)))
@@ -81,16 +81,6 @@ contains
          & call write_profile_choice(log, spec%wheel_rail%wheel_profile, "WHEEL", spec%output_level)
       if (spec%digits%e >= 1) call write_wheelset(log, spec, result)
    end subroutine write_echo
-
-   !> One text for a track, another one for a roller rig
-   pure function side_text(track, roller, pair) result(text)
-      character(len=*), intent(in) :: track, roller
-      type(wheel_rail_spec), intent(in) :: pair
-      character(len=:), allocatable :: text
-
-      text = track
-      if (pair%roller) text = roller
-   end function side_text
 
    !> Control digits as given
    subroutine write_digits(log, digits)
@@ -371,7 +361,7 @@ contains
       real(wp) :: force(3), other(3), s
 
       s = sign_of(spec)
-      body = side_text("RAIL", "ROLLER", spec%wheel_rail)
+      body = trim(merge("ROLLER", "RAIL  ", spec%wheel_rail%roller))
       if (spec%output_level >= 4) then
          call log%result(" ")
          call log%result(" TOTAL FORCES AND MOMENTS ON " // body)

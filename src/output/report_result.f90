@@ -192,7 +192,7 @@ contains
       type(log_type), intent(inout) :: log
       type(case_spec), intent(in) :: spec
       type(patch_result), intent(in) :: result
-      character(len=:), allocatable :: line, trouble
+      character(len=:), allocatable :: line
       logical :: has_tangential
 
       has_tangential = spec%motion /= motion%none
@@ -203,84 +203,81 @@ contains
       if (line == " EFFECTS: ") line = line // "none"
       line = line // "; SOLVER: " // method_name(result%normal)
       if (has_tangential) line = line // ", " // method_name(result%tangential)
-      line = line // "; RESIDUAL: " // residual_text(result%normal%residual)
-      if (has_tangential) line = line // ", " // residual_text(result%tangential%residual)
+      line = line // "; RESIDUAL: " // trim(residual_text(result%normal%residual))
+      if (has_tangential) line = line // ", " // trim(residual_text(result%tangential%residual))
       if (has_tangential .and. result%outer_iterations > 1) &
-         & line = line // ", " // residual_text(result%residual) // " coupled"
+         & line = line // ", " // trim(residual_text(result%residual)) // " coupled"
       line = line // "; ITERATIONS: " // whole(result%normal%iterations, 1)
       if (has_tangential) line = line // ", " // whole(result%tangential%iterations, 1)
       if (has_tangential .and. result%outer_iterations > 1) &
          & line = line // ", " // whole(result%outer_iterations, 1) // " outer"
 
-      trouble = fall_back_text(result%normal)
-      if (has_tangential) trouble = trouble // fall_back_text(result%tangential)
-      if (allocated(result%friction)) then
-         line = line // ", " // whole(result%friction%iterations, 1) // " friction"
-         trouble = trouble // ending_text(result%friction, "friction")
-      end if
-      trouble = trouble // ending_text(result%normal, "normal")
-      if (has_tangential) trouble = trouble // ending_text(result%tangential, "tangential")
-      call log%result(line // trouble)
+      if (allocated(result%friction)) line = line // ", " // whole(result%friction%iterations, 1) // " friction"
+
+      call add_fall_back(line, result%normal)
+      if (has_tangential) call add_fall_back(line, result%tangential)
+      if (allocated(result%friction)) call add_ending(line, result%friction, "friction")
+      call add_ending(line, result%normal, "normal")
+      if (has_tangential) call add_ending(line, result%tangential, "tangential")
+      call log%result(line)
    end subroutine write_solution_line
 
    !> Name of the method that ended an iteration
    pure function method_name(report) result(name)
       type(solve_report), intent(in) :: report
-      character(len=:), allocatable :: name
+      character(len=merge(len("none"), len_trim(report%method), report%method == "")) :: name
 
       name = harmless(report%method)
-      if (len_trim(name) == 0) name = "none"
+      if (name == "") name = "none"
    end function method_name
 
    !> Residual in two digits
    pure function residual_text(residual) result(text)
       !> Relative residual, negative when unknown
       real(wp), intent(in) :: residual
-      character(len=:), allocatable :: text
+      character(len=10) :: text
 
       text = "unknown"
-      if (residual >= 0.0_wp) text = trim(adjustl(scientific(residual, 10, 1)))
+      if (residual >= 0.0_wp) text = adjustl(scientific(residual, 10, 1))
    end function residual_text
 
-   !> Which method was given up for which; empty normally
-   pure function fall_back_text(report) result(text)
+   !> Tell which method was given up for which
+   pure subroutine add_fall_back(line, report)
+      character(len=:), allocatable, intent(inout) :: line
       type(solve_report), intent(in) :: report
-      character(len=:), allocatable :: text
 
-      text = ""
       if (report%gave_up == "") return
-      text = "; FALL-BACK: " // harmless(report%gave_up) // " to " // method_name(report)
-   end function fall_back_text
+      line = line // "; FALL-BACK: " // harmless(report%gave_up) // " to " // method_name(report)
+   end subroutine add_fall_back
 
-   !> How an iteration ended that did not converge; empty normally
-   pure function ending_text(report, problem) result(text)
+   !> Tell how an iteration ended that did not converge
+   pure subroutine add_ending(line, report, problem)
+      character(len=:), allocatable, intent(inout) :: line
       type(solve_report), intent(in) :: report
       !> Name of the problem
       character(len=*), intent(in) :: problem
-      character(len=:), allocatable :: text
 
-      text = ""
       if (report%succeeded()) return
-      text = "; NOT CONVERGED: " // problem // " problem, "
+      line = line // "; NOT CONVERGED: " // problem // " problem, "
       if (report%ended == ending%iteration_limit) then
-         text = text // "all allowed iterations used"
+         line = line // "all allowed iterations used"
       else if (report%ended == ending%stagnated) then
-         text = text // "residual no longer decreasing"
+         line = line // "residual no longer decreasing"
       else if (report%ended == ending%diverged) then
-         text = text // "iterates growing"
+         line = line // "iterates growing"
       else
-         text = text // "reason unknown"
+         line = line // "reason unknown"
       end if
-      text = text // ", tolerance " // residual_text(report%tolerance)
-   end function ending_text
+      line = line // ", tolerance " // trim(residual_text(report%tolerance))
+   end subroutine add_ending
 
    !> Text without the word by which readers count cases
    pure function harmless(text) result(safe)
       character(len=*), intent(in) :: text
-      character(len=:), allocatable :: safe
+      character(len=len_trim(text)) :: safe
       integer :: at
 
-      safe = trim(text)
+      safe = text
       do
          at = index(safe, "Case")
          if (at == 0) exit

@@ -16,24 +16,29 @@ module contact_output_subs_file
 
 contains
 
-   !> Name of the file: <base>[_reNNN].<case>[<patch>].subs with four digits for the case, six from
-   !> 10000 on; from a million on the number is left out
+   !> The number of a case with four digits, six from 10000 on; from a million on it is left out
+   pure function case_text(case_number) result(text)
+      integer, intent(in) :: case_number
+      character(len=6) :: text
+
+      text = ""
+      if (case_number <= 9999) then
+         write(text, '(i4.4)') case_number
+      else if (case_number <= 999999) then
+         write(text, '(i6.6)') case_number
+      end if
+   end function case_text
+
+   !> Name of the file: <base>[_reNNN].<case>[<patch>].subs
    pure function subs_file_name(base, case_number, result_element, patch) result(name)
       !> Folder and name of the experiment
       character(len=*), intent(in) :: base
       integer, intent(in) :: case_number
-      !> Result element, absent or 0 for none; contact patch (1 = a), absent or 0 for none
-      integer, intent(in), optional :: result_element, patch
-      character(len=:), allocatable :: name
-      character(len=6) :: number
+      !> Result element and contact patch (1 = a), 0 for none
+      integer, intent(in) :: result_element, patch
+      character(len=len(case_file_name(base, case_text(case_number), "subs", result_element, patch))) :: name
 
-      number = ""
-      if (case_number <= 9999) then
-         write(number, '(i4.4)') case_number
-      else if (case_number <= 999999) then
-         write(number, '(i6.6)') case_number
-      end if
-      name = case_file_name(base, number, "subs", result_element, patch)
+      name = case_file_name(base, case_text(case_number), "subs", result_element, patch)
    end function subs_file_name
 
    !> Write all blocks; under its name the file is complete or does not exist

@@ -11,6 +11,7 @@ module contact_output_vtk_files
    use contact_output_case_record, only : case_head, is_rolling, side_sign
    use contact_output_finished_file, only : case_file_name, close_completely, finished_file
    use contact_patch_result, only : patch_result, subsurface_result
+   use contact_text_words, only : replaced
    use contact_wheelrail_result, only : pair_patch, pair_result
    implicit none (type, external)
    private
@@ -92,31 +93,18 @@ contains
       backspace(self%unit, iostat=status)
       backspace(self%unit, iostat=status)
       write(self%unit, '(a, i0, a, i0, 3a)', iostat=status) '    <DataSet timestep="', case_number, '" part="', part, &
-         & '" file="', escaped(name(index(name, "/", back=.true.) + 1:)), '"/>'
+         & '" file="', for_xml(name(index(name, "/", back=.true.) + 1:)), '"/>'
       write(self%unit, '(a)', iostat=status) trim(closing(1)), trim(closing(2))
       flush(self%unit, iostat=status)
    end subroutine list_file
 
    !> A text as XML wants it
-   pure function escaped(text) result(safe)
+   pure function for_xml(text) result(safe)
       character(len=*), intent(in) :: text
-      character(len=:), allocatable :: safe
-      integer :: i
+      character(len=len(replaced(replaced(replaced(text, "&", "&amp;"), "<", "&lt;"), '"', "&quot;"))) :: safe
 
-      safe = ""
-      do i = 1, len(text)
-         select case (text(i:i))
-         case ("&")
-            safe = safe // "&amp;"
-         case ("<")
-            safe = safe // "&lt;"
-         case ('"')
-            safe = safe // "&quot;"
-         case default
-            safe = safe // text(i:i)
-         end select
-      end do
-   end function escaped
+      safe = replaced(replaced(replaced(text, "&", "&amp;"), "<", "&lt;"), '"', "&quot;")
+   end function for_xml
 
    !> A solved case of module 3
    subroutine write_contact(self, head, spec, contact, error)

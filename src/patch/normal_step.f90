@@ -93,7 +93,7 @@ contains
             call log%trace(3, trim(line))
          end if
          call trace_picture(log, state%now%division)
-         if (.not. result%normal%succeeded()) call log%warning(failure_text("normal", result%normal))
+         if (.not. result%normal%succeeded()) call log%warning(trim(failure_text("normal", result%normal)))
       end if
       if (.not. problem%force_prescribed) result%fn = problem%grid%dx*problem%grid%dy*sum(state%now%pn)
       if (problem%motion == motion%none) then

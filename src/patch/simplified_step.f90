@@ -62,7 +62,7 @@ contains
          if (solution%sliding) then
             call log%warning("the prescribed tangential force is not reached: all elements slide")
          else
-            call log%warning(failure_text("tangential", report))
+            call log%warning(trim(failure_text("tangential", report)))
          end if
       end associate
    end subroutine simplified_step

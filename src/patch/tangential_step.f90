@@ -45,7 +45,7 @@ contains
       call set_tangential(problem, state, box, workspace, result)
       if (problem%corrects_leading_edge) call correct_leading_edge(problem, state, box, result, workspace, log)
       if (problem%model%coupled()) call add_by_pressures(problem, state, box, workspace)
-      if (log%shows(2)) call log%trace(2, " TANG: " // type_of_motion(problem%motion))
+      if (log%shows(2)) call log%trace(2, " TANG: " // trim(type_of_motion(problem%motion)))
       if (iterates_friction(problem)) then
          call solve_with_friction(problem, state, box, workspace, log, result)
       else
@@ -63,7 +63,7 @@ contains
          if (log%shows(3)) call trace_division(log, solution, result%tangential)
       end associate
       if (problem%remembers_yield) call carry_yield(problem, box, workspace%solution, state)
-      if (.not. result%tangential%succeeded()) call log%warning(failure_text("tangential", result%tangential))
+      if (.not. result%tangential%succeeded()) call log%warning(trim(failure_text("tangential", result%tangential)))
    end subroutine tangential_step
 
    !> Do coefficients of friction depend on the solution?
@@ -93,7 +93,7 @@ contains
       end do
       if (.not. allocated(result%friction)) allocate(result%friction)
       call workspace%friction%report(problem, result%friction)
-      if (.not. result%friction%succeeded()) call log%warning(failure_text("friction", result%friction))
+      if (.not. result%friction%succeeded()) call log%warning(trim(failure_text("friction", result%friction)))
    end subroutine solve_with_friction
 
    !> New traction bounds; tractions on the old bound move to the new one, so that little is left to do
@@ -302,7 +302,7 @@ contains
    !> Heading of the flow trace
    pure function type_of_motion(choice) result(text)
       integer, intent(in) :: choice
-      character(len=:), allocatable :: text
+      character(len=28) :: text
 
       text = "STEADY STATE ROLLING CONTACT"
       if (choice == motion%shift) text = "SHIFT TRANSIENT"

@@ -7,7 +7,7 @@ module contact_profile_line
    implicit none (type, external)
    private
 
-   public :: without_comment, split_assignment, is_numeric, read_row, file_place, most_columns, point_list
+   public :: end_of_values, split_assignment, is_numeric, read_row, file_place, most_columns, point_list
 
    !> Numbers of a row that are looked at
    integer, parameter :: most_columns = 12
@@ -29,12 +29,11 @@ module contact_profile_line
 
 contains
 
-   !> A line up to the first comment mark outside of single quotes
-   pure function without_comment(line, marks) result(text)
+   !> The last column before the first comment mark outside of single quotes
+   pure integer function end_of_values(line, marks) result(last)
       character(len=*), intent(in) :: line
       !> Characters that begin a comment
       character(len=*), intent(in) :: marks
-      character(len=:), allocatable :: text
       logical :: quoted
       integer :: i
 
@@ -43,8 +42,8 @@ contains
          if (line(i:i) == "'") quoted = .not. quoted
          if (.not. quoted .and. scan(line(i:i), marks) == 1) exit
       end do
-      text = line(:i - 1)
-   end function without_comment
+      last = i - 1
+   end function end_of_values
 
    !> Parts before and behind the first equals sign, without blanks around; is there one?
    pure subroutine split_assignment(line, key, value, found)
@@ -98,7 +97,7 @@ contains
          if (first == 0) exit
          call to_real(line(first:last), value, state)
          if (state /= word_state%good) then
-            call fatal_error(error, '"' // printable(line(first:last)) // '" ' // complaint(state) // "; expected " // &
+            call fatal_error(error, '"' // printable(line(first:last)) // '" ' // trim(complaint(state)) // "; expected " // &
                & expected // '; the line reads "' // printable(line) // '"', file=place%file, line=place%line, column=first)
             return
          end if
@@ -110,7 +109,7 @@ contains
    pure function complaint(state) result(text)
       !> Member of word_state
       integer, intent(in) :: state
-      character(len=:), allocatable :: text
+      character(len=25) :: text
 
       select case (state)
       case (word_state%too_large)

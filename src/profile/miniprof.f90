@@ -7,7 +7,7 @@ module contact_profile_miniprof
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
    use contact_profile_line, only : file_place, is_numeric, most_columns, point_list, read_row, split_assignment, &
-      & without_comment
+      & end_of_values
    use contact_profile_request, only : profile_file
    use contact_text_lexer, only : input_lexer, printable
    use contact_text_words, only : integer_text
@@ -43,11 +43,10 @@ contains
       place%file = text%file
       do while (place%line < text%count_lines())
          place%line = place%line + 1
-         line = without_comment(text%line_text(place%line), '!"%#')
-         if (len_trim(line) == 0) then
-            if (len_trim(text%line_text(place%line)) == 0) blank_seen = .true.
-            cycle
-         end if
+         line = text%line_text(place%line)
+         if (len_trim(line) == 0) blank_seen = .true.
+         line = line(:end_of_values(line, '!"%#'))
+         if (len_trim(line) == 0) cycle
          call split_assignment(line, key, value, assigned)
          if (assigned) then
             if (points%n > 0) then

@@ -33,6 +33,7 @@ contains
       type(log_type), intent(inout) :: log
       type(error_type), allocatable, intent(out) :: error
       type(log_type) :: unheard
+      character(len=:), allocatable :: name
       integer :: before
 
       if (request%doubt < doubt%warn) then
@@ -41,18 +42,20 @@ contains
       end if
       before = log%warnings
       call clean_profile(request, curve, log, error)
-      if (request%doubt == doubt%refuse .and. log%warnings > before .and. .not. allocated(error)) &
-         & call fatal_error(error, "ERRHND = 1 refuses a profile with warnings", file=name_of(request))
+      if (request%doubt == doubt%refuse .and. log%warnings > before .and. .not. allocated(error)) then
+         call take_name(request, name)
+         call fatal_error(error, "ERRHND = 1 refuses a profile with warnings", file=name)
+      end if
    end subroutine read_profile
 
    !> What messages call the profile
-   pure function name_of(request) result(name)
+   pure subroutine take_name(request, name)
       type(profile_request), intent(in) :: request
-      character(len=:), allocatable :: name
+      character(len=:), allocatable, intent(out) :: name
 
       name = "profile"
       if (allocated(request%file)) name = request%file
-   end function name_of
+   end subroutine take_name
 
    !> Read, clean and smooth the profile of a file, or of points in its place
    subroutine clean_profile(request, curve, log, error)
@@ -85,19 +88,17 @@ contains
    !> Small letters behind the last dot of the file name, at most four, of known kinds three
    pure function extension_of(file) result(extension)
       character(len=*), intent(in) :: file
-      character(len=:), allocatable :: extension
+      character(len=4) :: extension
       integer :: i
 
       i = index(file, ".", back=.true.)
       extension = ""
       if (i == 0 .or. scan(file(i + 1:), "/\") > 0) return
-      extension = file(i + 1:min(len(file), i + 4))
+      extension = file(i + 1:)
       do i = 1, len(extension)
          if (extension(i:i) >= "A" .and. extension(i:i) <= "Z") extension(i:i) = achar(iachar(extension(i:i)) + 32)
       end do
-      if (len(extension) == 4 .and. any(extension(:min(3, len(extension))) == ["prr", "prw", "ban", "whl"])) then
-         extension = extension(:3)
-      end if
+      if (any(extension(:3) == ["prr", "prw", "ban", "whl"])) extension = extension(:3)
    end function extension_of
 
    !> A file whose extension names the other body is a mistake of the user
@@ -210,7 +211,7 @@ contains
       logical :: solved
       character(len=:), allocatable :: file
 
-      file = name_of(request)
+      call take_name(request, file)
       s = chord_lengths(y, z)
       s = s - length_origin(s, y, z)
       is_kink = find_kinks(y, z, request%kink_high, request%kink_low, request%kink_width)

@@ -6,7 +6,7 @@ module contact_profile_simpack
    use contact_base_error, only : error_kind, error_type, fatal_error
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
-   use contact_profile_line, only : file_place, most_columns, point_list, read_row, split_assignment, without_comment
+   use contact_profile_line, only : end_of_values, file_place, most_columns, point_list, read_row, split_assignment
    use contact_profile_request, only : profile_file, profile_side
    use contact_text_lexer, only : input_lexer, printable
    use contact_text_words, only : integer_text, real_text
@@ -55,7 +55,8 @@ contains
       place%file = text%file
       do while (place%line < text%count_lines() .and. .not. finished)
          place%line = place%line + 1
-         line = without_comment(text%line_text(place%line), "!%")
+         line = text%line_text(place%line)
+         line = line(:end_of_values(line, "!%"))
          if (len_trim(line) == 0) cycle
          call split_assignment(line, key, value, assigned)
          if (assigned) then

@@ -15,7 +15,7 @@ module contact_profile_slices_file
    use contact_base_kinds, only : wp
    use contact_profile_request, only : profile_side
    use contact_text_lexer, only : input_lexer, input_value
-   use contact_text_words, only : integer_text, real_text
+   use contact_text_words, only : integer_text, real_text, replaced
    implicit none (type, external)
    private
 
@@ -89,7 +89,7 @@ contains
          call text%read_group("rs", "U_SLC NAME", v, error)
          if (allocated(error)) return
          list%slices(k)%u = scale*(offset + v(1)%r)
-         list%slices(k)%file = beside(text%file, v(2)%s)
+         call place_beside(text%file, v(2)%s, list%slices(k)%file)
          list%slices(k)%line = v(1)%line
          if (k == 1) cycle
          if (list%slices(k)%u - list%slices(k - 1)%u > least_distance) cycle
@@ -201,17 +201,13 @@ contains
    end subroutine check_angles
 
    !> A name relative to the folder of another file
-   pure function beside(file, name) result(path)
+   pure subroutine place_beside(file, name, path)
       character(len=*), intent(in) :: file, name
-      character(len=:), allocatable :: path
-      integer :: i
+      character(len=:), allocatable, intent(out) :: path
 
-      path = name
-      do i = 1, len(path)
-         if (path(i:i) == "\") path(i:i) = "/"
-      end do
+      path = replaced(name, "\", "/")
       if (len(path) == 0) return
       if (path(1:1) == "/" .or. index(path, ":/") == 2) return
       path = file(:scan(file, "/\", back=.true.)) // path
-   end function beside
+   end subroutine place_beside
 end module contact_profile_slices_file

@@ -44,7 +44,7 @@ contains
    pure function method_name(choice) result(name)
       !> Member of classical_method
       integer, intent(in) :: choice
-      character(len=:), allocatable :: name
+      character(len=14) :: name
 
       select case (choice)
       case (classical_method%tang_cg)

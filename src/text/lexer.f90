@@ -6,7 +6,7 @@
 module contact_text_lexer
    use contact_base_error, only : error_kind, error_type, fatal_error
    use contact_base_kinds, only : long, wp
-   use contact_text_words, only : integer_text, to_angle, to_integer, to_real, word_state
+   use contact_text_words, only : columns_of, integer_text, to_angle, to_integer, to_real, word_state
    implicit none (type, external)
    private
 
@@ -155,7 +155,7 @@ contains
       class(input_lexer), intent(in) :: self
       !> 1...count_lines()
       integer, intent(in) :: k
-      character(len=:), allocatable :: text
+      character(len=self%last(k) - self%first(k) + 1) :: text
       integer :: i
 
       text = self%text(self%first(k):self%last(k))
@@ -377,11 +377,11 @@ contains
       case (word_state%not_finite)
          complaint = "is not a finite number"
       case default
-         complaint = "is not " // type_text(letter)
-         if (letter == "s") complaint = "is not " // type_text(letter) // ", or its second quote is missing"
+         complaint = "is not " // trim(type_text(letter))
+         if (letter == "s") complaint = complaint // ", or its second quote is missing"
       end select
       call fatal_error(error, '"' // printable(word) // '" ' // complaint // "; expected " // name // ", " // &
-         & type_text(letter) // ", value " // integer_text(position) // " of the group " // group // &
+         & trim(type_text(letter)) // ", value " // integer_text(position) // " of the group " // group // &
          & '; the line reads "' // printable(self%text(first:last)) // '"', error_kind%input, self%file, self%line, &
          & merge(place%first - 1, place%first, place%quoted) - first + 1)
    end subroutine refuse_word
@@ -393,14 +393,14 @@ contains
       character(len=*), intent(in) :: name, group
       type(error_type), allocatable, intent(out) :: error
 
-      call fatal_error(error, "the end of the file is reached; expected " // name // ", " // type_text(letter) // &
+      call fatal_error(error, "the end of the file is reached; expected " // name // ", " // trim(type_text(letter)) // &
          & ", in the group " // group, error_kind%input, self%file, self%line)
    end subroutine refuse_end
 
    !> What a type is called
    pure function type_text(letter) result(text)
       character, intent(in) :: letter
-      character(len=:), allocatable :: text
+      character(len=23) :: text
 
       select case (lower(letter))
       case ("i"); text = "an integer"
@@ -418,18 +418,25 @@ contains
       if (letter >= "A" .and. letter <= "Z") lower = achar(iachar(letter) + 32)
    end function lower
 
-   !> A piece of a line without control characters, not too long for a message
-   pure function printable(piece) result(text)
+   !> A piece of a line without control characters, not too long for a message; with blanks behind
+   pure function echo(piece) result(text)
       character(len=*), intent(in) :: piece
-      character(len=:), allocatable :: text
+      character(len=longest_echo + 3) :: text
       integer :: k
 
-      text = trim(adjustl(piece))
-      if (len(text) > longest_echo) text = text(:longest_echo) // "..."
+      text = adjustl(piece)
+      if (len_trim(adjustl(piece)) > longest_echo) text(longest_echo + 1:) = "..."
       do k = 1, len(text)
          if (iachar(text(k:k)) < 32 .or. iachar(text(k:k)) == 127) text(k:k) = " "
       end do
-      text = trim(text)
+   end function echo
+
+   !> The same without the blanks
+   pure function printable(piece) result(text)
+      character(len=*), intent(in) :: piece
+      character(len=len_trim(echo(piece))) :: text
+
+      text = echo(piece)
    end function printable
 
    !> Distribute the names of a group over its values and forget what they held
@@ -452,7 +459,7 @@ contains
    pure function element_name(name, k) result(text)
       character(len=*), intent(in) :: name
       integer, intent(in) :: k
-      character(len=:), allocatable :: text
+      character(len=len(name) + columns_of(k) + 2) :: text
 
       text = name // "(" // integer_text(k) // ")"
    end function element_name
@@ -461,7 +468,7 @@ contains
    pure function array_name(name, n) result(text)
       character(len=*), intent(in) :: name
       integer, intent(in) :: n
-      character(len=:), allocatable :: text
+      character(len=len(name) + columns_of(n) + 5) :: text
 
       text = name // "(1.." // integer_text(n) // ")"
    end function array_name

@@ -1,11 +1,14 @@
 !> One word of an input file as integer, real number or angle, and numbers as words for messages
+!>
+!> The length of a text that a function returns follows from its arguments, here and in all rooms: gfortran keeps the length
+!> of a `character(len=:), allocatable` result in a variable that all threads share.
 module contact_text_words
    use contact_base_constants, only : pi
    use contact_base_kinds, only : long, wp
    implicit none (type, external)
    private
 
-   public :: word_state, to_integer, to_real, to_angle, integer_text, real_text
+   public :: word_state, to_integer, to_real, to_angle, columns_of, integer_text, real_text, replaced
 
    type :: word_state_list
       integer :: good = 0
@@ -200,33 +203,83 @@ contains
       spells = lower == "nan" .or. lower == "inf" .or. lower == "infinity"
    end function spells_not_finite
 
+   !> Columns that an integer needs
+   pure integer function columns_of(value) result(columns)
+      integer, intent(in) :: value
+      integer :: rest
+
+      columns = merge(2, 1, value < 0)
+      rest = value/10
+      do while (rest /= 0)
+         columns = columns + 1
+         rest = rest/10
+      end do
+   end function columns_of
+
    !> An integer in as many characters as it needs
    pure function integer_text(value) result(text)
       integer, intent(in) :: value
-      character(len=:), allocatable :: text
-      character(len=12) :: buffer
+      character(len=columns_of(value)) :: text
 
-      write(buffer, '(i0)') value
-      text = trim(buffer)
+      write(text, '(i0)') value
    end function integer_text
 
-   !> A real number in six figures without needless zeros
-   pure function real_text(value) result(text)
+   !> A real number in six figures without needless zeros, with blanks behind
+   pure function six_figures(value) result(text)
       real(wp), intent(in) :: value
-      character(len=:), allocatable :: text
-      character(len=24) :: buffer
+      character(len=14) :: text
       integer :: last
 
       if (value == 0.0_wp) then
          text = "0"
       else if (abs(value) < 1.0e-4_wp .or. abs(value) >= 1.0e6_wp) then
-         write(buffer, '(es12.5)') value
-         text = trim(adjustl(buffer))
+         write(text, '(es12.5)') value
       else
-         write(buffer, '(f14.6)') value
-         last = verify(buffer, " 0", back=.true.)
-         if (buffer(last:last) == ".") last = last - 1
-         text = trim(adjustl(buffer(:last)))
+         write(text, '(f14.6)') value
+         last = verify(text, " 0", back=.true.)
+         if (text(last:last) == ".") last = last - 1
+         text(last + 1:) = ""
       end if
+      text = adjustl(text)
+   end function six_figures
+
+   !> The same without the blanks
+   pure function real_text(value) result(text)
+      real(wp), intent(in) :: value
+      character(len=len_trim(six_figures(value))) :: text
+
+      text = six_figures(value)
    end function real_text
+
+   !> How often a letter stands in a text
+   pure integer function occurrences(text, letter) result(count)
+      character(len=*), intent(in) :: text
+      character, intent(in) :: letter
+      integer :: i
+
+      count = 0
+      do i = 1, len(text)
+         if (text(i:i) == letter) count = count + 1
+      end do
+   end function occurrences
+
+   !> A text with something else for each occurrence of a letter
+   pure function replaced(text, letter, by) result(changed)
+      character(len=*), intent(in) :: text
+      character, intent(in) :: letter
+      character(len=*), intent(in) :: by
+      character(len=len(text) + occurrences(text, letter)*(len(by) - 1)) :: changed
+      integer :: i, last
+
+      last = 0
+      do i = 1, len(text)
+         if (text(i:i) == letter) then
+            changed(last + 1:last + len(by)) = by
+            last = last + len(by)
+         else
+            last = last + 1
+            changed(last:last) = text(i:i)
+         end if
+      end do
+   end function replaced
 end module contact_text_words

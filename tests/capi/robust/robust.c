@@ -1,6 +1,6 @@
 /* What callers may do without harm: codes of wrong calls, many rounds without growth, threads.
  *
- * usage: robust codes | rounds COUNT | threads */
+ * usage: robust codes | rounds COUNT | threads | messages */
 #include <contact.h>
 #include <contact_addon.h>
 #include <math.h>
@@ -249,11 +249,102 @@ static void threads(void) {
   cntc_finalizelast();
 }
 
+/* What each worker was told: one line per wrong call, and per right one in between */
+enum { talkers = 8, tries = 400, told_length = 200 };
+typedef char transcript[tries][told_length];
+static transcript alone_told[talkers], together_told[talkers];
+
+/* The code and the text of what went wrong last in a problem */
+static void note(int ire, char *told) {
+  char text[told_length - 12];
+  int code = contact_last_error(ire, 1, text, sizeof text);
+  snprintf(told, told_length, "%d %s", code, text);
+}
+
+/* Wrong calls, whose texts have other numbers and lengths for each worker and try, among right ones */
+static void complain_all(int worker, transcript told) {
+  int ire = worker + 1, icp = 1, k, n, error;
+  for (k = 0; k < tries; k++) {
+    int one = 1, two = 2, flag[2], value[2], codes[1], limits[4] = {0, 0, 0, 0}, hertz = -3;
+    int digits = (k + worker) % 9;
+    double number = 0.1, list[6] = {0.0, 1.0, 2.0, 3.0, 4.0, 5.0};
+    for (n = 7; digits > 0; digits--) n = 10 * n + k % 10;
+    switch (k % 8) {
+      case 0: /* no such flag; a right one beside it */
+        flag[0] = 3000 + worker, value[0] = n, flag[1] = 1984, value[1] = 0;
+        cntc_setflags(&ire, &icp, &two, flag, value);
+        break;
+      case 1: /* a value beyond its range */
+        flag[0] = 1984, value[0] = -n;
+        cntc_setflags(&ire, &icp, &one, flag, value);
+        break;
+      case 2:
+        flag[0] = n;
+        cntc_getflags(&ire, &icp, &one, flag, value);
+        break;
+      case 3:
+        codes[0] = n;
+        cntc_setmetadata(&ire, &icp, &one, codes, &number);
+        break;
+      case 4: /* a number of values that the method does not have */
+        n = k % 3;
+        cntc_sethertzcontact(&ire, &icp, &hertz, &n, list);
+        break;
+      case 5:
+        number = NAN;
+        cntc_setpenetration(&ire, &icp, &number);
+        break;
+      case 6: /* wrong order: no results yet */
+        error = stresses(ire, icp);
+        same(error, -99, "stresses before a calculation");
+        break;
+      default: /* nothing to tell; another method without a solution */
+        cntc_setpenetration(&ire, &icp, &number);
+        n = 2 + k % 2;
+        list[0] = -1.0 - k;
+        cntc_setsolverflags(&ire, &icp, &n, &n, limits, &one, list);
+    }
+    note(ire, told[k]);
+  }
+}
+
+static void *complain_together(void *number) {
+  int worker = *(int *)number;
+  complain_all(worker, together_told[worker]);
+  return NULL;
+}
+
+/* Complaints of many problems at the same time are what each of them says alone */
+static void messages(void) {
+  pthread_t thread[talkers];
+  int number[talkers], k, i, round, told = 0, other = 0;
+
+  for (k = 0; k < talkers; k++) start(k + 1, 3);
+  for (k = 0; k < talkers; k++) complain_all(k, alone_told[k]);
+  for (k = 0; k < talkers; k++)
+    for (i = 0; i < tries; i++) told += strlen(alone_told[k][i]) > 10;
+  check(told >= talkers * tries * 3 / 4, "wrong calls are told");
+  for (round = 0; round < 10; round++) {
+    for (k = 0; k < talkers; k++) {
+      number[k] = k;
+      pthread_create(&thread[k], NULL, complain_together, &number[k]);
+    }
+    for (k = 0; k < talkers; k++) pthread_join(thread[k], NULL);
+    for (k = 0; k < talkers; k++)
+      for (i = 0; i < tries; i++)
+        if (strcmp(alone_told[k][i], together_told[k][i]) && other++ < 10)
+          printf("alone:    %s\ntogether: %s\n", alone_told[k][i], together_told[k][i]);
+  }
+  same(other, 0, "messages that differ");
+  cntc_finalizelast();
+}
+
 int main(int argc, char **argv) {
   const char *what = argc > 1 ? argv[1] : "";
   if (!strcmp(what, "codes")) codes();
   if (!strcmp(what, "rounds")) rounds(argc > 2 ? atoi(argv[2]) : 10000);
   if (!strcmp(what, "threads")) threads();
+  if (!strcmp(what, "messages")) messages();
   printf("%d checks, %d failed\n", checks, failed);
   return failed || !checks;
 }

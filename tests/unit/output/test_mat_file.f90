@@ -12,11 +12,11 @@ program test_mat_file
    type(test_suite) :: suite
 
    call suite%start("output mat file")
-   call suite%equal(mat_file_name("dir/run", 1), "dir/run.0001.mat", "first case")
-   call suite%equal(mat_file_name("run", 9999), "run.9999.mat", "four digits")
-   call suite%equal(mat_file_name("run", 10000), "run.10000.mat", "five digits")
-   call suite%equal(mat_file_name("run", 1234567), "run.1234567.mat", "seven digits")
-   call suite%equal(mat_file_name("run", 1, 2), "run_re002.0001.mat", "result element")
+   call suite%equal(mat_file_name("dir/run", 1, 0, 0), "dir/run.0001.mat", "first case")
+   call suite%equal(mat_file_name("run", 9999, 0, 0), "run.9999.mat", "four digits")
+   call suite%equal(mat_file_name("run", 10000, 0, 0), "run.10000.mat", "five digits")
+   call suite%equal(mat_file_name("run", 1234567, 0, 0), "run.1234567.mat", "seven digits")
+   call suite%equal(mat_file_name("run", 1, 2, 0), "run_re002.0001.mat", "result element")
    call suite%equal(mat_file_name("run", 1, 0, 2), "run.0001b.mat", "contact patch")
    call check_contents()
    call check_failures()

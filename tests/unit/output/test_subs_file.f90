@@ -11,11 +11,11 @@ program test_subs_file
    type(test_suite) :: suite
 
    call suite%start("output subs file")
-   call suite%equal(subs_file_name("dir/run", 1), "dir/run.0001.subs", "first case")
-   call suite%equal(subs_file_name("run", 9999), "run.9999.subs", "four digits")
-   call suite%equal(subs_file_name("run", 10000), "run.010000.subs", "six digits")
-   call suite%equal(subs_file_name("run", 1000000), "run.subs", "no number")
-   call suite%equal(subs_file_name("run", 12, 3), "run_re003.0012.subs", "result element")
+   call suite%equal(subs_file_name("dir/run", 1, 0, 0), "dir/run.0001.subs", "first case")
+   call suite%equal(subs_file_name("run", 9999, 0, 0), "run.9999.subs", "four digits")
+   call suite%equal(subs_file_name("run", 10000, 0, 0), "run.010000.subs", "six digits")
+   call suite%equal(subs_file_name("run", 1000000, 0, 0), "run.subs", "no number")
+   call suite%equal(subs_file_name("run", 12, 3, 0), "run_re003.0012.subs", "result element")
    call check_contents()
    call suite%finish()
 

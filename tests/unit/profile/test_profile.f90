@@ -183,8 +183,8 @@ contains
       call suite%check(.not. needs_reversal(profile_side%wheel, y, z), "wheel in order")
       call suite%check(needs_reversal(profile_side%wheel, y(41:1:-1), z(41:1:-1)), "wheel in reverse order")
       call suite%check(needs_reversal(profile_side%wheel, -y, z), "wheel of the other side")
-      call suite%equal(extension_of("a/b.c/x"), "", "extension of a name without one")
-      call suite%equal(extension_of("x.PRRx"), "prr", "extension in capitals, cut")
+      call suite%equal(trim(extension_of("a/b.c/x")), "", "extension of a name without one")
+      call suite%equal(trim(extension_of("x.PRRx")), "prr", "extension in capitals, cut")
       call suite%equal(extension_of("x.SLCS"), "slcs", "slices")
    end subroutine directions
 
