@@ -1,0 +1,62 @@
+#!/usr/bin/env python3
+"""What the code of all rooms can write to and all threads share: only what is listed here, with its owner.
+
+usage: statics.py NM FILE_WITH_NAMES_OF_OBJECTS
+"""
+import os
+import re
+import shutil
+import subprocess
+import sys
+
+SKIPPED = 77
+KNOWN = {
+    "__contact_capi_registry_MOD_library": "the problems of the callers; every access is inside `contact_registry` or atomic",
+    "child": "set once, in a forked process that has one thread",
+    "floats_of_host": "one per thread",
+    ".gomp_critical_user_contact_registry": "lock of the registry",
+    ".gomp_critical_user_contact_printing": "lock of the .out file of the library",
+    ".gomp_critical_user_contact_fft_planner": "lock of FFTW's planner",
+}
+# Tables of types that compiled code reads and nothing writes
+CONSTANT = re.compile(r"_MOD___(vtab|def_init)_")
+# Sections that are writable while the program runs; .data.rel.ro is not
+WRITABLE = re.compile(r"\.(t?data|t?bss)(?!\.rel\.ro)(\.|$)|\*COM\*$")
+
+
+def statics(nm, files):
+    """Writable variables of object files: name, file"""
+    text = subprocess.run([nm, "--format=sysv", "--defined-only", *files], check=True, capture_output=True, text=True).stdout
+    file = ""
+    for line in text.splitlines():
+        if line.startswith("Symbols from "):
+            file = os.path.basename(line.rstrip(":"))
+        parts = [part.strip() for part in line.split("|")]
+        if len(parts) == 7 and parts[3] in ("OBJECT", "TLS") and WRITABLE.match(parts[6]) and not CONSTANT.search(parts[0]):
+            yield parts[0], file
+
+
+def main():
+    """Compare what is there with what is known"""
+    nm, names = sys.argv[1:]
+    if not shutil.which(nm):
+        print("skipped: there is no nm to look into object files")
+        return SKIPPED
+    with open(names, encoding="utf-8") as file:
+        files = file.read().splitlines()
+    found = {}
+    for name, source in statics(nm, files):
+        found.setdefault(name, set()).add(source)
+    strange = sorted(set(found) - set(KNOWN))
+    for name in strange:
+        print(f"FAILED {name} in {', '.join(sorted(found[name]))} is shared by all threads"
+              + ("; see the traps of gfortran in doc/develop/house.md" if name.startswith("slen") else ""))
+    missing = sorted(set(KNOWN) - set(found))
+    for name in missing:
+        print(f"FAILED {name}, {KNOWN[name]}, is not there; take it off the list")
+    print(f"{len(files)} object files, {len(found)} variables that threads share, {len(strange)} of them unknown")
+    return 1 if strange or missing or len(files) < 100 else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
