@@ -6,9 +6,10 @@ module contact_capi_calculate
    use contact_capi_arguments, only : give, integer_of
    use contact_capi_calculate1, only : calculate_pair
    use contact_capi_calculate3, only : calculate_contact
+   use contact_capi_library, only : entry_type
+   use contact_capi_messages, only : forget_complaint, say
    use contact_capi_problem, only : library_problem, most_patches
-   use contact_capi_registry, only : enter_calculation, entry_type, forget_complaint, leave_calculation, say, &
-      & scope, scope_type, threads_inside
+   use contact_capi_registry, only : enter_calculation, leave_calculation, scope, scope_type, threads_inside
    use contact_control_library_codes, only : code_text, library_code
    implicit none (type, external)
    private

@@ -5,9 +5,11 @@ module contact_capi_calculate1
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
    use contact_capi_calculate3, only : first_problem
+   use contact_capi_files, only : find_result_file, find_working_folder
    use contact_capi_input_dump, only : dump_pair_case
+   use contact_capi_library, only : entry_type
+   use contact_capi_messages, only : complain, library_log, say
    use contact_capi_problem, only : library_problem, most_patches
-   use contact_capi_registry, only : complain, entry_type, find_result_file, find_working_folder, library_log, say
    use contact_cases_pair_session, only : solve_pair_case
    use contact_cases_spec, only : case_spec
    use contact_control_digits, only : digit_value

@@ -4,8 +4,10 @@ module contact_capi_contact
    use contact_base_choices, only : motion, slip_source
    use contact_base_kinds, only : wp
    use contact_capi_arguments, only : integer_of, real_of, reals_of
+   use contact_capi_library, only : entry_type
+   use contact_capi_messages, only : are_finite, complain, count_fits, is_heard, say
    use contact_capi_problem, only : library_problem
-   use contact_capi_registry, only : are_finite, complain, count_fits, enter, entry_type, is_heard, leave, say, scope
+   use contact_capi_registry, only : enter, leave, scope
    use contact_cases_spec, only : geometry_spec, grid_spec
    use contact_control_units, only : inward, quantity
    use contact_text_words, only : integer_text

@@ -3,8 +3,10 @@ module contact_capi_fields
    use, intrinsic :: iso_c_binding, only : c_double, c_int
    use contact_base_kinds, only : wp
    use contact_capi_arguments, only : give, give_list, integer_of, count_of
+   use contact_capi_library, only : entry_type
+   use contact_capi_messages, only : complain
    use contact_capi_problem, only : library_problem
-   use contact_capi_registry, only : complain, enter, entry_type, leave, scope
+   use contact_capi_registry, only : enter, leave, scope
    use contact_capi_view, only : field_list, look_at, result_view
    use contact_control_library_codes, only : field_kind, field_row, field_table
    use contact_control_units, only : outward, quantity_type

@@ -4,9 +4,12 @@ module contact_capi_flags
    use omp_lib, only : omp_in_parallel
    use contact_base_kinds, only : wp
    use contact_capi_arguments, only : give_list, integer_of, integers_of, reals_of
+   use contact_capi_library, only : entry_type
    use contact_capi_lifecycle, only : set_global_flag
+   use contact_capi_messages, only : are_finite, complain, is_heard, say
    use contact_capi_problem, only : library_problem
-   use contact_capi_registry, only : are_finite, complain, enter, entry_type, is_heard, leave, say, scope, set_timer_level
+   use contact_capi_registry, only : enter, leave, scope
+   use contact_capi_timers, only : set_timer_level
    use contact_control_digits, only : choice_of, digit_value
    use contact_control_digits1, only : choice1_of
    use contact_control_flags, only : accepted_value, flag, flag_table, put_digit, row_of_flag

@@ -1,7 +1,9 @@
 !> Cases of callers written as an input file of the program (flag 2002)
 module contact_capi_input_dump
+   use contact_capi_files, only : find_result_file, input_dump, open_input_dump, relate_to_results
+   use contact_capi_library, only : entry_type
+   use contact_capi_messages, only : complain
    use contact_capi_problem, only : given_profile, library_problem
-   use contact_capi_registry, only : complain, entry_type, find_result_file, input_dump, open_input_dump, relate_to_results
    use contact_cases_spec, only : case_spec
    use contact_output_input_case, only : write_contact_case, write_pair_case
    use contact_wheelrail_spec, only : profile_spec

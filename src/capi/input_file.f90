@@ -4,9 +4,12 @@ module contact_capi_input_file
    use contact_base_error, only : error_type, fatal_error, full_text
    use contact_capi_arguments, only : give, integer_of, path_of
    use contact_capi_calculate3, only : first_problem
+   use contact_capi_files, only : find_working_folder
+   use contact_capi_library, only : entry_type
+   use contact_capi_messages, only : complain, say
    use contact_capi_problem, only : library_problem
    use contact_capi_profiles, only : read_given_profile
-   use contact_capi_registry, only : complain, enter, entry_type, find_working_folder, leave, say, scope
+   use contact_capi_registry, only : enter, leave, scope
    use contact_cases_spec, only : case_digits, case_spec
    use contact_control_digits, only : digit_value
    use contact_control_library_codes, only : input_type, library_code

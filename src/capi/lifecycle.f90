@@ -5,8 +5,10 @@ module contact_capi_lifecycle
    use, intrinsic :: iso_c_binding, only : c_associated, c_char, c_f_pointer, c_int, c_null_char, c_ptr
    use omp_lib, only : omp_in_parallel
    use contact_capi_arguments, only : give, integer_of, integers_of, path_of
-   use contact_capi_registry, only : complain, entry_type, is_running, last_complaint, most_threads, record_units, &
-      & register_element, remove_element, say, set_debugging, set_threads, start_library, stop_library
+   use contact_capi_library, only : entry_type
+   use contact_capi_messages, only : complain, last_complaint, say, set_debugging
+   use contact_capi_registry, only : is_running, most_threads, record_units, register_element, remove_element, set_threads, &
+      & start_library, stop_library
    use contact_control_flags, only : flag
    use contact_control_library_codes, only : code_text, interface_version, library_code
    use contact_text_words, only : integer_text

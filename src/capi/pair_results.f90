@@ -6,8 +6,9 @@ module contact_capi_pair_results
    use, intrinsic :: iso_c_binding, only : c_double, c_int
    use contact_base_kinds, only : wp
    use contact_capi_arguments, only : give, give_list, give_zeros, integer_of
+   use contact_capi_library, only : entry_type
    use contact_capi_problem, only : library_problem
-   use contact_capi_registry, only : enter, entry_type, leave, scope
+   use contact_capi_registry, only : enter, leave, scope
    use contact_control_units, only : orientation, outward, quantity, quantity_type
    use contact_wheelrail_frame, only : frame, new_frame, roll_axes
    use contact_wheelrail_result, only : pair_patch, pair_result

@@ -3,8 +3,10 @@ module contact_capi_pair_settings
    use, intrinsic :: iso_c_binding, only : c_double, c_int
    use contact_base_kinds, only : wp
    use contact_capi_arguments, only : integer_of, real_of, reals_of
+   use contact_capi_library, only : entry_type
+   use contact_capi_messages, only : are_finite, complain, count_fits, say
    use contact_capi_problem, only : library_problem
-   use contact_capi_registry, only : are_finite, complain, count_fits, enter, entry_type, leave, say, scope
+   use contact_capi_registry, only : enter, leave, scope
    use contact_control_units, only : inward, quantity
    use contact_text_words, only : integer_text
    implicit none (type, external)

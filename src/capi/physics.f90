@@ -3,8 +3,10 @@ module contact_capi_physics
    use, intrinsic :: iso_c_binding, only : c_double, c_int
    use contact_base_kinds, only : wp
    use contact_capi_arguments, only : integer_of, integers_of, real_of, reals_of
+   use contact_capi_library, only : entry_type
+   use contact_capi_messages, only : are_finite, complain, count_fits, say
    use contact_capi_problem, only : library_problem
-   use contact_capi_registry, only : are_finite, complain, count_fits, enter, entry_type, leave, say, scope
+   use contact_capi_registry, only : enter, leave, scope
    use contact_cases_spec, only : case_spec, friction_set
    use contact_control_digits, only : choice_of
    use contact_control_digits1, only : choice1_of

@@ -5,8 +5,11 @@ module contact_capi_profile_values
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
    use contact_capi_arguments, only : count_of, give_list, integer_of, integers_of, reals_of
+   use contact_capi_files, only : find_result_file, find_working_folder
+   use contact_capi_library, only : entry_type
+   use contact_capi_messages, only : complain, say
    use contact_capi_problem, only : given_profile, library_problem
-   use contact_capi_registry, only : complain, enter, entry_type, find_result_file, find_working_folder, leave, say, scope
+   use contact_capi_registry, only : enter, leave, scope
    use contact_cases_pair_session, only : load_profile
    use contact_control_library_codes, only : library_code
    use contact_control_units, only : orientation, outward, quantity

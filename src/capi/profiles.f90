@@ -9,8 +9,11 @@ module contact_capi_profiles
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
    use contact_capi_arguments, only : integer_of, integers_of, path_of, reals_of
+   use contact_capi_files, only : find_working_folder
+   use contact_capi_library, only : entry_type
+   use contact_capi_messages, only : are_finite, complain, library_log
    use contact_capi_problem, only : library_problem, given_profile
-   use contact_capi_registry, only : are_finite, complain, enter, entry_type, find_working_folder, leave, library_log, scope
+   use contact_capi_registry, only : enter, leave, scope
    use contact_cases_pair_session, only : load_profile
    use contact_control_library_codes, only : library_code
    use contact_control_units, only : inward, quantity

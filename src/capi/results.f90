@@ -4,8 +4,10 @@ module contact_capi_results
    use contact_base_choices, only : motion, variation
    use contact_base_kinds, only : wp
    use contact_capi_arguments, only : give, give_list, give_zeros, integer_of
+   use contact_capi_library, only : entry_type
+   use contact_capi_messages, only : complain
    use contact_capi_problem, only : library_problem
-   use contact_capi_registry, only : complain, enter, entry_type, leave, scope
+   use contact_capi_registry, only : enter, leave, scope
    use contact_capi_view, only : look_at, result_view
    use contact_cases_spec, only : case_spec
    use contact_control_units, only : inward, orientation, outward, quantity, quantity_type

@@ -7,9 +7,11 @@ module contact_capi_subsurface
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
    use contact_capi_arguments, only : give, integer_of, integers_of, reals_of
+   use contact_capi_files, only : find_result_file
+   use contact_capi_library, only : entry_type
+   use contact_capi_messages, only : are_finite, complain, count_fits, forget_complaint, library_log
    use contact_capi_problem, only : library_problem
-   use contact_capi_registry, only : are_finite, complain, count_fits, enter, enter_calculation, entry_type, &
-      & forget_complaint, find_result_file, leave, leave_calculation, library_log, scope, threads_inside
+   use contact_capi_registry, only : enter, enter_calculation, leave, leave_calculation, scope, threads_inside
    use contact_capi_view, only : look_at, result_view
    use contact_cases_spec, only : case_spec
    use contact_cases_subsurface, only : subsurface_stresses

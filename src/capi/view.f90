@@ -1,8 +1,9 @@
 !> Results of one patch as callers get them: which patch, which side, which rows
 module contact_capi_view
    use contact_base_kinds, only : wp
+   use contact_capi_library, only : entry_type
+   use contact_capi_messages, only : complain
    use contact_capi_problem, only : library_problem
-   use contact_capi_registry, only : complain, entry_type
    use contact_control_units, only : inward, outward, quantity, unit_convention
    use contact_patch_result, only : patch_result
    implicit none (type, external)

@@ -428,10 +428,10 @@ contains
       type(timer_line) :: lines(4)
 
       call state%total%halt()
-      call fill_line("Total", state%total, lines(1))
-      call fill_line("Reading input", state%reading, lines(2))
-      call fill_line("Solving cases", state%solving, lines(3))
-      call fill_line("Writing results", state%writing, lines(4))
+      call state%total%fill_line("Total", lines(1))
+      call state%reading%fill_line("Reading input", lines(2))
+      call state%solving%fill_line("Solving cases", lines(3))
+      call state%writing%fill_line("Writing results", lines(4))
       call write_end(state%log, omp_get_max_threads(), lines)
       if (state%unconverged > 0) call state%log%line(" Number of cases that did not reach their tolerance: " // &
          & integer_text(state%unconverged))
@@ -440,16 +440,4 @@ contains
       state%log%out = 0
       if (allocated(error)) call report_error(state, error)
    end subroutine close_out_file
-
-   !> A stopwatch as a line of the timer table
-   pure subroutine fill_line(name, watch, line)
-      character(len=*), intent(in) :: name
-      type(stopwatch), intent(in) :: watch
-      type(timer_line), intent(out) :: line
-
-      line%name = name
-      line%calls = watch%calls
-      line%cpu = watch%cpu
-      line%wall = watch%wall
-   end subroutine fill_line
 end module contact_experiment_run

@@ -1,6 +1,7 @@
 !> How often and how long the phases of a run were at work
 module contact_experiment_stopwatch
    use contact_base_kinds, only : long, wp
+   use contact_output_report, only : timer_line
    implicit none (type, external)
    private
 
@@ -16,6 +17,10 @@ module contact_experiment_stopwatch
    contains
       procedure :: start
       procedure :: halt
+      !> Count what another one has counted
+      procedure :: add
+      !> A line of the timer table
+      procedure :: fill_line
    end type stopwatch
 
 contains
@@ -38,6 +43,27 @@ contains
       call cpu_time(now)
       self%cpu = self%cpu + (now - self%cpu_start)
    end subroutine halt
+
+   pure subroutine add(self, other)
+      class(stopwatch), intent(inout) :: self
+      type(stopwatch), intent(in) :: other
+
+      self%calls = self%calls + other%calls
+      self%cpu = self%cpu + other%cpu
+      self%wall = self%wall + other%wall
+   end subroutine add
+
+   !> Component by component, because constructors with texts leak
+   pure subroutine fill_line(self, name, line)
+      class(stopwatch), intent(in) :: self
+      character(len=*), intent(in) :: name
+      type(timer_line), intent(out) :: line
+
+      line%name = name
+      line%calls = self%calls
+      line%cpu = self%cpu
+      line%wall = self%wall
+   end subroutine fill_line
 
    !> Elapsed time since a fixed moment [s]
    real(wp) function wall_clock() result(seconds)

@@ -11,7 +11,7 @@ import sys
 
 SKIPPED = 77
 KNOWN = {
-    "__contact_capi_registry_MOD_library": "the problems of the callers; every access is inside `contact_registry` or atomic",
+    "__contact_capi_library_MOD_library": "the problems of the callers; every access is inside `contact_registry` or atomic",
     "child": "set once, in a forked process that has one thread",
     "floats_of_host": "one per thread",
     ".gomp_critical_user_contact_registry": "lock of the registry",

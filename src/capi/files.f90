@@ -1,0 +1,108 @@
+!> Where the files of the library are: its folders, and the file in which cases are written as input
+module contact_capi_files
+   use contact_capi_host, only : find_current_folder
+   use contact_capi_library, only : library
+   use contact_capi_messages, only : set_last_error
+   use contact_control_library_codes, only : library_code
+   implicit none (type, external)
+   private
+
+   public :: set_folders, find_result_file, place_result, find_working_folder, open_input_dump, input_dump, relate_to_results
+
+contains
+
+   !> A folder with a separator at its end
+   pure function with_separator(folder) result(path)
+      character(len=*), intent(in) :: folder
+      character(len=len(folder) + merge(0, 1, folder(len(folder):) == "/")) :: path
+
+      path = folder
+      path(len(path):) = "/"
+   end function with_separator
+
+   !> Take note of folders and name of the experiment, inside the critical section
+   subroutine set_folders(work_folder, out_folder, name)
+      !> "" for what was given before or the default
+      character(len=*), intent(in) :: work_folder, out_folder, name
+      integer :: slash
+
+      if (.not. allocated(library%name)) library%name = "contact_addon"
+      if (.not. allocated(library%work_folder)) library%work_folder = ""
+      if (.not. allocated(library%out_folder)) library%out_folder = ""
+      if (len(work_folder) > 0) library%work_folder = with_separator(work_folder)
+      if (len(out_folder) > 0) library%out_folder = with_separator(out_folder)
+      if (len(name) == 0) return
+      slash = index(name, "/", back=.true.)
+      if (slash > 0 .and. len(work_folder) == 0) library%work_folder = name(:slash)
+      if (slash < len(name)) library%name = name(slash + 1:)
+   end subroutine set_folders
+
+   !> Path of a file in the folder of results; a folder that is relative starts at the working folder
+   subroutine find_result_file(file, path)
+      character(len=*), intent(in) :: file
+      character(len=:), allocatable, intent(out) :: path
+
+      !$omp critical (contact_registry)
+      call place_result(file, path)
+      !$omp end critical (contact_registry)
+   end subroutine find_result_file
+
+   !> The same inside the critical section
+   subroutine place_result(file, path)
+      character(len=*), intent(in) :: file
+      character(len=:), allocatable, intent(out) :: path
+
+      path = library%out_folder // file
+      if (path(:1) /= "/") path = library%work_folder // path
+   end subroutine place_result
+
+   !> Folder to which names of files are relative, with a separator at its end, "" for the current one
+   subroutine find_working_folder(folder)
+      character(len=:), allocatable, intent(out) :: folder
+
+      !$omp critical (contact_registry)
+      folder = ""
+      if (allocated(library%work_folder)) folder = library%work_folder
+      !$omp end critical (contact_registry)
+   end subroutine find_working_folder
+
+   !> Open the file in which cases are written as input; a failure is not tried again
+   subroutine open_input_dump()
+      character(len=:), allocatable :: path
+      integer :: status, unit
+
+      !$omp critical (contact_registry)
+      if (.not. library%dump_was_tried) then
+         library%dump_was_tried = .true.
+         call place_result(library%name // ".inp", path)
+         open(newunit=unit, file=path, status="replace", action="write", iostat=status)
+         if (status == 0) library%input_dump = unit
+         if (status /= 0) call set_last_error(library_code%other, "the file " // path // " cannot be written")
+      end if
+      !$omp end critical (contact_registry)
+   end subroutine open_input_dump
+
+   !> Unit of the file in which cases are written as input, 0 for none
+   integer function input_dump() result(unit)
+      !$omp critical (contact_registry)
+      unit = library%input_dump
+      !$omp end critical (contact_registry)
+   end function input_dump
+
+   !> The name of a file of the caller, relative to the working folder, as the input file in the folder of results must give it
+   subroutine relate_to_results(name)
+      character(len=:), allocatable, intent(inout) :: name
+      character(len=:), allocatable :: folder
+
+      if (name(:1) == "/") return
+      !$omp critical (contact_registry)
+      if (len(library%out_folder) > 0) then
+         name = library%work_folder // name
+         if (name(:1) /= "/") then
+            call find_current_folder(folder)
+            name = folder // "/" // name
+         end if
+      end if
+      !$omp end critical (contact_registry)
+   end subroutine relate_to_results
+end module contact_capi_files

@@ -1,0 +1,75 @@
+!> The state of the library: its run, the problems of its callers, and its one .out file
+!>
+!> The only mutable module variable of the library. Whoever reads or changes it is inside the critical section
+!> `contact_registry`, which is short; calculations run outside.
+module contact_capi_library
+   use contact_base_log, only : log_type
+   use contact_capi_problem, only : library_problem, most_patches
+   use contact_experiment_stopwatch, only : stopwatch
+   implicit none (type, external)
+   private
+
+   public :: library, entry_type, element_slot, problem_pointer, existing_problem
+
+   integer, parameter, public :: most_elements = 999
+   !> Phases of the library
+   integer, parameter, public :: virgin = -3, units_given = -2, finalised = -1, running = 1
+
+   !> A call: routine, result element, patch
+   type :: entry_type
+      character(len=28) :: name = ""
+      integer :: ire = 0
+      !> Patch as the caller gave it, -1 for none
+      integer :: icp = -1
+   end type entry_type
+
+   type :: problem_pointer
+      type(library_problem), pointer :: p => null()
+      !> Calculations and stresses of problems with this number that were freed, for the timer table; their module
+      type(stopwatch) :: total, stresses
+      integer :: timed_module = 0
+   end type problem_pointer
+
+   !> A result element; in module 1 its one problem is the first
+   type :: element_slot
+      integer :: module_number = 0
+      type(problem_pointer) :: patch(most_patches)
+   end type element_slot
+
+   type :: library_state
+      integer :: phase = virgin
+      type(element_slot) :: elements(most_elements)
+      integer :: active_elements = 0
+      !> Calculations that are running now, largest number of threads seen, threads inside a problem
+      integer :: calculations = 0, most_threads = 1, threads = 1
+      !> Amount of messages about calls; timer table 0 none, 1 overview, 2 everything
+      integer :: debugging = 0, timer_level = 1
+      type(log_type) :: log
+      !> Unit of the .inp file with the cases, 0 for none; was it tried to open it?
+      integer :: input_dump = 0
+      logical :: dump_was_tried = .false.
+      character(len=:), allocatable :: work_folder, out_folder, name
+      type(stopwatch) :: total
+      !> What went wrong last without a problem to which it belongs
+      character(len=:), allocatable :: last_error
+      integer :: last_code = 0
+   end type library_state
+
+   type(library_state), target, save :: library
+
+contains
+
+   !> The problem with these numbers, null when there is none; inside the critical section
+   function existing_problem(ire, icp) result(problem)
+      integer, intent(in) :: ire, icp
+      type(library_problem), pointer :: problem
+      integer :: k
+
+      nullify(problem)
+      if (ire < 1 .or. ire > most_elements) return
+      k = 1
+      if (library%elements(ire)%module_number == 3) k = icp
+      if (k < 1 .or. k > most_patches) return
+      problem => library%elements(ire)%patch(k)%p
+   end function existing_problem
+end module contact_capi_library

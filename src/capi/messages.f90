@@ -1,0 +1,173 @@
+!> What callers are told: complaints about calls, which the library keeps, and messages that they ask for
+module contact_capi_messages
+   use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
+   use omp_lib, only : omp_get_thread_num, omp_in_parallel
+   use contact_base_kinds, only : wp
+   use contact_base_log, only : log_type
+   use contact_capi_library, only : entry_type, existing_problem, library
+   use contact_capi_problem, only : library_problem
+   use contact_control_library_codes, only : library_code
+   use contact_text_words, only : integer_text
+   implicit none (type, external)
+   private
+
+   public :: complain, say, is_heard, set_debugging, library_log
+   public :: last_complaint, forget_complaint, set_last_error
+   public :: are_finite, count_fits
+
+contains
+
+   !> A message about a wrong call: into the log at every level of debugging, and kept for the caller
+   subroutine complain(call_of, text, code)
+      type(entry_type), intent(in) :: call_of
+      character(len=*), intent(in) :: text
+      !> Member of library_code; default other
+      integer, intent(in), optional :: code
+      integer :: number
+
+      number = library_code%other
+      if (present(code)) number = code
+      !$omp critical (contact_registry)
+      if (number /= library_code%success) call set_last_error(number, trim(call_of%name) // ": " // text, call_of)
+      call library%log%line(trim(prefix_of(call_of)) // " " // text)
+      if (library%log%out /= 0) flush(library%log%out)
+      !$omp end critical (contact_registry)
+   end subroutine complain
+
+   !> A message that callers see when they ask for messages of that level
+   subroutine say(level, call_of, text)
+      !> Level of debugging from which on it is written
+      integer, intent(in) :: level
+      type(entry_type), intent(in) :: call_of
+      character(len=*), intent(in) :: text
+
+      if (.not. is_heard(level)) return
+      !$omp critical (contact_registry)
+      call library%log%line(trim(prefix_of(call_of)) // " " // text)
+      !$omp end critical (contact_registry)
+   end subroutine say
+
+   !> Are messages of this level written?
+   logical function is_heard(level)
+      integer, intent(in) :: level
+      integer :: debugging
+
+      !$omp atomic read
+      debugging = library%debugging
+      is_heard = debugging >= level
+   end function is_heard
+
+   !> Amount of messages
+   subroutine set_debugging(level)
+      integer, intent(in) :: level
+
+      !$omp atomic write
+      library%debugging = level
+   end subroutine set_debugging
+
+   !> A copy of the sinks of messages
+   type(log_type) function library_log() result(log)
+      !$omp critical (contact_registry)
+      log = library%log
+      !$omp end critical (contact_registry)
+   end function library_log
+
+   !> A calculation begins: what went wrong with the problem before does not count any more
+   subroutine forget_complaint(problem)
+      type(library_problem), intent(inout) :: problem
+
+      !$omp critical (contact_registry)
+      problem%last_code = library_code%success
+      if (allocated(problem%last_error)) deallocate(problem%last_error)
+      !$omp end critical (contact_registry)
+   end subroutine forget_complaint
+
+   !> What went wrong last, "" when nothing did; forgotten by this question
+   subroutine last_complaint(code, text, ire, icp)
+      integer, intent(out) :: code
+      character(len=:), allocatable, intent(out) :: text
+      !> A problem; result element 0 for whatever went wrong last in the library
+      integer, intent(in) :: ire, icp
+      type(library_problem), pointer :: problem
+
+      !$omp critical (contact_registry)
+      code = library_code%success
+      text = ""
+      if (ire == 0) then
+         code = library%last_code
+         if (allocated(library%last_error)) call move_alloc(library%last_error, text)
+         library%last_code = library_code%success
+      else
+         problem => existing_problem(ire, icp)
+         if (associated(problem)) then
+            code = problem%last_code
+            if (allocated(problem%last_error)) call move_alloc(problem%last_error, text)
+            problem%last_code = library_code%success
+         end if
+      end if
+      !$omp end critical (contact_registry)
+   end subroutine last_complaint
+
+   !> Keep what went wrong, inside the critical section
+   subroutine set_last_error(code, text, call_of)
+      integer, intent(in) :: code
+      character(len=*), intent(in) :: text
+      !> Belongs to the problem of this call, if there is one
+      type(entry_type), intent(in), optional :: call_of
+      type(library_problem), pointer :: problem
+
+      library%last_code = code
+      library%last_error = text
+      if (.not. present(call_of)) return
+      problem => existing_problem(call_of%ire, call_of%icp)
+      if (.not. associated(problem)) return
+      problem%last_code = code
+      problem%last_error = text
+   end subroutine set_last_error
+
+   !> Are all numbers of a call finite? Complains when they are not
+   logical function are_finite(call_of, values)
+      type(entry_type), intent(in) :: call_of
+      real(wp), intent(in) :: values(:)
+
+      are_finite = all(ieee_is_finite(values))
+      if (.not. are_finite) call complain(call_of, "a value is missing, infinite or not a number; nothing is stored")
+   end function are_finite
+
+   !> Does a method get as many values as it needs? Complains when it does not
+   logical function count_fits(call_of, method, n, lowest, highest) result(fits)
+      type(entry_type), intent(in) :: call_of
+      !> Number of the method, number of values that were given, and the numbers that can be
+      integer, intent(in) :: method, n, lowest, highest
+
+      fits = n >= lowest .and. n <= highest
+      if (fits) return
+      if (lowest == highest) then
+         call complain(call_of, "method " // integer_text(method) // " needs " // integer_text(lowest) // " values, not " // &
+            & integer_text(n))
+      else
+         call complain(call_of, "method " // integer_text(method) // " needs " // integer_text(lowest) // " to " // &
+            & integer_text(highest) // " values, not " // integer_text(n))
+      end if
+   end function count_fits
+
+   !> Start of a message: thread, routine, result element and patch
+   function prefix_of(call_of) result(text)
+      type(entry_type), intent(in) :: call_of
+      character(len=64) :: text
+      character(len=30) :: name
+      character(len=4) :: thread
+      character(len=24) :: place
+
+      thread = ""
+      if (omp_in_parallel()) write(thread, '(i3, "#")') mod(omp_get_thread_num(), 1000)
+      name = adjustr(call_of%name // "  ")
+      place = ":"
+      if (call_of%ire /= 0 .and. call_of%icp > 0) then
+         write(place, '("(", i3, ".", i1, "):")') min(999, max(-99, call_of%ire)), min(9, call_of%icp)
+      else if (call_of%ire /= 0) then
+         write(place, '("(", i3, "):")') min(999, max(-99, call_of%ire))
+      end if
+      text = trim(thread) // " ** " // name // trim(place)
+   end function prefix_of
+end module contact_capi_messages

@@ -1,0 +1,66 @@
+!> Time that the problems of the library take, and the table of it at the end of a run
+module contact_capi_timers
+   use contact_capi_library, only : library, most_elements, problem_pointer
+   use contact_capi_problem, only : most_patches
+   use contact_output_report, only : timer_line, write_end
+   use contact_text_words, only : integer_text
+   implicit none (type, external)
+   private
+
+   public :: book_times, write_timers, set_timer_level
+
+   !> Amount of timers
+   integer, parameter :: all_timers = 2
+
+contains
+
+   !> Keep the times of a problem that is going to be freed
+   subroutine book_times(slot)
+      type(problem_pointer), intent(inout) :: slot
+
+      slot%timed_module = slot%p%module_number
+      call slot%total%add(slot%p%total)
+      call slot%stresses%add(slot%p%stresses)
+   end subroutine book_times
+
+   !> Table of the time spent, in total and per problem; with all timers that of stresses, too
+   subroutine write_timers()
+      type(timer_line), allocatable :: lines(:)
+      integer :: k, i, n
+
+      if (library%debugging < 0 .or. library%timer_level < 1) return
+      n = 1
+      do k = 1, most_elements
+         n = n + 2*count(library%elements(k)%patch%timed_module /= 0)
+      end do
+      allocate(lines(n))
+      n = 1
+      call library%total%fill_line("Total", lines(1))
+      do k = 1, most_elements
+         do i = 1, most_patches
+            associate (slot => library%elements(k)%patch(i))
+               if (slot%timed_module == 0) cycle
+               n = n + 1
+               if (slot%timed_module == 3) then
+                  call slot%total%fill_line("Cp." // integer_text(i) // " on Res.el." // integer_text(k), lines(n))
+               else
+                  call slot%total%fill_line("Result element " // integer_text(k), lines(n))
+               end if
+               if (library%timer_level < all_timers .or. slot%stresses%calls == 0) cycle
+               n = n + 1
+               call slot%stresses%fill_line("- stresses below", lines(n))
+            end associate
+         end do
+      end do
+      call write_end(library%log, library%most_threads, lines(:n))
+   end subroutine write_timers
+
+   !> Timer table: 0 none, 1 overview, 2 everything
+   subroutine set_timer_level(level)
+      integer, intent(in) :: level
+
+      !$omp critical (contact_registry)
+      library%timer_level = level
+      !$omp end critical (contact_registry)
+   end subroutine set_timer_level
+end module contact_capi_timers
