@@ -151,7 +151,8 @@ contains
       integer, intent(in) :: digit
 
       do row = 1, size(digit_table)
-         if (digit_table(row)%name == name .and. digit_table(row)%digit == digit) return
+         if (digit_table(row)%digit /= digit) cycle
+         if (digit_table(row)%name == name) return
       end do
       row = 0
    end function row_of

@@ -378,36 +378,89 @@ contains
    end subroutine inverse_of_pair
 
    !> Product of a spectrum of two fields with a symmetric 2 by 2 block, times a factor per column
-   subroutine multiply_paired(mean, half, mixed, spectrum, factor)
+   !>
+   !> A spectrum of two real fields mixes frequencies with their opposites: these are done together.
+   pure subroutine multiply_paired(mean, half, mixed, spectrum, factor)
       !> Half the sum and half the difference of the spectra xx and yy, and xy, shape (py, px/2 + 1)
       real(wp), contiguous, intent(in) :: mean(:, :), half(:, :), mixed(:, :)
       !> Shape (py, px)
       complex(wp), contiguous, intent(inout) :: spectrum(:, :)
       complex(wp), contiguous, intent(in), optional :: factor(:)
-      integer :: k, l, i, j, px, py
-      complex(wp) :: a, b, c, turn
+      complex(wp) :: turn
+      integer :: l, j, n, px, py
 
       py = size(spectrum, 1)
       px = size(spectrum, 2)
-      turn = 1.0_wp
-      ! frequencies and their opposites together
       do l = 1, px/2 + 1
          j = opposite(l, px)
-         if (present(factor)) turn = factor(l)
-         do k = 1, merge(py/2 + 1, py, j == l)
-            i = opposite(k, py)
-            c = cmplx(half(k, l), mixed(k, l), wp)
-            a = mean(k, l)*spectrum(k, l) + c*conjg(spectrum(i, j))
-            b = mean(k, l)*spectrum(i, j) + c*conjg(spectrum(k, l))
-            if (present(factor)) then
-               a = turn*a
-               b = conjg(turn)*b
-            end if
-            spectrum(k, l) = a
-            spectrum(i, j) = b
-         end do
+         if (j == l) then
+            ! one or two rows are their own opposites
+            n = py/2 + 1
+            call multiply_own(mean(1, l), half(1, l), mixed(1, l), spectrum(1, l))
+            if (mod(py, 2) == 0) call multiply_own(mean(n, l), half(n, l), mixed(n, l), spectrum(n, l))
+            n = (py - 1)/2
+         else
+            n = py - 1
+            call multiply_opposites(1, mean(:1, l), half(:1, l), mixed(:1, l), spectrum(:1, l), spectrum(:1, j))
+         end if
+         call multiply_opposites(n, mean(2:n + 1, l), half(2:n + 1, l), mixed(2:n + 1, l), spectrum(2:n + 1, l), &
+            & spectrum(py - n + 1:, j))
+      end do
+      if (.not. present(factor)) return
+      do l = 1, px
+         turn = factor(min(l, opposite(l, px)))
+         if (l > px/2 + 1) turn = conjg(turn)
+         call turn_column(py, turn, spectrum(:, l))
       end do
    end subroutine multiply_paired
+
+   !> Product for one frequency that is its own opposite
+   pure subroutine multiply_own(mean, half, mixed, x)
+      real(wp), intent(in) :: mean, half, mixed
+      complex(wp), intent(inout) :: x
+
+      x = mean*x + cmplx(half, mixed, wp)*conjg(x)
+   end subroutine multiply_own
+
+   !> Product for n frequencies and their opposites, these in reversed order
+   !>
+   !> Real and imaginary parts go through the same operations, so that the compiler takes both in one instruction.
+   pure subroutine multiply_opposites(n, mean, half, mixed, x, y)
+      integer, intent(in) :: n
+      real(wp), intent(in) :: mean(n), half(n), mixed(n)
+      complex(wp), intent(inout) :: x(n), y(n)
+      real(wp) :: xr, xi, yr, yi, minus
+      integer :: k
+
+      do k = 1, n
+         xr = x(k)%re
+         xi = x(k)%im
+         yr = y(n + 1 - k)%re
+         yi = y(n + 1 - k)%im
+         minus = -half(k)
+         x(k)%re = mean(k)*xr + half(k)*yr + mixed(k)*yi
+         x(k)%im = mean(k)*xi + minus*yi + mixed(k)*yr
+         y(n + 1 - k)%re = mean(k)*yr + half(k)*xr + mixed(k)*xi
+         y(n + 1 - k)%im = mean(k)*yi + minus*xi + mixed(k)*xr
+      end do
+   end subroutine multiply_opposites
+
+   !> A column times one factor, written for the same reason as above
+   pure subroutine turn_column(n, turn, x)
+      integer, intent(in) :: n
+      complex(wp), intent(in) :: turn
+      complex(wp), intent(inout) :: x(n)
+      real(wp) :: xr, xi, minus
+      integer :: k
+
+      minus = -turn%im
+      do k = 1, n
+         xr = x(k)%re
+         xi = x(k)%im
+         x(k)%re = turn%re*xr + minus*xi
+         x(k)%im = turn%re*xi + turn%im*xr
+      end do
+   end subroutine turn_column
 
    !> Product with a symmetric 2 by 2 block of real spectra, times a factor per column
    subroutine single_product(self, axx, ayy, axy, p, u, factor)

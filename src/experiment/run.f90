@@ -18,7 +18,7 @@ module contact_experiment_run
    use contact_experiment_exports, only : export_files, export_request
    use contact_experiment_place, only : experiment_place, locate_experiment
    use contact_experiment_progress, only : is_terminal, progress_line
-   use contact_experiment_stopwatch, only : stopwatch
+   use contact_experiment_stopwatch, only : stopwatch, wall_clock
    use contact_input_experiment_file, only : experiment_reader, input_case
    use contact_input_problems, only : problem_text, severity
    use contact_output_case_record, only : case_head
@@ -83,6 +83,8 @@ module contact_experiment_run
       !> The first error; unallocated when there was none
       type(error_type), allocatable :: first_error
       type(stopwatch) :: total, reading, solving, writing
+      !> When the report was handed to the system last, see wall_clock
+      real(wp) :: last_flush = 0.0_wp
    end type experiment_state
 
 contains
@@ -184,7 +186,7 @@ contains
       type(input_case) :: this
       character(len=:), allocatable :: version
       logical :: go_on
-      integer :: status, k
+      integer :: k
 
       call state%total%start()
       call open_out_file(state, error)
@@ -214,8 +216,8 @@ contains
          if (this%module_number == 0) exit
          state%cases = state%cases + 1
          call compute_case(state, this, go_on)
-         flush(state%log%out, iostat=status)
          if (.not. go_on) exit
+         call keep_file_current(state)
          if (settings%screen == 0 .or. this%spec%flow_level == 0) call state%progress%show(state%cases)
       end do
       call state%progress%hide()
@@ -226,6 +228,18 @@ contains
          call release_slot(state%slots(k)%problem_slot)
       end do
    end subroutine compute_all_cases
+
+   !> Hand the report to the system now and then, so that a long run can be watched
+   subroutine keep_file_current(state)
+      type(experiment_state), intent(inout) :: state
+      !> [s]
+      real(wp), parameter :: interval = 0.2_wp
+      integer :: status
+
+      if (wall_clock() - state%last_flush < interval) return
+      flush(state%log%out, iostat=status)
+      state%last_flush = wall_clock()
+   end subroutine keep_file_current
 
    !> Check, solve and write one case
    subroutine compute_case(state, this, go_on)

@@ -70,7 +70,7 @@ contains
       character(len=:), allocatable :: number
       character(len=12) :: form
       integer :: mantissa, exponent, leading, exponent_value, first, status
-      logical :: is_zero
+      logical :: is_zero, done
 
       value = 0.0_wp
       state = word_state%malformed
@@ -102,6 +102,12 @@ contains
          state = word_state%too_large
          return
       end if
+      call round_once(word(first:mantissa), exponent_value, value, done)
+      if (done) then
+         if (word(1:1) == "-") value = -value
+         state = word_state%good
+         return
+      end if
       number = word(1:mantissa) // "e" // integer_text(exponent_value)
       form = "(f" // integer_text(len(number)) // ".0)"
       read(number, form, iostat=status) value
@@ -111,6 +117,41 @@ contains
       end if
       state = word_state%good
    end subroutine to_real
+
+   !> Value of a number whose figures and power of ten are exact, so that one operation rounds it correctly
+   !> (Clinger, How to read floating point numbers accurately, 1990)
+   pure subroutine round_once(mantissa, exponent, value, done)
+      !> Figures with at most one point
+      character(len=*), intent(in) :: mantissa
+      integer, intent(in) :: exponent
+      real(wp), intent(out) :: value
+      !> False when there are too many figures or the power is too high
+      logical, intent(out) :: done
+      integer, parameter :: longest = 15, highest = 22
+      integer :: k, power
+      real(wp), parameter :: powers(0:highest) = [(10.0_wp**k, k = 0, highest)]
+      integer(long) :: sum
+
+      value = 0.0_wp
+      sum = 0
+      power = exponent
+      done = len(mantissa) <= longest + 1
+      if (.not. done) return
+      do k = 1, len(mantissa)
+         if (mantissa(k:k) == ".") then
+            power = exponent - (len(mantissa) - k)
+         else
+            sum = 10*sum + iachar(mantissa(k:k)) - iachar("0")
+         end if
+      end do
+      done = sum < 10_long**longest .and. abs(power) <= highest
+      if (.not. done) return
+      if (power < 0) then
+         value = real(sum, wp)/powers(-power)
+      else
+         value = real(sum, wp)*powers(power)
+      end if
+   end subroutine round_once
 
    !> A real number, with `d` or `D` behind it in degrees, with `r` or `R` in radians
    pure subroutine to_angle(word, value, state)

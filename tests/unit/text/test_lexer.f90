@@ -96,7 +96,32 @@ contains
       call suite%check(state == word_state%not_finite, "NaN is refused")
       call to_real("-Infinity", value, state)
       call suite%check(state == word_state%not_finite, "infinity is refused")
+      call rounding(suite)
    end subroutine reals
+
+   !> Every number is rounded as the run-time library rounds it, to the last bit
+   subroutine rounding(suite)
+      type(test_suite), intent(inout) :: suite
+      character(len=*), parameter :: forms(*) = [character(len=12) :: "(es12.5)", "(es22.14e3)", "(es23.15e3)", &
+         & "(es25.17e3)", "(f12.4)", "(f18.3)", "(es10.2e3)"]
+      character(len=30) :: word
+      real(wp) :: value, expected, random(2)
+      integer :: k, form, state, wrong, seed_size
+
+      call random_seed(size=seed_size)
+      call random_seed(put=[(12345 + k, k = 1, seed_size)])
+      wrong = 0
+      do k = 1, 20000
+         form = 1 + mod(k, size(forms))
+         call random_number(random)
+         expected = (random(1) - 0.5_wp)*10.0_wp**merge(6.0_wp*random(2), 60.0_wp*(random(2) - 0.5_wp), forms(form)(2:2) == "f")
+         write(word, forms(form)) expected
+         read(word, "(f30.0)") expected
+         call to_real(trim(adjustl(word)), value, state)
+         if (state /= word_state%good .or. abs(value - expected) > 0.0_wp) wrong = wrong + 1
+      end do
+      call suite%check(wrong == 0, "numbers are rounded as the run-time library does")
+   end subroutine rounding
 
    subroutine is_real(suite, word, expected)
       type(test_suite), intent(inout) :: suite
