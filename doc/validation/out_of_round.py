@@ -11,7 +11,7 @@ import os
 import sys
 
 import numpy as np
-from scipy.interpolate import CubicSpline, BSpline, make_smoothing_spline, RectBivariateSpline
+from scipy.interpolate import CubicHermiteSpline, CubicSpline, BSpline, make_smoothing_spline, RectBivariateSpline
 
 REFERENCE = os.path.join(os.path.normpath(sys.argv[1]), '') if len(sys.argv) > 1 else ''
 
@@ -45,6 +45,11 @@ def surface(folder, name, smooth, lines):
     return BSpline(knots, longer(y), 3), BSpline(knots, longer(z), 3)
 
 
+def local_cubic(number, values):
+    """Between the lines: slopes from both neighbours, as the reference does it (with a spline here its pressures are missed)"""
+    return CubicHermiteSpline(number, values, np.gradient(values))
+
+
 def heights(lines, pitch, radius, half_length, y_range):
     """Deviation of the radius over the angle from the bottom and y"""
     angle = np.arange(-half_length/radius, half_length/radius, 0.2/radius)
@@ -55,7 +60,7 @@ def heights(lines, pitch, radius, half_length, y_range):
         near = slice(max(np.searchsorted(-y, -y_range[1] - 3), 0), min(np.searchsorted(-y, -y_range[0] + 3), len(y)))
         number = np.arange(len(y))[near]
         fine = np.linspace(number[0], number[-1], 20*len(number))
-        table[i] = CubicSpline(-CubicSpline(number, y[near])(fine), CubicSpline(number, z[near])(fine))(-across)
+        table[i] = CubicSpline(-local_cubic(number, y[near])(fine), local_cubic(number, z[near])(fine))(-across)
     return RectBivariateSpline(angle, across, table)
 
 

@@ -7,7 +7,7 @@ module contact_numeric_spline
    implicit none (type, external)
    private
 
-   public :: cubic_spline, smoothing_splines, natural_splines, piece_of
+   public :: cubic_spline, smoothing_splines, natural_splines, local_splines, piece_of
 
    !> A function of s in cubic pieces
    type :: cubic_spline
@@ -239,6 +239,46 @@ contains
          call make_pieces(s, h, a(:, k), b(:, k), splines(k))
       end do
    end subroutine smoothing_splines
+
+   !> Cubics that depend on four points each: Hermite's, with the slopes of parabolas through three points (Overhauser 1968)
+   !>
+   !> Of order 3 where a natural spline has 4, but a corner between the points disturbs two pieces on either side only.
+   pure subroutine local_splines(s, f, splines, is_kink)
+      !> Places of the points [mm], strictly increasing, at least two
+      real(wp), intent(in) :: s(:)
+      !> Values (point, function)
+      real(wp), intent(in) :: f(:, :)
+      !> One spline per function
+      type(cubic_spline), intent(out) :: splines(:)
+      !> Points where the slope may jump; the ends need not be marked
+      logical, intent(in), optional :: is_kink(:)
+      real(wp) :: h(size(s) - 1), chord(size(s) - 1), slope(size(s)), left, right
+      logical :: ends(size(s))
+      integer :: n, i, k
+
+      n = size(s)
+      h = s(2:) - s(:n - 1)
+      ends = .false.
+      if (present(is_kink)) ends = is_kink
+      ends(1) = .true.
+      ends(n) = .true.
+      do k = 1, size(splines)
+         allocate(splines(k)%s(n), splines(k)%c(0:3, n - 1))
+         splines(k)%s(:) = s
+         chord = (f(2:, k) - f(:n - 1, k))/h
+         slope = 0.0_wp
+         slope(2:n - 1) = (h(2:)*chord(:n - 2) + h(:n - 2)*chord(2:))/(h(:n - 2) + h(2:))
+         do i = 1, n - 1
+            ! At an end the parabola of the other point goes on; between two ends the piece is straight
+            left = merge(chord(i), slope(i), ends(i))
+            right = merge(chord(i), slope(i + 1), ends(i + 1))
+            if (ends(i) .and. .not. ends(i + 1)) left = 2.0_wp*chord(i) - right
+            if (ends(i + 1) .and. .not. ends(i)) right = 2.0_wp*chord(i) - left
+            splines(k)%c(:, i) = [f(i, k), left, (3.0_wp*chord(i) - 2.0_wp*left - right)/h(i), &
+               & (left + right - 2.0_wp*chord(i))/h(i)**2]
+         end do
+      end do
+   end subroutine local_splines
 
    !> Pieces from values and half second derivatives
    pure subroutine make_pieces(s, h, a, b, spline)

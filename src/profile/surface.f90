@@ -3,13 +3,14 @@
 !> Each slice is divided at its features into parts, each part evenly into the same number of intervals in
 !> all slices. Points with the same number lie on one line along u; a line is a cubic spline in u over the
 !> slices that have it. A cut gathers the lines that exist at its position and makes a curve of them. As
-!> interpolation along the lines and across them commute, this is the tensor-product spline.
+!> interpolation along the lines and across them commute, this is the tensor-product spline. Across wheels the cubics
+!> between the lines are local ones, as in the original program.
 module contact_profile_surface
    use contact_base_constants, only : pi
    use contact_base_error, only : error_type, fatal_error
    use contact_base_kinds, only : wp
    use contact_numeric_b_spline, only : basis_values, interpolate_sites, interpolation_knots, knot_interval
-   use contact_numeric_spline, only : cubic_spline, natural_splines
+   use contact_numeric_spline, only : cubic_spline, local_splines, natural_splines
    use contact_profile_curve, only : new_curve, profile_curve
    use contact_profile_points, only : chord_lengths
    use contact_profile_request, only : profile_side
@@ -312,7 +313,14 @@ contains
 
       s = chord_lengths(points(first:last, 1), points(first:last, 2))
       if (any(s(2:) <= s(:size(s) - 1))) return
-      call natural_splines(s, points(first:last, :), splines, solved, self%is_kink(first:last))
+      solved = .true.
+      if (self%side == profile_side%wheel) then
+         ! A flat ends in corners that run across the lines: splines would swing beside them
+         allocate(splines(size(points, 2)))
+         call local_splines(s, points(first:last, :), splines, self%is_kink(first:last))
+      else
+         call natural_splines(s, points(first:last, :), splines, solved, self%is_kink(first:last))
+      end if
       if (.not. solved) return
       section%curve = new_curve(self%side, splines(1), splines(2))
       section%y_u = splines(3)

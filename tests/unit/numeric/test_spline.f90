@@ -4,7 +4,7 @@ program test_spline
    use contact_base_kinds, only : wp
    use contact_numeric_b_spline, only : basis_values, knot_interval, not_a_knot_splines, smooth_b_splines
    use contact_numeric_polynomial, only : monotone_cubic_root, quadratic_roots
-   use contact_numeric_spline, only : cubic_spline, natural_splines, piece_of, smoothing_splines
+   use contact_numeric_spline, only : cubic_spline, local_splines, natural_splines, piece_of, smoothing_splines
    use contact_test_harness, only : test_suite
    implicit none (type, external)
    !> Roundings in systems of some hundred equations
@@ -17,6 +17,7 @@ program test_spline
    call convergence(suite)
    call filters(suite)
    call kinks(suite)
+   call local(suite)
    call small(suite)
    call basis(suite)
    call roots(suite)
@@ -223,6 +224,38 @@ contains
       call suite%equal(knot_interval(t, 4.0_wp), 9, "interval of the far end")
       call suite%equal(knot_interval(t, 1.5_wp), 8, "interval behind a multiple knot")
    end subroutine basis
+
+   !> Local cubics: parabolas are reproduced, the order is 3, a corner reaches two pieces far, kinks part
+   subroutine local(suite)
+      type(test_suite), intent(inout) :: suite
+      type(cubic_spline) :: f(2), broken(1)
+      integer, parameter :: n = 31
+      real(wp) :: s(n), x(300), errors(3)
+      integer :: i, k
+
+      s = uneven(n, 1.0_wp)
+      x = [(s(1) + (s(n) - s(1))*(i - 0.5_wp)/size(x), i=1, size(x))]
+      call local_splines(s, reshape([1.0_wp - 3.0_wp*s + 0.5_wp*s**2, abs(s - s(11))], [n, 2]), f)
+      call suite%close_to(f(1)%value(x), 1.0_wp - 3.0_wp*x + 0.5_wp*x**2, 1.0e-12_wp, "local: parabola")
+      call suite%close_to(f(1)%slope(x), x - 3.0_wp, 1.0e-12_wp, "local: its slope")
+      do i = 1, size(x)
+         if (x(i) > s(10) .and. x(i) < s(12)) cycle
+         call suite%close_to(f(2)%value(x(i)), abs(x(i) - s(11)), 1.0e-12_wp, "local: straight one point away from a corner")
+      end do
+      call suite%check(abs(f(2)%slope(s(11))) < 0.9_wp, "local: the corner is round")
+      call local_splines(s, reshape(abs(s - s(11)), [n, 1]), broken, [(i == 11, i=1, n)])
+      call suite%close_to(broken(1)%value(x), abs(x - s(11)), 1.0e-12_wp, "local: a kink stays one")
+      call local_splines(s(:2), reshape([2.0_wp, 3.0_wp], [2, 1]), broken)
+      call suite%close_to(broken(1)%value(0.5_wp*(s(1) + s(2))), 2.5_wp, 1.0e-14_wp, "local: two points")
+      do k = 1, 3
+         associate (m => 20*2**(k - 1))
+            call local_splines([(10.0_wp*i/m, i=0, m)], reshape([(sin(10.0_wp*i/m), i=0, m)], [m + 1, 1]), broken)
+         end associate
+         x = [(3.0_wp + 4.0_wp*(i - 0.5_wp)/size(x), i=1, size(x))]
+         errors(k) = maxval(abs(broken(1)%value(x) - sin(x)))
+      end do
+      call suite%check(errors(1)/errors(2) > 7.5_wp .and. errors(2)/errors(3) > 7.5_wp, "local: order 3")
+   end subroutine local
 
    subroutine roots(suite)
       type(test_suite), intent(inout) :: suite

@@ -19,6 +19,7 @@ program test_surface
    call approximating(suite)
    call interrupted(suite)
    call wheel(suite)
+   call corner(suite)
    call refusals(suite)
    call store(suite)
    call reference_files(suite)
@@ -267,6 +268,33 @@ contains
       call write_file("test.slcs", slices_text(10, 10.0_wp, "3 1 0" // nl // "1", "1" // nl // features))
       call load(suite, profile, "with a kink")
    end subroutine interrupted
+
+   !> Slices of a wheel with a corner: the section is straight from the second line beside it, where a spline swings on
+   subroutine corner(suite)
+      type(test_suite), intent(inout) :: suite
+      type(prepared_profile) :: profile
+      type(surface_cut) :: section
+      character(len=:), allocatable :: text
+      character(len=1) :: k
+      integer :: i, j
+
+      text = ""
+      do j = -400, 400
+         text = text // number(-0.05_wp*j) // " " // number(0.005_wp*abs(j)) // nl
+      end do
+      do i = 1, 5
+         write(k, '(i0)') i
+         call write_file("slice" // k // ".txt", text)
+      end do
+      call write_file("test.slcs", slices_text(5, 0.1_wp, "0 0 0" // nl // "2", ""))
+      call load(suite, profile, "wheel with a corner", profile_side%wheel)
+      if (.not. allocated(profile%surface)) return
+      call profile%surface%cut(0.17_wp, section)
+      do j = -8, 8
+         if (abs(j) < 4) cycle
+         call suite%close_to(section%curve%height(0.4_wp*j), 0.04_wp*abs(j), 1.0e-5_wp, "straight beside the corner")
+      end do
+   end subroutine corner
 
    !> Angles modulo one turn; a wheel with slices on a part only is round elsewhere
    subroutine wheel(suite)
