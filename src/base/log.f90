@@ -19,6 +19,8 @@ module contact_base_log
       integer :: level = 0
       !> Number of warnings written since the log was made
       integer :: warnings = 0
+      !> Warnings that wait for `speak`, one a line; allocated while they are held back
+      character(len=:), allocatable, private :: held
    contains
       !> Write a line to both sinks
       procedure :: line => log_line
@@ -28,6 +30,10 @@ module contact_base_log
       procedure :: trace => log_trace
       !> Write a warning to both sinks and count it
       procedure :: warning => log_warning
+      !> From now on hold warnings back, and forget those that are held: they belong to a trial that did not count
+      procedure :: hold => log_hold
+      !> Write the warnings that are held, and all later ones at once
+      procedure :: speak => log_speak
       !> Is anything written at this flow-trace level?
       procedure :: shows => log_shows
    end type log_type
@@ -59,9 +65,33 @@ contains
       class(log_type), intent(inout) :: self
       !> The sentence, without the leading word
       character(len=*), intent(in) :: text
+      if (allocated(self%held)) then
+         self%held = self%held // text // new_line(text)
+         return
+      end if
       self%warnings = self%warnings + 1
       call self%line(" Warning: " // text)
    end subroutine log_warning
+
+   subroutine log_hold(self)
+      class(log_type), intent(inout) :: self
+      self%held = ""
+   end subroutine log_hold
+
+   subroutine log_speak(self)
+      class(log_type), intent(inout) :: self
+      character(len=:), allocatable :: held
+      integer :: first, length
+
+      if (.not. allocated(self%held)) return
+      call move_alloc(self%held, held)
+      first = 1
+      do while (first <= len(held))
+         length = index(held(first:), new_line(held)) - 1
+         call self%warning(held(first:first + length - 1))
+         first = first + length + 1
+      end do
+   end subroutine log_speak
 
    pure logical function log_shows(self, level) result(shows)
       class(log_type), intent(in) :: self

@@ -5,6 +5,7 @@
 module contact_capi_problem
    use omp_lib, only : omp_destroy_lock, omp_init_lock, omp_lock_kind
    use contact_base_choices, only : kernel_model, pressure_model, stress_choice
+   use contact_base_constants, only : pi
    use contact_base_kinds, only : wp
    use contact_cases_slot, only : open_contact, open_pair, problem_slot, release_slot
    use contact_cases_spec, only : case_spec, friction_set
@@ -176,6 +177,6 @@ contains
       allocate(spec%wheel_rail, source=wheel_rail_spec())
       spec%wheel_rail%track%nomradr = 0.0_wp
       spec%wheel_rail%wheelset%vs = 30000.0_wp
-      spec%wheel_rail%rail_profile%zigzag = 150.0_wp*acos(-1.0_wp)/180.0_wp
+      spec%wheel_rail%rail_profile%zigzag = 150.0_wp*pi/180.0_wp
    end subroutine set_pair_defaults
 end module contact_capi_problem

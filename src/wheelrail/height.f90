@@ -116,7 +116,7 @@ contains
             & problem%template%maxnr)
          do while (balance%ended == balance_ending%running)
             trial = balance%next_trial(guess)
-            call evaluate(problem, memory, trial, with_friction=.not. separate, log=log, error=error)
+            call evaluate_trial(trial, with_friction=.not. separate)
             if (allocated(error)) return
             force = vertical_force(memory) + spring*(trial - touch)
             slope = vertical_slope(memory) + spring
@@ -127,7 +127,7 @@ contains
          z = balance%z
          if (.not. separate) exit
          ! the tangential problem at the height found corrects the lateral forces
-         call evaluate(problem, memory, z, with_friction=.true., log=log, error=error)
+         call evaluate_trial(z, with_friction=.true.)
          if (allocated(error)) return
          call learn_shares(memory)
          force = vertical_force(memory) + spring*(z - touch)
@@ -142,14 +142,27 @@ contains
       end do
       if (.not. separate .and. abs(balance%force - force) > 0.0_wp) then
          ! the last trial need not be the best one
-         call evaluate(problem, memory, z, with_friction=.true., log=log, error=error)
+         call evaluate_trial(z, with_friction=.true.)
          if (allocated(error)) return
       end if
+      call log%speak()
       memory%here%penetration = z - touch
       result%force_error = vertical_force(memory) + spring*(z - touch) - target
       ! grids follow the contact in whole elements, which leaves small steps in the force
       result%solved = abs(result%force_error) <= max(balance%tolerance, small_step*target)
       if (.not. result%solved) call complain(balance, target, result%force_error, log)
+
+   contains
+
+      !> Patches at a height; only the warnings of the last trial, or of one that fails, are those of the case
+      subroutine evaluate_trial(z, with_friction)
+         real(wp), intent(in) :: z
+         logical, intent(in) :: with_friction
+
+         call log%hold()
+         call evaluate(problem, memory, z, with_friction, log, error)
+         if (allocated(error)) call log%speak()
+      end subroutine evaluate_trial
    end subroutine balance_forces
 
    !> Line of the flow trace

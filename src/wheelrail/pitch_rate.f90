@@ -1,6 +1,7 @@
 !> Pitch rate of a wheelset whose longitudinal force is prescribed
 module contact_wheelrail_pitch_rate
    use contact_base_choices, only : motion
+   use contact_base_constants, only : pi
    use contact_base_error, only : error_type
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
@@ -83,7 +84,6 @@ contains
    !> step of transient rolling, or in rolling over the length a.
    real(wp) function force_per_pitch_rate(memory) result(slope)
       type(pair_memory), intent(in) :: memory
-      real(wp), parameter :: pi = acos(-1.0_wp)
       real(wp) :: a, length
       integer :: k
 

@@ -9,6 +9,7 @@ program test_pair_forces
    type(test_suite) :: suite
 
    call suite%start("pair forces")
+   call quiet_trials()
    call stiff_springs()
    call soft_springs()
    call springs_at_height()
@@ -21,6 +22,40 @@ program test_pair_forces
    call suite%finish()
 
 contains
+
+   !> Heights that are tried on the way do not warn, the one at which the force acts does
+   subroutine quiet_trials()
+      type(pair_case) :: pair, strict
+      type(error_type), allocatable :: error
+      integer :: k, failures
+
+      ! Two passes between pressures and tractions are too few for the first height, and enough from the last but one on
+      pair%spec = railway_case(0.0_wp, 0.0_wp)
+      pair%spec%iteration%eps = 1.0e-5_wp
+      pair%spec%material%gg = [82000.0_wp, 20000.0_wp]
+      pair%spec%iteration%maxout = 2
+      strict%spec = pair%spec
+      strict%spec%normal = normal_control%approach
+      call pair%run(suite, "quiet trials")
+      call suite%equal(pair%log%warnings, 0, "warnings of heights that were only tried")
+      strict%spec%wheel_rail%wheelset%z = pair%result%z_ws
+      call strict%run(suite, "from scratch")
+      call suite%equal(strict%log%warnings, 1, "two passes are too few from scratch")
+      ! Pressures that stay unfinished: said once for each contact patch
+      pair%spec%iteration%maxgs = 1
+      pair%spec%motion = motion%none
+      call pair%try(error)
+      call suite%check(.not. allocated(error), "unfinished pressures are no error")
+      failures = 0
+      do k = 1, size(pair%result%patches)
+         if (.not. pair%result%patches(k)%contact%normal%succeeded()) failures = failures + 1
+      end do
+      call suite%check(failures > 0 .and. pair%result%force_evaluations > 1, "pressures are unfinished in several trials")
+      if (.not. pair%result%solved) failures = failures + 1
+      call suite%equal(pair%log%warnings, failures, "warnings of the last height only")
+      call pair%release()
+      call strict%release()
+   end subroutine quiet_trials
 
    !> Very stiff springs are no springs
    subroutine stiff_springs()

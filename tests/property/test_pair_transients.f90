@@ -2,8 +2,9 @@
 program test_pair_transients
    use contact_base_choices, only : motion, time_link
    use contact_base_kinds, only : wp
+   use contact_test_files, only : write_file
    use contact_test_harness, only : environment, test_suite
-   use contact_test_pair_builder, only : ball_case, pair_case, railway_case, write_file
+   use contact_test_pair_builder, only : ball_case, pair_case, railway_case
    implicit none (type, external)
    type(test_suite) :: suite
 

@@ -5,8 +5,9 @@
 program test_hard_pairs
    use contact_base_choices, only : estimate_choice, motion, time_link
    use contact_base_kinds, only : wp
+   use contact_test_files, only : write_profile
    use contact_test_harness, only : test_suite
-   use contact_test_pair_builder, only : ball_case, pair_case, write_profile
+   use contact_test_pair_builder, only : ball_case, pair_case
    implicit none (type, external)
    real(wp), parameter :: pi = acos(-1.0_wp)
    integer, parameter :: steps = 240

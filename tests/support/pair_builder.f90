@@ -6,13 +6,14 @@ module contact_test_pair_builder
    use contact_base_log, only : log_type
    use contact_cases_pair_session, only : pair_session, release_pair_session, solve_pair_case
    use contact_cases_spec, only : case_spec, friction_set
+   use contact_test_files, only : write_profile
    use contact_test_harness, only : environment, test_suite
    use contact_wheelrail_result, only : pair_result
    use contact_wheelrail_spec, only : wheel_rail_spec
    implicit none (type, external)
    private
 
-   public :: pair_case, railway_case, ball_case, write_profile, write_file
+   public :: pair_case, railway_case, ball_case
 
    !> A specification with the session that solves it
    type :: pair_case
@@ -126,26 +127,4 @@ contains
       spec%friction%sets(1) = friction_set(fstat=mu, fkin=mu)
       allocate(spec%wheel_rail, source=wheel_rail_spec())
    end function common_case
-
-   !> A profile as a table of y and z
-   subroutine write_profile(name, y, z)
-      character(len=*), intent(in) :: name
-      real(wp), intent(in) :: y(:), z(:)
-      integer :: unit, i
-
-      open(newunit=unit, file=name, status="replace")
-      do i = 1, size(y)
-         write(unit, '(2f20.12)') y(i), z(i)
-      end do
-      close(unit)
-   end subroutine write_profile
-
-   subroutine write_file(name, text)
-      character(len=*), intent(in) :: name, text
-      integer :: unit
-
-      open(newunit=unit, file=name, access="stream", form="unformatted", status="replace")
-      write(unit) text
-      close(unit)
-   end subroutine write_file
 end module contact_test_pair_builder

@@ -9,6 +9,7 @@ program test_profile
       & remove_zig_zags
    use contact_profile_prepare, only : extension_of, length_origin, prepare_points, read_profile
    use contact_profile_request, only : doubt, profile_request, profile_side, smoothing_method
+   use contact_test_files, only : write_file
    use contact_test_harness, only : reference_folder, test_suite
    implicit none (type, external)
    character(len=*), parameter :: nl = new_line("a")
@@ -36,15 +37,6 @@ program test_profile
    call suite%finish()
 
 contains
-
-   subroutine write_file(name, text)
-      character(len=*), intent(in) :: name, text
-      integer :: unit
-
-      open(newunit=unit, file=name, access="stream", form="unformatted", status="replace")
-      write(unit) text
-      close(unit)
-   end subroutine write_file
 
    function rail_request(file) result(request)
       character(len=*), intent(in) :: file

@@ -7,6 +7,7 @@ program test_surface
    use contact_profile_request, only : profile_request, profile_side
    use contact_profile_store, only : load_profile, prepared_profile, profile_store
    use contact_profile_surface, only : surface_cut
+   use contact_test_files, only : write_file
    use contact_test_harness, only : reference_folder, test_suite
    implicit none (type, external)
    character(len=*), parameter :: nl = new_line("a")
@@ -42,15 +43,6 @@ contains
       write(buffer, '(es24.16)') value
       text = trim(adjustl(buffer))
    end function number
-
-   subroutine write_file(name, text)
-      character(len=*), intent(in) :: name, text
-      integer :: unit
-
-      open(newunit=unit, file=name, access="stream", form="unformatted", status="replace")
-      write(unit) text
-      close(unit)
-   end subroutine write_file
 
    !> Write the crown, moved by some distance, over -20...20 mm as a table
    subroutine write_slice(name, dy, dz, first)

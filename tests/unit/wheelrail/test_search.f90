@@ -10,6 +10,7 @@ program test_search
    use contact_profile_curve, only : profile_curve
    use contact_profile_prepare, only : read_profile
    use contact_profile_request, only : profile_request, profile_side
+   use contact_test_files, only : write_profile
    use contact_test_harness, only : environment, test_suite
    use contact_wheelrail_flat_patch, only : patch_frame, patch_grid, undeformed_distance
    use contact_wheelrail_frame, only : frame
@@ -41,19 +42,6 @@ contains
       request%side = side
       call read_profile(request, curve, log, error)
    end subroutine profile_of
-
-   !> Write a profile z(y) as a table
-   subroutine write_profile(file, y, z)
-      character(len=*), intent(in) :: file
-      real(wp), intent(in) :: y(:), z(:)
-      integer :: unit, i
-
-      open(newunit=unit, file=file, action="write", status="replace")
-      do i = 1, size(y)
-         write(unit, '(2f24.14)') y(i), z(i)
-      end do
-      close(unit)
-   end subroutine write_profile
 
    !> A ball of 500 mm on a plane: the gap is that of a sphere
    subroutine sphere_on_plane(suite)

@@ -10,6 +10,7 @@ program test_variable
    use contact_profile_request, only : profile_request, profile_side
    use contact_profile_store, only : load_profile, prepared_profile
    use contact_profile_surface, only : surface_cut
+   use contact_test_files, only : write_file
    use contact_test_harness, only : environment, reference_folder, test_suite
    use contact_wheelrail_bodies, only : find_rail, pair_bodies, place_bodies
    use contact_wheelrail_flat_patch, only : patch_frame, patch_grid, undeformed_distance
@@ -35,15 +36,6 @@ program test_variable
    call suite%finish()
 
 contains
-
-   subroutine write_file(name, text)
-      character(len=*), intent(in) :: name, text
-      integer :: unit
-
-      open(newunit=unit, file=name, access="stream", form="unformatted", status="replace")
-      write(unit) text
-      close(unit)
-   end subroutine write_file
 
    !> A slices file; the same profile file in all slices
    function same_slices(file, first, step, n) result(text)
