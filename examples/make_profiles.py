@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Write the wheel profile S1002 and the rail head 60E1 as Simpack files, from their standard geometry.
 
-    python3 make_profiles.py [folder]          writes S1002.prw, 60E1.prr and flat.slcw (default: profiles)
+    python3 make_profiles.py [folder]          writes S1002.prw, 60E1.prr, flat.slcw, groove.txt and roller.txt (default: profiles)
     python3 make_profiles.py --joints          tells how well neighbouring sections fit
 
 Sources: EN 13715 (wheel S1002), EN 13674-1 (rail 60E1). Coordinates in mm, y to the field side, z down.
@@ -131,6 +131,21 @@ def write_flat(folder):
                   [(y, z - flat_depth(x)) for y, z in points])
 
 
+# ---- A rail of radius 300 with a groove along its top, and a wheel that is a cylinder: tables of y and z ----
+GROOVE_DEPTH, GROOVE_WIDTH = 0.05, 3.0  # [mm]
+
+
+def groove_points():
+    return [(y, y * y / 600.0 + GROOVE_DEPTH * math.exp(-(y / GROOVE_WIDTH)**2)) for y in (0.1 * k for k in range(-250, 251))]
+
+
+def write_table(name, points):
+    with open(name, "w", newline="\n") as f:
+        f.write("% Written by make_profiles.py; y and z in mm\n")
+        for y, z in points:
+            f.write(f"{y:10.4f} {z:12.8f}\n")
+
+
 # ---- Output ----------------------------------------------------------------------------------------
 def write(name, kind, comment, points):
     with open(name, "w", newline="\n") as f:
@@ -162,3 +177,5 @@ if __name__ == "__main__":
         write(os.path.join(folder, "S1002.prw"), 1, "S1002, EN 13715", wheel_points())
         write(os.path.join(folder, "60E1.prr"), 0, "60E1, EN 13674-1, not inclined", rail_points())
         write_flat(folder)
+        write_table(os.path.join(folder, "groove.txt"), groove_points())
+        write_table(os.path.join(folder, "roller.txt"), [(30.0 - k, 0.0) for k in range(61)])

@@ -160,7 +160,8 @@ contains
       end if
 
       reverse = file%inversion == 1
-      if (file%inversion < 0) reverse = needs_reversal(request%side, y, z)
+      ! What the file says of its order holds for y as the file mirrors it
+      if (file%inversion < 0 .or. (mirrors_y(file, request) .neqv. file%mirror_y)) reverse = needs_reversal(request%side, y, z)
       if (reverse) then
          y = y(size(y):1:-1)
          z = z(size(z):1:-1)

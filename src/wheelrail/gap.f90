@@ -35,6 +35,8 @@ module contact_wheelrail_gap
    real(wp), parameter, public :: no_surface = 999.0_wp
    !> Mesh width relative to the elements
    real(wp), parameter :: mesh_share = 0.3_wp
+   !> Smallest mesh width [mm]
+   real(wp), parameter :: least_mesh = 1.0e-3_wp
    !> The locus is at most this part of the radius away from the lowest point of the wheel
    real(wp), parameter :: furthest = 0.5_wp
 
@@ -128,7 +130,7 @@ contains
 
       if (allocated(gap%table)) deallocate(gap%table, gap%x_table)
       range = rail%y_range()
-      gap%dy = mesh_share*ds
+      gap%dy = max(mesh_share*ds, least_mesh)
       gap%n = ceiling((range(2) - range(1))/gap%dy) + 1
       if (allocated(gap%y)) then
          if (size(gap%y) /= gap%n) deallocate(gap%y, gap%x, gap%gap, gap%z, gap%alpha)

@@ -6,7 +6,7 @@
 !> height of each trial.
 module contact_wheelrail_height
    use contact_base_choices, only : force_control, motion
-   use contact_base_error, only : error_type
+   use contact_base_error, only : error_type, fatal_error
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
    use contact_wheelrail_force_balance, only : balance_ending, force_balance
@@ -45,6 +45,7 @@ contains
       type(pair_result), intent(inout) :: result
       type(error_type), allocatable, intent(out) :: error
       real(wp) :: target, spring
+      character(len=12) :: wanted, touching
       logical :: height_is_unknown
 
       result%solved = .false.
@@ -56,6 +57,13 @@ contains
       end if
       call measure(problem, memory%here, z)
       if (.not. height_is_unknown) then
+         if (z - memory%here%touch > memory%here%placement%wheel_radius) then
+            write(wanted, '(es10.3)') z
+            write(touching, '(f12.4)') memory%here%touch
+            call fatal_error(error, "Z_WS = " // trim(adjustl(wanted)) // " mm presses the wheel deeper into the rail than its &
+               &radius; it touches the rail at Z_WS = " // trim(adjustl(touching)) // " mm")
+            return
+         end if
          call evaluate(problem, memory, z, with_friction=.true., log=log, error=error)
          result%solved = .not. allocated(error)
          return
@@ -109,6 +117,13 @@ contains
       if (spring > 0.0_wp) guess = min(guess, touch + target/spring)
       if (problem%use_previous .and. memory%started .and. memory%z_ws > touch) guess = memory%z_ws
       if (memory%here%penetration > 0.0_wp) guess = touch + memory%here%penetration
+      if (problem%geometry_only) then
+         ! there are no forces to tell a better height
+         z = guess
+         call evaluate(problem, memory, z, with_friction=.false., log=log, error=error)
+         result%solved = .not. allocated(error)
+         return
+      end if
       do round = 1, most_rounds
          ! on steep flanks friction carries so much of the force that its ratio does not settle by itself
          separate = separate .and. round <= rounds_apart

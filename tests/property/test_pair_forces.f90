@@ -10,6 +10,7 @@ program test_pair_forces
 
    call suite%start("pair forces")
    call quiet_trials()
+   call geometry_alone()
    call stiff_springs()
    call soft_springs()
    call springs_at_height()
@@ -56,6 +57,22 @@ contains
       call pair%release()
       call strict%release()
    end subroutine quiet_trials
+
+   !> A case that only prepares the geometry stands about where its force would act, and misses nothing
+   subroutine geometry_alone()
+      type(pair_case) :: solved, skipped
+
+      solved%spec = railway_case(0.0_wp, 0.0_wp)
+      call solved%run(suite, "solved")
+      skipped%spec = solved%spec
+      skipped%spec%solve = .false.
+      call skipped%run(suite, "geometry alone")
+      call suite%equal(skipped%log%warnings, 0, "geometry alone: no warning")
+      call suite%equal(size(skipped%result%patches), 1, "geometry alone: its patch")
+      call suite%close_to(skipped%result%z_ws, solved%result%z_ws, 0.03_wp, "geometry alone: height")
+      call solved%release()
+      call skipped%release()
+   end subroutine geometry_alone
 
    !> Very stiff springs are no springs
    subroutine stiff_springs()

@@ -4,6 +4,7 @@
 !> number of patches changes: friction forces change there by no more than where it stays.
 program test_hard_pairs
    use contact_base_choices, only : estimate_choice, motion, time_link
+   use contact_base_error, only : error_type, full_text
    use contact_base_kinds, only : wp
    use contact_test_files, only : write_profile
    use contact_test_harness, only : test_suite
@@ -19,6 +20,8 @@ program test_hard_pairs
    call hopping_wheel()
    call notched_wheel()
    call undercut_rail()
+   call impossible_heights()
+   call tiny_elements()
    call suite%finish()
 
 contains
@@ -41,6 +44,45 @@ contains
          r%search%d_turn = 0.0_wp
       end associate
    end subroutine prepare
+
+   !> A wheel far inside the rail is refused with the height at which it would touch; one far above has no contact
+   subroutine impossible_heights()
+      type(pair_case) :: pair
+      type(error_type), allocatable :: error
+      real(wp), parameter :: inside(3) = [101.0_wp, 1.0e9_wp, 1.0e300_wp]
+      integer :: k
+
+      do k = 1, size(inside)
+         pair%spec = ball_case(inside(k))
+         call pair%try(error)
+         call suite%check(allocated(error), "a wheel inside the rail is refused")
+         if (.not. allocated(error)) cycle
+         call suite%check(index(full_text(error), "deeper into the rail than its radius") > 0, "its reason: " // full_text(error))
+         pair%spec%wheel_rail%wheelset%z = -inside(k)
+         call pair%run(suite, "a wheel far above the rail")
+         call suite%equal(size(pair%result%patches), 0, "a wheel far above the rail: no contact")
+      end do
+      call pair%release()
+   end subroutine impossible_heights
+
+   !> Elements far smaller than the contact: their number stays bounded, and so does the mesh of the search
+   subroutine tiny_elements()
+      type(pair_case) :: pair
+      real(wp) :: force
+      integer :: k
+
+      pair%spec = ball_case(0.01_wp)
+      pair%spec%motion = motion%none
+      pair%spec%iteration%npot_max = 1000
+      do k = 1, 2
+         pair%spec%wheel_rail%search%dx = merge(0.1_wp, 1.0e-8_wp, k == 1)
+         pair%spec%wheel_rail%search%ds = pair%spec%wheel_rail%search%dx
+         call pair%run(suite, "tiny elements")
+         if (k == 1) force = pair%result%force_track(3)
+      end do
+      call suite%close_to(pair%result%force_track(3), force, 0.02_wp*force, "tiny elements: force")
+      call pair%release()
+   end subroutine tiny_elements
 
    !> A notch in the profile of a yawed wheel, where its contact locus folds, does not hide what lies beyond it
    subroutine notched_wheel()

@@ -246,6 +246,7 @@ contains
       type(profile_curve) :: curve
       type(profile_request) :: request
       character(len=:), allocatable :: text
+      integer :: k
 
       request = rail_request("roof.prr")
       call read_text(suite, request, simpack_head // "point.begin" // nl // roof // simpack_tail // "rubbish", curve, "Simpack")
@@ -261,10 +262,20 @@ contains
          & "shifted, mirrored and reversed y")
       call suite%close_to(curve%z%nodes(), [-3.0_wp, -3.0_wp, -4.0_wp, -5.0_wp, -4.0_wp, -3.0_wp, -3.0_wp], 1.0e-12_wp, &
          & "shifted and bounded z")
+      ! What the user says of mirrors undoes that of the file: the order is found anew
+      do k = -1, 1, 2
+         request%mirror_y = k
+         call read_text(suite, request, text, curve, "not mirrored after all")
+         call suite%close_to(curve%y%nodes(), [-18.0_wp, -8.0_wp, -3.0_wp, 2.0_wp, 7.0_wp, 12.0_wp, 22.0_wp], 1.0e-12_wp, &
+            & "y as it was, shifted")
+      end do
       request%mirror_y = 1
-      call refused(suite, request, text, "lateral coordinate", 0, "an order that two mirrors make wrong")
-      request%mirror_y = -1
-      call refused(suite, request, text, "lateral coordinate", 0, "an order that the user makes wrong")
+      call read_text(suite, request, simpack_head // "inversion = 0" // nl // "point.begin" // nl // "-20 10" // nl // "-10 3" // &
+         & nl // "0 0" // nl // "5 1" // nl // "20 10" // nl // simpack_tail, curve, "mirrored by the user")
+      call suite%close_to(curve%y%nodes(), [-20.0_wp, -5.0_wp, 0.0_wp, 10.0_wp, 20.0_wp], 1.0e-12_wp, "mirrored and reordered")
+      request%mirror_y = 0
+      call refused(suite, request, simpack_head // "inversion = 1" // nl // "point.begin" // nl // roof // simpack_tail, &
+         & "lateral coordinate", 0, "a file that is wrong about its order")
       request%mirror_y = 0
       call read_text(suite, request, simpack_head // "point.begin" // nl // roof // "1" // nl // "1 2 3 4" // nl // &
          & "30 20 1.0" // nl // simpack_tail, curve, "rows of wrong length", warnings=2)
