@@ -149,10 +149,11 @@ contains
    pure integer function row_of(name, digit) result(row)
       character(len=*), intent(in) :: name
       integer, intent(in) :: digit
+      character(len=2) :: key
 
+      key = name
       do row = 1, size(digit_table)
-         if (digit_table(row)%digit /= digit) cycle
-         if (digit_table(row)%name == name) return
+         if (digit_table(row)%digit == digit .and. digit_table(row)%name == key) return
       end do
       row = 0
    end function row_of

@@ -63,9 +63,11 @@ contains
    pure integer function row_of(name, digit) result(row)
       character(len=*), intent(in) :: name
       integer, intent(in) :: digit
+      character(len=2) :: key
 
+      key = name
       do row = 1, size(digit1_table)
-         if (digit1_table(row)%name == name .and. digit1_table(row)%digit == digit) return
+         if (digit1_table(row)%digit == digit .and. digit1_table(row)%name == key) return
       end do
       row = 0
    end function row_of
@@ -73,7 +75,10 @@ contains
    !> Does the digit mean something else than in module 3?
    pure logical function is_own(name)
       character(len=*), intent(in) :: name
-      is_own = any(digit1_table%name == name)
+      character(len=2) :: key
+
+      key = name
+      is_own = any(digit1_table%name == key)
    end function is_own
 
    !> Does the format know this value of the digit?
