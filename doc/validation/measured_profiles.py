@@ -36,15 +36,17 @@ class Pair:
         self.turn = axes(ROLL) @ np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]])
 
     def patch(self, published, z_ws, s_ws, low, high):
-        """Distances of the elements between two lateral positions: name -> h; nothing outside"""
+        """Distances of the elements between two lateral positions: name -> h; nothing outside
+
+        Elements stand on the lattice of the rail, for s_ws = None one has its centre in the reference.
+        """
         x0, y0, z0, angle = (published[n] for n in ("XCP(TR)", "YCP(TR)", "ZCP(TR)", "DELTCP(TR)"))
         plane, place = axes(angle), np.array([x0, y0, z0])
         origin = np.array([0, Y_WS, z_ws - RADIUS]) + self.turn @ [0, Y_WHEEL, RADIUS]
         s_ref = self.fine[np.argmin(np.hypot(self.y_rail(self.fine) - y0, self.z_rail(self.fine) - z0))]
-        # elements on the lattice of the rail
         large = published["FN"] > 4e4
         across, along = (36.0, 22.0) if large else (10.0, 13.0)
-        shift = np.array([s_ws + x0, s_ref - self.zero])
+        shift = np.zeros(2) if s_ws is None else np.array([s_ws + x0, s_ref - self.zero])
         x = np.arange(round((shift[0] - along) / STEP), round((shift[0] + along) / STEP)) * STEP - shift[0]
         s = np.arange(round((shift[1] - across) / STEP), round((shift[1] + across) / STEP)) * STEP - shift[1]
         n_rail = np.array([self.rail_height(place[1:], plane[1:, 1:], s_ref, t) for t in s])
