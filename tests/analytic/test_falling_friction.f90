@@ -47,6 +47,7 @@ contains
       pressure = case%result%pn(1, 1)
       compliance = -1.0e-6_wp/case%result%px(1, 1)
       call suite%check(compliance > 0.0_wp, "the spring")
+      call case%release()
    end subroutine find_spring
 
    !> mu falls from 0.4 to 0.2 over a range of slip velocities, given as a multiple of what the spring can follow
@@ -82,6 +83,7 @@ contains
             if (slip > 2.0_wp*case%spec%friction%sets(1)%sabsh1*dt) slip = w - 0.2_wp*compliance*pressure
             call suite%close_to(case%result%sx(1, 1), slip, 2.0e-3_wp*w, "slip on a gentle slope, whatever the start")
             call suite%check(case%result%friction%succeeded(), "converged")
+            call case%release()
          end do
       end do
    end subroutine gentle_slope
@@ -113,13 +115,15 @@ contains
             call suite%equal(case%result%nadh, 1, "from below: an adhesion element")
          end if
          ! the same step once more from the slip of the previous case: the branch is kept in a new step
-         if (start == 0) cycle
-         case%spec%iteration%inislp = 0
-         case%spec%link = time_link%continue_all
-         case%spec%kinematics%cksi = merge(0.15_wp, 0.03_wp, start < 0)*compliance*pressure/step
-         case%spec%new_grid = .false.
-         case%spec%new_geometry = .false.
-         call case%run(suite, "next step")
+         if (start /= 0) then
+            case%spec%iteration%inislp = 0
+            case%spec%link = time_link%continue_all
+            case%spec%kinematics%cksi = merge(0.15_wp, 0.03_wp, start < 0)*compliance*pressure/step
+            case%spec%new_grid = .false.
+            case%spec%new_geometry = .false.
+            call case%run(suite, "next step")
+         end if
+         call case%release()
       end do
    end subroutine two_solutions
 end program test_falling_friction
