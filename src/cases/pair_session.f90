@@ -18,6 +18,7 @@ module contact_cases_pair_session
    use contact_profile_request, only : profile_request, profile_side
    use contact_profile_store, only : prepared_profile, profile_store
    use contact_profile_surface, only : profile_surface
+   use contact_text_words, only : real_text
    use contact_wheelrail_memory, only : pair_memory, release_pair
    use contact_wheelrail_pair, only : solve_pair
    use contact_wheelrail_problem, only : pair_problem, relaxing_bodies
@@ -97,7 +98,7 @@ contains
       if (spec%wheel_rail%roller) moves_backwards = spec%wheel_rail%wheelset%rpitch < 0.0_wp
    end function moves_backwards
 
-   !> Read and prepare the profiles of a case without solving it
+   !> Read and prepare the profiles of a case without solving it, and see whether they fit the nominal radii
    subroutine check_profiles(session, spec, folder, log, error)
       type(pair_session), intent(inout) :: session
       !> Complete specification of a case of module 1
@@ -106,12 +107,22 @@ contains
       character(len=*), intent(in) :: folder
       type(log_type), intent(inout) :: log
       type(error_type), allocatable, intent(out) :: error
+      !> A ball ends at its axle, give or take roundings
+      real(wp), parameter :: at_axle = 0.999_wp
 
       associate (problem => session%problem)
          call load_profile(session%profiles, spec%wheel_rail%rail_profile, profile_side%rail, folder, problem%rail, &
             & problem%rail_surface, log, error)
          if (.not. allocated(error)) call load_profile(session%profiles, spec%wheel_rail%wheel_profile, profile_side%wheel, &
             & folder, problem%wheel, problem%wheel_surface, log, error)
+         if (allocated(error)) return
+         if (spec%wheel_rail%roller .and. spec%wheel_rail%track%nomradr < at_axle*maxval(problem%rail%z%nodes())) then
+            call fatal_error(error, "NOMRADR = " // real_text(spec%wheel_rail%track%nomradr) // " mm is less than the depth of &
+               &the profile, " // real_text(maxval(problem%rail%z%nodes())) // " mm: its sides would lie beyond the axle")
+         else if (spec%wheel_rail%wheelset%nomradw < -at_axle*minval(problem%wheel%z%nodes())) then
+            call fatal_error(error, "NOMRADW = " // real_text(spec%wheel_rail%wheelset%nomradw) // " mm is less than the height &
+               &of the profile, " // real_text(-minval(problem%wheel%z%nodes())) // " mm: it would reach beyond the axle")
+         end if
       end associate
    end subroutine check_profiles
 

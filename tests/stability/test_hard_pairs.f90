@@ -6,9 +6,10 @@ program test_hard_pairs
    use contact_base_choices, only : estimate_choice, motion, time_link
    use contact_base_error, only : error_type, full_text
    use contact_base_kinds, only : wp
+   use contact_cases_spec, only : case_spec
    use contact_test_files, only : write_profile
    use contact_test_harness, only : test_suite
-   use contact_test_pair_builder, only : ball_case, pair_case
+   use contact_test_pair_builder, only : ball_case, pair_case, railway_case
    implicit none (type, external)
    real(wp), parameter :: pi = acos(-1.0_wp)
    integer, parameter :: steps = 240
@@ -22,6 +23,7 @@ program test_hard_pairs
    call undercut_rail()
    call impossible_heights()
    call tiny_elements()
+   call small_radii()
    call suite%finish()
 
 contains
@@ -64,6 +66,42 @@ contains
       end do
       call pair%release()
    end subroutine impossible_heights
+
+   !> Rollers and wheels whose profiles would reach beyond their axles are refused, those just large enough are solved
+   subroutine small_radii()
+      type(pair_case) :: pair
+      type(error_type), allocatable :: error
+      integer :: k
+
+      do k = 1, 2
+         pair%spec = too_small(k)
+         call pair%try(error)
+         call suite%check(allocated(error), "a radius below the size of the profile is refused")
+         if (allocated(error)) call suite%check(index(full_text(error), "beyond the axle") > 0, "its reason: " // full_text(error))
+      end do
+      ! the rail of the ball is 2.02 mm deep
+      pair%spec = too_small(1)
+      pair%spec%wheel_rail%track%nomradr = 2.1_wp
+      call pair%run(suite, "a small roller")
+      call suite%check(pair%result%force_track(3) > 0.0_wp, "a small roller: contact")
+      call pair%release()
+   end subroutine small_radii
+
+   !> A ball on a roller that is too small, and a railway wheel that is
+   function too_small(k) result(spec)
+      integer, intent(in) :: k
+      type(case_spec) :: spec
+
+      if (k == 1) then
+         spec = ball_case(0.01_wp)
+         spec%wheel_rail%roller = .true.
+         spec%wheel_rail%track%nomradr = 1.9_wp
+         spec%wheel_rail%wheelset%rpitch = 1.0_wp
+      else
+         spec = railway_case(0.0_wp, 0.0_wp)
+         spec%wheel_rail%wheelset%nomradw = 2.5_wp
+      end if
+   end function too_small
 
    !> Elements far smaller than the contact: their number stays bounded, and so does the mesh of the search
    subroutine tiny_elements()
