@@ -239,7 +239,7 @@ class Runs(Cli):
         self.assertNotIn("threads", self.read("ball.out"))
 
     def test_progress_on_a_terminal_only(self):
-        self.write("ball.inp", case(mx="51") + "3\n200100\n100000\n0100001\n100 0 0 0\n"*5000 + "0\n")
+        self.write("ball.inp", case(mx="51") + "3\n200100\n100000\n0100001\n100 0 0 0\n"*20000 + "0\n")
         self.succeeds(self.run_program("2", "ball"))
         plain = self.read("ball.out").split("|Activity")[0]
         try:
@@ -261,7 +261,7 @@ class Runs(Cli):
             seen += part
         os.close(terminal)
         self.assertEqual(child.wait(60), 0)
-        self.assertRegex(seen, rb"\r case \d+ of 5001, \d+:\d\d left")
+        self.assertRegex(seen, rb"\r case \d+ of 20001, \d+:\d\d left")
         self.assertTrue(seen.endswith(b"\r\x1b[K"), "the line is cleared at the end")
         self.assertNotIn("\r", self.read("screen"))
         self.assertEqual(self.read("ball.out").split("|Activity")[0], plain)
