@@ -410,8 +410,8 @@ contains
                call put_row("spl2d.group(" // integer_text(g) // ").u_range", [group%low, group%high])
                call put_row("spl2d.group(" // integer_text(g) // ").v", [(real(i - 1, wp), i=group%first, group%last)])
                call put_row("spl2d.group(" // integer_text(g) // ").knots", group%t)
-               call put_table("spl2d.group(" // integer_text(g) // ").y", group%y)
-               call put_table("spl2d.group(" // integer_text(g) // ").z", group%z)
+               call put_table("spl2d.group(" // integer_text(g) // ").y", transpose(group%y))
+               call put_table("spl2d.group(" // integer_text(g) // ").z", transpose(group%z))
             end associate
          end do
          close(unit)

@@ -154,16 +154,51 @@ contains
       slope = self%c(1, piece) + t*(2.0_wp*self%c(2, piece) + t*3.0_wp*self%c(3, piece))
    end subroutine in_piece
 
-   !> Natural splines through all points: smoothing splines without smoothing
-   subroutine natural_splines(s, f, splines, solved, is_kink)
-      real(wp), intent(in) :: s(:), f(:, :)
-      type(cubic_spline), allocatable, intent(out) :: splines(:)
-      logical, intent(out) :: solved
+   !> Natural splines through all points, several functions at once
+   !>
+   !> The equations of `smoothing_splines` without smoothing. Sections of varying profiles are made of thousands of
+   !> them: one elimination that carries all functions along takes a third of the time that the system of LAPACK takes.
+   pure subroutine natural_splines(s, f, splines, is_kink)
+      !> Places of the points [mm], strictly increasing, at least two
+      real(wp), intent(in) :: s(:)
+      !> Values (point, function)
+      real(wp), intent(in) :: f(:, :)
+      !> One spline per function
+      type(cubic_spline), intent(out) :: splines(:)
+      !> Points where the slope may jump; the ends need not be marked
       logical, intent(in), optional :: is_kink(:)
-      real(wp) :: weights(size(s))
+      !> Half the second derivatives, functions first, and the slopes of the chords
+      real(wp) :: b(size(f, 2), size(s)), chord(size(f, 2), size(s) - 1)
+      !> Lengths of the pieces, and what eliminates the next unknown
+      real(wp) :: h(size(s) - 1), upper(size(s)), pivot
+      logical :: free(size(s))
+      integer :: n, j, k
 
-      weights = 1.0_wp
-      call smoothing_splines(s, f, weights, 0.0_wp, splines, solved, is_kink)
+      n = size(s)
+      h = s(2:) - s(:n - 1)
+      do k = 1, size(f, 2)
+         chord(k, :) = (f(2:, k) - f(:n - 1, k))/h
+      end do
+      free = .true.
+      free(1) = .false.
+      free(n) = .false.
+      if (present(is_kink)) free = free .and. .not. is_kink
+      b(:, 1) = 0.0_wp
+      upper(1) = 0.0_wp
+      do j = 2, n
+         b(:, j) = 0.0_wp
+         upper(j) = 0.0_wp
+         if (.not. free(j)) cycle
+         pivot = 1.0_wp/(2.0_wp*(h(j - 1) + h(j)) - h(j - 1)*upper(j - 1))
+         b(:, j) = (3.0_wp*(chord(:, j) - chord(:, j - 1)) - h(j - 1)*b(:, j - 1))*pivot
+         upper(j) = h(j)*pivot
+      end do
+      do j = n - 1, 2, -1
+         b(:, j) = b(:, j) - upper(j)*b(:, j + 1)
+      end do
+      do k = 1, size(splines)
+         call make_pieces(s, h, f(:, k), b(k, :), splines(k))
+      end do
    end subroutine natural_splines
 
    !> Smoothing splines of several functions on the same points

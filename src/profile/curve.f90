@@ -10,7 +10,7 @@ module contact_profile_curve
    implicit none (type, external)
    private
 
-   public :: profile_curve, new_curve
+   public :: profile_curve, new_curve, find_visible
 
    !> A range of s in which y rises or falls throughout
    type :: stretch
@@ -52,6 +52,8 @@ module contact_profile_curve
       procedure :: has => has_point
       !> Height of the visible point
       procedure :: height
+      !> Heights of visible points in rising order of y
+      procedure :: heights
       !> Inclination of the surface [rad], positive where it falls towards larger y
       procedure :: inclination
       !> Unit normal (y, z) out of the body
@@ -93,6 +95,11 @@ contains
 
       call find_turns(curve%y, turns)
       n = size(turns) - 1
+      if (allocated(curve%parts)) deallocate(curve%parts)
+      if (n == 1) then
+         call see_all(curve)
+         return
+      end if
       allocate(low(n), high(n))
       low = min(curve%y%value(turns(:n)), curve%y%value(turns(2:)))
       high = max(curve%y%value(turns(:n)), curve%y%value(turns(2:)))
@@ -130,6 +137,20 @@ contains
       end do
    end subroutine find_visible
 
+   !> A curve along which y rises or falls throughout
+   subroutine see_all(curve)
+      type(profile_curve), intent(inout) :: curve
+      type(stretch) :: along
+      real(wp) :: y(2)
+
+      associate (nodes => curve%y%s)
+         along = stretch_between(curve%y, nodes(1), nodes(size(nodes)))
+         y = curve%y%value([nodes(1), nodes(size(nodes))])
+      end associate
+      allocate(curve%parts(merge(1, 0, abs(y(2) - y(1)) > vertical)))
+      curve%parts = visible_part(minval(y), maxval(y), along)
+   end subroutine see_all
+
    !> Close a gap in y before the last part that is no wider than vertical stretches are
    pure subroutine close_gap(parts)
       type(visible_part), intent(inout) :: parts(:)
@@ -144,7 +165,7 @@ contains
    subroutine find_turns(y, turns)
       type(cubic_spline), intent(in) :: y
       real(wp), allocatable, intent(out) :: turns(:)
-      real(wp) :: roots(2), h, before, behind
+      real(wp) :: roots(2), h, before, between, behind
       integer :: i, k, n, pieces, count
       real(wp), allocatable :: found(:)
 
@@ -154,14 +175,18 @@ contains
       count = 1
       do i = 1, pieces
          h = y%s(i + 1) - y%s(i)
-         call quadratic_roots(3.0_wp*y%c(3, i), 2.0_wp*y%c(2, i), y%c(1, i), 0.0_wp, h, roots, n)
-         do k = 1, n
-            count = count + 1
-            found(count) = y%s(i) + roots(k)
-         end do
+         before = y%c(1, i) + h*(2.0_wp*y%c(2, i) + 3.0_wp*h*y%c(3, i))
+         ! A parabola has no zero when its two values at the ends and the crossing of its tangents there have one sign
+         between = y%c(1, i) + h*y%c(2, i)
+         if (.not. (before*between > 0.0_wp .and. y%c(1, i)*between > 0.0_wp)) then
+            call quadratic_roots(3.0_wp*y%c(3, i), 2.0_wp*y%c(2, i), y%c(1, i), 0.0_wp, h, roots, n)
+            do k = 1, n
+               count = count + 1
+               found(count) = y%s(i) + roots(k)
+            end do
+         end if
          if (i == pieces) exit
          ! At an end of pieces y turns round in a corner, or where the slope is exactly zero
-         before = y%c(1, i) + h*(2.0_wp*y%c(2, i) + 3.0_wp*h*y%c(3, i))
          behind = y%c(1, i + 1)
          if (before*behind > 0.0_wp) cycle
          count = count + 1
@@ -188,7 +213,16 @@ contains
       type(cubic_spline), intent(in) :: y
       type(stretch), intent(in) :: along
       real(wp), intent(in) :: target
-      integer :: first, last, middle
+
+      s = place_in_piece(y, along, piece_in_stretch(y, along, target), target)
+   end function place_in_stretch
+
+   !> Number of the piece of a stretch that holds a value of y
+   pure integer function piece_in_stretch(y, along, target) result(first)
+      type(cubic_spline), intent(in) :: y
+      type(stretch), intent(in) :: along
+      real(wp), intent(in) :: target
+      integer :: last, middle
 
       first = along%first
       last = along%last
@@ -200,11 +234,20 @@ contains
             last = middle - 1
          end if
       end do
-      associate (start => y%s(first))
-         s = start + monotone_cubic_root(y%c(:, first), max(along%s_low, start) - start, &
-            & min(along%s_high, y%s(first + 1)) - start, target)
+   end function piece_in_stretch
+
+   !> Place with a given y in a piece of a stretch
+   pure real(wp) function place_in_piece(y, along, piece, target) result(s)
+      type(cubic_spline), intent(in) :: y
+      type(stretch), intent(in) :: along
+      integer, intent(in) :: piece
+      real(wp), intent(in) :: target
+
+      associate (start => y%s(piece))
+         s = start + monotone_cubic_root(y%c(:, piece), max(along%s_low, start) - start, &
+            & min(along%s_high, y%s(piece + 1)) - start, target)
       end associate
-   end function place_in_stretch
+   end function place_in_piece
 
    pure function s_range(self) result(range)
       class(profile_curve), intent(in) :: self
@@ -302,6 +345,50 @@ contains
 
       height = self%z%value(self%s_at(y))
    end function height
+
+   !> Heights of visible points in rising order of y: the search for parts and pieces goes on from point to point
+   pure subroutine heights(self, y, z, found)
+      class(profile_curve), intent(in) :: self
+      !> Rising
+      real(wp), intent(in) :: y(:)
+      !> 0 where there is no visible point
+      real(wp), intent(out) :: z(:)
+      logical, intent(out) :: found(:)
+      real(wp) :: t, slope
+      integer :: i, part, piece
+
+      part = 1
+      piece = 0
+      z = 0.0_wp
+      found = .false.
+      do i = 1, size(y)
+         do while (part <= size(self%parts))
+            if (y(i) <= self%parts(part)%high) exit
+            part = part + 1
+            piece = 0
+         end do
+         if (part > size(self%parts)) return
+         if (y(i) < self%parts(part)%low) cycle
+         found(i) = .true.
+         associate (along => self%parts(part)%along)
+            if (piece == 0) then
+               piece = piece_in_stretch(self%y, along, y(i))
+            else if (along%rises) then
+               do while (piece < along%last)
+                  if (self%y%c(0, piece + 1) >= y(i)) exit
+                  piece = piece + 1
+               end do
+            else
+               do while (piece > along%first)
+                  if (self%y%c(0, piece) >= y(i)) exit
+                  piece = piece - 1
+               end do
+            end if
+            t = place_in_piece(self%y, along, piece, y(i)) - self%y%s(piece)
+         end associate
+         call self%z%in_piece(piece, t, z(i), slope)
+      end do
+   end subroutine heights
 
    elemental real(wp) function inclination(self, s)
       class(profile_curve), intent(in) :: self

@@ -11,7 +11,7 @@ module contact_profile_surface
    use contact_base_kinds, only : wp
    use contact_numeric_b_spline, only : basis_values, interpolate_sites, interpolation_knots, knot_interval
    use contact_numeric_spline, only : cubic_spline, local_splines, natural_splines
-   use contact_profile_curve, only : new_curve, profile_curve
+   use contact_profile_curve, only : find_visible, profile_curve
    use contact_profile_points, only : chord_lengths
    use contact_profile_request, only : profile_side
    use contact_profile_slices_file, only : slices_list
@@ -26,7 +26,7 @@ module contact_profile_surface
       !> Range of u, and of line numbers
       real(wp) :: low, high
       integer :: first, last
-      !> Knots in u, and coefficients of y and z (coefficient, line)
+      !> Knots in u, and coefficients of y and z (line, coefficient)
       real(wp), allocatable :: t(:), y(:, :), z(:, :)
    end type line_group
 
@@ -60,8 +60,6 @@ module contact_profile_surface
       procedure :: slope_along
       !> Height of the visible point and its derivatives across and along
       procedure :: at
-      !> The same section in axes that are moved and rolled
-      procedure :: seen_from
    end type surface_cut
 
    !> Distance of lines across the profile [mm]
@@ -162,6 +160,8 @@ contains
             group%y = y(a:b, first:last)
             group%z = z(a:b, first:last)
             call spline_along(u(a:b), list%approximating, group)
+            group%y = transpose(group%y)
+            group%z = transpose(group%z)
             surface%groups = [surface%groups, group]
             a = b + 1
          end do
@@ -237,7 +237,7 @@ contains
    subroutine spline_along(u, approximating, group)
       real(wp), intent(in) :: u(:)
       logical, intent(in) :: approximating
-      !> On entry the points, on exit the coefficients
+      !> On entry the points (slice, line), on exit the coefficients (coefficient, line)
       type(line_group), intent(inout) :: group
       logical :: solved
       integer :: n, k
@@ -270,17 +270,20 @@ contains
    !>
    !> Angles around a wheel are taken modulo one turn. A wheel that is not given all around goes on beyond
    !> its first and last slice as it is there; a rail ends.
-   subroutine cut(self, position, section)
+   subroutine cut(self, position, section, axes)
       class(profile_surface), intent(in) :: self
       !> [mm] or [rad]
       real(wp), intent(in) :: position
       type(surface_cut), intent(out) :: section
+      !> Where the section is seen from: origin (y, z) [mm] and roll angle [rad] in the axes of the surface. Splines through
+      !> points that are moved and rolled are the moved and rolled splines
+      real(wp), intent(in), optional :: axes(3)
       real(wp) :: u
       real(wp) :: points(self%lines, 4), b(4), slope(4)
       real(wp), allocatable :: s(:)
-      type(cubic_spline), allocatable :: splines(:)
-      logical :: there(self%lines), solved
-      integer :: g, j, l, first, last
+      type(cubic_spline) :: splines(4)
+      logical :: there(self%lines)
+      integer :: g, j, k, first, last
 
       u = position
       if (self%side == profile_side%wheel) u = u - 2.0_wp*pi*nint(u/(2.0_wp*pi))
@@ -292,11 +295,12 @@ contains
             if (u < group%low .or. u > group%high) cycle
             j = knot_interval(group%t, u)
             call basis_values(group%t, j, u, b, slope)
-            do l = group%first, group%last
-               points(l, 1) = dot_product(b, group%y(j - 3:j, l - group%first + 1))
-               points(l, 2) = dot_product(b, group%z(j - 3:j, l - group%first + 1))
-               points(l, 3) = dot_product(slope, group%y(j - 3:j, l - group%first + 1))
-               points(l, 4) = dot_product(slope, group%z(j - 3:j, l - group%first + 1))
+            points(group%first:group%last, :) = 0.0_wp
+            do k = 1, 4
+               points(group%first:group%last, 1) = points(group%first:group%last, 1) + b(k)*group%y(:, j - 4 + k)
+               points(group%first:group%last, 2) = points(group%first:group%last, 2) + b(k)*group%z(:, j - 4 + k)
+               points(group%first:group%last, 3) = points(group%first:group%last, 3) + slope(k)*group%y(:, j - 4 + k)
+               points(group%first:group%last, 4) = points(group%first:group%last, 4) + slope(k)*group%z(:, j - 4 + k)
             end do
             there(group%first:group%last) = .true.
          end associate
@@ -313,21 +317,48 @@ contains
 
       s = chord_lengths(points(first:last, 1), points(first:last, 2))
       if (any(s(2:) <= s(:size(s) - 1))) return
-      solved = .true.
+      if (present(axes)) call turn(points(first:last, :), axes)
       if (self%side == profile_side%wheel) then
          ! A flat ends in corners that run across the lines: splines would swing beside them
-         allocate(splines(size(points, 2)))
          call local_splines(s, points(first:last, :), splines, self%is_kink(first:last))
       else
-         call natural_splines(s, points(first:last, :), splines, solved, self%is_kink(first:last))
+         call natural_splines(s, points(first:last, :), splines, self%is_kink(first:last))
       end if
-      if (.not. solved) return
-      section%curve = new_curve(self%side, splines(1), splines(2))
-      section%y_u = splines(3)
-      section%z_u = splines(4)
+      section%curve%side = self%side
+      call move_spline(splines(1), section%curve%y)
+      call move_spline(splines(2), section%curve%z)
+      call move_spline(splines(3), section%y_u)
+      call move_spline(splines(4), section%z_u)
+      call find_visible(section%curve)
       section%first_line = first
       section%present = .true.
    end subroutine cut
+
+   !> Points (y, z) and their derivatives along u (y, z) in other axes
+   pure subroutine turn(points, axes)
+      real(wp), intent(inout) :: points(:, :)
+      !> See `cut`
+      real(wp), intent(in) :: axes(3)
+      real(wp) :: y(size(points, 1)), c, s
+      integer :: k
+
+      c = cos(axes(3))
+      s = sin(axes(3))
+      points(:, 1) = points(:, 1) - axes(1)
+      points(:, 2) = points(:, 2) - axes(2)
+      do k = 1, 3, 2
+         y = points(:, k)
+         points(:, k) = c*y + s*points(:, k + 1)
+         points(:, k + 1) = c*points(:, k + 1) - s*y
+      end do
+   end subroutine turn
+
+   pure subroutine move_spline(from, to)
+      type(cubic_spline), intent(inout) :: from, to
+
+      call move_alloc(from%s, to%s)
+      call move_alloc(from%c, to%c)
+   end subroutine move_spline
 
    !> The point at the second coordinate v of the surface: lines have whole numbers, the first one 0; between them v is
    !> linear in the arc length
@@ -381,23 +412,6 @@ contains
       call self%y_u%in_piece(j, t, y_u, bend)
       z_u = z_u - z_y*y_u
    end subroutine at
-
-   !> As for curves: origin (y, z) and roll angle of the new axes in those of the section
-   function seen_from(self, origin, angle) result(section)
-      class(surface_cut), intent(in) :: self
-      !> [mm], [rad]
-      real(wp), intent(in) :: origin(2), angle
-      type(surface_cut) :: section
-
-      section%present = self%present
-      section%first_line = self%first_line
-      if (.not. self%present) return
-      section%curve = self%curve%seen_from(origin, angle)
-      section%y_u = self%y_u
-      section%z_u = self%z_u
-      section%y_u%c(:, :) = cos(angle)*self%y_u%c + sin(angle)*self%z_u%c
-      section%z_u%c(:, :) = cos(angle)*self%z_u%c - sin(angle)*self%y_u%c
-   end function seen_from
 
    !> dz/du at fixed y of the visible point, from the derivatives on the lines: z_u - z_s y_u / y_s; 0 where there is none
    elemental real(wp) function slope_along(self, y) result(slope)

@@ -1,7 +1,8 @@
 !> The surfaces of a pair where one of them varies: a rail along the track, a wheel around its axle
 !>
-!> Sections of the variable profile on an even mesh along the track (rail) or around the axle (wheel) are made
-!> once per case, with their derivatives along the mesh; between two sections heights are cubic (Hermite).
+!> Sections of the variable profile stand on an even mesh along the track (rail) or around the axle (wheel), with their
+!> derivatives along the mesh; between two sections heights are cubic (Hermite). A section is made when something
+!> is evaluated there for the first time in a case: most of them never are.
 !> Bodies that do not vary are evaluated from their profile.
 module contact_wheelrail_bodies
    use contact_base_kinds, only : wp
@@ -19,8 +20,17 @@ module contact_wheelrail_bodies
    type :: strip
       !> Place of the first section and distance of sections: x in the track [mm], or angle from the bottom [rad]
       real(wp) :: first = 0.0_wp, step = 1.0_wp
+      !> Those that are made, and which ones are
       type(surface_cut), allocatable :: sections(:)
+      logical, allocatable :: made(:)
+      !> What they are sections of, the position u on it of place 0, and the axes they are seen from (see `cut`)
+      type(profile_surface), private :: surface
+      real(wp), private :: origin = 0.0_wp, axes(3) = 0.0_wp
    contains
+      !> Make a section if it is not there yet
+      procedure :: need
+      !> Number of the section at a place where one stands
+      procedure :: number_at
       procedure :: at => strip_at
    end type strip
 
@@ -46,7 +56,7 @@ module contact_wheelrail_bodies
 
 contains
 
-   !> Make the sections for a case. `bodies%rail`, `bodies%wheel` and `bodies%placement` are there already
+   !> Prepare for a case. `bodies%rail`, `bodies%wheel` and `bodies%placement` are there already
    !>
    !> Sections are as far apart as elements: a flat or a joint that slices describe closely shows in the
    !> pressures, and coarser sections would take the edge off it (5 % of the highest pressure of `wheelflat` for 1 mm).
@@ -58,36 +68,67 @@ contains
       real(wp), intent(in) :: dx
       !> Allocated for bodies that vary
       type(profile_surface), intent(in), allocatable :: rail_surface, wheel_surface
-      real(wp) :: half, distance
-      integer :: n, k
+      real(wp) :: distance
+      integer :: n
 
-      if (allocated(bodies%rail_strip)) deallocate(bodies%rail_strip)
-      if (allocated(bodies%wheel_strip)) deallocate(bodies%wheel_strip)
-      half = reach*bodies%placement%wheel_radius
       distance = min(furthest_section, dx)
-      n = ceiling(half/distance)
-      if (allocated(rail_surface)) then
-         allocate(bodies%rail_strip)
-         bodies%rail_strip%first = bodies%placement%wheel%origin(1) - n*distance
-         bodies%rail_strip%step = distance
-         allocate(bodies%rail_strip%sections(2*n + 1))
-         do k = 1, 2*n + 1
-            call rail_section(rail_surface, bodies%placement, s_ws + bodies%rail_strip%first + (k - 1)*distance, &
-               & bodies%rail_strip%sections(k))
-         end do
+      n = ceiling(reach*bodies%placement%wheel_radius/distance)
+      call lay_out(bodies%rail_strip, rail_surface, n, bodies%placement%wheel%origin(1), distance)
+      call lay_out(bodies%wheel_strip, wheel_surface, n, 0.0_wp, distance/bodies%placement%wheel_radius)
+      if (allocated(bodies%rail_strip)) then
+         bodies%rail_strip%origin = s_ws
+         bodies%rail_strip%axes = track_axes(bodies%placement)
       end if
-      if (allocated(wheel_surface)) then
-         allocate(bodies%wheel_strip)
-         bodies%wheel_strip%step = distance/bodies%placement%wheel_radius
-         bodies%wheel_strip%first = -n*bodies%wheel_strip%step
-         allocate(bodies%wheel_strip%sections(2*n + 1))
-         do k = 1, 2*n + 1
-            ! With positive pitch the bottom shows what was in front of it, at a negative angle
-            call wheel_surface%cut(bodies%wheel_strip%first + (k - 1)*bodies%wheel_strip%step - pitch, &
-               & bodies%wheel_strip%sections(k))
-         end do
-      end if
+      ! With positive pitch the bottom shows what was in front of it, at a negative angle
+      if (allocated(bodies%wheel_strip)) bodies%wheel_strip%origin = -pitch
    end subroutine place_bodies
+
+   !> A strip without sections: n of them to both sides of its middle
+   subroutine lay_out(along, surface, n, middle, step)
+      type(strip), allocatable, intent(inout) :: along
+      !> Unallocated for a body that does not vary
+      type(profile_surface), intent(in), allocatable :: surface
+      integer, intent(in) :: n
+      real(wp), intent(in) :: middle, step
+
+      if (allocated(along)) deallocate(along)
+      if (.not. allocated(surface)) return
+      allocate(along)
+      along%surface = surface
+      along%first = middle - n*step
+      along%step = step
+      allocate(along%sections(2*n + 1))
+      allocate(along%made(2*n + 1), source=.false.)
+   end subroutine lay_out
+
+   subroutine need(self, number)
+      class(strip), intent(inout) :: self
+      integer, intent(in) :: number
+
+      if (self%made(number)) return
+      call self%surface%cut(self%origin + self%first + (number - 1)*self%step, self%sections(number), self%axes)
+      self%made(number) = .true.
+   end subroutine need
+
+   !> The nearest section, when the place is not beyond the ends
+   pure integer function number_at(self, place)
+      class(strip), intent(in) :: self
+      real(wp), intent(in) :: place
+
+      number_at = 1 + nint((place - self%first)/self%step)
+   end function number_at
+
+   !> Origin (y, z) and roll angle of the track in rail coordinates
+   pure function track_axes(placement) result(axes)
+      type(pair_placement), intent(in) :: placement
+      real(wp) :: axes(3)
+      real(wp) :: angle
+
+      angle = placement%rail%roll()
+      associate (o => placement%rail%origin)
+         axes = [-cos(angle)*o(2) - sin(angle)*o(3), sin(angle)*o(2) - cos(angle)*o(3), -angle]
+      end associate
+   end function track_axes
 
    !> Section of a variable rail in track coordinates
    subroutine rail_section(surface, placement, u, section)
@@ -97,21 +138,13 @@ contains
       real(wp), intent(in) :: u
       !> `present` is false where there is no rail
       type(surface_cut), intent(out) :: section
-      type(surface_cut) :: own
-      real(wp) :: angle, origin(2)
 
-      angle = placement%rail%roll()
-      ! The origin of the track in rail coordinates
-      associate (o => placement%rail%origin)
-         origin = [-cos(angle)*o(2) - sin(angle)*o(3), sin(angle)*o(2) - cos(angle)*o(3)]
-      end associate
-      call surface%cut(u, own)
-      section = own%seen_from(origin, -angle)
+      call surface%cut(u, section, track_axes(placement))
    end subroutine rail_section
 
    !> Height and slope across at a place between two sections
-   pure subroutine strip_at(self, place, y, z, z_y, found)
-      class(strip), intent(in) :: self
+   subroutine strip_at(self, place, y, z, z_y, found)
+      class(strip), intent(inout) :: self
       !> Along the mesh, and lateral position [mm]
       real(wp), intent(in) :: place, y
       real(wp), intent(out) :: z, z_y
@@ -131,6 +164,7 @@ contains
          k = k + 1
          t = 0.0_wp
       end if
+      call self%need(k)
       call self%sections(k)%at(y, low, low_y, low_u, found)
       if (.not. found) return
       if (t <= rounding) then
@@ -138,6 +172,7 @@ contains
          z_y = low_y
          return
       end if
+      call self%need(k + 1)
       call self%sections(k + 1)%at(y, high, high_y, high_u, found)
       if (.not. found) return
       z = low*(1.0_wp + 2.0_wp*t)*(1.0_wp - t)**2 + high*t**2*(3.0_wp - 2.0_wp*t) &
@@ -148,8 +183,8 @@ contains
    !> Height n of the rail over a point (x, s) of a plane; of the track itself when the plane is the default frame
    !>
    !> On the line along n the surface is found by Newton's method, with the slope across the rail.
-   pure subroutine find_rail(bodies, plane, x, s, n, found)
-      type(pair_bodies), intent(in) :: bodies
+   subroutine find_rail(bodies, plane, x, s, n, found)
+      type(pair_bodies), intent(inout) :: bodies
       !> In track coordinates
       type(frame), intent(in) :: plane
       real(wp), intent(in) :: x, s
@@ -189,8 +224,8 @@ contains
    end subroutine find_rail
 
    !> Height n of the wheel over a point (x, s) of a plane
-   pure subroutine find_wheel(bodies, seen, x, s, place, n, found)
-      type(pair_bodies), intent(in) :: bodies
+   subroutine find_wheel(bodies, seen, x, s, place, n, found)
+      type(pair_bodies), intent(inout) :: bodies
       !> The plane seen from the wheel
       type(frame), intent(in) :: seen
       real(wp), intent(in) :: x, s

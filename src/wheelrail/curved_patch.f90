@@ -221,7 +221,7 @@ contains
 
    !> Heights of rail and wheel over the reference surface, along the normals of its rows [mm]
    subroutine surface_heights(bodies, curve, grid, rail, wheel)
-      type(pair_bodies), intent(in) :: bodies
+      type(pair_bodies), intent(inout) :: bodies
       type(curved_reference), intent(in) :: curve
       type(potential_contact), intent(in) :: grid
       !> Shape (mx, my); far apart where a surface is missing

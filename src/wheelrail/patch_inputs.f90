@@ -29,7 +29,7 @@ contains
    !> Problem of one patch for its region: everything but where the solution starts
    subroutine set_up_patch(problem, here, number, slot, error)
       type(pair_problem), intent(in) :: problem
-      type(pair_geometry), intent(in) :: here
+      type(pair_geometry), intent(inout) :: here
       !> Number of the patch
       integer, intent(in) :: number
       type(patch_slot), intent(inout) :: slot
@@ -82,7 +82,7 @@ contains
    !> the surface is steep or rough and the wheel turned; contact that is cut off there would make the force jump.
    subroutine cover_overlap(problem, here, rail, slot, h, approach)
       type(pair_problem), intent(in) :: problem
-      type(pair_geometry), intent(in) :: here
+      type(pair_geometry), intent(inout) :: here
       !> The rail in track coordinates in the section of the reference
       type(profile_curve), intent(in) :: rail
       !> With its grid and window
@@ -122,7 +122,7 @@ contains
    !> Reference surface of a patch at the rows of its grid, and the undeformed distance along its normals
    subroutine follow_surface(problem, here, rail, slot, h, approach)
       type(pair_problem), intent(in) :: problem
-      type(pair_geometry), intent(in) :: here
+      type(pair_geometry), intent(inout) :: here
       !> The rail in track coordinates in the section of the reference
       type(profile_curve), intent(in) :: rail
       !> With its grid

@@ -26,7 +26,7 @@ contains
    !> Problem and solution of one patch
    subroutine solve_slot(problem, here, number, slot, with_friction, log, error)
       type(pair_problem), intent(in) :: problem
-      type(pair_geometry), intent(in) :: here
+      type(pair_geometry), intent(inout) :: here
       !> Number of the patch
       integer, intent(in) :: number
       type(patch_slot), intent(inout) :: slot

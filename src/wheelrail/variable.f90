@@ -30,17 +30,22 @@ contains
 
    !> Gap table and, for each lateral position, its smallest value
    subroutine measure_variable_gap(bodies, ds, weighs_table, gap)
-      type(pair_bodies), intent(in) :: bodies
+      type(pair_bodies), intent(inout) :: bodies
       !> Lateral size of the elements [mm]
       real(wp), intent(in) :: ds
       !> See `gap_curve`
       logical, intent(in) :: weighs_table
       type(gap_curve), intent(inout) :: gap
       real(wp), allocatable :: corner(:, :), xc(:), yc(:)
+      integer, allocatable :: first(:), last(:)
       real(wp) :: range(2), limit, dx
       integer :: nx, nxc, nyc, i, j, ic, jc
 
-      range = lateral_range(bodies)
+      dx = fine_x
+      if (allocated(bodies%rail_strip)) dx = bodies%rail_strip%step*max(1, nint(fine_x/bodies%rail_strip%step))
+      nxc = 2*ceiling(reach*bodies%placement%wheel_radius/(coarse*dx)) + 1
+      xc = bodies%placement%wheel%origin(1) + [(dx*coarse*(i - (nxc + 1)/2), i=1, nxc)]
+      range = lateral_range(bodies, xc)
       gap%dy = mesh_share*ds
       gap%n = ceiling((range(2) - range(1))/gap%dy) + 1
       gap%y = [(range(1) + (j - 1)*gap%dy, j=1, gap%n)]
@@ -52,40 +57,41 @@ contains
       if (bodies%placement%roller_radius > 0.0_wp) gap%kappa = gap%kappa + 0.5_wp/bodies%placement%roller_radius
       gap%weighs_table = weighs_table
 
-      dx = fine_x
-      if (allocated(bodies%rail_strip)) dx = bodies%rail_strip%step*max(1, nint(fine_x/bodies%rail_strip%step))
-      nxc = 2*ceiling(reach*bodies%placement%wheel_radius/(coarse*dx)) + 1
       nyc = (gap%n - 1 + coarse - 1)/coarse + 1
-      xc = bodies%placement%wheel%origin(1) + [(dx*coarse*(i - (nxc + 1)/2), i=1, nxc)]
       yc = gap%y(1) + [(gap%dy*coarse*(j - 1), j=1, nyc)]
       allocate(corner(nxc, nyc))
-      call fill(bodies, xc, yc, corner)
+      call fill(bodies, xc, yc, spread(1, 1, nyc), spread(nxc, 1, nyc), corner)
       limit = minval(corner) + margin
 
       nx = (nxc - 1)*coarse + 1
       gap%x_table = xc(1) + [(dx*(i - 1), i=1, nx)]
-      if (allocated(gap%table)) deallocate(gap%table)
-      allocate(gap%table(nx, gap%n), source=no_surface)
+      if (allocated(gap%table)) then
+         if (any(shape(gap%table) /= [nx, gap%n])) deallocate(gap%table)
+      end if
+      if (.not. allocated(gap%table)) allocate(gap%table(nx, gap%n))
+      gap%table = no_surface
       if (limit > no_surface) return
+      allocate(first(gap%n), source=nx + 1)
+      allocate(last(gap%n), source=0)
       do jc = 1, nyc - 1
-         do ic = 1, nxc - 1
-            i = (ic - 1)*coarse + 1
-            j = (jc - 1)*coarse + 1
-            if (minval(corner(ic:ic + 1, jc:jc + 1)) > limit) then
-               if (maxval(corner(ic:ic + 1, jc:jc + 1)) < no_surface) &
-                  & call interpolate(corner(ic:ic + 1, jc:jc + 1), gap%table(i:i + coarse, j:min(j + coarse, gap%n)))
-               cycle
-            end if
-            call fill(bodies, gap%x_table(i:i + coarse), gap%y(j:min(j + coarse, gap%n)), &
-               & gap%table(i:i + coarse, j:min(j + coarse, gap%n)))
-         end do
+         j = (jc - 1)*coarse + 1
+         associate (rows => min(j + coarse, gap%n))
+            do ic = 1, nxc - 1
+               i = (ic - 1)*coarse + 1
+               if (minval(corner(ic:ic + 1, jc:jc + 1)) <= limit) then
+                  first(j:rows) = min(first(j:rows), i)
+                  last(j:rows) = max(last(j:rows), i + coarse)
+               else if (maxval(corner(ic:ic + 1, jc:jc + 1)) < no_surface) then
+                  call interpolate(corner(ic:ic + 1, jc:jc + 1), gap%table(i:i + coarse, j:rows))
+               end if
+            end do
+         end associate
       end do
-      do j = 1, gap%n
-         call smallest_along(bodies, j, gap)
-      end do
+      call fill(bodies, gap%x_table, gap%y, first, last, gap%table)
+      call find_smallest(bodies, gap)
    end subroutine measure_variable_gap
 
-   !> Gaps of the fine mesh inside a cell of the coarse one; what was found at its sides stays
+   !> Gaps of the fine mesh inside a cell of the coarse one
    pure subroutine interpolate(corners, cell)
       real(wp), intent(in) :: corners(2, 2)
       real(wp), intent(inout) :: cell(:, :)
@@ -95,7 +101,6 @@ contains
       do j = 1, size(cell, 2)
          u = real(j - 1, wp)/coarse
          do i = 1, size(cell, 1)
-            if (cell(i, j) < no_surface) cycle
             t = real(i - 1, wp)/(size(cell, 1) - 1)
             cell(i, j) = (1.0_wp - u)*((1.0_wp - t)*corners(1, 1) + t*corners(2, 1)) &
                & + u*((1.0_wp - t)*corners(1, 2) + t*corners(2, 2))
@@ -103,117 +108,196 @@ contains
       end do
    end subroutine interpolate
 
-   !> Lateral range of all sections of the rail
-   pure function lateral_range(bodies) result(range)
-      type(pair_bodies), intent(in) :: bodies
+   !> Lateral range of a rail that varies: of its sections at some places
+   function lateral_range(bodies, x) result(range)
+      type(pair_bodies), intent(inout) :: bodies
+      !> [mm]
+      real(wp), intent(in) :: x(:)
       real(wp) :: range(2), one(2)
-      integer :: k
+      integer :: i, k
 
       if (.not. allocated(bodies%rail_strip)) then
          range = bodies%rail%y_range()
          return
       end if
       range = [huge(1.0_wp), -huge(1.0_wp)]
-      do k = 1, size(bodies%rail_strip%sections)
-         if (.not. bodies%rail_strip%sections(k)%present) cycle
-         one = bodies%rail_strip%sections(k)%curve%y_range()
-         range = [min(range(1), one(1)), max(range(2), one(2))]
-      end do
+      associate (along => bodies%rail_strip)
+         do i = 1, size(x)
+            k = along%number_at(x(i))
+            call along%need(k)
+            if (.not. along%sections(k)%present) cycle
+            one = along%sections(k)%curve%y_range()
+            range = [min(range(1), one(1)), max(range(2), one(2))]
+         end do
+      end associate
       if (range(1) > range(2)) range = 0.0_wp
    end function lateral_range
 
-   !> Vertical gap on a mesh
-   pure subroutine fill(bodies, x, y, table)
-      type(pair_bodies), intent(in) :: bodies
+   !> Vertical gap at points of a mesh; the rail has sections at its places x
+   subroutine fill(bodies, x, y, first, last, table)
+      type(pair_bodies), intent(inout) :: bodies
+      !> Rising
       real(wp), intent(in) :: x(:), y(:)
+      !> Points that are wanted in each row along the track; the others stay
+      integer, intent(in) :: first(:), last(:)
       !> Shape (x, y)
-      real(wp), intent(out) :: table(:, :)
+      real(wp), intent(inout) :: table(:, :)
       type(frame) :: track, seen
-      real(wp) :: place, start, rail, wheel
+      !> Place on the profile and height of the wheel at the last three points, the last one first
+      real(wp) :: recent(2, 3), here(2), start
+      integer :: i, j, known
       logical :: found
-      integer :: i, j
 
+      call fill_rail(bodies, x, y, first, last, table)
       seen = bodies%placement%wheel%seen_from_here(track)
-      rail = 0.0_wp
-      wheel = 0.0_wp
       do j = 1, size(y)
+         if (first(j) > last(j)) cycle
          start = bodies%wheel%s_at(y(j) - bodies%placement%wheel%origin(2))
-         place = start
-         do i = 1, size(x)
-            table(i, j) = no_surface
-            call find_rail(bodies, track, x(i), y(j), rail, found)
-            if (.not. found) cycle
-            call find_wheel(bodies, seen, x(i), y(j), place, wheel, found)
-            if (.not. found) then
-               place = start
-               wheel = 0.0_wp
-               cycle
+         recent(:, 1) = [start, 0.0_wp]
+         known = 0
+         do i = first(j), last(j)
+            if (table(i, j) >= no_surface) cycle
+            here = recent(:, 1)
+            if (known == 3) here = 3.0_wp*(recent(:, 1) - recent(:, 2)) + recent(:, 3)
+            call find_wheel(bodies, seen, x(i), y(j), here(1), here(2), found)
+            if (found) then
+               table(i, j) = table(i, j) - here(2)
+               recent(:, 2:3) = recent(:, 1:2)
+               recent(:, 1) = here
+               known = min(known + 1, 3)
+            else
+               table(i, j) = no_surface
+               recent(:, 1) = [start, 0.0_wp]
+               known = 0
             end if
-            table(i, j) = rail - wheel
          end do
       end do
    end subroutine fill
 
-   !> Place and value of the smallest gap along the track, by a parabola; the rail there
+   !> Height of the rail at points of a mesh, section after section
+   subroutine fill_rail(bodies, x, y, first, last, table)
+      type(pair_bodies), intent(inout) :: bodies
+      !> See `fill`
+      real(wp), intent(in) :: x(:), y(:)
+      integer, intent(in) :: first(:), last(:)
+      real(wp), intent(inout) :: table(:, :)
+      real(wp) :: z(size(y)), rho
+      logical :: wanted(size(y)), found(size(y))
+      integer :: rows(size(y))
+      integer :: i, k, n
+
+      do i = minval(first), maxval(last)
+         wanted = first <= i .and. i <= last
+         n = count(wanted)
+         if (n == 0) cycle
+         rows(:n) = pack([(k, k=1, size(y))], wanted)
+         call rail_heights(bodies, x(i), y(rows(:n)), z(:n), found(:n))
+         if (bodies%placement%roller_radius > 0.0_wp) then
+            do k = 1, n
+               rho = bodies%placement%roller_radius - z(k)
+               found(k) = found(k) .and. abs(x(i)) < rho
+               if (found(k)) z(k) = bodies%placement%roller_radius - sqrt(rho**2 - x(i)**2)
+            end do
+         end if
+         table(i, rows(:n)) = merge(z(:n), no_surface, found(:n))
+      end do
+   end subroutine fill_rail
+
+   !> Heights of the rail's section at a place where it has one
+   subroutine rail_heights(bodies, x, y, z, found)
+      type(pair_bodies), intent(inout) :: bodies
+      real(wp), intent(in) :: x
+      !> Rising
+      real(wp), intent(in) :: y(:)
+      real(wp), intent(out) :: z(:)
+      logical, intent(out) :: found(:)
+      integer :: k
+
+      if (.not. allocated(bodies%rail_strip)) then
+         call bodies%rail%heights(y, z, found)
+         return
+      end if
+      associate (along => bodies%rail_strip)
+         k = along%number_at(x)
+         call along%need(k)
+         z = 0.0_wp
+         found = .false.
+         if (along%sections(k)%present) call along%sections(k)%curve%heights(y, z, found)
+      end associate
+   end subroutine rail_heights
+
+   !> Place and value of the smallest gap along the track at each lateral position, by parabolas; the rail there
    !>
    !> The inclination is that of the rail's section at the wheelset, not at the place of the smallest gap: the
    !> established program does so, and published results depend on it where a rail changes quickly (0.025 rad for
    !> a wing rail that moves sideways 1:10).
-   pure subroutine smallest_along(bodies, j, gap)
-      type(pair_bodies), intent(in) :: bodies
-      integer, intent(in) :: j
+   subroutine find_smallest(bodies, gap)
+      type(pair_bodies), intent(inout) :: bodies
       type(gap_curve), intent(inout) :: gap
-      type(frame) :: track
-      real(wp) :: bend, shift
-      logical :: found
-      integer :: i
+      type(frame) :: track, seen
+      real(wp) :: bend, shift, place, wheel
+      logical :: found, inclined(gap%n)
+      integer :: i, j, here
 
-      i = minloc(gap%table(:, j), 1)
-      gap%gap(j) = gap%table(i, j)
-      gap%x(j) = gap%x_table(i)
-      if (gap%gap(j) >= no_surface) return
-      if (i > 1 .and. i < size(gap%x_table)) then
-         if (max(gap%table(i - 1, j), gap%table(i + 1, j)) < no_surface) then
-            bend = gap%table(i - 1, j) - 2.0_wp*gap%table(i, j) + gap%table(i + 1, j)
-            shift = 0.0_wp
-            if (bend > 0.0_wp) shift = 0.5_wp*(gap%table(i - 1, j) - gap%table(i + 1, j))/bend
-            gap%x(j) = gap%x(j) + shift*(gap%x_table(2) - gap%x_table(1))
-            gap%gap(j) = gap%gap(j) - 0.5_wp*bend*shift**2
+      call find_inclinations(bodies, bodies%placement%wheel%origin(1), gap%dy, gap%y, gap%alpha, inclined)
+      seen = bodies%placement%wheel%seen_from_here(track)
+      wheel = 0.0_wp
+      do j = 1, gap%n
+         i = minloc(gap%table(:, j), 1)
+         gap%gap(j) = gap%table(i, j)
+         gap%x(j) = gap%x_table(i)
+         if (gap%gap(j) >= no_surface) cycle
+         here = i
+         if (i > 1 .and. i < size(gap%x_table)) then
+            if (max(gap%table(i - 1, j), gap%table(i + 1, j)) < no_surface) then
+               bend = gap%table(i - 1, j) - 2.0_wp*gap%table(i, j) + gap%table(i + 1, j)
+               shift = 0.0_wp
+               if (bend > 0.0_wp) shift = 0.5_wp*(gap%table(i - 1, j) - gap%table(i + 1, j))/bend
+               gap%x(j) = gap%x(j) + shift*(gap%x_table(2) - gap%x_table(1))
+               gap%gap(j) = gap%gap(j) - 0.5_wp*bend*shift**2
+            end if
          end if
-      end if
-      call find_rail(bodies, track, gap%x(j), gap%y(j), gap%z(j), found)
-      if (.not. found) return
-      call find_inclination(bodies, bodies%placement%wheel%origin(1), gap%y(j), gap%dy, gap%alpha(j), found)
-      if (.not. found) call find_inclination(bodies, gap%x(j), gap%y(j), gap%dy, gap%alpha(j), found)
-   end subroutine smallest_along
-
-   !> Inclination of the rail across the track [rad], by a difference; one-sided at ends
-   pure subroutine find_inclination(bodies, x, y, dy, alpha, found)
-      type(pair_bodies), intent(in) :: bodies
-      !> Place in the track and distance of the two points [mm]
-      real(wp), intent(in) :: x, y, dy
-      !> Unchanged where there is no surface
-      real(wp), intent(inout) :: alpha
-      !> Is there any surface?
-      logical, intent(out) :: found
-      type(frame) :: track
-      real(wp) :: height(3)
-      logical :: there(3)
-      integer :: k, low, high
-
-      height = 0.0_wp
-      do k = 1, 3
-         call find_rail(bodies, track, x, y + 0.5_wp*(k - 2)*dy, height(k), there(k))
+         place = bodies%wheel%s_at(gap%y(j) - bodies%placement%wheel%origin(2))
+         call find_wheel(bodies, seen, gap%x(j), gap%y(j), place, wheel, found)
+         if (.not. found) then
+            wheel = 0.0_wp
+            cycle
+         end if
+         gap%z(j) = wheel + gap%gap(j)
+         if (.not. inclined(j)) call find_inclinations(bodies, gap%x_table(here), gap%dy, gap%y(j:j), gap%alpha(j:j), &
+            & inclined(j:j))
       end do
-      low = findloc(there, .true., 1)
-      high = findloc(there, .true., 1, back=.true.)
-      found = high > low
-      if (found) alpha = atan((height(high) - height(low))/(0.5_wp*(high - low)*dy))
-   end subroutine find_inclination
+   end subroutine find_smallest
+
+   !> Inclinations of the rail's section at a place where it has one [rad], by differences; one-sided at ends
+   subroutine find_inclinations(bodies, x, dy, y, alpha, found)
+      type(pair_bodies), intent(inout) :: bodies
+      !> Place in the track and distance of the two points [mm]
+      real(wp), intent(in) :: x, dy
+      !> Rising
+      real(wp), intent(in) :: y(:)
+      !> Unchanged where there is no surface
+      real(wp), intent(inout) :: alpha(:)
+      !> Is there any surface?
+      logical, intent(out) :: found(:)
+      real(wp) :: height(size(y), 3)
+      logical :: there(size(y), 3)
+      integer :: j, k, low, high
+
+      do k = 1, 3
+         call rail_heights(bodies, x, y + 0.5_wp*(k - 2)*dy, height(:, k), there(:, k))
+      end do
+      do j = 1, size(y)
+         low = findloc(there(j, :), .true., 1)
+         high = findloc(there(j, :), .true., 1, back=.true.)
+         found(j) = high > low
+         if (found(j)) alpha(j) = atan((height(j, high) - height(j, low))/(0.5_wp*(high - low)*dy))
+      end do
+   end subroutine find_inclinations
 
    !> Distance of the undeformed bodies over a plane [mm], shifted so that its minimum is zero, and the approach
    subroutine variable_distance(bodies, plane, grid, h, approach)
-      type(pair_bodies), intent(in) :: bodies
+      type(pair_bodies), intent(inout) :: bodies
       type(frame), intent(in) :: plane
       type(potential_contact), intent(in) :: grid
       !> Shape (mx, my)

@@ -97,7 +97,7 @@ contains
    subroutine smallest_gaps(rail, bodies, s_ws, x, y, gap)
       type(tensor_rail), intent(in) :: rail
       !> For the wheel, which is round, and the place of the rail, which is not rolled
-      type(pair_bodies), intent(in) :: bodies
+      type(pair_bodies), intent(inout) :: bodies
       !> Position of the wheelset along the rail [mm]
       real(wp), intent(in) :: s_ws
       !> Mesh in the track [mm]

@@ -48,8 +48,7 @@ contains
       type(profile_curve) :: curve
       integer, parameter :: n = 801
       real(wp) :: angle(n), s(n), f(n, 2)
-      type(cubic_spline), allocatable :: splines(:)
-      logical :: solved
+      type(cubic_spline) :: splines(2)
       integer :: i
 
       angle = half_angle*[((2.0_wp*i - n - 1)/(n - 1), i=1, n)]
@@ -57,7 +56,7 @@ contains
       s = radius*abs(angle - angle(1))
       f(:, 1) = radius*sin(angle)
       f(:, 2) = z + radius*cos(angle)
-      call natural_splines(s, f, splines, solved)
+      call natural_splines(s, f, splines)
       curve = new_curve(side, splines(1), splines(2))
    end function arc
 

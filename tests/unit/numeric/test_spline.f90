@@ -122,7 +122,7 @@ contains
       not_a_knot = [maxval(abs(f(1)%value(x) - sin(x))), maxval(abs(f(1)%slope(x) - cos(x))), &
          & maxval(abs(f(1)%bend(x) + sin(x)))]
       x = 3.0_wp + 0.4_wp*x
-      call natural_splines(s, reshape(sin(s), [n, 1]), f, ok)
+      call natural_splines(s, reshape(sin(s), [n, 1]), f)
       natural = [maxval(abs(f(1)%value(x) - sin(x))), maxval(abs(f(1)%slope(x) - cos(x))), &
          & maxval(abs(f(1)%bend(x) + sin(x)))]
    end subroutine largest_errors
@@ -189,8 +189,8 @@ contains
       real(wp), parameter :: s(4) = [0.0_wp, 1.0_wp, 3.0_wp, 4.0_wp], v(4) = [1.0_wp, 2.0_wp, 2.0_wp, 0.0_wp]
 
       do n = 2, 4
-         call natural_splines(s(:n), reshape(v(:n), [n, 1]), f, ok)
-         call suite%check(ok, "natural spline of few points")
+         if (.not. allocated(f)) allocate(f(1))
+         call natural_splines(s(:n), reshape(v(:n), [n, 1]), f)
          call suite%close_to(f(1)%value(s(:n)), v(:n), 1.0e-14_wp, "natural spline of few points")
          call not_a_knot_splines(s(:n), reshape(v(:n), [n, 1]), f, ok)
          call suite%close_to(f(1)%value(s(:n)), v(:n), 1.0e-13_wp, "interpolation of few points")
