@@ -47,22 +47,27 @@ contains
       !> Coefficients of the powers 0 to 3
       real(wp), intent(in) :: c(0:3)
       real(wp), intent(in) :: low, high, value
-      real(wp) :: a, b, residual, slope, step, direction
+      real(wp) :: a, b, residual, slope, step, direction, from_low, from_high, bend, precision
+      logical :: newton
       integer :: k
       !> Bisection alone halves the bracket 60 times; Newton's method needs about five steps
       integer, parameter :: most = 60
 
       a = low
       b = high
-      direction = sign(1.0_wp, cubic(c, high) - cubic(c, low))
-      if (direction*(cubic(c, low) - value) >= 0.0_wp) then
+      from_low = value - cubic(c, low)
+      from_high = value - cubic(c, high)
+      direction = sign(1.0_wp, from_low - from_high)
+      if (direction*from_low <= 0.0_wp) then
          x = low
          return
-      else if (direction*(cubic(c, high) - value) <= 0.0_wp) then
+      else if (direction*from_high >= 0.0_wp) then
          x = high
          return
       end if
-      x = low + (high - low)*(value - cubic(c, low))/(cubic(c, high) - cubic(c, low))
+      x = low + (high - low)*from_low/(from_low - from_high)
+      precision = 4.0_wp*epsilon(1.0_wp)*max(abs(low), abs(high))
+      bend = abs(c(2)) + 3.0_wp*abs(c(3))*max(abs(low), abs(high))
       do k = 1, most
          residual = direction*(cubic(c, x) - value)
          if (residual == 0.0_wp) return
@@ -73,11 +78,15 @@ contains
          end if
          slope = direction*(c(1) + x*(2.0_wp*c(2) + 3.0_wp*x*c(3)))
          step = 0.5_wp*(a + b) - x
+         newton = .false.
          if (abs(residual) < slope*(b - a)) then
-            if (x - residual/slope > a .and. x - residual/slope < b) step = -residual/slope
+            newton = x - residual/slope > a .and. x - residual/slope < b
+            if (newton) step = -residual/slope
          end if
          x = x + step
-         if (abs(step) <= 4.0_wp*epsilon(1.0_wp)*max(abs(low), abs(high))) return
+         if (abs(step) <= precision) return
+         ! a step of Newton's method leaves at most bend/slope times its square; twice that for the slope's own change
+         if (newton .and. 2.0_wp*bend*step**2 <= precision*slope) return
       end do
    end function monotone_cubic_root
 

@@ -46,6 +46,8 @@ module contact_profile_curve
       procedure :: s_at => place_at
       !> The same, when there is one
       procedure :: find => find_point
+      !> The same by the piece of the splines and the place in it
+      procedure :: locate
       !> Both coordinates at s with their slopes
       procedure :: point => point_at
       !> Is there a visible point with this y?
@@ -213,8 +215,10 @@ contains
       type(cubic_spline), intent(in) :: y
       type(stretch), intent(in) :: along
       real(wp), intent(in) :: target
+      integer :: piece
 
-      s = place_in_piece(y, along, piece_in_stretch(y, along, target), target)
+      piece = piece_in_stretch(y, along, target)
+      s = y%s(piece) + place_in_piece(y, along, piece, target)
    end function place_in_stretch
 
    !> Number of the piece of a stretch that holds a value of y
@@ -236,15 +240,15 @@ contains
       end do
    end function piece_in_stretch
 
-   !> Place with a given y in a piece of a stretch
-   pure real(wp) function place_in_piece(y, along, piece, target) result(s)
+   !> Place with a given y in a piece of a stretch, from the beginning of the piece
+   pure real(wp) function place_in_piece(y, along, piece, target) result(place)
       type(cubic_spline), intent(in) :: y
       type(stretch), intent(in) :: along
       integer, intent(in) :: piece
       real(wp), intent(in) :: target
 
       associate (start => y%s(piece))
-         s = start + monotone_cubic_root(y%c(:, piece), max(along%s_low, start) - start, &
+         place = monotone_cubic_root(y%c(:, piece), max(along%s_low, start) - start, &
             & min(along%s_high, y%s(piece + 1)) - start, target)
       end associate
    end function place_in_piece
@@ -318,6 +322,26 @@ contains
       if (found) s = place_in_stretch(self%y, self%parts(part)%along, y)
    end subroutine find_point
 
+   !> Piece of the splines that holds the visible point with a given y, and the place in it
+   pure subroutine locate(self, y, piece, place, found)
+      class(profile_curve), intent(in) :: self
+      real(wp), intent(in) :: y
+      !> 0 when there is none
+      integer, intent(out) :: piece
+      !> From the beginning of the piece [mm]
+      real(wp), intent(out) :: place
+      logical, intent(out) :: found
+      integer :: part
+
+      part = part_of(self, y)
+      found = part > 0
+      piece = 0
+      place = 0.0_wp
+      if (.not. found) return
+      piece = piece_in_stretch(self%y, self%parts(part)%along, y)
+      place = place_in_piece(self%y, self%parts(part)%along, piece, y)
+   end subroutine locate
+
    !> Coordinates at a place and their slopes; beyond the ends those of the nearest end
    pure subroutine point_at(self, s, y, z, y_s, z_s)
       class(profile_curve), intent(in) :: self
@@ -354,7 +378,7 @@ contains
       !> 0 where there is no visible point
       real(wp), intent(out) :: z(:)
       logical, intent(out) :: found(:)
-      real(wp) :: t, slope
+      real(wp) :: slope
       integer :: i, part, piece
 
       part = 1
@@ -384,9 +408,8 @@ contains
                   piece = piece - 1
                end do
             end if
-            t = place_in_piece(self%y, along, piece, y(i)) - self%y%s(piece)
+            call self%z%in_piece(piece, place_in_piece(self%y, along, piece, y(i)), z(i), slope)
          end associate
-         call self%z%in_piece(piece, t, z(i), slope)
       end do
    end subroutine heights
 

@@ -394,20 +394,20 @@ contains
       real(wp), intent(out) :: z, z_y, z_u
       !> False where the section has no point with this y
       logical, intent(out) :: found
-      real(wp) :: s, across, along, y_u, bend, t
+      real(wp) :: across, along, y_u, bend, t
       integer :: j
 
       z = 0.0_wp
       z_y = 0.0_wp
       z_u = 0.0_wp
       found = self%present
-      if (found) call self%curve%find(y, s, found)
+      if (found) call self%curve%locate(y, j, t, found)
       if (.not. found) return
-      call self%curve%point(s, along, z, across, z_y)
+      ! all four functions have the same pieces
+      call self%curve%y%in_piece(j, t, along, across)
+      call self%curve%z%in_piece(j, t, z, z_y)
       across = sign(max(abs(across), vertical), across)
       z_y = z_y/across
-      ! all four functions have the same pieces
-      call self%z_u%place(s, j, t)
       call self%z_u%in_piece(j, t, z_u, bend)
       call self%y_u%in_piece(j, t, y_u, bend)
       z_u = z_u - z_y*y_u

@@ -8,13 +8,13 @@ module contact_wheelrail_bodies
    use contact_base_kinds, only : wp
    use contact_profile_curve, only : profile_curve
    use contact_profile_surface, only : profile_surface, surface_cut
-   use contact_wheelrail_flat_patch, only : wheel_height
+   use contact_wheelrail_flat_patch, only : wheel_height, wheel_row
    use contact_wheelrail_frame, only : frame
    use contact_wheelrail_placement, only : pair_placement
    implicit none (type, external)
    private
 
-   public :: pair_bodies, strip, place_bodies, rail_section, find_rail, find_wheel
+   public :: pair_bodies, strip, place_bodies, rail_section, find_rail, find_wheel, find_rail_row, find_wheel_row
 
    !> Sections on an even mesh
    type :: strip
@@ -194,7 +194,8 @@ contains
       real(wp) :: point(3), z, z_y, correction, rho, place, along, across
       logical :: vertical
       integer :: step
-      real(wp), parameter :: tolerance = 1.0e-10_wp
+      !> Of a step [mm]: with the slope that is used what remains is a thousandth of it
+      real(wp), parameter :: tolerance = 1.0e-7_wp
 
       ! along a vertical line the surface is found at once
       vertical = all(abs(plane%axes(1:2, 3)) <= 0.0_wp)
@@ -222,6 +223,27 @@ contains
       end do
       found = .false.
    end subroutine find_rail
+
+   !> Heights n of the rail over a row of points (x, s) of a plane; each point starts from the three before it
+   subroutine find_rail_row(bodies, plane, x, s, n, found)
+      type(pair_bodies), intent(inout) :: bodies
+      !> In track coordinates
+      type(frame), intent(in) :: plane
+      !> At even distances
+      real(wp), intent(in) :: x(:), s
+      real(wp), intent(out) :: n(:)
+      logical, intent(out) :: found(:)
+      real(wp) :: recent(3)
+      integer :: i, known
+
+      recent = 0.0_wp
+      known = 0
+      do i = 1, size(x)
+         n(i) = estimate(recent, known)
+         call find_rail(bodies, plane, x(i), s, n(i), found(i))
+         call keep(recent, known, n(i), found(i))
+      end do
+   end subroutine find_rail_row
 
    !> Height n of the wheel over a point (x, s) of a plane
    subroutine find_wheel(bodies, seen, x, s, place, n, found)
@@ -255,4 +277,57 @@ contains
          found = .false.
       end associate
    end subroutine find_wheel
+
+   !> Heights n of the wheel over a row of points (x, s) of a plane
+   subroutine find_wheel_row(bodies, seen, x, s, n, found)
+      type(pair_bodies), intent(inout) :: bodies
+      !> The plane seen from the wheel
+      type(frame), intent(in) :: seen
+      !> At even distances
+      real(wp), intent(in) :: x(:), s
+      real(wp), intent(out) :: n(:)
+      logical, intent(out) :: found(:)
+      real(wp) :: start(2), recent(3)
+      integer :: i, known
+
+      start = [bodies%wheel%s_at(seen%origin(2) + seen%axes(2, 1)*x(1) + seen%axes(2, 2)*s), 0.0_wp]
+      if (.not. allocated(bodies%wheel_strip)) then
+         call wheel_row(bodies%wheel, bodies%placement%wheel_radius, seen, x, s, start, n, found)
+         return
+      end if
+      recent = 0.0_wp
+      known = 0
+      do i = 1, size(x)
+         n(i) = estimate(recent, known)
+         call find_wheel(bodies, seen, x(i), s, start(1), n(i), found(i))
+         call keep(recent, known, n(i), found(i))
+      end do
+   end subroutine find_wheel_row
+
+   !> The next one in a row of heights: along a parabola through the last three
+   pure real(wp) function estimate(recent, known)
+      !> The last one first, and how many there are
+      real(wp), intent(in) :: recent(3)
+      integer, intent(in) :: known
+
+      select case (known)
+      case (0)
+         estimate = 0.0_wp
+      case (1, 2)
+         estimate = recent(1)
+      case default
+         estimate = 3.0_wp*(recent(1) - recent(2)) + recent(3)
+      end select
+   end function estimate
+
+   !> Remember a height; a point without one begins a new row
+   pure subroutine keep(recent, known, height, found)
+      real(wp), intent(inout) :: recent(3)
+      integer, intent(inout) :: known
+      real(wp), intent(in) :: height
+      logical, intent(in) :: found
+
+      recent = [height, recent(:2)]
+      known = merge(min(known + 1, 3), 0, found)
+   end subroutine keep
 end module contact_wheelrail_bodies

@@ -10,7 +10,7 @@ module contact_wheelrail_curved_patch
    use contact_grid_potential_contact, only : potential_contact
    use contact_patch_result, only : patch_result
    use contact_profile_curve, only : profile_curve
-   use contact_wheelrail_bodies, only : find_rail, find_wheel, pair_bodies
+   use contact_wheelrail_bodies, only : find_rail_row, find_wheel_row, pair_bodies
    use contact_wheelrail_creepage, only : contact_motion, rigid_motion, velocity_of
    use contact_wheelrail_frame, only : frame, new_frame
    use contact_wheelrail_regions, only : contact_region
@@ -227,33 +227,25 @@ contains
       !> Shape (mx, my); far apart where a surface is missing
       real(wp), allocatable, intent(out) :: rail(:, :), wheel(:, :)
       type(frame) :: row, seen
-      real(wp) :: n_rail, n_wheel, place
-      logical :: found, prismatic
+      real(wp) :: x(grid%mx), n(grid%mx)
+      logical :: found(grid%mx), prismatic
       integer :: ix, iy
 
       allocate(rail(grid%mx, grid%my), wheel(grid%mx, grid%my))
       prismatic = .not. allocated(bodies%rail_strip) .and. .not. bodies%placement%roller_radius > 0.0_wp
+      x = [(grid%x(ix), ix=1, grid%mx)]
       do iy = 1, grid%my
          row = curve%row_axes(iy)
+         if (prismatic) then
+            call find_rail_row(bodies, row, x(:1), 0.0_wp, n(:1), found(:1))
+            rail(:, iy) = merge(n(1), nothing_there, found(1))
+         else
+            call find_rail_row(bodies, row, x, 0.0_wp, n, found)
+            rail(:, iy) = merge(n, nothing_there, found)
+         end if
          seen = bodies%placement%wheel%seen_from_here(row)
-         n_rail = 0.0_wp
-         n_wheel = 0.0_wp
-         place = bodies%wheel%s_at(seen%origin(2))
-         do ix = 1, grid%mx
-            if (ix == 1 .or. .not. prismatic) then
-               call find_rail(bodies, row, grid%x(ix), 0.0_wp, n_rail, found)
-               rail(ix, iy) = merge(n_rail, nothing_there, found)
-               if (.not. found) n_rail = 0.0_wp
-            else
-               rail(ix, iy) = rail(1, iy)
-            end if
-            call find_wheel(bodies, seen, grid%x(ix), 0.0_wp, place, n_wheel, found)
-            wheel(ix, iy) = merge(n_wheel, -nothing_there, found)
-            if (.not. found) then
-               n_wheel = 0.0_wp
-               place = bodies%wheel%s_at(seen%origin(2))
-            end if
-         end do
+         call find_wheel_row(bodies, seen, x, 0.0_wp, n, found)
+         wheel(:, iy) = merge(n, -nothing_there, found)
       end do
    end subroutine surface_heights
 

@@ -6,7 +6,7 @@
 module contact_wheelrail_variable
    use contact_base_kinds, only : wp
    use contact_grid_potential_contact, only : potential_contact
-   use contact_wheelrail_bodies, only : find_rail, find_wheel, pair_bodies
+   use contact_wheelrail_bodies, only : find_rail_row, find_wheel, find_wheel_row, pair_bodies
    use contact_wheelrail_frame, only : frame
    use contact_wheelrail_gap, only : gap_curve, no_surface
    implicit none (type, external)
@@ -143,34 +143,23 @@ contains
       !> Shape (x, y)
       real(wp), intent(inout) :: table(:, :)
       type(frame) :: track, seen
-      !> Place on the profile and height of the wheel at the last three points, the last one first
-      real(wp) :: recent(2, 3), here(2), start
-      integer :: i, j, known
-      logical :: found
+      real(wp) :: wheel(size(x))
+      logical :: found(size(x))
+      integer :: j
 
       call fill_rail(bodies, x, y, first, last, table)
       seen = bodies%placement%wheel%seen_from_here(track)
       do j = 1, size(y)
          if (first(j) > last(j)) cycle
-         start = bodies%wheel%s_at(y(j) - bodies%placement%wheel%origin(2))
-         recent(:, 1) = [start, 0.0_wp]
-         known = 0
-         do i = first(j), last(j)
-            if (table(i, j) >= no_surface) cycle
-            here = recent(:, 1)
-            if (known == 3) here = 3.0_wp*(recent(:, 1) - recent(:, 2)) + recent(:, 3)
-            call find_wheel(bodies, seen, x(i), y(j), here(1), here(2), found)
-            if (found) then
-               table(i, j) = table(i, j) - here(2)
-               recent(:, 2:3) = recent(:, 1:2)
-               recent(:, 1) = here
-               known = min(known + 1, 3)
-            else
-               table(i, j) = no_surface
-               recent(:, 1) = [start, 0.0_wp]
-               known = 0
-            end if
-         end do
+         associate (row => table(first(j):last(j), j), n => last(j) - first(j) + 1)
+            if (minval(row) >= no_surface) cycle
+            call find_wheel_row(bodies, seen, x(first(j):last(j)), y(j), wheel(:n), found(:n))
+            where (found(:n) .and. row < no_surface)
+               row = row - wheel(:n)
+            elsewhere
+               row = no_surface
+            end where
+         end associate
       end do
    end subroutine fill
 
@@ -305,8 +294,8 @@ contains
       !> Largest interpenetration along n [mm]; negative when the bodies do not touch
       real(wp), intent(out) :: approach
       type(frame) :: seen
-      real(wp) :: s, n_rail, n_wheel, place, start
-      logical :: found
+      real(wp) :: x(grid%mx), n_wheel(grid%mx), n_rail(grid%mx)
+      logical :: on_wheel(grid%mx), on_rail(grid%mx)
       integer :: ix, iy
 
       if (allocated(h)) then
@@ -314,27 +303,11 @@ contains
       end if
       if (.not. allocated(h)) allocate(h(grid%mx, grid%my))
       seen = bodies%placement%wheel%seen_from_here(plane)
-      start = bodies%wheel%s_at(seen%origin(2))
+      x = [(grid%x(ix), ix=1, grid%mx)]
       do iy = 1, grid%my
-         s = grid%y(iy)
-         place = start
-         n_rail = 0.0_wp
-         n_wheel = 0.0_wp
-         do ix = 1, grid%mx
-            h(ix, iy) = nothing_there
-            call find_rail(bodies, plane, grid%x(ix), s, n_rail, found)
-            if (.not. found) then
-               n_rail = 0.0_wp
-               cycle
-            end if
-            call find_wheel(bodies, seen, grid%x(ix), s, place, n_wheel, found)
-            if (.not. found) then
-               place = start
-               n_wheel = 0.0_wp
-               cycle
-            end if
-            h(ix, iy) = n_rail - n_wheel
-         end do
+         call find_rail_row(bodies, plane, x, grid%y(iy), n_rail, on_rail)
+         call find_wheel_row(bodies, seen, x, grid%y(iy), n_wheel, on_wheel)
+         h(:, iy) = merge(n_rail - n_wheel, nothing_there, on_rail .and. on_wheel)
       end do
       approach = -minval(h)
       h = h + approach
