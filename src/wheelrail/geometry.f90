@@ -71,11 +71,13 @@ contains
    end subroutine place
 
    !> Gap between the bodies, and the height of first touch
-   subroutine measure(problem, here, z)
+   subroutine measure(problem, here, z, depth)
       type(pair_problem), intent(in) :: problem
       type(pair_geometry), intent(inout) :: here
       !> Height of the wheelset [mm]
       real(wp), intent(in) :: z
+      !> See `measure_variable_gap`
+      real(wp), intent(in), optional :: depth
 
       call place(problem, here, z)
       here%rail_in_track = rail_at(problem, here%placement, 0.0_wp)
@@ -93,7 +95,7 @@ contains
       end if
       if (here%searches_table) then
          call measure_variable_gap(here%bodies, problem%spec%search%ds, allocated(problem%wheel_surface) &
-            & .or. any(problem%spec%search%location == [contact_location%grid, contact_location%steep_grid]), here%gap)
+            & .or. any(problem%spec%search%location == [contact_location%grid, contact_location%steep_grid]), here%gap, depth)
       else
          call measure_gap(here%rail_in_track, problem%wheel, here%placement, problem%spec%search%ds, here%gap)
       end if

@@ -5,7 +5,7 @@ module contact_wheelrail_trial
    use contact_base_log, only : log_type
    use contact_patch_problem, only : patch_state
    use contact_wheelrail_carry_over, only : lattice_box, lattice_window
-   use contact_wheelrail_geometry, only : box_on_lattice, learned_share, most_patches, place
+   use contact_wheelrail_geometry, only : box_on_lattice, learned_share, measure, most_patches, place
    use contact_wheelrail_memory, only : pair_memory, patch_slot
    use contact_wheelrail_patch_solution, only : solve_slot
    use contact_wheelrail_problem, only : pair_problem
@@ -30,6 +30,9 @@ contains
       type(lattice_box), allocatable :: boxes(:)
       integer :: k, n
 
+      ! a gap that was measured for less penetration is measured again, with some more to spare for the next trials
+      if (z - memory%here%touch > memory%here%gap%depth) &
+         & call measure(problem, memory%here, memory%here%gap_height, 1.5_wp*(z - memory%here%touch))
       call place(problem, memory%here, z)
       memory%here%bodies%placement = memory%here%placement
       call find_regions(memory%here%gap, z - memory%here%gap_height, problem%spec%search, problem%weight_power, regions, misses)

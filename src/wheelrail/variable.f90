@@ -18,9 +18,11 @@ module contact_wheelrail_variable
    real(wp), parameter :: fine_x = 0.5_wp
    !> Coarse mesh in fine steps, along the track and across it
    integer, parameter :: coarse = 8
-   !> Gaps are found on the fine mesh where the coarse one is within this of the smallest [mm]: more than wheels
-   !> penetrate rails. Elsewhere they are interpolated, with errors of about a hundredth of a millimetre
-   real(wp), parameter :: margin = 0.5_wp
+   !> Gaps are found on the fine mesh up to this above the smallest [mm]: as much as most wheels penetrate rails. Elsewhere
+   !> they are interpolated, with errors of about a hundredth of a millimetre
+   real(wp), parameter :: least_depth = 0.2_wp
+   !> The surfaces may be nearer to each other inside a coarse cell than at its corners by this [mm]
+   real(wp), parameter :: hidden = 0.1_wp
    !> Lateral mesh relative to the elements, and search along the track to both sides, of the radius
    real(wp), parameter :: mesh_share = 0.3_wp, reach = 0.125_wp
    !> Distance where a surface is missing [mm]
@@ -29,17 +31,19 @@ module contact_wheelrail_variable
 contains
 
    !> Gap table and, for each lateral position, its smallest value
-   subroutine measure_variable_gap(bodies, ds, weighs_table, gap)
+   subroutine measure_variable_gap(bodies, ds, weighs_table, gap, depth)
       type(pair_bodies), intent(inout) :: bodies
       !> Lateral size of the elements [mm]
       real(wp), intent(in) :: ds
       !> See `gap_curve`
       logical, intent(in) :: weighs_table
       type(gap_curve), intent(inout) :: gap
+      !> Penetration that will be asked for [mm], if it is known to be large
+      real(wp), intent(in), optional :: depth
       real(wp), allocatable :: corner(:, :), xc(:), yc(:)
       integer, allocatable :: first(:), last(:)
       real(wp) :: range(2), limit, dx
-      integer :: nx, nxc, nyc, i, j, ic, jc
+      integer :: nxc, nyc, i, j, ic, jc
 
       dx = fine_x
       if (allocated(bodies%rail_strip)) dx = bodies%rail_strip%step*max(1, nint(fine_x/bodies%rail_strip%step))
@@ -49,64 +53,40 @@ contains
       gap%dy = mesh_share*ds
       gap%n = ceiling((range(2) - range(1))/gap%dy) + 1
       gap%y = [(range(1) + (j - 1)*gap%dy, j=1, gap%n)]
-      gap%x = 0.0_wp*gap%y
-      gap%gap = no_surface + 0.0_wp*gap%y
-      gap%z = 0.0_wp*gap%y
-      gap%alpha = 0.0_wp*gap%y
       gap%kappa = 0.5_wp/bodies%placement%wheel_radius
       if (bodies%placement%roller_radius > 0.0_wp) gap%kappa = gap%kappa + 0.5_wp/bodies%placement%roller_radius
       gap%weighs_table = weighs_table
+      gap%depth = least_depth
+      if (present(depth)) gap%depth = max(depth, least_depth)
 
       nyc = (gap%n - 1 + coarse - 1)/coarse + 1
       yc = gap%y(1) + [(gap%dy*coarse*(j - 1), j=1, nyc)]
       allocate(corner(nxc, nyc))
       call fill(bodies, xc, yc, spread(1, 1, nyc), spread(nxc, 1, nyc), corner)
-      limit = minval(corner) + margin
 
-      nx = (nxc - 1)*coarse + 1
-      gap%x_table = xc(1) + [(dx*(i - 1), i=1, nx)]
-      if (allocated(gap%table)) then
-         if (any(shape(gap%table) /= [nx, gap%n])) deallocate(gap%table)
-      end if
-      if (.not. allocated(gap%table)) allocate(gap%table(nx, gap%n))
-      gap%table = no_surface
-      if (limit > no_surface) return
-      allocate(first(gap%n), source=nx + 1)
+      ! of each row along the track what is from the first to the last cell that may be near
+      limit = min(minval(corner) + gap%depth + hidden, 0.5_wp*no_surface)
+      allocate(first(gap%n), source=(nxc - 1)*coarse + 1)
       allocate(last(gap%n), source=0)
       do jc = 1, nyc - 1
          j = (jc - 1)*coarse + 1
-         associate (rows => min(j + coarse, gap%n))
-            do ic = 1, nxc - 1
-               i = (ic - 1)*coarse + 1
-               if (minval(corner(ic:ic + 1, jc:jc + 1)) <= limit) then
-                  first(j:rows) = min(first(j:rows), i)
-                  last(j:rows) = max(last(j:rows), i + coarse)
-               else if (maxval(corner(ic:ic + 1, jc:jc + 1)) < no_surface) then
-                  call interpolate(corner(ic:ic + 1, jc:jc + 1), gap%table(i:i + coarse, j:rows))
-               end if
-            end do
-         end associate
-      end do
-      call fill(bodies, gap%x_table, gap%y, first, last, gap%table)
-      call find_smallest(bodies, gap)
-   end subroutine measure_variable_gap
-
-   !> Gaps of the fine mesh inside a cell of the coarse one
-   pure subroutine interpolate(corners, cell)
-      real(wp), intent(in) :: corners(2, 2)
-      real(wp), intent(inout) :: cell(:, :)
-      real(wp) :: t, u
-      integer :: i, j
-
-      do j = 1, size(cell, 2)
-         u = real(j - 1, wp)/coarse
-         do i = 1, size(cell, 1)
-            t = real(i - 1, wp)/(size(cell, 1) - 1)
-            cell(i, j) = (1.0_wp - u)*((1.0_wp - t)*corners(1, 1) + t*corners(2, 1)) &
-               & + u*((1.0_wp - t)*corners(1, 2) + t*corners(2, 2))
+         do ic = 1, nxc - 1
+            if (minval(corner(ic:ic + 1, jc:jc + 1)) > limit) cycle
+            associate (rows => min(j + coarse, gap%n))
+               first(j:rows) = min(first(j:rows), (ic - 1)*coarse + 1)
+               last(j:rows) = max(last(j:rows), ic*coarse + 1)
+            end associate
          end do
       end do
-   end subroutine interpolate
+      i = min(minval(first), (nxc - 1)*coarse)
+      gap%x_table = xc(1) + [(dx*(ic - 1), ic=i, max(maxval(last), i + 1))]
+      first = first - (i - 1)
+      last = last - (i - 1)
+      if (allocated(gap%table)) deallocate(gap%table)
+      allocate(gap%table(size(gap%x_table), gap%n), source=no_surface)
+      call fill(bodies, gap%x_table, gap%y, first, last, gap%table)
+      call find_smallest(bodies, gap, first, last, xc, corner)
+   end subroutine measure_variable_gap
 
    !> Lateral range of a rail that varies: of its sections at some places
    function lateral_range(bodies, x) result(range)
@@ -215,48 +195,85 @@ contains
       end associate
    end subroutine rail_heights
 
-   !> Place and value of the smallest gap along the track at each lateral position, by parabolas; the rail there
+   !> Place and value of the smallest gap along the track at each lateral position; the rail there
    !>
    !> The inclination is that of the rail's section at the wheelset, not at the place of the smallest gap: the
    !> established program does so, and published results depend on it where a rail changes quickly (0.025 rad for
    !> a wing rail that moves sideways 1:10).
-   subroutine find_smallest(bodies, gap)
+   subroutine find_smallest(bodies, gap, first, last, xc, corner)
       type(pair_bodies), intent(inout) :: bodies
       type(gap_curve), intent(inout) :: gap
+      !> Points in each row of the table
+      integer, intent(in) :: first(:), last(:)
+      !> Places along the track and gaps of the coarse mesh [mm], shape (x, y), for rows without points
+      real(wp), intent(in) :: xc(:), corner(:, :)
       type(frame) :: track, seen
-      real(wp) :: bend, shift, place, wheel
+      real(wp) :: place, wheel
       logical :: found, inclined(gap%n)
-      integer :: i, j, here
+      integer :: j
 
+      gap%x = spread(0.0_wp, 1, gap%n)
+      gap%gap = spread(no_surface, 1, gap%n)
+      gap%z = gap%x
+      gap%alpha = gap%x
       call find_inclinations(bodies, bodies%placement%wheel%origin(1), gap%dy, gap%y, gap%alpha, inclined)
       seen = bodies%placement%wheel%seen_from_here(track)
       wheel = 0.0_wp
       do j = 1, gap%n
-         i = minloc(gap%table(:, j), 1)
-         gap%gap(j) = gap%table(i, j)
-         gap%x(j) = gap%x_table(i)
-         if (gap%gap(j) >= no_surface) cycle
-         here = i
-         if (i > 1 .and. i < size(gap%x_table)) then
-            if (max(gap%table(i - 1, j), gap%table(i + 1, j)) < no_surface) then
-               bend = gap%table(i - 1, j) - 2.0_wp*gap%table(i, j) + gap%table(i + 1, j)
-               shift = 0.0_wp
-               if (bend > 0.0_wp) shift = 0.5_wp*(gap%table(i - 1, j) - gap%table(i + 1, j))/bend
-               gap%x(j) = gap%x(j) + shift*(gap%x_table(2) - gap%x_table(1))
-               gap%gap(j) = gap%gap(j) - 0.5_wp*bend*shift**2
-            end if
+         if (last(j) >= first(j)) then
+            call smallest_in_row(gap%x_table(first(j):last(j)), gap%table(first(j):last(j), j), gap%x(j), gap%gap(j))
+         else
+            call smallest_between(xc, corner, real(j - 1, wp)/coarse, gap%x(j), gap%gap(j))
          end if
+         if (gap%gap(j) >= no_surface) cycle
          place = bodies%wheel%s_at(gap%y(j) - bodies%placement%wheel%origin(2))
          call find_wheel(bodies, seen, gap%x(j), gap%y(j), place, wheel, found)
-         if (.not. found) then
+         if (found) then
+            gap%z(j) = wheel + gap%gap(j)
+         else
             wheel = 0.0_wp
-            cycle
          end if
-         gap%z(j) = wheel + gap%gap(j)
-         if (.not. inclined(j)) call find_inclinations(bodies, gap%x_table(here), gap%dy, gap%y(j:j), gap%alpha(j:j), &
-            & inclined(j:j))
+         if (inclined(j)) cycle
+         call find_inclinations(bodies, xc(minloc(abs(xc - gap%x(j)), 1)), gap%dy, gap%y(j:j), gap%alpha(j:j), inclined(j:j))
       end do
    end subroutine find_smallest
+
+   !> Smallest gap of a row of points, between them by a parabola
+   pure subroutine smallest_in_row(x, g, place, lowest)
+      real(wp), intent(in) :: x(:), g(:)
+      real(wp), intent(out) :: place, lowest
+      real(wp) :: bend, shift
+      integer :: i
+
+      i = minloc(g, 1)
+      place = x(i)
+      lowest = g(i)
+      if (i == 1 .or. i == size(x)) return
+      if (max(g(i - 1), g(i + 1)) >= no_surface) return
+      bend = g(i - 1) - 2.0_wp*g(i) + g(i + 1)
+      if (.not. bend > 0.0_wp) return
+      shift = 0.5_wp*(g(i - 1) - g(i + 1))/bend
+      place = place + shift*(x(2) - x(1))
+      lowest = lowest - 0.5_wp*bend*shift**2
+   end subroutine smallest_in_row
+
+   !> Smallest gap between two rows of the coarse mesh
+   pure subroutine smallest_between(x, corner, row, place, lowest)
+      real(wp), intent(in) :: x(:), corner(:, :)
+      !> Counted from 0 at the first one
+      real(wp), intent(in) :: row
+      real(wp), intent(out) :: place, lowest
+      real(wp) :: g(size(x)), t
+      integer :: jc, i
+
+      jc = min(int(row) + 1, size(corner, 2) - 1)
+      t = row - (jc - 1)
+      g = no_surface
+      where (max(corner(:, jc), corner(:, jc + 1)) < no_surface) g = (1.0_wp - t)*corner(:, jc) + t*corner(:, jc + 1)
+      i = minloc(g, 1)
+      place = x(i)
+      lowest = g(i)
+   end subroutine smallest_between
 
    !> Inclinations of the rail's section at a place where it has one [rad], by differences; one-sided at ends
    subroutine find_inclinations(bodies, x, dy, y, alpha, found)

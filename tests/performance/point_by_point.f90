@@ -8,6 +8,7 @@ module contact_bench_point_by_point
    use contact_profile_surface, only : profile_surface, surface_cut
    use contact_wheelrail_bodies, only : find_wheel, pair_bodies
    use contact_wheelrail_frame, only : frame
+   use contact_wheelrail_gap, only : no_surface
    implicit none (type, external)
    private
 
@@ -93,8 +94,8 @@ contains
       z = dot_product(across, column)
    end subroutine height_at
 
-   !> Smallest gap along the track for each lateral position, every point of the mesh evaluated
-   subroutine smallest_gaps(rail, bodies, s_ws, x, y, gap)
+   !> Smallest gap along the track for each lateral position and its place, every point of the mesh evaluated
+   subroutine smallest_gaps(rail, bodies, s_ws, x, y, gap, place_of_gap)
       type(tensor_rail), intent(in) :: rail
       !> For the wheel, which is round, and the place of the rail, which is not rolled
       type(pair_bodies), intent(inout) :: bodies
@@ -102,25 +103,34 @@ contains
       real(wp), intent(in) :: s_ws
       !> Mesh in the track [mm]
       real(wp), intent(in) :: x(:), y(:)
-      real(wp), intent(out) :: gap(:)
+      real(wp), intent(out) :: gap(:), place_of_gap(:)
       type(frame) :: track, seen
-      real(wp) :: v, z, place, wheel
+      real(wp) :: row(size(x)), v, z, place, wheel, bend, shift
       logical :: found
       integer :: i, j
 
       seen = bodies%placement%wheel%seen_from_here(track)
-      gap = huge(1.0_wp)
       v = 0.5_wp*(rail%tv(1) + rail%tv(size(rail%tv)))
       wheel = 0.0_wp
       associate (origin => bodies%placement%rail%origin)
          do j = 1, size(y)
             place = bodies%wheel%s_at(y(j) - bodies%placement%wheel%origin(2))
+            row = no_surface
             do i = 1, size(x)
                call height_at(rail, s_ws + x(i), y(j) - origin(2), v, z, found)
                if (.not. found) cycle
                call find_wheel(bodies, seen, x(i), y(j), place, wheel, found)
-               if (found) gap(j) = min(gap(j), z + origin(3) - wheel)
+               if (found) row(i) = z + origin(3) - wheel
             end do
+            i = minloc(row, 1)
+            gap(j) = row(i)
+            place_of_gap(j) = x(i)
+            if (i == 1 .or. i == size(x)) cycle
+            bend = row(i - 1) - 2.0_wp*row(i) + row(i + 1)
+            if (max(row(i - 1), row(i + 1)) >= no_surface .or. .not. bend > 0.0_wp) cycle
+            shift = 0.5_wp*(row(i - 1) - row(i + 1))/bend
+            gap(j) = row(i) - 0.5_wp*bend*shift**2
+            place_of_gap(j) = x(i) + shift*(x(2) - x(1))
          end do
       end associate
    end subroutine smallest_gaps
