@@ -24,13 +24,11 @@ module contact_wheelrail_gap
       real(wp), allocatable :: z(:), alpha(:)
       !> 1/(2 r): curvature of wheel and roller along the track [1/mm]
       real(wp) :: kappa = 0.0_wp
-      !> Gap over an even mesh along the track as well, shape (x_table, y), when a body varies along it, as far as it is within
-      !> `depth` of the smallest one; unallocated otherwise
+      !> Gap over an even mesh along the track as well, shape (x_table, y), as far as it is within `depth` of the smallest one.
+      !> Weights of regions come from it; where it is unallocated from `gap` and `kappa`
       real(wp), allocatable :: x_table(:), table(:, :)
       !> Penetration that the mesh serves [mm]
       real(wp) :: depth = huge(1.0_wp)
-      !> Do weights come from the table? Otherwise from the gap of the locus and `kappa`
-      logical :: weighs_table = .false.
    end type gap_curve
 
    !> Gap where rail or wheel is missing [mm]
@@ -130,7 +128,7 @@ contains
       real(wp) :: range(2), s
       integer :: i, k
 
-      if (allocated(gap%table)) deallocate(gap%table, gap%x_table)
+      if (allocated(gap%table)) deallocate(gap%table)
       gap%depth = huge(gap%depth)
       range = rail%y_range()
       gap%dy = max(mesh_share*ds, least_mesh)

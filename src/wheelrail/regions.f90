@@ -159,9 +159,11 @@ contains
       x_low = huge(x_low)
       x_high = -huge(x_high)
       do i = first, last
-         if (allocated(gap%table)) &
-            & call weigh_table(gap%x_table, gap%table(:, i) + (g(i) - gap%gap(i)), gap%x(i), weight_power, w, x, extent)
-         if (.not. gap%weighs_table) call weigh_parabola(gap, i, -g(i), weight_power, w, x, extent)
+         if (allocated(gap%table)) then
+            call weigh_table(gap%x_table, gap%table(:, i) + (g(i) - gap%gap(i)), gap%x(i), weight_power, w, x, extent)
+         else
+            call weigh_parabola(gap, i, -g(i), weight_power, w, x, extent)
+         end if
          w = max(least_weight, w)
          total = total + w
          region%x = region%x + w*x

@@ -35,12 +35,12 @@ contains
       type(pair_bodies), intent(inout) :: bodies
       !> Lateral size of the elements [mm]
       real(wp), intent(in) :: ds
-      !> See `gap_curve`
+      !> Are weights of regions to come from the table? Otherwise only the smallest gaps are kept
       logical, intent(in) :: weighs_table
       type(gap_curve), intent(inout) :: gap
       !> Penetration that will be asked for [mm], if it is known to be large
       real(wp), intent(in), optional :: depth
-      real(wp), allocatable :: corner(:, :), xc(:), yc(:)
+      real(wp), allocatable :: corner(:, :), table(:, :), xc(:), yc(:)
       integer, allocatable :: first(:), last(:)
       real(wp) :: range(2), limit, dx
       integer :: nxc, nyc, i, j, ic, jc
@@ -55,7 +55,6 @@ contains
       gap%y = [(range(1) + (j - 1)*gap%dy, j=1, gap%n)]
       gap%kappa = 0.5_wp/bodies%placement%wheel_radius
       if (bodies%placement%roller_radius > 0.0_wp) gap%kappa = gap%kappa + 0.5_wp/bodies%placement%roller_radius
-      gap%weighs_table = weighs_table
       gap%depth = least_depth
       if (present(depth)) gap%depth = max(depth, least_depth)
 
@@ -82,10 +81,18 @@ contains
       gap%x_table = xc(1) + [(dx*(ic - 1), ic=i, max(maxval(last), i + 1))]
       first = first - (i - 1)
       last = last - (i - 1)
-      if (allocated(gap%table)) deallocate(gap%table)
-      allocate(gap%table(size(gap%x_table), gap%n), source=no_surface)
-      call fill(bodies, gap%x_table, gap%y, first, last, gap%table)
-      call find_smallest(bodies, gap, first, last, xc, corner)
+      allocate(table(size(gap%x_table), gap%n), source=no_surface)
+      if (weighs_table) then
+         call fill(bodies, gap%x_table, gap%y, first, last, table)
+      else
+         call fill_valley(bodies, gap%x_table, gap%y, first, last, table)
+      end if
+      call find_smallest(bodies, gap, table, first, last, xc, corner)
+      if (weighs_table) then
+         call move_alloc(table, gap%table)
+      else if (allocated(gap%table)) then
+         deallocate(gap%table)
+      end if
    end subroutine measure_variable_gap
 
    !> Lateral range of a rail that varies: of its sections at some places
@@ -118,7 +125,7 @@ contains
       type(pair_bodies), intent(inout) :: bodies
       !> Rising
       real(wp), intent(in) :: x(:), y(:)
-      !> Points that are wanted in each row along the track; the others stay
+      !> Points that are wanted in each row along the track, none if the last one is before the first; the others stay
       integer, intent(in) :: first(:), last(:)
       !> Shape (x, y)
       real(wp), intent(inout) :: table(:, :)
@@ -142,6 +149,60 @@ contains
          end associate
       end do
    end subroutine fill
+
+   !> The same where only the smallest gap of each row counts
+   !>
+   !> Rows of the coarse mesh are searched throughout. What is smallest in the rows between lies between the places found
+   !> there, or a little beyond; a row whose smallest gap is at an end of that stretch is searched throughout, too.
+   subroutine fill_valley(bodies, x, y, first, last, table)
+      type(pair_bodies), intent(inout) :: bodies
+      !> See `fill`; on entry the table has no surface
+      real(wp), intent(in) :: x(:), y(:)
+      integer, intent(in) :: first(:), last(:)
+      real(wp), intent(inout) :: table(:, :)
+      !> Points beyond the places found
+      integer, parameter :: beyond = 3
+      integer :: from(size(y)), to(size(y)), lowest(size(y))
+      logical :: open
+      integer :: j, low, high
+
+      from = size(x) + 1
+      to = 0
+      do j = 1, size(y)
+         if (mod(j - 1, coarse) > 0 .and. j < size(y)) cycle
+         from(j) = first(j)
+         to(j) = last(j)
+      end do
+      call fill(bodies, x, y, from, to, table)
+      lowest = minloc(table, 1)
+      do j = 1, size(y)
+         low = j - mod(j - 1, coarse)
+         high = min(low + coarse, size(y))
+         if (j == low .or. j == high) then
+            from(j) = size(x) + 1
+            to(j) = 0
+         else
+            from(j) = first(j)
+            to(j) = last(j)
+            if (max(table(lowest(low), low), table(lowest(high), high)) >= no_surface) cycle
+            from(j) = max(first(j), min(lowest(low), lowest(high)) - beyond)
+            to(j) = min(last(j), max(lowest(low), lowest(high)) + beyond)
+         end if
+      end do
+      call fill(bodies, x, y, from, to, table)
+      do j = 1, size(y)
+         lowest(j) = minloc(table(:, j), 1)
+         open = from(j) <= to(j) .and. (table(lowest(j), j) >= no_surface .or. lowest(j) == from(j) .or. lowest(j) == to(j))
+         if (open .and. (from(j) > first(j) .or. to(j) < last(j))) then
+            from(j) = first(j)
+            to(j) = last(j)
+         else
+            from(j) = size(x) + 1
+            to(j) = 0
+         end if
+      end do
+      call fill(bodies, x, y, from, to, table)
+   end subroutine fill_valley
 
    !> Height of the rail at points of a mesh, section after section
    subroutine fill_rail(bodies, x, y, first, last, table)
@@ -200,10 +261,11 @@ contains
    !> The inclination is that of the rail's section at the wheelset, not at the place of the smallest gap: the
    !> established program does so, and published results depend on it where a rail changes quickly (0.025 rad for
    !> a wing rail that moves sideways 1:10).
-   subroutine find_smallest(bodies, gap, first, last, xc, corner)
+   subroutine find_smallest(bodies, gap, table, first, last, xc, corner)
       type(pair_bodies), intent(inout) :: bodies
       type(gap_curve), intent(inout) :: gap
-      !> Points in each row of the table
+      !> Gaps of the fine mesh [mm], shape (x, y), and where they are in each row
+      real(wp), intent(in) :: table(:, :)
       integer, intent(in) :: first(:), last(:)
       !> Places along the track and gaps of the coarse mesh [mm], shape (x, y), for rows without points
       real(wp), intent(in) :: xc(:), corner(:, :)
@@ -221,7 +283,7 @@ contains
       wheel = 0.0_wp
       do j = 1, gap%n
          if (last(j) >= first(j)) then
-            call smallest_in_row(gap%x_table(first(j):last(j)), gap%table(first(j):last(j), j), gap%x(j), gap%gap(j))
+            call smallest_in_row(gap%x_table(first(j):last(j)), table(first(j):last(j), j), gap%x(j), gap%gap(j))
          else
             call smallest_between(xc, corner, real(j - 1, wp)/coarse, gap%x(j), gap%gap(j))
          end if

@@ -127,8 +127,6 @@ contains
             call measure(session%problem, here, result%z_ws)
             own = min(own, bench_clock() - start)
             by_points = here%gap
-            deallocate(by_points%table)
-            by_points%weighs_table = .false.
             start = bench_clock()
             call smallest_gaps(tensor, here%bodies, pair%wheelset%s, x, by_points%y, by_points%gap, by_points%x)
             other = min(other, bench_clock() - start)
