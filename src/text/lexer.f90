@@ -120,27 +120,27 @@ contains
       !> Name of the file in messages
       character(len=*), intent(in) :: name
       character(len=*), parameter :: byte_order_mark = char(239) // char(187) // char(191)
-      integer :: start, length, n
+      integer :: k, n
 
       self%file = name
       self%text = text
       n = 1
-      do start = 1, len(text)
-         if (text(start:start) == line_feed) n = n + 1
+      do k = 1, len(text)
+         if (text(k:k) == line_feed) n = n + 1
       end do
       allocate(self%first(n), self%last(n))
-      start = 1
+      self%first(1) = 1
       if (len(text) >= 3) then
-         if (text(1:3) == byte_order_mark) start = 4
+         if (text(1:3) == byte_order_mark) self%first(1) = 4
       end if
-      do n = 1, size(self%first)
-         length = index(text(start:), line_feed) - 1
-         if (length < 0) length = len(text) - start + 1
-         self%first(n) = start
-         self%last(n) = start + length - 1
-         start = start + length + 1
-         if (start > len(text) + 1) exit
+      n = 1
+      do k = 1, len(text)
+         if (text(k:k) /= line_feed) cycle
+         self%last(n) = k - 1
+         n = n + 1
+         self%first(n) = k + 1
       end do
+      self%last(n) = len(text)
    end subroutine open_text
 
    !> Number of lines, for files with another grammar than groups of values

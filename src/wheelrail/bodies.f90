@@ -256,7 +256,8 @@ contains
       logical, intent(out) :: found
       real(wp) :: q(3), k(3), rho, z, z_y, correction
       integer :: step
-      real(wp), parameter :: tolerance = 1.0e-10_wp
+      !> Of a step [mm]: what remains is as much smaller as the surface is round
+      real(wp), parameter :: tolerance = 1.0e-8_wp
 
       associate (radius => bodies%placement%wheel_radius)
          if (.not. allocated(bodies%wheel_strip)) then

@@ -370,6 +370,7 @@ contains
       end do
       call suite%close_to(log(errors(1)/errors(2))/log(2.0_wp), 4.0_wp, 0.3_wp, "order of interpolation")
       call suite%check(.not. any(curve%has([-29.0_wp, 29.0_wp])), "no points beyond the ends")
+      call in_a_row(suite, curve, "arc")
       call curve%top(s, z)
       call suite%close_to([s, z], [0.0_wp, 0.0_wp], 1.0e-12_wp, "highest point")
 
@@ -379,6 +380,21 @@ contains
       call suite%close_to(view%height(y), 30.0_wp - sqrt(900.0_wp - y**2), 1.0e-6_wp, "seen along another radius")
       call suite%check(.not. view%has(25.0_wp), "only the range asked for")
    end subroutine arc
+
+   !> Heights of many points are those of each
+   subroutine in_a_row(suite, curve, what)
+      type(test_suite), intent(inout) :: suite
+      type(profile_curve), intent(in) :: curve
+      character(len=*), intent(in) :: what
+      real(wp) :: y(-400:400), z(-400:400)
+      logical :: found(-400:400)
+      integer :: i
+
+      y = [(0.08_wp*i, i=-400, 400)]
+      call curve%heights(y, z, found)
+      call suite%check(all(found .eqv. curve%has(y)), what // ": where there are points in a row")
+      call suite%close_to(pack(z, found), pack(curve%height(y), found), 1.0e-12_wp, what // ": heights in a row")
+   end subroutine in_a_row
 
    !> Overhanging profiles: what is seen from above (rail) and from below (wheel)
    subroutine hidden(suite)
@@ -395,12 +411,14 @@ contains
       call suite%check(.not. allocated(error), "rail with an overhang")
       call suite%close_to(curve%height([-5.0_wp, 0.0_wp, 5.0_wp]), [0.1_wp, 0.0_wp, 0.1_wp], 1.0e-12_wp, "its top is seen")
       call suite%check(curve%height(-8.5_wp) < 3.0_wp, "not its underside")
+      call in_a_row(suite, curve, "overhang of a rail")
       ! Below the widest places, near z = 5: 2 (4.5 + 3) mm of 42 mm
       call suite%close_to(curve%hidden_part(), 0.36_wp, 0.03_wp, "what lies below the widest places is hidden")
       request%side = profile_side%wheel
       call prepare_points(request, -y, -z, curve, error)
       call suite%close_to(curve%height([-5.0_wp, 0.0_wp, 5.0_wp]), [-0.1_wp, 0.0_wp, -0.1_wp], 1.0e-12_wp, &
          & "the wheel is the mirror image")
+      call in_a_row(suite, curve, "overhang of a wheel")
       request%side = profile_side%rail
       request%most_hidden = 0.1_wp
       call prepare_points(request, y, z, curve, error)

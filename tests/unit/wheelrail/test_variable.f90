@@ -12,10 +12,10 @@ program test_variable
    use contact_profile_surface, only : surface_cut
    use contact_test_files, only : write_file
    use contact_test_harness, only : environment, reference_folder, test_suite
-   use contact_wheelrail_bodies, only : find_rail, pair_bodies, place_bodies
+   use contact_wheelrail_bodies, only : find_rail, find_wheel, pair_bodies, place_bodies
    use contact_wheelrail_flat_patch, only : patch_frame, patch_grid, undeformed_distance
    use contact_wheelrail_frame, only : frame
-   use contact_wheelrail_gap, only : gap_curve, measure_gap, rail_in_track
+   use contact_wheelrail_gap, only : gap_curve, measure_gap, no_surface, rail_in_track
    use contact_wheelrail_placement, only : place_pair
    use contact_wheelrail_regions, only : contact_region, find_regions, smallest_gap
    use contact_wheelrail_spec, only : wheel_rail_spec
@@ -32,6 +32,7 @@ program test_variable
    if (ready) call ramp(suite)
    if (ready) call wave(suite)
    if (ready) call dent(suite)
+   if (ready) call dip(suite)
    call published(suite)
    call suite%finish()
 
@@ -342,6 +343,102 @@ contains
       end do
       call suite%close_to(worst, 0.0_wp, 2.0e-5_wp, "heights between sections")
    end subroutine dent
+
+   !> A rail with a dip and a crown, twisted so that the wheel is nearest in front of the dip on one side and behind it on
+   !> the other: the search agrees with an evaluation of every point, from scratch each, as deep as it was asked to
+   subroutine dip(suite)
+      type(test_suite), intent(inout) :: suite
+      type(prepared_profile) :: rail, wheel
+      type(wheel_rail_spec) :: pair
+      type(pair_bodies) :: bodies
+      type(gap_curve) :: gap
+      character(len=:), allocatable :: text, points
+      character(len=2) :: k
+      real(wp), parameter :: yaw(2) = [0.0_wp, 0.02_wp], depth(2) = [0.0_wp, 0.6_wp]
+      real(wp), allocatable :: exact(:), place(:)
+      logical, allocatable :: near(:)
+      real(wp) :: u, middle
+      logical :: weighs
+      integer :: i, j
+
+      text = "0 1" // nl // "31" // nl // "0 0 0" // nl // "1" // nl
+      do i = 1, 31
+         write(k, '(i0)') i
+         u = 10.0_wp*(i - 16)
+         points = ""
+         do j = -40, 40
+            points = points // number(real(j, wp)) // " " &
+               & // number(0.8_wp*exp(-(u/20.0_wp)**2) + j**2/600.0_wp - 1.0e-3_wp*u*j) // nl
+         end do
+         call write_file("dip" // trim(k) // ".txt", points)
+         text = text // number(u) // " 'dip" // trim(k) // ".txt'" // nl
+      end do
+      call write_file("dip.slcs", text)
+      call write_file("level.txt", straight(0.0_wp))
+      call load(suite, "dip.slcs", profile_side%rail, rail)
+      call load(suite, "level.txt", profile_side%wheel, wheel)
+      if (.not. ready) return
+      do i = 1, 2
+         pair = pair_at(0.0_wp, yaw(i))
+         pair%track%cant = 0.0_wp
+         pair%track%raily0 = 750.0_wp
+         call place_pair(pair, wheel%curve, 0.0_wp, 0.0_wp, 0.0_wp, [0.0_wp, 0.0_wp], bodies%placement)
+         bodies%rail = rail_in_track(rail%curve, bodies%placement)
+         bodies%wheel = wheel%curve
+         middle = bodies%placement%wheel%origin(1)
+         do j = 1, 4
+            weighs = j > 2
+            call place_bodies(bodies, 0.5_wp - middle, 0.0_wp, 0.5_wp, rail%surface, wheel%surface)
+            call measure_variable_gap(bodies, 0.5_wp, weighs, gap, depth(2 - mod(j, 2)))
+            call suite%check(allocated(gap%table) .eqv. weighs, "a table when weights come from it")
+            call search_everywhere(bodies, gap, exact, place)
+            near = gap%gap < minval(exact) + gap%depth
+            call suite%check(gap%depth >= depth(2 - mod(j, 2)), "as deep as asked for")
+            call suite%check(any(near .and. place > middle + 8.0_wp) .and. any(near .and. place < middle - 8.0_wp), &
+               & "near in front of the dip and behind it")
+            call suite%check(all(near .eqv. exact < minval(exact) + gap%depth), "all that is near is found")
+            call suite%close_to(pack(gap%gap - exact, near), 0.0_wp*pack(exact, near), 1.0e-8_wp, "gaps as by every point")
+            call suite%close_to(pack(gap%x - place, near), 0.0_wp*pack(exact, near), 1.0e-4_wp, "and their places")
+         end do
+      end do
+   end subroutine dip
+
+   !> Smallest gap along the track at each lateral position and its place, every point from scratch
+   subroutine search_everywhere(bodies, gap, lowest, place)
+      type(pair_bodies), intent(inout) :: bodies
+      !> For its mesh
+      type(gap_curve), intent(in) :: gap
+      real(wp), allocatable, intent(out) :: lowest(:), place(:)
+      type(frame) :: track, seen
+      real(wp) :: row(-115:115), rail, wheel, s, x, bend, shift
+      logical :: there(2)
+      integer :: i, j
+
+      allocate(lowest(gap%n), place(gap%n))
+      seen = bodies%placement%wheel%seen_from_here(track)
+      do j = 1, gap%n
+         row = no_surface
+         do i = -115, 115
+            rail = 0.0_wp
+            wheel = 0.0_wp
+            s = bodies%wheel%s_at(gap%y(j) - bodies%placement%wheel%origin(2))
+            x = bodies%placement%wheel%origin(1) + 0.5_wp*i
+            call find_rail(bodies, track, x, gap%y(j), rail, there(1))
+            call find_wheel(bodies, seen, x, gap%y(j), s, wheel, there(2))
+            if (all(there)) row(i) = rail - wheel
+         end do
+         i = minloc(row, 1) - 116
+         lowest(j) = row(i)
+         place(j) = bodies%placement%wheel%origin(1) + 0.5_wp*i
+         if (abs(i) == 115) cycle
+         if (max(row(i - 1), row(i + 1)) >= no_surface) cycle
+         bend = row(i - 1) - 2.0_wp*row(i) + row(i + 1)
+         if (.not. bend > 0.0_wp) cycle
+         shift = 0.5_wp*(row(i - 1) - row(i + 1))/bend
+         lowest(j) = row(i) - 0.5_wp*bend*shift**2
+         place(j) = bodies%placement%wheel%origin(1) + 0.5_wp*(i + shift)
+      end do
+   end subroutine search_everywhere
 
    !> Points of a straight profile at a height [mm]
    function straight(z) result(text)
