@@ -101,6 +101,7 @@ contains
       allocate(along%made(2*n + 1), source=.false.)
    end subroutine lay_out
 
+   !> Make a section if it is not there yet
    subroutine need(self, number)
       class(strip), intent(inout) :: self
       integer, intent(in) :: number
@@ -110,12 +111,13 @@ contains
       self%made(number) = .true.
    end subroutine need
 
-   !> The nearest section, when the place is not beyond the ends
+   !> The nearest section; 0 beyond the ends
    pure integer function number_at(self, place)
       class(strip), intent(in) :: self
       real(wp), intent(in) :: place
 
       number_at = 1 + nint((place - self%first)/self%step)
+      if (number_at < 1 .or. number_at > size(self%sections)) number_at = 0
    end function number_at
 
    !> Origin (y, z) and roll angle of the track in rail coordinates

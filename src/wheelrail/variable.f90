@@ -58,7 +58,7 @@ contains
       gap%depth = least_depth
       if (present(depth)) gap%depth = max(depth, least_depth)
 
-      nyc = (gap%n - 1 + coarse - 1)/coarse + 1
+      nyc = max(1, (gap%n - 1 + coarse - 1)/coarse) + 1
       yc = gap%y(1) + [(gap%dy*coarse*(j - 1), j=1, nyc)]
       allocate(corner(nxc, nyc))
       call fill(bodies, xc, yc, spread(1, 1, nyc), spread(nxc, 1, nyc), corner)
@@ -111,6 +111,7 @@ contains
       associate (along => bodies%rail_strip)
          do i = 1, size(x)
             k = along%number_at(x(i))
+            if (k == 0) cycle
             call along%need(k)
             if (.not. along%sections(k)%present) cycle
             one = along%sections(k)%curve%y_range()
@@ -247,11 +248,12 @@ contains
          call bodies%rail%heights(y, z, found)
          return
       end if
+      z = 0.0_wp
+      found = .false.
       associate (along => bodies%rail_strip)
          k = along%number_at(x)
+         if (k == 0) return
          call along%need(k)
-         z = 0.0_wp
-         found = .false.
          if (along%sections(k)%present) call along%sections(k)%curve%heights(y, z, found)
       end associate
    end subroutine rail_heights

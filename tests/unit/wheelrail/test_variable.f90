@@ -33,6 +33,7 @@ program test_variable
    if (ready) call wave(suite)
    if (ready) call dent(suite)
    if (ready) call dip(suite)
+   if (ready) call ends(suite)
    call published(suite)
    call suite%finish()
 
@@ -343,6 +344,39 @@ contains
       end do
       call suite%close_to(worst, 0.0_wp, 2.0e-5_wp, "heights between sections")
    end subroutine dent
+
+   !> Beyond the last slice there is no rail; a wheel smaller than the coarse mesh still meets one
+   subroutine ends(suite)
+      type(test_suite), intent(inout) :: suite
+      type(prepared_profile) :: rail, wheel
+      type(wheel_rail_spec) :: pair
+      type(pair_bodies) :: bodies
+      type(gap_curve) :: gap
+      logical :: weighs
+      integer :: k
+
+      call load(suite, "dip.slcs", profile_side%rail, rail)
+      call load(suite, "level.txt", profile_side%wheel, wheel)
+      if (.not. ready) return
+      pair = pair_at(0.0_wp, 0.0_wp)
+      pair%track%cant = 0.0_wp
+      pair%track%raily0 = 750.0_wp
+      do k = 1, 2
+         weighs = k == 2
+         pair%wheelset%nomradw = 460.0_wp
+         call place_pair(pair, wheel%curve, 0.0_wp, 0.0_wp, 0.0_wp, [0.0_wp, 0.0_wp], bodies%placement)
+         bodies%rail = rail_in_track(rail%curve, bodies%placement)
+         bodies%wheel = wheel%curve
+         call place_bodies(bodies, 500.0_wp, 0.0_wp, 0.5_wp, rail%surface, wheel%surface)
+         call measure_variable_gap(bodies, 0.5_wp, weighs, gap)
+         call suite%close_to(smallest_gap(gap), no_surface, 0.0_wp, "no rail beyond its slices")
+         pair%wheelset%nomradw = 10.0_wp
+         call place_pair(pair, wheel%curve, 0.0_wp, 0.0_wp, 0.0_wp, [0.0_wp, 0.0_wp], bodies%placement)
+         call place_bodies(bodies, 0.0_wp, 0.0_wp, 0.5_wp, rail%surface, wheel%surface)
+         call measure_variable_gap(bodies, 0.5_wp, weighs, gap)
+         call suite%close_to(smallest_gap(gap), 0.8_wp, 1.0e-3_wp, "a small wheel stands in the dip")
+      end do
+   end subroutine ends
 
    !> A rail with a dip and a crown, twisted so that the wheel is nearest in front of the dip on one side and behind it on
    !> the other: the search agrees with an evaluation of every point, from scratch each, as deep as it was asked to
