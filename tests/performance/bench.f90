@@ -298,7 +298,7 @@ contains
             & classical_method%gd_steady - classical_method%steady_gs
          do i = 1, size(contacts)
             slowest = 0.0_wp
-            name = "rolling, " // trim(rolling_contacts(contacts(i))%name) // ", " // method_name(method)
+            name = "rolling, " // trim(rolling_contacts(contacts(i))%name) // ", " // trim(method_name(method))
             do k = 1, merge(1, 3, quick)
                if (slowest > limit) then
                   call row_left_out(name, square(sizes(k)), "not run: the smaller one took too long")

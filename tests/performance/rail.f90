@@ -82,8 +82,8 @@ contains
       write(*, '(a)') "| seconds | of them outside of the contact solver | solutions of patches | goal |"
       write(*, '(a)') "|---|---|---|---|"
       k = minloc(total, 1)
-      write(*, '(a, f0.3, a, i0, a, i0, a)') "| ", total(k), " | ", nint(100.0_wp*outside(k)/total(k)), " % | ", calls, &
-         & " | 0.5 s, 30 % " // verdict(total(k) <= 0.5_wp .and. outside(k) <= 0.3_wp*total(k)) // " |"
+      write(*, '(a, f5.3, a, i0, a, i0, a)') "| ", total(k), " | ", nint(100.0_wp*outside(k)/total(k)), " % | ", calls, &
+         & " | 0.5 s, 30 %: " // trim(verdict(total(k) <= 0.5_wp .and. outside(k) <= 0.3_wp*total(k))) // " |"
       call forget(session)
    end subroutine tread_to_flange
 
@@ -144,11 +144,11 @@ contains
          write(*, '(a, f0.1, a)') "| search of the program by the locus (D = 2), sections of the rail included | ", &
             & 1.0e3_wp*own(1), " |"
          write(*, '(a, f0.1, a)') "| the same by the grid (D = 5) | ", 1.0e3_wp*own(2), " |"
-         write(*, '(a, f0.1, a, f0.1, a)') "| tensor spline at every point, without its set-up of ", 1.0e3_wp*setup, " ms | ", &
+         write(*, '(a, f4.2, a, f0.1, a)') "| tensor spline at every point, without its set-up of ", 1.0e3_wp*setup, " ms | ", &
             & 1.0e3_wp*other, " |"
          write(*, '(a, f0.1, a)') "| the whole case with D = 2, the second time | ", 1.0e3_wp*case, " |"
          write(*, '(/, a, f0.1, a, f0.1, a)') "Ratio of the searches: ", other/own(1), " with D = 2, ", other/own(2), &
-            & " with D = 5; goal for the first: 20 times faster " // verdict(other >= 20.0_wp*own(1)) // "."
+            & " with D = 5; goal for the first: 20 times faster, " // trim(verdict(other >= 20.0_wp*own(1))) // "."
          do kind = 1, size(kinds)
             session%problem%spec%search%location = kinds(kind)
             call measure(session%problem, here, result%z_ws)
@@ -177,7 +177,7 @@ contains
       call find_regions(by_points, lowest + penetration, search, 2, there, misses)
       if (size(here) /= size(there) .or. size(here) == 0) error stop "the two searches find different contacts"
       moved = max(maxval(abs(here%x - there%x)), maxval(abs(here%y - there%y)))
-      write(*, '(a, f0.2, a, es7.1, a, i0, a, es7.1, a)') "Gaps of both within ", penetration, &
+      write(*, '(a, f4.2, a, es7.1, a, i0, a, es7.1, a)') "Gaps of both within ", penetration, &
          & " mm of the smallest one differ by at most ", difference, " mm, the references of the ", size(here), &
          & " contacts at that penetration by ", moved, " mm."
       if (difference > 1.0e-4_wp .or. moved > 2.0e-3_wp) error stop "the two searches find different gaps"
