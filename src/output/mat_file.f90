@@ -44,8 +44,6 @@ module contact_output_mat_file
       real(wp) :: wheel_offset = 0.0_wp
       !> Contact reference in the coordinates of the elements [mm]
       real(wp) :: spin_centre(2) = 0.0_wp
-      !> Friction of the patch, where it varies over the rail
-      type(friction_set), allocatable :: friction
    end type mat_place
 
 contains
@@ -130,7 +128,7 @@ contains
       values = material_values(spec, result)
       lines(10) = two_integers(spec%digits%t, spec%digits%m) // reals([values, zeros(columns - 2 - size(values))])
       lines(11) = name_line(completed("   L    H", friction_names(spec%friction_law), columns))
-      values = [merge(result%veloc, spec%rolling%veloc, place%patches > 0), friction_values(spec, place)]
+      values = [merge(result%veloc, spec%rolling%veloc, place%patches > 0), friction_values(spec)]
       lines(12) = two_integers(spec%friction_law, spec%digits%h) // reals([values, zeros(columns - 2 - size(values))])
       lines(13) = name_line([character(len=11) :: "   I  IGS", "H", "MU", "PN", "PX", "PY", "UN", "UX", "UY", &
          & merge("SREL", "SHFT", rolling), more])
@@ -252,15 +250,12 @@ contains
    end function friction_names
 
    !> Values of the first set of friction parameters, without the velocity
-   pure function friction_values(spec, place) result(values)
+   pure function friction_values(spec) result(values)
       type(case_spec), intent(in) :: spec
-      type(mat_place), intent(in) :: place
       real(wp), allocatable :: values(:)
       type(friction_set) :: set
 
-      if (allocated(place%friction)) then
-         set = place%friction
-      else if (allocated(spec%friction%sets)) then
+      if (allocated(spec%friction%sets)) then
          if (size(spec%friction%sets) > 0) set = spec%friction%sets(1)
       end if
       select case (spec%friction_law)

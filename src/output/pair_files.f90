@@ -2,7 +2,6 @@
 module contact_output_pair_files
    use contact_base_error, only : error_type
    use contact_base_kinds, only : wp
-   use contact_cases_friction_setup, only : set_of
    use contact_cases_spec, only : case_spec
    use contact_output_mat_file, only : mat_file_name, mat_place, write_mat_file
    use contact_output_subs_file, only : subs_file_name, write_subs_file
@@ -59,7 +58,6 @@ contains
       real(wp), intent(in), optional :: time
       type(mat_place) :: place
       real(wp) :: s
-      integer :: first
 
       s = merge(-1.0_wp, 1.0_wp, spec%wheel_rail%left)
       associate (w => spec%wheel_rail%wheelset)
@@ -76,9 +74,5 @@ contains
       place%c1 = spec%digits%c1
       place%d = spec%wheel_rail%search%location
       place%wheel_offset = result%wheel_offset
-      if (.not. allocated(patch%friction)) return
-      ! rows of a left-hand side are written in reversed order
-      first = merge(size(patch%friction), 1, spec%wheel_rail%left)
-      allocate(place%friction, source=set_of(patch%friction(first)))
    end function place_of
 end module contact_output_pair_files

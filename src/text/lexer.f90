@@ -72,11 +72,26 @@ module contact_text_lexer
 contains
 
    !> Read a file into memory
+   !>
+   !> One at a time: Fortran connects a file to one unit only, and threads that share a profile would be refused it.
    subroutine open_file(self, file, error)
       class(input_lexer), intent(out) :: self
       character(len=*), intent(in) :: file
       type(error_type), allocatable, intent(out) :: error
       character(len=:), allocatable :: text
+
+      !$omp critical (contact_file_reading)
+      call read_whole(file, text, error)
+      !$omp end critical (contact_file_reading)
+      if (allocated(error)) return
+      call self%open_text(text, file)
+   end subroutine open_file
+
+   !> All bytes of a file
+   subroutine read_whole(file, text, error)
+      character(len=*), intent(in) :: file
+      character(len=:), allocatable, intent(out) :: text
+      type(error_type), allocatable, intent(out) :: error
       character(len=200) :: reason
       integer :: unit, status
       integer(long) :: length
@@ -107,10 +122,8 @@ contains
       if (status /= 0) then
          call fatal_error(error, "the file cannot be read: " // trim(reason) // " (status " // &
             & integer_text(status) // ")", error_kind%file, file)
-         return
       end if
-      call self%open_text(text, file)
-   end subroutine open_file
+   end subroutine read_whole
 
    !> Take a text that is in memory already
    subroutine open_text(self, text, name)

@@ -17,6 +17,7 @@ KNOWN = {
     ".gomp_critical_user_contact_registry": "lock of the registry",
     ".gomp_critical_user_contact_printing": "lock of the .out file of the library",
     ".gomp_critical_user_contact_fft_planner": "lock of FFTW's planner",
+    ".gomp_critical_user_contact_file_reading": "lock of reading files",
 }
 # Tables of types that compiled code reads and nothing writes
 CONSTANT = re.compile(r"_MOD___(vtab|def_init)_")
