@@ -13,7 +13,7 @@ module contact_cases_friction_setup
    implicit none (type, external)
    private
 
-   public :: parameters_of, set_friction, set_thermal, set_of
+   public :: parameters_of, set_friction, set_thermal, set_of, values_of
 
 contains
 
@@ -76,6 +76,23 @@ contains
          & sabsh1=parameters%half_speed(1), coef2=parameters%term(2), sabsh2=parameters%half_speed(2), &
          & fref=parameters%static, tref=parameters%onset, dfheat=parameters%kinetic - parameters%static, dtheat=parameters%range)
    end function set_of
+
+   !> The values of a set that its law has, in the order of the input
+   pure function values_of(law, set) result(values)
+      !> Member of friction_model
+      integer, intent(in) :: law
+      type(friction_set), intent(in) :: set
+      real(wp), allocatable :: values(:)
+
+      select case (law)
+      case (friction_model%coulomb)
+         values = [set%fstat, set%fkin]
+      case (friction_model%temperature)
+         values = [set%fref, set%tref, set%dfheat, set%dtheat]
+      case default
+         values = [set%fkin, set%coef1, set%sabsh1, set%coef2, set%sabsh2]
+      end select
+   end function values_of
 
    !> Thermal constants, when temperatures are asked for
    subroutine set_thermal(spec, problem, error)

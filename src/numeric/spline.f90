@@ -37,15 +37,6 @@ module contact_numeric_spline
          real(wp), intent(inout) :: ab(ldab, *), b(ldb, *)
          integer, intent(out) :: info
       end subroutine dpbsv
-
-      !> LAPACK: the same for a tridiagonal matrix
-      subroutine dptsv(n, nrhs, d, e, b, ldb, info)
-         import :: wp
-         implicit none (type, external)
-         integer, intent(in) :: n, nrhs, ldb
-         real(wp), intent(inout) :: d(*), e(*), b(ldb, *)
-         integer, intent(out) :: info
-      end subroutine dptsv
    end interface
 
 contains
@@ -215,7 +206,7 @@ contains
       real(wp), intent(in) :: f(:, :)
       !> Weights of the points, positive
       real(wp), intent(in) :: weights(:)
-      !> Weight of the bending, not negative
+      !> Weight of the bending, positive; without it there is `natural_splines`
       real(wp), intent(in) :: lambda
       !> One spline per function
       type(cubic_spline), allocatable, intent(out) :: splines(:)
@@ -254,12 +245,7 @@ contains
          if (free(j - 1)) band(2, j) = h(j - 1) + strength(j - 1)*q(0, j - 1)*q(-1, j) + strength(j)*q(1, j - 1)*q(0, j)
          if (free(max(1, j - 2))) band(1, j) = strength(j - 1)*q(1, j - 2)*q(-1, j)
       end do
-      if (lambda > 0.0_wp) then
-         call dpbsv("U", n, 2, size(f, 2), band, 3, b, n, info)
-      else
-         ! Three diagonals only
-         call dptsv(n, size(f, 2), band(3, :), band(2, 2:), b, n, info)
-      end if
+      call dpbsv("U", n, 2, size(f, 2), band, 3, b, n, info)
       solved = info == 0
       if (.not. solved) return
 

@@ -1,7 +1,8 @@
 !> The groups of an input file that both modules have, as the reader expects them
 module contact_output_input_groups
    use contact_base_kinds, only : wp
-   use contact_cases_spec, only : case_digits, case_spec, friction_set
+   use contact_cases_friction_setup, only : values_of
+   use contact_cases_spec, only : case_digits, case_spec
    implicit none (type, external)
    private
 
@@ -129,28 +130,12 @@ contains
          do k = 1, size(friction%sets)
             start = ""
             if (spec%digits%v > 0) start = numbers([friction%sets(k)%position]) // " "
-            call put_line(unit, start // numbers(law_values(spec%digits%l, friction%sets(k))), &
+            call put_line(unit, start // numbers(values_of(spec%friction_law, friction%sets(k))), &
                & trim(merge("POSITION ", "         ", spec%digits%v > 0)) // " FRICTION LAW")
          end do
          if (any(spec%digits%l == [2, 3, 4, 6])) call put_line(unit, numbers([friction%memdst, friction%mem_s0]), "MEMDST MEM_S0")
       end associate
    end subroutine put_friction
-
-   !> Values of one set
-   pure function law_values(law, set) result(values)
-      integer, intent(in) :: law
-      type(friction_set), intent(in) :: set
-      real(wp), allocatable :: values(:)
-
-      select case (law)
-      case (2, 3, 4)
-         values = [set%fkin, set%coef1, set%sabsh1, set%coef2, set%sabsh2]
-      case (6)
-         values = [set%fref, set%tref, set%dfheat, set%dtheat]
-      case default
-         values = [set%fstat, set%fkin]
-      end select
-   end function law_values
 
    !> Elastic constants and what belongs to the model (C of 2 and above)
    subroutine put_materials(unit, spec)

@@ -5,6 +5,7 @@ module contact_output_mat_file
    use contact_base_choices, only : friction_model, material_model, motion
    use contact_base_error, only : add_context, error_type
    use contact_base_kinds, only : wp
+   use contact_cases_friction_setup, only : values_of
    use contact_cases_spec, only : case_spec, friction_set
    use contact_grid_element_division, only : element
    use contact_output_finished_file, only : case_file_name, finished_file
@@ -258,14 +259,8 @@ contains
       if (allocated(spec%friction%sets)) then
          if (size(spec%friction%sets) > 0) set = spec%friction%sets(1)
       end if
-      select case (spec%friction_law)
-      case (friction_model%coulomb)
-         values = [set%fstat, set%fkin]
-      case (friction_model%temperature)
-         values = [set%fref, set%tref, set%dfheat, set%dtheat, spec%friction%memdst, spec%friction%mem_s0]
-      case default
-         values = [set%fkin, set%coef1, set%sabsh1, set%coef2, set%sabsh2, spec%friction%memdst, spec%friction%mem_s0]
-      end select
+      values = values_of(spec%friction_law, set)
+      if (spec%friction_law /= friction_model%coulomb) values = [values, spec%friction%memdst, spec%friction%mem_s0]
    end function friction_values
 
    !> The names with one in front and a dash for each unused column behind

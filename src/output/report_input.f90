@@ -4,6 +4,7 @@ module contact_output_report_input
       & pressure_model, solver_choice, variation
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
+   use contact_cases_friction_setup, only : values_of
    use contact_cases_spec, only : case_digits, case_spec, friction_set, kinematics_spec
    use contact_output_formats, only : fixed, general, generals, heading, smart, smarts, whole
    use contact_patch_result, only : hertz_result, patch_result
@@ -302,40 +303,23 @@ contains
       select case (varies)
       case (variation%none)
          call log%result(names)
-         if (count > 0) call log%result("  " // generals(friction_values(law, sets(1))))
+         if (count > 0) call log%result("  " // generals(values_of(law, sets(1))))
       case (variation%by_row)
          call log%result("     IY     " // names)
          shorten = level < full_friction_table .and. count > 4
          do i = 1, count
             if (shorten .and. i == 3) call log%result(repeat(" ", 22) // "...")
             if (shorten .and. i > 2 .and. i < count - 1) cycle
-            call log%result("  " // whole(i, 8) // "    " // generals(friction_values(law, sets(i))))
+            call log%result("  " // whole(i, 8) // "    " // generals(values_of(law, sets(i))))
          end do
       case default
          call log%result(merge("     ALPHA  ", "     SVF    ", varies == variation%by_angle) // names)
          do i = 1, count
             call log%result("  " // general(sets(i)%position, 12, 4) &
-               & // generals(friction_values(law, sets(i))))
+               & // generals(values_of(law, sets(i))))
          end do
       end select
    end subroutine write_friction
-
-   !> Values of one set of friction parameters, in the order of the heading
-   pure function friction_values(law, set) result(values)
-      !> Member of friction_model
-      integer, intent(in) :: law
-      type(friction_set), intent(in) :: set
-      real(wp), allocatable :: values(:)
-
-      select case (law)
-      case (friction_model%coulomb)
-         values = [set%fstat, set%fkin]
-      case (friction_model%temperature)
-         values = [set%fref, set%tref, set%dfheat, set%dtheat]
-      case default
-         values = [set%fkin, set%coef1, set%sabsh1, set%coef2, set%sabsh2]
-      end select
-   end function friction_values
 
    !> Prescribed creepages or forces; what was found follows with the results
    subroutine write_kinematics(log, spec, result)

@@ -5,7 +5,7 @@ module contact_profile_prepare
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
    use contact_numeric_b_spline, only : not_a_knot_splines, smooth_b_splines
-   use contact_numeric_spline, only : cubic_spline, smoothing_splines
+   use contact_numeric_spline, only : cubic_spline, natural_splines, smoothing_splines
    use contact_profile_curve, only : new_curve, profile_curve
    use contact_profile_miniprof, only : read_miniprof
    use contact_profile_points, only : chord_lengths, drop_close_points, find_kinks, find_loop, keep_points, &
@@ -274,8 +274,13 @@ contains
             & (s(n) - s(1))/most_intervals)
          call smooth_b_splines(s, points, weights, lambda, spacing, splines, solved, is_kink)
       else
-         if (lambda <= least_fourth) lambda = 0.0_wp
-         call smoothing_splines(s, points, weights, lambda, splines, solved, is_kink)
+         if (lambda > least_fourth) then
+            call smoothing_splines(s, points, weights, lambda, splines, solved, is_kink)
+            return
+         end if
+         allocate(splines(2))
+         call natural_splines(s, points, splines, is_kink)
+         solved = .true.
       end if
    end subroutine smooth_points
 

@@ -96,7 +96,7 @@ contains
       real(wp), intent(out) :: approach
       type(profile_curve) :: section
       type(frame) :: seen
-      real(wp) :: n_wheel(grid%mx), start(2)
+      real(wp) :: x(grid%mx), n_wheel(grid%mx), start(2)
       real(wp) :: delta, s, n_rail
       logical :: found(grid%mx)
       integer :: ix, iy
@@ -110,12 +110,13 @@ contains
       ! the plane seen from the wheel
       seen = placement%wheel%seen_from_here(plane)
       start = [wheel%s_at(seen%origin(2)), 0.0_wp]
+      x = [(grid%x(ix), ix=1, grid%mx)]
       do iy = 1, grid%my
          s = grid%y(iy)
-         call wheel_row(wheel, placement%wheel_radius, seen, [(grid%x(ix), ix=1, grid%mx)], s, start, n_wheel, found)
+         call wheel_row(wheel, placement%wheel_radius, seen, x, s, start, n_wheel, found)
          n_rail = rail_height(0.0_wp, s)
          do ix = 1, grid%mx
-            if (placement%roller_radius > 0.0_wp) n_rail = rail_height(grid%x(ix), s)
+            if (placement%roller_radius > 0.0_wp) n_rail = rail_height(x(ix), s)
             h(ix, iy) = n_rail - merge(n_wheel(ix), -nothing_there, found(ix))
          end do
       end do
