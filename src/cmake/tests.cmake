@@ -47,3 +47,12 @@ function(contact_command_test name)
     SKIP_RETURN_CODE 77
     ENVIRONMENT "CONTACT_REFERENCE=${CONTACT_REFERENCE};CONTACT_SOURCE=${PROJECT_SOURCE_DIR};CONTACT_PROGRAM=${CMAKE_BINARY_DIR}/bin/contact")
 endfunction()
+
+# contact_python_test(<name> LABEL <labels> SCRIPT <file> [<arguments>] [TIMEOUT <seconds>])
+#
+# A test that is a script of Python. The interpreter is looked up when the test runs, not when the build is configured:
+# tests/run.sh may have put one with the packages of the tests in front of the one that was there before.
+function(contact_python_test name)
+  cmake_parse_arguments(arg "" "TIMEOUT" "LABEL;SCRIPT" ${ARGN})
+  contact_command_test(${name} LABEL ${arg_LABEL} TIMEOUT ${arg_TIMEOUT} COMMAND python3 -B ${arg_SCRIPT})
+endfunction()

@@ -134,8 +134,8 @@ install_octave() {
 }
 
 # What the tests of Python ask for: numpy and h5py to run, pip, setuptools and wheel to install the package, mypy for its types,
-# playwright for the browser
-has_python_packages() { python3 -c "import numpy, h5py, pip, setuptools, wheel, mypy, playwright" >/dev/null 2>&1; }
+# playwright for the browser. setuptools comes first: it refuses to be imported after the distutils that it replaces
+has_python_packages() { python3 -c "import setuptools, numpy, h5py, pip, wheel, mypy, playwright" >/dev/null 2>&1; }
 
 # From the system's packages, or in a folder below build
 install_python_packages() {
