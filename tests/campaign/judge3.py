@@ -1,0 +1,762 @@
+"""Judges of contact problems of their own (module 3).
+
+Tolerances. A program that says "converged" promises relative residuals of at most EPS: of the contact conditions relative to
+the approach, of the tangential problem relative to the bound of friction. Judges recompute these residuals from the printed
+fields by plain sums, hence their limit is EPS itself with a small allowance for round-off and printed figures. Two solutions
+of equivalent problems may differ by what residuals of that size can do: AMPLIFICATION times EPS.
+"""
+import copy
+import math
+
+import numpy as np
+
+import elastic
+import judge
+from judge import exceeds, finding
+
+# What a residual may be above EPS: it is measured at another stage, or in another norm
+ALLOWANCE = 2.0
+# By how much solutions of two equivalent problems may differ, in units of EPS and of the size of the field
+AMPLIFICATION = 200.0
+
+
+class Fields(dict):
+    """Fields and grid of one case with the coordinates of the centres"""
+
+    def __init__(self, values):
+        super().__init__(values)
+        self.x = self["xl"] + (np.arange(self["mx"]) + 0.5)*self["dx"]
+        self.y = self["yl"] + (np.arange(self["my"]) + 0.5)*self["dy"]
+        zero = np.zeros((self["my"], self["mx"]))
+        for name in ("px", "py", "ux", "uy", "sx", "sy", "mu"):
+            self.setdefault(name, zero)
+        self.area = self["dx"]*self["dy"]
+
+
+def check(scene, tools):
+    """Findings of all judges on a scene"""
+    findings = []
+    run = tools.run("run", text_of(scene), other_files(scene))
+    solved = judge.how_it_ended(run, len(scene["cases"]), findings)
+    fields = {}
+    for k in solved:
+        fields[k] = Fields(run.fields(k))
+        judge_numbers(run, k, fields[k], findings)
+    for k in solved:
+        not_converged(run.cases[k - 1], findings)
+    if any(item["status"] != "refused" and item["judge"] in ("end", "numbers") for item in findings):
+        return findings
+    state = {}
+    for k in solved:
+        if k > 1 and k - 1 not in fields:
+            break
+        judge_grid(scene, k, fields[k], findings, state)
+        judge_totals(scene, k, run, fields[k], findings)
+        judge_contact(scene, k, run, fields, findings, state)
+        judge_hertz(scene, k, run, fields[k], findings)
+    if not any(item["status"] == "disagreement" for item in findings) and run.code == 0:
+        variant(scene, run, fields, tools, findings)
+    return findings
+
+
+def text_of(scene):
+    import module3
+    return module3.input_text(scene)
+
+
+def other_files(scene):
+    return {"run.cf": coefficient_file(scene)} if scene["digits"]["C"] == 9 else {}
+
+
+def is_converged(record):
+    return bool(record.get("converged"))
+
+
+def not_converged(record, findings):
+    """Say which iteration did not converge, if the program says so"""
+    if is_converged(record):
+        return
+    what = []
+    for patch in record.get("patches", []):
+        solver = patch.get("solver", {})
+        for part in ("normal", "tangential"):
+            ended = solver.get(part + "_ended", "converged")
+            if ended != "converged":
+                what.append(f"{part} {solver.get(part + '_method', '')}: {ended}")
+    findings.append(finding("end", judge.without_numbers("; ".join(what) or str(record.get("status") or record.get("failure")
+                                                                              or "outer iteration")),
+                            status="not converged"))
+
+
+def judge_numbers(run, k, f, findings):
+    """No field and no total is NaN or infinite"""
+    for name, value in run.totals(k).items():
+        if value is not None and not math.isfinite(value):
+            findings.append(finding("numbers", f"total {name} of case {k}"))
+    for name, value in f.items():
+        if np.ndim(value) == 2 and not np.isfinite(value).all():
+            findings.append(finding("numbers", f"field {name} of case {k}"))
+
+
+def value_of_gap(grid, x, y):
+    """Undeformed distance of a scene's geometry at the places x (mx,), y (my,), by the formulas of the guide"""
+    x, y = x[np.newaxis, :], y[:, np.newaxis]
+    b = grid["gap"]
+    if grid["ibase"] == 1:
+        return b[0]*x*x + b[1]*x*y + b[2]*y*y + b[3]*x + b[4]*y + b[5]
+    if grid["ibase"] == 2:
+        count, xm, rm, y1, dy1 = b[:5]
+        heights = np.array(b[5:])
+        i = np.clip(np.floor((y - y1)/dy1).astype(int), 0, int(count) - 2)
+        share = (y - y1)/dy1 - i
+        return heights[i]*(1 - share) + heights[i + 1]*share + (x - xm)**2/(2*rm)
+    if grid["ibase"] == 3:
+        return b[0]*np.sin(b[1]*(x - b[2])) - b[3]*np.sin(b[4]*(x - b[5])) + x*x/b[6] + y*y/b[7]
+    return np.array(b).reshape(grid["my"], grid["mx"])
+
+
+def excluded(grid, x, y, margin):
+    """Elements outside the planform, and those too near its border to say (margin: relative to the coordinates)"""
+    x, y = x[np.newaxis, :], y[:, np.newaxis]
+    p = grid.get("plan")
+    if grid.get("iplan", 1) == 2:
+        terms = [p[0]*x*x, p[1]*x*y, p[2]*y*y, p[3]*x, p[4]*y, p[5] + 0*x*y]
+        value = sum(terms)
+        return value >= 0, np.abs(value) < margin*sum(np.abs(term) for term in terms)
+    if grid.get("iplan", 1) == 3:
+        inside, near = False, False
+        for xl, xh, yl, yh in (p[:4], p[4:]):
+            inside = inside | ((x >= xl) & (x <= xh) & (y >= yl) & (y <= yh))
+            for place, edges in ((x, (xl, xh)), (y, (yl, yh))):
+                for edge in edges:
+                    near = near | (np.abs(place - edge) < margin*abs(edge))
+        return ~inside, near
+    nothing = np.zeros((y.size, x.size), dtype=bool)
+    return nothing, nothing
+
+
+def judge_grid(scene, k, f, findings, state):
+    """Grid, undeformed distance and planform are those of the input; sets state["h"], state["excluded"]"""
+    grid = scene["grid"]
+    if (f["mx"], f["my"]) != (grid["mx"], grid["my"]):
+        findings.append(finding("grid", f"{f['mx']} x {f['my']} elements"))
+        state["h"] = f["h"]
+        return
+    out = f["h"] > 1e29
+    if grid["ipotcn"] > 0:
+        for name in ("xl", "yl", "dx", "dy"):
+            scale = grid["dx"] if name in ("xl", "dx") else grid["dy"]
+            exceeds(findings, "grid", f"{name} of case {k}", abs(f[name] - grid[name])/scale, 1e-9 + 10*f["error"])
+        x = grid["xl"] + (np.arange(grid["mx"]) + 0.5)*grid["dx"]
+        y = grid["yl"] + (np.arange(grid["my"]) + 0.5)*grid["dy"]
+        h = value_of_gap(grid, x, y)
+        no, near = excluded(grid, x, y, 1e-9)
+        if ((no != out) & ~near).any():
+            findings.append(finding("planform", f"{int(((no != out) & ~near).sum())} elements"))
+        both = ~out
+        scale = np.abs(h).max() + 1e-30
+        exceeds(findings, "gap", f"undeformed distance of case {k}", judge.relative((f["h"] - h)[both], scale), 1e-9 + 2*f["error"])
+        state["h"] = h if not f["error"] else h
+    else:
+        state["h"] = f["h"]
+    state["out"] = out
+
+
+def scale_of_friction(scene):
+    """Static coefficient by which relative forces are divided"""
+    d, row = scene["digits"], scene["friction"][0]
+    if d["V"] == 3:
+        return 1.0
+    return row[0] if d["L"] in (0, 6) else row[0] + row[1] + row[3]
+
+
+def judge_totals(scene, k, run, f, findings):
+    """Totals are sums of the tractions, numbers of elements those of the division, and prescribed values are met"""
+    d, case, t = scene["digits"], scene["cases"][k - 1], run.totals(k)
+    tolerance = 1e-8 + 4*f["error"]
+    pn, px, py = f["pn"], f["px"], f["py"]
+    fn = pn.sum()*f.area
+    # pressures by formula (B = 2, 3, 4), taken at centres, have the prescribed force in the limit of fine grids only
+    sampled = d["B"] in (2, 3, 4)
+    scale = max(abs(t["fn"]), fn)
+    if scale == 0:
+        return
+    mu = scale_of_friction(scene)
+    if not sampled:
+        exceeds(findings, "sum", f"FN of case {k}: {t['fn']:.7g}, tractions {fn:.7g}", abs(fn - t["fn"])/scale, tolerance)
+    for name, p in (("fx", px), ("fy", py)):
+        if t.get(name) is not None:
+            total = p.sum()*f.area
+            exceeds(findings, "sum", f"{name.upper()} of case {k}: {t[name]:.7g}, tractions {total:.7g}",
+                        abs(total - t[name])/(mu*scale), tolerance)
+    exceeds(findings, "totals", f"PMAX of case {k}", abs(pn.max() - t["pmax"])/pn.max(), tolerance)
+    if t.get("mz") is not None:
+        arm = max(np.abs(f.x).max(), np.abs(f.y).max(), f["dx"], f["dy"])
+        mz = (py*f.x[np.newaxis, :] - px*f.y[:, np.newaxis]).sum()*f.area
+        exceeds(findings, "sum", f"MZ of case {k}", abs(mz - t["mz"])/(mu*scale*arm), tolerance)
+    for name, value in (("ncon", (f["eldiv"] > 0).sum()), ("nadh", (f["eldiv"] == 1).sum()), ("nslip", (f["eldiv"] == 2).sum())):
+        if t.get(name) is not None and t[name] != value:
+            findings.append(finding("totals", f"{name.upper()} of case {k}: {t[name]}, elements {value}"))
+    if d["T"]:
+        name, step = ("friction_power", scene["rolling"][2]) if d["T"] >= 2 else ("friction_work", 1.0)
+        plastic = d["M"] == 4 and scene["material"][2] > 0
+        if t.get(name) is not None and not plastic:
+            power = (px*f["sx"] + py*f["sy"]).sum()*f.area*step/1000
+            size = (np.hypot(px, py)*np.hypot(f["sx"], f["sy"])).sum()*f.area*step/1000
+            exceeds(findings, "totals", f"{name} of case {k}: {t[name]:.7g}, fields {power:.7g}", judge.relative(t[name] - power, size),
+                    1e-6 + 20*f["error"])
+    if not is_converged(run.cases[k - 1]):
+        return
+    if case["N"]:
+        exceeds(findings, "force", f"FN of case {k}: {case['load']:.7g} wanted", abs(t["fn"] - case["load"])/case["load"],
+                1e-8 if d["B"] in (0,) else 2*scene["eps"] + 1e-8)
+    elif t.get("pen") is not None and d["B"] != 4:
+        exceeds(findings, "force", f"approach of case {k}", abs(t["pen"] - case["load"])/(abs(case["load"]) + 1e-30), 1e-9)
+    wanted = {1: ("x",), 2: ("x", "y")}.get(case["F"], ())
+    for name in wanted:
+        got = t["f" + name]/(mu*t["fn"])
+        exceeds(findings, "force", f"F{name} of case {k}: {case[name]:.7g} wanted", abs(got - case[name]), ALLOWANCE*scene["eps"] + 1e-8)
+
+
+def half_spaces(scene, f):
+    d = scene["digits"]
+    if d["C"] == 4:
+        return elastic.ConformalHalfSpaces(scene["g"], scene["nu"], f["mx"], f["my"], f["dx"], f["dy"], f.y, scene["angles"])
+    if d["C"] == 9:
+        return elastic.Tabulated(scene["g"], scene["nu"], f["mx"], f["my"], f["dx"], f["dy"], coefficients(scene))
+    return elastic.HalfSpaces(scene["g"], scene["nu"], f["mx"], f["my"], f["dx"], f["dy"], hats=d["C"] == 3)
+
+
+def rigid_slip(scene, case, f, totals, eps_offset=True):
+    """Rigid slip over the elements (relative in rolling, a distance in a shift), with creepages that were found"""
+    d = scene["digits"]
+    cksi = totals.get("cksi" if d["T"] >= 2 else "shift_x")
+    ceta = totals.get("ceta" if d["T"] >= 2 else "shift_y")
+    cksi = case["x"] if case["F"] == 0 or cksi is None else cksi
+    ceta = case["y"] if case["F"] < 2 or ceta is None else ceta
+    xo, yo = case.get("centre", (0.0, 0.0))
+    if d["T"] >= 2:
+        chi, dq, _, *factor = scene["rolling"]
+        dq = step_of(scene, f)
+        ahead = (factor[0] if factor else 1/6)*dq
+        xo, yo = xo - ahead*math.cos(chi), yo - ahead*math.sin(chi)
+    wx = cksi - case["phi"]*(f.y[:, np.newaxis] - yo) + 0*f.x[np.newaxis, :]
+    wy = ceta + case["phi"]*(f.x[np.newaxis, :] - xo) + 0*f.y[:, np.newaxis]
+    if "extra" in case:
+        extra = np.array(case["extra"]).reshape(f["my"], f["mx"], 2)
+        wx, wy = wx + extra[:, :, 0], wy + extra[:, :, 1]
+    return wx, wy
+
+
+def step_of(scene, f):
+    """Distance rolled per case: DQ, replaced by DX where the method goes by one element"""
+    d = scene["digits"]
+    if (d["T"] == 3 and d["G"] != 2) or d["M"] == 4:
+        return f["dx"]
+    return scene["rolling"][1]
+
+
+def previous_tractions(scene, k, fields, state):
+    """px', py', pn' of the case, or None where they are not known to this judge"""
+    case = scene["cases"][k - 1]
+    zero = np.zeros((fields[k]["my"], fields[k]["mx"]))
+    if k == 1 or case["P"] == 2:
+        return zero, zero, zero
+    if case["P"] == 3:
+        return state.get("previous")
+    last = fields[k - 1]
+    if case["P"] == 1:
+        return zero, zero, last["pn"]
+    return last["px"], last["py"], last["pn"]
+
+
+def judge_contact(scene, k, run, fields, findings, state):
+    """Contact conditions by direct sums"""
+    d, case, f = scene["digits"], scene["cases"][k - 1], fields[k]
+    totals, record = run.totals(k), run.cases[k - 1]
+    state["previous"] = previous = previous_tractions(scene, k, fields, state)
+    if d["T"] == 3:
+        state["previous"] = (f["px"], f["py"], f["pn"])
+    pn, px, py, error = f["pn"], f["px"], f["py"], f["error"]
+    inside = f["eldiv"] > 0
+    top = pn.max()
+    if top <= 0:
+        h = np.where(state["out"], np.inf, state["h"])
+        if d["B"] in (0, 5, 6) and not case["N"]:
+            exceeds(findings, "gap", f"no contact in case {k}, and an overlap", case["load"] - h.min(), 1e-9*abs(case["load"]))
+        return
+    converged = is_converged(record)
+    exceeds(findings, "tension", f"pressure in case {k}", -pn.min()/top, 0.0)
+    if (np.abs(pn)[~inside] + np.abs(px)[~inside] + np.abs(py)[~inside]).sum() > 0:
+        findings.append(finding("tension", f"tractions outside the contact of case {k}"))
+    if state["out"].any() and inside[state["out"]].any():
+        findings.append(finding("planform", f"contact outside the planform in case {k}"))
+    mu = f["mu"]
+    judge_friction_law(scene, k, f, findings, converged)
+    bound = mu*pn if d["B"] != 3 else pn*0 + np.inf
+    if d["M"] == 4 and "taucrt" in f:
+        bound = np.minimum(bound, f["taucrt"])
+    if d["T"]:
+        # a law of friction ends when slip has settled within a thousandth
+        loose = 3e-3 if d["L"] else 0.0
+        exceeds(findings, "bound", f"traction above its bound in case {k}", (np.hypot(px, py) - bound)[inside].max()/(mu.max()*top),
+                (ALLOWANCE*scene["eps"] if converged else 1e-3) + 4*error + loose)
+    if d["M"] not in (0, 4) or (d["M"] == 4 and scene["material"][2] > 0 and d["T"]) or not converged:
+        if d["M"] != 0 or not converged:
+            normal_only = d["M"] in (2, 3, 4, 5) and converged and d["B"] == 0 and elastic_uncoupled(scene)
+            if normal_only:
+                judge_normal(scene, k, f, state, totals, findings, half_spaces(scene, f), coupled=False)
+            return
+    spaces = half_spaces(scene, f)
+    coupled = spaces.coupled and scene["maxout"] > 1
+    if d["B"] == 0 and (coupled or not spaces.coupled or case["I"] == 0):
+        judge_normal(scene, k, f, state, totals, findings, spaces, coupled)
+    if d["T"] and not d["L"]:
+        judge_tangential(scene, k, run, f, previous, findings, spaces)
+
+
+def elastic_uncoupled(scene):
+    return abs(elastic.combined(scene["g"], scene["nu"])[2]) < 1e-6 and scene["digits"]["C"] == 2
+
+
+def judge_friction_law(scene, k, f, findings, converged):
+    """Coefficients of friction lie where the law allows them, constant ones are those of the input"""
+    d, inside = scene["digits"], f["eldiv"] > 0
+    if not d["T"] or d["M"] in (2, 3, 5):
+        return
+    rows = np.array(scene["friction"])
+    if d["V"] == 0:
+        rows = np.repeat(rows, f["my"], axis=0)
+    if d["L"] == 0:
+        low = high = rows[:, 0]
+    elif d["L"] == 6:
+        low, high = np.minimum(rows[:, 0], rows[:, 0] + rows[:, 2]), np.maximum(rows[:, 0], rows[:, 0] + rows[:, 2])
+    else:
+        low, high = rows[:, 0], rows[:, 0] + rows[:, 1] + rows[:, 3]
+    below = (low[:, np.newaxis] - f["mu"])[inside].max()
+    above = (f["mu"] - high[:, np.newaxis])[inside].max()
+    exceeds(findings, "friction", f"coefficients of case {k} are those of the law", max(below, above)/high.max(), 1e-9 + f["error"])
+
+
+def judge_normal(scene, k, f, state, totals, findings, spaces, coupled):
+    """No gap in contact, no overlap outside, relative to the approach"""
+    pn = f["pn"]
+    un = spaces.displacement("n", f["px"], f["py"], pn, coupled=coupled)
+    pen = totals["pen"]
+    h = np.where(state["out"], 0.0, state["h"])
+    gap = np.where(state["out"], 1e30, h - pen + un)
+    inside = f["eldiv"] > 0
+    lowest = h[~state["out"]].min()
+    scale = max(abs(pen), pen - lowest, np.abs(un).max()*0.1)
+    size = np.abs(gap[inside]).max()
+    if (~inside & ~state["out"]).any():
+        size = max(size, -gap[~inside & ~state["out"]].min())
+    allowance = 1.0 if not coupled else 5.0
+    exceeds(findings, "gap", f"contact conditions of case {k}", size/scale, ALLOWANCE*allowance*scene["eps"] + 1e-10 + 10*f["error"])
+
+
+def judge_tangential(scene, k, run, f, previous, findings, spaces):
+    """Slip against traction on the bound, none below it: the projected residual relative to the bound"""
+    d, case, totals = scene["digits"], scene["cases"][k - 1], run.totals(k)
+    if previous is None:
+        return
+    if spaces.coupled and case["P"] == 1 and k > 1:
+        return
+    px, py, pn = f["px"], f["py"], f["pn"]
+    inside = f["eldiv"] > 0
+    wx, wy = rigid_slip(scene, case, f, totals)
+    layer = 0.0
+    if d["M"] == 4:
+        layer = scene["material"][1]/scene["material"][0] if scene["material"][1] >= 1e-10 else 0.0
+    now = [spaces.displacement(c, px, py, pn) for c in "xy"]
+    now[0], now[1] = now[0] + layer*px, now[1] + layer*py
+    if d["T"] == 1:
+        before = [spaces.displacement(c, *previous) for c in "xy"]
+        before[0], before[1] = before[0] + layer*previous[0], before[1] + layer*previous[1]
+        step = 1.0
+    else:
+        chi, step = scene["rolling"][0], step_of(scene, f)
+        ahead = (step*math.cos(chi), step*math.sin(chi))
+        if abs(math.sin(chi)) < 1e-9:
+            ahead = (ahead[0], 0.0)
+        old = (px, py, pn) if d["T"] == 3 else previous
+        before = [spaces.displacement(c, *old, ahead=ahead) for c in "xy"]
+        if layer:
+            sign = 1 if math.cos(chi) > 0 else -1
+            before[0], before[1] = before[0] + layer*upstream(old[0], sign), before[1] + layer*upstream(old[1], sign)
+        if step > f["dx"]*1.0001 and abs(math.sin(chi)) < 1e-9:
+            wx, wy, before = leading_edge(f, wx, wy, before, old, spaces, chi, step)
+            if case["F"] or d["T"] == 3:
+                # built for creepages that are given
+                return
+        elif step > min(f["dx"], f["dy"]) and abs(math.sin(chi)) >= 1e-9:
+            pass
+    sx, sy = wx*step + now[0] - before[0], wy*step + now[1] - before[1]
+    bound = f["mu"]*pn if d["B"] != 3 else f["mu"]*parabola(scene, f, totals)
+    r = 1.0/(spaces.centre("xx") + layer)
+    qx, qy = px - r*sx, py - r*sy
+    size = np.hypot(qx, qy)
+    cut = np.where(size > bound, bound/np.where(size > 0, size, 1), 1.0)
+    residual = math.sqrt((((px - cut*qx)**2 + (py - cut*qy)**2)[inside]).sum()/((bound[inside]**2).sum() + 1e-300))
+    limit = ALLOWANCE*scene["eps"] + 1e-9 + 20*f["error"]
+    told = run.cases[k - 1]["patches"][0]["solver"].get("tangential_residual")
+    if told is not None and told > scene["eps"]:
+        # methods that stop by their last update tell what is left
+        limit = max(limit, ALLOWANCE*told)
+    if spaces.coupled:
+        limit *= 5
+    exceeds(findings, "slip", f"tangential conditions of case {k}", residual, limit)
+    # printed slip is the one that follows from the tractions
+    scale = np.hypot(wx, wy).max()*step + np.hypot(now[0], now[1]).max()
+    slipping = f["eldiv"] == 2
+    for name, s in (("sx", sx), ("sy", sy)):
+        if f["error"] == 0 and slipping.any():
+            exceeds(findings, "slip", f"printed {name} of case {k}", np.abs((f[name]*step - s)[slipping]).max()/scale,
+                    10*scene["eps"] + 1e-8)
+
+
+def upstream(field, sign):
+    """Field of the element from which particles come, 0 beyond the window"""
+    result = np.zeros_like(field)
+    if sign > 0:
+        result[:, :-1] = field[:, 1:]
+    else:
+        result[:, 1:] = field[:, :-1]
+    return result
+
+
+def leading_edge(f, wx, wy, before, old, spaces, chi, step):
+    """Particles that entered the contact during the step: their share of the rigid slip, and the displacement at the
+    centre of the first exterior element upstream"""
+    sign = 1 if math.cos(chi) > 0 else -1
+    inside = f["eldiv"] > 0
+    share = np.ones(inside.shape)
+    edge = np.full(inside.shape, -1)
+    my, mx = inside.shape
+    for j in range(my):
+        first = None
+        for i in (range(mx - 1, -1, -1) if sign > 0 else range(mx)):
+            if not inside[j, i]:
+                first = i
+            elif first is not None:
+                share[j, i] = min(1.0, abs(first - i)*f["dx"]/step)
+                edge[j, i] = first
+            else:
+                edge[j, i] = -2
+    u = [spaces.displacement(c, *old) for c in "xy"]
+    part = share < 0.9999
+    rows = np.arange(my)[:, np.newaxis] + 0*edge
+    before = [np.where(part, u[c][rows, np.maximum(edge, 0)], before[c]) for c in (0, 1)]
+    return wx*share, wy*share, before
+
+
+def parabola(scene, f, totals):
+    """Pressure from which the parabolical bound (B = 3) takes its shape: printed pressures are those of the bound"""
+    return f["pn"]
+
+
+def hertz_of(scene, case):
+    """Hertz's solution of an IPOTCN -1 ... -3 for the load of a case: semi-axes, curvatures, approach, force, largest
+    pressure"""
+    ip, values = scene["grid"]["ipotcn"], scene["grid"]["values"]
+    g, nu, _ = elastic.combined(scene["g"], scene["nu"])
+    modulus = g/(1 - nu)
+    if ip == -1:
+        ratio = _axes_ratio(values[0]/values[1], modulus)
+    elif ip == -2:
+        ratio = values[1]
+    else:
+        ratio = values[0]/values[1]
+    # unit of length b = 1
+    ax, by, approach, force = elastic.hertz_from_axes(ratio, 1.0, modulus)
+    # with b as a scale: A = p0 ax/b, approach = p0 b, force = p0 b2
+    if ip == -3:
+        a, b = values[0], values[1]
+        p0 = case["load"]/(force*b*b) if case["N"] else case["load"]/(approach*b)
+    else:
+        curvature = values[0]
+        # p0 = A b/ax
+        if case["N"]:
+            b = (case["load"]*ax/(force*curvature))**(1/3)
+        else:
+            b = math.sqrt(case["load"]*ax/(approach*curvature))
+        a, p0 = ratio*b, curvature*b/ax
+    return {"a": a, "b": b, "A": p0*ax/b, "B": p0*by/b, "pen": p0*approach*b, "fn": p0*force*b*b, "pmax": p0}
+
+
+def _axes_ratio(curvature_ratio, modulus):
+    """a/b that belongs to A/B, by bisection in the logarithm"""
+    low, high = math.log(1e-6), math.log(1e6)
+    for _ in range(200):
+        middle = 0.5*(low + high)
+        ax, by, _, _ = elastic.hertz_from_axes(math.exp(middle), 1.0, modulus)
+        if ax/by > curvature_ratio:
+            low = middle
+        else:
+            high = middle
+    return math.exp(0.5*(low + high))
+
+
+def judge_hertz(scene, k, run, f, findings):
+    """Hertzian input: the grid is scaled by his ellipse; the result is near his where the grid is fine"""
+    d, case, t = scene["digits"], scene["cases"][k - 1], run.totals(k)
+    if scene["grid"]["ipotcn"] not in (-1, -2, -3) or case["keep"] or case["load"] <= 0:
+        return
+    hz = hertz_of(scene, case)
+    scale = scene["grid"]["values"][-1]
+    for name, count, axis in (("dx", "mx", "a"), ("dy", "my", "b")):
+        want = 2*scale*hz[axis]/f[count]
+        exceeds(findings, "hertz", f"{name.upper()} of case {k}", abs(f[name]/want - 1), 1e-6 + 2*f["error"])
+    h = hz["A"]*f.x[np.newaxis, :]**2 + hz["B"]*f.y[:, np.newaxis]**2
+    exceeds(findings, "hertz", f"undeformed distance of case {k}", judge.relative(f["h"] - h, h.max()), 1e-6 + 2*f["error"])
+    elements = min(f["mx"], f["my"])/scale
+    if d["B"] == 0 and d["C"] in (2, 3) and elements >= 6 and scene["maxout"] >= 1 and is_converged(run.cases[k - 1]):
+        coupling = abs(elastic.combined(scene["g"], scene["nu"])[2])
+        limit = 1.0/elements + coupling
+        for name in ("pen", "fn", "pmax"):
+            exceeds(findings, "hertz", f"{name.upper()} of case {k}", abs(t[name]/hz[name] - 1), limit)
+    if d["B"] == 2:
+        want = hz["pmax"]*np.sqrt(np.clip(1 - (f.x[np.newaxis, :]/hz["a"])**2 - (f.y[:, np.newaxis]/hz["b"])**2, 0, None))
+        exceeds(findings, "hertz", f"pressures of case {k}", np.abs(f["pn"] - want).max()/hz["pmax"], 0.05/elements**1.5 + 1e-6)
+
+
+# ------------------------------------------------------------------------------------------- equivalent problems
+
+def variant(scene, run, fields, tools, findings):
+    """The same problem seen otherwise"""
+    name = scene.get("variant")
+    other, view = {"mirror_y": mirrored_y, "mirror_x": mirrored_x, "scaled": scaled, "moved": moved}.get(name, lambda s: (None, None))(
+        copy.deepcopy(scene))
+    if other is None:
+        return
+    second = tools.run("other", text_of(other), other_files(other))
+    if second.code != run.code:
+        findings.append(finding(name, f"exit codes {run.code} and {second.code}: {judge.without_numbers(second.errors)}"))
+        return
+    for k in range(1, len(scene["cases"]) + 1):
+        one, two = run.cases[k - 1], second.cases[k - 1]
+        if one.get("solved") != two.get("solved"):
+            findings.append(finding(name, f"case {k} is solved in one view only"))
+            return
+        if not (one.get("solved") and is_converged(one) and is_converged(two)):
+            return
+        compare(scene, k, name, fields[k], Fields(second.fields(k)), run.totals(k), second.totals(k), view, findings)
+
+
+def compare(scene, k, name, first, second, t1, t2, view, findings):
+    """Pressures, tractions and forces of two views; view(field name, field) brings the second into the first"""
+    d = scene["digits"]
+    eps = scene["eps"]
+    limit = AMPLIFICATION*eps + 20*first["error"]
+    if d["G"] in (2, 3, 5) or d["L"]:
+        limit = max(limit, 2e-2)
+    top = first["pn"].max()
+    if top <= 0:
+        return
+    bound = top*max(first["mu"].max(), 1e-30)
+    area = max(int((first["eldiv"] > 0).sum()), 1)
+    exceeds(findings, name, f"pressures of case {k}", np.abs(view("pn", second["pn"]) - first["pn"]).max()/top, limit)
+    if d["T"]:
+        for field in ("px", "py"):
+            difference = view(field, second[field]) - first[field]
+            exceeds(findings, name, f"{field} of case {k}", math.sqrt((difference**2).sum()/area)/bound, limit)
+    for total in ("fn", "pen", "pmax"):
+        if t1.get(total) is not None and t2.get(total) is not None and total != "pen":
+            exceeds(findings, name, f"{total.upper()} of case {k}", abs(view(total, t2[total])/t1[total] - 1), limit)
+
+
+def _flip(axis, sign_of):
+    def view(name, value):
+        if np.ndim(value) == 2:
+            return sign_of.get(name, 1)*np.flip(value, axis=axis)
+        return value
+    return view
+
+
+def mirrored_y(s):
+    """y to -y"""
+    if s["digits"]["C"] == 9:
+        return None, None
+    grid, my, mx = s["grid"], s["grid"]["my"], s["grid"]["mx"]
+    if grid["ipotcn"] > 0:
+        grid["yl"] = -(grid["yl"] + my*grid["dy"])
+        b = grid["gap"]
+        if grid["ibase"] == 1:
+            b[1], b[4] = -b[1], -b[4]
+        elif grid["ibase"] == 2:
+            b[3] = -(b[3] + (int(b[0]) - 1)*b[4])
+            b[5:] = b[:4:-1]
+        elif grid["ibase"] == 9:
+            grid["gap"] = np.array(b).reshape(my, mx)[::-1].ravel().tolist()
+        p = grid.get("plan")
+        if grid["iplan"] == 2:
+            p[1], p[4] = -p[1], -p[4]
+        elif grid["iplan"] == 3:
+            p[2], p[3], p[6], p[7] = -p[3], -p[2], -p[7], -p[6]
+    elif grid["ipotcn"] == -6:
+        v = grid["values"]
+        v[1], v[2] = v[2], v[1]
+    if s["digits"]["V"] == 3:
+        s["friction"].reverse()
+    if "rolling" in s and s["rolling"][0] != math.pi:
+        s["rolling"][0] = -s["rolling"][0]
+    if "angles" in s:
+        s["angles"][2] = [[-y, -angle] for y, angle in reversed(s["angles"][2])]
+    for case in s["cases"]:
+        case["y"], case["phi"] = -case["y"], -case["phi"]
+        if "centre" in case:
+            case["centre"][1] = -case["centre"][1]
+        if "extra" in case:
+            extra = np.array(case["extra"]).reshape(my, mx, 2)[::-1]*[1, -1]
+            case["extra"] = extra.reshape(-1, 2).tolist()
+    return s, _flip(0, {"py": -1})
+
+
+def mirrored_x(s):
+    """x to -x, rolling to the other side"""
+    if s["digits"]["M"] == 1:
+        return None, None
+    grid, my, mx = s["grid"], s["grid"]["my"], s["grid"]["mx"]
+    if grid["ipotcn"] > 0:
+        grid["xl"] = -(grid["xl"] + mx*grid["dx"])
+        b = grid["gap"]
+        if grid["ibase"] == 1:
+            b[1], b[3] = -b[1], -b[3]
+        elif grid["ibase"] == 2:
+            b[1] = -b[1]
+        elif grid["ibase"] == 3:
+            b[0], b[2], b[3], b[5] = -b[0], -b[2], -b[3], -b[5]
+        else:
+            grid["gap"] = np.array(b).reshape(my, mx)[:, ::-1].ravel().tolist()
+        p = grid.get("plan")
+        if grid["iplan"] == 2:
+            p[1], p[3] = -p[1], -p[3]
+        elif grid["iplan"] == 3:
+            p[0], p[1], p[4], p[5] = -p[1], -p[0], -p[5], -p[4]
+    if "rolling" in s:
+        chi = s["rolling"][0]
+        s["rolling"][0] = {0.0: math.pi, math.pi: 0.0}.get(chi, math.copysign(math.pi, chi) - chi)
+    for case in s["cases"]:
+        case["x"], case["phi"] = -case["x"], -case["phi"]
+        if "centre" in case:
+            case["centre"][0] = -case["centre"][0]
+        if "extra" in case:
+            extra = np.array(case["extra"]).reshape(my, mx, 2)[:, ::-1]*[-1, 1]
+            case["extra"] = extra.reshape(-1, 2).tolist()
+    return s, _flip(1, {"px": -1})
+
+
+def scaled(s, length=1000.0, modulus=0.001):
+    """All lengths times one factor, all moduli times another"""
+    d, grid = s["digits"], s["grid"]
+    if d["H"] or d["C"] == 9:
+        return None, None
+    ell, mod = length, modulus
+    if grid["mx"] % 2:
+        ell, mod = 1/length, 1/modulus
+    shift = d["T"] < 2
+    s["g"] = [value*mod for value in s["g"]]
+
+    def times(values, factors):
+        return [value*factor for value, factor in zip(values, factors)]
+
+    if grid["ipotcn"] > 0:
+        for name in ("xl", "yl", "dx", "dy"):
+            grid[name] *= ell
+        b = grid["gap"]
+        if grid["ibase"] == 1:
+            grid["gap"] = times(b, [1/ell]*3 + [1, 1, ell])
+        elif grid["ibase"] == 3:
+            grid["gap"] = times(b, [ell, 1/ell, ell, ell, 1/ell, ell, ell, ell])
+        else:
+            grid["gap"] = [value*ell for value in b]
+            if grid["ibase"] == 2:
+                grid["gap"][0] = b[0]
+        if grid["iplan"] == 2:
+            grid["plan"] = times(grid["plan"], [1/ell**2]*3 + [1/ell]*2 + [1])
+        elif grid["iplan"] == 3:
+            grid["plan"] = [value*ell for value in grid["plan"]]
+    else:
+        factors = {-1: [1/ell, 1/ell], -2: [1/ell, 1], -3: [ell, ell], -4: [1/ell, ell], -5: [ell, ell], -6: [ell]*3}[grid["ipotcn"]]
+        grid["values"] = times(grid["values"], factors + [1])
+    if "rolling" in s:
+        s["rolling"][1] *= ell
+    if d["L"] >= 2:
+        s["memory"][0] *= ell
+        if shift:
+            s["memory"][1] *= ell
+            s["friction"] = [times(row, [1, 1, ell, 1, ell]) for row in s["friction"]]
+    if "material" in s:
+        factors = {1: [1, 1, ell, ell], 2: [ell/mod, 1, 1, 1], 4: [mod, ell, mod, mod/ell]}.get(d["M"], [1]*5)
+        s["material"] = times(s["material"], factors)
+    if "angles" in s:
+        s["angles"][2] = [[y*ell, angle] for y, angle in s["angles"][2]]
+    if "points" in s:
+        s["points"] = [[count, z*ell, dz*ell] for count, z, dz in s["points"]]
+    for case in s["cases"]:
+        case["load"] *= mod*ell**2 if case["N"] else ell
+        if shift:
+            for name in "xy":
+                if case["F"] < (1 if name == "x" else 2):
+                    case[name] *= ell
+        else:
+            case["phi"] /= ell
+        if "centre" in case:
+            case["centre"] = [value*ell for value in case["centre"]]
+        if "extra" in case and shift:
+            case["extra"] = [[x*ell, y*ell] for x, y in case["extra"]]
+
+    def view(name, value):
+        return value/{"fn": mod*ell**2, "pen": ell}.get(name, mod)
+    return s, view
+
+
+def moved(s):
+    """Window and geometry moved together"""
+    grid = s["grid"]
+    if grid["ipotcn"] < 0 or s["digits"]["C"] == 4 or (grid["ibase"] == 3):
+        return None, None
+    x, y = 7.3*grid["dx"], -4.6*grid["dy"]
+    grid["xl"] += x
+    grid["yl"] += y
+    b = grid["gap"]
+
+    def shifted(q):
+        return [q[0], q[1], q[2], q[3] - 2*q[0]*x - q[1]*y, q[4] - 2*q[2]*y - q[1]*x,
+                q[5] + q[0]*x*x + q[1]*x*y + q[2]*y*y - q[3]*x - q[4]*y]
+
+    if grid["ibase"] == 1:
+        grid["gap"] = shifted(b)
+    elif grid["ibase"] == 2:
+        b[1] += x
+        b[3] += y
+    if grid["iplan"] == 2:
+        grid["plan"] = shifted(grid["plan"])
+    elif grid["iplan"] == 3:
+        grid["plan"] = [value + (x, x, y, y)[i % 4] for i, value in enumerate(grid["plan"])]
+    for case in s["cases"]:
+        xo, yo = case.get("centre", (0.0, 0.0))
+        case["centre"] = [xo + x, yo + y]
+    return s, lambda name, value: value
+
+
+def coefficients(scene):
+    """A table of coefficients that is not quite symmetric in y: those of half-spaces times a factor that grows with y"""
+    grid = scene["grid"]
+    spaces = elastic.HalfSpaces(scene["g"], scene["nu"], grid["mx"], grid["my"], grid["dx"], grid["dy"])
+    y = np.arange(-(grid["my"] - 1), grid["my"])[:, np.newaxis]
+    factor = 1 + 0.05*np.tanh(y/grid["my"])
+    return {i + j: spaces.table(i + j)*factor for i in "xyn" for j in "xyn"}
+
+
+def coefficient_file(scene):
+    grid, tables = scene["grid"], coefficients(scene)
+    g = elastic.combined(scene["g"], scene["nu"])[0]
+    mx, my = grid["mx"], grid["my"]
+    lines = ["1 1", "0 312", "1 0", f"{mx} {my} {grid['dx']!r} {grid['dy']!r}"]
+    for row in range(2*my - 1):
+        lines.append(f"% offset in y {row - my + 1}")
+        for i in range(mx):
+            values = [tables[a + b][row, mx - 1 + i]*g for a in "nxy" for b in "nxy"]
+            lines.append(f"{i} {i*grid['dx']!r} " + " ".join(repr(float(value)) for value in values))
+    return "\n".join(lines) + "\n"
