@@ -1,7 +1,7 @@
 !> From the specification of a case to its friction law and thermal constants
 module contact_cases_friction_setup
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
-   use contact_base_choices, only : friction_model, heat_model, motion
+   use contact_base_choices, only : friction_model, heat_model, motion, variation
    use contact_base_error, only : error_kind, error_type, fatal_error
    use contact_base_kinds, only : wp
    use contact_cases_spec, only : case_spec, friction_set, heat_spec
@@ -24,13 +24,15 @@ contains
       type(patch_problem), intent(inout) :: problem
       type(error_type), allocatable, intent(out) :: error
       class(friction_law), allocatable :: law
+      logical :: by_row
       integer :: iy
 
       if (allocated(problem%friction)) deallocate(problem%friction)
       problem%remembers_friction = .false.
       problem%mu = spec%friction%sets(1)%fstat
       if (spec%motion == motion%none) return
-      if (spec%friction_law == friction_model%coulomb .and. size(spec%friction%sets) == 1) return
+      by_row = spec%variation == variation%by_row
+      if (spec%friction_law == friction_model%coulomb .and. size(spec%friction%sets) == 1 .and. .not. by_row) return
       if (size(spec%friction%sets) /= 1 .and. size(spec%friction%sets) /= problem%grid%my) then
          call fatal_error(error, "friction parameters per row were given for another number of rows")
          return
@@ -41,7 +43,8 @@ contains
          call fatal_error(error, "friction that changes with temperature needs thermal constants (H = 3)")
          return
       end if
-      if (law%varies_by_row()) problem%mu = 1.0_wp
+      ! also for a grid of one row, so that forces do not change their meaning with its size
+      if (by_row .or. law%varies_by_row()) problem%mu = 1.0_wp
       problem%slip_start = sign(1, spec%iteration%inislp)
       if (spec%iteration%inislp == 0) problem%slip_start = 0
       problem%slip_relaxation = spec%iteration%omgslp

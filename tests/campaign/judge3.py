@@ -6,7 +6,10 @@ fields by plain sums, hence their limit is EPS itself with a small allowance for
 of equivalent problems may differ by what residuals of that size can do: AMPLIFICATION times EPS.
 """
 import copy
+import json
 import math
+import os
+import sys
 
 import numpy as np
 
@@ -18,6 +21,10 @@ from judge import exceeds, finding
 ALLOWANCE = 2.0
 # By how much solutions of two equivalent problems may differ, in units of EPS and of the size of the field
 AMPLIFICATION = 200.0
+# Program and library differ by round-off, which iterations that end at EPS may carry to a part of EPS
+LIBRARY = 0.01
+# Input that was written by the library has a window that is cut down to the contact and its neighbours
+WRITTEN = 20.0
 
 
 class Fields(dict):
@@ -185,7 +192,7 @@ def judge_totals(scene, k, run, f, findings):
     if not sampled:
         exceeds(findings, "sum", f"FN of case {k}: {t['fn']:.7g}, tractions {fn:.7g}", abs(fn - t["fn"])/scale, tolerance)
     for name, p in (("fx", px), ("fy", py)):
-        if t.get(name) is not None:
+        if t.get(name) is not None and d["T"]:
             total = p.sum()*f.area
             exceeds(findings, "sum", f"{name.upper()} of case {k}: {t[name]:.7g}, tractions {total:.7g}",
                         abs(total - t[name])/(mu*scale), tolerance)
@@ -525,11 +532,20 @@ def judge_hertz(scene, k, run, f, findings):
 def variant(scene, run, fields, tools, findings):
     """The same problem seen otherwise"""
     name = scene.get("variant")
+    if name == "library":
+        by_library(scene, run, fields, tools, findings)
+        return
+    if name == "refined":
+        refined(scene, run, fields, tools, findings)
+        return
     other, view = {"mirror_y": mirrored_y, "mirror_x": mirrored_x, "scaled": scaled, "moved": moved}.get(name, lambda s: (None, None))(
         copy.deepcopy(scene))
     if other is None:
         return
     second = tools.run("other", text_of(other), other_files(other))
+    if name == "scaled" and second.code == 1 and "bound" in second.errors:
+        # scaled out of what the input admits
+        return
     if second.code != run.code:
         findings.append(finding(name, f"exit codes {run.code} and {second.code}: {judge.without_numbers(second.errors)}"))
         return
@@ -649,7 +665,8 @@ def mirrored_x(s):
 def scaled(s, length=1000.0, modulus=0.001):
     """All lengths times one factor, all moduli times another"""
     d, grid = s["digits"], s["grid"]
-    if d["H"] or d["C"] == 9:
+    if d["H"] or d["C"] == 9 or d["B"] == 6:
+        # temperatures have other units; the table is given in mm; ANALYN has a bound of 1e-4 per mm for curvatures
         return None, None
     ell, mod = length, modulus
     if grid["mx"] % 2:
@@ -738,6 +755,104 @@ def moved(s):
         xo, yo = case.get("centre", (0.0, 0.0))
         case["centre"] = [xo + x, yo + y]
     return s, lambda name, value: value
+
+
+def refined(scene, run, fields, tools, findings):
+    """Half the size of elements: forces change by no more than the borders of the contact are uncertain"""
+    d, grid, case = scene["digits"], scene["grid"], scene["cases"][0]
+    if d["B"] or d["L"] or d["V"] or d["M"] not in (0, 4) or d["T"] == 2 or d["C"] not in (2, 3) or d["E"] or grid.get("ibase") == 9:
+        return
+    if "material" in scene and scene["material"][2] > 0:
+        return
+    elements = int((fields[1]["eldiv"] > 0).sum())
+    if min(grid["mx"], grid["my"]) < 6 or elements < 24 or elements > 600:
+        return
+    other = copy.deepcopy(scene)
+    other["cases"] = other["cases"][:1]
+    other["grid"]["mx"], other["grid"]["my"] = 2*grid["mx"], 2*grid["my"]
+    if grid["ipotcn"] > 0:
+        other["grid"]["dx"], other["grid"]["dy"] = grid["dx"]/2, grid["dy"]/2
+    if "rolling" in scene:
+        other["rolling"][1] /= 2
+    second = tools.run("other", text_of(other))
+    if second.code != 0 or not (second.cases and second.cases[0].get("solved")):
+        findings.append(finding("refined", f"exit code {second.code}: {judge.without_numbers(second.errors)}"))
+        return
+    if not (is_converged(run.cases[0]) and is_converged(second.cases[0])):
+        return
+    t1, t2, f2 = run.totals(1), second.totals(1), Fields(second.fields(1))
+    limit = 2.5/math.sqrt(elements)
+    mu = scale_of_friction(scene)
+    for name, scale in (("fn", t2["fn"]), ("fx", mu*t2["fn"]), ("fy", mu*t2["fn"])):
+        if t1.get(name) is not None and scale > 0 and (d["T"] or name == "fn"):
+            exceeds(findings, "refined", f"{name.upper()}: {t1[name]:.5g}, finer {t2[name]:.5g}", abs(t1[name] - t2[name])/scale, limit)
+    area = f2.area*(f2["eldiv"] > 0).sum()
+    exceeds(findings, "refined", "contact area", abs(fields[1].area*elements/area - 1), 2*limit)
+    if case["N"] and grid["ipotcn"] > 0:
+        depth = t2["pen"] - f2["h"].min()
+        exceeds(findings, "refined", "approach", abs(t1["pen"] - t2["pen"])/depth, limit)
+
+
+def expressible(scene):
+    """Whether the library has calls for all that a scene says"""
+    d, grid = scene["digits"], scene["grid"]
+    if d["C"] in (4, 9) or d["V"] or d["S"] or grid.get("iplan", 1) != 1 or len(scene.get("rolling", [])) > 3:
+        return False
+    if d["H"] and d["M"] == 4:
+        return False
+    for case in scene["cases"]:
+        if case["keep"] and grid["ipotcn"] < 0:
+            # the library forms Hertz's grid anew for each load
+            return False
+        if "centre" in case or "damping" in case:
+            return False
+        if case["F"] and max(abs(case["x"]), abs(case["y"])) > 0.99:
+            # forces next to the bound are shortened by the library, as documented
+            return False
+    return True
+
+
+def by_library(scene, run, fields, tools, findings):
+    """The same cases by calls of the library, and by the input that it writes: equal to round-off"""
+    if not expressible(scene) or not tools.library:
+        return
+    with open(os.path.join(tools.folder, "scene.json"), "w", encoding="utf-8") as file:
+        json.dump(scene, file)
+    code, _, errors, _ = tools.command([sys.executable, "-B", os.path.join(os.path.dirname(os.path.abspath(__file__)), "library3.py"), "scene.json", "answer.json"])
+    if code != 0:
+        findings.append(finding("library", f"exit code {code}: {errors.strip()[-300:]}"))
+        return
+    with open(os.path.join(tools.folder, "answer.json"), encoding="utf-8") as file:
+        answer = json.load(file)
+    for k, result in enumerate(answer, start=1):
+        f, t, converged = fields[k], run.totals(k), is_converged(run.cases[k - 1])
+        if (result["code"] < 0) == converged:
+            findings.append(finding("library", f"case {k}: code {result['code']}, the program says converged: {converged}"))
+        if not converged:
+            return
+        top = f["pn"].max()
+        if top <= 0:
+            continue
+        bound = top*max(f["mu"].max(), 1e-30)
+        for name, scale in (("pn", top), ("px", bound), ("py", bound)):
+            exceeds(findings, "library", f"{name} of case {k}", np.abs(np.array(result[name]) - f[name]).max()/scale,
+                    LIBRARY*scene["eps"] + 5*f["error"])
+        for name, scale in (("fn", t["fn"]), ("fx", bound*t["fn"]/top), ("fy", bound*t["fn"]/top)):
+            if t.get(name) is not None:
+                exceeds(findings, "library", f"{name.upper()} of case {k}", abs(result[name] - t[name])/scale, LIBRARY*scene["eps"])
+    with open(os.path.join(tools.folder, "library.inp"), encoding="utf-8") as file:
+        written = file.read()
+    again = tools.run("again", written)
+    if again.code != 0 or len(again.cases) != len(answer):
+        findings.append(finding("written", f"exit code {again.code}: {again.errors.strip()[:200]}"))
+        return
+    for k in range(1, len(answer) + 1):
+        t, u = run.totals(k), again.totals(k)
+        scale = max(scale_of_friction(scene)*t["fn"], 1e-300)
+        for name in ("fn", "fx", "fy"):
+            if t.get(name) is not None and u.get(name) is not None:
+                exceeds(findings, "written", f"{name.upper()} of case {k}", abs(t[name] - u[name])/scale,
+                        WRITTEN*scene["eps"] if not scene["digits"]["L"] else 2e-2)
 
 
 def coefficients(scene):
