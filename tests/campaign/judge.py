@@ -192,9 +192,10 @@ def how_it_ended(run, expected_cases, findings):
         findings.append(finding("end", f"exit code {run.code}: {run.errors.strip()[-200:]}"))
         return []
     for ending in (".out", ".jsonl"):
-        match = re.search(r".*(\bNaN\b|[-+ ]Infinity|\*{6,}).*", run.text(ending))
+        text = run.text(ending)
+        match = re.search(r"\bNaN\b|[-+ ]Infinity|\*{6}", text)
         if match:
-            findings.append(finding("numbers", f"{ending}: {match.group()[:120]}"))
+            findings.append(finding("numbers", f"{ending}: {text[max(0, match.start() - 60):match.end() + 60]}"))
     solved = [number for number, case in enumerate(run.cases, start=1) if case.get("solved")]
     if run.code == 1:
         message = next((line for line in (run.errors or run.screen).splitlines() if line.strip()), "")

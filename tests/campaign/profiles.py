@@ -2,7 +2,8 @@
 
 A profile is described by a recipe, a dictionary that JSON can hold. `points` turns it into points (y, z) in mm with z down, a rail
 from the gauge side to the field side, a wheel from the field side to the flange; `write` writes it as a file of one of the
-formats that users have and returns the profile line of the input; `rail`, `wheel`, `pair` draw recipes at random.
+formats that users have and returns the profile line of the input, `files` returns the texts; `rail`, `wheel`, `pair` draw
+recipes at random.
 
     body      "rail" or "wheel"
     shape     [name, numbers...], see SHAPES
@@ -23,6 +24,8 @@ formats that users have and returns the profile line of the input; `rail`, `whee
     interpol  U_INTPOL of the slices
     seed      of spacing and noise
 """
+import ast
+import functools
 import importlib.util
 import math
 import os
@@ -35,6 +38,7 @@ STEP = 0.25  # distance of generated points along the curve [mm]
 RADIUS = 460.0  # of the wheels, when their scale is 1 [mm]
 
 
+@functools.lru_cache(maxsize=1)
 def _standard():
     """The module that makes the profiles of the examples"""
     spec = importlib.util.spec_from_file_location("make_profiles", os.path.join(TOP, "examples", "make_profiles.py"))
@@ -133,6 +137,31 @@ def arc_length(points):
     return np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(points, axis=0).T))])
 
 
+def banded(bands, right):
+    """Solution for a symmetric matrix of a diagonal and two bands beside it, by its triangular factors"""
+    d, e, g, x = [list(map(float, part)) for part in (*bands, right)]
+    n = len(d)
+    e += [0.0] * (n - len(e))
+    g += [0.0] * (n - len(g))
+    for i in range(n):
+        first, last = e[i] / d[i], g[i] / d[i]
+        if i + 1 < n:
+            d[i + 1] -= first * e[i]
+            e[i + 1] -= first * g[i]
+            x[i + 1] -= first * x[i]
+        if i + 2 < n:
+            d[i + 2] -= last * g[i]
+            x[i + 2] -= last * x[i]
+        e[i], g[i] = first, last
+    for i in range(n - 1, -1, -1):
+        x[i] /= d[i]
+        if i + 1 < n:
+            x[i] -= e[i] * x[i + 1]
+        if i + 2 < n:
+            x[i] -= g[i] * x[i + 2]
+    return np.array(x)
+
+
 class Spline:
     """Natural cubic spline through values at increasing places, or smoothed: weights w, penalty lam on the curvature"""
 
@@ -143,18 +172,23 @@ class Spline:
         h = np.diff(s)
         m = np.zeros(n)  # second derivatives
         if n > 2:
-            q = np.zeros((n, n - 2))
-            i = np.arange(n - 2)
-            q[i, i] = 1.0 / h[:-1]
-            q[i + 1, i] = -1.0 / h[:-1] - 1.0 / h[1:]
-            q[i + 2, i] = 1.0 / h[1:]
-            r = np.diag((h[:-1] + h[1:]) / 3.0) + np.diag(h[1:-1] / 6.0, 1) + np.diag(h[1:-1] / 6.0, -1)
+            # columns of second differences: 1/h, -1/h - 1/h, 1/h
+            before, after = 1.0 / h[:-1], 1.0 / h[1:]
+            middle = -before - after
+            second = before * f[:-2] + middle * f[1:-1] + after * f[2:]
+            bands = [(h[:-1] + h[1:]) / 3.0, h[1:-1] / 6.0, np.zeros(max(n - 4, 0))]
             if lam > 1e-10:
-                v = q / (np.ones(n) if w is None else np.asarray(w, float))[:, None]
-                m[1:-1] = np.linalg.solve(r + lam * q.T @ v, q.T @ f)
-                f = f - lam * v @ m[1:-1]
-            else:
-                m[1:-1] = np.linalg.solve(r, q.T @ f)
+                v = np.ones(n) if w is None else 1.0 / np.asarray(w, float)
+                bands[0] = bands[0] + lam * (v[:-2] * before**2 + v[1:-1] * middle**2 + v[2:] * after**2)
+                bands[1] = bands[1] + lam * (v[1:-2] * middle[:-1] * before[1:] + v[2:-1] * after[:-1] * middle[1:])
+                bands[2] = bands[2] + lam * v[2:-2] * after[:-2] * before[2:]
+            m[1:-1] = banded(bands, second)
+            if lam > 1e-10:
+                change = np.zeros(n)
+                change[:-2] += before * m[1:-1]
+                change[1:-1] += middle * m[1:-1]
+                change[2:] += after * m[1:-1]
+                f = f - lam * v * change
         self.f, self.m, self.h = f, m, h
 
     def __call__(self, s, order=0):
@@ -173,14 +207,20 @@ class Spline:
         return value + (f[k + 1] / h - m[k + 1] * h / 6.0) * t + slope * (s - inside)
 
 
+@functools.lru_cache(maxsize=16)
+def _shape(words):
+    """Points of a shape, made once"""
+    name, *numbers = ast.literal_eval(words)
+    return np.array(SHAPES[name](*numbers))
+
+
 # ---- Recipes ------------------------------------------------------------------------------------------------
 
 
 def points(recipe):
     """Points (y, z) [mm] of a recipe, as its file gives them when order, mirroring and unit are undone"""
     rng = random.Random(recipe.get("seed", 0))
-    name, *numbers = recipe["shape"]
-    curve = np.array(SHAPES[name](*numbers))
+    curve = _shape(repr(recipe["shape"])).copy()
     rail = recipe["body"] == "rail"
     for depth, centre, width in recipe.get("wear") or []:
         curve[:, 1] += (1.0 if rail else -1.0) * depth * np.exp(-((curve[:, 0] - centre) / width)**2)
@@ -210,71 +250,69 @@ def points(recipe):
     return np.round(curve, 9 if recipe.get("metres") else 7)
 
 
-def simpack(name, body, curve, lines):
-    """File of a curve; lines with further keywords"""
-    with open(name, "w", newline="\n") as file:
-        file.write("header.begin\n  version = 1\n  type    = %d\nheader.end\nspline.begin\n%s  point.begin\n"
-                   % (0 if body == "rail" else 1, "".join("  %s\n" % line for line in lines)))
-        file.writelines("  %.12g %.12g\n" % tuple(point) for point in curve)
-        file.write("  point.end\nspline.end\n")
+def simpack(body, curve, keywords):
+    """Text of a file of a curve; lines with further keywords"""
+    return ("header.begin\n  version = 1\n  type    = %d\nheader.end\nspline.begin\n" % (0 if body == "rail" else 1)
+            + "".join("  %s\n" % line for line in keywords) + "  point.begin\n"
+            + "".join("  %.12g %.12g\n" % tuple(point) for point in curve) + "  point.end\nspline.end\n")
 
 
-def miniprof(name, curve):
-    """File as the instrument writes it, with angles and curvatures in further columns"""
-    with open(name, "w", newline="\r\n") as file:
-        file.write("FileName=campaign\nDate=01-02-2024\nXYPoints=%d\nColumnDef=X,Y,A,C\nXOffset=0.0\nYOffset=0.0\n\n" % len(curve))
-        file.writelines("%.12g\t%.12g\t0.1\t0.001\n" % tuple(point) for point in curve)
+def miniprof(curve):
+    """Text as the instrument writes it, with angles and curvatures in further columns"""
+    text = "FileName=campaign\nDate=01-02-2024\nXYPoints=%d\nColumnDef=X,Y,A,C\nXOffset=0.0\nYOffset=0.0\n\n" % len(curve)
+    return (text + "".join("%.12g\t%.12g\t0.1\t0.001\n" % tuple(point) for point in curve)).replace("\n", "\r\n")
 
 
-def table(name, curve):
-    """File of two columns"""
-    with open(name, "w", newline="\n") as file:
-        file.write("% y z\n")
-        file.writelines("%.12g %.12g\n" % tuple(point) for point in curve)
+def table(curve):
+    """Text of two columns"""
+    return "% y z\n" + "".join("%.12g %.12g\n" % tuple(point) for point in curve)
 
 
 EXTENSIONS = {("simpack", "rail"): "prr", ("simpack", "wheel"): "prw", ("miniprof", "rail"): "ban", ("miniprof", "wheel"): "whl",
               ("table", "rail"): "txt", ("table", "wheel"): "txt"}
 
 
-def write(recipe, folder, stem):
-    """Write the file, or the files of slices, into the folder; returns the profile lines of the input"""
+def files(recipe, stem):
+    """The profile lines of the input, and the text of the file, or of the files of slices, by their names"""
     body, form = recipe["body"], recipe.get("format", "simpack")
     factor = 1e-3 if recipe.get("metres") else 1.0
     sign = [-factor if recipe.get("mirror") else factor, -factor if recipe.get("up") else factor]
     order = -1 if recipe.get("reverse") else 1
     extension = EXTENSIONS[form, body]
 
-    def one(curve, place):
-        name = os.path.join(folder, place)
+    def one(curve):
         held = (curve * sign)[::order]
         if form == "simpack":
-            # the unit is told by SCALEYZ: the file is in metres or, for SCALEYZ = 1, in mm
-            simpack(name, body, held, [] if recipe.get("metres") else ["units.len.f = 1000."])
-        elif form == "miniprof":
-            miniprof(name, held)
-        else:
-            table(name, held)
+            return simpack(body, held, [] if recipe.get("metres") else ["units.len.f = 1000."])
+        return miniprof(held) if form == "miniprof" else table(held)
 
     curve = points(recipe)
     if recipe.get("slices"):
         name = "%s.%s" % (stem, "slcs" if body == "rail" else "slcw")
-        lines = []
+        held, lines = {}, []
         for k, (place, dy, dz) in enumerate(recipe["slices"]):
             part = "%s_%02d.%s" % (stem, k + 1, extension)
-            one(curve + [dy, dz], part)
+            held[part] = one(curve + [dy, dz])
             lines.append("%.12g '%s'\n" % (place, part))
-        with open(os.path.join(folder, name), "w", newline="\n") as file:
-            file.write("0.0 1.0   OFFSET SCALE\n%d   NSLC\n0 0 0   NFEAT NKINK NACCEL\n%d   INTPOL\n%s"
-                       % (len(lines), recipe.get("interpol", 1), "".join(lines)))
+        held[name] = ("0.0 1.0   OFFSET SCALE\n%d   NSLC\n0 0 0   NFEAT NKINK NACCEL\n%d   INTPOL\n%s"
+                      % (len(lines), recipe.get("interpol", 1), "".join(lines)))
     else:
         name = "%s.%s" % (stem, extension)
-        one(curve, name)
+        held = {name: one(curve)}
     scale = 1000.0 if recipe.get("metres") and form != "simpack" else 1.0
     method, smooth = recipe.get("smooth") or [0, 0.0]
     up = 1 if recipe.get("up") else -1 if form != "simpack" else 0
-    line = " '%s' %d %g %g %d %d" % (name, 1 if recipe.get("mirror") else 0, scale, smooth, up, 1 if method else 0)
-    return line + ("\n %d 150d 30d 6d 2.0" % method if method else "")
+    line = " '%s' %d %g %.12g %d %d" % (name, 1 if recipe.get("mirror") else 0, scale, smooth, up, 1 if method else 0)
+    return line + ("\n %d 150d 30d 6d 2.0" % method if method else ""), held
+
+
+def write(recipe, folder, stem):
+    """Write the file, or the files of slices, into the folder; returns the profile lines of the input"""
+    lines, held = files(recipe, stem)
+    for name, text in held.items():
+        with open(os.path.join(folder, name), "w", newline="") as file:
+            file.write(text)
+    return lines
 
 
 def prepared(recipe):

@@ -1,0 +1,449 @@
+"""Judges of module 1: by sums, by points on both surfaces, by motions, and by relations between cases.
+
+Nothing here knows how the program finds contact; geometry1.py samples the surfaces.
+"""
+import copy
+import json
+import math
+import os
+import re
+import sys
+
+import numpy as np
+
+import geometry1
+import judge
+import profiles
+import scene1
+
+SAME = 1e-9  # the same case through another door, relative
+
+# ---- Results ---------------------------------------------------------------------------------------------
+
+ODD_TOTALS = {"fy_tr", "fy_ws", "mx_r_tr", "mz_r_tr", "mx_w_ws", "mz_w_ws", "y_ws", "roll_ws", "yaw_ws", "dy_defl"}
+ODD_PATCH = {"fy", "bar_fs", "bar_mn", "mz", "fy_rel", "ceta", "cphi", "shift_y", "rotation", "ycp_tr", "deltcp_tr", "ycp_r",
+             "deltcp_r", "ycp_w"}
+
+
+def plain(record, odd, sign):
+    """Values of a record in the right-hand picture"""
+    result = {}
+    for name, value in record.items():
+        value = value["value"] if isinstance(value, dict) else value
+        if isinstance(value, (int, float)) and not isinstance(value, bool):
+            result[name] = sign * value if name in odd else value
+    return result
+
+
+def results(run, side):
+    """Cases of a run in the right-hand picture: (record, totals, totals of patches)"""
+    sign = -1.0 if side == "left" else 1.0
+    return [(record, plain(record.get("totals", {}), ODD_TOTALS, sign),
+             [plain(patch["totals"], ODD_PATCH, sign) for patch in record.get("patches", [])]) for record in run.cases]
+
+
+def settled(record):
+    return bool(record.get("solved")) and bool(record.get("converged"))
+
+
+# ---- Judges ------------------------------------------------------------------------------------------------
+
+
+def check(scene, tools):
+    """All judges on one scene"""
+    findings = []
+    run = scene1.solve(scene, tools)
+    good = judge.how_it_ended(run, len(scene["cases"]), findings)
+    cases = results(run, scene["side"])
+    curves = None
+    for number in good:
+        record, totals, patches = cases[number - 1]
+        case = scene["cases"][number - 1]
+        state_of(scene, case, run, record, totals, patches, findings)
+        if not any(patch["fn"] > 0.0 for patch in patches):
+            continue
+        sums(scene, case, run, number, totals, patches, findings)
+        try:
+            if curves is None and scene1.sampled(scene):
+                curves = geometry1.curves_of(scene["pair"])
+        except (ValueError, np.linalg.LinAlgError):
+            curves = None
+        if curves:
+            placed = geometry1.Placed(scene, case, totals["z_ws"], (totals.get("dy_defl", 0.0), totals.get("dz_defl", 0.0)), curves)
+            places(scene, case, placed, totals, patches, findings)
+            motion(scene, case, placed, totals, patches, findings)
+    trials(scene, run, findings)
+    if good and scene["relation"] != "none":
+        RELATED[scene["relation"]](scene, tools, run, cases, findings)
+    return findings
+
+
+def state_of(scene, case, run, record, totals, patches, findings):
+    """Whether the state of the case is honest"""
+    if not settled(record):
+        reason = judge.without_numbers(str(record.get("failure") or _unsettled(record)))
+        findings.append(judge.finding("state", reason, status="not converged"))
+        return
+    if scene["digits"]["N"] and patches:
+        judge.exceeds(findings, "force", "FZ(TR) is not the force that was asked for",
+                      abs(totals["fz_tr"] - case["fz"]) / case["fz"], 1.01 * scene1.EPS)
+    if scene["digits"]["N"] and not patches:
+        findings.append(judge.finding("force", "no contact: " + judge.without_numbers(_warning(run)),
+                                      status="refused" if _warning(run) else "disagreement"))
+
+
+def _warning(run):
+    match = re.search(r"Warning: .*", run.text(".out"))
+    return match.group() if match else ""
+
+
+def _unsettled(record):
+    """Which iteration did not converge, as far as the record tells"""
+    for patch in record.get("patches", []):
+        solver = patch.get("solver", {})
+        for part in ("normal", "tangential"):
+            ended = solver.get(part + "_ended", "converged")
+            if ended not in ("converged", "not needed", "exact", "direct"):
+                return "%s: %s %s" % (part, solver.get(part + "_method"), ended)
+    return str(record.get("status") or "not converged, patches are")
+
+
+def trials(scene, run, findings):
+    """The search for the height takes no more trials than allowed"""
+    if scene["digits"]["N"] and scene["digits"]["F"] == 0:
+        most, count = 0, 0
+        for line in run.text(".out").splitlines():
+            count = 0 if re.match(r" ?Case +\d+", line) else count + (", NR," in line)
+            most = max(most, count)
+        judge.exceeds(findings, "trials", "trials for the vertical force", most, scene1.TRIALS)
+
+
+def sums(scene, case, run, number, totals, patches, findings):
+    """Totals are the sums of the tractions and of the patches; moments are about the points that the documents tell"""
+    sign = -1.0 if scene["side"] == "left" else 1.0
+    whole, conformal = np.zeros(3), scene["digits"]["D"] == 4
+    moment = np.zeros(3)
+    placed = geometry1.Placed(scene, case, totals["z_ws"], (totals.get("dy_defl", 0.0), totals.get("dz_defl", 0.0))) \
+        if scene1.sampled(scene) else None
+    for k, patch in enumerate(patches):
+        size = abs(patch["fn"]) + 1e-12
+        axes = geometry1.turn(0, patch["deltcp_tr"])
+        # rows of a curved patch have axes of their own; their resultants have other names
+        force = axes @ np.array([patch[name] for name in (("bar_fx", "bar_fs", "bar_fn") if conformal else ("fx", "fy", "fn"))])
+        whole += force
+        if conformal:
+            continue
+        field = run.fields(number, k + 1) if judge.h5py is not None else run.printed_fields(number, chr(97 + k))
+        area = field["dx"] * field["dy"]
+        limit = judge.ROUND_OFF + 4 * field["error"]
+        if "px" not in field:  # no tangential problem
+            field["px"] = field["py"] = np.zeros_like(field["pn"])
+            field["mu"] = field.get("mu", field["px"])
+        for name, total in (("pn", patch["fn"]), ("px", patch["fx"]), ("py", sign * patch["fy"])):
+            judge.exceeds(findings, "sums", "%s of a patch is not the sum of its tractions" % name,
+                          abs(field[name].sum() * area - total) / size, limit)
+        if (field["pn"] < -1e-6 * field["pn"].max()).any():
+            findings.append(judge.finding("sums", "a pressure is negative"))
+        excess = np.hypot(field["px"], field["py"]) - field["mu"] * field["pn"]
+        judge.exceeds(findings, "sums", "tractions are beyond the friction bound", excess.max() / max(field["pn"].max(), 1e-30),
+                      1e-6 + 2 * field["error"])
+        x = field["xl"] + (np.arange(field["mx"]) + 0.5) * field["dx"]
+        s = field["yl"] + (np.arange(field["my"]) + 0.5) * field["dy"]
+        if scene["digits"]["T"] in (0, 3):
+            arm = np.hypot(x, 0).max() + np.abs(s).max()
+            turning = area * (x[None, :] * field["py"] - s[:, None] * field["px"]).sum()
+            judge.exceeds(findings, "sums", "MN of a patch is not the moment of its tractions",
+                          abs(sign * turning - patch["mz"]) / (size * arm), limit)
+            own = np.array([sign * area * (s[:, None] * field["pn"]).sum(), -area * (x[None, :] * field["pn"]).sum(),
+                            sign * turning])
+            if placed is not None:
+                where = np.array([patch["xcp_tr"], patch["ycp_tr"], patch["zcp_tr"]])
+                moment += np.cross(where - placed.rail_origin, force) + axes @ own
+    size = sum(abs(patch["fn"]) for patch in patches)
+    for name, value in zip(("fx_tr", "fy_tr", "fz_tr"), whole):
+        judge.exceeds(findings, "sums", "%s is not the sum of the patches" % name.upper(), abs(value - totals[name]) / size, 1e-9)
+    in_set = (geometry1.turn(0, case["roll"]) @ geometry1.turn(2, case["yaw"])).T @ whole
+    for name, value in zip(("fx_ws", "fy_ws", "fz_ws"), in_set):
+        judge.exceeds(findings, "sums", "%s is not the force in wheelset axes" % name.upper(),
+                      abs(value - totals[name]) / size, 1e-9)
+    if placed is not None and not conformal and scene["digits"]["T"] in (0, 3):
+        arm = max(100.0, float(np.abs(placed.rail_origin).max()))
+        for name, value in zip(("mx_r_tr", "my_r_tr", "mz_r_tr"), moment):
+            judge.exceeds(findings, "sums", "%s is not the moment about the rail marker" % name.upper(),
+                          abs(abs(value) - abs(totals[name])) / (size * arm), 1e-6)
+
+
+def places(scene, case, placed, totals, patches, findings):
+    """The smallest gap, places and angles of the patches, by points on both surfaces"""
+    ds, digits = scene["grid"][1], scene["digits"]
+    touch = placed.smallest()
+    if touch is None:
+        findings.append(judge.finding("gap", "a patch where the bodies are beside each other"))
+        return
+    depth = -touch[0]
+    if depth <= 0.0:
+        findings.append(judge.finding("gap", "a patch, but the bodies do not overlap", touch[0], 0.0))
+        return
+    if "smallest_gap" in totals:
+        judge.exceeds(findings, "gap", "the smallest gap", abs(totals["smallest_gap"] + depth), 0.05 * depth + 2e-5)
+    regions = [region for region in placed.regions(depth, by_rows=digits["D"] not in (5, 6)) if region["depth"] > 1e-3 * depth]
+    if not regions:
+        return
+    d_sep, d_comb = scene["grid"][4], scene["grid"][5]
+    apart = [math.hypot(b["bounds"][0] - a["bounds"][1], 0.0) for a, b in zip(regions, regions[1:])]
+    if len(regions) == len(patches) == 1 and not regions[0]["edge"]:
+        region, patch = regions[0], patches[0]
+        width = region["bounds"][1] - region["bounds"][0]
+        across = 0.05 * ds + 0.01 * width if width > 4 * ds else 0.6 * ds
+        steep = math.cos(patch["deltcp_tr"])
+        along_x = 0.02 * (region["x_bounds"][1] - region["x_bounds"][0]) + (abs(math.tan(case["yaw"])) + 0.01) * across * 30
+        judge.exceeds(findings, "places", "YCP", abs(region["y"] - patch["ycp_tr"]), across)
+        judge.exceeds(findings, "places", "XCP", abs(region["x"] - patch["xcp_tr"]), along_x)
+        bend = region["bend"] * min(1.0, across / max(width, 1e-12)) * 2 + 2e-4
+        judge.exceeds(findings, "places", "DELTCP", abs(region["angle"] - patch["deltcp_tr"]), bend)
+        judge.exceeds(findings, "places", "approach beyond the overlap", patch["pen"] - depth * max(steep, 0.05),
+                      0.05 * depth + 1e-5)
+    elif all(distance > 1.5 * max(2 * d_sep - d_comb, d_sep) for distance in apart) \
+            and all(region["depth"] > 0.05 * depth for region in regions):
+        judge.exceeds(findings, "places", "number of patches", abs(len(patches) - len(regions)), 0)
+
+
+def motion(scene, case, placed, totals, patches, findings):
+    """Creepages, from where the material points are a little earlier and later"""
+    if scene["digits"]["D"] not in (2, 5, 6, 7) or scene["digits"]["T"] == 0:
+        return
+    moved = copy.deepcopy(case)
+    if scene["digits"]["F"] == 1:
+        moved["speed"][5] = totals["vpitch_ws"]
+    for patch in patches:
+        axes = geometry1.turn(0, patch["deltcp_tr"])
+        at_rail = np.array([patch["xcp_tr"], patch["ycp_tr"], patch["zcp_tr"]])
+        at_wheel = at_rail + patch["pen"] * axes[:, 2]
+        v_rail, v_wheel, turn_rail, turn_wheel = placed.velocities(moved, at_rail, at_wheel)
+        v_rail, v_wheel = axes.T @ v_rail, axes.T @ v_wheel
+        spin = (axes.T @ (turn_rail - turn_wheel))[2]
+        if scene["digits"]["T"] == 1:
+            names, reference = ("shift_x", "shift_y", "rotation"), 1.0
+        else:
+            names = ("cksi", "ceta", "cphi")
+            around = np.cross(placed.set_axes @ np.array([0.0, moved["speed"][5], 0.0]), at_wheel - placed.set_origin)[0]
+            if scene["roller"]:
+                reference = 0.5 * abs(v_rail[0] + v_wheel[0])
+            else:
+                reference = 0.5 * (abs(v_wheel[0] - v_rail[0] - around) + abs(around))
+        if reference < 1e-6:
+            continue
+        found = [(v_rail[0] - v_wheel[0]) / reference, (v_rail[1] - v_wheel[1]) / reference, spin / reference]
+        scale = max(1e-3, abs(found[0]), abs(found[1])) if scene["digits"]["T"] != 1 else max(1e-6, abs(found[0]), abs(found[1]))
+        for name, value, unit in zip(names, found, (1.0, 1.0, 1.0 / placed.radius)):
+            if name in patch:
+                judge.exceeds(findings, "motion", name.upper(), abs(patch[name] - value) / (scale * unit), 1e-4)
+
+
+# ---- Relations ---------------------------------------------------------------------------------------------
+
+
+def compared(findings, what, one, two, tolerance, lengths=1.0, forces=1.0, position=None, patches=True):
+    """Compare cases of two runs; the second one is larger by the factors of lengths and forces"""
+    for (record, totals, mine), (other, theirs, yours) in zip(one, two):
+        if not (settled(record) and settled(other)):
+            if settled(record) != settled(other) and tolerance < 1e-6:
+                findings.append(judge.finding(what, "one of both does not converge"))
+            return
+        if len(mine) != len(yours):
+            if patches:
+                findings.append(judge.finding(what, "number of patches: %d and %d" % (len(mine), len(yours))))
+            return
+        size = sum(abs(patch["fn"]) for patch in mine)
+        if not size > 0.0:
+            continue
+        for name in ("fx_tr", "fy_tr", "fz_tr"):
+            judge.exceeds(findings, what, name.upper(), abs(theirs[name] / forces - totals[name]) / size, tolerance)
+        judge.exceeds(findings, what, "Z_WS", abs(theirs["z_ws"] / lengths - totals["z_ws"]) / max(mine[0]["pen"], 1e-12),
+                      10 * tolerance)
+        for a, b in zip(mine, yours):
+            for name, scale in (("pmax", 1.0), ("pen", lengths), ("fn", forces)):
+                judge.exceeds(findings, what, name.upper(), abs(b[name] / scale - a[name]) / max(abs(a[name]), 1e-12),
+                              3 * tolerance)
+            if position is not None:
+                judge.exceeds(findings, what, "YCP(TR)", abs(b["ycp_tr"] / lengths - a["ycp_tr"]), position)
+
+
+def mirror(scene, tools, run, cases, findings):
+    """The other side of the track, mirrored"""
+    other = "left" if scene["side"] == "right" else "right"
+    again = scene1.solve(scene, tools, "mirror", other)
+    compared(findings, "mirror", cases, results(again, other), 1e-12, position=1e-12)
+
+
+def translate(scene, tools, run, cases, findings):
+    """The same place farther along the track"""
+    moved, step = copy.deepcopy(scene), 4096.0 * scene["grid"][0]
+    if scene["roller"] or scene["digits"]["V"] == 2:
+        return
+    for case in moved["cases"]:
+        case["s"] += step
+    if moved["pair"]["rail"].get("slices"):
+        for part in moved["pair"]["rail"]["slices"]:
+            part[0] += step
+    tolerance = 1e-9 if scene["digits"]["T"] in (0, 3) and not moved["pair"]["rail"].get("slices") else 2e-5
+    compared(findings, "translate", cases, results(scene1.solve(moved, tools, "moved"), scene["side"]), tolerance)
+
+
+def scale(scene, tools, run, cases, findings):
+    """All lengths doubled, forces four times as large"""
+    pair = scene["pair"]
+    if scene["digits"]["M"] or scene["digits"]["V"] == 2 or pair["rail"].get("slices") or pair["wheel"].get("slices"):
+        return
+    for recipe in (pair["rail"], pair["wheel"]):
+        if recipe.get("smooth") or recipe.get("noise") or profiles.arc_length(profiles.points(recipe))[-1] > 240.0:
+            return
+    large = copy.deepcopy(scene)
+    for recipe in (large["pair"]["rail"], large["pair"]["wheel"]):
+        recipe["scale"] = 2.0 * recipe.get("scale", 1.0)
+    track = large["pair"]["track"]
+    track[:3] = [2.0 * track[0], 2.0 * track[1], 2.0 * track[2]]
+    large["pair"]["wheelset"] = [2.0 * value for value in pair["wheelset"]]
+    large["roller"] = 2.0 * scene["roller"]
+    large["grid"] = [2.0 * value if k in (0, 1, 4, 5) else value for k, value in enumerate(scene["grid"])]
+    if "springs" in large:  # forces grow by four, deflections by two
+        large["springs"] = [2.0 * value for value in large["springs"]]
+    for case in large["cases"]:
+        for name in ("s", "y", "z"):
+            case[name] *= 2.0
+        case["fz"] *= 4.0
+        lengths = (1, 2) if scene["roller"] else (0, 1, 2)
+        case["speed"] = [2.0 * value if k in lengths else value for k, value in enumerate(case["speed"])]
+        case["deviation"] = [2.0 * value if k in (0, 1, 3, 4) else value for k, value in enumerate(case["deviation"])]
+        if case.get("flexible"):
+            case["flexible"] = [2.0 * value if k in (0, 1, 2, 6, 7, 8) else value for k, value in enumerate(case["flexible"])]
+    if scene["digits"]["L"]:
+        return
+    compared(findings, "scale", cases, results(scene1.solve(large, tools, "large"), scene["side"]), 2e-4, lengths=2.0, forces=4.0,
+             position=0.02 * scene["grid"][1])
+
+
+def file(scene, tools, run, cases, findings):
+    """The same profiles in another order, unit and format"""
+    other = copy.deepcopy(scene)
+    for recipe in (other["pair"]["rail"], other["pair"]["wheel"]):
+        recipe["mirror"] = 0 if recipe.get("mirror") else 1
+        recipe["reverse"] = 0 if recipe.get("reverse") else 1
+        recipe["format"] = {"simpack": "miniprof", "miniprof": "table", "table": "simpack"}[recipe.get("format", "simpack")]
+    compared(findings, "file", cases, results(scene1.solve(other, tools, "other"), scene["side"]), 2e-6, position=1e-6)
+
+
+def refined_profile(scene, tools, run, cases, findings):
+    """Profiles with twice the number of points on the same curve"""
+    finer = copy.deepcopy(scene)
+    for recipe in (finer["pair"]["rail"], finer["pair"]["wheel"]):
+        if recipe.get("noise") or recipe.get("smooth") or recipe.get("spacing") or recipe.get("slices"):
+            return
+        recipe["refine"] = 2
+    compared(findings, "refined_profile", cases, results(scene1.solve(finer, tools, "finer"), scene["side"]), 2e-2, patches=False)
+
+
+def cut(scene, tools, run, cases, findings):
+    """The part of the rail that is in contact, placed without a gauge point"""
+    rail = scene["pair"]["rail"]
+    if scene["roller"] or rail.get("slices") or rail.get("smooth") or not scene1.sampled(scene):
+        return
+    part = copy.deepcopy(scene)
+    for k, (record, totals, patches) in enumerate(cases):
+        if not patches or not settled(record):
+            return
+    case = part["cases"][0]
+    del part["cases"][1:]
+    patches = cases[0][2]
+    margin = 10.0 + 3.0 * max(math.sqrt(2.0 * 460.0 * patch["pen"]) for patch in patches)
+    low, high = min(p["ycp_r"] for p in patches) - margin, max(p["ycp_r"] for p in patches) + margin
+    placed = geometry1.Placed(part, case, 0.0)
+    whole = profiles.points(rail)
+    if low <= whole[0, 0] and high >= whole[-1, 0] or min(patch["deltcp_r"] for patch in patches) < -1.2:
+        return
+    factor = rail.get("scale", 1.0)
+    part["pair"]["rail"]["cut"] = [low / factor, high / factor]
+    if rail.get("spacing"):
+        return
+    origin = placed.rail_origin - np.array([0.0, case["deviation"][0], case["deviation"][1]])
+    part["pair"]["track"] = [-1.0, float(origin[1]), float(origin[2]), part["pair"]["track"][3]]
+    compared(findings, "cut", cases[:1], results(scene1.solve(part, tools, "part"), scene["side"]), 5e-3, patches=True)
+
+
+def slices(scene, tools, run, cases, findings):
+    """A rail that does not vary, written as slices"""
+    rail = scene["pair"]["rail"]
+    if rail.get("slices") or scene["pair"]["wheel"].get("slices") or not scene1.sampled(scene):
+        return
+    if scene["roller"] or scene["digits"]["D"] == 4 or any(not settled(record) for record, _, _ in cases):
+        return
+    same = copy.deepcopy(scene)
+    del same["cases"][1:]
+    case = same["cases"][0]
+    placed = geometry1.Placed(same, case, 0.0)
+    origin = placed.rail_origin - np.array([0.0, case["deviation"][0], case["deviation"][1]])
+    same["pair"]["track"] = [-1.0, float(origin[1]), float(origin[2]), same["pair"]["track"][3]]
+    same["pair"]["rail"]["slices"] = [[case["s"] + 100.0 * (k - 3), 0.0, 0.0] for k in range(7)]
+    compared(findings, "slices", cases[:1], results(scene1.solve(same, tools, "same"), scene["side"]), 2e-2,
+             position=0.3 * scene["grid"][1], patches=False)
+
+
+def refined_grid(scene, tools, run, cases, findings):
+    """Elements of half the size"""
+    finer = copy.deepcopy(scene)
+    finer["grid"][:2] = [0.5 * value for value in scene["grid"][:2]]
+    if scene["digits"]["T"] in (1, 2) or scene["digits"]["B"]:
+        return
+    if any(not 60 <= patch["ncon"] <= 4000 for _, _, patches in cases for patch in patches):
+        return
+    compared(findings, "refined_grid", cases, results(scene1.solve(finer, tools, "finer"), scene["side"]), 4e-2, patches=False)
+
+
+def library(scene, tools, run, cases, findings):
+    """The same case through the library, and through the input file that the library writes"""
+    digits = scene["digits"]
+    if digits["F"] == 3 or digits["V"] or digits["C"] == 4 or any(scene["pair"][body].get("metres") for body in ("rail", "wheel")):
+        return
+    place = os.path.join(tools.folder, "scene.json")
+    with open(place, "w", encoding="utf-8") as held:
+        json.dump(scene, held)
+    script = os.path.join(os.path.dirname(os.path.abspath(__file__)), "library1.py")
+    code, output, errors, _ = tools.command([sys.executable, "-B", script, place, tools.folder])
+    if code != 0:
+        findings.append(judge.finding("library", "exit code %s: %s" % (code, errors.strip()[-300:])))
+        return
+    answers = json.loads(output.strip().splitlines()[-1])
+    sign = -1.0 if scene["side"] == "left" else 1.0
+    for (record, totals, patches), answer in zip(cases, answers):
+        if "error" in answer:
+            if settled(record):
+                findings.append(judge.finding("library", judge.without_numbers(answer["error"])))
+            return
+        if not settled(record):
+            continue
+        if len(answer["patches"]) != len(patches):
+            findings.append(judge.finding("library", "number of patches: %d and %d" % (len(patches), len(answer["patches"]))))
+            return
+        if not any(patch["fn"] > 0.0 for patch in patches):
+            continue
+        size = sum(abs(patch["fn"]) for patch in patches)
+        for name, value, odd in zip(("fx_tr", "fy_tr", "fz_tr"), answer["force"], (1.0, sign, 1.0)):
+            judge.exceeds(findings, "library", name.upper(), abs(odd * value - totals[name]) / size, SAME)
+        judge.exceeds(findings, "library", "Z_WS", abs(answer["z_ws"] - totals["z_ws"]), SAME * max(1.0, abs(totals["z_ws"])))
+        for patch, other in zip(patches, answer["patches"]):
+            for name, value, odd in zip(("xcp_tr", "ycp_tr", "zcp_tr", "deltcp_tr"), other["place"], (1.0, sign, 1.0, sign)):
+                judge.exceeds(findings, "library", name.upper(), abs(odd * value - patch[name]), SAME * max(1.0, abs(patch[name])))
+            for name, odd in (("fn", 1.0), ("fx", 1.0), ("pmax", 1.0), ("pen", 1.0)):
+                judge.exceeds(findings, "library", name.upper(),
+                              abs(odd * other[name] - patch[name]) / max(abs(patch[name]), 1e-3 * patch["fn"]), SAME)
+    written = [name for name in os.listdir(tools.folder) if name.startswith("caddon") and name.endswith(".inp")
+               or name.startswith("through") and name.endswith(".inp")]
+    for name in written:
+        with open(os.path.join(tools.folder, name), encoding="utf-8") as held:
+            again = results(tools.run("written", held.read()), scene["side"])
+        compared(findings, "written input", cases, again, 1e-5)
+
+
+RELATED = dict(mirror=mirror, translate=translate, scale=scale, file=file, refined_profile=refined_profile, cut=cut, slices=slices,
+               refined_grid=refined_grid, library=library)
+
