@@ -80,10 +80,10 @@ contains
       if (allocated(error%file)) then
          text = error%file
          if (error%line > 0) then
-            write(place, '(i0)') error%line
+            write(place, '(I0)') error%line
             text = text // ":" // trim(place)
             if (error%column > 0) then
-               write(place, '(i0)') error%column
+               write(place, '(I0)') error%column
                text = text // ":" // trim(place)
             end if
          end if

@@ -43,14 +43,14 @@ contains
    subroutine log_line(self, text)
       class(log_type), intent(inout) :: self
       character(len=*), intent(in) :: text
-      if (self%screen /= 0) write(self%screen, '(a)') text
-      if (self%out /= 0) write(self%out, '(a)') text
+      if (self%screen /= 0) write(self%screen, '(A)') text
+      if (self%out /= 0) write(self%out, '(A)') text
    end subroutine log_line
 
    subroutine log_result(self, text)
       class(log_type), intent(inout) :: self
       character(len=*), intent(in) :: text
-      if (self%out /= 0) write(self%out, '(a)') text
+      if (self%out /= 0) write(self%out, '(A)') text
    end subroutine log_result
 
    subroutine log_trace(self, level, text)

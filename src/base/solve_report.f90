@@ -66,7 +66,7 @@ contains
       character(len=32) :: residual
       character(len=22) :: how
 
-      write(residual, '(es10.2)') report%residual
+      write(residual, '(ES10.2)') report%residual
       select case (report%ended)
       case (ending%iteration_limit)
          how = "used up its iterations"

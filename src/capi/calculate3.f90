@@ -96,7 +96,7 @@ contains
       character(len=80) :: line
 
       if (problem%spec%output_level < 1) return
-      write(line, '(a, i6, a, i3, a, i3)') " Case", problem%cases, " for contact problem", problem%icp, &
+      write(line, '(A, I6, A, I3, A, I3)') " Case", problem%cases, " for contact problem", problem%icp, &
          & " on result element", problem%ire
       call log%line("")
       call log%line(trim(line))
@@ -197,7 +197,7 @@ contains
       call write_case(log, problem%spec, problem%result)
       !$omp end critical (contact_printing)
       if (problem%spec%mat_file < 1) return
-      write(name, '("caddon_re", i3.3, "_cp", i1, ".", i0.4, ".mat")') problem%ire, problem%icp, problem%cases
+      write(name, '("caddon_re", I3.3, "_cp", I1, ".", I0.4, ".mat")') problem%ire, problem%icp, problem%cases
       call find_result_file(trim(name), path)
       call write_mat_file(path, problem%spec, problem%result, error, place_of(problem))
       if (allocated(error)) call complain(this, full_text(error))

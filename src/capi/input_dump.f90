@@ -27,11 +27,11 @@ contains
       call open_input_dump()
       unit = input_dump()
       if (unit == 0) return
-      write(line, '(i4, 2i5, a, i0)') 3, problem%ire, problem%icp, "   % MODULE, RE, CP: case ", problem%cases
+      write(line, '(I4, 2I5, A, I0)') 3, problem%ire, problem%icp, "   % MODULE, RE, CP: case ", problem%cases
       !$omp critical (contact_printing)
-      write(unit, '(a)', iostat=status) trim(line)
+      write(unit, '(A)', iostat=status) trim(line)
       call write_contact_case(unit, problem%spec, problem%result)
-      write(unit, '(a)', iostat=status) ""
+      write(unit, '(A)', iostat=status) ""
       !$omp end critical (contact_printing)
    end subroutine dump_contact_case
 
@@ -65,11 +65,11 @@ contains
       call open_input_dump()
       unit = input_dump()
       if (unit == 0) return
-      write(line, '(i4, i5, a, i0)') 1, problem%ire, "   % MODULE, RE: case ", problem%cases
+      write(line, '(I4, I5, A, I0)') 1, problem%ire, "   % MODULE, RE: case ", problem%cases
       !$omp critical (contact_printing)
-      write(unit, '(a)', iostat=status) trim(line)
+      write(unit, '(A)', iostat=status) trim(line)
       call write_pair_case(unit, written)
-      write(unit, '(a)', iostat=status) ""
+      write(unit, '(A)', iostat=status) ""
       !$omp end critical (contact_printing)
    end subroutine dump_pair_case
 
@@ -91,12 +91,12 @@ contains
          return
       end if
       if (.not. allocated(given%written_as)) then
-         write(name, '("caddon_re", i3.3, ".", i0.4, ".", a, ".txt")') this%ire, number, body
+         write(name, '("caddon_re", I3.3, ".", I0.4, ".", A, ".txt")') this%ire, number, body
          given%written_as = trim(name)
          call find_result_file(given%written_as, path)
          open(newunit=unit, file=path, status="replace", action="write", iostat=status)
          if (status == 0) then
-            write(unit, '(2es25.16)', iostat=status) (profile%points(:, k), k=1, size(profile%points, 2))
+            write(unit, '(2ES25.16)', iostat=status) (profile%points(:, k), k=1, size(profile%points, 2))
             close(unit)
          end if
          if (status /= 0) call complain(this, "the file " // path // &

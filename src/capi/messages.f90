@@ -160,13 +160,13 @@ contains
       character(len=24) :: place
 
       thread = ""
-      if (omp_in_parallel()) write(thread, '(i3, "#")') mod(omp_get_thread_num(), 1000)
+      if (omp_in_parallel()) write(thread, '(I3, "#")') mod(omp_get_thread_num(), 1000)
       name = adjustr(call_of%name // "  ")
       place = ":"
       if (call_of%ire /= 0 .and. call_of%icp > 0) then
-         write(place, '("(", i3, ".", i1, "):")') min(999, max(-99, call_of%ire)), min(9, call_of%icp)
+         write(place, '("(", I3, ".", I1, "):")') min(999, max(-99, call_of%ire)), min(9, call_of%icp)
       else if (call_of%ire /= 0) then
-         write(place, '("(", i3, "):")') min(999, max(-99, call_of%ire))
+         write(place, '("(", I3, "):")') min(999, max(-99, call_of%ire))
       end if
       text = trim(thread) // " ** " // name // trim(place)
    end function prefix_of

@@ -401,9 +401,9 @@ contains
       call find_result_file(surface_file, path)
       open(newunit=unit, file=path, status="replace", action="write", iostat=status)
       if (status == 0) then
-         write(unit, '(a)', iostat=status) "% Surface of a variable profile: lines v = 0, 1, ..., cubic B-splines along u", &
+         write(unit, '(A)', iostat=status) "% Surface of a variable profile: lines v = 0, 1, ..., cubic B-splines along u", &
             & "% A group has lines that exist over the same range of u: y(i,j), z(i,j) [mm] is coefficient i of line v(j)."
-         write(unit, '(a, i0, a)', iostat=status) "spl2d.is_wheel = ", merge(1, 0, surface%side == profile_side%wheel), ";"
+         write(unit, '(A, I0, A)', iostat=status) "spl2d.is_wheel = ", merge(1, 0, surface%side == profile_side%wheel), ";"
          call put_row("spl2d.u_range", surface%u_range)
          do g = 1, size(surface%groups)
             associate (group => surface%groups(g))
@@ -432,11 +432,11 @@ contains
          real(wp), intent(in) :: table(:, :)
          integer :: k
 
-         if (status == 0) write(unit, '(2a)', iostat=status) name, " = ["
+         if (status == 0) write(unit, '(2A)', iostat=status) name, " = ["
          do k = 1, size(table, 1)
-            if (status == 0) write(unit, '(*(es24.16))', iostat=status) table(k, :)
+            if (status == 0) write(unit, '(*(ES24.16))', iostat=status) table(k, :)
          end do
-         if (status == 0) write(unit, '(a)', iostat=status) "];"
+         if (status == 0) write(unit, '(A)', iostat=status) "];"
       end subroutine put_table
    end subroutine write_surface
 end module contact_capi_profile_values

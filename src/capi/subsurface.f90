@@ -246,7 +246,7 @@ contains
       if (number > 0) then
          call find_result_file(subs_file_name("caddon", problem%cases, problem%ire, number), file)
       else
-         write(base, '("caddon_re", i3.3, "_cp", i1)') problem%ire, problem%icp
+         write(base, '("caddon_re", I3.3, "_cp", I1)') problem%ire, problem%icp
          call find_result_file(subs_file_name(trim(base), problem%cases, 0, 0), file)
       end if
    end subroutine find_file

@@ -51,13 +51,13 @@ contains
       call find_package(program_name, place)
       status = 1
       if (run_quietly("command -v python3") /= 0) then
-         write(error_unit, '(a)') "contact report: Python 3 is not found; install it together with NumPy and h5py " &
+         write(error_unit, '(A)') "contact report: Python 3 is not found; install it together with NumPy and h5py " &
             & // "(apt-get install python3-h5py)"
          return
       end if
       if (len(place) == 0) then
          if (run_quietly("python3 -c " // quoted("import sys; sys.path[:1] = []; import contact.report")) /= 0) then
-            write(error_unit, '(a)') "contact report: the Python package contact.report is not found. It is in the folder " &
+            write(error_unit, '(A)') "contact report: the Python package contact.report is not found. It is in the folder " &
                & // "python of the sources and is", "installed with the program; name its folder by the environment " &
                & // "variable " // variable // ", or: python3 -m pip install SOURCES/python"
             return

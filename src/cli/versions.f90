@@ -16,7 +16,7 @@ contains
    subroutine write_versions(unit)
       integer, intent(in) :: unit
 
-      write(unit, '(a)') "contact " // contact_version, "compiled by " // compiler_version(), "HDF5 " // trim(hdf5_version())
+      write(unit, '(A)') "contact " // contact_version, "compiled by " // compiler_version(), "HDF5 " // trim(hdf5_version())
    end subroutine write_versions
 
    !> Number of the HDF5 library this program is linked with, as the library itself says it
@@ -26,6 +26,6 @@ contains
 
       text = "of unknown version"
       call h5get_libversion_f(major, minor, release, status)
-      if (status == 0) write(text, '(i0, ".", i0, ".", i0)') major, minor, release
+      if (status == 0) write(text, '(I0, ".", I0, ".", I0)') major, minor, release
    end function hdf5_version
 end module contact_cli_versions

@@ -213,7 +213,7 @@ contains
       integer, intent(in) :: digits(:)
       character(len=list_length) :: text
 
-      write(text, '(*(i1, :, ", "))') digits
+      write(text, '(*(I1, :, ", "))') digits
    end function listed
 
    !> Value of the digit with the given name

@@ -70,7 +70,7 @@ contains
       if (now - self%changed < pause_between) return
       self%changed = now
       self%visible = .true.
-      write(error_unit, '(a)', advance="no") carriage_return // trim(progress_text(done, self%total, now - self%started)) // &
+      write(error_unit, '(A)', advance="no") carriage_return // trim(progress_text(done, self%total, now - self%started)) // &
          & clear_to_end // carriage_return
       flush(error_unit)
    end subroutine show
@@ -81,7 +81,7 @@ contains
 
       if (.not. self%visible) return
       self%visible = .false.
-      write(error_unit, '(a)', advance="no") carriage_return // clear_to_end
+      write(error_unit, '(A)', advance="no") carriage_return // clear_to_end
       flush(error_unit)
    end subroutine hide
 
@@ -94,14 +94,14 @@ contains
       integer :: seconds
 
       if (done < 1) then
-         write(text, '(" case ", i0, " of ", i0)') min(done + 1, total), total
+         write(text, '(" case ", I0, " of ", I0)') min(done + 1, total), total
       else
          seconds = nint(min(elapsed*real(total - done, wp)/real(done, wp), 3.0e7_wp))
          if (seconds >= 3600) then
-            write(text, '(" case ", i0, " of ", i0, ", ", i0, ":", i2.2, ":", i2.2, " left")') min(done + 1, total), total, &
+            write(text, '(" case ", I0, " of ", I0, ", ", I0, ":", I2.2, ":", I2.2, " left")') min(done + 1, total), total, &
                & seconds/3600, mod(seconds, 3600)/60, mod(seconds, 60)
          else
-            write(text, '(" case ", i0, " of ", i0, ", ", i0, ":", i2.2, " left")') min(done + 1, total), total, &
+            write(text, '(" case ", I0, " of ", I0, ", ", I0, ":", I2.2, " left")') min(done + 1, total), total, &
                & seconds/60, mod(seconds, 60)
          end if
       end if

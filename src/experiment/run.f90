@@ -415,7 +415,7 @@ contains
       if (state%complaints == no_unit) return
       call state%progress%hide()
       if (state%log%screen /= 0) flush(state%log%screen, iostat=status)
-      write(state%complaints, '(a)') text
+      write(state%complaints, '(A)') text
       flush(state%complaints, iostat=status)
    end subroutine write_error
 

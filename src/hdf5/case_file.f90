@@ -123,8 +123,8 @@ contains
       type(case_head), intent(in) :: head
       character(len=48) :: name
 
-      write(name, '(a, i0.4)') "case_", head%number
-      if (head%result_element > 0) write(name, '(a, i0.3, a, i0.4)') "re", head%result_element, "_case_", head%number
+      write(name, '(A, I0.4)') "case_", head%number
+      if (head%result_element > 0) write(name, '(A, I0.3, A, I0.4)') "re", head%result_element, "_case_", head%number
       if (head%contact_problem > 1) name = trim(name) // "_cp" // integer_text(head%contact_problem)
    end function case_name
 

@@ -19,7 +19,7 @@ contains
       character(len=*), intent(in) :: values, names
       integer :: status
 
-      write(unit, '(a)', iostat=status) " " // values // "   % " // names
+      write(unit, '(A)', iostat=status) " " // values // "   % " // names
    end subroutine put_line
 
    !> Real numbers with all their figures, with blanks behind
@@ -32,9 +32,9 @@ contains
       text = ""
       last = -1
       do k = 1, size(values)
-         write(word, '(es23.15e3)') values(k)
+         write(word, '(ES23.15E3)') values(k)
          if (abs(values(k)) < 1.0e6_wp .and. abs(values(k)) >= 0.0_wp) then
-            if (abs(values(k) - anint(values(k))) <= 0.0_wp) write(word, '(f10.1)') values(k)
+            if (abs(values(k) - anint(values(k))) <= 0.0_wp) write(word, '(F10.1)') values(k)
          end if
          text(last + 2:) = adjustl(word)
          last = len_trim(text)
@@ -54,7 +54,7 @@ contains
       integer, intent(in) :: values(:)
       character(len=12*size(values)) :: text
 
-      write(text, '(*(i0, :, " "))') values
+      write(text, '(*(I0, :, " "))') values
    end function integer_row
 
    !> The same without the blanks
@@ -75,15 +75,15 @@ contains
 
       associate (d => digits)
          if (is_pair) then
-            write(word, '(7i1)') d%c1, d%p, d%b, d%t, d%n, d%f, d%s
+            write(word, '(7I1)') d%c1, d%p, d%b, d%t, d%n, d%f, d%s
             call put_line(unit, word, "CPBTNFS")
          else
-            write(word, '(6i1)') d%p, d%b, d%t, d%n, d%f, d%s
+            write(word, '(6I1)') d%p, d%b, d%t, d%n, d%f, d%s
             call put_line(unit, trim(word), "PBTNFS")
          end if
-         write(word, '(7i1)') d%v, d%l, d%d, d%c, d%m, d%z, d%e
+         write(word, '(7I1)') d%v, d%l, d%d, d%c, d%m, d%z, d%e
          call put_line(unit, word // " " // integers([10*d%gapwgt + d%m2]), "VLDCMZE, GAPWGT M2")
-         write(word, '(7i1)') d%h, d%g, d%i, d%a, d%o, d%w, d%r
+         write(word, '(7I1)') d%h, d%g, d%i, d%a, d%o, d%w, d%r
          call put_line(unit, word, "HGIAOWR")
       end associate
    end subroutine put_words

@@ -235,7 +235,7 @@ contains
       character(len=12) :: figures
 
       call self%key(name)
-      write(figures, '(i0)') value
+      write(figures, '(I0)') value
       call self%add(trim(figures))
       associate (unused => title)
       end associate
@@ -293,7 +293,7 @@ contains
       integer :: status
 
       call self%add("}")
-      write(self%unit, '(a)', iostat=status) self%line(:self%length)
+      write(self%unit, '(A)', iostat=status) self%line(:self%length)
       flush(self%unit, iostat=status)
       self%length = 0
    end subroutine end_line
@@ -303,7 +303,7 @@ contains
       real(wp), intent(in) :: value
       character(len=longest_number) :: text
       !> 15, 16 and 17 figures
-      character(len=*), parameter :: form(3) = ["(es32.14e3)", "(es32.15e3)", "(es32.16e3)"]
+      character(len=*), parameter :: form(3) = ["(ES32.14E3)", "(ES32.15E3)", "(ES32.16E3)"]
       character(len=longest_number) :: buffer
       character(len=12) :: exponent_text
       character(len=:), allocatable :: figures
@@ -336,7 +336,7 @@ contains
       else if (exponent < 0 .and. exponent >= -4) then
          text = "0." // repeat("0", -exponent - 1) // figures
       else
-         write(exponent_text, '(i0)') exponent
+         write(exponent_text, '(I0)') exponent
          text = figures(1:1) // "e" // exponent_text
          if (len(figures) > 1) text = figures(1:1) // "." // figures(2:) // "e" // exponent_text
       end if
@@ -361,7 +361,7 @@ contains
          if (byte >= 32 .and. (byte < 127 .or. good) .and. text(i:i) /= '"' .and. text(i:i) /= "\") cycle
          call self%add(text(first:i - 1))
          if (byte < 32) then
-            write(code, '(z4.4)') byte
+            write(code, '(Z4.4)') byte
             call self%add("\u" // code)
          else if (byte >= 127) then
             call self%add("?")

@@ -54,7 +54,7 @@ contains
       integer, intent(in) :: case_number
       character(len=12) :: text
 
-      write(text, '(i0.4)') case_number
+      write(text, '(I0.4)') case_number
    end function case_text
 
    !> Name of the file: <base>[_reNNN].<case, at least four digits>[<patch>].mat
@@ -134,7 +134,7 @@ contains
       lines(13) = name_line([character(len=11) :: "   I  IGS", "H", "MU", "PN", "PX", "PY", "UN", "UX", "UY", &
          & merge("SREL", "SHFT", rolling), more])
       do i = 1, size(lines)
-         write(unit, '(a)', iostat=status) trim(lines(i))
+         write(unit, '(A)', iostat=status) trim(lines(i))
          if (status /= 0) return
       end do
    end subroutine write_header
@@ -164,7 +164,7 @@ contains
             line = two_integers(number, result%division(ix, iy)) // reals([result%h(ix, iy), result%mu(ix, iy), &
                & result%pn(ix, iy), result%px(ix, iy), result%py(ix, iy), result%un(ix, iy), result%ux(ix, iy), &
                & result%uy(ix, iy), slip, extra_values(result, ix, iy)])
-            write(unit, '(a)', iostat=status) trim(line)
+            write(unit, '(A)', iostat=status) trim(line)
             if (status /= 0) return
          end do
       end do

@@ -23,9 +23,9 @@ contains
 
       text = ""
       if (case_number <= 9999) then
-         write(text, '(i4.4)') case_number
+         write(text, '(I4.4)') case_number
       else if (case_number <= 999999) then
-         write(text, '(i6.6)') case_number
+         write(text, '(I6.6)') case_number
       end if
    end function case_text
 
@@ -84,8 +84,8 @@ contains
          dashes = dashes // "           -"
          line = line // general(0.0_wp, 12, 4)
       end do
-      write(unit, '(a)', iostat=status) "%   NX          NY          NZ" // dashes
-      if (status == 0) write(unit, '(a)', iostat=status) line
+      write(unit, '(A)', iostat=status) "%   NX          NY          NZ" // dashes
+      if (status == 0) write(unit, '(A)', iostat=status) line
       if (status /= 0) return
 
       line = repeat(" ", 12*columns)
@@ -93,7 +93,7 @@ contains
          line(12*i - 6:12*i) = name(i)
       end do
       line(1:1) = "%"
-      write(unit, '(a)', iostat=status) trim(line)
+      write(unit, '(A)', iostat=status) trim(line)
       if (status /= 0) return
 
       do point = 1, size(block%position, 2)
@@ -102,7 +102,7 @@ contains
          do i = 1, columns
             line(12*i - 11:12*i) = smart(values(i), 12, 6, 5)
          end do
-         write(unit, '(a)', iostat=status) line
+         write(unit, '(A)', iostat=status) line
          if (status /= 0) return
       end do
    end subroutine write_block

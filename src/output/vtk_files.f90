@@ -70,7 +70,7 @@ contains
          call fatal_error(error, "the file cannot be written: " // trim(reason), error_kind%file, base // ".pvd")
          return
       end if
-      write(self%unit, '(a)') '<?xml version="1.0"?>', '<VTKFile type="Collection" version="1.0">', '  <Collection>', &
+      write(self%unit, '(A)') '<?xml version="1.0"?>', '<VTKFile type="Collection" version="1.0">', '  <Collection>', &
          & trim(closing(1)), trim(closing(2))
    end subroutine open_collection
 
@@ -92,9 +92,9 @@ contains
 
       backspace(self%unit, iostat=status)
       backspace(self%unit, iostat=status)
-      write(self%unit, '(a, i0, a, i0, 3a)', iostat=status) '    <DataSet timestep="', case_number, '" part="', part, &
+      write(self%unit, '(A, I0, A, I0, 3A)', iostat=status) '    <DataSet timestep="', case_number, '" part="', part, &
          & '" file="', for_xml(name(index(name, "/", back=.true.) + 1:)), '"/>'
-      write(self%unit, '(a)', iostat=status) trim(closing(1)), trim(closing(2))
+      write(self%unit, '(A)', iostat=status) trim(closing(1)), trim(closing(2))
       flush(self%unit, iostat=status)
    end subroutine list_file
 
@@ -147,7 +147,7 @@ contains
       character(len=12) :: case_text, block_text
       integer :: k, part
 
-      write(case_text, '(i0.4)') head%number
+      write(case_text, '(I0.4)') head%number
       part = max(0, number - 1)
       name = case_file_name(self%base, case_text, "vts", head%result_element, number)
       call write_surface(name, spec, contact, error, place)
@@ -155,7 +155,7 @@ contains
       if (allocated(contact%subsurface)) then
          do k = 1, size(contact%subsurface)
             if (allocated(error)) exit
-            write(block_text, '(a, i0)') "block", k
+            write(block_text, '(A, I0)') "block", k
             name = case_file_name(self%base, case_text, trim(block_text) // ".vts", head%result_element, number)
             call write_block(name, spec, contact%subsurface(k), error, place)
             if (.not. allocated(error)) call self%list_file(name, head%number, 100*k + part)
@@ -310,7 +310,7 @@ contains
       grid%points = points
       grid%on_cells = on_cells
       allocate(grid%numbers(size_of_all), grid%lengths(0))
-      write(extent, '(5(i0, 1x), i0)') 0, points(1) - 1, 0, points(2) - 1, 0, points(3) - 1
+      write(extent, '(5(I0, 1X), I0)') 0, points(1) - 1, 0, points(2) - 1, 0, points(3) - 1
       grid%head = '<?xml version="1.0"?>' // new_line("a") // '<VTKFile type="StructuredGrid" version="1.0" byte_order="' &
          & // byte_order() // '" header_type="UInt64">' // new_line("a") // '<StructuredGrid WholeExtent="' // trim(extent) &
          & // '">' // new_line("a") // '<Piece Extent="' // trim(extent) // '">' // new_line("a") &
@@ -334,7 +334,7 @@ contains
       real(wp), intent(in) :: values(:)
       character(len=120) :: rest
 
-      write(rest, '(a, i0, a, i0, a)') '" NumberOfComponents="', components, '" format="appended" offset="', grid%offset, '"/>'
+      write(rest, '(A, I0, A, I0, A)') '" NumberOfComponents="', components, '" format="appended" offset="', grid%offset, '"/>'
       grid%head = grid%head // '<DataArray type="Float64" Name="' // name // trim(rest) // new_line("a")
       grid%numbers(grid%used + 1:grid%used + size(values)) = values
       grid%used = grid%used + size(values)

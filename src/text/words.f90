@@ -109,7 +109,7 @@ contains
          return
       end if
       number = word(1:mantissa) // "e" // integer_text(exponent_value)
-      form = "(f" // integer_text(len(number)) // ".0)"
+      form = "(F" // integer_text(len(number)) // ".0)"
       read(number, form, iostat=status) value
       if (status /= 0) then
          value = 0.0_wp
@@ -262,7 +262,7 @@ contains
       integer, intent(in) :: value
       character(len=columns_of(value)) :: text
 
-      write(text, '(i0)') value
+      write(text, '(I0)') value
    end function integer_text
 
    !> A real number in six figures without needless zeros, with blanks behind
@@ -274,9 +274,9 @@ contains
       if (value == 0.0_wp) then
          text = "0"
       else if (abs(value) < 1.0e-4_wp .or. abs(value) >= 1.0e6_wp) then
-         write(text, '(es12.5)') value
+         write(text, '(ES12.5)') value
       else
-         write(text, '(f14.6)') value
+         write(text, '(F14.6)') value
          last = verify(text, " 0", back=.true.)
          if (text(last:last) == ".") last = last - 1
          text(last + 1:) = ""

@@ -57,7 +57,7 @@ contains
          residual = unbalanced()
          if (abs(residual) <= max(tolerance, small_step*norm2(total_force(memory)))) return
          result%solved = .false.
-         write(missed, '(es10.2)') residual
+         write(missed, '(ES10.2)') residual
          if (search%bracketed) then
             call log%warning("the lateral force on the rail misses that of its spring by " // trim(adjustl(missed)) // &
                & " N: it jumps where contact patches appear, join or separate")

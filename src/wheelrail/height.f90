@@ -58,8 +58,8 @@ contains
       call measure(problem, memory%here, z)
       if (.not. height_is_unknown) then
          if (z - memory%here%touch > memory%here%placement%wheel_radius) then
-            write(wanted, '(es10.3)') z
-            write(touching, '(f12.4)') memory%here%touch
+            write(wanted, '(ES10.3)') z
+            write(touching, '(F12.4)') memory%here%touch
             call fatal_error(error, "Z_WS = " // trim(adjustl(wanted)) // " mm presses the wheel deeper into the rail than its &
                &radius; it touches the rail at Z_WS = " // trim(adjustl(touching)) // " mm")
             return
@@ -188,7 +188,7 @@ contains
       character(len=100) :: line
 
       if (.not. log%shows(1)) return
-      write(line, '(4x,i6,a,f12.4,es12.4,a,es12.3)') number, ", NR,  z_ws, Fz: ", z, force, ", dFz/dz:", slope
+      write(line, '(4X,I6,A,F12.4,ES12.4,A,ES12.3)') number, ", NR,  z_ws, Fz: ", z, force, ", dFz/dz:", slope
       call log%trace(1, trim(line))
    end subroutine trace_trial
 
@@ -200,8 +200,8 @@ contains
       character(len=12) :: wanted, missed
       character(len=:), allocatable :: why
 
-      write(wanted, '(es10.3)') target
-      write(missed, '(es10.2)') force_error
+      write(wanted, '(ES10.3)') target
+      write(missed, '(ES10.2)') force_error
       select case (balance%ended)
       case (balance_ending%jump)
          why = "the force jumps over it where contact patches join or separate"

@@ -58,8 +58,8 @@ contains
       residual = missing()
       if (abs(residual) <= max(tolerance, small_step*norm2(total_force(memory)))) return
       result%solved = .false.
-      write(wanted, '(es10.3)') problem%spec%wheelset%fx
-      write(missed, '(es10.2)') -residual
+      write(wanted, '(ES10.3)') problem%spec%wheelset%fx
+      write(missed, '(ES10.2)') -residual
       if (memory%used == 0) then
          call log%warning("the longitudinal force " // trim(adjustl(wanted)) // " N needs contact, and there is none")
       else if (search%bracketed) then

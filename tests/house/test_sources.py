@@ -1,0 +1,39 @@
+#!/usr/bin/env python3
+"""What must not come back into src: one rule a line, each with its reason."""
+import os
+import pathlib
+import re
+import sys
+
+# A format in quotes: after the unit of write or read, or given to a variable
+FORMAT = re.compile(r"""(?:\b(?:write|read)\s*\(\s*[\w%*]+\s*,\s*|\bform\w*(?:\([^)]*\))?\s*=\s*\[?)(['"])(\(.*?)\1""")
+
+
+def offences(lines):
+    """Number, line and reason of each line that breaks a rule"""
+    for number, line in enumerate(lines, 1):
+        for match in FORMAT.finditer(line):
+            descriptors = re.sub(r"""(['"]).*?\1""", "", match[2])
+            if re.search("[a-z]", descriptors):
+                yield (number, line.strip(), "an edit descriptor in small letters: the run-time library makes capitals of them "
+                       "by the host's locale, and a Turkish i has none")
+
+
+def main():
+    """All files of src"""
+    planted = list(offences(["   write(text, '(a, i0)') what", "   if (bad) write(unit, '(es12.4)', iostat=status) x",
+                             "   write(text, '(A, I0)') 'a', 1", "   read(number, form, iostat=status) value",
+                             """   write(name, '("case_", i0)') k""", """   write(name, '("case_", I0)') k"""]))
+    assert [line[0] for line in planted] == [1, 2, 5], planted
+    files = sorted(pathlib.Path(os.environ["CONTACT_SOURCE"], "src").rglob("*.f90"))
+    bad = 0
+    for file in files:
+        for number, line, reason in offences(file.read_text(encoding="utf-8").splitlines()):
+            bad += 1
+            print(f"FAILED {file}:{number}: {line}\n  {reason}")
+    print(f"{len(files)} files, {bad} offences")
+    return 1 if bad or len(files) < 100 else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
