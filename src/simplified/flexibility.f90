@@ -107,7 +107,8 @@ contains
       real(wp), intent(in) :: gg, nu
       !> Friction force in full sliding, mu Fn, with the friction of sliding [N]
       real(wp), intent(in) :: load
-      !> Creepages [-] and spin [rad/mm]
+      !> Creepages [-]; spin [rad/mm], positive where it adds to the lateral slip at the leading edge: times -1 in rolling
+      !> towards decreasing x
       real(wp), intent(in) :: creep(2), spin
       type(creepage_coefficients) :: c
       real(wp) :: lateral, share

@@ -142,7 +142,7 @@ contains
          & mean(problem%mu)*problem%fn, creep, problem%spin)
       call friction_of_rows(problem, norm2(creep), solution%mu)
       solution%slope = slope_factor(problem%model%reduction, problem%area, problem%gg, problem%nu, mean(solution%mu)*problem%fn, &
-         & creep, problem%spin)
+         & creep, problem%direction*problem%spin)
       solution%compliance = solution%flx(1:2)/solution%slope
       call rigid_slip(problem, solution)
       do iy = 1, size(solution%mu)

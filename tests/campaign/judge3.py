@@ -260,9 +260,12 @@ def rigid_slip(scene, case, f, totals, eps_offset=True):
 def step_of(scene, f):
     """Distance rolled per case: DQ, replaced by DX where the method goes by one element"""
     d = scene["digits"]
-    if (d["T"] == 3 and d["G"] != 2) or d["M"] == 4:
-        return f["dx"]
-    return scene["rolling"][1]
+    dq = scene["rolling"][1]
+    if d["T"] == 3 or d["M"] == 4:
+        # methods that go by one element replace it, with a warning
+        used = f.get("dq", f["dx"])
+        return f["dx"] if abs(used - f["dx"]) < abs(used - dq) + 1e-12*dq else dq
+    return dq
 
 
 def previous_tractions(scene, k, fields, state):
@@ -310,18 +313,29 @@ def judge_contact(scene, k, run, fields, findings, state):
         loose = 3e-3 if d["L"] else 0.0
         exceeds(findings, "bound", f"traction above its bound in case {k}", (np.hypot(px, py) - bound)[inside].max()/(mu.max()*top),
                 (ALLOWANCE*scene["eps"] if converged else 1e-3) + 4*error + loose)
-    if d["M"] not in (0, 4) or (d["M"] == 4 and scene["material"][2] > 0 and d["T"]) or not converged:
-        if d["M"] != 0 or not converged:
-            normal_only = d["M"] in (2, 3, 4, 5) and converged and d["B"] == 0 and elastic_uncoupled(scene)
-            if normal_only:
-                judge_normal(scene, k, f, state, totals, findings, half_spaces(scene, f), coupled=False)
-            return
-    spaces = half_spaces(scene, f)
-    coupled = spaces.coupled and scene["maxout"] > 1
-    if d["B"] == 0 and (coupled or not spaces.coupled or case["I"] == 0):
-        judge_normal(scene, k, f, state, totals, findings, spaces, coupled)
-    if d["T"] and not d["L"]:
-        judge_tangential(scene, k, run, f, previous, findings, spaces)
+    if not converged:
+        return
+    state["plastic"] = plastic_before(scene, k, fields, state)
+    if d["M"] == 1:
+        return
+    if d["M"] in (2, 3, 5):
+        if d["B"] == 0 and elastic_uncoupled(scene):
+            judge_normal(scene, k, f, state, totals, findings, half_spaces(scene, f), coupled=False)
+        if d["M"] == 2 and d["T"]:
+            judge_springs(scene, k, f, previous, totals, findings)
+    else:
+        spaces = half_spaces(scene, f)
+        coupled = spaces.coupled and scene["maxout"] > 1
+        if d["B"] == 0 and (coupled or not spaces.coupled or case["I"] == 0):
+            judge_normal(scene, k, f, state, totals, findings, spaces, coupled)
+        if d["T"]:
+            judge_tangential(scene, k, run, f, previous, findings, spaces, state["plastic"])
+            if d["L"] in (2, 3, 4):
+                judge_falling_friction(scene, k, fields, findings)
+    if d["H"] and d["T"] == 3:
+        judge_temperature(scene, k, f, findings)
+    if d["S"] and d["C"] != 3:
+        judge_stress(scene, k, run, f, findings)
 
 
 def elastic_uncoupled(scene):
@@ -364,7 +378,7 @@ def judge_normal(scene, k, f, state, totals, findings, spaces, coupled):
     exceeds(findings, "gap", f"contact conditions of case {k}", size/scale, ALLOWANCE*allowance*scene["eps"] + 1e-10 + 10*f["error"])
 
 
-def judge_tangential(scene, k, run, f, previous, findings, spaces):
+def judge_tangential(scene, k, run, f, previous, findings, spaces, plastic):
     """Slip against traction on the bound, none below it: the projected residual relative to the bound"""
     d, case, totals = scene["digits"], scene["cases"][k - 1], run.totals(k)
     if previous is None:
@@ -401,7 +415,14 @@ def judge_tangential(scene, k, run, f, previous, findings, spaces):
         elif step > min(f["dx"], f["dy"]) and abs(math.sin(chi)) >= 1e-9:
             pass
     sx, sy = wx*step + now[0] - before[0], wy*step + now[1] - before[1]
-    bound = f["mu"]*pn if d["B"] != 3 else f["mu"]*parabola(scene, f, totals)
+    bound = f["mu"]*pn
+    if "taucrt" in f:
+        if plastic is None:
+            return
+        growth = [f["uplsx"] - plastic[0], f["uplsy"] - plastic[1]]
+        sx, sy = sx + growth[0], sy + growth[1]
+        judge_yield(scene, k, f, growth, plastic[2], np.hypot(wx, wy).max()*step, findings)
+        bound = np.minimum(bound, f["taucrt"])
     r = 1.0/(spaces.centre("xx") + layer)
     qx, qy = px - r*sx, py - r*sy
     size = np.hypot(qx, qy)
@@ -459,9 +480,189 @@ def leading_edge(f, wx, wy, before, old, spaces, chi, step):
     return wx*share, wy*share, before
 
 
-def parabola(scene, f, totals):
-    """Pressure from which the parabolical bound (B = 3) takes its shape: printed pressures are those of the bound"""
-    return f["pn"]
+def plastic_before(scene, k, fields, state):
+    """Plastic displacements and yield limit of the particles a step ago (upx, upy, limit); None where not known here"""
+    d, f, case = scene["digits"], fields[k], scene["cases"][k - 1]
+    if "taucrt" not in f:
+        return None
+    fresh = scene["material"][2]
+    zero = np.zeros_like(f["pn"])
+    if d["T"] == 3:
+        source = f
+    elif k == 1 or case["P"] in (1, 2):
+        return zero, zero, zero + fresh
+    elif case["P"] == 3:
+        return state.get("plastic")
+    else:
+        source = fields[k - 1]
+        if "taucrt" not in source:
+            return None
+    if d["T"] == 1:
+        return source["uplsx"], source["uplsy"], source["taucrt"]
+    sign = 1 if math.cos(scene["rolling"][0]) > 0 else -1
+    return (upstream(source["uplsx"], sign), upstream(source["uplsy"], sign), upstream(source["taucrt"] - fresh, sign) + fresh)
+
+
+def judge_yield(scene, k, f, growth, limit_before, slip, findings):
+    """Plastic flow goes along the traction and changes the yield limit by K_TAU"""
+    tau, slope = scene["material"][2:4]
+    size = np.hypot(*growth)
+    scale = max(size.max(), slip, 1e-300)
+    inside = f["eldiv"] > 0
+    # an element that slips may have hardened up to the bound of friction in this step
+    plastic = (f["eldiv"] == 3) | ((f["eldiv"] == 2) & (size > 0))
+    pt = np.hypot(f["px"], f["py"])
+    tolerance = 10*scene["eps"] + 1e-9 + 20*f["error"]
+    if (~plastic & inside).any():
+        exceeds(findings, "yield", f"plastic flow of elements that do not yield, case {k}", size[~plastic & inside].max()/scale, tolerance)
+    want = np.maximum(limit_before + slope*size, 0.1*tau)
+    exceeds(findings, "yield", f"yield limit of case {k}", np.abs(want - f["taucrt"])[inside].max()/tau,
+            tolerance + abs(slope)*scale/tau*tolerance)
+    if plastic.any():
+        exceeds(findings, "yield", f"traction of yielding elements, case {k}", np.abs(pt - f["taucrt"])[plastic].max()/tau, tolerance)
+        cross = np.abs(growth[0]*f["py"] - growth[1]*f["px"])[plastic].max()/(scale*tau)
+        exceeds(findings, "yield", f"direction of plastic flow, case {k}", cross, 10*tolerance)
+        along = (growth[0]*f["px"] + growth[1]*f["py"])[plastic].min()/(scale*tau)
+        exceeds(findings, "yield", f"plastic flow against the traction, case {k}", -along, tolerance)
+
+
+def judge_falling_friction(scene, k, fields, findings):
+    """Coefficients follow from the slip by the law with its memory; the loop ends when slip has settled within 0.1 %"""
+    d, case, f = scene["digits"], scene["cases"][k - 1], fields[k]
+    if case["P"] == 3 and k > 1:
+        return
+    inside = f["eldiv"] > 0
+    veloc, dq, chi = (scene["rolling"][2], step_of(scene, f), scene["rolling"][0]) if d["T"] >= 2 else (1.0, 1.0, 0.0)
+    if d["T"] == 2 and abs(dq/f["dx"] - 1) > 1e-3 and k > 1 and case["P"] == 0:
+        return
+    speed = np.hypot(f["sx"], f["sy"])*veloc
+    rows = np.array(scene["friction"])
+    rows = np.repeat(rows, f["my"], axis=0) if d["V"] == 0 else rows
+    mk, m1, s1, m2, s2 = (rows[:, i][:, np.newaxis] for i in range(5))
+    s1, s2 = np.maximum(s1, np.where(m1 == 0, 1e-4, 0)), np.maximum(s2, np.where(m2 == 0, 1e-4, 0))
+    law = {2: lambda v: mk + m1*np.maximum(0, 1 - v/(2*s1)) + m2*np.maximum(0, 1 - v/(2*s2)),
+           3: lambda v: mk + m1/(1 + v/s1) + m2/(1 + (v/s2)**2), 4: lambda v: mk + m1*2**(-v/s1) + m2*2**(-v/s2)}[d["L"]]
+    distance, lowest = scene["memory"]
+    theta = distance/(distance + dq/veloc*np.maximum(speed, lowest)) if distance > 1e-9 else 0*speed
+    target, static = law(speed), mk + m1 + m2 + 0*speed
+    sign = 1 if math.cos(chi) > 0 else -1
+    if d["T"] == 3:
+        mu = np.empty_like(target)
+        last = static[:, 0]
+        for i in (range(f["mx"] - 1, -1, -1) if sign > 0 else range(f["mx"])):
+            last = theta[:, i]*last + (1 - theta[:, i])*target[:, i]
+            mu[:, i] = last
+    else:
+        old = static
+        if k > 1 and case["P"] == 0:
+            old = fields[k - 1]["mu"]
+            if d["T"] == 2:
+                if abs(math.sin(chi)) > 1e-3:
+                    return
+                old = upstream(old - static, sign) + static
+        mu = theta*old + (1 - theta)*target
+    error = math.sqrt((((mu - f["mu"])**2)[inside]).sum()/inside.sum())/static.max()
+    exceeds(findings, "friction", f"coefficients of case {k} by the law, mean square", error, 1e-2)
+
+
+def judge_springs(scene, k, f, previous, totals, findings):
+    """Fastsim with one flexibility: a march through each row from the leading edge, or the same for each particle"""
+    d, case = scene["digits"], scene["cases"][k - 1]
+    flexibility, k0, alpha, _ = scene["material"]
+    if alpha < 1 or previous is None or (case["P"] == 3 and k > 1):
+        return
+    stiffness = k0/flexibility
+    wx, wy = rigid_slip(scene, case, f, totals)
+    chi, _, _, *_ = scene["rolling"] if d["T"] >= 2 else (0.0, 1.0, 1.0)
+    step = f["dx"] if d["T"] == 3 else scene["rolling"][1] if d["T"] == 2 else 1.0
+    bound = f["mu"]*f["pn"]
+    inside = f["eldiv"] > 0
+    sign = 1 if math.cos(chi) > 0 else -1
+    px, py = np.zeros_like(bound), np.zeros_like(bound)
+    if d["T"] == 3:
+        qx, qy = np.zeros(f["my"]), np.zeros(f["my"])
+        for i in (range(f["mx"] - 1, -1, -1) if sign > 0 else range(f["mx"])):
+            qx, qy = qx - stiffness*step*wx[:, i], qy - stiffness*step*wy[:, i]
+            size = np.hypot(qx, qy)
+            cut = np.where(size > bound[:, i], bound[:, i]/np.where(size > 0, size, 1), 1.0)*inside[:, i]
+            qx, qy = cut*qx, cut*qy
+            px[:, i], py[:, i] = qx, qy
+    else:
+        ox, oy = previous[:2]
+        if d["T"] == 2:
+            if abs(step/f["dx"] - 1) > 1e-3 and k > 1 and case["P"] == 0 or abs(math.sin(chi)) > 1e-3:
+                return
+            ox, oy = upstream(ox, sign), upstream(oy, sign)
+        qx, qy = ox - stiffness*step*wx, oy - stiffness*step*wy
+        size = np.hypot(qx, qy)
+        cut = np.where(size > bound, bound/np.where(size > 0, size, 1), 1.0)*inside
+        px, py = cut*qx, cut*qy
+    error = max(np.abs(px - f["px"]).max(), np.abs(py - f["py"]).max())/bound.max()
+    exceeds(findings, "springs", f"tractions of case {k}", error, 1e-8 + 20*f["error"])
+
+
+def judge_temperature(scene, k, f, findings):
+    """Surface temperatures in the contact: heat that particles took on their way, the own element by the established
+    factor; equal temperatures of both surfaces"""
+    if "temp1" not in f or scene["digits"]["M"] in (2, 3, 5) or "taucrt" in f:
+        return
+    (t1, c1, l1, r1), (t2, c2, l2, r2) = scene["heat"]
+    b1, b2 = 1e3*math.sqrt(l1*r1*c1), 1e3*math.sqrt(l2*r2*c2)
+    chi, _, veloc, *_ = scene["rolling"]
+    dx, dq = f["dx"], step_of(scene, f)
+    heat = np.hypot(f["sx"], f["sy"])*np.hypot(f["px"], f["py"])*veloc*(f["eldiv"] > 1)
+    if chi not in (0.0, math.pi) or abs(dq/dx - 1) > 1e-6:
+        return
+    if chi == 0.0:
+        heat = heat[:, ::-1]
+    total = np.zeros_like(heat)
+    for i in range(f["mx"]):
+        for j in range(i):
+            total[:, i] += heat[:, j]*(math.sqrt((i - j + 0.5)*dx) - math.sqrt((i - j - 0.5)*dx))
+        total[:, i] += heat[:, i]*2*math.sqrt(0.5*dx)
+    rise = 2/((b1 + b2)*math.sqrt(math.pi*veloc))*total
+    if chi == 0.0:
+        rise = rise[:, ::-1]
+    middle = (b1*t1 + b2*t2)/(b1 + b2)
+    inside = f["eldiv"] > 0
+    # rows with one interval of contact: behind a gap the bodies have exchanged heat already
+    single = (np.diff(np.pad(inside, ((0, 0), (1, 1))).astype(int), axis=1) == 1).sum(axis=1) == 1
+    chosen = inside & single[:, np.newaxis]
+    if not chosen.any():
+        return
+    scale = max(rise.max(), abs(t1 - t2), 1e-6*abs(middle), 1e-12)
+    for name in ("temp1", "temp2"):
+        exceeds(findings, "temperature", f"{name} of case {k}", np.abs(f[name] - middle - rise)[chosen].max()/scale, 1e-6 + 20*f["error"])
+
+
+def judge_stress(scene, k, run, f, findings):
+    """Normal stress at the largest depth by point forces (Boussinesq and Cerruti: the same for all Poisson ratios)"""
+    if judge.h5py is None:
+        return
+    with judge.h5py.File(run.path(".h5"), "r") as file:
+        place = file[f"case_{k:04d}/patch_1"]
+        if "subsurface/block_1/sigzz" not in place:
+            findings.append(finding("stress", f"no stresses of case {k}"))
+            return
+        block = place["subsurface/block_1"]
+        depth, stress = block["points/z"][-1], block["sigzz"][-1]
+        finite = all(np.isfinite(block[name][()]).all() for name in block if name != "points")
+    if not finite:
+        findings.append(finding("numbers", f"stresses of case {k}"))
+        return
+    if depth < 0.7*max(f["dx"], f["dy"]) or stress.shape != f["pn"].shape:
+        return
+    x, y = f.x[np.newaxis, :], f.y[:, np.newaxis]
+    want = np.zeros_like(stress)
+    places, weights = np.array([-1, 0, 1])*math.sqrt(0.15), np.array([5, 8, 5])/18
+    for j, i in zip(*np.nonzero(f["pn"])):
+        for a in range(3):
+            for b in range(3):
+                dx, dy = x - f.x[i] - places[a]*f["dx"], y - f.y[j] - places[b]*f["dy"]
+                r5 = (dx*dx + dy*dy + depth*depth)**2.5
+                want -= weights[a]*weights[b]*f.area*3*depth**2/(2*math.pi*r5)*(
+                    f["px"][j, i]*dx + f["py"][j, i]*dy + f["pn"][j, i]*depth)
+    exceeds(findings, "stress", f"SIGZZ of case {k} at z = {depth:.4g}", np.abs(want - stress).max()/np.abs(want).max(), 0.02)
 
 
 def hertz_of(scene, case):
@@ -519,7 +720,7 @@ def judge_hertz(scene, k, run, f, findings):
     h = hz["A"]*f.x[np.newaxis, :]**2 + hz["B"]*f.y[:, np.newaxis]**2
     exceeds(findings, "hertz", f"undeformed distance of case {k}", judge.relative(f["h"] - h, h.max()), 1e-6 + 2*f["error"])
     elements = min(f["mx"], f["my"])/scale
-    if d["B"] == 0 and d["C"] in (2, 3) and elements >= 6 and scene["maxout"] >= 1 and is_converged(run.cases[k - 1]):
+    if d["B"] == 0 and d["C"] in (2, 3) and d["M"] != 1 and elements >= 6 and scene["maxout"] >= 1 and is_converged(run.cases[k - 1]):
         coupling = abs(elastic.combined(scene["g"], scene["nu"])[2])
         limit = 1.0/elements + coupling
         for name in ("pen", "fn", "pmax"):
