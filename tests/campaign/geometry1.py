@@ -275,11 +275,49 @@ class Placed:
                            "edge": bool(part[0] <= 1 or part[-1] >= len(y_rows) - 2)})
         return result
 
-    def rail_angle(self, y):
-        """Inclination of the rail at y of the track, at the section of the wheelset"""
-        step = 0.02
-        z = self.rail_height(np.zeros(2), np.array([y - step, y + step]))
-        return math.atan2(z[1] - z[0], 2.0 * step)
+    # ---- Distance along a normal -------------------------------------------------------------------------
+
+    def distances(self, where, angle, x, s):
+        """Distance of the bodies along the normal of a plane at the places x, s in it, array (s, x); infinite without a surface
+
+        where      origin of the plane in the track, on the rail
+        angle      its roll
+        x, s       evenly spaced coordinates in the plane
+
+        The surfaces are followed from the origin of the plane to both sides, as long as they run one way along s.
+        """
+        axes = turn(0, angle)
+        where = np.asarray(where, float)
+        inside = self.wheel_axes.T @ (where - self.wheel_origin)
+        near = int(np.argmin(np.hypot(self.wheel.y - inside[1],
+                                      self.wheel.z - (math.hypot(inside[0], inside[2] + self.radius) - self.radius))))
+        reach = np.ptp(s) + 2.0 * (s[1] - s[0]) + 1.0
+        part, _, _ = self.wheel.between(self.wheel.s[near] - reach, self.wheel.s[near] + reach, 1201)
+        middle = math.atan2(inside[0], inside[2] + self.radius)
+        span = (np.ptp(x) + 2.0 * (x[1] - x[0]) + 0.05 * reach) / self.radius
+        points = self.wheel_points(part, np.linspace(middle - span, middle + span, 401))
+        local = np.tensordot(axes.T, points - where[:, None, None], 1)
+        wheel = np.full((len(s), len(x)), -np.inf)
+        at_s = np.full((2, local.shape[1], len(s)), np.nan)  # x and n of each circle where it has s
+        start = int(np.argmin(np.abs(part - self.wheel.s[near])))
+        for k in range(local.shape[1]):
+            one = _run(local[1, k], start)
+            line = slice(one[0], one[1])
+            y_line = local[1, k, line]
+            order = slice(None, None, 1 if y_line[-1] > y_line[0] else -1)
+            for row, values in enumerate((local[0, k, line], local[2, k, line])):
+                at_s[row, k] = np.interp(s, y_line[order], values[order], left=np.nan, right=np.nan)
+        for j in range(len(s)):
+            good = np.isfinite(at_s[0, :, j])
+            if good.sum() > 2:
+                order = np.argsort(at_s[0, good, j])
+                wheel[j] = np.interp(x, at_s[0, good, j][order], at_s[1, good, j][order], left=-np.inf, right=-np.inf)
+        rail_y, rail_z = self.rail_y + self.rail_origin[1] - where[1], self.rail_z + self.rail_origin[2] - where[2]
+        c, t = math.cos(angle), math.sin(angle)
+        along_s, along_n = rail_y * c + rail_z * t, rail_z * c - rail_y * t
+        one = _run(along_s, int(np.argmin(np.hypot(along_s, along_n))))
+        rail = np.interp(s, along_s[one[0]:one[1]], along_n[one[0]:one[1]], left=np.inf, right=np.inf)
+        return rail[:, None] - wheel
 
     # ---- Motion ------------------------------------------------------------------------------------------
 
@@ -320,6 +358,15 @@ class Placed:
             result.append((rail, wheel, own_turn @ rail_turn, wheel_axes @ self.wheel_axes.T))
         (ra, wa, rta, wta), (rb, wb, rtb, wtb) = result
         return (rb - ra) / (2 * dt), (wb - wa) / (2 * dt), _turning(rta, rtb, dt), _turning(wta, wtb, dt)
+
+
+def _run(values, start):
+    """First and last but one index of the stretch around a place in which values keep rising, or keep falling"""
+    steps = np.diff(values)
+    sign = np.sign(steps[min(start, len(steps) - 1)])
+    turns = np.flatnonzero(np.sign(steps) != sign)
+    before, after = turns[turns < start], turns[turns >= start]
+    return (before[-1] + 1 if len(before) else 0), (after[0] + 1 if len(after) else len(values))
 
 
 def _turning(before, after, dt):

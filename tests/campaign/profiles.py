@@ -247,25 +247,25 @@ def points(recipe):
         s = arc_length(curve)
         places = np.interp(np.arange((len(s) - 1) * recipe["refine"] + 1) / recipe["refine"], np.arange(len(s)), s)
         curve = np.column_stack([Spline(s, curve[:, k])(places) for k in (0, 1)])
-    return np.round(curve, 9 if recipe.get("metres") else 7)
+    return np.round(curve, 10)
 
 
 def simpack(body, curve, keywords):
     """Text of a file of a curve; lines with further keywords"""
     return ("header.begin\n  version = 1\n  type    = %d\nheader.end\nspline.begin\n" % (0 if body == "rail" else 1)
             + "".join("  %s\n" % line for line in keywords) + "  point.begin\n"
-            + "".join("  %.12g %.12g\n" % tuple(point) for point in curve) + "  point.end\nspline.end\n")
+            + "".join("  %.13g %.13g\n" % tuple(point) for point in curve) + "  point.end\nspline.end\n")
 
 
 def miniprof(curve):
     """Text as the instrument writes it, with angles and curvatures in further columns"""
     text = "FileName=campaign\nDate=01-02-2024\nXYPoints=%d\nColumnDef=X,Y,A,C\nXOffset=0.0\nYOffset=0.0\n\n" % len(curve)
-    return (text + "".join("%.12g\t%.12g\t0.1\t0.001\n" % tuple(point) for point in curve)).replace("\n", "\r\n")
+    return (text + "".join("%.13g\t%.13g\t0.1\t0.001\n" % tuple(point) for point in curve)).replace("\n", "\r\n")
 
 
 def table(curve):
     """Text of two columns"""
-    return "% y z\n" + "".join("%.12g %.12g\n" % tuple(point) for point in curve)
+    return "% y z\n" + "".join("%.13g %.13g\n" % tuple(point) for point in curve)
 
 
 EXTENSIONS = {("simpack", "rail"): "prr", ("simpack", "wheel"): "prw", ("miniprof", "rail"): "ban", ("miniprof", "wheel"): "whl",
