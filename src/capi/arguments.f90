@@ -10,7 +10,7 @@ module contact_capi_arguments
    implicit none (type, external)
    private
 
-   public :: no_number, integer_of, real_of, count_of, path_of, integers_of, reals_of
+   public :: no_number, integer_of, real_of, count_of, path_of, integers_of, reals_of, raised
    public :: give, give_list, give_zeros
 
    !> Stands for an integer that was not given; no code, index or count is that large
@@ -90,6 +90,14 @@ contains
       allocate(list(count_of(length, present(array))))
       if (size(list) > 0) list = array(:size(list))
    end function reals_of
+
+   !> What is too small for the models becomes the smallest value; what is negative or not a number stays for the check of bounds
+   elemental real(wp) function raised(value, least)
+      real(wp), intent(in) :: value, least
+
+      raised = value
+      if (value >= 0.0_wp) raised = max(least, value)
+   end function raised
 
    !> Hand over one integer
    pure subroutine give_integer(value, argument)

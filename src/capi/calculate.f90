@@ -7,7 +7,7 @@ module contact_capi_calculate
    use contact_capi_calculate1, only : calculate_pair
    use contact_capi_calculate3, only : calculate_contact
    use contact_capi_library, only : entry_type
-   use contact_capi_messages, only : forget_complaint, say
+   use contact_capi_messages, only : complain, first_refusal, forget_complaint, say
    use contact_capi_problem, only : library_problem, most_patches
    use contact_capi_registry, only : enter_calculation, leave_calculation, scope, scope_type, threads_inside
    use contact_control_library_codes, only : code_text, library_code
@@ -49,11 +49,14 @@ contains
       integer(c_int), intent(inout), optional :: ierror
       type(library_problem), pointer :: problem
       real(wp) :: cpu, wall
-      integer :: code, threads
+      integer :: code, threads, link, estimate, k
 
       call enter_calculation(this, allowed, problem, code)
       if (associated(problem)) then
          call forget_complaint(problem)
+         ! a first case overrides these digits for itself only
+         link = problem%spec%digits%p
+         estimate = problem%spec%digits%i
          call say(1, this, "calculating...")
          threads = omp_get_max_threads()
          call omp_set_num_threads(threads_inside())
@@ -61,11 +64,17 @@ contains
          wall = problem%watch%wall
          call problem%watch%start()
          call problem%total%start()
-         if (problem%module_number == 1) then
+         k = first_refusal(problem, "cntc_set")
+         if (k > 0) then
+            code = problem%refused(k)%code
+            call complain(this, "a setting was refused and not made anew: " // problem%refused(k)%reason, code)
+         else if (problem%module_number == 1) then
             call calculate_pair(this, problem, code)
          else
             call calculate_contact(this, problem, code)
          end if
+         problem%spec%digits%p = link
+         problem%spec%digits%i = estimate
          call problem%total%halt()
          call problem%watch%halt()
          if (problem%module_number == 1) call book_patches(problem, problem%watch%cpu - cpu, problem%watch%wall - wall)

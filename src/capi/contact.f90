@@ -3,9 +3,9 @@ module contact_capi_contact
    use, intrinsic :: iso_c_binding, only : c_double, c_int
    use contact_base_choices, only : motion, slip_source
    use contact_base_kinds, only : wp
-   use contact_capi_arguments, only : integer_of, real_of, reals_of
+   use contact_capi_arguments, only : integer_of, raised, real_of, reals_of
    use contact_capi_library, only : entry_type
-   use contact_capi_messages, only : are_finite, complain, count_fits, is_heard, say
+   use contact_capi_messages, only : complain, count_fits, fits, is_heard, say
    use contact_capi_problem, only : library_problem
    use contact_capi_registry, only : enter, leave, scope
    use contact_cases_spec, only : geometry_spec, grid_spec
@@ -19,10 +19,10 @@ module contact_capi_contact
 
    !> Largest number of elements, as in input files
    real(wp), parameter :: most_elements = 2.0e6_wp
-   !> Smallest lengths and curvatures, in units of the caller
-   real(wp), parameter :: least_length = 1.0e-6_wp, least_curvature = 1.0e-12_wp
-   !> Smallest velocity [mm/s]
-   real(wp), parameter :: least_velocity = 1.0e-9_wp
+   !> Smallest curvature [1/mm] and velocity [mm/s]: a flat body and one that stands still count as such
+   real(wp), parameter :: least_curvature = 1.0e-12_wp, least_velocity = 1.0e-9_wp
+   !> What both routines for the potential contact set
+   character(len=*), parameter :: potential_contact = "potential contact"
 
 contains
 
@@ -52,20 +52,25 @@ contains
       integer, intent(in) :: option
       real(wp), intent(in) :: values(:)
       type(library_problem), intent(inout) :: problem
-      real(wp) :: length
+      real(wp) :: length, factors(7)
 
       if (option /= 0 .and. option /= -1) then
          call complain(this, "there is no discretisation method " // integer_text(option) // " for wheel and rail; 0 and -1 are")
          return
       end if
       if (.not. count_fits(this, option, size(values), merge(3, 5, option == 0), merge(3, 7, option == 0))) return
-      if (.not. are_finite(this, values)) return
       length = inward(problem%units, quantity%length)
+      if (option == 0) then
+         if (.not. fits(this, "DX DS", values(:2)*length)) return
+      else
+         factors = [length, length, inward(problem%units, quantity%angle), length, length, length, length]
+         if (.not. fits(this, "DX DS A_SEP D_SEP D_COMB D_TURN G_MISS", values*factors(:size(values)))) return
+      end if
       associate (search => problem%spec%wheel_rail%search)
-         search%dx = max(least_curvature, values(1))*length
-         search%ds = max(least_curvature, values(2))*length
+         search%dx = values(1)*length
+         search%ds = values(2)*length
          if (option == 0) return
-         search%a_sep = max(0.0_wp, values(3)*inward(problem%units, quantity%angle))
+         search%a_sep = max(0.0_wp, values(3)*factors(3))
          search%d_sep = max(0.0_wp, values(4)*length)
          search%d_comb = max(0.0_wp, values(5)*length)
          search%d_turn = 2.0_wp*search%d_sep - search%d_comb
@@ -82,18 +87,21 @@ contains
       integer, intent(in) :: option
       real(wp), intent(in) :: values(:)
       type(library_problem), intent(inout) :: problem
+      character(len=*), parameter :: window_names(4) = [character(len=16) :: "XL YL DX DY", "XL YL XH YH", "XC1 YC1 DX DY", &
+         & "XC1 YC1 XCM YCM"]
       type(grid_spec) :: grid
       real(wp) :: v(6)
 
+      problem%setting%group = potential_contact
       if (option < 1 .or. option > 4) then
          call complain(this, "there is no option " // integer_text(option) // " for the potential contact; 1 to 4 are")
          return
       end if
       if (.not. count_fits(this, option, size(values), 6, 6)) return
-      if (.not. are_finite(this, values)) return
       grid%ipotcn = option
       if (.not. sizes_fit(this, values(1:2), grid)) return
       v = values*inward(problem%units, quantity%length)
+      if (.not. fits(this, trim(window_names(option)), v(3:6))) return
       select case (option)
       case (1)
          grid%xl = v(3)
@@ -119,19 +127,21 @@ contains
       problem%spec%grid = grid
    end subroutine set_window
 
-   !> Numbers of elements, rounded, at least 1
+   !> Numbers of elements, rounded
    logical function sizes_fit(this, numbers, grid)
       type(entry_type), intent(in) :: this
       real(wp), intent(in) :: numbers(2)
       type(grid_spec), intent(inout) :: grid
 
-      sizes_fit = max(1.0_wp, numbers(1))*max(1.0_wp, numbers(2)) <= most_elements
+      sizes_fit = fits(this, "MX MY", anint(numbers))
+      if (.not. sizes_fit) return
+      sizes_fit = anint(numbers(1))*anint(numbers(2)) <= most_elements
       if (.not. sizes_fit) then
          call complain(this, "the potential contact has more than " // integer_text(nint(most_elements)) // " elements")
          return
       end if
-      grid%mx = max(1, nint(max(1.0_wp, numbers(1))))
-      grid%my = max(1, nint(max(1.0_wp, numbers(2))))
+      grid%mx = nint(numbers(1))
+      grid%my = nint(numbers(2))
    end function sizes_fit
 
    !> Hertzian geometry
@@ -141,12 +151,15 @@ contains
       type(library_problem), pointer :: problem
       type(entry_type) :: this
       type(grid_spec) :: grid
+      character(len=*), parameter :: hertz_names(-6:-1) = [character(len=18) :: "AA BNEG BPOS SCALE", "AA BB SCALE", &
+         & "A1 BB SCALE", "AA BB SCALE", "A1 AOB SCALE", "A1 B1 SCALE"]
       real(wp), allocatable :: v(:)
-      real(wp) :: length, curvature
+      real(wp) :: length, curvature, factors(4)
 
       this = entry_type("cntc_setHertzContact", integer_of(ire), integer_of(icp))
       call enter(this, scope%contact, problem)
       if (.not. associated(problem)) return
+      problem%setting%group = potential_contact
       v = reals_of(nparam, params)
       grid%ipotcn = max(-99, integer_of(ipotcn))
       length = inward(problem%units, quantity%length)
@@ -154,26 +167,41 @@ contains
       if (grid%ipotcn < -6 .or. grid%ipotcn > -1) then
          call complain(this, "there is no Hertzian option " // integer_text(grid%ipotcn) // "; -6 to -1 are")
       else if (count_fits(this, grid%ipotcn, size(v), merge(6, 5, grid%ipotcn == -6), merge(6, 5, grid%ipotcn == -6))) then
-         if (are_finite(this, v)) then
-            if (sizes_fit(this, v(1:2), grid)) then
-               grid%scale = max(least_length, v(size(v)))
+         if (sizes_fit(this, v(1:2), grid)) then
+            select case (grid%ipotcn)
+            case (-1)
+               factors = [curvature, curvature, 1.0_wp, 1.0_wp]
+            case (-2)
+               factors = [curvature, 1.0_wp, 1.0_wp, 1.0_wp]
+            case (-4)
+               factors = [curvature, length, 1.0_wp, 1.0_wp]
+            case (-6)
+               factors = [length, length, length, 1.0_wp]
+            case default
+               factors = [length, length, 1.0_wp, 1.0_wp]
+            end select
+            v(3:) = v(3:)*factors(:size(v) - 2)
+            if (any(grid%ipotcn == [-1, -2, -4])) v(3) = raised(v(3), least_curvature)
+            if (grid%ipotcn == -1) v(4) = raised(v(4), least_curvature)
+            if (fits(this, trim(hertz_names(grid%ipotcn)), v(3:))) then
+               grid%scale = v(size(v))
                select case (grid%ipotcn)
                case (-1)
-                  grid%a1 = max(least_curvature, v(3))*curvature
-                  grid%b1 = max(least_curvature, v(4))*curvature
+                  grid%a1 = v(3)
+                  grid%b1 = v(4)
                case (-2)
-                  grid%a1 = max(least_curvature, v(3))*curvature
-                  grid%aob = max(least_length, v(4))
+                  grid%a1 = v(3)
+                  grid%aob = v(4)
                case (-3, -5)
-                  grid%aa = max(least_length, v(3))*length
-                  grid%bb = max(least_length, v(4))*length
+                  grid%aa = v(3)
+                  grid%bb = v(4)
                case (-4)
-                  grid%a1 = max(least_length, v(3))*curvature
-                  grid%bb = max(least_length, v(4))*length
+                  grid%a1 = v(3)
+                  grid%bb = v(4)
                case (-6)
-                  grid%aa = max(least_length, v(3))*length
-                  grid%bneg = max(least_length, v(4))*length
-                  grid%bpos = max(least_length, v(5))*length
+                  grid%aa = v(3)
+                  grid%bneg = v(4)
+                  grid%bpos = v(5)
                end select
                if (grid%ipotcn == -4 .or. grid%ipotcn == -5) problem%spec%digits%b = 2
                problem%spec%grid = grid
@@ -193,6 +221,7 @@ contains
       real(wp), allocatable :: v(:)
       real(wp) :: length, curvature
       integer :: n
+      logical :: good
 
       this = entry_type("cntc_setUndeformedDistc", integer_of(ire), integer_of(icp))
       call enter(this, scope%contact, problem)
@@ -219,23 +248,30 @@ contains
          return
       end select
       if (count_fits(this, geometry%ibase, size(v), n, n)) then
-         if (are_finite(this, v)) then
-            select case (geometry%ibase)
-            case (1)
-               geometry%b(1:6) = v*[curvature, curvature, curvature, 1.0_wp, 1.0_wp, length]
-            case (2)
-               geometry%xm = v(2)*length
-               geometry%rm = v(3)*length
-               geometry%y1 = v(4)*length
-               geometry%dy1 = v(5)*length
-               geometry%profile = v(6:)*length
-            case (3)
-               geometry%b = v*[length, curvature, length, length, curvature, length, length, length]
-            case (9)
-               geometry%h = v*length
-            end select
-            problem%spec%geometry = geometry
-         end if
+         select case (geometry%ibase)
+         case (1)
+            v = v*[curvature, curvature, curvature, 1.0_wp, 1.0_wp, length]
+            good = fits(this, "B", v)
+            geometry%b(1:6) = v
+         case (2)
+            good = fits(this, "NN", v(1:1))
+            v = v*length
+            if (good) good = fits(this, "XM RM Y1 DY1 B", v(2:))
+            geometry%xm = v(2)
+            geometry%rm = v(3)
+            geometry%y1 = v(4)
+            geometry%dy1 = v(5)
+            geometry%profile = v(6:)
+         case (3)
+            v = v*[length, curvature, length, length, curvature, length, length, length]
+            good = fits(this, "B(IBASE3)", v, "B")
+            geometry%b = v
+         case (9)
+            v = v*length
+            good = fits(this, "H", v)
+            geometry%h = v
+         end select
+         if (good) problem%spec%geometry = geometry
       end if
       call leave(problem)
    end subroutine cntc_setundeformeddistc
@@ -246,13 +282,15 @@ contains
       real(c_double), intent(in), optional :: pen
       type(library_problem), pointer :: problem
       type(entry_type) :: this
+      real(wp) :: value
 
       this = entry_type("cntc_setPenetration", integer_of(ire), integer_of(icp))
       call enter(this, scope%contact, problem)
       if (.not. associated(problem)) return
-      if (are_finite(this, [real_of(pen)])) then
+      value = real_of(pen)*inward(problem%units, quantity%length)
+      if (fits(this, "PEN", [value])) then
          problem%spec%digits%n = 0
-         problem%spec%kinematics%pen = real_of(pen)*inward(problem%units, quantity%length)
+         problem%spec%kinematics%pen = value
       end if
       call leave(problem)
    end subroutine cntc_setpenetration
@@ -263,13 +301,15 @@ contains
       real(c_double), intent(in), optional :: fn
       type(library_problem), pointer :: problem
       type(entry_type) :: this
+      real(wp) :: value
 
       this = entry_type("cntc_setNormalForce", integer_of(ire), integer_of(icp))
       call enter(this, scope%contact, problem)
       if (.not. associated(problem)) return
-      if (are_finite(this, [real_of(fn)])) then
+      value = real_of(fn)*inward(problem%units, quantity%force)
+      if (fits(this, "FN", [value])) then
          problem%spec%digits%n = 1
-         problem%spec%kinematics%fn = real_of(fn)*inward(problem%units, quantity%force)
+         problem%spec%kinematics%fn = value
       end if
       call leave(problem)
    end subroutine cntc_setnormalforce
@@ -285,17 +325,19 @@ contains
       this = entry_type("cntc_setCreepages", integer_of(ire), integer_of(icp))
       call enter(this, scope%contact, problem)
       if (.not. associated(problem)) return
-      if (are_finite(this, [real_of(vx), real_of(vy), real_of(phi)])) then
-         creep = 1.0_wp
-         spin = inward(problem%units, quantity%spin)
-         if (problem%spec%digits%t == motion%shift) then
-            creep = inward(problem%units, quantity%length)
-            spin = inward(problem%units, quantity%angle)
-         end if
-         problem%spec%kinematics%cksi = real_of(vx)*creep
-         problem%spec%kinematics%ceta = real_of(vy)*creep
-         problem%spec%kinematics%cphi = real_of(phi)*spin
+      creep = 1.0_wp
+      spin = inward(problem%units, quantity%spin)
+      if (problem%spec%digits%t == motion%shift) then
+         creep = inward(problem%units, quantity%length)
+         spin = inward(problem%units, quantity%angle)
       end if
+      associate (values => [real_of(vx)*creep, real_of(vy)*creep, real_of(phi)*spin], kinematics => problem%spec%kinematics)
+         if (fits(this, "CKSI CETA CPHI", values)) then
+            kinematics%cksi = values(1)
+            kinematics%ceta = values(2)
+            kinematics%cphi = values(3)
+         end if
+      end associate
       call leave(problem)
    end subroutine cntc_setcreepages
 
@@ -313,7 +355,7 @@ contains
       if (.not. associated(problem)) return
       x = reals_of(lenarr, wx)
       y = reals_of(lenarr, wy)
-      if (are_finite(this, [x, y])) then
+      if (fits(this, "EXRHS", [x, y])) then
          n = problem%spec%grid%mx*problem%spec%grid%my
          allocate(slip(2, n), source=0.0_wp)
          given = min(n, size(x))
@@ -334,12 +376,14 @@ contains
       real(c_double), intent(in), optional :: veloc
       type(library_problem), pointer :: problem
       type(entry_type) :: this
+      real(wp) :: value
 
       this = entry_type("cntc_setReferenceVelocity", integer_of(ire), integer_of(icp))
       call enter(this, scope%contact, problem)
       if (.not. associated(problem)) return
-      if (are_finite(this, [real_of(veloc)])) problem%spec%rolling%veloc = max(least_velocity, &
-         & abs(real_of(veloc))*inward(problem%units, quantity%velocity))
+      ! as the published interface has it, a velocity without sign
+      value = raised(abs(real_of(veloc))*inward(problem%units, quantity%velocity), least_velocity)
+      if (fits(this, "VELOC", [value])) problem%spec%rolling%veloc = value
       call leave(problem)
    end subroutine cntc_setreferencevelocity
 end module contact_capi_contact

@@ -6,13 +6,13 @@ module contact_capi_flags
    use contact_capi_arguments, only : give_list, integer_of, integers_of, reals_of
    use contact_capi_library, only : entry_type
    use contact_capi_lifecycle, only : set_global_flag
-   use contact_capi_messages, only : are_finite, complain, is_heard, say
+   use contact_capi_messages, only : begin_setting, complain, end_setting, fits, is_heard, say
    use contact_capi_problem, only : library_problem
    use contact_capi_registry, only : enter, leave, scope
    use contact_capi_timers, only : set_timer_level
    use contact_control_digits, only : choice_of, digit_value
    use contact_control_digits1, only : choice1_of
-   use contact_control_flags, only : accepted_value, flag, flag_table, put_digit, row_of_flag
+   use contact_control_flags, only : accepted_value, flag, flag_table, highest_of, put_digit, row_of_flag
    use contact_control_units, only : convention_code, find_convention, inward, quantity
    use contact_text_words, only : columns_of, integer_text
    implicit none (type, external)
@@ -42,11 +42,35 @@ contains
       if (.not. associated(problem)) return
       codes = integers_of(lenflg, params)
       numbers = integers_of(lenflg, values)
+      ! each flag is a setting of its own
+      call end_setting(problem)
       do k = 1, min(size(codes), size(numbers))
-         if (codes(k) /= 0) call set_flag(this, codes(k), numbers(k), problem)
+         if (codes(k) == 0) cycle
+         if (acts_on_problem(codes(k))) call begin_setting(problem, this, group_of(codes(k)))
+         call set_flag(this, codes(k), numbers(k), problem)
+         call end_setting(problem)
       end do
       call leave(problem)
    end subroutine cntc_setflags
+
+   !> Does a flag change what a problem computes? Codes that are not known, and those of the library as a whole, do not
+   pure logical function acts_on_problem(code)
+      integer, intent(in) :: code
+      acts_on_problem = row_of_flag(code) > 0 .and. .not. any(code == [flag%idebug, flag%licdbg, flag%openmp, flag%timers])
+   end function acts_on_problem
+
+   !> What a flag sets: itself, or what a routine of its own sets
+   pure function group_of(code) result(group)
+      integer, intent(in) :: code
+      character(len=32) :: group
+
+      select case (code)
+      case (flag%mater); group = "cntc_setMaterialParameters"
+      case (flag%frclaw); group = "cntc_setFrictionMethod"
+      case (flag%heat); group = "cntc_setTemperatureData"
+      case default; group = "flag " // integer_text(code)
+      end select
+   end function group_of
 
    !> One flag
    subroutine set_flag(this, code, number, problem)
@@ -63,6 +87,7 @@ contains
          return
       end if
       if (.not. flag_table(row)%can_set) then
+         if (number == digit_value(problem%spec%digits, trim(flag_table(row)%digit))) return
          if (code == flag%mater) call refuse(": the material is set by cntc_setMaterialParameters")
          if (code == flag%frclaw) call refuse(": the friction law is set by cntc_setFrictionMethod")
          if (code == flag%heat) call refuse(": temperatures are set by cntc_setTemperatureData")
@@ -70,7 +95,8 @@ contains
       end if
       call accepted_value(flag_table(row), number, problem%module_number, stored, accepted)
       if (.not. accepted) then
-         call refuse(" is outside its range, it is ignored")
+         call refuse(" is outside its range " // integer_text(flag_table(row)%lowest) // " to " // &
+            & integer_text(highest_of(flag_table(row), problem%module_number)) // "; nothing is stored")
          return
       end if
       if (stored /= number) call say(1, this, flag_text(code, number) // " is replaced by " // integer_text(stored))
@@ -105,7 +131,7 @@ contains
          select case (code)
          case (flag%units)
             call find_convention(number, problem%units, known)
-            if (number == convention_code%imperial) call complain(this, "imperial units are not available, CONTACT units are used")
+            if (number == convention_code%imperial) call complain(this, "imperial units are not available; give another convention")
          case (flag%config)
             if (is_pair) spec%digits%c1 = number
          case (flag%discns)
@@ -122,13 +148,13 @@ contains
             if (.not. is_pair) then
                spec%digits%e = number
             else if (number /= 0) then
-               call complain(this, "an extra term in the rigid slip is not available for wheel and rail, the flag is ignored")
+               call complain(this, "an extra term in the rigid slip is not available for wheel and rail; nothing is stored")
             end if
          case (flag%force)
-            spec%digits%f = number
             if (is_pair .and. number == 2) then
-               spec%digits%f = 0
-               call complain(this, "a prescribed pitching moment is not available, velocities are prescribed")
+               call complain(this, "a prescribed pitching moment, F = 2, is not available; nothing is stored. 0, 1 and 3 are")
+            else
+               spec%digits%f = number
             end if
          case (flag%sens)
             spec%iteration%sensitivity = number
@@ -142,7 +168,7 @@ contains
             spec%subsurface%matfil = number
          case (flag%npomax)
             spec%iteration%npot_max = number
-            if (.not. is_pair) call complain(this, "the number of elements is limited for wheel and rail only, the flag is ignored")
+            if (.not. is_pair) call say(0, this, "the number of elements is limited for wheel and rail only, the flag is ignored")
          case (flag%wrtinp)
             problem%write_input = number
          case (flag%timers)
@@ -236,7 +262,7 @@ contains
       if (.not. associated(problem)) return
       codes = integers_of(lenmta, params)
       numbers = reals_of(lenmta, values)
-      if (are_finite(this, numbers)) then
+      if (fits(this, "SVF", numbers, "metadata")) then
          do k = 1, min(size(codes), size(numbers))
             if (codes(k) /= 0) call set_metadata(this, codes(k), numbers(k), problem)
          end do

@@ -166,6 +166,8 @@ contains
       rail = problem%spec%wheel_rail%rail_profile
       wheel = problem%spec%wheel_rail%wheel_profile
       problem%spec = spec
+      ! a complete case takes the place of settings that were refused
+      if (allocated(problem%refused)) deallocate(problem%refused)
       ! stresses below the surface are calculated by a routine of their own
       problem%spec%digits%s = 0
       associate (pair => problem%spec%wheel_rail)

@@ -1,11 +1,11 @@
 !> What callers are told: complaints about calls, which the library keeps, and messages that they ask for
 module contact_capi_messages
-   use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
    use omp_lib, only : omp_get_thread_num, omp_in_parallel
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
    use contact_capi_library, only : entry_type, existing_problem, library
-   use contact_capi_problem, only : library_problem
+   use contact_capi_problem, only : library_problem, refused_setting
+   use contact_cases_bounds, only : describe_breach
    use contact_control_library_codes, only : library_code
    use contact_text_words, only : integer_text
    implicit none (type, external)
@@ -13,7 +13,8 @@ module contact_capi_messages
 
    public :: complain, say, is_heard, set_debugging, library_log
    public :: last_complaint, forget_complaint, set_last_error
-   public :: are_finite, count_fits
+   public :: begin_setting, end_setting, first_refusal
+   public :: fits, count_fits
 
 contains
 
@@ -123,16 +124,133 @@ contains
       if (.not. associated(problem)) return
       problem%last_code = code
       problem%last_error = text
+      ! a setting that is complained about is refused
+      if (len_trim(problem%setting%routine) == 0 .or. problem%setting%routine /= call_of%name) return
+      if (allocated(problem%setting%reason)) return
+      problem%setting%code = code
+      problem%setting%reason = text
    end subroutine set_last_error
 
-   !> Are all numbers of a call finite? Complains when they are not
-   logical function are_finite(call_of, values)
+   !> A setting is about to be made: complaints of its routine refuse it
+   subroutine begin_setting(problem, call_of, group)
+      type(library_problem), intent(inout) :: problem
       type(entry_type), intent(in) :: call_of
-      real(wp), intent(in) :: values(:)
+      !> What a good value replaces; default the routine
+      character(len=*), intent(in), optional :: group
 
-      are_finite = all(ieee_is_finite(values))
-      if (.not. are_finite) call complain(call_of, "a value is missing, infinite or not a number; nothing is stored")
-   end function are_finite
+      !$omp critical (contact_registry)
+      problem%setting = refused_setting()
+      problem%setting%routine = call_of%name
+      problem%setting%group = call_of%name
+      if (present(group)) problem%setting%group = group
+      !$omp end critical (contact_registry)
+   end subroutine begin_setting
+
+   !> A setting was made or refused: calculations need those that were refused to be made again
+   subroutine end_setting(problem)
+      type(library_problem), intent(inout) :: problem
+      type(refused_setting) :: part
+      integer :: first, length
+
+      !$omp critical (contact_registry)
+      if (len_trim(problem%setting%routine) > 0) then
+         if (allocated(problem%setting%reason) .or. allocated(problem%refused)) then
+            part = problem%setting
+            first = 1
+            do while (first <= len_trim(problem%setting%group))
+               length = scan(problem%setting%group(first:) // "|", "|") - 1
+               part%group = problem%setting%group(first:first + length - 1)
+               call replace_refusal(problem%refused, part)
+               first = first + length + 1
+            end do
+         end if
+         problem%setting = refused_setting()
+      end if
+      !$omp end critical (contact_registry)
+   end subroutine end_setting
+
+   !> Take the refusals of a group from a list, and add the new one if there is one
+   pure subroutine replace_refusal(list, new)
+      type(refused_setting), allocatable, intent(inout) :: list(:)
+      !> Only its group counts when it has no reason
+      type(refused_setting), intent(in) :: new
+      type(refused_setting), allocatable :: others(:)
+      integer :: k, n
+
+      if (.not. allocated(list)) allocate(list(0))
+      n = count(list%group /= new%group)
+      allocate(others(n + merge(1, 0, allocated(new%reason))))
+      n = 0
+      do k = 1, size(list)
+         if (list(k)%group == new%group) cycle
+         n = n + 1
+         others(n) = list(k)
+      end do
+      if (allocated(new%reason)) others(n + 1) = new
+      if (size(others) == 0) then
+         deallocate(list)
+      else
+         call move_alloc(others, list)
+      end if
+   end subroutine replace_refusal
+
+   !> The first setting that was refused and not made since, of a group that begins so; 0 when there is none
+   pure integer function first_refusal(problem, routine) result(k)
+      type(library_problem), intent(in) :: problem
+      !> Beginning of the name of the routine
+      character(len=*), intent(in) :: routine
+
+      if (allocated(problem%refused)) then
+         do k = 1, size(problem%refused)
+            if (index(problem%refused(k)%routine, routine) == 1) return
+         end do
+      end if
+      k = 0
+   end function first_refusal
+
+   !> Do the numbers of a call keep their bounds? Complains about the first that does not
+   logical function fits(call_of, names, values, shown)
+      type(entry_type), intent(in) :: call_of
+      !> Names of the values in the table of bounds, separated by blanks; the last one holds for all that follow
+      character(len=*), intent(in) :: names
+      !> In internal units; what is missing is not a number
+      real(wp), intent(in) :: values(:)
+      !> Names in the complaint, where those are others
+      character(len=*), intent(in), optional :: shown
+      character(len=16) :: name, label
+      character(len=:), allocatable :: complaint
+      integer :: k, words
+
+      fits = .true.
+      words = 1 + count([(names(k:k) == " ", k = 1, len(names))])
+      do k = 1, size(values)
+         if (k <= words) then
+            name = word_of(names, k)
+            label = name
+            if (present(shown)) label = word_of(shown, k)
+         end if
+         call describe_breach(trim(name), "", values(k), complaint, trim(label))
+         if (len(complaint) == 0) cycle
+         fits = .false.
+         if (size(values) > words .and. k >= words) complaint = "value " // integer_text(k) // ": " // complaint
+         call complain(call_of, complaint // "; nothing is stored")
+         return
+      end do
+   end function fits
+
+   !> The k-th word of a text
+   pure function word_of(text, k) result(word)
+      character(len=*), intent(in) :: text
+      integer, intent(in) :: k
+      character(len=16) :: word
+      integer :: first, i
+
+      first = 1
+      do i = 1, k - 1
+         first = first + index(text(first:), " ")
+      end do
+      word = text(first:first + index(text(first:) // " ", " ") - 2)
+   end function word_of
 
    !> Does a method get as many values as it needs? Complains when it does not
    logical function count_fits(call_of, method, n, lowest, highest) result(fits)

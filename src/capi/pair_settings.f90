@@ -4,7 +4,7 @@ module contact_capi_pair_settings
    use contact_base_kinds, only : wp
    use contact_capi_arguments, only : integer_of, real_of, reals_of
    use contact_capi_library, only : entry_type
-   use contact_capi_messages, only : are_finite, complain, count_fits, say
+   use contact_capi_messages, only : complain, count_fits, fits, say
    use contact_capi_problem, only : library_problem
    use contact_capi_registry, only : enter, leave, scope
    use contact_control_units, only : inward, quantity
@@ -15,8 +15,8 @@ module contact_capi_pair_settings
    public :: cntc_setverticalforce, cntc_settrackdimensions, cntc_setwheelsetdimensions, cntc_setwheelsetposition
    public :: cntc_setwheelsetvelocity, cntc_setwheelsetflexibility
 
-   !> Bounds of the nominal radius of a wheel [mm]
-   real(wp), parameter :: least_radius = 1.0e-3_wp, largest_radius = 1.0e20_wp
+   !> What is set together
+   character(len=*), parameter :: track_group = "track", deviations_group = "deviations of the rail"
    !> There is no tape line [mm]
    real(wp), parameter :: no_tape = 1000.0_wp
 
@@ -44,13 +44,15 @@ contains
       real(c_double), intent(in), optional :: fz
       type(library_problem), pointer :: problem
       type(entry_type) :: this
+      real(wp) :: value
 
       this = entry_type("cntc_setVerticalForce", integer_of(ire))
       call enter(this, scope%pair, problem)
       if (.not. associated(problem)) return
-      if (are_finite(this, [real_of(fz)])) then
+      value = real_of(fz)*inward(problem%units, quantity%force)
+      if (fits(this, "FZ", [value])) then
          problem%spec%digits%n = 1
-         problem%spec%wheel_rail%wheelset%fz = real_of(fz)*inward(problem%units, quantity%force)
+         problem%spec%wheel_rail%wheelset%fz = value
       end if
       call leave(problem)
    end subroutine cntc_setverticalforce
@@ -67,81 +69,112 @@ contains
       call begin("cntc_setTrackDimensions", ire, ztrack, nparam, params, this, problem, method, v)
       if (.not. associated(problem)) return
       n = size(v)
-      if (are_finite(this, v)) then
-         select case (method)
-         case (0)
-            if (count_fits(this, method, n, 0, 0)) problem%spec%digits%z = 0
-         case (1)
-            if (count_fits(this, method, n, 5, 6)) call set_track(v, problem)
-         case (2)
-            if (count_fits(this, method, n, 6, 6)) call set_deviations(v, problem)
-         case (3)
-            if (count_fits(this, method, n, 11, 12)) then
-               call set_track(v(:n - 6), problem)
-               call set_deviations(v(n - 5:), problem)
-            end if
-         case (32, 33)
-            if (count_fits(this, method, n, 4, 5)) call set_springs(v, problem)
-         case default
-            call complain(this, "there is no track method " // integer_text(method) // "; 0, 1, 2, 3, 32 and 33 are")
-         end select
-      end if
+      ! methods that set the same belong together
+      if (method == 1) problem%setting%group = track_group
+      if (method == 2) problem%setting%group = deviations_group
+      if (method == 3) problem%setting%group = track_group // "|" // deviations_group
+      if (method == 32 .or. method == 33) problem%setting%group = "springs of the rail"
+      select case (method)
+      case (0)
+         if (count_fits(this, method, n, 0, 0)) problem%spec%digits%z = 0
+      case (1)
+         if (count_fits(this, method, n, 5, 6)) call set_track(this, v, problem)
+      case (2)
+         if (count_fits(this, method, n, 6, 6)) call set_deviations(this, v, problem)
+      case (3)
+         if (count_fits(this, method, n, 11, 12)) then
+            call set_track(this, v(:n - 6), problem)
+            call set_deviations(this, v(n - 5:), problem)
+         end if
+      case (32, 33)
+         if (count_fits(this, method, n, 4, 5)) call set_springs(this, v, problem)
+      case default
+         call complain(this, "there is no track method " // integer_text(method) // "; 0, 1, 2, 3, 32 and 33 are")
+      end select
       call leave(problem)
    end subroutine cntc_settrackdimensions
 
    !> Gauge or absolute placement, cant, roller, curvature
-   subroutine set_track(v, problem)
-      real(wp), intent(in) :: v(:)
+   subroutine set_track(this, values, problem)
+      type(entry_type), intent(in) :: this
+      real(wp), intent(in) :: values(:)
       type(library_problem), intent(inout) :: problem
-      real(wp) :: length
+      real(wp) :: length, v(6)
+      integer :: n
 
+      n = size(values)
       length = inward(problem%units, quantity%length)
+      v = 0.0_wp
+      v(:n) = values
+      v([1, 3, 5]) = v([1, 3, 5])*length
+      v(4) = v(4)*inward(problem%units, quantity%angle)
+      v(6) = v(6)*inward(problem%units, quantity%curvature)
+      if (v(1) > 0.0_wp) then
+         if (.not. fits(this, "GAUGHT GAUGSQ GAUGWD CANT", v(:4))) return
+      else
+         v(2) = v(2)*length
+         if (.not. fits(this, "GAUGHT RAILY0 RAILZ0 CANT", v(:4))) return
+      end if
+      ! a track has no roller
+      if (abs(v(5)) > 0.0_wp .or. v(5) /= v(5)) then
+         if (.not. fits(this, "NOMRADR", v(5:5))) return
+      end if
+      if (.not. fits(this, "CURV", v(6:6))) return
       associate (track => problem%spec%wheel_rail%track)
-         track%gaught = v(1)*length
+         track%gaught = v(1)
          if (track%gaught > 0.0_wp) then
-            track%gaugwd = v(3)*length
+            track%gaugwd = v(3)
          else
-            track%raily0 = v(2)*length
-            track%railz0 = v(3)*length
+            track%raily0 = v(2)
+            track%railz0 = v(3)
          end if
-         track%cant = v(4)*inward(problem%units, quantity%angle)
-         track%nomradr = v(5)*length
-         track%curvature = 0.0_wp
-         if (size(v) >= 6) track%curvature = v(6)*inward(problem%units, quantity%curvature)
+         track%cant = v(4)
+         track%nomradr = v(5)
+         track%curvature = v(6)
       end associate
       problem%spec%digits%z = 3
    end subroutine set_track
 
    !> Deviations of the rail and their rates
-   subroutine set_deviations(v, problem)
-      real(wp), intent(in) :: v(6)
+   subroutine set_deviations(this, values, problem)
+      type(entry_type), intent(in) :: this
+      real(wp), intent(in) :: values(6)
       type(library_problem), intent(inout) :: problem
+      real(wp) :: v(6)
 
       associate (rail => problem%spec%wheel_rail%rail, length => inward(problem%units, quantity%length), &
          & velocity => inward(problem%units, quantity%velocity), angle => inward(problem%units, quantity%angle))
-         rail%dy = v(1)*length
-         rail%dz = v(2)*length
-         rail%roll = v(3)*angle
-         rail%vy = v(4)*velocity
-         rail%vz = v(5)*velocity
-         rail%vroll = v(6)*angle
+         v = values*[length, length, angle, velocity, velocity, angle]
+         if (.not. fits(this, "DYRAIL DZRAIL DROLLR VYRAIL VZRAIL VROLLR", v)) return
+         rail%dy = v(1)
+         rail%dz = v(2)
+         rail%roll = v(3)
+         rail%vy = v(4)
+         rail%vz = v(5)
+         rail%vroll = v(6)
       end associate
       problem%spec%digits%z = 3
    end subroutine set_deviations
 
    !> Springs and static forces of a massless rail
-   subroutine set_springs(v, problem)
-      real(wp), intent(in) :: v(:)
+   subroutine set_springs(this, values, problem)
+      type(entry_type), intent(in) :: this
+      real(wp), intent(in) :: values(:)
       type(library_problem), intent(inout) :: problem
+      real(wp) :: v(5)
 
+      v(5) = 1.0_wp
+      v(:size(values)) = values
       associate (rail => problem%spec%wheel_rail%rail, stiffness => inward(problem%units, quantity%stiffness), &
          & force => inward(problem%units, quantity%force))
-         rail%ky = v(1)*stiffness
-         rail%fy = v(2)*force
-         rail%kz = v(3)*stiffness
-         rail%fz = v(4)*force
-         rail%first_step = 1.0_wp
-         if (size(v) >= 5) rail%first_step = v(5)*inward(problem%units, quantity%length)
+         v(:4) = v(:4)*[stiffness, force, stiffness, force]
+         if (size(values) >= 5) v(5) = v(5)*inward(problem%units, quantity%length)
+         if (.not. fits(this, "KYRAIL FYRAIL KZRAIL FZRAIL DYSTEP0", v)) return
+         rail%ky = v(1)
+         rail%fy = v(2)
+         rail%kz = v(3)
+         rail%fz = v(4)
+         rail%first_step = v(5)
       end associate
       problem%spec%digits%z = 3
    end subroutine set_springs
@@ -159,9 +192,7 @@ contains
       if (.not. associated(problem)) return
       select case (method)
       case (3, 5)
-         if (count_fits(this, method, size(v), 3, 4)) then
-            if (are_finite(this, v)) call set_dimensions(method, v, problem)
-         end if
+         if (count_fits(this, method, size(v), 3, 4)) call set_dimensions(this, method, v, problem)
       case (0, 1, 2, 4)
          if (count_fits(this, method, size(v), 0, 0)) call note_dimensions(method, problem)
       case default
@@ -171,19 +202,21 @@ contains
    end subroutine cntc_setwheelsetdimensions
 
    !> Flange-back distance and position, radius, tape line
-   subroutine set_dimensions(method, v, problem)
+   subroutine set_dimensions(this, method, values, problem)
+      type(entry_type), intent(in) :: this
       integer, intent(in) :: method
-      real(wp), intent(in) :: v(:)
+      real(wp), intent(in) :: values(:)
       type(library_problem), intent(inout) :: problem
-      real(wp) :: length
+      real(wp) :: v(4)
 
-      length = inward(problem%units, quantity%length)
+      v(4) = no_tape
+      v(:size(values)) = values*inward(problem%units, quantity%length)
+      if (.not. fits(this, "FBDIST FBPOS NOMRADW YTAPE", v)) return
       associate (wheelset => problem%spec%wheel_rail%wheelset)
-         wheelset%fbdist = v(1)*length
-         wheelset%fbpos = v(2)*length
-         wheelset%nomradw = max(least_radius, min(largest_radius, v(3)*length))
-         wheelset%ytape = no_tape
-         if (size(v) >= 4) wheelset%ytape = v(4)*length
+         wheelset%fbdist = v(1)
+         wheelset%fbpos = v(2)
+         wheelset%nomradw = v(3)
+         wheelset%ytape = v(4)
       end associate
       call note_dimensions(method, problem)
    end subroutine set_dimensions
@@ -209,21 +242,24 @@ contains
       type(library_problem), pointer :: problem
       type(entry_type) :: this
       real(wp), allocatable :: v(:)
+      real(wp) :: length, angle
       integer :: method
 
       call begin("cntc_setWheelsetPosition", ire, ewheel, nparam, params, this, problem, method, v)
       if (.not. associated(problem)) return
       if (takes_values(this, method, size(v), 6, 6)) then
-         if (are_finite(this, v)) then
-            associate (wheelset => problem%spec%wheel_rail%wheelset, length => inward(problem%units, quantity%length), &
-               & angle => inward(problem%units, quantity%angle))
-               wheelset%s = v(1)*length
+         length = inward(problem%units, quantity%length)
+         angle = inward(problem%units, quantity%angle)
+         v = v*[length, length, length, angle, angle, angle]
+         if (fits(this, "S_WS Y_WS Z_WS ROLL YAW PITCH", v)) then
+            associate (wheelset => problem%spec%wheel_rail%wheelset)
+               wheelset%s = v(1)
                wheelset%x = 0.0_wp
-               wheelset%y = v(2)*length
-               wheelset%z = v(3)*length
-               wheelset%roll = v(4)*angle
-               wheelset%yaw = v(5)*angle
-               wheelset%pitch = v(6)*angle
+               wheelset%y = v(2)
+               wheelset%z = v(3)
+               wheelset%roll = v(4)
+               wheelset%yaw = v(5)
+               wheelset%pitch = v(6)
             end associate
             problem%spec%digits%e = max(1, problem%spec%digits%e)
          end if
@@ -253,26 +289,27 @@ contains
       type(library_problem), pointer :: problem
       type(entry_type) :: this
       real(wp), allocatable :: v(:)
+      real(wp) :: velocity, angle
       integer :: method
+      logical :: is_roller
 
       call begin("cntc_setWheelsetVelocity", ire, ewheel, nparam, params, this, problem, method, v)
       if (.not. associated(problem)) return
       if (takes_values(this, method, size(v), 6, 6)) then
-         if (are_finite(this, v)) then
+         velocity = inward(problem%units, quantity%velocity)
+         angle = inward(problem%units, quantity%angle)
+         is_roller = problem%spec%digits%c1 >= 4
+         v = v*[merge(angle, velocity, is_roller), velocity, velocity, angle, angle, angle]
+         if (fits(this, trim(merge("RPITCH", "VS    ", is_roller)) // " VY VZ VROLL VYAW VPITCH", v)) then
             if (method == 1) call say(1, this, "method 1 is taken for 2")
-            associate (wheelset => problem%spec%wheel_rail%wheelset, velocity => inward(problem%units, quantity%velocity), &
-               & angle => inward(problem%units, quantity%angle))
-               if (problem%spec%digits%c1 >= 4) then
-                  wheelset%rpitch = v(1)*angle
-                  wheelset%vs = 0.0_wp
-               else
-                  wheelset%vs = v(1)*velocity
-               end if
-               wheelset%vy = v(2)*velocity
-               wheelset%vz = v(3)*velocity
-               wheelset%vroll = v(4)*angle
-               wheelset%vyaw = v(5)*angle
-               wheelset%vpitch = v(6)*angle
+            associate (wheelset => problem%spec%wheel_rail%wheelset)
+               wheelset%vs = merge(0.0_wp, v(1), is_roller)
+               if (is_roller) wheelset%rpitch = v(1)
+               wheelset%vy = v(2)
+               wheelset%vz = v(3)
+               wheelset%vroll = v(4)
+               wheelset%vyaw = v(5)
+               wheelset%vpitch = v(6)
             end associate
             if (problem%spec%digits%e <= 1) problem%spec%digits%e = max(2, method)
          end if
@@ -300,16 +337,19 @@ contains
                wheelset%flexible = 0.0_wp
                wheelset%flexible_rate = 0.0_wp
                if (e >= 4) e = e - 2
-            else if (are_finite(this, v)) then
+            else
                length = inward(problem%units, quantity%length)
                velocity = inward(problem%units, quantity%velocity)
                angle = inward(problem%units, quantity%angle)
-               wheelset%flexible = v(1:6)*[length, length, length, angle, angle, angle]
-               wheelset%flexible_rate = v(7:12)*[velocity, velocity, velocity, angle, angle, angle]
-               if (method == 5 .or. e == 3 .or. e == 5) then
-                  e = 5
-               else
-                  e = 4
+               v = v*[length, length, length, angle, angle, angle, velocity, velocity, velocity, angle, angle, angle]
+               if (fits(this, "DXWHL DYWHL DZWHL DROLLW DYAWW DPITCHW VXWHL VYWHL VZWHL VROLLW VYAWW VPITCHW", v)) then
+                  wheelset%flexible = v(1:6)
+                  wheelset%flexible_rate = v(7:12)
+                  if (method == 5 .or. e == 3 .or. e == 5) then
+                     e = 5
+                  else
+                     e = 4
+                  end if
                end if
             end if
          end associate

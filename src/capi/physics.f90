@@ -2,25 +2,23 @@
 module contact_capi_physics
    use, intrinsic :: iso_c_binding, only : c_double, c_int
    use contact_base_kinds, only : wp
-   use contact_capi_arguments, only : integer_of, integers_of, real_of, reals_of
+   use contact_capi_arguments, only : integer_of, integers_of, raised, real_of, reals_of
    use contact_capi_library, only : entry_type
-   use contact_capi_messages, only : are_finite, complain, count_fits, say
+   use contact_capi_messages, only : complain, count_fits, fits, say
    use contact_capi_problem, only : library_problem
    use contact_capi_registry, only : enter, leave, scope
-   use contact_cases_spec, only : case_spec, friction_set
+   use contact_cases_spec, only : case_spec, damping_spec, friction_set, heat_spec
    use contact_control_digits, only : choice_of
    use contact_control_digits1, only : choice1_of
    use contact_control_units, only : inward, quantity, unit_convention
    use contact_elastic_material, only : combine, combined_material
-   use contact_text_words, only : integer_text
+   use contact_text_words, only : integer_text, real_text
    implicit none (type, external)
    private
 
    public :: cntc_setsolverflags, cntc_setmaterialparameters, cntc_settemperaturedata, cntc_settimestep
    public :: cntc_setrollingstepsize, cntc_setfrictionmethod, cntc_settangentialforces
 
-   !> Smallest relative tolerance and relaxation factor [-]
-   real(wp), parameter :: least_factor = 1.0e-20_wp
    !> Smallest coefficient of friction, slope reduction factor [-], and modulus of a layer [N/mm2]
    real(wp), parameter :: least_value = 1.0e-6_wp
    !> Smallest half-value slip velocity [mm/s]
@@ -54,11 +52,12 @@ contains
       method = integer_of(gdigit)
       ints = integers_of(nints, iparam)
       reals = reals_of(nreals, rparam)
+      if (method == 6) problem%setting%group = "sensitivities"
       if (method < 0 .or. method > 6) then
          call complain(this, "solver method " // integer_text(method) // " is outside its range 0 to 6")
       else if (count_fits(this, method, size(ints), n_ints(method), n_ints(method))) then
          if (count_fits(this, method, size(reals), n_reals(method), n_reals(method))) then
-            if (are_finite(this, reals)) call set_solver(this, method, ints, reals, problem%spec)
+            call set_solver(this, method, ints, reals, problem%spec)
          end if
       end if
       call leave(problem)
@@ -70,30 +69,38 @@ contains
       integer, intent(in) :: method, ints(:)
       real(wp), intent(in) :: reals(:)
       type(case_spec), intent(inout) :: spec
+      !> Names of the values of each method
+      character(len=*), parameter :: integer_names(0:6) = [character(len=32) :: "MAXGS MAXIN MAXNR MAXOUT", "", &
+         & "MAXGS MAXIN MAXNR MAXOUT INISLP", "MAXGS MAXIN MAXNR MAXOUT INISLP", "MAXGS MAXIN MAXNR MAXOUT INISLP", &
+         & "MAXGS MAXIN MAXNR MAXOUT KDOWFB", "MXSENS"]
+      character(len=*), parameter :: real_names(0:6) = [character(len=52) :: "EPS", "", "EPS OMEGAH OMEGAS OMGSLP", &
+         & "EPS OMEGAH OMEGAS OMGSLP", "EPS OMGSLP", "EPS FDECAY BETATH D_IFC D_LIN D_CNS D_SLP POW_S", "EPSENS"]
 
+      if (.not. fits(this, trim(integer_names(method)), real(ints, wp))) return
+      if (.not. fits(this, trim(real_names(method)), reals)) return
       associate (iteration => spec%iteration)
          if (method == 6) then
-            iteration%mxsens = max(1, ints(1))
-            iteration%epsens = max(least_factor, reals(1))
+            iteration%mxsens = ints(1)
+            iteration%epsens = reals(1)
             return
          end if
          spec%digits%g = method
          if (method == 1) return
          spec%solver = choice_of("G", method)
-         iteration%maxgs = max(1, ints(1))
-         iteration%maxin = max(1, ints(2))
-         iteration%maxnr = max(1, ints(3))
-         iteration%maxout = max(1, ints(4))
-         iteration%eps = max(least_factor, reals(1))
+         iteration%maxgs = ints(1)
+         iteration%maxin = ints(2)
+         iteration%maxnr = ints(3)
+         iteration%maxout = ints(4)
+         iteration%eps = reals(1)
          select case (method)
          case (2, 3)
             iteration%inislp = ints(5)
-            iteration%omegah = max(least_factor, reals(2))
-            iteration%omegas = max(least_factor, reals(3))
-            iteration%omgslp = max(least_factor, reals(4))
+            iteration%omegah = reals(2)
+            iteration%omegas = reals(3)
+            iteration%omgslp = reals(4)
          case (4)
             iteration%inislp = ints(5)
-            iteration%omgslp = max(least_factor, reals(2))
+            iteration%omgslp = reals(2)
          case (5)
             iteration%kdowfb = ints(5)
             iteration%fdecay = reals(2)
@@ -104,7 +111,7 @@ contains
             iteration%d_slp = max(0.01_wp, reals(7))
             iteration%pow_s = max(0.01_wp, min(10.0_wp, reals(8)))
             if (iteration%d_lin*(iteration%d_cns - iteration%d_ifc) < 0.0_wp) then
-               call complain(this, "d_lin leads away from d_cns; it is replaced by 0, and d_cns by d_ifc")
+               call say(0, this, "d_lin leads away from d_cns; it is replaced by 0, and d_cns by d_ifc")
                iteration%d_lin = 0.0_wp
                iteration%d_cns = iteration%d_ifc
             end if
@@ -129,15 +136,16 @@ contains
       if (.not. associated(problem)) return
       method = integer_of(imeth)
       values = reals_of(nparam, rparam)
+      if (method >= 10) problem%setting%group = "damping"
       if (method < 0 .or. method > 12 .or. method == 8 .or. method == 9) then
          call complain(this, "there is no material method " // integer_text(method))
       else if (count_fits(this, method, size(values), fewest(method), most(method))) then
          if (method >= 12) then
-            if (are_finite(this, values)) call set_damping(values, problem)
+            call set_damping(this, values, problem)
          else if (method >= 10) then
             call keep_damping(method == 11, problem%spec)
-         else if (are_finite(this, values)) then
-            call set_material(method, values, problem%units, problem%spec)
+         else
+            call set_material(this, method, values, problem%units, problem%spec)
          end if
       end if
       call leave(problem)
@@ -161,50 +169,70 @@ contains
    end subroutine keep_damping
 
    !> New damping: coefficients [s], largest rates [N/s]
-   subroutine set_damping(values, problem)
+   subroutine set_damping(this, values, problem)
+      type(entry_type), intent(in) :: this
       real(wp), intent(in) :: values(4)
       type(library_problem), intent(inout) :: problem
+      real(wp) :: v(4)
 
-      associate (damping => problem%spec%damping, force => inward(problem%units, quantity%force))
-         damping%cdampn = max(0.0_wp, values(1))
-         damping%cdampt = max(0.0_wp, values(2))
-         damping%dfnmax = max(0.0_wp, values(3)*force)
-         damping%dftmax = max(0.0_wp, values(4)*force)
-      end associate
+      v = values
+      v(3:4) = values(3:4)*inward(problem%units, quantity%force)
+      if (.not. fits(this, "CDAMPN CDAMPT DFNMAX DFTMAX", v)) return
+      problem%spec%damping = damping_spec(cdampn=v(1), cdampt=v(2), dfnmax=v(3), dftmax=v(4))
       problem%spec%digits%m2 = 2
       problem%spec%has_damping = .true.
    end subroutine set_damping
 
    !> Elastic constants and what belongs to the model
-   subroutine set_material(method, values, units, spec)
+   subroutine set_material(this, method, values, units, spec)
+      type(entry_type), intent(in) :: this
       integer, intent(in) :: method
       real(wp), intent(in) :: values(:)
       type(unit_convention), intent(in) :: units
       type(case_spec), intent(inout) :: spec
+      !> Names of the values of each method; 6 and 7 have those of 0
+      character(len=*), parameter :: names(0:7) = [character(len=44) :: "", " FG1 FG2 TC1 TC2", " FLX K0_MF ALFAMF BETAMF", &
+         & " K0_MF ALFAMF BETAMF", " GG3 LAYTHK TAU_C0 K_TAU", " K0_MF ALFAMF BETAMF", "", ""]
       type(combined_material) :: both
+      real(wp) :: v(8)
+      integer :: n
 
+      n = size(values)
+      v(:n) = values
+      associate (pressure => inward(units, quantity%pressure))
+         v(3:4) = v(3:4)*pressure
+         select case (method)
+         case (2)
+            v(5) = v(5)*inward(units, quantity%compliance)
+            v(6:8) = raised(v(6:8), least_value)
+         case (3, 5)
+            v(5:7) = raised(v(5:7), least_value)
+         case (4)
+            v(5:8) = v(5:8)*[pressure, inward(units, quantity%length), pressure, inward(units, quantity%pressure_slope)]
+         end select
+      end associate
+      if (.not. fits(this, "POISS1 POISS2 GG1 GG2" // trim(names(method)), v(:n))) return
       spec%digits%m = method
       spec%material_model = choice_of("M", method)
-      associate (material => spec%material, pressure => inward(units, quantity%pressure))
-         material%poiss = values(1:2)
-         material%gg = values(3:4)*pressure
+      associate (material => spec%material)
+         material%poiss = v(1:2)
+         material%gg = v(3:4)
          select case (method)
          case (1)
-            material%fg = values(5:6)
-            material%tc = values(7:8)
+            material%fg = v(5:6)
+            material%tc = v(7:8)
          case (2)
-            material%flx = values(5)*inward(units, quantity%compliance)
-            call set_slope_reduction(values(6:8))
+            material%flx = v(5)
+            call set_slope_reduction(v(6:8))
          case (3, 5)
-            call set_slope_reduction(values(5:7))
+            call set_slope_reduction(v(5:7))
          case (4)
-            material%gg3 = max(least_value, values(5)*pressure)
-            material%laythk = max(1.0e-9_wp, values(6)*inward(units, quantity%length))
-            material%tau_c0 = values(7)*pressure
+            material%gg3 = v(5)
+            material%laythk = max(1.0e-9_wp, v(6))
+            material%tau_c0 = v(7)
             if (material%tau_c0 >= unreachable_yield) material%tau_c0 = 0.0_wp
-            material%k_tau = values(8)*inward(units, quantity%pressure_slope)
+            material%k_tau = v(8)
          end select
-         if (minval(material%gg) <= 0.0_wp) return
          both = combine(material%poiss, material%gg)
          if (spec%iteration%maxout >= 2 .and. abs(both%ak) < quasi_identical) spec%iteration%maxout = 1
          if (spec%iteration%maxout <= 1 .and. abs(both%ak) >= quasi_identical) spec%iteration%maxout = 10
@@ -215,9 +243,9 @@ contains
       !> k0, alfa, beta
       subroutine set_slope_reduction(list)
          real(wp), intent(in) :: list(3)
-         spec%material%k0_mf = max(least_value, list(1))
-         spec%material%alfamf = max(least_value, list(2))
-         spec%material%betamf = max(least_value, list(3))
+         spec%material%k0_mf = list(1)
+         spec%material%alfamf = list(2)
+         spec%material%betamf = list(3)
       end subroutine set_slope_reduction
    end subroutine set_material
 
@@ -240,16 +268,11 @@ contains
          if (count_fits(this, method, size(v), 0, 1)) problem%spec%digits%h = method
       case (3)
          if (count_fits(this, method, size(v), 9, 9)) then
-            if (are_finite(this, v)) then
+            v([3, 7]) = v([3, 7])*inward(problem%units, quantity%conductivity)
+            v([4, 8]) = v([4, 8])*inward(problem%units, quantity%density)
+            if (fits(this, "BKTEMP1 HEATCP1 LAMBDA1 DENS1 BKTEMP2 HEATCP2 LAMBDA2 DENS2 BETAPL", v)) then
                problem%spec%digits%h = method
-               associate (heat => problem%spec%heat, conductivity => inward(problem%units, quantity%conductivity), &
-                  & density => inward(problem%units, quantity%density))
-                  heat%bktemp = [v(1), v(5)]
-                  heat%heatcp = [v(2), v(6)]
-                  heat%lambda = [v(3), v(7)]*conductivity
-                  heat%dens = [v(4), v(8)]*density
-                  heat%betapl = v(9)
-               end associate
+               problem%spec%heat = heat_spec(bktemp=v([1, 5]), heatcp=v([2, 6]), lambda=v([3, 7]), dens=v([4, 8]), betapl=v(9))
             end if
          end if
       case default
@@ -268,7 +291,7 @@ contains
       this = entry_type("cntc_setTimeStep", integer_of(ire), integer_of(icp))
       call enter(this, scope%settings, problem)
       if (.not. associated(problem)) return
-      if (are_finite(this, [real_of(dt)])) call say(2, this, "the time step follows from rolling step and velocity")
+      if (fits(this, "TC", [real_of(dt)], "dt")) call say(2, this, "the time step follows from rolling step and velocity")
       call leave(problem)
    end subroutine cntc_settimestep
 
@@ -283,13 +306,18 @@ contains
       call enter(this, scope%settings, problem)
       if (.not. associated(problem)) return
       if (problem%module_number == 1) then
-         if (are_finite(this, [real_of(dq)])) then
+         if (fits(this, "DQREL", [real_of(dq)])) then
             problem%spec%wheel_rail%search%dqrel = real_of(dq)
             if (problem%spec%digits%d == 1) problem%spec%digits%d = problem%spec%wheel_rail%search%location
          end if
-      else if (are_finite(this, [real_of(chi), real_of(dq)])) then
-         problem%spec%rolling%chi = real_of(chi)*inward(problem%units, quantity%angle)
-         problem%spec%rolling%dq = real_of(dq)*inward(problem%units, quantity%length)
+      else
+         associate (values => [real_of(chi)*inward(problem%units, quantity%angle), &
+            & real_of(dq)*inward(problem%units, quantity%length)])
+            if (fits(this, "CHI DQ", values)) then
+               problem%spec%rolling%chi = values(1)
+               problem%spec%rolling%dq = values(2)
+            end if
+         end associate
       end if
       call leave(problem)
    end subroutine cntc_setrollingstepsize
@@ -342,20 +370,22 @@ contains
       type(friction_set), allocatable :: sets(:)
       real(wp) :: memory(2)
       integer :: k, n
+      logical :: good
 
-      if (.not. are_finite(this, values)) return
       memory = [problem%spec%friction%memdst, problem%spec%friction%mem_s0]
       allocate(sets(points))
       if (points > 0) n = size(values)/points
       do k = 1, points
          associate (part => values((k - 1)*n + 1:k*n))
             if (variation == 0) then
-               call fill_set(law, part, problem%units, sets(k), memory)
+               call fill_set(this, law, part, problem%units, sets(k), memory, good)
             else
-               call fill_set(law, part(2:), problem%units, sets(k), memory)
+               call fill_set(this, law, part(2:), problem%units, sets(k), memory, good)
                sets(k)%position = part(1)*inward(problem%units, merge(quantity%angle, quantity%length, variation == 1))
+               if (good) good = fits(this, trim(merge("ALPHA", "SVF  ", variation == 1)), [sets(k)%position])
             end if
          end associate
+         if (.not. good) return
          if (k == 1) cycle
          if (sets(k)%position > sets(k - 1)%position) cycle
          call complain(this, "the positions of friction data must increase; nothing is stored")
@@ -373,46 +403,67 @@ contains
    end subroutine set_friction_points
 
    !> One set of friction parameters
-   pure subroutine fill_set(law, v, units, set, memory)
+   subroutine fill_set(this, law, values, units, set, memory, good)
+      type(entry_type), intent(in) :: this
       integer, intent(in) :: law
-      real(wp), intent(in) :: v(:)
+      real(wp), intent(in) :: values(:)
       type(unit_convention), intent(in) :: units
       type(friction_set), intent(out) :: set
       !> Distance [mm] and velocity [mm/s] of friction memory; kept by laws that have none
       real(wp), intent(inout) :: memory(2)
+      !> Can the values be used?
+      logical, intent(out) :: good
       real(wp) :: velocity, length
+      real(wp) :: v(size(values))
 
       velocity = inward(units, quantity%velocity)
       length = inward(units, quantity%length)
       set%sabsh1 = 10000.0_wp
       set%sabsh2 = 10000.0_wp
+      v = values
       select case (law)
       case (0)
-         set%fstat = max(least_value, min(v(1), v(2)))
+         v = raised(v, least_value)
+         good = fits(this, "FSTAT", v)
+         set%fstat = min(v(1), v(2))
          set%fkin = set%fstat
       case (2, 3, 4)
-         set%fkin = max(least_value, v(1))
-         set%coef1 = max(0.0_wp, v(2))
-         set%sabsh1 = max(least_speed, v(3)*velocity)
-         set%coef2 = max(0.0_wp, v(4))
-         set%sabsh2 = max(least_speed, v(5)*velocity)
+         v(1) = raised(v(1), least_value)
+         v([3, 5]) = raised(v([3, 5])*velocity, least_speed)
+         v(6:7) = v(6:7)*[length, velocity]
+         good = fits(this, "FKIN FLIN1 SABSH1 FLIN2 SABSH2 MEMDST MEM_S0", v)
+         set%fkin = v(1)
+         set%coef1 = v(2)
+         set%sabsh1 = v(3)
+         set%coef2 = v(4)
+         set%sabsh2 = v(5)
          set%fstat = set%fkin + set%coef1 + set%coef2
-         memory = max(0.0_wp, [v(6)*length, v(7)*velocity])
+         memory = v(6:7)
       case (5)
          ! Polach: exponential decay from fstat to A fstat, halved at ln 2/B
-         set%fstat = max(least_value, v(1))
-         set%fkin = max(0.0_wp, min(1.0_wp, v(2)))*set%fstat
+         v(1) = raised(v(1), least_value)
+         v(3) = raised(v(3)*inward(units, quantity%per_velocity), tiny(1.0_wp))
+         good = fits(this, "FSTAT ALFAMF FG", v, "FSTAT A B")
+         set%fstat = v(1)
+         set%fkin = v(2)*set%fstat
          set%coef1 = set%fstat - set%fkin
-         set%sabsh1 = max(least_speed, log(2.0_wp)/max(tiny(1.0_wp), v(3)*inward(units, quantity%per_velocity)))
+         if (good) set%sabsh1 = max(least_speed, log(2.0_wp)/v(3))
          memory = [0.001_wp, 10.0_wp]
-      case (6)
-         set%fref = max(least_value, v(1))
+      case default
+         v(1) = raised(v(1), least_value)
+         v(5:6) = v(5:6)*[length, velocity]
+         good = fits(this, "FREF TREF DFHEAT DTHEAT MEMDST MEM_S0", v)
+         if (good .and. v(1) + v(3) < 0.0_wp) then
+            call complain(this, "FREF + DFHEAT = " // real_text(v(1) + v(3)) // " is below its lower bound 0; nothing is stored")
+            good = .false.
+         end if
+         set%fref = v(1)
          set%tref = v(2)
          set%dfheat = max(least_value - set%fref, v(3))
          set%dtheat = v(4)
          set%fstat = set%fref
          set%fkin = set%fref + set%dfheat
-         memory = max(0.0_wp, [v(5)*length, v(6)*velocity])
+         memory = v(5:6)
       end select
    end subroutine fill_set
 
@@ -429,8 +480,10 @@ contains
       if (.not. associated(problem)) return
       force = [real_of(fx), real_of(fy)]
       if (problem%module_number == 1) then
-         if (are_finite(this, force(:1))) problem%spec%wheel_rail%wheelset%fx = force(1)*inward(problem%units, quantity%force)
-      else if (are_finite(this, force)) then
+         force(1) = force(1)*inward(problem%units, quantity%force)
+         if (fits(this, "FX_WS", force(:1))) problem%spec%wheel_rail%wheelset%fx = force(1)
+      ! forces beyond the friction bound are shortened to it, so that the bounds of FX are too narrow here
+      else if (fits(this, "CKSI CETA", force, "FX FY")) then
          force = force/max(1.0_wp, hypot(force(1), force(2))/largest_force)
          problem%spec%kinematics%fx = force(1)
          problem%spec%kinematics%fy = force(2)

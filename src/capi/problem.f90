@@ -19,7 +19,7 @@ module contact_capi_problem
    implicit none (type, external)
    private
 
-   public :: library_problem, given_profile, new_problem, release_problem, most_patches
+   public :: library_problem, given_profile, refused_setting, new_problem, release_problem, most_patches
 
    !> Patches that can be addressed
    integer, parameter :: most_patches = 9
@@ -47,6 +47,17 @@ module contact_capi_problem
       !> File into which points were written for the sake of an input file; unallocated: not yet
       character(len=:), allocatable :: written_as
    end type given_profile
+
+   !> A setting that was refused, or that is being made
+   type :: refused_setting
+      !> The routine, blank when no setting is being made
+      character(len=28) :: routine = ""
+      !> What belongs together: a good value for it replaces the bad one. Parts are separated by "|"
+      character(len=48) :: group = ""
+      !> Member of library_code, and why; unallocated while nothing is wrong
+      integer :: code = 0
+      character(len=:), allocatable :: reason
+   end type refused_setting
 
    !> One problem, with what it keeps from case to case
    type, extends(problem_slot) :: library_problem
@@ -76,6 +87,9 @@ module contact_capi_problem
       !> What went wrong last; unallocated when nothing did. Its code is a member of library_code
       character(len=:), allocatable :: last_error
       integer :: last_code = 0
+      !> The setting that is being made, and those that were refused and not made since; unallocated: none
+      type(refused_setting) :: setting
+      type(refused_setting), allocatable :: refused(:)
       !> One thread at a time
       integer(omp_lock_kind) :: lock
       !> Threads that are inside or wait, guarded by the registry

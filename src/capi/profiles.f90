@@ -11,7 +11,7 @@ module contact_capi_profiles
    use contact_capi_arguments, only : integer_of, integers_of, path_of, reals_of
    use contact_capi_files, only : find_working_folder
    use contact_capi_library, only : entry_type
-   use contact_capi_messages, only : are_finite, complain, library_log
+   use contact_capi_messages, only : complain, fits, library_log
    use contact_capi_problem, only : library_problem, given_profile
    use contact_capi_registry, only : enter, leave, scope
    use contact_cases_pair_session, only : load_profile
@@ -27,6 +27,10 @@ module contact_capi_profiles
 
    !> Scales below this value stand for the unit of length of the caller [-]
    real(wp), parameter :: no_scale = 5.0e-4_wp
+   !> Names of the options that are numbers
+   character(len=*), parameter :: option_names = "SCALEYZ SMOOTH MAXOMIT ZIGTHRS KINKHIGH KINKLOW KINKWID"
+   !> What a profile of a rail and of a wheel replaces
+   character(len=*), parameter :: profile_groups(0:1) = [character(len=20) :: "profile of the rail", "profile of the wheel"]
    !> Smallest turning angle that makes a zig-zag [rad]
    real(wp), parameter :: least_zigzag = 0.25_wp*pi
 
@@ -50,12 +54,13 @@ contains
       ints = integers_of(nints, iparam)
       reals = reals_of(nreals, rparam)
       profile%name = trim(path_of(c_fname, len_fname))
+      kind = -1
+      if (size(ints) >= 1) kind = ints(1)
+      if (kind /= 0 .and. kind /= 1) kind = merge(1, 0, names_wheel(profile%name))
+      problem%setting%group = profile_groups(kind)
       if (len(profile%name) == 0) then
          call complain(this, "the name of the file is missing; nothing is stored")
-      else if (are_finite(this, reals)) then
-         kind = -1
-         if (size(ints) >= 1) kind = ints(1)
-         if (kind /= 0 .and. kind /= 1) kind = merge(1, 0, names_wheel(profile%name))
+      else if (fits(this, option_names, reals)) then
          call set_options(ints, reals, problem, profile)
          call store_profile(this, kind == 1, profile, problem)
       end if
@@ -81,14 +86,17 @@ contains
       n = max(0, integer_of(npoint))
       if (.not. present(values) .or. n > 1000000) n = 0
       profile%name = "<values>"
+      kind = 1
+      if (size(ints) >= 1) kind = max(0, min(1, ints(1)))
+      problem%setting%group = profile_groups(kind)
       if (n < 2) then
          call complain(this, "a profile needs at least two points and at most a million; nothing is stored")
-      else if (are_finite(this, [reals, real(values(:2*n), wp)])) then
-         profile%points = reshape(real(values(:2*n), wp), [2, n])
-         kind = 1
-         if (size(ints) >= 1) kind = max(0, min(1, ints(1)))
+      else if (fits(this, option_names, reals)) then
          call set_options(ints, reals, problem, profile)
-         call store_profile(this, kind == 1, profile, problem)
+         if (fits(this, "Y", real(values(:2*n), wp)*profile%scale)) then
+            profile%points = reshape(real(values(:2*n), wp), [2, n])
+            call store_profile(this, kind == 1, profile, problem)
+         end if
       end if
       call leave(problem)
    end subroutine cntc_setprofileinputvalues

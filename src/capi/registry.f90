@@ -8,7 +8,7 @@ module contact_capi_registry
    use contact_capi_files, only : place_result, set_folders
    use contact_capi_host, only : give_floats_back, hold_floats, is_forked
    use contact_capi_library, only : element_slot, entry_type, finalised, library, most_elements, running, units_given, virgin
-   use contact_capi_messages, only : complain, set_last_error
+   use contact_capi_messages, only : begin_setting, complain, end_setting, set_last_error
    use contact_capi_problem, only : library_problem, most_patches, new_problem, release_problem
    use contact_capi_timers, only : book_times, write_timers
    use contact_control_library_codes, only : code_text, library_code
@@ -163,11 +163,21 @@ contains
          call omp_set_lock(problem%lock)
          call hold_floats()
          call check_patch(call_of, problem, found)
-         if (found /= library_code%success) call leave(problem)
+         if (found /= library_code%success) then
+            call leave(problem)
+         else if (is_setting(call_of)) then
+            call begin_setting(problem, call_of)
+         end if
       end if
       if (found /= library_code%success) call complain(call_of, trim(code_text(found)), found)
       if (present(code)) code = found
    end subroutine enter
+
+   !> Does a routine make a setting, which calculations need?
+   pure logical function is_setting(call_of)
+      type(entry_type), intent(in) :: call_of
+      is_setting = index(call_of%name, "cntc_set") == 1 .or. index(call_of%name, "subs_add") == 1
+   end function is_setting
 
    !> The same for a calculation, which does not wait for another thread
    subroutine enter_calculation(call_of, allowed, problem, code)
@@ -280,6 +290,7 @@ contains
    subroutine leave(problem)
       type(library_problem), pointer, intent(inout) :: problem
 
+      call end_setting(problem)
       call give_floats_back()
       call omp_unset_lock(problem%lock)
       call forget_user(problem)

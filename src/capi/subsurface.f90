@@ -6,10 +6,10 @@ module contact_capi_subsurface
    use contact_base_error, only : add_context, error_type, full_text
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
-   use contact_capi_arguments, only : give, integer_of, integers_of, reals_of
+   use contact_capi_arguments, only : give, integer_of, integers_of, raised, reals_of
    use contact_capi_files, only : find_result_file
    use contact_capi_library, only : entry_type
-   use contact_capi_messages, only : are_finite, complain, count_fits, forget_complaint, library_log
+   use contact_capi_messages, only : complain, count_fits, first_refusal, fits, forget_complaint, library_log
    use contact_capi_problem, only : library_problem
    use contact_capi_registry, only : enter, enter_calculation, leave, leave_calculation, scope, threads_inside
    use contact_capi_view, only : look_at, result_view
@@ -101,7 +101,7 @@ contains
       real(wp), intent(in) :: length
       type(point_block), intent(out) :: block
       logical, intent(out) :: accepted
-      integer :: nz
+      real(wp) :: depths(size(z))
 
       accepted = .false.
       if (.not. any(option == [1, 2, 3, 5, 6, 7, 9])) then
@@ -109,14 +109,27 @@ contains
          return
       end if
       if (option /= 1 .and. option /= 5) then
-         if (.not. are_finite(this, [x, y])) return
          if (.not. count_fits(this, option, size(x), merge(3, 1, option == 2 .or. option == 6), &
             & merge(3, longest_list, option == 2 .or. option == 6))) return
          if (.not. count_fits(this, option, size(y), merge(3, 1, option == 2 .or. option == 6), &
             & merge(3, longest_list, option == 2 .or. option == 6))) return
+         if (option == 9) then
+            if (.not. fits(this, "X", x*length)) return
+            if (.not. fits(this, "Y", y*length)) return
+         else
+            if (.not. fits(this, "IX", x)) return
+            if (.not. fits(this, "IY", y)) return
+         end if
       end if
       if (.not. count_fits(this, option, size(z), merge(3, 1, option <= 3), merge(3, longest_list, option <= 3))) return
-      if (.not. are_finite(this, z)) return
+      depths = z*length
+      if (option <= 3) then
+         depths(1) = anint(z(1))
+         depths(3) = raised(depths(3), least_step)
+         if (.not. fits(this, "NZ ZL DZ", depths)) return
+      else
+         if (.not. fits(this, "Z", depths)) return
+      end if
       select case (option)
       case (1, 5)
          block%selection = point_selection%all_elements
@@ -134,10 +147,9 @@ contains
          block%y = y*length
       end select
       if (option <= 3) then
-         nz = max(1, min(longest_list, whole(z(1))))
-         block%z = depth_range(nz, z(2)*length, max(least_step, z(3)*length))
+         block%z = depth_range(nint(depths(1)), depths(2), depths(3))
       else
-         block%z = z*length
+         block%z = depths
       end if
       accepted = .true.
    end subroutine make_block
@@ -173,7 +185,11 @@ contains
          threads = omp_get_max_threads()
          call omp_set_num_threads(threads_inside())
          call problem%stresses%start()
-         if (.not. problem%has_result) then
+         k = first_refusal(problem, "subs_addBlock")
+         if (k > 0) then
+            code = problem%refused(k)%code
+            call complain(this, "a block of points was refused and not given anew: " // problem%refused(k)%reason, code)
+         else if (.not. problem%has_result) then
             code = library_code%other
             call complain(this, "nothing has been calculated yet", code)
          else if (problem%module_number == 3) then

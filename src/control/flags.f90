@@ -6,7 +6,7 @@ module contact_control_flags
    implicit none (type, external)
    private
 
-   public :: flag, flag_row, flag_table, out_of_range, row_of_flag, accepted_value, put_digit
+   public :: flag, flag_row, flag_table, row_of_flag, accepted_value, highest_of, put_digit
 
    type :: flag_list
       integer :: units = 1933, config = 1967, pvtime = 1970, bound = 1971, tang = 1972, norm = 1973, force = 1974
@@ -18,57 +18,50 @@ module contact_control_flags
    !> Codes of the flags
    type(flag_list), parameter :: flag = flag_list()
 
-   type :: out_of_range_list
-      !> The nearest accepted value is taken; 0 is taken; the flag stays as it is
-      integer :: nearest = 1, zero = 2, ignored = 3
-   end type out_of_range_list
-   !> What happens with a value that is out of range
-   type(out_of_range_list), parameter :: out_of_range = out_of_range_list()
-
    !> One flag
    type :: flag_row
       integer :: code = 0
       !> Name of the control digit behind it; blank for other settings
       character(len=2) :: digit = ""
-      !> Range of accepted values and what happens outside
-      integer :: lowest = 0, highest = 0, outside = 1
+      !> Range of accepted values
+      integer :: lowest = 0, highest = 0
       !> May it be set by cntc_setflags, and read by cntc_getflags?
       logical :: can_set = .true., can_get = .true.
    end type flag_row
 
    !> All flags; the range is that of module 1 where the modules differ
    type(flag_row), parameter :: flag_table(*) = [ &
-      & flag_row(flag%units, "  ", 1934, 1937, out_of_range%ignored, .true., .false.), &
-      & flag_row(flag%config, "C1", 0, 5, out_of_range%nearest), &
-      & flag_row(flag%pvtime, "P ", 0, 3, out_of_range%nearest), &
-      & flag_row(flag%bound, "B ", 0, 6, out_of_range%nearest), &
-      & flag_row(flag%tang, "T ", 0, 3, out_of_range%nearest), &
-      & flag_row(flag%norm, "N ", 0, 1, out_of_range%nearest), &
-      & flag_row(flag%force, "F ", 0, 3, out_of_range%nearest), &
-      & flag_row(flag%frclaw, "L ", 0, 6, out_of_range%ignored, .false., .true.), &
-      & flag_row(flag%discns, "D ", 0, 9, out_of_range%ignored), &
-      & flag_row(flag%inflcf, "C ", 0, 4, out_of_range%ignored), &
-      & flag_row(flag%mater, "M ", 0, 7, out_of_range%ignored, .false., .true.), &
-      & flag_row(flag%exrhs, "E ", 0, 3, out_of_range%nearest, .true., .false.), &
-      & flag_row(flag%xflow, "X ", 0, 9999999, out_of_range%nearest), &
-      & flag_row(flag%heat, "H ", 0, 3, out_of_range%ignored, .false., .true.), &
-      & flag_row(flag%iestim, "I ", 0, 3, out_of_range%nearest), &
-      & flag_row(flag%output, "O ", 0, 6, out_of_range%nearest), &
-      & flag_row(flag%flow, "W ", 0, 9, out_of_range%nearest), &
-      & flag_row(flag%return, "R ", 0, 3, out_of_range%nearest), &
-      & flag_row(flag%matfil, "A ", 0, 2, out_of_range%zero), &
-      & flag_row(flag%sens, "  ", 0, 3, out_of_range%nearest), &
-      & flag_row(flag%ifmeth, "  ", 0, 1, out_of_range%nearest), &
-      & flag_row(flag%ifvari, "  ", 1, 4, out_of_range%nearest), &
-      & flag_row(flag%sbsout, "  ", 0, 4, out_of_range%nearest), &
-      & flag_row(flag%sbsfil, "  ", 0, 2, out_of_range%zero), &
-      & flag_row(flag%npomax, "  ", 100, 1000000, out_of_range%nearest), &
-      & flag_row(flag%idebug, "  ", -huge(1), huge(1), out_of_range%nearest, .true., .false.), &
-      & flag_row(flag%licdbg, "  ", -huge(1), huge(1), out_of_range%nearest, .true., .false.), &
-      & flag_row(flag%wrtinp, "  ", 0, 2, out_of_range%nearest), &
-      & flag_row(flag%openmp, "  ", -huge(1), huge(1), out_of_range%nearest, .true., .false.), &
-      & flag_row(flag%timers, "  ", 0, 2, out_of_range%nearest, .true., .false.), &
-      & flag_row(flag%ncase, "  ", 0, huge(1), out_of_range%nearest)]
+      & flag_row(flag%units, "  ", 1934, 1937, .true., .false.), &
+      & flag_row(flag%config, "C1", 0, 5), &
+      & flag_row(flag%pvtime, "P ", 0, 3), &
+      & flag_row(flag%bound, "B ", 0, 6), &
+      & flag_row(flag%tang, "T ", 0, 3), &
+      & flag_row(flag%norm, "N ", 0, 1), &
+      & flag_row(flag%force, "F ", 0, 3), &
+      & flag_row(flag%frclaw, "L ", 0, 6, .false., .true.), &
+      & flag_row(flag%discns, "D ", 0, 9), &
+      & flag_row(flag%inflcf, "C ", 0, 4), &
+      & flag_row(flag%mater, "M ", 0, 7, .false., .true.), &
+      & flag_row(flag%exrhs, "E ", 0, 3, .true., .false.), &
+      & flag_row(flag%xflow, "X ", 0, 9999999), &
+      & flag_row(flag%heat, "H ", 0, 3, .false., .true.), &
+      & flag_row(flag%iestim, "I ", 0, 3), &
+      & flag_row(flag%output, "O ", 0, 6), &
+      & flag_row(flag%flow, "W ", 0, 9), &
+      & flag_row(flag%return, "R ", 0, 3), &
+      & flag_row(flag%matfil, "A ", 0, 2), &
+      & flag_row(flag%sens, "  ", 0, 3), &
+      & flag_row(flag%ifmeth, "  ", 0, 1), &
+      & flag_row(flag%ifvari, "  ", 1, 4), &
+      & flag_row(flag%sbsout, "  ", 0, 4), &
+      & flag_row(flag%sbsfil, "  ", 0, 2), &
+      & flag_row(flag%npomax, "  ", 100, 1000000), &
+      & flag_row(flag%idebug, "  ", -huge(1), huge(1), .true., .false.), &
+      & flag_row(flag%licdbg, "  ", -huge(1), huge(1), .true., .false.), &
+      & flag_row(flag%wrtinp, "  ", 0, 2), &
+      & flag_row(flag%openmp, "  ", -huge(1), huge(1), .true., .false.), &
+      & flag_row(flag%timers, "  ", 0, 2, .true., .false.), &
+      & flag_row(flag%ncase, "  ", 0, huge(1))]
 
 contains
 
@@ -82,6 +75,16 @@ contains
       row = 0
    end function row_of_flag
 
+   !> Largest accepted value of a flag
+   pure integer function highest_of(row, module_number) result(highest)
+      type(flag_row), intent(in) :: row
+      !> 1 or 3
+      integer, intent(in) :: module_number
+
+      highest = row%highest
+      if (row%code == flag%force .and. module_number == 3) highest = 2
+   end function highest_of
+
    !> What is stored for a value that a caller gives, and whether it is stored at all
    pure subroutine accepted_value(row, value, module_number, stored, accepted)
       type(flag_row), intent(in) :: row
@@ -90,19 +93,9 @@ contains
       integer, intent(in) :: module_number
       integer, intent(out) :: stored
       logical, intent(out) :: accepted
-      integer :: highest
 
-      highest = row%highest
-      if (row%code == flag%force .and. module_number == 3) highest = 2
-      accepted = .true.
       stored = value
-      if (value < row%lowest .or. value > highest) then
-         select case (row%outside)
-         case (out_of_range%nearest); stored = max(row%lowest, min(highest, value))
-         case (out_of_range%zero); stored = 0
-         case default; accepted = .false.
-         end select
-      end if
+      accepted = value >= row%lowest .and. value <= highest_of(row, module_number)
       ! output of subsurface stresses has no level 3
       if (row%code == flag%sbsout .and. stored == 3) stored = 2
    end subroutine accepted_value

@@ -31,10 +31,10 @@ module contact_input_experiment_file
       type(problem_list) :: problems
    end type input_case
 
-   !> What a result element remembers
+   !> What a result element remembers of the cases of one module
    type :: element_store
-      integer :: reid = 0, cpid = 1
-      !> Number of cases read so far
+      integer :: module_number = 0, reid = 0, cpid = 1
+      !> Number of cases of this module read so far
       integer :: cases = 0
       !> The last case
       type(case_spec) :: spec
@@ -64,6 +64,7 @@ module contact_input_experiment_file
       procedure :: store_case
       procedure, private :: read_module_line
       procedure, private :: select_store
+      procedure, private :: next_number
    end type experiment_reader
 
 contains
@@ -110,7 +111,7 @@ contains
          this%module_number = self%module_number
          this%reid = store%reid
          this%cpid = store%cpid
-         this%number = store%cases + 1
+         this%number = self%next_number()
          if (self%module_number == 1) then
             call read_case1(self%lexer, store%spec, store%cases > 0, this%number, this%spec, this%problems, error, &
                & this%first_line)
@@ -120,7 +121,7 @@ contains
          end if
          if (allocated(error)) return
          store%spec = this%spec
-         store%cases = this%number
+         store%cases = store%cases + 1
          if (this%spec%digits%r /= 0 .and. this%spec%digits%r /= 2) self%module_number = 0
       end associate
    end subroutine next_case
@@ -143,7 +144,7 @@ contains
 
       call self%lexer%read_group("iII", "MODULE REID CPID", v, error)
       if (allocated(error)) then
-         if (self%current > 0) call add_context(error, "case " // integer_text(self%stores(self%current)%cases + 1))
+         if (self%current > 0) call add_context(error, "case " // integer_text(self%next_number()))
          return
       end if
       select case (v(1)%i)
@@ -161,7 +162,7 @@ contains
       call check_number(v(3), highest_patch)
       if (allocated(error)) return
       if (.not. v(3)%given) v(3)%i = 1
-      call self%select_store(v(2)%i, v(3)%i)
+      call self%select_store(v(1)%i, v(2)%i, v(3)%i)
       if (self%current == 0) then
          call fatal_error(error, "REID = " // v(2)%word // " is one result element too many; there can be " // &
             & integer_text(most_elements), file=self%lexer%file, line=v(2)%line, column=v(2)%column)
@@ -183,17 +184,29 @@ contains
       end subroutine check_number
    end subroutine read_module_line
 
-   !> Make the store of a result element and patch the current one; 0 when there are too many
-   subroutine select_store(self, reid, cpid)
+   !> Number of the next case of the current result element and patch: both modules count together
+   pure integer function next_number(self) result(number)
+      class(experiment_reader), intent(in) :: self
+
+      associate (stores => self%stores(:self%count), current => self%stores(self%current))
+         number = 1 + sum(stores%cases, mask=stores%reid == current%reid .and. stores%cpid == current%cpid)
+      end associate
+   end function next_number
+
+   !> Make the store of a module, result element and patch the current one; 0 when there are too many
+   !>
+   !> What a case keeps is what the previous case of its own module left.
+   subroutine select_store(self, module_number, reid, cpid)
       class(experiment_reader), intent(inout) :: self
-      integer, intent(in) :: reid, cpid
+      integer, intent(in) :: module_number, reid, cpid
       type(element_store), allocatable :: longer(:)
       integer :: k, elements
 
       elements = 0
       do k = 1, self%count
          self%current = k
-         if (self%stores(k)%reid == reid .and. self%stores(k)%cpid == cpid) return
+         if (self%stores(k)%module_number == module_number .and. self%stores(k)%reid == reid &
+            & .and. self%stores(k)%cpid == cpid) return
          if (.not. any(self%stores(:k - 1)%reid == self%stores(k)%reid)) elements = elements + 1
       end do
       self%current = 0
@@ -205,6 +218,7 @@ contains
       end if
       self%count = self%count + 1
       self%current = self%count
+      self%stores(self%current)%module_number = module_number
       self%stores(self%current)%reid = reid
       self%stores(self%current)%cpid = cpid
    end subroutine select_store

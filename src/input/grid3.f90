@@ -4,6 +4,7 @@ module contact_input_grid3
    use contact_base_kinds, only : long, wp
    use contact_cases_spec, only : case_spec, geometry_spec, grid_spec
    use contact_input_problems, only : problem_list, severity
+   use contact_input_values, only : read_list, read_values
    use contact_text_lexer, only : input_lexer, input_value
    use contact_text_words, only : integer_text
    implicit none (type, external)
@@ -13,8 +14,6 @@ module contact_input_grid3
 
    !> Largest number of elements of a potential contact area
    integer, parameter :: largest_grid = 2000000
-   !> Smallest side of an element [mm]
-   real(wp), parameter :: smallest_side = 1.0e-8_wp
 
    !> Where the elements are, as far as the input tells
    type :: grid_frame
@@ -40,7 +39,6 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(grid_spec) :: grid
       type(input_value) :: option(1), v(6)
-      integer :: k
 
       line = 0
       if (spec%digits%d /= 2) return
@@ -51,46 +49,46 @@ contains
 
       select case (grid%ipotcn)
       case (-1)
-         call lexer%read_group("iirrr", "MX MY A1 B1 SCALE", v, error)
+         call read_values(lexer, "iirrr", "MX MY A1 B1 SCALE", v, problems, error)
          grid%a1 = v(3)%r
          grid%b1 = v(4)%r
       case (-2)
-         call lexer%read_group("iirrr", "MX MY A1 AOB SCALE", v, error)
+         call read_values(lexer, "iirrr", "MX MY A1 AOB SCALE", v, problems, error)
          grid%a1 = v(3)%r
          grid%aob = v(4)%r
       case (-3, -5)
-         call lexer%read_group("iirrr", "MX MY AA BB SCALE", v, error)
+         call read_values(lexer, "iirrr", "MX MY AA BB SCALE", v, problems, error)
          grid%aa = v(3)%r
          grid%bb = v(4)%r
       case (-4)
-         call lexer%read_group("iirrr", "MX MY A1 BB SCALE", v, error)
+         call read_values(lexer, "iirrr", "MX MY A1 BB SCALE", v, problems, error)
          grid%a1 = v(3)%r
          grid%bb = v(4)%r
       case (-6)
-         call lexer%read_group("iirrrr", "MX MY AA BNEG BPOS SCALE", v, error)
+         call read_values(lexer, "iirrrr", "MX MY AA BNEG BPOS SCALE", v, problems, error)
          grid%aa = v(3)%r
          grid%bneg = v(4)%r
          grid%bpos = v(5)%r
       case (1)
-         call lexer%read_group("iirrrr", "MX MY XL YL DX DY", v, error)
+         call read_values(lexer, "iirrrr", "MX MY XL YL DX DY", v, problems, error)
          grid%xl = v(3)%r
          grid%yl = v(4)%r
          grid%dx = v(5)%r
          grid%dy = v(6)%r
       case (2)
-         call lexer%read_group("iirrrr", "MX MY XL YL XH YH", v, error)
+         call read_values(lexer, "iirrrr", "MX MY XL YL XH YH", v, problems, error)
          grid%xl = v(3)%r
          grid%yl = v(4)%r
          grid%xh = v(5)%r
          grid%yh = v(6)%r
       case (3)
-         call lexer%read_group("iirrrr", "MX MY XC1 YC1 DX DY", v, error)
+         call read_values(lexer, "iirrrr", "MX MY XC1 YC1 DX DY", v, problems, error)
          grid%xc1 = v(3)%r
          grid%yc1 = v(4)%r
          grid%dx = v(5)%r
          grid%dy = v(6)%r
       case (4)
-         call lexer%read_group("iirrrr", "MX MY XC1 YC1 XCM YCM", v, error)
+         call read_values(lexer, "iirrrr", "MX MY XC1 YC1 XCM YCM", v, problems, error)
          grid%xc1 = v(3)%r
          grid%yc1 = v(4)%r
          grid%xcm = v(5)%r
@@ -107,18 +105,8 @@ contains
       select case (grid%ipotcn)
       case (-5:-1)
          grid%scale = v(5)%r
-         do k = 3, 5
-            call problems%check_above(v(k))
-         end do
       case (-6)
          grid%scale = v(6)%r
-         call problems%check_above(v(3))
-         call problems%check_real(v(4), smallest_side)
-         call problems%check_real(v(5), smallest_side)
-         call problems%check_above(v(6))
-      case (1, 3)
-         call problems%check_real(v(5), smallest_side)
-         call problems%check_real(v(6), smallest_side)
       case (2, 4)
          if (grid%ipotcn == 4) then
             call check_two(v(1))
@@ -164,22 +152,10 @@ contains
       type(input_value), intent(in) :: mx, my
       type(problem_list), intent(inout) :: problems
 
-      call check_one(mx)
-      call check_one(my)
-      if (mx%i < 1 .or. my%i < 1) return
+      if (mx%i < 1 .or. my%i < 1 .or. max(mx%i, my%i) > largest_grid) return
       if (int(mx%i, long)*int(my%i, long) > largest_grid) call problems%add(severity%error, "MX = " // mx%word // &
          & " times MY = " // my%word // " is above its upper bound of " // integer_text(largest_grid) // " elements", &
          & mx%line, mx%column)
-
-   contains
-
-      !> At least one
-      subroutine check_one(number)
-         type(input_value), intent(in) :: number
-
-         if (number%i < 1) call problems%add(severity%error, number%name // " = " // number%word // &
-            & " is below its lower bound 1", number%line, number%column)
-      end subroutine check_one
    end subroutine check_size
 
    !> Undeformed distance and planform (Z = 2, grids that are not Hertzian)
@@ -201,28 +177,27 @@ contains
 
       select case (geometry%ibase)
       case (1)
-         call lexer%read_array(6, "B", list, error)
+         call read_list(lexer, 6, "B", list, problems, error)
          if (allocated(error)) return
          geometry%b(:6) = list
       case (2)
-         call lexer%read_group("irrrr", "NN XM RM Y1 DY1", v, error)
+         call read_values(lexer, "irrrr", "NN XM RM Y1 DY1", v, problems, error)
          if (allocated(error)) return
          call problems%check_integer(v(1), 2, 999999)
-         call problems%check_real(v(5), smallest_side)
          geometry%xm = v(2)%r
          geometry%rm = v(3)%r
          geometry%y1 = v(4)%r
          geometry%dy1 = v(5)%r
-         call lexer%read_array(v(1)%i, "B", geometry%profile, error)
+         call read_list(lexer, v(1)%i, "B", geometry%profile, problems, error)
          if (allocated(error)) return
       case (3)
-         call lexer%read_array(8, "B", list, error)
+         call read_list(lexer, 8, "B", list, problems, error, bounds="B(IBASE3)")
          if (allocated(error)) return
          geometry%b = list
       case (9)
          call element_count(spec%grid, "H", lexer, n, error)
          if (allocated(error)) return
-         call lexer%read_array(n, "H", geometry%h, error)
+         call read_list(lexer, n, "H", geometry%h, problems, error)
          if (allocated(error)) return
       case default
          call problems%add(severity%error, "IBASE = " // option(1)%word // &
@@ -250,11 +225,11 @@ contains
       select case (option%i)
       case (1)
       case (2)
-         call lexer%read_array(6, "PL", list, error)
+         call read_list(lexer, 6, "PL", list, problems, error)
          if (allocated(error)) return
          geometry%pl(:6) = list
       case (3)
-         call lexer%read_group("rrrrrrrr", "XL1 XH1 YL1 YH1 XL2 XH2 YL2 YH2", v, error)
+         call read_values(lexer, "rrrrrrrr", "XL1 XH1 YL1 YH1 XL2 XH2 YL2 YH2", v, problems, error)
          if (allocated(error)) return
          geometry%pl = v%r
          if (all(v(1::2)%r < v(2::2)%r)) return
@@ -265,12 +240,12 @@ contains
          call problems%add(severity%error, "the rectangles of IPLAN = 3 need XL < XH " // &
             & "and YL < YH; given are XL1, XH1, YL1, YH1, XL2, XH2, YL2, YH2 = " // words, v(1)%line, v(1)%column)
       case (4)
-         call lexer%read_group("i", "NP", v, error)
+         call read_values(lexer, "i", "NP", v, problems, error)
          if (allocated(error)) return
          n = max(1, min(100, v(1)%i))
-         call lexer%read_array(4*n, "XL,XH,YL,YH", list, error)
+         call read_list(lexer, 4*n, "XL,XH,YL,YH", list, problems, error)
          if (allocated(error)) return
-         call lexer%read_array((n*(n - 1))/2, "FAC", list, error)
+         call read_list(lexer, (n*(n - 1))/2, "FAC", list, problems, error)
          if (allocated(error)) return
          call problems%add(severity%unsupported, "IPLAN = 4, weighted interaction between sub-patches, " // &
             & "is known but not built in this version", option%line, option%column)
@@ -281,9 +256,10 @@ contains
    end subroutine read_planform
 
    !> Extra term of the rigid slip (E); 0 removes it
-   subroutine read_extra_slip(lexer, spec, error)
+   subroutine read_extra_slip(lexer, spec, problems, error)
       type(input_lexer), intent(inout) :: lexer
       type(case_spec), intent(inout) :: spec
+      type(problem_list), intent(inout) :: problems
       type(error_type), allocatable, intent(out) :: error
       real(wp), allocatable :: list(:)
       integer :: n
@@ -294,7 +270,7 @@ contains
       case (9)
          call element_count(spec%grid, "EXRHS", lexer, n, error)
          if (allocated(error)) return
-         call lexer%read_array(2*n, "EXRHS", list, error)
+         call read_list(lexer, 2*n, "EXRHS", list, problems, error)
          if (allocated(error)) return
          spec%extra_slip = reshape(list, [2, n])
       case default

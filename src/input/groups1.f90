@@ -10,6 +10,7 @@ module contact_input_groups1
    use contact_control_digits1, only : choice1_of
    use contact_input_groups3, only : read_friction_memory, read_friction_set
    use contact_input_problems, only : problem_list, severity
+   use contact_input_values, only : read_values
    use contact_text_lexer, only : input_lexer, input_value
    use contact_text_words, only : real_text
    implicit none (type, external)
@@ -40,9 +41,8 @@ contains
       if (spec%digits%l == 1) return
       n = 1
       if (spec%digits%v == 1 .or. spec%digits%v == 2) then
-         call lexer%read_group("i", "NVF", v, error)
+         call read_values(lexer, "i", "NVF", v, problems, error)
          if (allocated(error)) return
-         call problems%check_integer(v(1), 1, most_points)
          n = min(max(1, v(1)%i), most_points)
       end if
       allocate(sets(n))
@@ -78,11 +78,8 @@ contains
       if (spec%digits%d < 2) return
       associate (search => spec%wheel_rail%search)
          search%location = choice1_of("D", spec%digits%d)
-         call lexer%read_group("rrrarrRR", "DX DS DQREL A_SEP D_SEP D_COMB D_TURN G_MISS", v, error)
+         call read_values(lexer, "rrrarrRR", "DX DS DQREL A_SEP D_SEP D_COMB D_TURN G_MISS", v, problems, error)
          if (allocated(error)) return
-         call problems%check_real(v(1), 1.0e-8_wp)
-         call problems%check_real(v(2), 1.0e-8_wp)
-         call problems%check_real(v(3), 5.0e-7_wp, 10.0_wp)
          search%dx = v(1)%r
          search%ds = v(2)%r
          search%dqrel = v(3)%r
@@ -109,21 +106,24 @@ contains
       associate (track => spec%wheel_rail%track, rail => spec%wheel_rail%rail)
          if (spec%digits%z == 1 .or. spec%digits%z == 3) then
             if (spec%wheel_rail%roller) then
-               call lexer%read_group("rrrrR", "GAUGHT GAUGSQ|RAILY0 GAUGWD|RAILZ0 NOMRADR CURV", v, error)
+               call read_values(lexer, "rrrrR", "GAUGHT GAUGSQ|RAILY0 GAUGWD|RAILZ0 NOMRADR CURV", v, problems, error)
                if (allocated(error)) return
-               call problems%check_real(v(4), 1.0e-3_wp)
                track%nomradr = v(4)%r
                track%cant = 0.0_wp
             else
-               call lexer%read_group("rrraR", "GAUGHT GAUGSQ|RAILY0 GAUGWD|RAILZ0 CANT CURV", v, error)
+               call read_values(lexer, "rrraR", "GAUGHT GAUGSQ|RAILY0 GAUGWD|RAILZ0 CANT CURV", v, problems, error)
                if (allocated(error)) return
                track%cant = v(4)%r
             end if
             track%gaught = v(1)%r
             by_gauge = track%gaught > 0.0_wp
             if (by_gauge) then
+               call problems%check_bounds(v(2), "GAUGSQ")
+               call problems%check_bounds(v(3), "GAUGWD")
                track%gaugwd = v(3)%r
             else
+               call problems%check_bounds(v(2), "RAILY0")
+               call problems%check_bounds(v(3), "RAILZ0")
                track%raily0 = v(2)%r
                track%railz0 = v(3)%r
             end if
@@ -140,7 +140,7 @@ contains
                & spec%wheel_rail%rail_profile%line, spec%wheel_rail%rail_profile%column)
          end if
          if (spec%digits%z >= 2) then
-            call lexer%read_group("rrarra", "DYRAIL DZRAIL DROLLR VYRAIL VZRAIL VROLLR", v, error)
+            call read_values(lexer, "rrarra", "DYRAIL DZRAIL DROLLR VYRAIL VZRAIL VROLLR", v, problems, error)
             if (allocated(error)) return
             rail%dy = v(1)%r
             rail%dz = v(2)%r
@@ -149,10 +149,8 @@ contains
             rail%vz = v(5)%r
             rail%vroll = v(6)%r
             if (spec%digits%f == 3) then
-               call lexer%read_group("rrrrR", "KYRAIL FYRAIL KZRAIL FZRAIL DYSTEP0", v, error)
+               call read_values(lexer, "rrrrR", "KYRAIL FYRAIL KZRAIL FZRAIL DYSTEP0", v, problems, error)
                if (allocated(error)) return
-               call problems%check_real(v(1), 0.0_wp)
-               call problems%check_real(v(3), 0.0_wp)
                rail%ky = v(1)%r
                rail%fy = v(2)%r
                rail%kz = v(3)%r
@@ -179,9 +177,8 @@ contains
 
       associate (wheelset => spec%wheel_rail%wheelset)
          if (spec%digits%e == 3 .or. spec%digits%e == 5) then
-            call lexer%read_group("rrrR", "FBDIST FBPOS NOMRADW YTAPE", v, error)
+            call read_values(lexer, "rrrR", "FBDIST FBPOS NOMRADW YTAPE", v, problems, error)
             if (allocated(error)) return
-            call problems%check_real(v(3), 1.0e-3_wp)
             wheelset%fbdist = v(1)%r
             wheelset%fbpos = v(2)%r
             wheelset%nomradw = v(3)%r
@@ -192,18 +189,18 @@ contains
             spec%wheel_rail%new_wheel_profile = .true.
          end if
          if (spec%digits%e >= 1) then
-            call read_position(lexer, spec, wheelset, error)
+            call read_position(lexer, spec, wheelset, problems, error)
             if (allocated(error)) return
          end if
          if (spec%digits%e >= 2) then
-            call read_velocity(lexer, spec, wheelset, error)
+            call read_velocity(lexer, spec, wheelset, problems, error)
             if (allocated(error)) return
          end if
          if (spec%digits%e >= 4) then
-            call lexer%read_group("rrraaa", "DXWHL DYWHL DZWHL DROLLW DYAWW DPITCHW", v, error)
+            call read_values(lexer, "rrraaa", "DXWHL DYWHL DZWHL DROLLW DYAWW DPITCHW", v, problems, error)
             if (allocated(error)) return
             wheelset%flexible = v%r
-            call lexer%read_group("rrraaa", "VXWHL VYWHL VZWHL VROLLW VYAWW VPITCHW", v, error)
+            call read_values(lexer, "rrraaa", "VXWHL VYWHL VZWHL VROLLW VYAWW VPITCHW", v, problems, error)
             if (allocated(error)) return
             wheelset%flexible_rate = v%r
          end if
@@ -211,17 +208,18 @@ contains
    end subroutine read_wheelset
 
    !> Position of the wheelset; the vertical force takes the place of its height when that is prescribed
-   subroutine read_position(lexer, spec, wheelset, error)
+   subroutine read_position(lexer, spec, wheelset, problems, error)
       type(input_lexer), intent(inout) :: lexer
       type(case_spec), intent(in) :: spec
       type(wheelset_spec), intent(inout) :: wheelset
+      type(problem_list), intent(inout) :: problems
       type(error_type), allocatable, intent(out) :: error
       type(input_value) :: v(6)
       character(len=:), allocatable :: names
 
       names = trim(merge("X_WS", "S_WS", spec%wheel_rail%roller)) // " Y_WS " // &
          & trim(merge("FZ  ", "Z_WS", spec%normal == normal_control%force)) // " ROLL YAW PITCH"
-      call lexer%read_group("rrraaa", names, v, error)
+      call read_values(lexer, "rrraaa", names, v, problems, error)
       if (allocated(error)) return
       wheelset%s = 0.0_wp
       wheelset%x = 0.0_wp
@@ -242,10 +240,11 @@ contains
    end subroutine read_position
 
    !> Velocity of the wheelset; in shifts the displacements and rotations of one step
-   subroutine read_velocity(lexer, spec, wheelset, error)
+   subroutine read_velocity(lexer, spec, wheelset, problems, error)
       type(input_lexer), intent(inout) :: lexer
       type(case_spec), intent(in) :: spec
       type(wheelset_spec), intent(inout) :: wheelset
+      type(problem_list), intent(inout) :: problems
       type(error_type), allocatable, intent(out) :: error
       type(input_value) :: v(6)
       character(len=:), allocatable :: names, types
@@ -262,7 +261,7 @@ contains
       else
          names = names // " VPITCH"
       end if
-      call lexer%read_group(types, names, v, error)
+      call read_values(lexer, types, names, v, problems, error)
       if (allocated(error)) return
       if (spec%wheel_rail%roller) then
          wheelset%rpitch = v(1)%r
@@ -294,7 +293,7 @@ contains
       integer :: option
 
       previous = profile
-      call lexer%read_group("sirrII", name // " MIRRORY SCALEYZ SMOOTH MIRRORZ PRFOPT", v, error)
+      call read_values(lexer, "sirrII", name // " MIRRORY SCALEYZ SMOOTH MIRRORZ PRFOPT", v, problems, error)
       if (allocated(error)) return
       profile = profile_spec()
       profile%name = v(1)%s
@@ -302,25 +301,22 @@ contains
       profile%column = v(1)%column
       if (len_trim(profile%name) == 0) call problems%add(severity%error, name // " is empty; it must be the name of a " // &
          & "profile file", v(1)%line, v(1)%column)
-      call problems%check_integer(v(2), -1, 1)
       profile%mirror_y = v(2)%i
       profile%scale = v(3)%r
       if (v(3)%r <= no_scale) profile%scale = 1.0_wp
       profile%smoothing = max(0.0_wp, v(4)%r)
       if (v(5)%given) then
-         call problems%check_integer(v(5), -1, 1)
          profile%mirror_z = v(5)%i
       end if
       option = 0
       if (v(6)%given) then
-         call problems%check_integer(v(6), 0, 2)
          option = v(6)%i
       end if
       if (option < 1) return
 
       profile%error_handling = previous%error_handling
       profile%largest_omission = previous%largest_omission
-      call lexer%read_group("iaaar", "ISMOOTH ZIGTHRS KINKHIGH KINKLOW KINKWID", v, error)
+      call read_values(lexer, "iaaar", "ISMOOTH ZIGTHRS KINKHIGH KINKLOW KINKWID", v, problems, error)
       if (allocated(error)) return
       profile%smoothing_method = min(2, max(0, v(1)%i))
       profile%zigzag = max(45.0_wp*degree, v(2)%r)
@@ -328,7 +324,7 @@ contains
       profile%kink_low = v(4)%r
       profile%kink_width = v(5)%r
       if (option < 2) return
-      call lexer%read_group("ir", "ERRHND MAXOMIT", v, error)
+      call read_values(lexer, "ir", "ERRHND MAXOMIT", v, problems, error)
       if (allocated(error)) return
       profile%error_handling = min(1, max(-2, v(1)%i))
       profile%largest_omission = min(1.0_wp, max(0.0_wp, v(2)%r))

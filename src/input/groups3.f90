@@ -6,6 +6,7 @@ module contact_input_groups3
    use contact_base_kinds, only : wp
    use contact_cases_spec, only : case_spec, friction_set, material_spec
    use contact_input_problems, only : problem_list, severity
+   use contact_input_values, only : read_list, read_values
    use contact_text_lexer, only : input_lexer, input_value
    use contact_text_words, only : integer_text, real_text
    implicit none (type, external)
@@ -14,6 +15,8 @@ module contact_input_groups3
    public :: read_iteration, read_kinematics, read_friction, read_friction_rows, read_rolling, read_materials
    public :: read_damping, read_heat, difference_parameter, read_friction_set, read_friction_memory
 
+   !> Bounds of the largest number of elements of a patch of wheel and rail
+   integer, parameter :: fewest_elements = 100, most_elements = 1000000
    !> Coefficients of friction terms below this value switch the term off [-]
    real(wp), parameter :: no_term = 1.0e-8_wp
    !> Half-value slip velocity of a term that is switched off, at least [mm/s]
@@ -35,35 +38,34 @@ contains
 
       if (spec%digits%g == 1) return
       associate (iteration => spec%iteration)
-         call lexer%read_group("iiiirI", "MAXGS MAXIN MAXNR MAXOUT EPS NPOT_MAX", v, error)
+         call read_values(lexer, "iiiirI", "MAXGS MAXIN MAXNR MAXOUT EPS NPOT_MAX", v, problems, error)
          if (allocated(error)) return
-         call problems%check_integer(v(1), 1, 9999)
-         call problems%check_integer(v(2), 1, 999999)
-         call problems%check_integer(v(3), 1, 9999)
-         call problems%check_integer(v(4), 1, 9999)
-         call problems%check_above(v(5))
          iteration%maxgs = v(1)%i
          iteration%maxin = v(2)%i
          iteration%maxnr = v(3)%i
          iteration%maxout = v(4)%i
          iteration%eps = v(5)%r
-         if (v(6)%given) iteration%npot_max = max(100, min(1000000, v(6)%i))
+         if (v(6)%given) then
+            iteration%npot_max = max(fewest_elements, min(most_elements, v(6)%i))
+            if (iteration%npot_max /= v(6)%i) call problems%add(severity%warning, "NPOT_MAX = " // v(6)%word // &
+               & " is replaced by " // integer_text(iteration%npot_max), v(6)%line, v(6)%column)
+         end if
 
          select case (spec%digits%g)
          case (2, 3)
-            call lexer%read_group("rrrr", "OMEGAH OMEGAS INISLP OMGSLP", v, error)
+            call read_values(lexer, "rrrr", "OMEGAH OMEGAS INISLP OMGSLP", v, problems, error)
             if (allocated(error)) return
             iteration%omegah = v(1)%r
             iteration%omegas = v(2)%r
             iteration%inislp = branch(v(3)%r)
             iteration%omgslp = v(4)%r
          case (4)
-            call lexer%read_group("rr", "INISLP OMGSLP", v, error)
+            call read_values(lexer, "rr", "INISLP OMGSLP", v, problems, error)
             if (allocated(error)) return
             iteration%inislp = branch(v(1)%r)
             iteration%omgslp = v(2)%r
          case (5)
-            call lexer%read_group("rrirrrrr", "FDECAY BETATH KDOWFB D_IFC D_LIN D_CNS D_SLP POW_S", v, error)
+            call read_values(lexer, "rrirrrrr", "FDECAY BETATH KDOWFB D_IFC D_LIN D_CNS D_SLP POW_S", v, problems, error)
             if (allocated(error)) return
             iteration%fdecay = v(1)%r
             iteration%betath = v(2)%r
@@ -105,27 +107,24 @@ contains
       if (spec%digits%n == 1) names = "FN"
       names = names // trim(merge(" FX  ", " CKSI", spec%digits%f >= 1))
       names = names // trim(merge(" FY  ", " CETA", spec%digits%f >= 2)) // " CPHI SPINXO SPINYO"
-      call lexer%read_group("rrrrRR", names, v, error)
+      call read_values(lexer, "rrrrRR", names, v, problems, error)
       line = lexer%line
       if (allocated(error)) return
 
       associate (kinematics => spec%kinematics)
          if (spec%digits%n == 1) then
             kinematics%fn = v(1)%r
-            call problems%check_real(v(1), 0.0_wp)
          else
             kinematics%pen = v(1)%r
          end if
          if (spec%digits%f >= 1) then
             kinematics%fx = v(2)%r
-            if (abs(v(2)%r) > 1.0_wp) call problems%add(severity%error, "FX = " // v(2)%word // &
-               & " is outside its range -1 to 1", v(2)%line, v(2)%column)
          else
             kinematics%cksi = v(2)%r
          end if
          if (spec%digits%f >= 2) then
             kinematics%fy = v(3)%r
-            if (abs(v(2)%r) <= 1.0_wp .and. hypot(v(2)%r, v(3)%r) > 1.0_wp) call problems%add(severity%error, &
+            if (maxval(abs(v(2:3)%r)) <= 1.0_wp .and. hypot(v(2)%r, v(3)%r) > 1.0_wp) call problems%add(severity%error, &
                & "FX = " // v(2)%word // " and FY = " // v(3)%word // " exceed the friction bound: FX**2 + FY**2 = " // &
                & real_text(hypot(v(2)%r, v(3)%r)**2) // " is above its upper bound 1", v(3)%line, v(3)%column)
          else
@@ -224,25 +223,27 @@ contains
       end if
       call lexer%read_group(types, names, all_values, error)
       if (allocated(error)) return
-      if (present(control)) control = all_values(1)
       v = all_values(first:first + 4)
+      if (any(law == [2, 3, 4])) then
+         do k = 2, 4, 2
+            if (v(k)%r < no_term) v(k + 1)%r = max(smallest_unused, v(k + 1)%r)
+         end do
+      end if
+      if (present(control)) then
+         control = all_values(1)
+         call problems%check_bounds(control)
+      end if
+      do k = 1, len(types) - first + 1
+         call problems%check_bounds(v(k))
+      end do
 
       select case (law)
       case (0)
-         call problems%check_real(v(1), 1.0e-4_wp)
          if (abs(v(1)%r - v(2)%r) > 1.0e-3_wp*abs(v(1)%r)) call problems%add(severity%warning, "FKIN = " // v(2)%word // &
             & " differs from FSTAT; Coulomb friction uses FSTAT = " // v(1)%word // " only", v(2)%line, v(2)%column)
          set%fstat = v(1)%r
          set%fkin = v(1)%r
       case (2, 3, 4)
-         do k = 2, 4, 2
-            if (v(k)%r < no_term) v(k + 1)%r = max(smallest_unused, v(k + 1)%r)
-         end do
-         do k = 1, 4
-            if (k /= 3) call problems%check_real(v(k), 0.0_wp)
-         end do
-         call problems%check_real(v(3), 1.0e-5_wp)
-         call problems%check_real(v(5), 1.0e-5_wp)
          set%fkin = v(1)%r
          set%coef1 = v(2)%r
          set%sabsh1 = v(3)%r
@@ -250,10 +251,8 @@ contains
          set%sabsh2 = v(5)%r
          set%fstat = set%fkin + set%coef1 + set%coef2
       case (6)
-         call problems%check_real(v(1), 0.0_wp)
          if (v(1)%r + v(3)%r < 0.0_wp) call problems%add(severity%error, "DFHEAT = " // v(3)%word // &
             & ": FREF + DFHEAT = " // real_text(v(1)%r + v(3)%r) // " is below its lower bound 0", v(3)%line, v(3)%column)
-         call problems%check_above(v(4))
          set%fref = v(1)%r
          set%tref = v(2)%r
          set%dfheat = v(3)%r
@@ -272,10 +271,8 @@ contains
       type(input_value) :: v(2)
 
       if (.not. any(spec%digits%l == [2, 3, 4, 6])) return
-      call lexer%read_group("rr", "MEMDST MEM_S0", v, error)
+      call read_values(lexer, "rr", "MEMDST MEM_S0", v, problems, error)
       if (allocated(error)) return
-      call problems%check_real(v(1), 0.0_wp)
-      call problems%check_real(v(2), 0.0_wp)
       spec%friction%memdst = v(1)%r
       spec%friction%mem_s0 = v(2)%r
    end subroutine read_friction_memory
@@ -298,12 +295,10 @@ contains
             return
          end if
          if (spec%digits%c < 2) return
-         call lexer%read_group("arrR", "CHI DQ VELOC FACPHI", v, error)
+         call read_values(lexer, "arrR", "CHI DQ VELOC FACPHI", v, problems, error)
          if (allocated(error)) return
          if (spec%digits%m == 1 .and. abs(v(1)%r) > 0.01_wp) call problems%add(severity%error, "CHI = " // v(1)%word // &
             & " is outside its range -0.01 to 0.01 rad for viscoelastic material", v(1)%line, v(1)%column)
-         call problems%check_real(v(2), max(0.0_wp, spec%iteration%eps))
-         call problems%check_real(v(3), max(0.0_wp, spec%iteration%eps))
          rolling%chi = v(1)%r
          rolling%dq = v(2)%r
          rolling%veloc = v(3)%r
@@ -331,25 +326,20 @@ contains
             end if
             if (allocated(error)) return
          case (9)
-            call lexer%read_group("s", "CFNAME", v, error)
+            call read_values(lexer, "s", "CFNAME", v, problems, error)
             if (allocated(error)) return
             material%cfname = v(1)%s
          end select
 
-         call lexer%read_group("rrrr", "POISS1 POISS2 GG1 GG2", v, error)
+         call read_values(lexer, "rrrr", "POISS1 POISS2 GG1 GG2", v, problems, error)
          if (allocated(error)) return
-         call problems%check_real(v(1), 0.0_wp, 0.5_wp)
-         call problems%check_real(v(2), 0.0_wp, 0.5_wp)
-         call problems%check_real(v(3), 1.0e-5_wp, 1.0e20_wp)
-         call problems%check_real(v(4), 1.0e-5_wp, 1.0e20_wp)
          material%poiss = v(1:2)%r
          material%gg = v(3:4)%r
          if (minval(material%gg) >= 1.0e-5_wp) call check_outer_iteration(spec, v(1), problems)
 
          if (spec%digits%b == 1) then
-            call lexer%read_group("r", "FLXZ", v, error)
+            call read_values(lexer, "r", "FLXZ", v, problems, error)
             if (allocated(error)) return
-            call problems%check_real(v(1), 1.0e-10_wp)
             material%flxz = v(1)%r
          end if
          call read_material_model(lexer, spec%digits%m, material, problems, error)
@@ -364,10 +354,8 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(input_value) :: v(2)
 
-      call lexer%read_group("ii", "IF_METH VARIANT", v, error)
+      call read_values(lexer, "ii", "IF_METH VARIANT", v, problems, error)
       if (allocated(error)) return
-      call problems%check_integer(v(1), 0, 1)
-      call problems%check_integer(v(2), 1, 4)
       material%if_meth = v(1)%i
       material%variant = v(2)%i
    end subroutine read_conformal_method
@@ -382,15 +370,12 @@ contains
       real(wp), allocatable :: table(:)
       integer :: n
 
-      call lexer%read_group("iii", "IF_METH VARIANT NN", v, error)
+      call read_values(lexer, "iii", "IF_METH VARIANT NN", v, problems, error)
       if (allocated(error)) return
-      call problems%check_integer(v(1), 0, 1)
-      call problems%check_integer(v(2), 1, 4)
-      call problems%check_integer(v(3), 1, 9999)
       material%if_meth = v(1)%i
       material%variant = v(2)%i
       n = max(0, min(v(3)%i, 1000000))
-      call lexer%read_array(2*n, "Y,ALPHA", table, error, angles=.true.)
+      call read_list(lexer, 2*n, "Y,ALPHA", table, problems, error, angles=.true.)
       if (allocated(error)) return
       material%table_y = table(1::2)
       material%table_alpha = table(2::2)
@@ -405,32 +390,25 @@ contains
       type(problem_list), intent(inout) :: problems
       type(error_type), allocatable, intent(out) :: error
       type(input_value) :: v(4)
-      integer :: k
 
       select case (model)
       case (1)
-         call lexer%read_group("rrrr", "FG1 FG2 TC1 TC2", v, error)
+         call read_values(lexer, "rrrr", "FG1 FG2 TC1 TC2", v, problems, error)
          if (allocated(error)) return
-         do k = 1, 4
-            call problems%check_real(v(k), 0.0_wp)
-         end do
          material%fg = v(1:2)%r
          material%tc = v(3:4)%r
       case (2)
-         call lexer%read_group("rrrr", "FLX K0_MF ALFAMF BETAMF", v, error)
+         call read_values(lexer, "rrrr", "FLX K0_MF ALFAMF BETAMF", v, problems, error)
          if (allocated(error)) return
-         call problems%check_real(v(1), 1.0e-10_wp)
          material%flx = v(1)%r
          call take_slope_reduction(v(2:4))
       case (3, 5)
-         call lexer%read_group("rrr", "K0_MF ALFAMF BETAMF", v, error)
+         call read_values(lexer, "rrr", "K0_MF ALFAMF BETAMF", v, problems, error)
          if (allocated(error)) return
          call take_slope_reduction(v(1:3))
       case (4)
-         call lexer%read_group("rrrr", "GG3 LAYTHK TAU_C0 K_TAU", v, error)
+         call read_values(lexer, "rrrr", "GG3 LAYTHK TAU_C0 K_TAU", v, problems, error)
          if (allocated(error)) return
-         call problems%check_real(v(1), 1.0e-5_wp)
-         call problems%check_real(v(2), 0.0_wp)
          material%gg3 = v(1)%r
          material%laythk = v(2)%r
          material%tau_c0 = v(3)%r
@@ -445,9 +423,6 @@ contains
          !> K0_MF ALFAMF BETAMF
          type(input_value), intent(in) :: values(3)
 
-         call problems%check_real(values(1), 1.0e-10_wp, 1.0_wp)
-         call problems%check_real(values(2), 0.0_wp, 1.0_wp)
-         call problems%check_real(values(3), 0.0_wp)
          material%k0_mf = values(1)%r
          material%alfamf = values(2)%r
          material%betamf = values(3)%r
@@ -498,15 +473,11 @@ contains
       type(problem_list), intent(inout) :: problems
       type(error_type), allocatable, intent(out) :: error
       type(input_value) :: v(4)
-      integer :: k
 
       if (spec%digits%m2 == 1) return
       if (spec%digits%m2 >= 2) then
-         call lexer%read_group("rrrr", "CDAMPN CDAMPT DFNMAX DFTMAX", v, error)
+         call read_values(lexer, "rrrr", "CDAMPN CDAMPT DFNMAX DFTMAX", v, problems, error)
          if (allocated(error)) return
-         do k = 1, 4
-            call problems%check_real(v(k), 0.0_wp)
-         end do
       end if
       spec%damping%cdampn = v(1)%r
       spec%damping%cdampt = v(2)%r
@@ -527,21 +498,17 @@ contains
       if (spec%digits%h /= 3) return
       do body = 1, 2
          number = achar(iachar("0") + body)
-         call lexer%read_group("rrrr", "BKTEMP" // number // " HEATCP" // number // " LAMBDA" // number // &
-            & " DENS" // number, v, error)
+         call read_values(lexer, "rrrr", "BKTEMP" // number // " HEATCP" // number // " LAMBDA" // number // &
+            & " DENS" // number, v, problems, error)
          if (allocated(error)) return
-         call problems%check_real(v(2), 1.0e-5_wp)
-         call problems%check_real(v(3), 1.0e-5_wp)
-         call problems%check_real(v(4), 1.0e-12_wp)
          spec%heat%bktemp(body) = v(1)%r
          spec%heat%heatcp(body) = v(2)%r
          spec%heat%lambda(body) = v(3)%r
          spec%heat%dens(body) = v(4)%r
       end do
       if (spec%digits%m /= 4) return
-      call lexer%read_group("r", "BETAPL", v, error)
+      call read_values(lexer, "r", "BETAPL", v, problems, error)
       if (allocated(error)) return
-      call problems%check_real(v(1), 0.0_wp, 1.0_wp)
       spec%heat%betapl = v(1)%r
    end subroutine read_heat
 end module contact_input_groups3

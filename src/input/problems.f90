@@ -2,6 +2,7 @@
 module contact_input_problems
    use contact_base_error, only : error_kind, error_type, full_text
    use contact_base_kinds, only : wp
+   use contact_cases_bounds, only : describe_breach
    use contact_text_lexer, only : input_value
    use contact_text_words, only : integer_text, real_text
    implicit none (type, external)
@@ -39,9 +40,9 @@ module contact_input_problems
       procedure :: add
       procedure :: number_of
       procedure :: is_usable
+      procedure :: check_bounds
       procedure :: check_integer
       procedure :: check_real
-      procedure :: check_above
    end type problem_list
 
 contains
@@ -102,7 +103,23 @@ contains
       is_usable = self%number_of(severity%error) == 0 .and. self%number_of(severity%unsupported) == 0
    end function is_usable
 
-   !> An integer must lie within bounds, which are inclusive
+   !> A number must keep its bounds
+   subroutine check_bounds(self, value, name)
+      class(problem_list), intent(inout) :: self
+      type(input_value), intent(in) :: value
+      !> Name of the bounds in the table; default the name of the value
+      character(len=*), intent(in), optional :: name
+      character(len=:), allocatable :: complaint
+
+      if (present(name)) then
+         call describe_breach(name, value%word, value%r, complaint, value%name)
+      else
+         call describe_breach(value%name, value%word, value%r, complaint)
+      end if
+      if (len(complaint) > 0) call self%add(severity%error, complaint, value%line, value%column)
+   end subroutine check_bounds
+
+   !> An integer must lie within bounds that depend on others, which are inclusive
    subroutine check_integer(self, value, lowest, highest)
       class(problem_list), intent(inout) :: self
       type(input_value), intent(in) :: value
@@ -113,7 +130,7 @@ contains
          & integer_text(lowest) // " to " // integer_text(highest), value%line, value%column)
    end subroutine check_integer
 
-   !> A number must not be smaller, and not larger, than bounds
+   !> A number must not be smaller, and not larger, than bounds that depend on others
    subroutine check_real(self, value, lowest, highest)
       class(problem_list), intent(inout) :: self
       type(input_value), intent(in) :: value
@@ -128,16 +145,6 @@ contains
             & " is above its upper bound " // real_text(highest), value%line, value%column)
       end if
    end subroutine check_real
-
-   !> A number must be larger than zero
-   subroutine check_above(self, value)
-      class(problem_list), intent(inout) :: self
-      type(input_value), intent(in) :: value
-
-      if (value%r > 0.0_wp) return
-      call self%add(severity%error, value%name // " = " // value%word // " must be larger than 0", &
-         & value%line, value%column)
-   end subroutine check_above
 
    !> The words that begin a printed problem
    pure function opening(problem) result(words)

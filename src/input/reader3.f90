@@ -92,7 +92,7 @@ contains
       if (allocated(error)) return
       call read_friction_rows(lexer, spec, problems, error)
       if (allocated(error)) return
-      call read_extra_slip(lexer, spec, error)
+      call read_extra_slip(lexer, spec, problems, error)
       if (allocated(error)) return
       call read_subsurface(lexer, spec, problems, error)
    end subroutine read_groups

@@ -5,6 +5,7 @@ module contact_input_subsurface_reader
    use contact_cases_spec, only : case_spec
    use contact_input_problems, only : problem_list, severity
    use contact_subsurface_points, only : point_block, point_selection
+   use contact_input_values, only : read_list, read_values
    use contact_text_lexer, only : input_lexer, input_value
    use contact_text_words, only : integer_text
    implicit none (type, external)
@@ -30,10 +31,10 @@ contains
       integer :: n
 
       if (spec%digits%s < 2) return
-      call lexer%read_group("ii", "MATFIL_S OUTPUT_S", v, error)
+      call read_values(lexer, "ii", "MATFIL_S OUTPUT_S", v, problems, error)
       if (allocated(error)) return
-      spec%subsurface%matfil = max(0, min(2, v(1)%i))
-      spec%subsurface%output = max(0, min(4, v(2)%i))
+      spec%subsurface%matfil = v(1)%i
+      spec%subsurface%output = v(2)%i
       if (spec%digits%s /= 3) return
 
       n = 0
@@ -97,11 +98,11 @@ contains
             call require_length(v(k), error)
             if (allocated(error)) return
          end do
-         call read_sorted(lexer, v(1)%i, "X", block%x, error)
+         call read_sorted(lexer, v(1)%i, "X", block%x, problems, error)
          if (allocated(error)) return
-         call read_sorted(lexer, v(2)%i, "Y", block%y, error)
+         call read_sorted(lexer, v(2)%i, "Y", block%y, problems, error)
          if (allocated(error)) return
-         call read_sorted(lexer, v(3)%i, "Z", block%z, error)
+         call read_sorted(lexer, v(3)%i, "Z", block%z, problems, error)
          return
       case default
          call fatal_error(error, "ISUBS = " // option%word // &
@@ -111,18 +112,17 @@ contains
       end select
 
       if (option%i <= 3) then
-         call lexer%read_group("irr", "NZ ZL DZ", v, error)
+         call read_values(lexer, "irr", "NZ ZL DZ", v, problems, error)
          if (allocated(error)) return
          call require_length(v(1), error)
          if (allocated(error)) return
-         call problems%check_real(v(3), 1.0e-9_wp)
          block%z = [(v(2)%r + (k - 1)*v(3)%r, k = 1, v(1)%i)]
       else
          call lexer%read_group("i", "NZ", v, error)
          if (allocated(error)) return
          call require_length(v(1), error)
          if (allocated(error)) return
-         call read_sorted(lexer, v(1)%i, "Z", block%z, error)
+         call read_sorted(lexer, v(1)%i, "Z", block%z, problems, error)
       end if
 
    contains
@@ -135,10 +135,10 @@ contains
          low = 1
          step = 1
          high = 0
-         call lexer%read_group("iii", names, v, error)
+         call read_values(lexer, "iii", names, v, problems, error)
          if (allocated(error)) return
-         call problems%check_integer(v(1), 1, largest_index)
-         call problems%check_integer(v(3), max(1, min(v(1)%i, largest_index)), largest_index)
+         if (v(3)%i >= 1 .and. v(3)%i <= largest_index) call problems%check_integer(v(3), &
+            & max(1, min(v(1)%i, largest_index)), largest_index)
          low = v(1)%i
          step = max(1, v(2)%i)
          high = v(3)%i
@@ -166,7 +166,7 @@ contains
       real(wp), allocatable :: values(:)
       integer :: k, line, kept
 
-      call lexer%read_array(n, name, values, error, line=line)
+      call read_list(lexer, n, name, values, problems, error, line=line)
       if (allocated(error)) return
       values = min(values, real(largest_index, wp))
       call sort(values)
@@ -186,15 +186,16 @@ contains
    end subroutine read_indices
 
    !> A list of coordinates, ascending
-   subroutine read_sorted(lexer, n, name, list, error)
+   subroutine read_sorted(lexer, n, name, list, problems, error)
       type(input_lexer), intent(inout) :: lexer
       integer, intent(in) :: n
       character(len=*), intent(in) :: name
       !> Coordinates [mm]
       real(wp), allocatable, intent(out) :: list(:)
+      type(problem_list), intent(inout) :: problems
       type(error_type), allocatable, intent(out) :: error
 
-      call lexer%read_array(n, name, list, error)
+      call read_list(lexer, n, name, list, problems, error)
       if (.not. allocated(error)) call sort(list)
    end subroutine read_sorted
 

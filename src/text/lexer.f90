@@ -20,7 +20,7 @@ module contact_text_lexer
       character(len=:), allocatable :: word
       !> Was it given? Always so for mandatory values of a group that was read
       logical :: given = .false.
-      !> The value, according to its type; angles are in rad
+      !> The value, according to its type, integers as both kinds of numbers; angles are in rad
       integer :: i = 0
       real(wp) :: r = 0.0_wp
       character(len=:), allocatable :: s
@@ -245,7 +245,7 @@ contains
    end subroutine read_group
 
    !> Read exactly n numbers, from as many lines as they need
-   subroutine read_array(self, n, name, values, error, angles, line)
+   subroutine read_array(self, n, name, values, error, angles, line, lowest, highest, outside)
       class(input_lexer), intent(inout) :: self
       !> Number of values; nothing is read when it is not positive
       integer, intent(in) :: n
@@ -258,6 +258,9 @@ contains
       logical, intent(in), optional :: angles
       !> Line of the first value
       integer, intent(out), optional :: line
+      !> Bounds of the values, and the first value that is outside; it is not given when there is none
+      real(wp), intent(in), optional :: lowest, highest
+      type(input_value), intent(out), optional :: outside
       type(input_value) :: value
       type(word_place) :: place
       character :: letter
@@ -287,6 +290,10 @@ contains
             if (k == size(values)) call lengthen(values, min(n, 2*k))
             k = k + 1
             values(k) = value%r
+            if (.not. present(outside)) cycle
+            if (outside%given .or. (value%r >= lowest .and. value%r <= highest)) cycle
+            outside = value
+            outside%name = element_name(name, k)
          end do
       end do
    end subroutine read_array
@@ -353,7 +360,9 @@ contains
             if (state == word_state%good) value%s = word
          else if (.not. place%quoted) then
             select case (letter)
-            case ("i"); call to_integer(word, value%i, state)
+            case ("i")
+               call to_integer(word, value%i, state)
+               value%r = real(value%i, wp)
             case ("r"); call to_real(word, value%r, state)
             case ("a"); call to_angle(word, value%r, state)
             end select

@@ -103,6 +103,8 @@ def errors():
         ball(problem)
         error = raises(contact.ContactError, lambda: problem.set_material(g=82000.0, nu=0.28, model=4), "", "material")
         check(error.code != 0, "an error has a code")
+        raises(contact.ContactError, problem.solve, "was refused", "a material that was refused")
+        problem.set_material(g=82000.0, nu=0.28)
         same(problem.solve().border_elements, 0, "the problem still works")
         raises(contact.ContactError, lambda: problem.set_creepages(float("nan")), "number", "creepage that is none")
         raises(ValueError, lambda: problem.set_flags(ic_nothing=3), "ic_nothing", "unknown flag")

@@ -346,7 +346,7 @@ class Failures(Cli):
         self.fails(self.run_program("2", "ball"), "ball.inp:1:1: ", "MODULE = 5")
 
     def test_check_reports_all_cases(self):
-        self.write("ball.inp", case(poiss="0.7", mx="0") + case() + case(fn="-1", poiss="-0.1") + case(second="022420") + "0\n")
+        self.write("ball.inp", case(poiss="0.7", mx="0") + case() + case(fn="-1", poiss="-1.1") + case(second="022420") + "0\n")
         run = self.run_program("3", "ball")
         self.fails(run, "ball.inp:8:1: ", "ball.inp:10:1: ", "ball.inp:26:1: ", "ball.inp:28:1: ")
         self.assertIn("4 cases checked", run.stdout)

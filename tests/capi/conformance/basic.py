@@ -5,10 +5,10 @@ import re
 import subprocess
 import sys
 
-from checks import check, close, extreme, finish, log_text, same
+from checks import SOURCE, check, close, extreme, finish, log_text, same
 import numpy as np
 from contact import cntc
-from contact._library import call, library
+from contact._library import call, last_error, library
 from contact._signatures import SIGNATURES
 from contact.cntc import CNTC
 
@@ -188,7 +188,7 @@ def codes():
 
 
 def wrong_counts():
-    """A list of the wrong length: one line in the log, nothing changes"""
+    """A list of the wrong length: one line in the log, nothing changes, and the setting has to be made again"""
     start()
     start(2, 1)
     case_a(1)
@@ -224,31 +224,208 @@ def wrong_counts():
         same(len(log_text().splitlines()) - lines, 1, f"{name}{tuple(shown)}: lines in the log")
         same(cntc.getflags(1, 1, [CNTC[f"ic_{digit}"] for digit in ("frclaw", "mater", "heat", "bound")]).tolist(),
              flags, f"{name}{tuple(shown)}: digits")
+    same(cntc.calculate(1, 1), -99, "what was refused is missing")
+    case_a(1)
+    cntc.settemperaturedata(1, 1, 0, [])
+    cntc.setundeformeddistc(1, 1, 1, [0.001, 0, 0.001, 0, 0, 0])
     same(cntc.calculate(1, 1), 0, "the case again")
     close(cntc.getcontactforces(1, 1), before, 1e-9 * 42082, "nothing changed")
 
 
 def clamps():
-    """Values out of range become the nearest that there is"""
+    """Values out of range are refused, and the next calculation tells so until a good one is set"""
     start()
     start(2, 1)
-    for ire, icp, flag, value, stored in (
-            (1, 1, "ic_tang", 9, 3), (1, 1, "ic_tang", -1, 0), (1, 1, "ic_matfil", 9, 0), (1, 1, "ic_sbsout", 3, 2),
-            (1, 1, "ic_sbsout", 7, 4), (1, 1, "ic_sbsfil", 5, 0), (2, -1, "ic_config", 7, 5), (2, -1, "ic_config", -3, 0),
-            (1, 1, "ic_pvtime", 8, 3), (1, 1, "ic_norm", 5, 1), (1, 1, "ic_force", 7, 2), (1, 1, "ic_iestim", 9, 3),
-            (1, 1, "ic_flow", 12, 9), (1, 1, "ic_return", 5, 3), (1, 1, "ic_sens", 8, 3), (1, 1, "ic_ifmeth", 4, 1),
-            (1, 1, "ic_ifvari", 9, 4), (1, 1, "ic_ifvari", 0, 1), (2, -1, "ic_npomax", 5, 100),
-            (2, -1, "ic_npomax", 5000000, 1000000), (1, 1, "ic_bound", 11, 6)):
+    case_a(1)
+    for ire, icp, flag, value, good in (
+            (1, 1, "ic_tang", 9, 3), (1, 1, "ic_tang", -1, 3), (1, 1, "ic_matfil", 9, 0), (1, 1, "ic_sbsout", 7, 4),
+            (1, 1, "ic_sbsfil", 5, 0), (2, -1, "ic_config", 7, 5), (2, -1, "ic_config", -3, 0), (1, 1, "ic_pvtime", 8, 2),
+            (1, 1, "ic_norm", 5, 0), (1, 1, "ic_force", 7, 0), (1, 1, "ic_iestim", 9, 0), (1, 1, "ic_flow", 12, 0),
+            (1, 1, "ic_return", 5, 1), (1, 1, "ic_sens", 8, 1), (1, 1, "ic_ifmeth", 4, 1), (1, 1, "ic_ifvari", 9, 4),
+            (1, 1, "ic_ifvari", 0, 1), (2, -1, "ic_npomax", 5, 100), (2, -1, "ic_npomax", 5000000, 1000000),
+            (1, 1, "ic_bound", 11, 0), (2, -1, "ic_force", 2, 0), (1, 1, "if_units", 1, 1934), (1, 1, "ic_inflcf", 9, 2)):
+        can_get = flag != "if_units"
+        before = int(cntc.getflags(ire, icp, CNTC[flag])[0]) if can_get else 0
         cntc.setflags(ire, icp, CNTC[flag], value)
-        same(int(cntc.getflags(ire, icp, CNTC[flag])[0]), stored, f"{flag} set to {value}")
+        code, text = last_error(ire, icp)
+        check(code == -99 and ("range" in text or "not available" in text), f"{flag} = {value} is refused: {text}")
+        if can_get:
+            same(int(cntc.getflags(ire, icp, CNTC[flag])[0]), before, f"{flag} after {value}")
+        if ire == 1:
+            same(cntc.calculate(ire, icp), -99, f"{flag} = {value} is not forgotten")
+            check(str(CNTC[flag]) in last_error(ire, icp)[1], f"{flag} is named")
+        cntc.setflags(ire, icp, CNTC[flag], good)
+        if ire == 1:
+            same(cntc.calculate(ire, icp), 0, f"{flag} = {good} cures it")
+    cntc.setflags(1, 1, CNTC["ic_sbsout"], 3)
+    same(int(cntc.getflags(1, 1, CNTC["ic_sbsout"])[0]), 2, "output of subsurface stresses has no level 3")
     lines = len(log_text().splitlines())
     cntc.setflags(1, 1, [0, 4711], [1, 1])
     check(len(log_text().splitlines()) > lines, "an unknown flag is told")
-    for flag in ("ic_mater", "ic_frclaw", "ic_heat"):
+    same(cntc.calculate(1, 1), 0, "an unknown flag is no setting")
+    for flag, cure in (("ic_mater", lambda: cntc.setmaterialparameters(1, 1, 0, [0.28, 0.28, 82e3, 82e3])),
+                       ("ic_frclaw", lambda: cntc.setfrictionmethod(1, 1, 0, [0.3, 0.3])),
+                       ("ic_heat", lambda: cntc.settemperaturedata(1, 1, 0, []))):
         before = int(cntc.getflags(1, 1, CNTC[flag])[0])
+        cntc.setflags(1, 1, CNTC[flag], before)
+        same(cntc.calculate(1, 1), 0, f"{flag} with the value it has")
         cntc.setflags(1, 1, CNTC[flag], 1)
         same(int(cntc.getflags(1, 1, CNTC[flag])[0]), before, f"{flag} has a routine of its own")
+        same(cntc.calculate(1, 1), -99, f"{flag} was refused")
+        cure()
+        same(cntc.calculate(1, 1), 0, f"{flag} is cured by its routine")
     same(cntc.getflags(1, 1, [0, 4711]).tolist(), [0, 0], "codes that cannot be read leave the values")
+
+
+def refusals():
+    """A setting that is refused keeps calculations back until a good value of its kind is set, in every routine"""
+    start()
+    case_a(1)
+    same(cntc.calculate(1, 1), 0, "a good case")
+    forces = cntc.getcontactforces(1, 1)
+    nan, inf = float("nan"), float("inf")
+    steel = [0.28, 0.28, 82e3, 82e3]
+    settings = (
+        ("setpenetration", "PEN", lambda x: cntc.setpenetration(1, 1, x), 0.05, (nan, inf, 1e300)),
+        ("setcreepages", "CETA", lambda x: cntc.setcreepages(1, 1, 0.001, x, 0.0004), 0.0, (nan, -inf, 1e300)),
+        ("setcreepages", "CPHI", lambda x: cntc.setcreepages(1, 1, 0.001, 0.0, x), 0.0004, (nan, 1e13)),
+        ("setreferencevelocity", "VELOC", lambda x: cntc.setreferencevelocity(1, 1, x), 24000.0, (nan, 1e300)),
+        ("setrollingstepsize", "DQ", lambda x: cntc.setrollingstepsize(1, 1, 0.0, x), 0.5, (nan, 0.0, -1.0)),
+        ("setrollingstepsize", "CHI", lambda x: cntc.setrollingstepsize(1, 1, x, 0.5), 0.0, (180.0, nan)),
+        ("setmaterialparameters", "GG1", lambda x: cntc.setmaterialparameters(1, 1, 0, [0.28, 0.28, x, 82e3]), 82e3,
+         (nan, 0.0, -1.0, 1e300)),
+        ("setmaterialparameters", "POISS2", lambda x: cntc.setmaterialparameters(1, 1, 0, [0.28, x, 82e3, 82e3]), 0.28,
+         (nan, 0.6, -1.0)),
+        ("setmaterialparameters", "CDAMPN", lambda x: cntc.setmaterialparameters(1, 1, 12, [x, 0, 0, 0]), 0.0, (nan, -1.0)),
+        ("setfrictionmethod", "FSTAT", lambda x: cntc.setfrictionmethod(1, 1, 0, [x, 0.3]), 0.3, (nan, -0.3, inf)),
+        ("setsolverflags", "EPS", lambda x: cntc.setsolverflags(1, 1, 0, [999, 30, 30, 1], [x]), 1e-4, (nan, 0.0, 2.0)),
+        ("setsolverflags", "MAXGS", lambda x: cntc.setsolverflags(1, 1, 0, [x, 30, 30, 1], [1e-4]), 999, (0, -5)),
+        ("sethertzcontact", "AA", lambda x: cntc.sethertzcontact(1, 1, -3, [21, 33, x, 7.0, 21 / 17]), 4.25, (nan, 0.0)),
+        ("sethertzcontact", "MX", lambda x: cntc.sethertzcontact(1, 1, -3, [x, 33, 4.25, 7.0, 21 / 17]), 21, (nan, 0, 1e9)),
+        ("sethertzcontact", "options", lambda x: cntc.sethertzcontact(1, 1, x, [21, 33, 4.25, 7.0, 21 / 17]), -3, (-9, 7)),
+        ("settemperaturedata", "HEATCP1", lambda x: cntc.settemperaturedata(1, 1, 3, [0, x, 50, 7.85e-6] + [0, 450, 50, 7.85e-6, 1]),
+         450, (nan, 0.0)),
+        ("settangentialforces", "FX", lambda x: cntc.settangentialforces(1, 1, x, 0.0), 0.0, (nan, 1e300)),
+        ("settimestep", "dt", lambda x: cntc.settimestep(1, 1, x), 1.0, (nan,)),
+        ("setmetadata", "metadata", lambda x: cntc.setmetadata(1, 1, [2011], [x]), 1.0, (nan,)),
+        ("setextrarigidslip", "EXRHS", lambda x: cntc.setextrarigidslip(1, 1, [x] * 693, [0.0] * 693), 0.0, (nan, 1e300)),
+        ("setundeformeddistc", "B", lambda x: cntc.setundeformeddistc(1, 1, 1, [1, 0, 1, 0, 0, x]), 0.0, (nan, 1e20)),
+        ("setnormalforce", "FN", lambda x: cntc.setnormalforce(1, 1, x), 42000.0, (nan, -1.0, 1e300)))
+    for routine, word, give, good, bad in settings:
+        for value in bad:
+            give(value)
+            text = last_error(1, 1)[1]
+            check(word in text or word == "options" and "Hertzian option" in text, f"{routine}: {value} is refused at once: {text}")
+            same(cntc.calculate(1, 1), -99, f"{routine}: {word} = {value} is not forgotten")
+            text = last_error(1, 1)[1]
+            check("was refused" in text and routine in text.lower(), f"{routine} is named: {text}")
+            same(cntc.calculate(1, 1), -99, f"{routine}: nor the second time")
+            if routine != "setcreepages":
+                cntc.setcreepages(1, 1, 0.001, 0.0, 0.0004)
+                same(cntc.calculate(1, 1), -99, f"{routine}: another setting does not cure it")
+            give(good)
+        if routine in ("settemperaturedata", "settangentialforces", "setextrarigidslip", "setnormalforce", "setundeformeddistc"):
+            continue
+        same(cntc.calculate(1, 1), 0, f"{routine}: a good value of {word} does")
+        close(cntc.getcontactforces(1, 1), forces, 1e-3 * forces[0], f"{routine}: the case as it was")
+    cntc.settemperaturedata(1, 1, 0, [])
+    cntc.setsolverflags(1, 1, 6, [0], [1e-4])
+    cntc.setsolverflags(1, 1, 0, [999, 30, 30, 1], [1e-4])
+    same(cntc.calculate(1, 1), -99, "sensitivities and solvers are settings of their own")
+    cntc.setsolverflags(1, 1, 6, [20], [1e-4])
+    same(cntc.calculate(1, 1), 0, "both are good")
+    cntc.subs_addblock(1, 1, 1, 9, [nan], [0.0], [1.0])
+    same(cntc.calculate(1, 1), 0, "points below the surface do not keep the contact back")
+    same(cntc.subs_calculate(1, 1), -99, "but the stresses")
+    cntc.subs_addblock(1, 1, 1, 9, [0.0], [0.0], [1.0])
+    same(cntc.subs_calculate(1, 1), 0, "good points")
+    start(2)
+    case_a(2)
+    cntc.setpenetration(1, 1, nan)
+    same(cntc.calculate(2, 1), 0, "another problem has nothing to do with it")
+    cntc.finalize(1)
+    start(1)
+    case_a(1)
+    same(cntc.calculate(1, 1), 0, "nor a new problem of the same number")
+
+
+def separate():
+    """Problems of one run keep their own values: interleaved they give the same bits as alone"""
+    def cases(ire, module):
+        """The steps of one problem: everything new, then only creepages"""
+        if module == 3:
+            case_a(ire)
+            cntc.setmaterialparameters(ire, 1, 0, [0.3, 0.3, 200.0 * ire, 200.0 * ire])
+            cntc.setfrictionmethod(ire, 1, 0, [0.1 * ire, 0.1 * ire])
+            cntc.setsolverflags(ire, 1, 0, [999, 30, 30, 1], [10.0 ** -(3 + ire)])
+        else:
+            rail_on_wheel(ire)
+        yield
+        for step in (1, 2):
+            if module == 3:
+                cntc.setcreepages(ire, 1, 0.001 * step * ire, 0.0, 0.0)
+            else:
+                cntc.setwheelsetposition(ire, 1, [0, 0.5 * step, 0, 0, 0, 0])
+            yield
+
+    kinds = {1: 3, 2: 3, 3: 1, 4: 3}
+    results = {}
+    for interleaved in (False, True):
+        cntc.finalizelast()
+        found = {ire: [] for ire in kinds}
+        steps = {}
+        for ire, module in kinds.items():
+            start(ire, module)
+            steps[ire] = cases(ire, module)
+        order = [ire for _ in range(3) for ire in kinds] if interleaved else [ire for ire in kinds for _ in range(3)]
+        for ire in order:
+            next(steps[ire])
+            same(cntc.calculate(ire, 1 if kinds[ire] == 3 else -1), 0, f"element {ire}")
+            found[ire].append((cntc.getcontactforces(ire, 1), cntc.getpenetration(ire, 1),
+                               cntc.gettractions(ire, 1)[0].tobytes()))
+        results[interleaved] = found
+    same(results[True], results[False], "forces, approach and pressures, bit for bit")
+
+
+def rail_on_wheel(ire, motion=2):
+    """A wheel on a rail of the examples"""
+    folder = os.path.join(SOURCE, "examples", "profiles")
+    cntc.setflags(ire, -1, [CNTC["ic_config"], CNTC["ic_tang"], CNTC["ic_pvtime"]], [1, motion, 2])
+    cntc.setsolverflags(ire, -1, 0, [999, 100, 30, 1], [1e-5])
+    cntc.setmaterialparameters(ire, -1, 0, [0.28, 0.28, 82e3, 82e3])
+    cntc.setfrictionmethod(ire, -1, 0, [0.3, 0.3])
+    cntc.setpotcontact(ire, -1, -1, [0.5, 0.5, np.pi / 2, 8, 4])
+    cntc.setrollingstepsize(ire, -1, 0.0, 1.0)
+    cntc.settrackdimensions(ire, 3, [14.0, 0.0, 1435.0] + 8 * [0.0])
+    cntc.setprofileinputfname(ire, os.path.join(folder, "60E1.prr"), [0], [1.0, 0.0])
+    cntc.setprofileinputfname(ire, os.path.join(folder, "S1002.prw"), [1], [1.0, 0.0])
+    cntc.setwheelsetdimensions(ire, 3, [1360.0, -70.0, 460.0])
+    cntc.setwheelsetposition(ire, 1, [0, 0, 0, 0, 0, 0])
+    cntc.setwheelsetvelocity(ire, 2, [2000, 0, 0, 0, 0, -4.34])
+    cntc.setverticalforce(ire, 10000.0)
+
+
+def continued():
+    """P and I of wheel and rail act from the second case on and stay as they were set, whatever the first case makes of them"""
+    totals = {}
+    for ire, once in ((1, True), (2, False)):
+        start(ire, 1)
+        rail_on_wheel(ire)
+        cntc.setflags(ire, -1, [CNTC["ic_pvtime"], CNTC["ic_iestim"]], [0, 1])
+        totals[ire] = []
+        for step in range(6):
+            if not once:
+                cntc.setflags(ire, -1, [CNTC["ic_pvtime"], CNTC["ic_iestim"]], [0, 1])
+            same(cntc.calculate(ire, -1), 0, f"step {step}")
+            same(cntc.getflags(ire, -1, [CNTC["ic_pvtime"], CNTC["ic_iestim"]]).tolist(), [0, 1], "P and I as they were set")
+            totals[ire].append(abs(cntc.getcontactforces(ire, 1)[1]))
+    same(totals[1], totals[2], "P and I set once, and before each case")
+    check(all(b > 1.05 * a for a, b in zip(totals[1], totals[1][1:])), f"the force builds up step by step: {totals[1]}")
+    start(3)
+    case_a(3)
+    cntc.setflags(3, 1, [CNTC["ic_pvtime"], CNTC["ic_iestim"]], [0, 1])
+    same(cntc.calculate(3, 1), 0, "the first case of a problem of basic contact")
+    same(cntc.getflags(3, 1, [CNTC["ic_pvtime"], CNTC["ic_iestim"]]).tolist(), [0, 1], "P and I as they were set")
 
 
 def case_number():
@@ -420,8 +597,8 @@ if __name__ == "__main__":
     for stale in os.listdir("."):
         if stale.endswith((".mat", ".out", ".inp", ".subs")):
             os.remove(stale)
-    scenarios = (conventions, variations, stresses, sensitivities, codes, wrong_counts, clamps, case_number, replay, second_run, timers,
-                 array_lengths, kalker, names)
+    scenarios = (conventions, variations, stresses, sensitivities, codes, wrong_counts, clamps, refusals, separate, continued,
+                 case_number, replay, second_run, timers, array_lengths, kalker, names)
     chosen = [scenario for scenario in scenarios if scenario.__name__ == sys.argv[-1]]
     if not chosen:
         raise SystemExit("usage: basic.py " + " | ".join(scenario.__name__ for scenario in scenarios))

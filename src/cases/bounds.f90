@@ -1,0 +1,374 @@
+!> The bounds of every number that a user gives, each with its reason: one table for all doors
+!>
+!> The reader of input files adds the place in the file, the library its code. Bounds end nonsense
+!> before it costs time or becomes a result; they lie orders of magnitude beyond all use, from gels to
+!> bodies that count as rigid and from nanometres to a kilometre. Units are the internal ones.
+module contact_cases_bounds
+   use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
+   use contact_base_error, only : error_type, fatal_error
+   use contact_base_kinds, only : wp
+   use contact_text_words, only : integer_text, real_text
+   implicit none (type, external)
+   private
+
+   public :: number_bounds, bounds_table, bounds_of, describe_breach, check_number
+
+   !> Bounds of one number
+   type :: number_bounds
+      !> Name in the input files; one name serves for GG1 and GG2, as figures at the end count when they stand in the table
+      character(len=11) :: name
+      !> Unit; "integer" for numbers that are counted
+      character(len=8) :: unit
+      !> Smallest and largest value
+      real(wp) :: lowest, highest
+      !> Is the smallest value itself refused?
+      logical :: is_open
+      !> Why there is nothing beyond
+      character(len=72) :: reason
+   end type number_bounds
+
+   !> Distances that no contact problem reaches [mm], and along the track [mm]
+   real(wp), parameter :: far = 1.0e6_wp, far_along = 1.0e12_wp
+   !> Sides of elements and steps: a hundred thousandth of an atom [mm]
+   real(wp), parameter :: tiny_side = 1.0e-8_wp
+   !> Two turns [rad]; an angle in degrees whose d is missing lies beyond
+   real(wp), parameter :: two_turns = 12.57_wp
+   !> Angles that add up over a run, and rates [rad], [rad/s]
+   real(wp), parameter :: many_turns = 1.0e9_wp
+   !> Velocities [mm/s]: a thousand km/s
+   real(wp), parameter :: fast = 1.0e9_wp
+   !> Creepages that stand for infinite ones
+   real(wp), parameter :: endless = 1.0e12_wp
+   !> Forces [N]: the weight of a mountain
+   real(wp), parameter :: heavy = 1.0e15_wp
+   !> What counts as rigid [N/mm2], [N/mm]
+   real(wp), parameter :: rigid = 1.0e20_wp
+
+   type(number_bounds), parameter :: solver_rows(*) = [ &
+      & number_bounds("MAXGS", "integer", 1.0_wp, 999999.0_wp, .false., "an iteration has to begin and to end"), &
+      & number_bounds("MAXIN", "integer", 1.0_wp, 999999.0_wp, .false., "an iteration has to begin and to end"), &
+      & number_bounds("MAXNR", "integer", 1.0_wp, 999999.0_wp, .false., "an iteration has to begin and to end"), &
+      & number_bounds("MAXOUT", "integer", 1.0_wp, 999999.0_wp, .false., "an iteration has to begin and to end"), &
+      & number_bounds("MXSENS", "integer", 1.0_wp, 999999.0_wp, .false., "an iteration has to begin and to end"), &
+      & number_bounds("EPS", "-", 1.0e-20_wp, 1.0_wp, .false., "double precision ends at 1e-16; at 1 nothing is solved"), &
+      & number_bounds("EPSENS", "-", 1.0e-20_wp, 1.0_wp, .false., "double precision ends at 1e-16; at 1 nothing is solved"), &
+      & number_bounds("NPOT_MAX", "integer", 1.0_wp, 2.0e9_wp, .false., "a number of elements; 100 to 1000000 act"), &
+      & number_bounds("OMEGAH", "-", 0.0_wp, 10.0_wp, .true., "a relaxation factor; beyond 2 the iteration diverges"), &
+      & number_bounds("OMEGAS", "-", 0.0_wp, 10.0_wp, .true., "a relaxation factor; beyond 2 the iteration diverges"), &
+      & number_bounds("OMGSLP", "-", 0.0_wp, 10.0_wp, .true., "a relaxation factor; beyond 2 the iteration diverges"), &
+      & number_bounds("INISLP", "-", -1.0e9_wp, 1.0e9_wp, .false., "only the sign has a meaning"), &
+      & number_bounds("FDECAY", "-", -1.0e4_wp, 1.0e4_wp, .false., "a factor, or minus a number of elements"), &
+      & number_bounds("BETATH", "-", -1.0e4_wp, 1.0e4_wp, .false., "a factor"), &
+      & number_bounds("KDOWFB", "integer", -1.0e6_wp, 1.0e6_wp, .false., "a number of elements"), &
+      & number_bounds("D_IFC", "-", -1.0e6_wp, 1.0e6_wp, .false., "a weight; at least 0.01 acts"), &
+      & number_bounds("D_LIN", "-", -1.0e6_wp, 1.0e6_wp, .false., "a weight per element"), &
+      & number_bounds("D_CNS", "-", -1.0e6_wp, 1.0e6_wp, .false., "a weight; at least 0.01 acts"), &
+      & number_bounds("D_SLP", "-", -1.0e6_wp, 1.0e6_wp, .false., "a weight; at least 0.01 acts"), &
+      & number_bounds("POW_S", "-", -1.0e4_wp, 1.0e4_wp, .false., "an exponent; 0.01 to 10 act")]
+
+   type(number_bounds), parameter :: motion_rows(*) = [ &
+      & number_bounds("PEN", "mm", -far, far, .false., "an approach of a kilometre"), &
+      & number_bounds("FN", "N", 0.0_wp, heavy, .false., "bodies do not pull at each other; the weight of a mountain"), &
+      & number_bounds("FX", "-", -1.0_wp, 1.0_wp, .false., "relative to the friction bound FSTAT FN"), &
+      & number_bounds("FY", "-", -1.0_wp, 1.0_wp, .false., "relative to the friction bound FSTAT FN"), &
+      & number_bounds("CKSI", "-, mm", -endless, endless, .false., "a creepage of 2 is a wheel turning backwards; shifts in mm"), &
+      & number_bounds("CETA", "-, mm", -endless, endless, .false., "a creepage of 1 is sliding at 45 degrees; shifts in mm"), &
+      & number_bounds("CPHI", "rad/mm", -endless, endless, .false., "at most one over the radius of a body"), &
+      & number_bounds("SPINXO", "mm", -1.0e9_wp, 1.0e9_wp, .false., "a centre so far off is a translation"), &
+      & number_bounds("SPINYO", "mm", -1.0e9_wp, 1.0e9_wp, .false., "a centre so far off is a translation"), &
+      & number_bounds("CHI", "rad", -two_turns, two_turns, .false., "a direction has one turn; degrees need a d: 180d"), &
+      & number_bounds("DQ", "mm", tiny_side, far, .false., "a step below the size of atoms makes no way"), &
+      & number_bounds("VELOC", "mm/s", 1.0e-9_wp, fast, .false., "from creeping rock to a thousand km/s"), &
+      & number_bounds("FACPHI", "-", -1.0e3_wp, 1.0e3_wp, .false., "a part of a step"), &
+      & number_bounds("EXRHS", "-, mm", -endless, endless, .false., "as creepages")]
+
+   type(number_bounds), parameter :: friction_rows(*) = [ &
+      & number_bounds("FSTAT", "-", 1.0e-6_wp, 1.0e6_wp, .false., "frictionless is T = 0; from 100 on nothing slips"), &
+      & number_bounds("FKIN", "-", 0.0_wp, 1.0e6_wp, .false., "friction does not push; from 100 on nothing slips"), &
+      & number_bounds("FLIN", "-", 0.0_wp, 1.0e6_wp, .false., "friction does not push; from 100 on nothing slips"), &
+      & number_bounds("FRAT", "-", 0.0_wp, 1.0e6_wp, .false., "friction does not push; from 100 on nothing slips"), &
+      & number_bounds("FEXP", "-", 0.0_wp, 1.0e6_wp, .false., "friction does not push; from 100 on nothing slips"), &
+      & number_bounds("SABSH", "mm/s", 1.0e-5_wp, fast, .false., "the law would jump; a thousand km/s"), &
+      & number_bounds("MEMDST", "mm", 0.0_wp, far, .false., "a distance; particles leave the contact sooner"), &
+      & number_bounds("MEM_S0", "mm/s", 0.0_wp, fast, .false., "a speed; a thousand km/s"), &
+      & number_bounds("FREF", "-", 0.0_wp, 1.0e6_wp, .false., "friction does not push; from 100 on nothing slips"), &
+      & number_bounds("TREF", "degC", -273.15_wp, 1.0e5_wp, .false., "from absolute zero to hotter than the sun"), &
+      & number_bounds("DFHEAT", "-", -1.0e6_wp, 1.0e6_wp, .false., "a change of FREF"), &
+      & number_bounds("DTHEAT", "degC", 0.0_wp, 1.0e5_wp, .true., "the law would jump; hotter than the sun"), &
+      & number_bounds("NVF", "integer", 1.0_wp, 10.0_wp, .false., "as many control points as the format has"), &
+      & number_bounds("SVF", "mm", -far_along, far_along, .false., "a million km of track"), &
+      & number_bounds("ALPHA", "rad", -two_turns, two_turns, .false., "an inclination; degrees need a d: 60d")]
+
+   type(number_bounds), parameter :: material_rows(*) = [ &
+      & number_bounds("POISS", "-", -1.0_wp, 0.5_wp, .true., "no elastic body is stable beyond"), &
+      & number_bounds("GG", "N/mm2", 1.0e-5_wp, rigid, .false., "from the softest gels to bodies that count as rigid"), &
+      & number_bounds("FLXZ", "mm3/N", 1.0e-10_wp, 1.0e10_wp, .false., "a thin sheet on rigid or on gel"), &
+      & number_bounds("FG", "-", 0.0_wp, 1.0e10_wp, .false., "a ratio of moduli"), &
+      & number_bounds("TC", "s", 0.0_wp, 1.0e15_wp, .false., "a time; thirty million years"), &
+      & number_bounds("FLX", "mm3/N", 1.0e-10_wp, 1.0e10_wp, .false., "rigid to gel"), &
+      & number_bounds("K0_MF", "-", 1.0e-10_wp, 1.0_wp, .false., "a part of the initial slope"), &
+      & number_bounds("ALFAMF", "-", 0.0_wp, 1.0_wp, .false., "a part of the initial slope"), &
+      & number_bounds("BETAMF", "-", 0.0_wp, 1.0e10_wp, .false., "slopes fall with creepage"), &
+      & number_bounds("GG3", "N/mm2", 1.0e-5_wp, rigid, .false., "from the softest gels to layers that count as rigid"), &
+      & number_bounds("LAYTHK", "mm", 0.0_wp, far, .false., "a thickness; 0 is no layer"), &
+      & number_bounds("TAU_C0", "N/mm2", -rigid, rigid, .false., "0 and less, and 1e10 and more: no plasticity"), &
+      & number_bounds("K_TAU", "N/mm3", -rigid, rigid, .false., "hardening or softening over a nanometre"), &
+      & number_bounds("Y,ALPHA", "mm, rad", -far, far, .false., "a kilometre off the contact; angles are smaller by far"), &
+      & number_bounds("IF_METH", "integer", 0.0_wp, 1.0_wp, .false., "the methods that there are"), &
+      & number_bounds("VARIANT", "integer", 1.0_wp, 4.0_wp, .false., "the variants that there are"), &
+      & number_bounds("CDAMP", "s", 0.0_wp, 1.0e10_wp, .false., "damping does not drive"), &
+      & number_bounds("DFNMAX", "N/s", 0.0_wp, rigid, .false., "a limit of a rate"), &
+      & number_bounds("DFTMAX", "N/s", 0.0_wp, rigid, .false., "a limit of a rate"), &
+      & number_bounds("BKTEMP", "degC", -273.15_wp, 1.0e5_wp, .false., "from absolute zero to hotter than the sun"), &
+      & number_bounds("HEATCP", "J/kg-C", 1.0e-5_wp, 1.0e10_wp, .false., "water has 4200"), &
+      & number_bounds("LAMBDA", "W/mm-C", 1.0e-5_wp, 1.0e10_wp, .false., "foam has 3e-5, diamond 2"), &
+      & number_bounds("DENS", "kg/mm3", 1.0e-12_wp, 1.0e3_wp, .false., "from a vacuum to a dwarf star"), &
+      & number_bounds("BETAPL", "-", 0.0_wp, 1.0_wp, .false., "a part of the plastic work")]
+
+   type(number_bounds), parameter :: grid_rows(*) = [ &
+      & number_bounds("MX", "integer", 1.0_wp, 2.0e6_wp, .false., "MX times MY is at most 2000000"), &
+      & number_bounds("MY", "integer", 1.0_wp, 2.0e6_wp, .false., "MX times MY is at most 2000000"), &
+      & number_bounds("SCALE", "-", 1.0e-6_wp, 1.0e6_wp, .false., "a window with the contact in it, or a part of it"), &
+      & number_bounds("A1", "1/mm", 1.0e-12_wp, 1.0e9_wp, .false., "from a planet to an atom"), &
+      & number_bounds("B1", "1/mm", 1.0e-12_wp, 1.0e9_wp, .false., "from a planet to an atom"), &
+      & number_bounds("AOB", "-", 1.0e-6_wp, 1.0e6_wp, .false., "longer contacts are lines: IPOTCN = -4"), &
+      & number_bounds("AA", "mm", tiny_side, far, .false., "from below an atom to a kilometre"), &
+      & number_bounds("BB", "mm", tiny_side, far, .false., "from below an atom to a kilometre"), &
+      & number_bounds("BNEG", "mm", tiny_side, far, .false., "from below an atom to a kilometre"), &
+      & number_bounds("BPOS", "mm", tiny_side, far, .false., "from below an atom to a kilometre"), &
+      & number_bounds("XL", "mm", -far, far, .false., "a kilometre off the contact"), &
+      & number_bounds("YL", "mm", -far, far, .false., "a kilometre off the contact"), &
+      & number_bounds("XH", "mm", -far, far, .false., "a kilometre off the contact"), &
+      & number_bounds("YH", "mm", -far, far, .false., "a kilometre off the contact"), &
+      & number_bounds("XC1", "mm", -far, far, .false., "a kilometre off the contact"), &
+      & number_bounds("YC1", "mm", -far, far, .false., "a kilometre off the contact"), &
+      & number_bounds("XCM", "mm", -far, far, .false., "a kilometre off the contact"), &
+      & number_bounds("YCM", "mm", -far, far, .false., "a kilometre off the contact"), &
+      & number_bounds("DX", "mm", tiny_side, far, .false., "from below an atom to a kilometre"), &
+      & number_bounds("DY", "mm", tiny_side, far, .false., "from below an atom to a kilometre"), &
+      & number_bounds("B", "mm ...", -1.0e9_wp, 1.0e9_wp, .false., "curvatures, slopes and heights beyond any body"), &
+      & number_bounds("B(IBASE3)", "mm ...", -rigid, rigid, .false., "as B; radii of flat bodies are written as 1e20"), &
+      & number_bounds("NN", "integer", 1.0_wp, 999999.0_wp, .false., "a number of points"), &
+      & number_bounds("XM", "mm", -far, far, .false., "a kilometre off the contact"), &
+      & number_bounds("RM", "mm", -rigid, rigid, .false., "radii of flat bodies are written as 1e20"), &
+      & number_bounds("Y1", "mm", -far, far, .false., "a kilometre off the contact"), &
+      & number_bounds("DY1", "mm", tiny_side, far, .false., "from below an atom to a kilometre"), &
+      & number_bounds("H", "mm", -far, 1.0e38_wp, .false., "a kilometre of overlap; 1e30 excludes an element"), &
+      & number_bounds("PL", "mm2 ...", -rigid, rigid, .false., "the square of a kilometre is 1e12"), &
+      & number_bounds("XL1", "mm", -1.0e38_wp, 1.0e38_wp, .false., "a side without end is written as 1e30"), &
+      & number_bounds("XH1", "mm", -1.0e38_wp, 1.0e38_wp, .false., "a side without end is written as 1e30"), &
+      & number_bounds("YL1", "mm", -1.0e38_wp, 1.0e38_wp, .false., "a side without end is written as 1e30"), &
+      & number_bounds("YH1", "mm", -1.0e38_wp, 1.0e38_wp, .false., "a side without end is written as 1e30"), &
+      & number_bounds("XL2", "mm", -1.0e38_wp, 1.0e38_wp, .false., "a side without end is written as 1e30"), &
+      & number_bounds("XH2", "mm", -1.0e38_wp, 1.0e38_wp, .false., "a side without end is written as 1e30"), &
+      & number_bounds("YL2", "mm", -1.0e38_wp, 1.0e38_wp, .false., "a side without end is written as 1e30"), &
+      & number_bounds("YH2", "mm", -1.0e38_wp, 1.0e38_wp, .false., "a side without end is written as 1e30"), &
+      & number_bounds("XL,XH,YL,YH", "mm", -1.0e38_wp, 1.0e38_wp, .false., "a side without end is written as 1e30"), &
+      & number_bounds("NP", "integer", 1.0_wp, 100.0_wp, .false., "a number of sub-patches"), &
+      & number_bounds("FAC", "-", -1.0e6_wp, 1.0e6_wp, .false., "a factor of influence")]
+
+   type(number_bounds), parameter :: subsurface_rows(*) = [ &
+      & number_bounds("MATFIL_S", "integer", 0.0_wp, 2.0_wp, .false., "the kinds of files that there are"), &
+      & number_bounds("OUTPUT_S", "integer", 0.0_wp, 4.0_wp, .false., "the amounts of output that there are"), &
+      & number_bounds("IXL", "integer", 1.0_wp, 999999.0_wp, .false., "a number of a column"), &
+      & number_bounds("IXINC", "integer", -2.0e9_wp, 2.0e9_wp, .false., "a step; at least 1 acts"), &
+      & number_bounds("IXH", "integer", 1.0_wp, 999999.0_wp, .false., "a number of a column"), &
+      & number_bounds("IYL", "integer", 1.0_wp, 999999.0_wp, .false., "a number of a row"), &
+      & number_bounds("IYINC", "integer", -2.0e9_wp, 2.0e9_wp, .false., "a step; at least 1 acts"), &
+      & number_bounds("IYH", "integer", 1.0_wp, 999999.0_wp, .false., "a number of a row"), &
+      & number_bounds("NX", "integer", 1.0_wp, 9999.0_wp, .false., "points in one direction"), &
+      & number_bounds("NY", "integer", 1.0_wp, 9999.0_wp, .false., "points in one direction"), &
+      & number_bounds("NZ", "integer", 1.0_wp, 9999.0_wp, .false., "points in one direction"), &
+      & number_bounds("IX", "-", -1.0e9_wp, 1.0e9_wp, .false., "a number of a column, rounded"), &
+      & number_bounds("IY", "-", -1.0e9_wp, 1.0e9_wp, .false., "a number of a row, rounded"), &
+      & number_bounds("X", "mm", -far, far, .false., "a kilometre off the contact"), &
+      & number_bounds("Y", "mm", -far, far, .false., "a kilometre off the contact"), &
+      & number_bounds("Z", "mm", -far, far, .false., "a kilometre off the contact"), &
+      & number_bounds("ZL", "mm", -far, far, .false., "a kilometre off the contact"), &
+      & number_bounds("DZ", "mm", 1.0e-9_wp, far, .false., "from below an atom to a kilometre")]
+
+   type(number_bounds), parameter :: track_rows(*) = [ &
+      & number_bounds("DS", "mm", tiny_side, far, .false., "from below an atom to a kilometre"), &
+      & number_bounds("DQREL", "-", 5.0e-7_wp, 10.0_wp, .false., "a step in elements"), &
+      & number_bounds("A_SEP", "rad", -1.0e4_wp, 1.0e4_wp, .false., "an angle; pi and more never separates"), &
+      & number_bounds("D_SEP", "mm", -far, far, .false., "a distance of patches"), &
+      & number_bounds("D_COMB", "mm", -far, far, .false., "a distance of patches"), &
+      & number_bounds("D_TURN", "mm", -far, far, .false., "a distance of patches"), &
+      & number_bounds("G_MISS", "mm", -far, far, .false., "a gap; negative for never"), &
+      & number_bounds("GAUGHT", "mm", -far, 200.0_wp, .false., "no rail is that high; 0 and less: absolute placement"), &
+      & number_bounds("GAUGSQ", "-", -1.0e9_wp, 1.0e9_wp, .false., "read and not used"), &
+      & number_bounds("GAUGWD", "mm", -far, far, .false., "a gauge of a kilometre"), &
+      & number_bounds("RAILY0", "mm", -far, far, .false., "a kilometre off the track"), &
+      & number_bounds("RAILZ0", "mm", -far, far, .false., "a kilometre off the track"), &
+      & number_bounds("CANT", "rad", -two_turns, two_turns, .false., "an angle; degrees need a d: 1.43d"), &
+      & number_bounds("NOMRAD", "mm", 1.0e-3_wp, 1.0e9_wp, .false., "a wheel of a micrometre or of a thousand km"), &
+      & number_bounds("CURV", "1/mm", -1.0_wp, 1.0_wp, .false., "a curve with the radius of a millimetre"), &
+      & number_bounds("DYRAIL", "mm", -far, far, .false., "a kilometre off the track"), &
+      & number_bounds("DZRAIL", "mm", -far, far, .false., "a kilometre off the track"), &
+      & number_bounds("DROLLR", "rad", -two_turns, two_turns, .false., "an angle; degrees need a d: 1d"), &
+      & number_bounds("VYRAIL", "mm/s", -fast, fast, .false., "a thousand km/s"), &
+      & number_bounds("VZRAIL", "mm/s", -fast, fast, .false., "a thousand km/s"), &
+      & number_bounds("VROLLR", "rad/s", -many_turns, many_turns, .false., "a rail is no turbine"), &
+      & number_bounds("KYRAIL", "N/mm", 0.0_wp, rigid, .false., "springs do not push further; rigid"), &
+      & number_bounds("FYRAIL", "N", -heavy, heavy, .false., "the weight of a mountain"), &
+      & number_bounds("KZRAIL", "N/mm", 0.0_wp, rigid, .false., "springs do not push further; rigid"), &
+      & number_bounds("FZRAIL", "N", -heavy, heavy, .false., "the weight of a mountain"), &
+      & number_bounds("DYSTEP0", "mm", 0.0_wp, far, .true., "a trial step"), &
+      & number_bounds("MIRRORY", "integer", -1.0_wp, 1.0_wp, .false., "1 for yes, 0 and -1 for no"), &
+      & number_bounds("MIRRORZ", "integer", -1.0_wp, 1.0_wp, .false., "1 for yes, -1 for no, 0 for as the file suggests"), &
+      & number_bounds("SCALEYZ", "-", -1.0e9_wp, 1.0e9_wp, .false., "a factor of units"), &
+      & number_bounds("SMOOTH", "mm ...", -1.0e9_wp, 1.0e9_wp, .false., "a wavelength or a weight"), &
+      & number_bounds("PRFOPT", "integer", 0.0_wp, 2.0_wp, .false., "the groups that there are"), &
+      & number_bounds("ISMOOTH", "integer", -2.0e9_wp, 2.0e9_wp, .false., "the methods that there are"), &
+      & number_bounds("ZIGTHRS", "rad", -1.0e4_wp, 1.0e4_wp, .false., "an angle; degrees need a d: 150d"), &
+      & number_bounds("KINKHIGH", "rad", -1.0e4_wp, 1.0e4_wp, .false., "an angle; degrees need a d: 30d"), &
+      & number_bounds("KINKLOW", "rad", -1.0e4_wp, 1.0e4_wp, .false., "an angle; degrees need a d: 6d"), &
+      & number_bounds("KINKWID", "mm", -far, far, .false., "a distance in a profile"), &
+      & number_bounds("ERRHND", "integer", -2.0e9_wp, 2.0e9_wp, .false., "the levels that there are"), &
+      & number_bounds("MAXOMIT", "-", -1.0e9_wp, 1.0e9_wp, .false., "a part of the points")]
+
+   type(number_bounds), parameter :: wheel_rows(*) = [ &
+      & number_bounds("FBDIST", "mm", -far, far, .false., "a wheelset of a kilometre"), &
+      & number_bounds("FBPOS", "mm", -far, far, .false., "a wheel of a kilometre"), &
+      & number_bounds("YTAPE", "mm", -1.0e9_wp, 1.0e9_wp, .false., "999 and more: no tape line"), &
+      & number_bounds("S_WS", "mm", -far_along, far_along, .false., "a million km of track"), &
+      & number_bounds("X_WS", "mm", -far, far, .false., "a kilometre off the roller"), &
+      & number_bounds("Y_WS", "mm", -far, far, .false., "a kilometre off the track"), &
+      & number_bounds("Z_WS", "mm", -far, far, .false., "a kilometre off the track"), &
+      & number_bounds("FZ", "N", -heavy, heavy, .false., "the weight of a mountain"), &
+      & number_bounds("ROLL", "rad", -two_turns, two_turns, .false., "an angle; degrees need a d: 1d"), &
+      & number_bounds("YAW", "rad", -two_turns, two_turns, .false., "an angle; degrees need a d: 1d"), &
+      & number_bounds("PITCH", "rad", -many_turns, many_turns, .false., "turns that add up over a run"), &
+      & number_bounds("VS", "mm/s", -fast, fast, .false., "a thousand km/s"), &
+      & number_bounds("VY", "mm/s", -fast, fast, .false., "a thousand km/s"), &
+      & number_bounds("VZ", "mm/s", -fast, fast, .false., "a thousand km/s"), &
+      & number_bounds("VROLL", "rad/s", -many_turns, many_turns, .false., "faster than any turbine"), &
+      & number_bounds("VYAW", "rad/s", -many_turns, many_turns, .false., "faster than any turbine"), &
+      & number_bounds("VPITCH", "rad/s", -many_turns, many_turns, .false., "faster than any turbine"), &
+      & number_bounds("RPITCH", "rad/s", -many_turns, many_turns, .false., "faster than any turbine"), &
+      & number_bounds("FX_WS", "N", -heavy, heavy, .false., "the weight of a mountain"), &
+      & number_bounds("DXWHL", "mm", -far, far, .false., "a deviation of a kilometre"), &
+      & number_bounds("DYWHL", "mm", -far, far, .false., "a deviation of a kilometre"), &
+      & number_bounds("DZWHL", "mm", -far, far, .false., "a deviation of a kilometre"), &
+      & number_bounds("DROLLW", "rad", -two_turns, two_turns, .false., "an angle; degrees need a d: 1d"), &
+      & number_bounds("DYAWW", "rad", -two_turns, two_turns, .false., "an angle; degrees need a d: 1d"), &
+      & number_bounds("DPITCHW", "rad", -many_turns, many_turns, .false., "turns that add up over a run"), &
+      & number_bounds("VXWHL", "mm/s", -fast, fast, .false., "a thousand km/s"), &
+      & number_bounds("VYWHL", "mm/s", -fast, fast, .false., "a thousand km/s"), &
+      & number_bounds("VZWHL", "mm/s", -fast, fast, .false., "a thousand km/s"), &
+      & number_bounds("VROLLW", "rad/s", -many_turns, many_turns, .false., "faster than any turbine"), &
+      & number_bounds("VYAWW", "rad/s", -many_turns, many_turns, .false., "faster than any turbine"), &
+      & number_bounds("VPITCHW", "rad/s", -many_turns, many_turns, .false., "faster than any turbine")]
+
+   !> All numbers, in the order in which the groups of a case come
+   type(number_bounds), parameter :: bounds_table(*) = [solver_rows, motion_rows, friction_rows, material_rows, grid_rows, &
+      & subsurface_rows, track_rows, wheel_rows]
+
+contains
+
+   !> Row of a name in the table, 0 when there is none
+   !>
+   !> An index in brackets does not count, and figures and the letters of a body at the end count only if the
+   !> name stands in the table with them: B(3) is B, GG2 is GG, NOMRADW is NOMRAD.
+   pure integer function bounds_of(name) result(row)
+      character(len=*), intent(in) :: name
+      integer :: last
+
+      row = row_of(name)
+      if (row > 0) return
+      last = len_trim(name)
+      if (name(last:last) == ")") last = index(name, "(") - 1
+      row = row_of(name(:last))
+      do while (row == 0 .and. last > 1)
+         if (verify(name(last:last), "0123456789NTRW") > 0) return
+         last = last - 1
+         row = row_of(name(:last))
+      end do
+   end function bounds_of
+
+   !> Row of exactly this name, 0 when there is none
+   pure integer function row_of(name) result(row)
+      character(len=*), intent(in) :: name
+
+      do row = 1, size(bounds_table)
+         if (bounds_table(row)%name == name) return
+      end do
+      row = 0
+   end function row_of
+
+   !> "GG1 = 1e-30 is below its lower bound 1.00000E-05 N/mm2: from the softest gels ..."; "" when the bounds are kept
+   subroutine describe_breach(name, word, value, complaint, shown)
+      !> As in the input files
+      character(len=*), intent(in) :: name
+      !> The value as it was given, "" to write it anew
+      character(len=*), intent(in) :: word
+      real(wp), intent(in) :: value
+      character(len=:), allocatable, intent(out) :: complaint
+      !> Name in the complaint, where that is another one
+      character(len=*), intent(in), optional :: shown
+      character(len=:), allocatable :: who
+      type(number_bounds) :: bounds
+      integer :: row
+
+      complaint = ""
+      row = bounds_of(name)
+      if (row == 0) then
+         complaint = name // " has no bounds in the table of this program, which is a fault of it"
+         return
+      end if
+      bounds = bounds_table(row)
+      if (ieee_is_finite(value) .and. value <= bounds%highest) then
+         if (value > bounds%lowest) return
+         if (value >= bounds%lowest .and. .not. bounds%is_open) return
+      end if
+      who = name
+      if (present(shown)) who = shown
+      if (.not. ieee_is_finite(value)) then
+         complaint = who // " is infinite, not a number or missing"
+         return
+      end if
+      complaint = who // " = " // word
+      if (len(word) == 0) complaint = who // " = " // real_text(value)
+      if (bounds%unit == "integer") then
+         complaint = complaint // " is outside its range " // integer_text(nint(bounds%lowest)) // " to " // &
+            & integer_text(nint(bounds%highest))
+      else if (value > bounds%highest) then
+         complaint = complaint // " is above its upper bound " // real_text(bounds%highest) // unit_text(bounds)
+      else if (bounds%is_open) then
+         complaint = complaint // " must be larger than " // real_text(bounds%lowest) // unit_text(bounds)
+      else
+         complaint = complaint // " is below its lower bound " // real_text(bounds%lowest) // unit_text(bounds)
+      end if
+      complaint = complaint // ": " // trim(bounds%reason)
+   end subroutine describe_breach
+
+   !> Is there no single unit to be told?
+   pure logical function has_no_unit(bounds)
+      type(number_bounds), intent(in) :: bounds
+      has_no_unit = bounds%unit(:1) == "-" .or. index(bounds%unit, "...") > 0
+   end function has_no_unit
+
+   !> The unit after a number; nothing where it depends on the number or there is none
+   pure function unit_text(bounds) result(text)
+      type(number_bounds), intent(in) :: bounds
+      character(len=merge(0, len_trim(bounds%unit) + 1, has_no_unit(bounds))) :: text
+
+      text = ""
+      if (len(text) > 0) text = " " // bounds%unit
+   end function unit_text
+
+   !> Complain about a number beyond its bounds; an earlier complaint stays
+   subroutine check_number(name, value, error, shown)
+      !> As in the input files
+      character(len=*), intent(in) :: name
+      real(wp), intent(in) :: value
+      type(error_type), allocatable, intent(inout) :: error
+      !> Name in the complaint, where that is another one
+      character(len=*), intent(in), optional :: shown
+      character(len=:), allocatable :: complaint
+
+      if (allocated(error)) return
+      call describe_breach(name, "", value, complaint, shown)
+      if (len(complaint) > 0) call fatal_error(error, complaint)
+   end subroutine check_number
+end module contact_cases_bounds
