@@ -94,7 +94,7 @@ class HalfSpaces:
         self.g, self.nu, self.k = combined(g, nu)
         self.mx, self.my, self.dx, self.dy, self.hats = mx, my, dx, dy, hats
         self._tables = {}
-        if type(self) is HalfSpaces:
+        if type(self).__name__ in ("HalfSpaces", "ViscoelasticHalfSpaces"):
             self.coupled = abs(self.k) >= 1e-6
 
     def centre(self, name):
@@ -138,6 +138,15 @@ class HalfSpaces:
         return total
 
 
+def shifted(field, kx, ky):
+    """field(ix + kx, iy + ky) at (ix, iy), zero beyond its borders"""
+    my, mx = field.shape
+    result = np.zeros_like(field)
+    if abs(kx) < mx and abs(ky) < my:
+        result[max(0, -ky):my - max(0, ky), max(0, -kx):mx - max(0, kx)] = field[max(0, ky):my + min(0, ky), max(0, kx):mx + min(0, kx)]
+    return result
+
+
 def elliptic_integrals(k2):
     """Complete elliptic integrals K, E of the modulus squared, by the arithmetic-geometric mean"""
     a, b, c2, power = 1.0, (1.0 - k2)**0.5, k2, 0.5
@@ -173,6 +182,49 @@ def hertz_from_axes(a, b, modulus):
     else:
         ax, by = curvature[a], curvature[b]
     return ax, by, factor*first, 2*np.pi*a*b/3
+
+
+class ViscoelasticHalfSpaces(HalfSpaces):
+    """Standard linear solids in steady rolling (M = 1): each body adds f times the mean of what it did at the places where the
+    particle was before, weighted with exp(-s) over s relaxation times"""
+
+    def __init__(self, g, nu, mx, my, dx, dy, memory, veloc, sign):
+        super().__init__(g, nu, mx, my, dx, dy)
+        fg1, fg2, tc1, tc2 = memory
+        rigid = 1e30
+        self.bodies = [(fg1, sign*veloc*tc1, HalfSpaces((g[0], rigid), (nu[0], 0.0), mx, my, dx, dy)),
+                       (fg2, sign*veloc*tc2, HalfSpaces((rigid, g[1]), (0.0, nu[1]), mx, my, dx, dy))]
+        # the kernels of both bodies cancel in coupling only if all is equal
+        self.coupled = abs(self.k) >= 1e-6 or abs(fg1 - fg2) + abs(tc1 - tc2) > 0
+
+    def table(self, name, ahead=(0.0, 0.0)):
+        key = (name, tuple(ahead))
+        if key not in self._tables:
+            value = np.array(super().table(name, ahead))
+            for factor, length, body in self.bodies:
+                if factor > 0:
+                    value += factor*self._memory(name, ahead, length, body)
+            self._tables[key] = value
+        return self._tables[key]
+
+    def _memory(self, name, ahead, length, body):
+        if length == 0:
+            return body.table(name, ahead)
+        # ends of panels: where the place crosses the side of an element, and steps of the decay
+        step = abs(self.dx/length)
+        ends = np.concatenate([np.arange(0, min(30, 2*self.mx*step), step/2), np.linspace(0, 30, 31), np.geomspace(0.1*min(step, 1.0), 30, 40)])
+        ends = np.unique(np.round(ends, 12))
+        place, weight = np.polynomial.legendre.leggauss(4)
+        total = 0.0
+        for low, high in zip(ends[:-1], ends[1:]):
+            if high - low < 1e-9:
+                continue
+            for x, w in zip(place, weight):
+                s = 0.5*(low + high) + 0.5*(high - low)*x
+                # not kept: each place is needed once
+                body._tables.clear()
+                total = total + 0.5*(high - low)*w*np.exp(-s)*body.table(name, (ahead[0] + length*s, ahead[1]))
+        return total
 
 
 class Tabulated(HalfSpaces):

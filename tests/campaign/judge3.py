@@ -142,9 +142,32 @@ def excluded(grid, x, y, margin):
     return nothing, nothing
 
 
+def offset_of(scene, k):
+    """Numbers of elements by which the window has moved since the first case"""
+    moves = [case.get("move", (0, 0)) for case in scene["cases"][:k]]
+    return sum(move[0] for move in moves), sum(move[1] for move in moves)
+
+
+def grid_of(scene, k):
+    """Grid and geometry of case k"""
+    kx, ky = offset_of(scene, k)
+    if (kx, ky) == (0, 0):
+        return scene["grid"]
+    grid = dict(scene["grid"])
+    grid["xl"] += kx*grid["dx"]
+    grid["yl"] += ky*grid["dy"]
+    return grid
+
+
+def in_window(scene, k, field):
+    """A field of case k - 1 in the window of case k, zero where it was outside"""
+    kx, ky = scene["cases"][k - 1].get("move", (0, 0))
+    return elastic.shifted(field, kx, ky)
+
+
 def judge_grid(scene, k, f, findings, state):
-    """Grid, undeformed distance and planform are those of the input; sets state["h"], state["excluded"]"""
-    grid = scene["grid"]
+    """Grid, undeformed distance and planform are those of the input; sets state["h"], state["out"]"""
+    grid = grid_of(scene, k)
     if (f["mx"], f["my"]) != (grid["mx"], grid["my"]):
         findings.append(finding("grid", f"{f['mx']} x {f['my']} elements"))
         state["h"] = f["h"]
@@ -233,6 +256,10 @@ def half_spaces(scene, f):
         return elastic.ConformalHalfSpaces(scene["g"], scene["nu"], f["mx"], f["my"], f["dx"], f["dy"], f.y, scene["angles"])
     if d["C"] == 9:
         return elastic.Tabulated(scene["g"], scene["nu"], f["mx"], f["my"], f["dx"], f["dy"], coefficients(scene))
+    if d["M"] == 1:
+        chi, _, veloc = scene["rolling"][:3]
+        return elastic.ViscoelasticHalfSpaces(scene["g"], scene["nu"], f["mx"], f["my"], f["dx"], f["dy"], scene["material"], veloc,
+                                              1 if math.cos(chi) > 0 else -1)
     return elastic.HalfSpaces(scene["g"], scene["nu"], f["mx"], f["my"], f["dx"], f["dy"], hats=d["C"] == 3)
 
 
@@ -249,8 +276,10 @@ def rigid_slip(scene, case, f, totals, eps_offset=True):
         dq = step_of(scene, f)
         ahead = (factor[0] if factor else 1/6)*dq
         xo, yo = xo - ahead*math.cos(chi), yo - ahead*math.sin(chi)
-    wx = cksi - case["phi"]*(f.y[:, np.newaxis] - yo) + 0*f.x[np.newaxis, :]
-    wy = ceta + case["phi"]*(f.x[np.newaxis, :] - xo) + 0*f.y[:, np.newaxis]
+    # E = 2 and 3 leave out one part of the spin
+    fx, fy = d["E"] != 3, d["E"] != 2
+    wx = cksi - fx*case["phi"]*(f.y[:, np.newaxis] - yo) + 0*f.x[np.newaxis, :]
+    wy = ceta + fy*case["phi"]*(f.x[np.newaxis, :] - xo) + 0*f.y[:, np.newaxis]
     if "extra" in case:
         extra = np.array(case["extra"]).reshape(f["my"], f["mx"], 2)
         wx, wy = wx + extra[:, :, 0], wy + extra[:, :, 1]
@@ -275,11 +304,12 @@ def previous_tractions(scene, k, fields, state):
     if k == 1 or case["P"] == 2:
         return zero, zero, zero
     if case["P"] == 3:
-        return state.get("previous")
+        previous = state.get("previous")
+        return previous and tuple(in_window(scene, k, field) for field in previous)
     last = fields[k - 1]
     if case["P"] == 1:
-        return zero, zero, last["pn"]
-    return last["px"], last["py"], last["pn"]
+        return zero, zero, in_window(scene, k, last["pn"])
+    return tuple(in_window(scene, k, last[name]) for name in ("px", "py", "pn"))
 
 
 def judge_contact(scene, k, run, fields, findings, state):
@@ -315,8 +345,11 @@ def judge_contact(scene, k, run, fields, findings, state):
                 (ALLOWANCE*scene["eps"] if converged else 1e-3) + 4*error + loose)
     if not converged:
         return
+    state["cut"] = k > 1 and "move" in case and not math.isclose(in_window(scene, k, fields[k - 1]["pn"]).sum(),
+                                                                fields[k - 1]["pn"].sum())
     state["plastic"] = plastic_before(scene, k, fields, state)
-    if d["M"] == 1:
+    if d["M"] == 1 and f["mx"]*f["my"] > 300:
+        # costs seconds
         return
     if d["M"] in (2, 3, 5):
         if d["B"] == 0 and elastic_uncoupled(scene):
@@ -326,10 +359,10 @@ def judge_contact(scene, k, run, fields, findings, state):
     else:
         spaces = half_spaces(scene, f)
         coupled = spaces.coupled and scene["maxout"] > 1
-        if d["B"] == 0 and (coupled or not spaces.coupled or case["I"] == 0):
+        if d["B"] in (0, 1) and (coupled or not spaces.coupled or case["I"] == 0):
             judge_normal(scene, k, f, state, totals, findings, spaces, coupled)
         if d["T"]:
-            judge_tangential(scene, k, run, f, previous, findings, spaces, state["plastic"])
+            judge_tangential(scene, k, run, f, previous, findings, spaces, state["plastic"], state)
             if d["L"] in (2, 3, 4):
                 judge_falling_friction(scene, k, fields, findings)
     if d["H"] and d["T"] == 3:
@@ -365,6 +398,8 @@ def judge_normal(scene, k, f, state, totals, findings, spaces, coupled):
     """No gap in contact, no overlap outside, relative to the approach"""
     pn = f["pn"]
     un = spaces.displacement("n", f["px"], f["py"], pn, coupled=coupled)
+    if scene["digits"]["B"] == 1:
+        un = un + scene["sheet"]*pn
     pen = totals["pen"]
     h = np.where(state["out"], 0.0, state["h"])
     gap = np.where(state["out"], 1e30, h - pen + un)
@@ -378,10 +413,13 @@ def judge_normal(scene, k, f, state, totals, findings, spaces, coupled):
     exceeds(findings, "gap", f"contact conditions of case {k}", size/scale, ALLOWANCE*allowance*scene["eps"] + 1e-10 + 10*f["error"])
 
 
-def judge_tangential(scene, k, run, f, previous, findings, spaces, plastic):
+def judge_tangential(scene, k, run, f, previous, findings, spaces, plastic, state):
     """Slip against traction on the bound, none below it: the projected residual relative to the bound"""
     d, case, totals = scene["digits"], scene["cases"][k - 1], run.totals(k)
     if previous is None:
+        return
+    if "move" in case and case["P"] != 2 and k > 1 and d["T"] in (1, 2) and state.get("cut"):
+        # elements that were loaded are outside the new window
         return
     if spaces.coupled and case["P"] == 1 and k > 1:
         return
@@ -427,7 +465,7 @@ def judge_tangential(scene, k, run, f, previous, findings, spaces, plastic):
     qx, qy = px - r*sx, py - r*sy
     size = np.hypot(qx, qy)
     cut = np.where(size > bound, bound/np.where(size > 0, size, 1), 1.0)
-    residual = math.sqrt((((px - cut*qx)**2 + (py - cut*qy)**2)[inside]).sum()/((bound[inside]**2).sum() + 1e-300))
+    residual = math.sqrt((((px - cut*qx)**2 + (py - cut*qy)**2)[inside]).sum()/(((f["mu"]*pn)[inside]**2).sum() + 1e-300))
     limit = ALLOWANCE*scene["eps"] + 1e-9 + 20*f["error"]
     told = run.cases[k - 1]["patches"][0]["solver"].get("tangential_residual")
     if told is not None and told > scene["eps"]:
@@ -483,7 +521,7 @@ def leading_edge(f, wx, wy, before, old, spaces, chi, step):
 def plastic_before(scene, k, fields, state):
     """Plastic displacements and yield limit of the particles a step ago (upx, upy, limit); None where not known here"""
     d, f, case = scene["digits"], fields[k], scene["cases"][k - 1]
-    if "taucrt" not in f:
+    if "taucrt" not in f or not d["T"]:
         return None
     fresh = scene["material"][2]
     zero = np.zeros_like(f["pn"])
@@ -495,7 +533,7 @@ def plastic_before(scene, k, fields, state):
         return state.get("plastic")
     else:
         source = fields[k - 1]
-        if "taucrt" not in source:
+        if "taucrt" not in source or "move" in case:
             return None
     if d["T"] == 1:
         return source["uplsx"], source["uplsy"], source["taucrt"]
@@ -529,7 +567,7 @@ def judge_yield(scene, k, f, growth, limit_before, slip, findings):
 def judge_falling_friction(scene, k, fields, findings):
     """Coefficients follow from the slip by the law with its memory; the loop ends when slip has settled within 0.1 %"""
     d, case, f = scene["digits"], scene["cases"][k - 1], fields[k]
-    if case["P"] == 3 and k > 1:
+    if (case["P"] == 3 or "move" in case) and k > 1:
         return
     inside = f["eldiv"] > 0
     veloc, dq, chi = (scene["rolling"][2], step_of(scene, f), scene["rolling"][0]) if d["T"] >= 2 else (1.0, 1.0, 0.0)
@@ -823,6 +861,8 @@ def mirrored_y(s):
         s["angles"][2] = [[-y, -angle] for y, angle in reversed(s["angles"][2])]
     for case in s["cases"]:
         case["y"], case["phi"] = -case["y"], -case["phi"]
+        if "move" in case:
+            case["move"][1] *= -1
         if "centre" in case:
             case["centre"][1] = -case["centre"][1]
         if "extra" in case:
@@ -857,6 +897,8 @@ def mirrored_x(s):
         s["rolling"][0] = {0.0: math.pi, math.pi: 0.0}.get(chi, math.copysign(math.pi, chi) - chi)
     for case in s["cases"]:
         case["x"], case["phi"] = -case["x"], -case["phi"]
+        if "move" in case:
+            case["move"][0] *= -1
         if "centre" in case:
             case["centre"][0] = -case["centre"][0]
         if "extra" in case:
@@ -868,6 +910,8 @@ def mirrored_x(s):
 def scaled(s, length=1000.0, modulus=0.001):
     """All lengths times one factor, all moduli times another"""
     d, grid = s["digits"], s["grid"]
+    if "sheet" in s:
+        s["sheet"] *= (length/modulus if grid["mx"] % 2 == 0 else modulus/length)
     if d["H"] or d["C"] == 9 or d["B"] == 6:
         # temperatures have other units; the table is given in mm; ANALYN has a bound of 1e-4 per mm for curvatures
         return None, None
@@ -999,7 +1043,7 @@ def refined(scene, run, fields, tools, findings):
 def expressible(scene):
     """Whether the library has calls for all that a scene says"""
     d, grid = scene["digits"], scene["grid"]
-    if d["C"] in (4, 9) or d["V"] or d["S"] or grid.get("iplan", 1) != 1 or len(scene.get("rolling", [])) > 3:
+    if d["C"] in (4, 9) or d["V"] or d["S"] or d["B"] == 1 or grid.get("iplan", 1) != 1 or len(scene.get("rolling", [])) > 3:
         return False
     if d["H"] and d["M"] == 4:
         return False
@@ -1007,7 +1051,7 @@ def expressible(scene):
         if case["keep"] and grid["ipotcn"] < 0:
             # the library forms Hertz's grid anew for each load
             return False
-        if "centre" in case or "damping" in case:
+        if "centre" in case or "damping" in case or "move" in case:
             return False
         if case["F"] and max(abs(case["x"]), abs(case["y"])) > 0.99:
             # forces next to the bound are shortened by the library, as documented
@@ -1030,8 +1074,9 @@ def by_library(scene, run, fields, tools, findings):
     for k, result in enumerate(answer, start=1):
         f, t, converged = fields[k], run.totals(k), is_converged(run.cases[k - 1])
         if (result["code"] < 0) == converged:
-            findings.append(finding("library", f"case {k}: code {result['code']}, the program says converged: {converged}"))
-        if not converged:
+            findings.append(finding("library", f"case {k}: code {result['code']}, {result['message']}; the program: converged"
+                                    f" {converged}"))
+        if not converged or result["code"] < 0:
             return
         top = f["pn"].max()
         if top <= 0:

@@ -8,6 +8,7 @@ import os
 import sys
 
 from contact import cntc
+from contact._library import last_error
 from contact.cntc import CNTC
 
 IRE, ICP = 1, 1
@@ -41,7 +42,7 @@ def set_problem(scene):
         cntc.setreferencevelocity(IRE, ICP, veloc)
         cntc.setrollingstepsize(IRE, ICP, chi, dq)
     if d["H"]:
-        cntc.settemperaturedata(IRE, ICP, 3, scene["heat"][0] + scene["heat"][1])
+        cntc.settemperaturedata(IRE, ICP, 3, scene["heat"][0] + scene["heat"][1] + [0.5])
     size = [grid["mx"], grid["my"]]
     if grid["ipotcn"] < 0:
         cntc.sethertzcontact(IRE, ICP, grid["ipotcn"], size + grid["values"])
@@ -66,9 +67,10 @@ def solve(scene, k):
     if "extra" in case:
         cntc.setextrarigidslip(IRE, ICP, [pair[0] for pair in case["extra"]], [pair[1] for pair in case["extra"]])
     code = cntc.calculate(IRE, ICP, idebug=0)
+    message = last_error(IRE, ICP)[1]
     fn, fx, fy, mz = cntc.getcontactforces(IRE, ICP)
     pn, px, py = cntc.gettractions(IRE, ICP)
-    return {"code": int(code), "fn": fn, "fx": fx, "fy": fy, "mz": mz, "pen": cntc.getpenetration(IRE, ICP),
+    return {"code": int(code), "message": message, "fn": fn, "fx": fx, "fy": fy, "mz": mz, "pen": cntc.getpenetration(IRE, ICP),
             "creepages": list(cntc.getcreepages(IRE, ICP)), "pn": pn.tolist(), "px": px.tolist(), "py": py.tolist(),
             "eldiv": cntc.getelementdivision(IRE, ICP).tolist()}
 
@@ -81,6 +83,9 @@ def main():
     cntc.initialize(IRE, 3, idebug=0)
     flags(if_wrtinp=1)
     set_problem(scene)
+    code, message = last_error(IRE, ICP)
+    if code:
+        sys.exit(f"a setting was refused: {code} {message}")
     answer = [solve(scene, k) for k in range(len(scene["cases"]))]
     cntc.finalizelast()
     with open(sys.argv[2], "w", encoding="utf-8") as file:

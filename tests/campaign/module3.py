@@ -50,12 +50,13 @@ def _digits(rng):
     d["H"] = one_of(rng, (3, 0), (1 if steady else 0, 3))
     d["L"] = one_of(rng, (3, 0), (1, 2), (1, 3), (1, 4), (2 if d["H"] and d["M"] not in (2, 3, 5) else 0, 6))
     d["V"] = one_of(rng, (5, 0), (1, 3))
-    d["B"] = one_of(rng, (8, 0), (1, 2), (1, 3), (1, 4), (1, 5), (1, 6))
+    d["B"] = one_of(rng, (8, 0), (0.7, 1), (1, 2), (1, 3), (1, 4), (1, 5), (1, 6))
     d["C"] = one_of(rng, (6, 2), (2, 3), (1, 4), (0.7, 9)) if d["M"] in (0, 4) else 2
     if d["B"] == 3 and d["M"] not in (2, 3, 5):
         d["M"] = 2 if d["T"] else 0
         d["C"] = 2
-    d["E"] = one_of(rng, (5, 0), (1 if d["T"] and d["M"] != 5 else 0, 9))
+    some = 1 if d["T"] and d["M"] != 5 else 0
+    d["E"] = one_of(rng, (6, 0), (some, 9), (0.2*some, 2), (0.2*some, 3))
     d["S"] = one_of(rng, (6, 0), (1, 3))
     d["G"] = one_of(rng, (6, 0), (1, 2), (1, 3), (1, 4), (1, 5))
     if rng.random() < 0.02:
@@ -68,6 +69,8 @@ def _scene(rng):
     d = _digits(rng)
     scene = {"digits": d}
     big = rng.random() < 0.03
+    # a few far from what is usual, in one respect or another
+    wild = rng.random() < 0.15
     mx = rng.randint(20, 60) if big else rng.choice([1, 2, rng.randint(3, 24), rng.randint(3, 24), rng.randint(3, 24), rng.randint(3, 24)])
     my = rng.randint(20, 60) if big else rng.choice([1, rng.randint(2, 20), rng.randint(3, 20), rng.randint(3, 20), rng.randint(3, 20)])
     # rubber to steel
@@ -78,16 +81,16 @@ def _scene(rng):
     scene["g"], scene["nu"] = [g1, g2], [nu1, nu2]
     g = 2/(1/g1 + 1/g2)
     a = logarithmic(rng, 0.05, 100)
-    b = a*logarithmic(rng, 0.2, 5)
+    b = a*(logarithmic(rng, 0.02, 50) if wild else logarithmic(rng, 0.2, 5))
     dx, dy = 2.3*a/mx, 2.3*b/my
     curvature = logarithmic(rng, 1e-4, 2e-2)/a
     across = curvature*(a/b)**2*logarithmic(rng, 0.7, 1.4)
     pen = curvature*a*a*rng.uniform(0.3, 1.0)
     fn = g*math.sqrt(a*b)*pen*rng.uniform(0.5, 2.0)
-    if rng.random() < 0.05:
-        fn *= logarithmic(rng, 1e-3, 1e3)
-        pen *= logarithmic(rng, 1e-2, 3)
-    _grid(rng, scene, mx, my, a, b, dx, dy, curvature, across, pen)
+    if wild:
+        fn *= logarithmic(rng, 1e-4, 1e3)
+        pen *= logarithmic(rng, 1e-3, 3)
+    _grid(rng, scene, mx, my, a, b, dx, dy, curvature, across, pen, wild)
     if scene["grid"]["ipotcn"] < 0 and d["C"] == 9:
         d["C"] = 2
     n = rng.choice([0, 1])
@@ -95,11 +98,11 @@ def _scene(rng):
         n = 1
     if d["B"] in (5, 6):
         n = 0
-    slip = pen/a*0.5
-    _friction(rng, scene, my, slip)
+    slip = pen/a*(logarithmic(rng, 1e-4, 1e3) if wild else 0.5)
     _rolling(rng, scene, a, dx)
+    _friction(rng, scene, my, slip, wild)
     _surface(rng, scene, a, b, g, pen)
-    scene["eps"] = rng.choice([1e-4, 1e-5, 1e-5, 1e-6])
+    scene["eps"] = rng.choice([1e-2, 1e-3, 1e-4, 1e-7, 1e-8]) if wild else rng.choice([1e-4, 1e-5, 1e-5, 1e-6])
     similar = abs((1 - 2*nu1)/g1 - (1 - 2*nu2)/g2)*g < 4e-4 and d["C"] in (2, 3)
     scene["maxout"] = rng.choice([1, 1, 20]) if similar else rng.choice([20, 20, 100, 1])
     scene["maxin"] = 200 if d["L"] else 100
@@ -112,7 +115,7 @@ def _scene(rng):
     return scene
 
 
-def _grid(rng, scene, mx, my, a, b, dx, dy, curvature, across, pen):
+def _grid(rng, scene, mx, my, a, b, dx, dy, curvature, across, pen, wild):
     d = scene["digits"]
     ip = rng.choice([1, 1, 1, 1, 2, 3, 4, -1, -2, -3])
     if d["B"] == 4:
@@ -125,7 +128,7 @@ def _grid(rng, scene, mx, my, a, b, dx, dy, curvature, across, pen):
     scene["grid"] = grid
     if ip < 0:
         grid["values"] = {-1: [curvature, across], -2: [curvature, a/b], -3: [a, b], -4: [curvature, b], -5: [a, b],
-                          -6: [a, b, b*rng.uniform(0.3, 1.5)]}[ip] + [rng.choice([1.1, 1.2, rng.uniform(1.05, 2)])]
+                          -6: [a, b, b*rng.uniform(0.3, 1.5)]}[ip] + [rng.choice([1.1, 1.2, rng.uniform(0.5 if wild else 1.05, 3 if wild else 2)])]
         return
     # sometimes off the middle
     xl = -0.5*mx*dx + rng.choice([0, 0, rng.uniform(-0.2, 0.2)*a])
@@ -135,7 +138,7 @@ def _grid(rng, scene, mx, my, a, b, dx, dy, curvature, across, pen):
     mixed = rng.choice([0.0, 0.0, rng.uniform(-0.5, 0.5)*math.sqrt(curvature*across)])
     if ibase == 1:
         values = [curvature, mixed, across, rng.choice([0, rng.uniform(-0.3, 0.3)*curvature*a]),
-                  rng.choice([0, rng.uniform(-0.3, 0.3)*across*b]), rng.choice([0, 0, rng.uniform(-1, 1)*pen])]
+                  rng.choice([0, rng.uniform(-0.3, 0.3)*across*b]), rng.choice([0, 0, rng.uniform(-1, 1)*pen*(100 if wild else 1)])]
         values = [float(value) for value in values]
     elif ibase == 2:
         count = rng.choice([2, 9, rng.randint(3, 30)]) if rng.random() < 0.3 else 9
@@ -146,9 +149,14 @@ def _grid(rng, scene, mx, my, a, b, dx, dy, curvature, across, pen):
         values = [rng.uniform(0, 0.1)*pen, rng.uniform(0.5, 4)/a, rng.uniform(-1, 1)*a, rng.uniform(0, 0.1)*pen,
                   rng.uniform(0.5, 4)/a, rng.uniform(-1, 1)*a, 1/curvature, 1/across]
     else:
-        noise = rng.choice([0, 0.02, 0.1])*pen
-        values = [curvature*(xl + (i + 0.5)*dx)**2 + across*(yl + (j + 0.5)*dy)**2 + rng.uniform(0, 1)*noise
-                  for j in range(my) for i in range(mx)]
+        noise = rng.choice([0, 0.02, 0.1, 0.5 if wild else 0.1])*pen
+        # one hump or two
+        apart = rng.choice([0, 0, 0.5])*a
+
+        def height(x, y):
+            return curvature*(abs(x) - apart)**2 + across*y*y
+
+        values = [height(xl + (i + 0.5)*dx, yl + (j + 0.5)*dy) + rng.uniform(0, 1)*noise for j in range(my) for i in range(mx)]
     grid["ibase"], grid["gap"] = ibase, values
     grid["iplan"] = rng.choice([1, 1, 1, 1, 2, 3])
     if grid["iplan"] == 2:
@@ -157,14 +165,14 @@ def _grid(rng, scene, mx, my, a, b, dx, dy, curvature, across, pen):
         grid["plan"] = [-a, a, -0.5*b, 0.5*b, -0.5*a, 0.5*a, -b, b]
 
 
-def _friction(rng, scene, my, slip):
+def _friction(rng, scene, my, slip, wild):
     law = scene["digits"]["L"]
     # velocities at which friction changes are about those that occur
-    speed = slip*scene.get("veloc", 1000.0)
+    speed = slip*scene.get("rolling", [0, 0, 1.0])[2]
 
     def one():
         if law == 0:
-            mu = rng.choice([0.3, rng.uniform(0.05, 0.8), rng.uniform(0.05, 0.8)])
+            mu = logarithmic(rng, 1e-3, 3) if wild else rng.choice([0.3, rng.uniform(0.05, 0.8), rng.uniform(0.05, 0.8)])
             return [short(mu), short(mu)]
         if law in (2, 3, 4):
             return [rng.uniform(0.1, 0.4), rng.uniform(0, 0.2), max(speed, 1e-3)*logarithmic(rng, 0.1, 100),
@@ -212,6 +220,8 @@ def _surface(rng, scene, a, b, g, pen):
         scene["material"] = d_values[d["M"]]()
     if d["M"] == 1 and rng.random() < 0.5:
         scene["material"][1], scene["material"][3] = scene["material"][0], scene["material"][2]
+    if d["B"] == 1:
+        scene["sheet"] = a/g*logarithmic(rng, 1e-3, 10)
     if d["C"] == 4:
         count = rng.choice([2, 3, 5])
         angle = rng.uniform(-0.4, 0.4)
@@ -232,6 +242,8 @@ def _case(rng, scene, k, n, pen, fn, slip, a, b, mx, my):
         case["I"] = rng.choice([0, 1, 1, 2, 3])
         if hertz and not case["keep"]:
             case["P"], case["I"] = 2, 0
+        elif not hertz and not case["keep"] and scene["grid"]["ibase"] != 9 and d["C"] != 9 and rng.random() < 0.3:
+            case["move"] = [rng.randint(-2, 2), rng.randint(-1, 1)]
         fn *= rng.uniform(0.7, 1.1)
         pen *= rng.uniform(0.7, 1.1)
     case["F"] = rng.choice([0, 0, 0, 1, 2]) if d["T"] else 0
@@ -307,7 +319,7 @@ def input_text(scene):
             if d["M"] == 4:
                 lines.append(" 0.5")
         if fresh:
-            lines += _grid_lines(scene["grid"])
+            lines += _grid_lines(judge3.grid_of(scene, k + 1))
         if fresh and d["V"] == 3:
             lines += rows
         if d["E"] == 9:
@@ -327,6 +339,8 @@ def _coefficient_lines(scene):
     elif d["C"] == 9:
         lines.append(" 'run.cf'")
     lines.append(numbers(scene["nu"] + scene["g"]))
+    if "sheet" in scene:
+        lines.append(numbers([scene["sheet"]]))
     if "material" in scene:
         lines.append(numbers(scene["material"]))
     return lines
@@ -442,6 +456,9 @@ def reduce(scene):
         grid["ibase"], grid["gap"] = 1, [pen/x**2, 0.0, pen/y**2, 0.0, 0.0, 0.0]
         return True
 
+    def no_move(s):
+        return any(case.pop("move", None) for case in s["cases"]) or False
+
     def no_plan(s):
         if s["grid"].get("iplan", 1) == 1:
             return False
@@ -476,7 +493,7 @@ def reduce(scene):
         s["eps"] = 1e-5
 
     for change in (last_cases(1), last_cases(2), first_cases, digit("S", 0, "points"), digit("H", 0, "heat"), coulomb, one_friction,
-                   digit("E", 0), digit("G", 0), digit("C", 2, "angles"), digit("M", 0, "material"), plain_cases, no_plan, plain_gap,
+                   digit("E", 0), digit("G", 0), digit("B", 0, "sheet"), no_move, digit("C", 2, "angles"), digit("M", 0, "material"), plain_cases, no_plan, plain_gap,
                    same_bodies, zero("phi"), zero("y"), zero("x"), smaller("mx", "dx"), smaller("my", "dy"), rounded, unrestricted):
         simpler = changed(change)
         if simpler is not None:
