@@ -55,7 +55,7 @@ contains
       end if
       call set_coefficients(spec, problem%grid, folder, problem%model, log, error)
       if (allocated(error)) return
-      call set_pressures(spec, result, problem, error)
+      call set_pressures(spec, result, problem, log, error)
       if (allocated(error)) return
       problem%estimate = spec%estimate
       problem%n_forces = spec%force
@@ -164,11 +164,16 @@ contains
    end subroutine set_geometry
 
    !> Where pressures come from; pressures that are given in closed form
-   subroutine set_pressures(spec, result, problem, error)
+   subroutine set_pressures(spec, result, problem, log, error)
       type(case_spec), intent(in) :: spec
       type(patch_result), intent(in) :: result
       type(patch_problem), intent(inout) :: problem
+      type(log_type), intent(inout) :: log
       type(error_type), allocatable, intent(out) :: error
+      !> Part of the force by which the sum over the elements may differ without a word
+      real(wp), parameter :: rough = 0.1_wp
+      character(len=12) :: percent
+      real(wp) :: total
 
       problem%pressure = spec%pressure
       call check_pressure_model(spec, allocated(result%hertz), error)
@@ -192,7 +197,13 @@ contains
          problem%pen = result%hertz%pen
       case default
          if (allocated(problem%given_pressure)) deallocate(problem%given_pressure)
+         return
       end select
+      total = sum(problem%given_pressure)*problem%grid%dx*problem%grid%dy
+      if (abs(total - problem%fn) <= rough*problem%fn) return
+      write(percent, '(I0)') nint(100*min(total/problem%fn, 1.0e6_wp))
+      call log%warning("the grid is too coarse or too small for pressures by formula: at the centres of its elements they " // &
+         & "add up to " // trim(percent) // " % of FN")
    end subroutine set_pressures
 
    !> Simplified theory for the tangential problem, if the material model asks for it

@@ -22,7 +22,7 @@ ALLOWANCE = 2.0
 # By how much solutions of two equivalent problems may differ, in units of EPS and of the size of the field
 AMPLIFICATION = 200.0
 # Program and library differ by round-off, which iterations that end at EPS may carry to a part of EPS
-LIBRARY = 0.01
+LIBRARY = 1.0
 # Input that was written by the library has a window that is cut down to the contact and its neighbours
 WRITTEN = 20.0
 
@@ -221,7 +221,9 @@ def judge_totals(scene, k, run, f, findings):
             prescribed = is_converged(run.cases[k - 1]) and case["F"] >= (1 if name == "fx" else 2)
             exceeds(findings, "sum", f"{name.upper()} of case {k}: {t[name]:.7g}, tractions {total:.7g}",
                     abs(total - t[name])/(mu*scale), max(tolerance, ALLOWANCE*scene["eps"]) if prescribed else tolerance)
-    exceeds(findings, "totals", f"PMAX of case {k}", abs(pn.max() - t["pmax"])/pn.max(), tolerance)
+    exceeds(findings, "totals", f"PMAX of case {k}", abs(pn.max() - t["pmax"])/max(pn.max(), 1e-300), tolerance)
+    if sampled and abs(fn - t["fn"]) > 0.1*t["fn"] and "too coarse" not in run.text(".out"):
+        findings.append(finding("sum", f"FN of case {k}: {t['fn']:.7g}, tractions {fn:.7g}, and no warning"))
     if t.get("mz") is not None:
         arm = max(np.abs(f.x).max(), np.abs(f.y).max(), f["dx"], f["dy"])
         mz = (py*f.x[np.newaxis, :] - px*f.y[:, np.newaxis]).sum()*f.area
@@ -324,7 +326,7 @@ def judge_contact(scene, k, run, fields, findings, state):
     top = pn.max()
     if top <= 0:
         h = np.where(state["out"], np.inf, state["h"])
-        if d["B"] in (0, 5, 6) and not case["N"]:
+        if d["B"] in (0, 1, 5) and not case["N"]:
             exceeds(findings, "gap", f"no contact in case {k}, and an overlap", case["load"] - h.min(), 1e-9*abs(case["load"]))
         return
     converged = is_converged(record)
@@ -348,7 +350,7 @@ def judge_contact(scene, k, run, fields, findings, state):
     state["cut"] = k > 1 and "move" in case and not math.isclose(in_window(scene, k, fields[k - 1]["pn"]).sum(),
                                                                 fields[k - 1]["pn"].sum())
     state["plastic"] = plastic_before(scene, k, fields, state)
-    if d["M"] == 1 and f["mx"]*f["my"] > 300:
+    if d["M"] == 1 and f["mx"]*f["my"] > 120:
         # costs seconds
         return
     if d["M"] in (2, 3, 5):
@@ -758,7 +760,7 @@ def judge_hertz(scene, k, run, f, findings):
     h = hz["A"]*f.x[np.newaxis, :]**2 + hz["B"]*f.y[:, np.newaxis]**2
     exceeds(findings, "hertz", f"undeformed distance of case {k}", judge.relative(f["h"] - h, h.max()), 1e-6 + 2*f["error"])
     elements = min(f["mx"], f["my"])/scale
-    if d["B"] == 0 and d["C"] in (2, 3) and d["M"] != 1 and elements >= 6 and scene["maxout"] >= 1 and is_converged(run.cases[k - 1]):
+    if d["B"] == 0 and d["C"] in (2, 3) and d["M"] != 1 and elements >= 6 and scale >= 1.05 and scene["maxout"] >= 1 and is_converged(run.cases[k - 1]):
         coupling = abs(elastic.combined(scene["g"], scene["nu"])[2])
         limit = 1.0/elements + coupling
         for name in ("pen", "fn", "pmax"):

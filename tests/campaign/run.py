@@ -196,6 +196,10 @@ def replay(options):
         module = scene["module"]
         folder = os.path.join(options.store, f"scratch{os.getpid()}")
         findings = judged(module, scene, options, folder)
+        if options.reduce and status_of(findings) == "disagreement":
+            scene, findings = minimise.smallest(kind_of(module), scene, findings,
+                                                lambda simpler, kind=module: judged(kind, simpler, options, folder), options.minimise)
+            keep(kind_of(module), scene, findings, os.path.join(options.store, "minimal"))
         shutil.rmtree(folder, ignore_errors=True)
         bad = bad or status_of(findings) == "disagreement"
         print(f"{path}: {status_of(findings)}")
@@ -218,6 +222,7 @@ def arguments():
     parser.add_argument("--only", type=int, default=None, help="one case by its number, done anew")
     parser.add_argument("--fresh", action="store_true", help="forget earlier results")
     parser.add_argument("--scenes", nargs="+", help="judge these stored scenes (files scene.json) and nothing else")
+    parser.add_argument("--reduce", action="store_true", help="reduce a stored scene that disagrees, into STORE/minimal")
     parser.add_argument("--minimise", type=int, default=60, help="trials to reduce a disagreement, 0 for none")
     options = parser.parse_args()
     options.exe = os.path.abspath(options.exe)
