@@ -4,6 +4,7 @@ from __future__ import annotations
 import os
 import tempfile
 import threading
+import warnings
 import weakref
 from dataclasses import dataclass
 from types import TracebackType
@@ -15,12 +16,15 @@ from numpy.typing import ArrayLike, NDArray
 from . import cntc
 from ._library import last_error
 from .cntc import CNTC
-from .errors import ContactError
+from .errors import ContactError, ContactWarning
 
 Field = NDArray[np.floating[Any]]
 _Self = TypeVar("_Self", bound="Element")
 
 _UNITS = {"mm": "un_cntc", "si": "un_si", "simpack": "un_spck"}
+_SOURCES = {"established": 0, "moving": 1}
+_SIDES = ("x low", "x high", "y low", "y high", "inner end of the rail profile", "outer end of the rail profile",
+          "inner end of the wheel profile", "outer end of the wheel profile")
 _MOTIONS = {"frictionless": 0, "shift": 1, "transient": 2, "steady": 3}
 
 _lock = threading.Lock()
@@ -118,6 +122,12 @@ class Patch:
         Undeformed distance [L].
     friction
         Friction coefficient [-].
+    temperatures
+        Surface temperatures of bodies 1 and 2, shape (2, my, mx) [degrees C]; None without
+        :meth:`Problem.set_temperatures`.
+    border
+        Where contact is cut off: "x low", "x high", "y low", "y high" for sides of the grid, and ends of profiles.
+        Not empty means that pressures and forces are wrong: the grid is too small, or the profile too short.
     """
 
     x: Field
@@ -146,6 +156,8 @@ class Patch:
     sy: Field
     distance: Field
     friction: Field
+    temperatures: Field | None
+    border: tuple[str, ...]
 
     @property
     def max_pressure(self) -> float:
@@ -163,13 +175,25 @@ def read_patch(ire: int, icp: int) -> Patch:
     mx, my, x, y, dx, dy = cntc.getpotcontact(ire, icp)
     fn, fx, fy, mz = cntc.getcontactforces(ire, icp)
     areas = cntc.getcontactpatchareas(ire, icp)
+    heat, border = cntc.getflags(ire, icp, [CNTC["ic_heat"], CNTC["own_border"]])
+    temperatures = None
+    if heat:
+        temperatures = np.stack([cntc.getfielddata(ire, icp, CNTC[name]) for name in ("fld_temp1", "fld_temp2")])
     pn, px, py = cntc.gettractions(ire, icp)
     un, ux, uy = cntc.getdisplacements(ire, icp)
     sx, sy = cntc.getmicroslip(ire, icp)
     return Patch(x + dx * np.arange(mx), y + dy * np.arange(my), dx, dy, fn, fx, fy, mz,
                  cntc.getpenetration(ire, icp), *cntc.getcreepages(ire, icp), *areas[:3],
                  cntc.getelementdivision(ire, icp), pn, px, py, un, ux, uy, sx, sy,
-                 cntc.getfielddata(ire, icp, CNTC["fld_h"]), cntc.getfielddata(ire, icp, CNTC["fld_mu"]))
+                 cntc.getfielddata(ire, icp, CNTC["fld_h"]), cntc.getfielddata(ire, icp, CNTC["fld_mu"]), temperatures,
+                 tuple(name for bit, name in enumerate(_SIDES) if border >> bit & 1))
+
+
+def warn_of_border(patch: Patch, what: str) -> None:
+    """Warn of contact that is cut off; the caller's caller is named"""
+    if patch.border:
+        warnings.warn(f"{what} reaches {', '.join(patch.border)}: it is cut off, and pressures and forces are those of a "
+                      "smaller contact area", ContactWarning, stacklevel=3)
 
 
 @dataclass(frozen=True)
@@ -233,7 +257,8 @@ class Element:
         self._release = weakref.finalize(self, _give_back, self._number)
         self.units = units
         self.motion = motion
-        self.set_flags(if_units=CNTC[_UNITS[units]], ic_tang=_MOTIONS[motion], ic_pvtime=2, ic_output=0, ic_flow=0)
+        self.set_flags(if_units=CNTC[_UNITS[units]], ic_tang=_MOTIONS[motion], ic_pvtime=2, ic_output=0, ic_flow=0,
+                       own_heat=_SOURCES["moving"])
 
     def __enter__(self: _Self) -> _Self:
         return self
@@ -291,18 +316,58 @@ class Element:
         """Friction law 10 V + L with its parameters, see doc/user/library.md."""
         self._do(cntc.setfrictionmethod, self.number, self._icp, law, parameters)
 
+    def set_temperatures(self, bulk: float, bulk2: float | None = None, *, capacity: float = 450.0,
+                         conductivity: float | None = None, density: float | None = None, capacity2: float | None = None,
+                         conductivity2: float | None = None, density2: float | None = None, plastic_share: float = 1.0,
+                         source: str = "moving") -> None:
+        """Surface temperatures in steady rolling; thermal constants default to those of steel.
+
+        Parameters
+        ----------
+        bulk, bulk2
+            Bulk temperatures of bodies 1 and 2 [degrees C]; one value holds for both.
+        capacity, conductivity, density
+            Heat capacity [J/(kg K)], conductivity [W/(L K)] and density [kg/L3] of body 1, and with a 2 those of
+            body 2, default the same.
+        plastic_share
+            Share of plastic work that becomes heat [-].
+        source
+            ``"moving"``: the solution for fast moving sources. ``"established"``: as the established program, which
+            counts the heat of an element twice at its centre and comes out higher, by 11 % on 60 elements.
+        """
+        if source not in _SOURCES:
+            raise ValueError(f"source = {source!r} is none of {', '.join(_SOURCES)}")
+        metre = 1.0 if self.units == "mm" else 1e3
+        first = [capacity, 0.05 * metre if conductivity is None else conductivity,
+                 7.85e-6 * metre**3 if density is None else density]
+        second = [mine if other is None else other for mine, other in zip(first, (capacity2, conductivity2, density2))]
+        self.set_flags(own_heat=_SOURCES[source])
+        self._do(cntc.settemperaturedata, self.number, self._icp, 3,
+                 [bulk, *first, bulk if bulk2 is None else bulk2, *second, plastic_share])
+
     def set_solver(self, eps: float = 1e-5, maxgs: int = 999, maxin: int = 100, maxnr: int = 30,
                    maxout: int = 1) -> None:
         """Tolerance [-] and limits of the iterations of the default solver (G = 0)."""
         self._do(cntc.setsolverflags, self.number, self._icp, 0, [maxgs, maxin, maxnr, maxout], [eps])
 
-    def add_block(self, x: ArrayLike, y: ArrayLike, z: ArrayLike, block: int = 1) -> None:
-        """Points below the surface: all combinations of x, y and depths z [L]."""
-        self._do(cntc.subs_addblock, self.number, self._icp, block, 9, x, y, z)
+    def add_block(self, x: ArrayLike | None, y: ArrayLike | None, z: ArrayLike, block: int = 1) -> None:
+        """Points below the surface: all combinations of x, y and depths z [L].
+
+        Tractions are constant on elements. At depths of less than a quarter of dx the stresses are therefore those of
+        the bodies at the centres of elements only: take None for both x and y, which stands for all centres, or
+        the ``x`` and ``y`` of a result. Elsewhere use depths of dx/4 and more; nearer points are warned of.
+        """
+        if (x is None) != (y is None):
+            raise ValueError("x and y have to be given both, or be None both for the centres of all elements")
+        self._do(cntc.subs_addblock, self.number, self._icp, block, 5 if x is None else 9, x, y, z)
 
     def _calculate_stresses(self) -> None:
         code = cntc.subs_calculate(self.number, self._icp, idebug=0)
         fail_if(code != 0, code, "The stresses were not computed", self.number, self._icp)
+        points = int(cntc.getflags(self.number, self._icp, [CNTC["own_stepped"]])[0])
+        if points:
+            warnings.warn(f"{points} points lie less than dx/4 below the surface and off the centres of elements; stresses "
+                          "there are those of tractions that are constant on elements", ContactWarning, stacklevel=3)
 
     def _calculate(self, initiation: bool) -> int:
         """Solve; the number of elements at the border"""

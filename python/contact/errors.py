@@ -1,4 +1,4 @@
-"""What goes wrong, as an exception with the code and the text of the library."""
+"""What goes wrong, as an exception with the code and the text of the library, and what is doubtful, as a warning."""
 from __future__ import annotations
 
 
@@ -14,3 +14,7 @@ class ContactError(RuntimeError):
     def __init__(self, text: str, code: int = 0) -> None:
         super().__init__(text)
         self.code = code
+
+
+class ContactWarning(UserWarning):
+    """A result that is there and that should be doubted."""

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import cntc
-from ._element import Element, Field, Patch, Stresses, fail_if, read_patch, read_stresses
+from ._element import Element, Field, Patch, Stresses, fail_if, read_patch, read_stresses, warn_of_border
 
 
 @dataclass(frozen=True)
@@ -163,7 +163,9 @@ class Problem(Element):
             If there is no solution; with the code and the text of the library.
         """
         border = self._calculate(initiation)
-        return Result(**read_patch(self.number, 1).__dict__, border_elements=border)
+        patch = read_patch(self.number, 1)
+        warn_of_border(patch, "contact")
+        return Result(**patch.__dict__, border_elements=border)
 
     def stresses(self, block: int = 1) -> Stresses:
         """Stresses in the points of :meth:`add_block`, below the tractions of the last solution."""

@@ -7,7 +7,7 @@ module contact_base_choices
    private
 
    public :: time_link, pressure_model, motion, normal_control, force_control, friction_model
-   public :: kernel_model, material_model, solver_choice, estimate_choice, slip_source, heat_model
+   public :: kernel_model, material_model, solver_choice, estimate_choice, slip_source, heat_model, heat_source, heat_source_name
    public :: variation, stress_choice, contact_location
    public :: sensitivity_choice
 
@@ -99,6 +99,15 @@ module contact_base_choices
       integer :: none = 0, keep = 1, given = 3
    end type heat_model_list
    type(heat_model_list), parameter :: heat_model = heat_model_list()
+
+   !> How the heat of friction of an element acts on itself
+   type :: heat_source_list
+      !> established: twice, as in the established program; moving: once, the solution for moving sources
+      integer :: established = 0, moving = 1
+   end type heat_source_list
+   type(heat_source_list), parameter :: heat_source = heat_source_list()
+   !> Names of the members of heat_source, from 0 on
+   character(len=13), parameter :: heat_source_name(0:1) = ["established  ", "moving source"]
 
    !> Subsurface points (S)
    type :: stress_choice_list

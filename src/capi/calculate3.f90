@@ -13,7 +13,6 @@ module contact_capi_calculate3
    use contact_cases_session, only : solve_case
    use contact_cases_spec, only : case_spec
    use contact_control_library_codes, only : library_code
-   use contact_grid_element_division, only : element
    use contact_grid_potential_contact, only : potential_contact
    use contact_input_checks3, only : case_lines, check_case
    use contact_input_control3, only : check_physics, control_words, name_choices, refuse_unbuilt_digits
@@ -21,6 +20,7 @@ module contact_capi_calculate3
    use contact_input_problems, only : problem_list, severity
    use contact_output_mat_file, only : mat_place, write_mat_file
    use contact_output_report, only : write_case
+   use contact_patch_border, only : border_elements
    use contact_patch_result, only : patch_result
    implicit none (type, external)
    private
@@ -236,19 +236,4 @@ contains
       end if
       code = border_elements(problem%result%division)
    end subroutine judge
-
-   !> Elements in contact in the outer columns and rows; directions of less than 3 elements have no border
-   pure integer function border_elements(division) result(n)
-      !> Element states, shape (mx, my)
-      integer, intent(in) :: division(:, :)
-      logical :: outer(size(division, 1), size(division, 2))
-      integer :: mx, my
-
-      mx = size(division, 1)
-      my = size(division, 2)
-      outer = .false.
-      if (mx >= 3) outer([1, mx], :) = .true.
-      if (my >= 3) outer(:, [1, my]) = .true.
-      n = count(outer .and. division > element%exterior)
-   end function border_elements
 end module contact_capi_calculate3

@@ -14,6 +14,7 @@ module contact_capi_flags
    use contact_control_digits1, only : choice1_of
    use contact_control_flags, only : accepted_value, flag, flag_table, highest_of, put_digit, row_of_flag
    use contact_control_units, only : convention_code, find_convention, inward, quantity
+   use contact_patch_border, only : border_code
    use contact_text_words, only : columns_of, integer_text
    implicit none (type, external)
    private
@@ -91,6 +92,7 @@ contains
          if (code == flag%mater) call refuse(": the material is set by cntc_setMaterialParameters")
          if (code == flag%frclaw) call refuse(": the friction law is set by cntc_setFrictionMethod")
          if (code == flag%heat) call refuse(": temperatures are set by cntc_setTemperatureData")
+         if (code == flag%own_border .or. code == flag%own_stepped) call refuse(": this is a result, it cannot be set")
          return
       end if
       call accepted_value(flag_table(row), number, problem%module_number, stored, accepted)
@@ -171,6 +173,8 @@ contains
             if (.not. is_pair) call say(0, this, "the number of elements is limited for wheel and rail only, the flag is ignored")
          case (flag%wrtinp)
             problem%write_input = number
+         case (flag%own_heat)
+            spec%heat%source = number
          case (flag%timers)
             call set_timer_level(number)
          case (flag%ncase)
@@ -234,6 +238,9 @@ contains
          case (flag%npomax); number = merge(spec%iteration%npot_max, 0, is_pair)
          case (flag%wrtinp); number = problem%write_input
          case (flag%ncase); number = problem%cases
+         case (flag%own_heat); number = spec%heat%source
+         case (flag%own_border); number = border_of(problem, icp)
+         case (flag%own_stepped); number = stepped_points_of(problem, icp)
          case default; number = digit_value(spec%digits, trim(flag_table(row_of_flag(code))%digit))
          end select
          if (.not. is_part) return
@@ -246,6 +253,46 @@ contains
          end select
       end associate
    end function flag_value
+
+   !> Where contact is cut off, of one patch or of all of them: a sum of bits, see border_code
+   integer function border_of(problem, icp) result(bits)
+      type(library_problem), intent(in) :: problem
+      !> Patch of module 1, or less than 1 for all
+      integer, intent(in) :: icp
+      integer :: k
+
+      bits = 0
+      if (.not. problem%has_result) return
+      if (problem%module_number /= 1) then
+         bits = border_code(problem%result%border)
+         return
+      end if
+      do k = 1, size(problem%pair_result%patches)
+         if (icp <= 0 .or. icp == k) bits = ior(bits, border_code(problem%pair_result%patches(k)%contact%border, &
+            & problem%spec%wheel_rail%left))
+      end do
+   end function border_of
+
+   !> Points of the last subs_calculate near the surface and off the centres of elements
+   integer function stepped_points_of(problem, icp) result(n)
+      type(library_problem), intent(in) :: problem
+      !> Patch of module 1, or less than 1 for all
+      integer, intent(in) :: icp
+      integer :: k
+
+      n = 0
+      if (.not. problem%has_result) return
+      if (problem%module_number /= 1) then
+         if (allocated(problem%result%subsurface)) n = sum(problem%result%subsurface%stepped)
+         return
+      end if
+      do k = 1, size(problem%pair_result%patches)
+         if (icp > 0 .and. icp /= k) cycle
+         associate (contact => problem%pair_result%patches(k)%contact)
+            if (allocated(contact%subsurface)) n = n + sum(contact%subsurface%stepped)
+         end associate
+      end do
+   end function stepped_points_of
 
    !> Where a case comes from, for printing and .mat files
    subroutine cntc_setmetadata(ire, icp, lenmta, params, values) bind(c)

@@ -14,7 +14,7 @@ module contact_capi_subsurface
    use contact_capi_registry, only : enter, enter_calculation, leave, leave_calculation, scope, threads_inside
    use contact_capi_view, only : look_at, result_view
    use contact_cases_spec, only : case_spec
-   use contact_cases_subsurface, only : subsurface_stresses
+   use contact_cases_subsurface, only : subsurface_stresses, warn_of_steps
    use contact_control_library_codes, only : library_code
    use contact_control_units, only : inward, outward, quantity
    use contact_output_report, only : write_subsurface
@@ -238,6 +238,7 @@ contains
       if (.not. allocated(error) .and. allocated(patch%subsurface)) then
          log = library_log()
          !$omp critical (contact_printing)
+         call warn_of_steps(patch, log)
          call write_subsurface(log, request, patch)
          !$omp end critical (contact_printing)
          if (request%subsurface%matfil >= 1) then

@@ -1,6 +1,6 @@
 !> Which effects acted in a patch, in words for the report
 module contact_cases_effects
-   use contact_base_choices, only : contact_location, motion, pressure_model, stress_choice, variation
+   use contact_base_choices, only : contact_location, heat_source_name, motion, pressure_model, stress_choice, variation
    use contact_cases_spec, only : case_spec
    use contact_patch_problem, only : patch_problem
    use contact_patch_result, only : patch_result
@@ -57,7 +57,11 @@ contains
                & .and. .not. allocated(problem%simplified)) call add(", dissimilar bodies")
             if (allocated(problem%extra_slip)) call add(", extra rigid slip")
          end if
-         if (allocated(problem%thermal)) call add(", surface temperatures")
+         if (allocated(problem%thermal)) then
+            call add(", surface temperatures (")
+            call add(trim(heat_source_name(problem%thermal%source)))
+            call add(")")
+         end if
          if (spec%stress /= stress_choice%none) call add(", subsurface stresses")
       end if
       if (allocated(problem%damping)) call add(", damping forces")

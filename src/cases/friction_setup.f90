@@ -116,6 +116,7 @@ contains
             return
          end if
          allocate(problem%thermal, source=new_body_pair(heat%bktemp, heat%heatcp, heat%lambda, heat%dens, heat%betapl))
+         problem%thermal%source = heat%source
       end associate
    end subroutine set_thermal
 

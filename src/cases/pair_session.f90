@@ -6,12 +6,13 @@ module contact_cases_pair_session
    use contact_base_kinds, only : long, wp
    use contact_base_log, only : log_type
    use contact_base_memory, only : bytes_per_element, require_memory
+   use contact_cases_border_warning, only : warn_of_border
    use contact_cases_effects, only : name_effects
    use contact_cases_elastic_setup, only : set_model
    use contact_cases_friction_setup, only : parameters_of, set_friction, set_thermal
    use contact_cases_patch_setup, only : set_method, set_simplified_theory, set_yield_limit
    use contact_cases_spec, only : case_spec
-   use contact_cases_subsurface, only : subsurface_stresses
+   use contact_cases_subsurface, only : subsurface_stresses, warn_of_steps
    use contact_patch_damping, only : damping_law
    use contact_patch_result, only : patch_result
    use contact_profile_curve, only : profile_curve
@@ -58,16 +59,44 @@ contains
       if (allocated(error)) return
       call solve_pair(session%problem, session%memory, log, result, error)
       if (allocated(error)) return
+      if (spec%output_level >= 4) call keep_profiles(session, result)
       do k = 1, size(result%patches)
          associate (contact => result%patches(k)%contact)
+            if (spec%solve) call warn_of_border(spec, session%memory%slot(k)%problem, contact, log, k)
             if (allocated(contact%subsurface)) deallocate(contact%subsurface)
             if (spec%stress /= stress_choice%none) &
                & call subsurface_stresses(spec, contact, error, spec%wheel_rail%left)
+            if (.not. allocated(error)) call warn_of_steps(contact, log)
             call name_effects(spec, session%memory%slot(k)%problem, contact)
          end associate
          if (allocated(error)) return
       end do
    end subroutine solve_pair_case
+
+   !> Points of the profiles in track coordinates: the rail at the wheelset, the wheel at its lowest meridian
+   subroutine keep_profiles(session, result)
+      type(pair_session), intent(in) :: session
+      type(pair_result), intent(inout) :: result
+      real(wp) :: point(3)
+      integer :: i
+
+      associate (rail => session%memory%here%rail_in_track, wheel => session%problem%wheel, &
+         & axes => session%memory%here%placement%wheel)
+         result%rail_profile%s = rail%y%s
+         result%rail_profile%y = rail%y%nodes()
+         result%rail_profile%z = rail%z%nodes()
+         result%wheel_profile%s = wheel%y%s
+         result%wheel_profile%x = wheel%y%s
+         result%wheel_profile%y = wheel%y%nodes()
+         result%wheel_profile%z = wheel%z%nodes()
+         do i = 1, size(wheel%y%s)
+            point = axes%to_parent([0.0_wp, result%wheel_profile%y(i), result%wheel_profile%z(i)])
+            result%wheel_profile%x(i) = point(1)
+            result%wheel_profile%y(i) = point(2)
+            result%wheel_profile%z(i) = point(3)
+         end do
+      end associate
+   end subroutine keep_profiles
 
    !> Free what a session holds outside Fortran's memory; call it before the session goes
    subroutine release_pair_session(session)

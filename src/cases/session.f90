@@ -4,14 +4,16 @@ module contact_cases_session
    use contact_base_error, only : error_type
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
+   use contact_cases_border_warning, only : warn_of_border
    use contact_cases_effects, only : name_effects
    use contact_cases_geometry, only : is_line_contact
    use contact_cases_patch_setup, only : set_problem
    use contact_cases_spec, only : case_spec
-   use contact_cases_subsurface, only : subsurface_stresses
+   use contact_cases_subsurface, only : subsurface_stresses, warn_of_steps
    use contact_grid_element_division, only : element
    use contact_grid_potential_contact, only : fit_field
    use contact_normal_estimate, only : elliptic_pressure
+   use contact_patch_border, only : find_border
    use contact_patch_moments, only : clear_moment, link_moments
    use contact_patch_problem, only : patch_problem, patch_state
    use contact_patch_result, only : patch_result
@@ -59,9 +61,15 @@ contains
       if (.not. spec%solve) return
       call solve_patch(session%problem, session%state, session%workspace, log, result, error)
       if (allocated(error)) return
+      call find_border(session%problem, result)
+      ! given pressures are known everywhere: a grid that holds them all cuts nothing off
+      if (allocated(session%problem%given_pressure) .and. spec%grid%scale >= 1.0_wp) result%border%side = .false.
+      call warn_of_border(spec, session%problem, result, log)
       call name_effects(spec, session%problem, result)
       if (allocated(result%subsurface)) deallocate(result%subsurface)
-      if (spec%stress /= stress_choice%none) call subsurface_stresses(spec, result, error)
+      if (spec%stress == stress_choice%none) return
+      call subsurface_stresses(spec, result, error)
+      if (.not. allocated(error)) call warn_of_steps(result, log)
    end subroutine solve_case
 
    !> Free what a session holds outside Fortran's memory; call it before the session goes

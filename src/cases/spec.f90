@@ -4,7 +4,7 @@
 !> the groups that are read; what a "keep" digit leaves alone is therefore already there,
 !> and no room below `input` knows that keeping exists.
 module contact_cases_spec
-   use contact_base_choices, only : material_model
+   use contact_base_choices, only : heat_source, material_model
    use contact_base_kinds, only : wp
    use contact_wheelrail_spec, only : wheel_rail_spec
    use contact_subsurface_points, only : point_block
@@ -114,6 +114,8 @@ module contact_cases_spec
    type :: heat_spec
       real(wp) :: bktemp(2) = 0.0_wp, heatcp(2) = 450.0_wp, lambda(2) = 0.05_wp, dens(2) = 7.85e-6_wp
       real(wp) :: betapl = 1.0_wp
+      !> Member of heat_source; not part of the input file
+      integer :: source = heat_source%established
    end type heat_spec
 
    !> Potential contact area as the input describes it (IPOTCN and the values of its line)

@@ -3,18 +3,22 @@ module contact_cases_subsurface
    use contact_base_choices, only : kernel_model
    use contact_base_error, only : add_context, error_type, fatal_error
    use contact_base_kinds, only : long
+   use contact_base_log, only : log_type
    use contact_base_memory, only : require_memory
    use contact_cases_spec, only : case_spec
+   use contact_grid_element_division, only : bounding_box, contact_box
+   use contact_grid_potential_contact, only : potential_contact
    use contact_patch_result, only : patch_result, subsurface_result
    use contact_subsurface_invariants, only : stress_invariants
    use contact_subsurface_load, only : new_surface_load, surface_load
-   use contact_subsurface_points, only : expand_points, list_points, point_block, point_set
+   use contact_subsurface_points, only : expand_points, list_points, point_block, point_set, stepped_depth, stepped_points
+   use contact_text_words, only : integer_text, real_text
    use contact_subsurface_stress, only : subsurface_field
    use contact_wheelrail_result, only : mirrored
    implicit none (type, external)
    private
 
-   public :: subsurface_stresses
+   public :: subsurface_stresses, warn_of_steps
 
    !> Most points of one block, some 3 GB
    integer(long), parameter :: most_points = 20000000_long
@@ -33,6 +37,7 @@ contains
       !> in the coordinates of the left side. Default: no
       logical, intent(in), optional :: left
       type(surface_load) :: load
+      type(potential_contact) :: area
       character(len=60) :: text
       integer :: k
       logical :: mirror
@@ -48,7 +53,7 @@ contains
       end if
       allocate(result%subsurface(size(spec%subsurface%blocks)))
       do k = 1, size(result%subsurface)
-         call block_stresses(load, spec%subsurface%blocks(k), result%subsurface(k), error)
+         call block_stresses(load, spec%subsurface%blocks(k), area, result%subsurface(k), error)
          if (.not. allocated(error)) cycle
          write(text, '(A, I0)') "subsurface block ", k
          call add_context(error, trim(text))
@@ -63,13 +68,48 @@ contains
 
          call new_surface_load(load, patch%grid, patch%pn, patch%px, patch%py, spec%material%gg, spec%material%poiss, &
             & spec%kernel == kernel_model%bilinear)
+         area = around_contact(patch)
       end subroutine take_load
    end subroutine subsurface_stresses
 
+   !> Warn of points whose stresses are those of the steps of the tractions between elements
+   subroutine warn_of_steps(result, log)
+      !> With its blocks
+      type(patch_result), intent(in) :: result
+      type(log_type), intent(inout) :: log
+      integer :: k
+
+      if (.not. allocated(result%subsurface)) return
+      do k = 1, size(result%subsurface)
+         if (result%subsurface(k)%stepped == 0) cycle
+         call log%warning("subsurface block " // integer_text(k) // ": " // integer_text(result%subsurface(k)%stepped) // &
+            & " points lie less than DX/4 = " // real_text(stepped_depth(result%grid)) // " mm below the surface and off " // &
+            & "the centres of elements. Tractions are constant on elements: stresses at their edges are not those of the " // &
+            & "bodies. Use depths of DX/4 and more, or the centres of elements (ISUBS 1 to 7)")
+      end do
+   end subroutine warn_of_steps
+
+   !> The rectangle of the elements in contact and one element more on each side; empty for a single element, which
+   !> is a study of constant tractions
+   pure function around_contact(patch) result(area)
+      type(patch_result), intent(in) :: patch
+      type(potential_contact) :: area
+      type(bounding_box) :: box
+
+      area = patch%grid
+      box = contact_box(patch%division)
+      area%xl = area%xl + (box%ix0 - 2)*area%dx
+      area%yl = area%yl + (box%iy0 - 2)*area%dy
+      area%mx = merge(box%ix1 - box%ix0 + 3, 0, patch%ncon > 1)
+      area%my = box%iy1 - box%iy0 + 3
+   end function around_contact
+
    !> One block
-   subroutine block_stresses(load, block, result, error)
+   subroutine block_stresses(load, block, area, result, error)
       type(surface_load), intent(in) :: load
       type(point_block), intent(in) :: block
+      !> The elements in contact and those beside them
+      type(potential_contact), intent(in) :: area
       type(subsurface_result), intent(out) :: result
       type(error_type), allocatable, intent(out) :: error
       type(point_set) :: points
@@ -92,6 +132,7 @@ contains
       allocate(result%position(3, n), result%displacement(3, n), result%stress(6, n))
       allocate(result%sighyd(n), result%sigvm(n), result%sigtr(n), result%sigma1(n), result%sigma2(n), result%sigma3(n))
       call list_points(points, result%position)
+      result%stepped = stepped_points(points, area)
       call subsurface_field(load, points, result%displacement, result%stress)
       call stress_invariants(result%stress, result%sighyd, result%sigvm, result%sigtr, result%sigma1, result%sigma2, &
          & result%sigma3)

@@ -1,6 +1,7 @@
 !> The command line: what was typed, what is asked for when something is missing, what to do
 module contact_cli_arguments
    use, intrinsic :: iso_fortran_env, only : error_unit, input_unit, output_unit
+   use contact_base_choices, only : heat_source
    use contact_base_error, only : error_type, fatal_error
    use contact_cli_command_line, only : take_word
    use contact_cli_report, only : is_report, run_report
@@ -50,6 +51,8 @@ module contact_cli_arguments
       logical :: hdf5 = .false.
       !> Write VTK files?
       logical :: vtk = .false.
+      !> Member of heat_source
+      integer :: heat_source = heat_source%established
       logical :: quiet = .false., help = .false., version = .false.
    end type command
 
@@ -107,6 +110,7 @@ contains
       settings%threads = asked%threads
       settings%exports%hdf5 = asked%hdf5
       settings%exports%vtk = asked%vtk
+      settings%heat_source = asked%heat_source
       if (allocated(asked%json)) settings%exports%json = asked%json
       if (.not. asked%quiet) then
          settings%screen = output_unit
@@ -179,6 +183,19 @@ contains
          if (asked%threads < 1 .or. asked%threads > most_threads) call fatal_error(error, &
             & "the number of threads, '" // value // "', is not an integer from 1 to 4096")
          return
+      case ("--heat")
+         call take_value("the name of a way to compute temperatures: established or moving-source")
+         if (allocated(error)) return
+         select case (value)
+         case ("established")
+            asked%heat_source = heat_source%established
+         case ("moving-source")
+            asked%heat_source = heat_source%moving
+         case default
+            call fatal_error(error, "the way to compute temperatures, '" // value // &
+               & "', is not known; established and moving-source are")
+         end select
+         return
       case ("--hdf5")
          asked%hdf5 = .true.
       case ("--vtk")
@@ -193,7 +210,7 @@ contains
          return
       case default
          call fatal_error(error, "there is no option '" // name // &
-            & "'; the options are --help, --version, --output-dir DIR, --threads N, --hdf5, --json, --vtk and --quiet")
+            & "'; the options are --help, --version, --output-dir DIR, --threads N, --heat NAME, --hdf5, --json, --vtk and --quiet")
          return
       end select
       if (equals > 0) call fatal_error(error, "the option " // name // " takes no value")
@@ -310,6 +327,8 @@ contains
          & "Options", &
          & "  --output-dir DIR  write the results to this folder instead of that of the input", &
          & "  --threads N       number of threads; default is OMP_NUM_THREADS or all processors", &
+         & "  --heat NAME       surface temperatures: established, as the established program (default), or", &
+         & "                    moving-source, without counting the heat of an element twice at its centre", &
          & "  --hdf5            write inputs, totals and fields of all cases to EXPNAM.h5", &
          & "  --json            write the totals of every case as JSON lines to EXPNAM.jsonl; --json=- writes", &
          & "                    them to the standard output, and nothing else", &

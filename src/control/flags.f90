@@ -13,6 +13,8 @@ module contact_control_flags
       integer :: frclaw = 1976, discns = 1977, inflcf = 1978, mater = 1979, exrhs = 1980, xflow = 1981, heat = 1982
       integer :: iestim = 1983, output = 1984, flow = 1985, return = 1986, matfil = 1987, sens = 1988
       integer :: ifmeth = 1989, ifvari = 1990, sbsout = 1991, sbsfil = 1992, npomax = 1993
+      !> Flags that the published interface does not have: see CNTC_own_... in interface.txt
+      integer :: own_heat = 9001, own_border = 9002, own_stepped = 9003
       integer :: idebug = 2000, licdbg = 2001, wrtinp = 2002, openmp = 2003, timers = 2004, ncase = 2005
    end type flag_list
    !> Codes of the flags
@@ -61,7 +63,10 @@ module contact_control_flags
       & flag_row(flag%wrtinp, "  ", 0, 2), &
       & flag_row(flag%openmp, "  ", -huge(1), huge(1), .true., .false.), &
       & flag_row(flag%timers, "  ", 0, 2, .true., .false.), &
-      & flag_row(flag%ncase, "  ", 0, huge(1))]
+      & flag_row(flag%ncase, "  ", 0, huge(1)), &
+      & flag_row(flag%own_heat, "  ", 0, 1), &
+      & flag_row(flag%own_border, "  ", 0, 255, .false., .true.), &
+      & flag_row(flag%own_stepped, "  ", 0, huge(1), .false., .true.)]
 
 contains
 

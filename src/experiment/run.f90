@@ -8,6 +8,7 @@
 !> cannot be written are reported, and the run goes on. After any of them the run counts as failed.
 module contact_experiment_run
    use omp_lib, only : omp_get_max_threads, omp_set_num_threads
+   use contact_base_choices, only : heat_source
    use contact_base_error, only : add_context, error_kind, error_type, fatal_error, full_text
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
@@ -59,6 +60,8 @@ module contact_experiment_run
       logical :: progress = .false.
       !> Files for other programs beside the usual ones
       type(export_request) :: exports
+      !> How temperatures are computed, member of heat_source
+      integer :: heat_source = heat_source%established
    end type run_settings
 
    !> The problem of one result element and contact patch
@@ -215,6 +218,7 @@ contains
          end if
          if (this%module_number == 0) exit
          state%cases = state%cases + 1
+         this%spec%heat%source = settings%heat_source
          call compute_case(state, this, go_on)
          if (.not. go_on) exit
          call keep_file_current(state)

@@ -5,8 +5,8 @@ module contact_hdf5_case_file
    use contact_base_kinds, only : wp
    use contact_cases_spec, only : case_spec
    use contact_hdf5_file, only : hdf5_file
-   use contact_output_case_record, only : case_head, describe_head, describe_pair, describe_patch, describe_place, &
-      & describe_solution, is_rolling, side_sign
+   use contact_output_case_record, only : case_head, describe_border, describe_head, describe_pair, describe_patch, &
+      & describe_place, describe_solution, is_rolling, side_sign
    use contact_output_input_record, only : describe_input
    use contact_patch_result, only : patch_result, subsurface_result
    use contact_profile_curve, only : profile_curve
@@ -152,6 +152,7 @@ contains
       call describe_patch(file, spec, contact)
       if (present(place)) call describe_place(file, spec, place)
       call file%close_group()
+      call describe_border(file, spec, contact)
       call describe_solution(file, spec, contact)
       if (allocated(contact%effects)) then
          call file%open_group("effects")

@@ -6,6 +6,7 @@ module contact_output_case_record
    use contact_base_choices, only : motion
    use contact_base_kinds, only : wp
    use contact_base_solve_report, only : ending, solve_report
+   use contact_cases_border_warning, only : border_words
    use contact_cases_spec, only : case_spec
    use contact_grid_element_division, only : element
    use contact_output_record, only : record_writer
@@ -14,7 +15,8 @@ module contact_output_case_record
    implicit none (type, external)
    private
 
-   public :: case_head, describe_head, describe_pair, describe_patch, describe_place, describe_solution, is_rolling, side_sign
+   public :: case_head, describe_border, describe_head, describe_pair, describe_patch, describe_place, &
+      & describe_solution, is_rolling, side_sign
 
    !> Which case this is and how it went
    type :: case_head
@@ -139,7 +141,9 @@ contains
          call record%number("max_temp1", "degC", "highest surface temperature of body 1", highest(contact, contact%temp1))
          call record%number("max_temp2", "degC", "highest surface temperature of body 2", highest(contact, contact%temp2))
       end if
+      call record%number("contact_area", "mm2", "area of the elements in contact", contact%contact_area())
       call record%count("ncon", "elements in contact", contact%ncon)
+      call record%count("border_elements", "elements in contact in the outer rows and columns", contact%border%elements)
       call record%count("nadh", "elements in adhesion", contact%nadh)
       call record%count("nslip", "slipping elements", contact%nslip)
       if (allocated(contact%tau_c)) call record%count("nplast", "yielding elements", contact%nplast)
@@ -179,6 +183,21 @@ contains
       call record%number("bar_fs", "N", "lateral force of a curved patch, axes of the contact reference", s*patch%force(2))
       call record%number("bar_mn", "N mm", "moment of a curved patch about the normal of the contact reference", s*patch%moment(3))
    end subroutine describe_place
+
+   !> Where contact is cut off by the border of the potential contact or the end of a profile; nothing where it is not
+   subroutine describe_border(record, spec, contact)
+      class(record_writer), intent(inout) :: record
+      type(case_spec), intent(in) :: spec
+      type(patch_result), intent(in) :: contact
+      character(len=:), allocatable :: words
+
+      call border_words(spec, contact%border, words)
+      if (len(words) == 0) return
+      call record%open_group("border")
+      call record%text("reached", "where contact is cut off", words)
+      call record%number("pressure", "N/mm2", "largest pressure there", contact%border%pressure)
+      call record%close_group()
+   end subroutine describe_border
 
    !> Which methods ended the solution of a patch, and how well
    subroutine describe_solution(record, spec, contact)

@@ -1,6 +1,6 @@
 !> The input of a case for programs: what was asked, kept groups included
 module contact_output_input_record
-   use contact_base_choices, only : friction_model, material_model
+   use contact_base_choices, only : friction_model, heat_source_name, material_model
    use contact_base_kinds, only : wp
    use contact_cases_spec, only : case_spec, friction_set
    use contact_output_record, only : record_writer
@@ -37,6 +37,8 @@ contains
          call record%numbers("lambda", "W/(mm degC)", "heat conductivities", spec%heat%lambda)
          call record%numbers("dens", "kg/mm3", "densities", spec%heat%dens)
          call record%number("betapl", "-", "part of plastic work that becomes heat", spec%heat%betapl)
+         call record%text("source", "how the heat of an element acts on itself", &
+            & trim(heat_source_name(spec%heat%source)))
          call record%close_group()
       end if
       if (allocated(spec%wheel_rail)) then

@@ -8,8 +8,8 @@ module contact_output_json_file
    use contact_base_error, only : error_kind, error_type, fatal_error
    use contact_base_kinds, only : wp
    use contact_cases_spec, only : case_spec
-   use contact_output_case_record, only : case_head, describe_head, describe_pair, describe_patch, describe_place, &
-      & describe_solution
+   use contact_output_case_record, only : case_head, describe_border, describe_head, describe_pair, describe_patch, &
+      & describe_place, describe_solution
    use contact_output_finished_file, only : close_completely
    use contact_output_record, only : record_writer
    use contact_patch_result, only : patch_result
@@ -165,6 +165,7 @@ contains
       call describe_patch(self, spec, contact)
       if (present(pair)) call describe_place(self, spec, pair%patches(number))
       call self%close_group()
+      call describe_border(self, spec, contact)
       call describe_solution(self, spec, contact)
       call self%add("}")
       self%follows = .true.

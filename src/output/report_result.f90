@@ -214,6 +214,7 @@ contains
 
       if (allocated(result%friction)) line = line // ", " // whole(result%friction%iterations, 1) // " friction"
 
+      line = line // "; CONTACT AREA: " // trim(adjustl(smart(result%contact_area(), 12, 4, 4))) // " mm2"
       call add_fall_back(line, result%normal)
       if (has_tangential) call add_fall_back(line, result%tangential)
       if (allocated(result%friction)) call add_ending(line, result%friction, "friction")

@@ -2,10 +2,11 @@
 module contact_patch_heat
    use contact_base_choices, only : motion
    use contact_base_kinds, only : wp
-   use contact_grid_element_division, only : element
+   use contact_base_log, only : log_type
+   use contact_grid_element_division, only : bounding_box, contact_box, element
    use contact_patch_problem, only : patch_problem, rolling_direction
    use contact_patch_result, only : patch_result
-   use contact_temperature_flash_heating, only : heat_passage
+   use contact_temperature_flash_heating, only : heat_passage, least_peclet_number
    implicit none (type, external)
    private
 
@@ -30,8 +31,9 @@ contains
    end function new_heat_passage
 
    !> Temperatures of both surfaces from slip and tractions; bulk temperatures where nothing moves
-   subroutine derive_temperatures(problem, result)
+   subroutine derive_temperatures(problem, log, result)
       type(patch_problem), intent(in) :: problem
+      type(log_type), intent(inout) :: log
       !> Solved, with element states, slip and tractions
       type(patch_result), intent(inout) :: result
       type(heat_passage) :: passage
@@ -53,5 +55,25 @@ contains
       end if
       heat = way*hypot(result%px, result%py)/result%dt
       call passage%surface_temperatures(heat, result%temp1, result%temp2)
+      if (any(heat > 0.0_wp)) call warn_of_slow_motion(problem, log, result)
    end subroutine derive_temperatures
+
+   !> Temperatures are those of fast motion: warn where heat spreads along the surface as fast as it is carried along
+   subroutine warn_of_slow_motion(problem, log, result)
+      !> With thermal constants
+      type(patch_problem), intent(in) :: problem
+      type(log_type), intent(inout) :: log
+      !> With element states
+      type(patch_result), intent(in) :: result
+      type(bounding_box) :: box
+      character(len=12) :: number
+      real(wp) :: peclet
+
+      box = contact_box(result%division)
+      peclet = problem%thermal%peclet_number(0.5_wp*(box%ix1 - box%ix0 + 1)*problem%grid%dx, problem%veloc)
+      if (peclet >= least_peclet_number) return
+      write(number, '(f12.3)') peclet
+      call log%warning("temperatures are those of fast motion, in which no heat flows along the surface; the Peclet number " // &
+         & "V a/(2 kappa) = " // trim(adjustl(number)) // " is below 10, and temperatures are too high")
+   end subroutine warn_of_slow_motion
 end module contact_patch_heat

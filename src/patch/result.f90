@@ -6,7 +6,19 @@ module contact_patch_result
    implicit none (type, external)
    private
 
-   public :: patch_result, hertz_result, subsurface_result
+   public :: border_contact, patch_result, hertz_result, subsurface_result
+
+   !> Where contact reaches the end of what is known of the surfaces
+   type :: border_contact
+      !> Elements in contact in the outer columns and rows of the potential contact
+      integer :: elements = 0
+      !> Would contact go on beyond a side of the potential contact? x low, x high, y low, y high
+      logical :: side(4) = .false.
+      !> Does contact end where the surface of a body ends along y? (low and high end, body)
+      logical :: surface_end(2, 2) = .false.
+      !> Largest pressure in the elements at those sides and ends [N/mm2]
+      real(wp) :: pressure = 0.0_wp
+   end type border_contact
 
    !> Hertz solution that belongs to a Hertzian geometry
    type :: hertz_result
@@ -29,6 +41,8 @@ module contact_patch_result
       real(wp), allocatable :: stress(:, :)
       !> Mean stress, von Mises, Tresca, principal stresses in descending order [N/mm2], shape (n)
       real(wp), allocatable :: sighyd(:), sigvm(:), sigtr(:), sigma1(:), sigma2(:), sigma3(:)
+      !> Points near the surface and off the centres of elements: there the stresses are those of constant tractions
+      integer :: stepped = 0
    end type subsurface_result
 
    !> Totals, fields and reports of a solved patch
@@ -65,6 +79,8 @@ module contact_patch_result
       integer :: inorm = 0, itang = 0
       !> Outer (Panagiotopoulos) iterations
       integer :: outer_iterations = 0
+      !> Contact at the border of the potential contact and at the ends of the surfaces
+      type(border_contact) :: border
       type(solve_report) :: normal, tangential
       !> Iteration of friction with slip velocity or temperature; unallocated: none
       type(solve_report), allocatable :: friction
@@ -90,5 +106,16 @@ module contact_patch_result
       real(wp), allocatable :: temp1(:, :), temp2(:, :)
       !> Subsurface blocks; unallocated when not asked for
       type(subsurface_result), allocatable :: subsurface(:)
+   contains
+      !> Area of the elements in contact [mm2]
+      procedure :: contact_area
    end type patch_result
+
+contains
+
+   pure real(wp) function contact_area(self) result(area)
+      class(patch_result), intent(in) :: self
+
+      area = self%ncon*self%grid%dx*self%grid%dy
+   end function contact_area
 end module contact_patch_result

@@ -75,7 +75,7 @@ contains
       call remember_forces(problem, state, result)
       call find_sensitivities(problem, workspace, result, log)
       call remember_friction(problem, result, state)
-      call derive_temperatures(problem, result)
+      call derive_temperatures(problem, log, result)
       state%started = .true.
    end subroutine solve_patch
 

@@ -6,6 +6,7 @@ module contact_subsurface_points
    private
 
    public :: point_selection, point_block, point_set, expand_points, list_points, depth_range
+   public :: stepped_depth, stepped_points
 
    type :: point_selection_list
       !> Centres of all elements
@@ -87,6 +88,49 @@ contains
          end do
       end do
    end subroutine list_points
+
+   !> Depth above which the steps of the tractions between elements are felt off their centres [mm]
+   elemental real(wp) function stepped_depth(grid) result(depth)
+      type(potential_contact), intent(in) :: grid
+
+      depth = 0.25_wp*grid%dx
+   end function stepped_depth
+
+   !> Number of points over a grid, of 0 elements and more, that are nearer to the surface and not at centres of elements
+   pure integer function stepped_points(points, grid) result(n)
+      type(point_set), intent(in) :: points
+      type(potential_contact), intent(in) :: grid
+      integer :: inside(2), off(2), near
+
+      near = count(abs(points%z) < stepped_depth(grid))
+      n = 0
+      if (near == 0) return
+      call sort_out(points%x, grid%xl, grid%dx, grid%mx, inside(1), off(1))
+      call sort_out(points%y, grid%yl, grid%dy, grid%my, inside(2), off(2))
+      n = near*(inside(1)*inside(2) - (inside(1) - off(1))*(inside(2) - off(2)))
+
+   contains
+
+      !> How many coordinates lie in the grid, and how many of these are no centres
+      pure subroutine sort_out(values, low, step, m, inside, off)
+         real(wp), intent(in) :: values(:), low, step
+         integer, intent(in) :: m
+         integer, intent(out) :: inside, off
+         !> Distance from a centre that is none, relative to the element
+         real(wp), parameter :: at_centre = 0.01_wp
+         real(wp) :: place
+         integer :: k
+
+         inside = 0
+         off = 0
+         do k = 1, size(values)
+            place = (values(k) - low)/step
+            if (.not. (place >= 0.0_wp .and. place < m)) cycle
+            inside = inside + 1
+            if (abs(place - floor(place) - 0.5_wp) > at_centre) off = off + 1
+         end do
+      end subroutine sort_out
+   end function stepped_points
 
    !> Number of points of a set
    elemental integer(long) function number_of_points(self) result(n)

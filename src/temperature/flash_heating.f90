@@ -9,6 +9,7 @@
 !> Surfaces in contact have the same temperature; that divides the heat of friction in proportion
 !> to the effusivities, so both surfaces get warmer by the same amount.
 module contact_temperature_flash_heating
+   use contact_base_choices, only : heat_source
    use contact_base_constants, only : pi
    use contact_base_kinds, only : wp
    use contact_friction_heated, only : heated_law
@@ -16,12 +17,10 @@ module contact_temperature_flash_heating
    implicit none (type, external)
    private
 
-   public :: body_pair, heat_passage, new_body_pair
+   public :: body_pair, heat_passage, least_peclet_number, new_body_pair
 
-   !> Particles at the centre of an element have felt the heat of half of it: factor 1. The original
-   !> program uses 2, which makes temperatures higher by a term of the order of sqrt(dx); so do we, for
-   !> agreement.
-   real(wp), parameter :: own_heat_factor = 2.0_wp
+   !> From this Peclet number on, conduction along the surface changes the highest temperature by less than 3 %
+   real(wp), parameter :: least_peclet_number = 10.0_wp
 
    !> Thermal constants of both bodies
    type :: body_pair
@@ -29,9 +28,15 @@ module contact_temperature_flash_heating
       real(wp) :: bulk(2) = 0.0_wp
       !> Effusivities sqrt(lambda rho c) [N/(mm sqrt(s) degC)]
       real(wp) :: effusivity(2) = 1.0_wp
+      !> Thermal diffusivities lambda/(rho c) [mm2/s]
+      real(wp) :: diffusivity(2) = 0.0_wp
       !> Share of the plastic work that becomes heat [-]
       real(wp) :: plastic_share = 1.0_wp
+      !> Member of heat_source
+      integer :: source = heat_source%established
    contains
+      !> Ratio of transport along the surface to conduction
+      procedure :: peclet_number
       !> Temperature at which bodies of bulk temperature touch
       procedure :: interface_temperature
    end type body_pair
@@ -43,9 +48,6 @@ module contact_temperature_flash_heating
       real(wp) :: dx = 1.0_wp, veloc = 1.0_wp
       !> Rolling towards increasing (+1) or decreasing (-1) x; particles go the other way
       integer :: direction = 1
-      !> Multiple of the heat that an element itself has released when particles are at its centre,
-      !> see own_heat_factor
-      real(wp) :: own_factor = own_heat_factor
       !> Elements in contact, shape (mx, my)
       logical, allocatable :: contact(:, :)
    contains
@@ -72,8 +74,19 @@ contains
 
       bodies%bulk = bulk
       bodies%effusivity = newton_millimetres*sqrt(conductivity*density*specific_heat)
+      ! W/(mm degC) over J/(mm3 degC)
+      bodies%diffusivity = conductivity/(density*specific_heat)
       bodies%plastic_share = plastic_share
    end function new_body_pair
+
+   !> V a/(2 kappa) [-], the smaller one of both bodies
+   pure real(wp) function peclet_number(self, half_length, veloc) result(number)
+      class(body_pair), intent(in) :: self
+      !> Half the length of the source along x [mm], velocity [mm/s]
+      real(wp), intent(in) :: half_length, veloc
+
+      number = abs(veloc)*half_length/(2.0_wp*maxval(self%diffusivity))
+   end function peclet_number
 
    !> Mean of the bulk temperatures, weighted by the effusivities
    !>
@@ -199,13 +212,17 @@ contains
    end subroutine heat_by_friction
 
    !> Integrals of 1/(2 sqrt(distance)) over elements 0, 1, ... m - 1 places upstream [sqrt(mm)]
+   !>
+   !> Particles at the centre of an element have felt the heat of half of it. The established program takes that twice,
+   !> which makes temperatures higher by a term of the order of sqrt(dx).
    pure function weights(self, m) result(weight)
       class(heat_passage), intent(in) :: self
       integer, intent(in) :: m
       real(wp) :: weight(m)
       integer :: k
 
-      weight(1) = self%own_factor*sqrt(0.5_wp*self%dx)
+      weight(1) = sqrt(0.5_wp*self%dx)
+      if (self%bodies%source == heat_source%established) weight(1) = 2.0_wp*weight(1)
       do k = 2, m
          ! the difference of two roots without cancellation
          weight(k) = sqrt(self%dx)/(sqrt(k - 0.5_wp) + sqrt(k - 1.5_wp))

@@ -2,10 +2,12 @@
 module contact_wheelrail_gather
    use contact_base_choices, only : contact_location, motion
    use contact_base_kinds, only : wp
+   use contact_patch_border, only : find_border
    use contact_wheelrail_frame, only : frame
    use contact_wheelrail_geometry, only : pair_geometry
    use contact_wheelrail_memory, only : pair_memory, patch_slot
    use contact_wheelrail_problem, only : friction_by_row, pair_problem
+   use contact_wheelrail_profile_ends, only : mark_profile_ends
    use contact_wheelrail_result, only : pair_patch, pair_result
    implicit none (type, external)
    private
@@ -45,6 +47,10 @@ contains
          if (.not. allocated(result%patches)) allocate(result%patches(memory%used))
          do k = 1, memory%used
             call describe_patch(memory%here, memory%slot(k), result%patches(k))
+            if (.not. problem%geometry_only) then
+               call find_border(memory%slot(k)%problem, result%patches(k)%contact)
+               call mark_profile_ends(problem, memory%here, memory%slot(k), result%patches(k)%contact%border)
+            end if
             if (allocated(result%patches(k)%curve)) deallocate(result%patches(k)%curve)
             if (problem%spec%search%location == contact_location%conformal) then
                associate (curve => memory%slot(k)%curve)

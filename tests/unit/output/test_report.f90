@@ -186,7 +186,7 @@ contains
       call write_file(spec, result, 1, lines)
       at = find_line(lines, " EFFECTS: ", 1)
       call suite%equal(lines(at)%text, " EFFECTS: none; SOLVER: first method, second method; RESIDUAL: 1.2E-09, 3.4E-07; " &
-         & // "ITERATIONS: 8, 31", "a plain case")
+         & // "ITERATIONS: 8, 31; CONTACT AREA: " // trim(adjustl(smart(0.048_wp*result%ncon, 12, 4, 4))) // " mm2", "a plain case")
 
       result%effects = "thin sheet in Case of need"
       result%outer_iterations = 4

@@ -1,0 +1,244 @@
+!> Contact at the border of the potential contact or at the end of a profile, in words; what grid would be enough
+module contact_cases_border_warning
+   use contact_base_choices, only : motion, pressure_model, time_link
+   use contact_base_error, only : error_type
+   use contact_base_kinds, only : wp
+   use contact_base_log, only : log_type
+   use contact_cases_geometry, only : undeformed_distance
+   use contact_cases_spec, only : case_spec, grid_spec
+   use contact_grid_element_division, only : bounding_box, contact_box
+   use contact_grid_potential_contact, only : potential_contact
+   use contact_patch_border, only : side_names
+   use contact_patch_moments, only : link_moments
+   use contact_patch_problem, only : patch_problem, patch_state
+   use contact_patch_result, only : border_contact, patch_result
+   use contact_patch_solve, only : solve_patch
+   use contact_patch_workspace, only : patch_workspace, release_workspace
+   use contact_text_words, only : integer_text, real_text
+   implicit none (type, external)
+   private
+
+   public :: border_words, warn_of_border
+
+   !> Elements along each side of the grid on which the extent of the contact is estimated
+   integer, parameter :: coarse = 40
+   !> Free elements beside the contact that a grid should have
+   integer, parameter :: spare = 2
+
+contains
+
+   !> Warn of contact that is cut off
+   subroutine warn_of_border(spec, problem, result, log, patch)
+      type(case_spec), intent(in) :: spec
+      !> As it was solved
+      type(patch_problem), intent(in) :: problem
+      !> Solved, with its `border`
+      type(patch_result), intent(in) :: result
+      type(log_type), intent(inout) :: log
+      !> Number of the contact patch of wheel and rail; absent for one contact problem
+      integer, intent(in), optional :: patch
+      character(len=:), allocatable :: text, places, enough
+
+      associate (border => result%border)
+         if (.not. (any(border%side) .or. any(border%surface_end))) return
+         call border_words(spec, border, places)
+         text = "contact reaches " // places // ", with up to " // real_text(rounded(border%pressure)) // &
+            & " N/mm2 there: it is cut off, and pressures and forces are those of a smaller contact area"
+         if (present(patch)) text = "contact patch " // integer_text(patch) // ": " // text
+         if (any(border%side) .and. .not. present(patch)) then
+            call find_enough(spec, problem, result, enough)
+            text = text // ". A larger potential contact is needed" // enough
+         end if
+         call log%warning(text)
+      end associate
+   end subroutine warn_of_border
+
+   !> Three figures of a number
+   pure real(wp) function rounded(value)
+      real(wp), intent(in) :: value
+      real(wp) :: unit
+
+      rounded = value
+      if (.not. value > 0.0_wp) return
+      unit = 10.0_wp**(floor(log10(value)) - 2)
+      rounded = unit*anint(value/unit)
+   end function rounded
+
+   !> Sides and ends in words; blank when there are none
+   !>
+   !> The inner end of a profile is the one towards the middle of the track, on either side of it.
+   subroutine border_words(spec, border, words)
+      type(case_spec), intent(in) :: spec
+      type(border_contact), intent(in) :: border
+      character(len=:), allocatable, intent(out) :: words
+      character(len=5), parameter :: end_names(2) = ["inner", "outer"], body_names(2) = ["rail ", "wheel"]
+      character(len=:), allocatable :: sides, ends
+      logical :: side(4)
+      integer :: body, k
+
+      side = border%side
+      if (allocated(spec%wheel_rail)) then
+         if (spec%wheel_rail%left) side = side([1, 2, 4, 3])
+      end if
+      sides = ""
+      do k = 1, 4
+         if (side(k)) sides = sides // ", " // trim(side_names(k))
+      end do
+      ends = ""
+      do body = 1, 2
+         do k = 1, 2
+            if (border%surface_end(k, body)) ends = ends // ", the " // end_names(k) // " end of the " // &
+               & trim(body_names(body)) // " profile"
+         end do
+      end do
+      words = ends
+      if (len(sides) > 0) words = ", the border of the potential contact (" // sides(3:) // ")" // ends
+      if (len(words) > 0) words = words(3:)
+   end subroutine border_words
+
+   !> What would be large enough, where the geometry is known beyond the potential contact
+   subroutine find_enough(spec, problem, result, text)
+      type(case_spec), intent(in) :: spec
+      type(patch_problem), intent(in) :: problem
+      type(patch_result), intent(in) :: result
+      !> The rest of a sentence, blank when it is not known
+      character(len=:), allocatable, intent(out) :: text
+      type(potential_contact) :: extent
+      integer :: low(2), high(2)
+      logical :: found
+
+      text = ""
+      if (allocated(result%hertz)) then
+         text = "; SCALE = " // real_text(enough_scale(spec%grid)) // " would be enough"
+         return
+      end if
+      if (problem%pressure /= pressure_model%full .or. all(spec%geometry%ibase /= [1, 2, 3])) return
+      if (.not. problem%model%is_flat() .or. allocated(problem%model%memory)) return
+      call estimate_extent(spec, problem, result, extent, found)
+      if (.not. found) return
+      associate (grid => problem%grid)
+         low = merge(ceiling([(grid%xl - extent%xl)/grid%dx, (grid%yl - extent%yl)/grid%dy]) + spare, 0, &
+            & result%border%side([1, 3]))
+         high = merge(ceiling([(extent%xl + extent%mx*extent%dx - grid%xl)/grid%dx - grid%mx, &
+            & (extent%yl + extent%my*extent%dy - grid%yl)/grid%dy - grid%my]) + spare, 0, result%border%side([2, 4]))
+         low = max(low, 0)
+         high = max(high, 0)
+         text = "; with elements of this size MX = " // integer_text(grid%mx + low(1) + high(1)) // ", MY = " // &
+            & integer_text(grid%my + low(2) + high(2)) // ", XL = " // real_text(grid%xl - low(1)*grid%dx) // ", YL = " // &
+            & real_text(grid%yl - low(2)*grid%dy) // " would be enough"
+      end associate
+   end subroutine find_enough
+
+   !> Size of a grid relative to a Hertzian ellipse that leaves elements free beside it
+   pure real(wp) function enough_scale(grid) result(scale)
+      type(grid_spec), intent(in) :: grid
+      integer :: n
+
+      n = grid%mx
+      if (grid%my >= 3) n = min(n, grid%my)
+      scale = 2.0_wp
+      if (n > 2*(spare + 1)) scale = real(n, wp)/(n - (spare + 1))
+      scale = 0.01_wp*ceiling(100.0_wp*scale)
+   end function enough_scale
+
+   !> Extent of the contact without the limit of the potential contact, as a grid of one element with some room
+   !>
+   !> Contact lies where the undeformed distance is below the approach. With the force prescribed, the approach that was
+   !> found is too large rather than too small, because part of the contact is missing. The frictionless problem is solved
+   !> on coarse grids, first over all of that area, then over the contact that was found there.
+   subroutine estimate_extent(spec, problem, result, extent, found)
+      type(case_spec), intent(in) :: spec
+      type(patch_problem), intent(in) :: problem
+      type(patch_result), intent(in) :: result
+      type(potential_contact), intent(out) :: extent
+      logical, intent(out) :: found
+      !> Steps by half of the width until the surfaces are apart
+      integer, parameter :: most_steps = 30
+      type(patch_problem) :: trial
+      type(potential_contact) :: grid
+      type(bounding_box) :: box
+      type(error_type), allocatable :: error
+      real(wp) :: span(2)
+      logical :: closed(4)
+      integer :: k
+
+      found = .false.
+      call prepare(problem, trial)
+      grid = with_coarse_elements(problem%grid)
+      do k = 1, most_steps
+         call undeformed_distance(spec%geometry, grid, h=trial%h, error=error)
+         if (allocated(error)) return
+         associate (h => trial%h, pen => result%pen)
+            closed = [grid%mx < 3 .or. all(h(1, :) > pen), grid%mx < 3 .or. all(h(grid%mx, :) > pen), &
+               & grid%my < 3 .or. all(h(:, 1) > pen), grid%my < 3 .or. all(h(:, grid%my) > pen)]
+         end associate
+         if (all(closed)) exit
+         span = 0.5_wp*[grid%mx*grid%dx, grid%my*grid%dy]
+         if (.not. closed(1)) grid%xl = grid%xl - span(1)
+         if (.not. closed(3)) grid%yl = grid%yl - span(2)
+         grid%dx = grid%dx + count(.not. closed(1:2))*span(1)/grid%mx
+         grid%dy = grid%dy + count(.not. closed(3:4))*span(2)/grid%my
+      end do
+      if (.not. all(closed)) return
+      do k = 1, 2
+         trial%grid = grid
+         call undeformed_distance(spec%geometry, grid, h=trial%h, error=error)
+         if (allocated(error)) return
+         call find_contact(trial, box, found)
+         if (.not. found) return
+         ! one more coarse element on each side
+         extent = grid
+         extent%xl = grid%xl + (box%ix0 - 2)*grid%dx
+         extent%yl = grid%yl + (box%iy0 - 2)*grid%dy
+         extent%dx = grid%dx*(box%ix1 - box%ix0 + 3)/grid%mx
+         extent%dy = grid%dy*(box%iy1 - box%iy0 + 3)/grid%my
+         grid = extent
+      end do
+   end subroutine estimate_extent
+
+   !> The same potential contact in few elements
+   pure function with_coarse_elements(grid) result(new)
+      type(potential_contact), intent(in) :: grid
+      type(potential_contact) :: new
+
+      new = grid
+      if (grid%mx >= 3) new%mx = coarse
+      if (grid%my >= 3) new%my = coarse
+      new%dx = grid%dx*grid%mx/new%mx
+      new%dy = grid%dy*grid%my/new%my
+   end function with_coarse_elements
+
+   !> The normal problem alone, without what belongs to motion and to the grid
+   subroutine prepare(problem, trial)
+      type(patch_problem), intent(in) :: problem
+      type(patch_problem), intent(out) :: trial
+
+      trial%model = problem%model
+      trial%motion = motion%none
+      trial%pressure = problem%pressure
+      trial%force_prescribed = problem%force_prescribed
+      trial%fn = problem%fn
+      trial%pen = problem%pen
+   end subroutine prepare
+
+   !> Rectangle of elements in contact
+   subroutine find_contact(problem, box, found)
+      type(patch_problem), intent(in) :: problem
+      type(bounding_box), intent(out) :: box
+      logical, intent(out) :: found
+      type(patch_state) :: state
+      type(patch_workspace) :: workspace
+      type(patch_result) :: result
+      type(log_type) :: silent
+      type(error_type), allocatable :: error
+
+      found = .false.
+      call link_moments(problem, time_link%initiate, state, error)
+      if (.not. allocated(error)) call solve_patch(problem, state, workspace, silent, result, error)
+      if (.not. allocated(error)) then
+         box = contact_box(result%division)
+         found = result%normal%succeeded() .and. result%ncon > 0
+      end if
+      call release_workspace(workspace)
+   end subroutine find_contact
+end module contact_cases_border_warning

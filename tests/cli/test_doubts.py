@@ -1,0 +1,308 @@
+#!/usr/bin/env python3
+"""What a user must be told of a result: contact that is cut off, stresses between centres, which temperatures these are.
+
+The environment tells CONTACT_PROGRAM and CONTACT_SOURCE.
+"""
+import json
+import math
+import os
+import re
+import shutil
+import subprocess
+import tempfile
+import unittest
+
+PROGRAM = os.environ["CONTACT_PROGRAM"]
+SOURCE = os.environ["CONTACT_SOURCE"]
+EXAMPLES = os.path.join(SOURCE, "examples")
+
+# A ball of radius 1 on a plane, G = 1: radius of the contact 1.719, pressure 1.508
+FORCE = 9.1954
+BALL = """3
+20{t}{n}0{s}
+0022020
+0001{o}01
+999 100 30 1 1e-6
+{load} {cksi} 0 0
+0.3 0.3
+0d {dx} 1000
+0.28 0.28 1 1
+{grid}
+{shape}
+{points}"""
+CUT_OFF = "cut off"
+
+
+def ball(grid, shape="1 1\n0.5 0 0.5 0 0 0", load=FORCE, t=3, n=1, cksi=0.001, dx=0.1, s=0, points="", o=2):
+    """Input of one case, without the end"""
+    text = BALL.format(grid=grid, shape=shape, load=load, t=t, n=n, cksi=cksi, dx=dx, s=s, points=points, o=o)
+    if t == 0:
+        text = "\n".join(line for line in text.split("\n") if line not in ("0.3 0.3", f"0d {dx} 1000"))
+    return text
+
+
+def hertz_pressure():
+    modulus = 1.0/(1.0 - 0.28)
+    return (6.0*FORCE*modulus**2/math.pi**3)**(1.0/3.0)
+
+
+class Program(unittest.TestCase):
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(scratch.cleanup)
+        self.folder = scratch.name
+
+    def run_text(self, text, *options):
+        """Records of the cases, warnings, and the .out file"""
+        with open(os.path.join(self.folder, "run.inp"), "w", encoding="utf-8") as file:
+            file.write(text + "\n0\n")
+        run = subprocess.run([PROGRAM, "--quiet", "--json", *options, "2", "run"], cwd=self.folder, stdin=subprocess.DEVNULL,
+                             stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=120)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        with open(os.path.join(self.folder, "run.jsonl"), encoding="utf-8") as file:
+            cases = [json.loads(line) for line in file]
+        with open(os.path.join(self.folder, "run.out"), encoding="utf-8") as file:
+            out = file.read()
+        return cases, [line for line in out.split("\n") if line.startswith(" Warning:")], out
+
+
+class Border(Program):
+    def alarms(self, text):
+        cases, warnings, _ = self.run_text(text)
+        told = [line for line in warnings if CUT_OFF in line]
+        patches = [patch for case in cases for patch in case["patches"]]
+        self.assertEqual(len(told), sum("border" in patch for patch in patches), told)
+        return told, patches
+
+    def enough(self, grid, text):
+        """The grid that the warning names, or None"""
+        found = re.search(r"MX = (\d+), MY = (\d+), XL = (\S+), YL = (\S+) would be enough", text)
+        return f"1\n{' '.join(found.groups())} {' '.join(grid.split()[-2:])}" if found else None
+
+    def test_all_sides_are_named_and_a_larger_grid_too(self):
+        for grid, load, n in (("10 10 -0.5 -0.5 0.1 0.1", FORCE, 1), ("40 12 -0.4 -0.3 0.02 0.05", FORCE, 1),
+                              ("10 10 -0.5 -0.5 0.1 0.1", 2.955, 0)):
+            told, patches = self.alarms(ball("1\n" + grid, load=load, n=n, dx=grid.split()[4]))
+            self.assertEqual(len(told), 1)
+            for side in ("x low", "x high", "y low", "y high"):
+                self.assertIn(side, told[0])
+                self.assertIn(side, patches[0]["border"]["reached"])
+            self.assertGreater(patches[0]["totals"]["border_elements"], 0)
+            better = self.enough(grid, told[0])
+            told, patches = self.alarms(ball(better, load=load, n=n, dx=grid.split()[4]))
+            self.assertEqual(told, [], better)
+            self.assertEqual(patches[0]["totals"]["border_elements"], 0)
+            self.assertAlmostEqual(patches[0]["totals"]["pmax"]["value"], hertz_pressure(), delta=0.02*hertz_pressure())
+            # and it is not much too large: twice the contact at most, and some elements
+            columns, radius = int(better.split()[1]), 1.719
+            self.assertLess(columns*float(grid.split()[4]), 2.0*2.0*radius)
+
+    def test_only_the_sides_that_cut_are_named(self):
+        for first, sides in (((-1.0, -2.2), ["x low"]), ((-3.4, -2.2), ["x high"]), ((-2.2, -0.6), ["y low"]),
+                             ((-3.4, -3.6), ["x high", "y high"])):
+            told, patches = self.alarms(ball(f"1\n44 44 {first[0]} {first[1]} 0.1 0.1"))
+            self.assertEqual(patches[0]["border"]["reached"], f"the border of the potential contact ({', '.join(sides)})")
+            better = self.enough("44 44 0 0 0.1 0.1", told[0])
+            self.assertEqual(self.alarms(ball(better))[0], [], better)
+
+    def test_profile_over_y(self):
+        profile = "2 1\n81 0 1 -4 0.1\n" + "\n".join(f"{0.5*(0.1*k - 4)**2:.6f}" for k in range(81))
+        told, _ = self.alarms(ball("1\n44 20 -2.2 -1.0 0.1 0.1", shape=profile))
+        self.assertIn("(y low, y high)", told[0])
+        better = self.enough("44 20 0 0 0.1 0.1", told[0])
+        self.assertEqual(self.alarms(ball(better, shape=profile))[0], [], better)
+
+    def test_given_per_element_knows_no_better_grid(self):
+        values = " ".join(f"{0.5*((0.1*i - 0.45)**2 + (0.1*j - 0.45)**2):.6f}" for j in range(10) for i in range(10))
+        told, _ = self.alarms(ball("1\n10 10 -0.5 -0.5 0.1 0.1", shape="9 1\n" + values))
+        self.assertEqual(len(told), 1)
+        self.assertNotIn("would be enough", told[0])
+
+    def test_hertzian_grid_names_its_scale(self):
+        for mx in (21, 40):
+            told, _ = self.alarms(ball(f"-1\n{mx} {mx} 0.5 0.5 0.7", shape=""))
+            scale = re.search(r"SCALE = (\S+) would be enough", told[0]).group(1)
+            told, patches = self.alarms(ball(f"-1\n{mx} {mx} 0.5 0.5 {scale}", shape=""))
+            self.assertEqual(told, [])
+
+    def test_borders_that_are_meant(self):
+        cylinder = "1 1\n0.5 0 0 0 0 0"
+        punch = "1 1\n0 0 0 0 0 0"
+        for grid, shape, load in (("1\n40 1 -2 -5 0.1 10", cylinder, FORCE), ("1\n40 20 -2 -1 0.1 0.1", cylinder, 2.0),
+                                  ("1\n20 20 -1 -1 0.1 0.1", punch, FORCE)):
+            self.assertEqual(self.alarms(ball(grid, shape=shape, load=load))[0], [], grid)
+        # the cylinder that is cut off along x
+        self.assertIn("(x low, x high)", self.alarms(ball("1\n10 20 -0.5 -1 0.1 0.1", shape=cylinder))[0][0])
+
+    def test_no_alarm_in_the_examples(self):
+        for name in ("bentall", "carter2d", "cattaneo", "wheel_on_rail"):
+            run = subprocess.run([PROGRAM, "--quiet", "--json=-", "--output-dir", self.folder, "2", os.path.join(EXAMPLES, name)],
+                                 stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, text=True, timeout=300)
+            for line in run.stdout.splitlines():
+                for patch in json.loads(line)["patches"]:
+                    self.assertNotIn("border", patch, name)
+
+    def first_case_on_a_rail_that_ends(self, left):
+        """The first case of wheel_on_rail, on the part of its rail with y up to -1 mm: contact goes from -8 to 2"""
+        shutil.copytree(os.path.join(EXAMPLES, "profiles"), os.path.join(self.folder, "profiles"))
+        rows = []
+        with open(os.path.join(EXAMPLES, "profiles", "60E1.prr"), encoding="utf-8") as file:
+            for row in file.read().split("\n"):
+                try:
+                    if float(row.split()[0]) > -1.0:
+                        continue
+                except (ValueError, IndexError):
+                    pass
+                rows.append(row)
+        with open(os.path.join(self.folder, "profiles", "cut.prr"), "w", encoding="utf-8") as file:
+            file.write("\n".join(rows))
+        with open(os.path.join(EXAMPLES, "wheel_on_rail.inp"), encoding="utf-8") as file:
+            first = file.read().split(" 1 MODULE")[1].replace("60E1.prr", "cut.prr")
+        return " 1 MODULE" + (first.replace("1203100", "0203100") if left else first)
+
+    def test_end_of_a_rail(self):
+        for left in (False, True):
+            told, patches = self.alarms(self.first_case_on_a_rail_that_ends(left))
+            shutil.rmtree(os.path.join(self.folder, "profiles"))
+            self.assertIn("contact patch 1", told[0])
+            self.assertEqual(patches[0]["border"]["reached"], "the outer end of the rail profile")
+            self.assertGreater(patches[0]["border"]["pressure"]["value"], 1500.0)
+
+    def test_end_in_the_hdf5_file(self):
+        try:
+            import h5py
+        except ImportError:
+            self.skipTest("h5py is not installed")
+        self.run_text(ball("1\n10 10 -0.5 -0.5 0.1 0.1"), "--hdf5")
+        with h5py.File(os.path.join(self.folder, "run.h5")) as file:
+            patch = file["case_0001/patch_1"]
+            self.assertIn("x low, x high, y low, y high", patch["border"]["reached"][()].decode())
+            self.assertEqual(file["patches/border_elements"][0], 36)
+
+
+class Stresses(Program):
+    def stepped(self, points):
+        _, warnings, _ = self.run_text(ball("1\n44 44 -2.2 -2.2 0.1 0.1", s=3, points=points))
+        return [line for line in warnings if "centres of elements" in line]
+
+    def test_points_between_centres(self):
+        near = self.stepped("0 1\n9\n3 1 4\n0 0.02 0.05\n0.05\n0 0.02 0.025 0.5\n0")
+        self.assertEqual(len(near), 1)
+        # two depths above DX/4, two of three x off the centres; z = DX/4 is deep enough
+        self.assertIn(" 4 points ", near[0])
+        self.assertEqual(self.stepped("0 1\n9\n3 1 2\n0 0.02 0.05\n0.05\n0.025 0.5\n0"), [])
+        self.assertEqual(self.stepped("0 1\n9\n2 2 1\n0.05 0.15\n-0.05 0.05\n0\n0"), [])
+        self.assertEqual(self.stepped("0 1\n5\n2\n0 0.5\n0"), [])
+        # beside the contact there are no steps
+        self.assertEqual(self.stepped("0 1\n9\n1 1 1\n2.0\n2.0\n0\n0"), [])
+
+
+class Temperatures(Program):
+    # The ball of before is a wheel here: 100 kN, a = 5.88, b = 10.54 mm, full sliding at 1 m/s
+    CASE = """3
+203100
+022020
+3001201
+999 100 30 1 1e-6
+100000 {cksi} 0 0
+0.3 0.3
+180d {dx} {veloc}
+0.28 0.28 82000 82000
+0 450 0.05 7.85e-6
+0 450 0.05 7.85e-6
+1
+{mx} 23 -7.9 -11.5 {dx} 1.0
+1 1
+0.001015 0 0.0004215 0 0 0"""
+
+    def highest(self, *options, mx=79, dx=0.2, cksi=-0.3333333, veloc=3000.0):
+        cases, warnings, _ = self.run_text(self.CASE.format(mx=mx, dx=dx, cksi=cksi, veloc=veloc), *options)
+        patch = cases[0]["patches"][0]
+        return patch["totals"]["max_temp1"]["value"], patch, warnings
+
+    def moving_source(self, patch, veloc):
+        """Highest temperature of a Hertzian heat source of fast motion, without elastic slip: the integral over the
+        pressure from the leading edge on, by the midpoint rule in t, distance = d (1 - t**2)"""
+        semi_axis = 5.88
+        effusivity = 1e3*math.sqrt(0.05*7.85e-6*450.0)
+        flux = 0.3*patch["totals"]["pmax"]["value"]*1000.0
+        n, highest = 400, 0.0
+        for k in range(1, 101):
+            d = 0.02*k
+            integral = sum(math.sqrt(max(0.0, 1.0 - (d*(1.0 - ((i - 0.5)/n)**2) - 1.0)**2)) for i in range(1, n + 1))
+            highest = max(highest, 2.0*math.sqrt(d)*integral/n)
+        return flux*math.sqrt(semi_axis)/(2.0*effusivity*math.sqrt(math.pi*veloc))*highest
+
+    def test_moving_source_against_its_integral(self):
+        found, patch, warnings = self.highest("--heat", "moving-source")
+        self.assertAlmostEqual(found/self.moving_source(patch, 3000.0), 1.0, delta=4e-3)
+        self.assertIn("surface temperatures (moving source)", patch["effects"])
+        self.assertEqual(warnings, [])
+
+    def test_established_is_what_nobody_asked_for(self):
+        for options in ((), ("--heat", "established"), ("--heat=established",)):
+            found, patch, _ = self.highest(*options)
+            self.assertAlmostEqual(found/self.moving_source(patch, 3000.0), 1.096, delta=0.01)
+            self.assertIn("surface temperatures (established)", patch["effects"])
+
+    def test_refinement(self):
+        """Half the step: an error of the order of the root of the step, or hardly any"""
+        rough, fine = (self.highest(mx=mx, dx=dx)[0] for mx, dx in ((40, 0.4), (160, 0.1)))
+        exact = self.highest("--heat", "moving-source", mx=160, dx=0.1)[0]
+        self.assertAlmostEqual((rough/exact - 1.0)/(fine/exact - 1.0), 2.0, delta=0.15)
+        self.assertAlmostEqual(self.highest("--heat", "moving-source", mx=40, dx=0.4)[0]/exact, 1.0, delta=3e-3)
+
+    def test_slow_motion_is_told(self):
+        for veloc, slow in ((3.0, True), (3000.0, False)):
+            _, _, warnings = self.highest("--heat", "moving-source", veloc=veloc)
+            self.assertEqual(sum("Peclet" in line for line in warnings), int(slow), warnings)
+
+    def test_friction_that_falls_takes_the_chosen_one(self):
+        """Temperature-dependent friction: the established temperatures are higher, friction is lower"""
+        text = self.CASE.replace("022020", "622020").replace("\n0.3 0.3\n", "\n0.3 20 -0.15 200\n0 1\n")
+        force = {}
+        for source in ("established", "moving-source"):
+            cases, _, _ = self.run_text(text.format(mx=79, dx=0.2, cksi=-0.3333333, veloc=3000.0), "--heat", source)
+            force[source] = abs(cases[0]["patches"][0]["totals"]["fx"]["value"])
+        self.assertGreater(force["moving-source"], 1.005*force["established"])
+
+    def test_unknown_name(self):
+        run = subprocess.run([PROGRAM, "--heat", "hot", "2", "run"], cwd=self.folder, stdin=subprocess.DEVNULL,
+                             stderr=subprocess.PIPE, stdout=subprocess.PIPE, text=True, timeout=20)
+        self.assertEqual(run.returncode, 1)
+        self.assertIn("established and moving-source", run.stderr)
+
+
+class Area(Program):
+    def test_area_of_the_contact(self):
+        cases, _, out = self.run_text(ball("1\n44 44 -2.2 -2.2 0.1 0.1"))
+        totals = cases[0]["patches"][0]["totals"]
+        self.assertAlmostEqual(totals["contact_area"]["value"], 0.01*totals["ncon"], delta=1e-9)
+        self.assertAlmostEqual(totals["contact_area"]["value"], math.pi*1.719**2, delta=0.1)
+        self.assertRegex(out, r"CONTACT AREA: +%.3f mm2" % totals["contact_area"]["value"])
+
+
+class Profiles(Program):
+    def test_profiles_used(self):
+        """O = 4: rail and wheel in track coordinates; the contact reference lies on both"""
+        shutil.copytree(os.path.join(EXAMPLES, "profiles"), os.path.join(self.folder, "profiles"))
+        with open(os.path.join(EXAMPLES, "wheel_on_rail.inp"), encoding="utf-8") as file:
+            cases = file.read().split(" 1 MODULE")
+        for text, sign in ((cases[1], 1), (cases[1].replace("1203100", "0203100"), -1)):
+            records, _, out = self.run_text(" 1 MODULE" + text.replace("0001201", "0001401"))
+            totals = records[0]["patches"][0]["totals"]
+            for title, columns in (("RAIL PROFILE USED, TRACK COORDINATES,", 3), ("PRINCIPAL WHEEL PROFILE, TRACK COORDINATES,", 4)):
+                head, rest = out.split(title)
+                number = int(rest.split()[0])
+                rows = [[float(word) for word in row.split()] for row in rest.split("\n")[2:2 + number]]
+                self.assertGreater(number, 100)
+                self.assertEqual([int(row[0]) for row in rows], list(range(1, number + 1)))
+                y, z = totals["ycp_tr"]["value"], totals["zcp_tr"]["value"]
+                self.assertGreater(sign*y, 700.0)
+                nearest = min(rows, key=lambda row: abs(row[columns - 1] - y))
+                self.assertAlmostEqual(nearest[columns - 1], y, delta=0.5)
+                self.assertAlmostEqual(nearest[columns], z, delta=0.1)
+
+
+if __name__ == "__main__":
+    unittest.main()
