@@ -5,6 +5,7 @@ import os
 import re
 import sys
 import threading
+import warnings
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "conformance"))
 from checks import SOURCE, check, close, finish, same
@@ -252,6 +253,95 @@ def documents():
     os.chdir(folder)
 
 
+def warned(call):
+    """What a call gives, and the texts of its warnings"""
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        found = call()
+    return found, [str(warning.message) for warning in caught if issubclass(warning.category, contact.ContactWarning)]
+
+
+def doubts():
+    """Contact that is cut off, and stresses near the surface between centres, are warned of"""
+    with contact.Problem() as problem:
+        problem.set_material(g=1.0, nu=0.28)
+        problem.set_friction(0.3)
+        problem.set_normal_force(9.1954)
+        problem.set_creepages(0.001)
+        for first, border in (((-0.5, -0.5), ("x low", "x high", "y low", "y high")), ((-2.2, -0.6), ("y low",)), ((-2.2, -2.2), ())):
+            mx = 10 if len(border) == 4 else 44
+            problem.set_grid(mx, mx, 0.1, 0.1, *first)
+            problem.set_distance(lambda x, y: 0.5 * (x**2 + y**2))
+            result, told = warned(problem.solve)
+            same(result.border, border, "sides that cut contact off")
+            same([text.startswith("contact reaches " + ", ".join(border)) for text in told], [True] * bool(border), "their warning")
+            same(result.border_elements > 0, bool(border), "elements at the border")
+        problem.add_block([0.0, 0.05], [0.05], [0.0, 0.02, 0.025, 0.5])
+        stresses, told = warned(problem.stresses)
+        same([text.split()[0] for text in told], ["2"], "points between centres near the surface")
+        problem.add_block(None, None, [0.0, 0.5])
+        stresses, told = warned(problem.stresses)
+        same((stresses.von_mises.shape, told), ((2, 44, 44), []), "centres of all elements")
+        same(np.allclose(stresses.x, result.x), True, "places of the centres")
+        raises(ValueError, lambda: problem.add_block(None, [0.0], [0.0]), "both", "half of the centres")
+    rows = np.array([[float(word) for word in line.split()[:2]] for line in open(os.path.join(PROFILES, "60E1.prr"), encoding="utf-8")
+                     if re.match(r"\s*[-0-9.]+\s+[-0-9.]+\s*$", line)])
+    for side in ("right", "left"):
+        with contact.WheelRail(side) as pair:
+            braked_wheel(pair)
+            pair.set_rail(rows[rows[:, 0] <= -1.0])
+            result, told = warned(pair.solve)
+        same([patch.border for patch in result.patches], [("outer end of the rail profile",)], "end of the rail")
+        same([text.split(" reaches")[0] for text in told], ["contact patch 1"], "warning of the end of the rail")
+
+
+def braked_wheel(pair):
+    """S1002 on 60E1"""
+    pair.set_material(g=82000.0, nu=0.28)
+    pair.set_friction(0.3)
+    pair.set_grid(dx=0.4, ds=0.4)
+    pair.set_track(gauge_height=14.0, gauge_width=1435.0, cant=0.025)
+    pair.set_wheelset(flange_back=1360.0, flange_back_position=-70.0, radius=460.0)
+    pair.set_wheel(os.path.join(PROFILES, "S1002.prw"))
+    pair.set_position()
+    pair.set_velocity(20000.0, pitch=-41.0)
+    pair.set_vertical_force(60e3)
+
+
+def temperatures():
+    """By moving sources unless the established ones are asked for by name; in any units"""
+    highest = {}
+    for units, length in (("mm", 1.0), ("si", 1e-3)):
+        for source in (None, "moving", "established"):
+            with contact.Problem(units=units) as problem:
+                problem.set_material(g=82000.0 / length**2, nu=0.28)
+                problem.set_friction(0.3)
+                problem.set_hertz(30, 15, aa=6.0 * length, bb=6.0 * length)
+                problem.set_normal_force(100e3)
+                problem.set_creepages(0.05)
+                problem.set_rolling(20000.0 * length)
+                problem.set_temperatures(20.0, **({"source": source} if source else {}))
+                result = problem.solve()
+            same(result.temperatures.shape, (2, 15, 30), "shape of temperatures")
+            highest[units, source] = result.temperatures.max() - 20.0
+    close(highest["mm", "moving"], highest["mm", None], 1e-9, "moving sources are the default")
+    check(1.1 < highest["mm", "established"] / highest["mm", "moving"] < 1.2, "the established ones are higher")
+    close(highest["si", "moving"], highest["mm", "moving"], 1e-5, "temperatures in SI units")
+    with contact.Problem() as problem:
+        same(cntc.getflags(problem.number, 1, [cntc.CNTC["own_heat"]])[0], 1, "flag of an object")
+        raises(ValueError, lambda: problem.set_temperatures(20.0, source="hot"), "none of", "an unknown source")
+    with contact.WheelRail() as pair:
+        braked_wheel(pair)
+        pair.set_rail(os.path.join(PROFILES, "60E1.prr"))
+        pair.set_temperatures(90.0, 15.0)
+        patch = pair.solve().patches[0]
+        check(patch.temperatures.max() > 90.0, "a braked wheel is warm")
+    number = 7
+    cntc.initialize(number, 3)
+    same(cntc.getflags(number, 1, [cntc.CNTC["own_heat"]])[0], 0, "the routines keep the established ones")
+    cntc.finalize(number)
+
+
 def output():
     """Files go where they are wanted"""
     contact.output_to("results", "run")
@@ -264,6 +354,7 @@ def output():
 
 
 if __name__ == "__main__":
-    for part in (results, distance, prescribed_and_transient, errors, many, threads, wheel_on_rail, older_scripts, documents, output):
+    for part in (results, distance, prescribed_and_transient, errors, many, threads, wheel_on_rail, older_scripts, documents, doubts, temperatures,
+                 output):
         part()
     finish()

@@ -9,6 +9,7 @@ import os
 import re
 import shutil
 import subprocess
+import sys
 import tempfile
 import unittest
 
@@ -178,6 +179,11 @@ class Border(Program):
             patch = file["case_0001/patch_1"]
             self.assertIn("x low, x high, y low, y high", patch["border"]["reached"][()].decode())
             self.assertEqual(file["patches/border_elements"][0], 36)
+        # what the page is made of
+        sys.path.insert(0, os.path.join(SOURCE, "python"))
+        from contact.report.read import read_experiment
+        described, _ = read_experiment(os.path.join(self.folder, "run.h5"))
+        self.assertIn("x low, x high, y low, y high", described["cases"][0]["patches"][0]["border"])
 
 
 class Stresses(Program):

@@ -131,7 +131,8 @@ class _Reader:
             fields[name] = self._fields[at]
         found = {"number": number, "totals": totals, "grid": grid, "fields": fields, "units": units,
                  "solver": self.values(group["solver"]),
-                 "effects": self.values(group["effects"])["names"] if "effects" in group else ""}
+                 "effects": self.values(group["effects"])["names"] if "effects" in group else "",
+                 "border": self.values(group["border"])["reached"] if "border" in group else ""}
         if "subsurface" in group:
             blocks = group["subsurface"]
             found["blocks"] = [self.block(blocks["block_%d" % (k + 1)]) for k in range(len(blocks))]

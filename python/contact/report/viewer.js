@@ -644,7 +644,7 @@ function tableOfCases() {
   });
 }
 const ORDER = ["fn", "fx", "fy", "mz", "fx_rel", "fy_rel", "mu_scal", "pen", "pmax", "cksi", "ceta", "cphi", "shift_x", "shift_y", "rotation",
-  "friction_power", "friction_work", "elastic_energy", "max_temp1", "max_temp2", "ncon", "nadh", "nslip", "nplast"];
+  "friction_power", "friction_work", "elastic_energy", "max_temp1", "max_temp2", "contact_area", "ncon", "border_elements", "nadh", "nslip", "nplast"];
 // Forces and moments that are rounding errors of the pressure are shown as zero
 function shown(name, totals) {
   const small = { fx: 1, fy: 1, mz: 1, fx_rel: 1 / totals.fn, fy_rel: 1 / totals.fn }[name];
@@ -667,6 +667,7 @@ function tellTotals() {
   if (c.failure) note("No result:", c.failure, true);
   if (c.solved && !c.converged) note("Not converged.", "The tolerance was not reached; look at the residual before using this case.", true);
   if (p) {
+    if (p.border) note("Contact is cut off", `at ${p.border}: pressures and forces are those of a smaller contact area.`, true);
     note("Effects:", p.effects || "none");
     for (const problem of ["normal", "tangential", "friction"]) {
       const s = p.solver[problem + "_method"] || p.solver[problem + "_ended"] ? p.solver : null;

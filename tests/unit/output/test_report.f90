@@ -4,6 +4,7 @@ program test_report
    use contact_base_log, only : log_type
    use contact_base_solve_report, only : ending
    use contact_cases_spec, only : case_spec
+   use contact_output_formats, only : smart
    use contact_output_report, only : timer_line, write_banner, write_case, write_case_line, write_closing, write_end, &
       & write_subsurface
    use contact_patch_result, only : patch_result
