@@ -272,7 +272,8 @@ contains
             v([4, 8]) = v([4, 8])*inward(problem%units, quantity%density)
             if (fits(this, "BKTEMP1 HEATCP1 LAMBDA1 DENS1 BKTEMP2 HEATCP2 LAMBDA2 DENS2 BETAPL", v)) then
                problem%spec%digits%h = method
-               problem%spec%heat = heat_spec(bktemp=v([1, 5]), heatcp=v([2, 6]), lambda=v([3, 7]), dens=v([4, 8]), betapl=v(9))
+               problem%spec%heat = heat_spec(bktemp=v([1, 5]), heatcp=v([2, 6]), lambda=v([3, 7]), dens=v([4, 8]), &
+                  & betapl=v(9), source=problem%spec%heat%source)
             end if
          end if
       case default
