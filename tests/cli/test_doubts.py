@@ -128,6 +128,8 @@ class Border(Program):
 
     def test_borders_that_are_meant(self):
         cylinder = "1 1\n0.5 0 0 0 0 0"
+        # a line contact of length 4 by Hertz: its rows end with it
+        self.assertEqual(self.alarms(ball("-4\n40 20 0.5 2.0 1.2", shape="", load=2.0))[0], [])
         punch = "1 1\n0 0 0 0 0 0"
         for grid, shape, load in (("1\n40 1 -2 -5 0.1 10", cylinder, FORCE), ("1\n40 20 -2 -1 0.1 0.1", cylinder, 2.0),
                                   ("1\n20 20 -1 -1 0.1 0.1", punch, FORCE)):
@@ -257,6 +259,29 @@ class Temperatures(Program):
         exact = self.highest("--heat", "moving-source", mx=160, dx=0.1)[0]
         self.assertAlmostEqual((rough/exact - 1.0)/(fine/exact - 1.0), 2.0, delta=0.15)
         self.assertAlmostEqual(self.highest("--heat", "moving-source", mx=40, dx=0.4)[0]/exact, 1.0, delta=3e-3)
+
+    def test_fields_are_those_of_the_named_source(self):
+        """Temperatures of every element from slip and tractions in the HDF5 file, by the exact integral of heat that is
+        constant on elements over the elements upstream"""
+        try:
+            import h5py
+            import numpy as np
+        except ImportError:
+            self.skipTest("numpy or h5py is not installed")
+        effusivity = 1e3*math.sqrt(0.05*7.85e-6*450.0)
+        for source, own in (("moving-source", 1.0), ("established", 2.0)):
+            self.run_text(self.CASE.format(mx=79, dx=0.2, cksi=-0.002, veloc=30000.0), "--heat", source, "--hdf5")
+            with h5py.File(os.path.join(self.folder, "run.h5")) as file:
+                self.assertEqual(file["case_0001/inputs/heat/source"][()].decode().strip(), source.replace("-", " "))
+                fields = {name: item[...] for name, item in file["case_0001/patch_1/fields"].items()}
+            heat = 30000.0*np.hypot(fields["sx"], fields["sy"])*np.hypot(fields["px"], fields["py"])
+            # rolling towards -x: particles enter at low x
+            edges = np.sqrt(0.2*np.abs(np.arange(80) - 0.5))
+            weight = np.concatenate([[own*math.sqrt(0.1)], edges[2:] - edges[1:-1]])
+            expected = np.array([np.convolve(row, weight)[:79] for row in heat])/(effusivity*math.sqrt(math.pi*30000.0))
+            self.assertGreater(expected.max(), 5.0)
+            for body in ("temp1", "temp2"):
+                self.assertLess(abs(fields[body] - expected).max(), 1e-6*expected.max(), source)
 
     def test_slow_motion_is_told(self):
         for veloc, slow in ((3.0, True), (3000.0, False)):
