@@ -52,6 +52,12 @@ function [ CNTC ] = cntc_getmagicnumbers( )
 %   CNTC.if_timers    table of times at the end: 0 none, 1 short, 2 full
 %   CNTC.if_ncase     number of the next case
 %
+% Flags that only this library has
+%
+%   CNTC.own_heat     temperatures: 0 as the established program, 1 by moving sources
+%   CNTC.own_border   read only, where contact is cut off: sum of 1 x low, 2 x high, 4 y low, 8 y high side of the grid; 16 inner, 32 outer end of the rail profile; 64 inner, 128 outer end of the wheel profile
+%   CNTC.own_stepped  read only, points of subs_calculate nearer to the surface than DX/4 and off the centres of elements
+%
 % Data that go along into the .mat files
 %
 %   CNTC.mt_tim       time [s]
@@ -146,6 +152,9 @@ function [ CNTC ] = cntc_getmagicnumbers( )
    CNTC.if_openmp = 2003;
    CNTC.if_timers = 2004;
    CNTC.if_ncase = 2005;
+   CNTC.own_heat = 9001;
+   CNTC.own_border = 9002;
+   CNTC.own_stepped = 9003;
    CNTC.mt_tim = 2011;
    CNTC.mt_xr = 2012;
    CNTC.mt_yr = 2013;
