@@ -21,6 +21,7 @@ module contact_capi_calculate3
    use contact_output_mat_file, only : mat_place, write_mat_file
    use contact_output_report, only : write_case
    use contact_patch_border, only : border_elements
+   use contact_patch_moments, only : elements_left_out
    use contact_patch_result, only : patch_result
    implicit none (type, external)
    private
@@ -153,7 +154,8 @@ contains
    pure logical function continues(problem)
       type(library_problem), intent(in) :: problem
       real(wp), parameter :: same_side = 1.0e-4_wp, same_place = 1.0e-3_wp
-      real(wp) :: shift(2)
+      real(wp) :: shift(2), box(4)
+      integer :: lost
 
       continues = .true.
       if (.not. problem%has_result) return
@@ -163,6 +165,9 @@ contains
          shift = [(new%xl - old%xl)/new%dx, (new%yl - old%yl)/new%dy]
          continues = abs(new%dx - old%dx) <= same_side*old%dx .and. abs(new%dy - old%dy) <= same_side*old%dy .and. &
             & all(abs(shift - anint(shift)) <= same_place)
+         if (.not. continues) return
+         call elements_left_out(problem%result%division, old, new, lost, box)
+         continues = lost == 0
       end associate
    end function continues
 

@@ -19,7 +19,7 @@ module contact_cases_pair_session
    use contact_profile_request, only : profile_request, profile_side
    use contact_profile_store, only : prepared_profile, profile_store
    use contact_profile_surface, only : profile_surface
-   use contact_text_words, only : real_text
+   use contact_text_words, only : integer_text, real_text
    use contact_wheelrail_memory, only : pair_memory, release_pair
    use contact_wheelrail_pair, only : solve_pair
    use contact_wheelrail_problem, only : pair_problem, relaxing_bodies
@@ -61,8 +61,13 @@ contains
       if (allocated(error)) return
       if (spec%output_level >= 4) call keep_profiles(session, result)
       do k = 1, size(result%patches)
-         associate (contact => result%patches(k)%contact)
+         associate (contact => result%patches(k)%contact, search => spec%wheel_rail%search)
             if (spec%solve) call warn_of_border(spec, session%memory%slot(k)%problem, contact, log, k)
+            if (contact%grid%dx > 1.5_wp*search%dx .or. contact%grid%dy > 1.5_wp*search%ds) call log%warning("the elements of &
+               &patch " // integer_text(k) // " have sides of " // real_text(contact%grid%dx) // " x " // &
+               & real_text(contact%grid%dy) // " mm instead of DX x DS = " // real_text(search%dx) // " x " // &
+               & real_text(search%ds) // " mm, because there are at most NPOT_MAX = " // &
+               & integer_text(spec%iteration%npot_max))
             if (allocated(contact%subsurface)) deallocate(contact%subsurface)
             if (spec%stress /= stress_choice%none) &
                & call subsurface_stresses(spec, contact, error, spec%wheel_rail%left)

@@ -331,7 +331,8 @@ contains
             & "and Coulomb friction", error_kind%unsupported)
          return
       end if
-      if (other_step .and. .not. allocated(problem%simplified)) &
+      ! DX of a Hertzian option is not known beforehand
+      if (other_step .and. .not. allocated(problem%simplified) .and. spec%grid%ipotcn > 0) &
          & call log%warning(trim(kind_of_rolling(spec)) // " advances by one element per step: DQ is set to DX; " // &
          & "ConvexGS (G=2) takes other steps")
       problem%dq = problem%grid%dx

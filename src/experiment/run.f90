@@ -83,6 +83,8 @@ module contact_experiment_run
       integer :: complaints = no_unit
       !> Numbers of cases read, of cases that did not reach their tolerance, of errors
       integer :: cases = 0, unconverged = 0, errors = 0
+      !> Has no case asked for results so far?
+      logical :: silent = .true.
       !> The first error; unallocated when there was none
       type(error_type), allocatable :: first_error
       type(stopwatch) :: total, reading, solving, writing
@@ -140,36 +142,62 @@ contains
       type(experiment_state), intent(inout) :: state
       type(error_type), allocatable :: error
       type(input_case) :: this
-      type(problem_slot) :: slot
-      integer :: faulty
+      integer :: faulty, k
 
       faulty = 0
-      call open_pair(slot)
+      allocate(state%slots(4))
       do
          call state%reader%next_case(this, error)
          if (allocated(error)) then
+            ! a wrong digit may be the reason why the text behind it cannot be read
+            if (allocated(this%problems%items)) call report_problems(state, this)
             call report_error(state, error)
             exit
          end if
-         if (this%module_number == 0) exit
+         if (this%module_number == 0) then
+            call report_problems(state, this)
+            exit
+         end if
          state%cases = state%cases + 1
          call report_problems(state, this)
          if (.not. this%problems%is_usable()) then
             faulty = faulty + 1
-         else if (this%module_number == 1) then
-            if (.not. (this%spec%wheel_rail%new_rail_profile .or. this%spec%wheel_rail%new_wheel_profile)) cycle
-            call check_profiles(slot%pair, this%spec, state%place%folder, state%log, error)
-            if (.not. allocated(error)) cycle
-            call add_context(error, "case " // integer_text(this%number))
-            call report_error(state, error)
-            faulty = faulty + 1
+            cycle
          end if
+         call find_slot(state, this%reid, this%cpid, k)
+         call check_without_solving(state%slots(k)%problem_slot, this%spec, state, error)
+         if (.not. allocated(error)) cycle
+         call add_context(error, "case " // integer_text(this%number))
+         call report_error(state, error)
+         faulty = faulty + 1
       end do
-      call release_slot(slot)
+      do k = 1, state%used
+         call release_slot(state%slots(k)%problem_slot)
+      end do
       call state%log%line(" " // state%place%input // ": " // counted(state%cases, "case") // " checked, " // &
          & counted(faulty, "faulty case") // ", " // counted(state%errors, "error") // ", " // &
          & counted(state%log%warnings, "warning"))
    end subroutine check_all_cases
+
+   !> What only the preparation of a case finds: its profiles, its files, what its motion does not go with
+   subroutine check_without_solving(slot, given, state, error)
+      type(problem_slot), intent(inout) :: slot
+      type(case_spec), intent(in) :: given
+      type(experiment_state), intent(inout) :: state
+      type(error_type), allocatable, intent(out) :: error
+      type(case_spec) :: spec
+
+      if (allocated(given%wheel_rail)) then
+         if (.not. (given%wheel_rail%new_rail_profile .or. given%wheel_rail%new_wheel_profile)) return
+         call open_pair(slot)
+         call check_profiles(slot%pair, given, state%place%folder, state%log, error)
+      else
+         spec = given
+         spec%solve = .false.
+         call open_contact(slot)
+         call solve_case(slot%session, spec, state%log, slot%result, error, state%place%folder)
+      end if
+   end subroutine check_without_solving
 
    !> "1 case", "2 cases"
    pure function counted(n, what) result(text)
@@ -205,6 +233,7 @@ contains
          call close_out_file(state)
          return
       end if
+      state%silent = .not. state%exports%wanted()
       call write_banner(state%log, settings%version)
       if (settings%progress) call state%progress%begin(number_of_cases(state%place%input))
       allocate(state%slots(4))
@@ -213,12 +242,18 @@ contains
          call state%reader%next_case(this, error)
          call state%reading%halt()
          if (allocated(error)) then
+            ! a wrong digit may be the reason why the text behind it cannot be read
+            if (allocated(this%problems%items)) call report_problems(state, this)
             call report_error(state, error)
             exit
          end if
-         if (this%module_number == 0) exit
+         if (this%module_number == 0) then
+            call report_problems(state, this)
+            exit
+         end if
          state%cases = state%cases + 1
          this%spec%heat%source = settings%heat_source
+         if (this%spec%output_level > 0 .or. this%spec%mat_file > 0 .or. this%spec%digits%s > 0) state%silent = .false.
          call compute_case(state, this, go_on)
          if (.not. go_on) exit
          call keep_file_current(state)
@@ -453,6 +488,8 @@ contains
       call write_end(state%log, omp_get_max_threads(), lines)
       if (state%unconverged > 0) call state%log%line(" Number of cases that did not reach their tolerance: " // &
          & integer_text(state%unconverged))
+      if (state%silent .and. state%cases > 0) call state%log%line( &
+         & " No results were asked for: O, A and S are 0 in all cases.")
       call write_closing(state%log, state%errors > 0)
       call close_completely(state%log%out, state%place%results // ".out", error)
       state%log%out = 0

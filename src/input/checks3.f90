@@ -41,6 +41,9 @@ contains
       frame = frame_of(spec%grid)
       call check_hertz_options(words, lines, spec, problems)
       if (spec%digits%d /= 0 .and. spec%digits%c == 0) call check_kept_coefficients(words, lines, frame, coefficients, problems)
+      if (.not. has_previous .and. spec%digits%z == 1 .and. spec%grid%ipotcn > 0) call add_for_digit(problems, words, &
+         & severity%error, "Z", "Z = 1 forms the undeformed distance from the values in store, but this is the first case; " // &
+         & "Z = 2 reads it")
       if (.not. has_previous) return
       if (spec%digits%d == 2) call check_continuation(words, lines, frame, frame_of(previous%grid), spec, problems)
       call check_kept_lists(words, frame, frame_of(previous%grid), spec, problems)

@@ -137,11 +137,8 @@ contains
 
       call start_sequence(words, spec, problems)
       associate (digits => spec%digits)
-         if (digits%c < 2) then
-            call add_for_digit(problems, words, severity%warning, "C", "C = " // integer_text(digits%c) // &
-               & " in the first case: the default materials are used, GG = 1 and POISS = 0.28")
-            spec%kernel = kernel_model%piecewise_constant
-         end if
+         if (digits%c < 2) call add_for_digit(problems, words, severity%error, "C", "C = " // integer_text(digits%c) // &
+            & " keeps the materials, but this is the first case; C = 2 reads them")
          if (digits%d < 2) call add_for_digit(problems, words, severity%error, "D", "D = " // integer_text(digits%d) // &
             & " keeps the settings of the contact search, but this is the first case")
          if (digits%z /= 3) call add_for_digit(problems, words, severity%error, "Z", "Z = " // integer_text(digits%z) // &

@@ -106,7 +106,7 @@ contains
       else
          call check_first_case(words, spec, problems)
       end if
-      call check_combinations(words, merge(previous%motion, 3, has_previous), spec, problems)
+      call check_combinations(words, merge(previous%motion, spec%motion, has_previous), spec, problems)
    end subroutine check_digits
 
    !> Each digit must be one that the format knows
@@ -138,6 +138,10 @@ contains
             & "D = 0 keeps the potential contact area, but this is the first case")
          if (digits%d == 1) call add_for_digit(problems, words, severity%error, "D", &
             & "D = 1 forms the potential contact area from the values in store, but this is the first case")
+         if (digits%c < 2) call add_for_digit(problems, words, severity%error, "C", "C = " // integer_text(digits%c) // &
+            & " keeps the materials, but this is the first case; C = 2 reads them")
+         if (digits%e == 1) call add_for_digit(problems, words, severity%error, "E", &
+            & "E = 1 keeps the extra term of the rigid slip, but this is the first case; E = 9 reads it")
       end associate
    end subroutine check_first_case
 
@@ -160,7 +164,7 @@ contains
    !> What digits demand of each other
    subroutine check_combinations(words, previous_motion, spec, problems)
       type(control_words), intent(in) :: words
-      !> T of the previous case, 3 before the first
+      !> T of the previous case, of this one when there is none
       integer, intent(in) :: previous_motion
       type(case_spec), intent(in) :: spec
       type(problem_list), intent(inout) :: problems
@@ -216,6 +220,8 @@ contains
             & "L = 1 keeps the friction law of the previous case, but this is the first case")
          if (digits%s == 1 .or. digits%s == 2) call add_for_digit(problems, words, severity%error, "S", &
             & "S = " // integer_text(digits%s) // " keeps the subsurface points, but this is the first case")
+         if (digits%h == 1) call add_for_digit(problems, words, severity%error, "H", &
+            & "H = 1 keeps the thermal constants, but this is the first case; H = 3 reads them")
       end associate
    end subroutine start_sequence
 

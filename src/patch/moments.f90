@@ -9,7 +9,7 @@ module contact_patch_moments
    implicit none (type, external)
    private
 
-   public :: link_moments, clear_moment
+   public :: link_moments, clear_moment, elements_left_out
 
 contains
 
@@ -28,6 +28,7 @@ contains
       linked = state%started .and. (link /= time_link%initiate .or. problem%estimate /= estimate_choice%fresh)
       if (linked) then
          call offset_of(state%now%grid, problem%grid, kx, ky, error)
+         if (.not. allocated(error) .and. link /= time_link%initiate) call refuse_loss(state, problem%grid, link, error)
          if (allocated(error)) return
          call move_window(state%now, problem%grid, kx, ky)
          if (state%before%grid%mx > 0) call move_window(state%before, problem%grid, kx, ky)
@@ -247,6 +248,58 @@ contains
             & "to which this one is linked; a shift by whole elements, or P=2 with I=0")
       end if
    end subroutine offset_of
+
+   !> Refuse a window that leaves out elements in contact, whose tractions act on in the next moment
+   subroutine refuse_loss(state, grid, link, error)
+      type(patch_state), intent(in) :: state
+      type(potential_contact), intent(in) :: grid
+      !> Member of time_link, another one than initiate
+      integer, intent(in) :: link
+      type(error_type), allocatable, intent(out) :: error
+      real(wp) :: box(4)
+      character(len=80) :: window
+      character(len=12) :: number
+      integer :: lost
+
+      ! a repeated step has its previous moment already, and the present one is an estimate
+      if (link == time_link%repeat_step) then
+         if (.not. state%before%grid%mx > 0) return
+         call elements_left_out(state%before%division, state%before%grid, grid, lost, box)
+      else
+         call elements_left_out(state%now%division, state%now%grid, grid, lost, box)
+      end if
+      if (lost == 0) return
+      write(number, '(I0)') lost
+      write(window, '("x = ", G0.6, " to ", G0.6, ", y = ", G0.6, " to ", G0.6)') box
+      call fatal_error(error, "the potential contact leaves out " // trim(number) // " of the elements that were in contact in &
+         &the previous case, whose tractions this case continues; a window that contains " // trim(window) // &
+         & " mm, or P=2 with I=0")
+   end subroutine refuse_loss
+
+   !> Elements in contact that lie outside another window of the same elements
+   pure subroutine elements_left_out(division, old, new, n, box)
+      !> Element states on the old window
+      integer, intent(in) :: division(:, :)
+      type(potential_contact), intent(in) :: old, new
+      !> Their number
+      integer, intent(out) :: n
+      !> Where the whole contact is: smallest and largest x, smallest and largest y [mm]
+      real(wp), intent(out) :: box(4)
+      integer :: ix, iy, jx, jy
+
+      n = 0
+      box = [huge(1.0_wp), -huge(1.0_wp), huge(1.0_wp), -huge(1.0_wp)]
+      do iy = 1, size(division, 2)
+         jy = iy - nint((new%yl - old%yl)/new%dy)
+         do ix = 1, size(division, 1)
+            if (division(ix, iy) <= element%exterior) cycle
+            box(1:2) = [min(box(1), old%x(ix) - 0.5_wp*old%dx), max(box(2), old%x(ix) + 0.5_wp*old%dx)]
+            box(3:4) = [min(box(3), old%y(iy) - 0.5_wp*old%dy), max(box(4), old%y(iy) + 0.5_wp*old%dy)]
+            jx = ix - nint((new%xl - old%xl)/new%dx)
+            if (jx < 1 .or. jx > new%mx .or. jy < 1 .or. jy > new%my) n = n + 1
+         end do
+      end do
+   end subroutine elements_left_out
 
    !> Fields on a moved window: values of the overlap, zero where new
    subroutine move_window(fields, grid, kx, ky)

@@ -7,7 +7,6 @@ import json
 import os
 import re
 import subprocess
-import sys
 import tempfile
 import unittest
 
@@ -133,6 +132,118 @@ class StoredValues(Doors):
         run, out, _ = self.run_text("3\n" + NEW3.format(**PLAIN3) + "1\n" + NEW1.format(**PLAIN1) + "3\n" + KEPT3 + "0\n")
         self.assertEqual(run.returncode, 0, run.stderr)
         self.assertEqual(re.findall(r"\n Case +(\d+)", out), ["1", "2", "3"])
+
+
+class Refusals(Doors):
+    """What was taken silently"""
+
+    def refused(self, text, *words, modes=("2", "3")):
+        for mode in modes:
+            run, out, _ = self.run_text(text, mode)
+            self.assertEqual(run.returncode, 1, out[-2000:])
+            for word in words:
+                self.assertIn(word, run.stderr)
+
+    def case3(self, **changes):
+        return "3\n" + NEW3.format(**{**PLAIN3, **changes}) + "0\n"
+
+    def test_numbers_beyond_their_bounds(self):
+        """The bound, the unit and the reason stand at the place in the file"""
+        for changes, words in (({"gg": "1e-30"}, "x.inp:9:11: GG1 = 1e-30 is below its lower bound 1.00000E-05 N/mm2: "),
+                               ({"pen": "1e300"}, "x.inp:6:1: FN = 1e300 is above its upper bound"),
+                               ({"side": "1e300"}, "DX = 1e300 is above its upper bound"),
+                               ({"friction": "-0.4 -0.4"}, "FSTAT = -0.4 is below"),
+                               ({"rolling": "180 0.1 1000"}, "CHI = 180 is above its upper bound 12.57 rad: "),
+                               ({"rolling": "0 nan 1000"}, "x.inp:8:3: "), ({"mx": "99999999999"}, "too large")):
+            self.refused(self.case3(**changes), words)
+
+    def test_creepages_and_slopes_of_1e300(self):
+        for old, new in (("0.002 0 0", "0.002 1e300 0"), ("0.01 0 0.01 0 0 0", "0.01 0 0.01 1e300 0 0"),
+                         ("0.01 0 0.01 0 0 0", "0.01 0 0.01 0 0 1e20")):
+            self.refused(self.case3().replace(old, new), new.split()[-2 if new.endswith(" 0") else -1])
+
+    def test_wheel_and_rail(self):
+        text = "1\n" + NEW1.format(**PLAIN1) + "0\n"
+        self.refused(text.replace("14 0 1435 0\n", "500 0 1435 0\n"), "GAUGHT = 500 is above its upper bound 200 mm: ")
+        self.refused(text.replace("0 0 0 0 0 0\n", "0 0 1e5 0 0 0\n"), "DROLLR = 1e5 is above its upper bound")
+        self.refused(text.replace("1360 -70 460", "1360 -70 1e-5"), "NOMRADW = 1e-5 is below its lower bound 0.001 mm: ")
+        self.refused(text.replace("14 0 1435 0\n", "0 0 1e300 0\n"), "RAILZ0 = 1e300 is above")
+
+    def test_first_case_keeps_nothing(self):
+        """Digits that keep values which no case has given"""
+        for digits, word in (({"vldcmze": "0021020"}, "C = 1"), ({"vldcmze": "0020020"}, "C = 0"), ({"vldcmze": "0022010"}, "Z = 1"),
+                             ({"vldcmze": "0022021"}, "E = 1"), ({"third": "1000201"}, "H = 1"), ({"vldcmze": "0122020"}, "L = 1"),
+                             ({"vldcmze": "0012020"}, "D = 1"), ({"pbtnfs": "203101"}, "S = 1")):
+            self.refused(self.case3(**digits), word, "first case")
+        text = "1\n" + NEW1.format(**PLAIN1) + "0\n"
+        for old, new, word in (("0022033", "0021033", "C = 1"), ("0022033", "0012033", "D = 1"), ("0022033", "0022013", "Z = 1"),
+                               ("0022033", "0022031", "E = 1"), ("0000201", "1000201", "H = 1")):
+            self.refused(text.replace(old, new), word, "first case")
+
+    def test_checking_sees_what_solving_refuses(self):
+        """An oblique rolling direction and a file of influence coefficients"""
+        self.refused(self.case3(rolling="45d 0.1 1000"), "CHI = 0 or 180 degrees")
+        text = self.case3(vldcmze="0029020", iteration="200 100 30 10 1e-5").replace("0.28 0.28", "'none.txt'\n0.28 0.28")
+        self.refused(text, "none.txt")
+        with open(os.path.join(self.folder, "none.txt"), "w") as file:
+            file.write("1 1\n0 312\nword\n")
+        self.refused(text, "none.txt:3:")
+
+    def test_output_digits_of_stresses(self):
+        text = self.case3(pbtnfs="203103").replace("0.01 0 0.01 0 0 0\n", "0.01 0 0.01 0 0 0\n{}\n1\n1 0 1\n0\n")
+        self.refused(text.format("3 0"), "MATFIL_S = 3 is outside its range 0 to 2")
+        self.refused(text.format("0 5"), "OUTPUT_S = 5 is outside its range 0 to 4")
+
+    def test_window_that_leaves_the_contact(self):
+        """Tractions that act on must be in the new window; with P = 2 they do not act on"""
+        text = self.case3(pbtnfs="201100", rolling="").replace("1000\n\n", "1000\n").replace("\n\n", "\n")[:-2]
+        moved = NEW3.format(**{**PLAIN3, "pbtnfs": "{p}01100", "rolling": "", "mx": "10"}).replace("\n\n", "\n")
+        # the right half of the first window
+        moved = moved.replace("10 20 -1 -1", "10 20 0 -1")
+        for p in "01":
+            self.refused(text + "3\n" + moved.format(p=p) + "0\n", "leaves out", "elements that were in contact", "P=2", modes=("2",))
+        run, out, _ = self.run_text(text + "3\n" + moved.format(p="2") + "0\n")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        run, out, _ = self.run_text(text + "3\n" + moved.replace("10 20 0 -1", "30 20 -1 -1").format(p="0") + "0\n")
+        self.assertEqual(run.returncode, 0, run.stderr)
+
+
+class Words(Doors):
+    """What is told where something was replaced or is missing"""
+
+    def test_text_below_the_end(self):
+        run, out, _ = self.run_text("3\n" + NEW3.format(**PLAIN3) + "0 MODULE\n\n% a comment\n")
+        self.assertNotIn("WARNING", out)
+        run, out, _ = self.run_text("3\n" + NEW3.format(**PLAIN3) + "0 MODULE\n3\n" + KEPT3 + "0\n")
+        self.assertIn("MODULE = 0 ends the input; what stands below is not read", out)
+        self.assertEqual(run.returncode, 0)
+
+    def test_no_results(self):
+        run, out, _ = self.run_text("3\n" + NEW3.format(**{**PLAIN3, "third": "0000001"}) + "0\n")
+        self.assertNotIn("No results were asked for", out)
+        with open(os.path.join(self.folder, "y.inp"), "w") as file:
+            file.write("3\n" + NEW3.format(**{**PLAIN3, "third": "0000001"}) + "0\n")
+        run = subprocess.run([PROGRAM, "2", "y"], cwd=self.folder, capture_output=True, text=True, timeout=60)
+        self.assertIn("No results were asked for", run.stdout)
+
+    def test_largest_number_of_elements(self):
+        """Elements that are doubled for NPOT_MAX are told; a number that is replaced too"""
+        text = "1\n" + NEW1.format(**{**PLAIN1, "iteration": "200 100 30 1 1e-5 200", "side": "0.1"}) + "0\n"
+        run, out, _ = self.run_text(text)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertIn("instead of DX x DS = 0.1 x 0.1 mm, because there are at most NPOT_MAX = 200", out)
+        run, out, _ = self.run_text(text.replace(" 200\n", " 50\n"))
+        self.assertIn("NPOT_MAX = 50 is replaced by 100", out)
+        run, out, _ = self.run_text("1\n" + NEW1.format(**PLAIN1) + "0\n")
+        self.assertNotIn("NPOT_MAX", out)
+
+    def test_step_of_hertzian_rolling(self):
+        """DX of a Hertzian grid is not known beforehand: a DQ that differs is no reason for a warning"""
+        hertz = "203100\n022020\n0000201\n200 100 30 1 1e-5\n9 0.002 0 0\n0.4 0.4\n0 0.5 1000\n0.28 0.28 200 200\n-1\n15 15 0.01 0.01 1.2\n"
+        run, out, _ = self.run_text("3\n" + hertz + "0\n")
+        self.assertNotIn("Warning", out)
+        run, out, _ = self.run_text("3\n" + NEW3.format(**{**PLAIN3, "rolling": "0 0.5 1000"}) + "0\n")
+        self.assertIn("DQ is set to DX", out)
 
 
 if __name__ == "__main__":

@@ -291,7 +291,7 @@ contains
       call suite%check(spec%iteration%d_ifc == 0.01_wp .and. spec%iteration%pow_s == 10.0_wp, "clipped values of G = 5")
       call dubious(suite, "3=0500001|4=100 100 30 1 1e-5;0.9 0.1 1 1. -1. 2. 3. 1.", "D_LIN")
       call right(suite, "3=0400001|4=100 100 30 1 1e-5;-1 0.5")
-      call right(suite, "2=0021020|7=|8=")
+      call wrong(suite, "2=0021020|7=|8=", "C = 1 keeps the materials, but this is the first case")
    end subroutine all_groups
 
    !> What digits keep
@@ -411,9 +411,9 @@ contains
       call wrong(suite, "1=201100|2=0020020|7=|8=", "C = 0 keeps")
       call wrong(suite, "1=201100|2=0022120|7=|8=.3 .3 1 1;0 0 0 0", "M = 1, viscoelastic")
       call wrong(suite, "1=201100|3=3000001|7=|8=.3 .3 1 1;0 450 .05 1;0 450 .05 1", "H = 3, surface temperatures, needs")
-      call wrong(suite, "1=201100|3=1000001|7=", "H = 1, surface temperatures, needs")
+      call wrong(suite, "1=201100|3=3000001|7=|8=.3 .3 1 1;0 1 1 1;0 1 1 1", "H = 3, surface temperatures, needs")
       call wrong(suite, "2=0622020|6=.3 0 -.1 100;0 0", "L = 6, friction falling with temperature, needs")
-      call wrong(suite, "2=0622320|3=1000001|6=.3 0 -.1 100;0 0|8=.3 .3 1 1;1 1 1", "cannot be used with M = 3")
+      call wrong(suite, "2=0622320|3=3000001|6=.3 0 -.1 100;0 0|8=.3 .3 1 1;1 1 1;0 1 1 1;0 1 1 1", "cannot be used with M = 3")
    end subroutine digits_of_one_case
 
    !> What digits of a later case demand of the one before
@@ -470,9 +470,9 @@ contains
       call wrong(suite, "2=0422020|6=0.1 0.2 1.0 0.1 0.0;0.001 10", "SABSH2 = 0.0 is below")
       call wrong(suite, "2=0422020|6=0.1 0.2 1.0 0.1 1.0;-0.001 10", "MEMDST = -0.001 is below")
       call wrong(suite, "2=0422020|6=0.1 0.2 1.0 0.1 1.0;0.001 -10", "MEM_S0 = -10 is below")
-      call wrong(suite, "2=0622020|3=1000001|6=-.3 0 .5 100;0 0", "FREF = -.3 is below")
-      call wrong(suite, "2=0622020|3=1000001|6=.3 0 -.4 100;0 0", "FREF + DFHEAT = -0.1 is below")
-      call wrong(suite, "2=0622020|3=1000001|6=.3 0 -.1 0;0 0", "DTHEAT = 0 must be larger than 0")
+      call wrong(suite, "2=0622020|3=3000001|6=-.3 0 .5 100;0 0|8=.3 .3 1 1;0 1 1 1;0 1 1 1", "FREF = -.3 is below")
+      call wrong(suite, "2=0622020|3=3000001|6=.3 0 -.4 100;0 0|8=.3 .3 1 1;0 1 1 1;0 1 1 1", "FREF + DFHEAT = -0.1 is below")
+      call wrong(suite, "2=0622020|3=3000001|6=.3 0 -.1 0;0 0|8=.3 .3 1 1;0 1 1 1;0 1 1 1", "DTHEAT = 0 must be larger than 0")
       call right(suite, "2=3022020|6=|10=10 2 -0.5 -0.4 0.1 0.1|12=0 0 0 0 0 0;.3 .3;.2 .2")
       call wrong(suite, "2=3222020|6=|10=10 2 -0.5 -0.4 0.1 0.1|12=0 0 0 0 0 0;.3 0 0 0 0;-.2 0 0 0 0;0 0", "FKIN = -.2")
    end subroutine friction
