@@ -145,30 +145,37 @@ class Border(Program):
                 for patch in json.loads(line)["patches"]:
                     self.assertNotIn("border", patch, name)
 
-    def first_case_on_a_rail_that_ends(self, left):
-        """The first case of wheel_on_rail, on the part of its rail with y up to -1 mm: contact goes from -8 to 2"""
-        shutil.copytree(os.path.join(EXAMPLES, "profiles"), os.path.join(self.folder, "profiles"))
+    def first_case_on_a_short_profile(self, profile, keep, left=False, location="2"):
+        """The first case of wheel_on_rail with a part of one of its profiles: contact goes from y = -8 to 2 on the rail"""
+        folder = os.path.join(self.folder, "profiles")
+        shutil.rmtree(folder, ignore_errors=True)
+        shutil.copytree(os.path.join(EXAMPLES, "profiles"), folder)
         rows = []
-        with open(os.path.join(EXAMPLES, "profiles", "60E1.prr"), encoding="utf-8") as file:
+        with open(os.path.join(folder, profile), encoding="utf-8") as file:
             for row in file.read().split("\n"):
                 try:
-                    if float(row.split()[0]) > -1.0:
+                    if not keep(float(row.split()[0])):
                         continue
                 except (ValueError, IndexError):
                     pass
                 rows.append(row)
-        with open(os.path.join(self.folder, "profiles", "cut.prr"), "w", encoding="utf-8") as file:
+        with open(os.path.join(folder, profile), "w", encoding="utf-8") as file:
             file.write("\n".join(rows))
         with open(os.path.join(EXAMPLES, "wheel_on_rail.inp"), encoding="utf-8") as file:
-            first = file.read().split(" 1 MODULE")[1].replace("60E1.prr", "cut.prr")
+            first = file.read().split(" 1 MODULE")[1].replace("0022033", f"00{location}2033")
         return " 1 MODULE" + (first.replace("1203100", "0203100") if left else first)
 
-    def test_end_of_a_rail(self):
-        for left in (False, True):
-            told, patches = self.alarms(self.first_case_on_a_rail_that_ends(left))
-            shutil.rmtree(os.path.join(self.folder, "profiles"))
-            self.assertIn("contact patch 1", told[0])
-            self.assertEqual(patches[0]["border"]["reached"], "the outer end of the rail profile")
+    def test_ends_of_profiles(self):
+        for profile, keep, left, location, end in (
+                ("60E1.prr", lambda y: y <= -1.0, False, "2", "outer end of the rail"),
+                ("60E1.prr", lambda y: y <= -1.0, True, "2", "outer end of the rail"),
+                ("60E1.prr", lambda y: y <= -1.0, False, "4", "outer end of the rail"),
+                ("60E1.prr", lambda y: y <= -1.0, False, "5", "outer end of the rail"),
+                ("S1002.prw", lambda y: y >= -2.0, False, "2", "inner end of the wheel"),
+                ("S1002.prw", lambda y: y <= 2.0, True, "4", "outer end of the wheel")):
+            told, patches = self.alarms(self.first_case_on_a_short_profile(profile, keep, left, location))
+            self.assertEqual(patches[0]["border"]["reached"], f"the {end} profile")
+            self.assertIn(f"contact patch 1: contact reaches the {end} profile", told[0])
             self.assertGreater(patches[0]["border"]["pressure"]["value"], 1500.0)
 
     def test_end_in_the_hdf5_file(self):
