@@ -1,5 +1,6 @@
 !> The groups of an input file that both modules have, as the reader expects them
 module contact_output_input_groups
+   use contact_base_choices, only : heat_source
    use contact_base_kinds, only : wp
    use contact_cases_friction_setup, only : values_of
    use contact_cases_spec, only : case_digits, case_spec
@@ -181,7 +182,8 @@ contains
       associate (heat => spec%heat)
          do body = 1, 2
             call put_line(unit, numbers([heat%bktemp(body), heat%heatcp(body), heat%lambda(body), heat%dens(body)]), &
-               & "BKTEMP HEATCP LAMBDA DENS")
+               & "BKTEMP HEATCP LAMBDA DENS" // merge(", temperatures as with --heat moving-source", repeat(" ", 43), &
+               & heat%source == heat_source%moving))
          end do
          if (spec%digits%m == 4) call put_line(unit, numbers([heat%betapl]), "BETAPL")
       end associate

@@ -346,11 +346,14 @@ def output():
     """Files go where they are wanted"""
     contact.output_to("results", "run")
     with contact.Problem() as problem:
-        problem.set_flags(ic_output=2, ic_matfil=1)
+        problem.set_flags(ic_output=2, ic_matfil=1, if_wrtinp=1)
         ball(problem)
+        problem.set_temperatures(20.0)
         problem.solve()
     check(os.path.getsize("results/run.out") > 1000, "the .out file")
     check(any(name.endswith(".mat") for name in os.listdir("results")), "the .mat file")
+    with open("results/run.inp", encoding="utf-8") as file:
+        check("--heat moving-source" in file.read(), "the input file tells by which temperatures it is to be run")
 
 
 if __name__ == "__main__":
