@@ -27,21 +27,6 @@ def _log_of_sum(y, r, x):
         return np.where(y >= 0, np.log(y + r), 2*np.log(np.abs(x)) - np.log(r - y))
 
 
-def _corner_sum(function, x, y, dx, dy):
-    """Signed sum of an antiderivative over the corners of the rectangle, seen from (x, y)"""
-    right, left, top, bottom = x + dx/2, x - dx/2, y + dy/2, y - dy/2
-    return function(right, top) - function(left, top) - function(right, bottom) + function(left, bottom)
-
-
-def _second_difference(function, x, y, dx, dy):
-    """The same for a hat over 2 dx by 2 dy: second differences of the fourth antiderivative"""
-    total = 0
-    for i, wi in ((-1, 1), (0, -2), (1, 1)):
-        for j, wj in ((-1, 1), (0, -2), (1, 1)):
-            total = total + wi*wj*function(x + i*dx, y + j*dy)
-    return total/(dx*dy)
-
-
 def _rectangle_kernels():
     """Antiderivatives in x and y of 1/r, x2/r3, y2/r3, xy/r3, x/r2, y/r2"""
     def parts(x, y):
@@ -106,16 +91,20 @@ class HalfSpaces:
         (2 my - 1, 2 mx - 1), offset zero in the middle; the place is moved ahead by a vector"""
         key = (name, tuple(ahead))
         if key not in self._tables:
-            number = np.longdouble if self.hats else np.float64
-            x = (np.arange(-(self.mx - 1), self.mx)*number(self.dx) + number(ahead[0]))[np.newaxis, :]
-            y = (np.arange(-(self.my - 1), self.my)*number(self.dy) + number(ahead[1]))[:, np.newaxis]
+            # rectangles: antiderivatives at the corners; hats: fourth antiderivatives at the centres and their neighbours
+            number, more = (np.longdouble, 1) if self.hats else (np.float64, 0.5)
+            x = (np.arange(-(self.mx - 1) - more, self.mx + more)*number(self.dx) + number(ahead[0]))[np.newaxis, :]
+            y = (np.arange(-(self.my - 1) - more, self.my + more)*number(self.dy) + number(ahead[1]))[:, np.newaxis]
             x, y = np.broadcast_arrays(x, y)
             # shares of the point kernels 1/r, x2/r3, ...
             shares = {"xx": {"1": 1 - self.nu, "xx": self.nu}, "yy": {"1": 1 - self.nu, "yy": self.nu},
                       "xy": {"xy": self.nu}, "yx": {"xy": self.nu}, "nn": {"1": 1 - self.nu},
                       "xn": {"x": -self.k}, "nx": {"x": self.k}, "yn": {"y": -self.k}, "ny": {"y": self.k}}[name]
-            kernels, total = (_hat_kernels(), _second_difference) if self.hats else (_rectangle_kernels(), _corner_sum)
-            value = sum(share*total(kernels[kernel], x, y, number(self.dx), number(self.dy)) for kernel, share in shares.items())
+            kernels, order = (_hat_kernels(), 2) if self.hats else (_rectangle_kernels(), 1)
+            value = sum(share*kernels[kernel](x, y) for kernel, share in shares.items())
+            value = np.diff(np.diff(value, order, axis=0), order, axis=1)
+            if self.hats:
+                value = value/(number(self.dx)*number(self.dy))
             self._tables[key] = np.asarray(value/(np.pi*self.g), dtype=float)
         return self._tables[key]
 

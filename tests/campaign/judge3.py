@@ -350,7 +350,7 @@ def judge_contact(scene, k, run, fields, findings, state):
     state["cut"] = k > 1 and "move" in case and not math.isclose(in_window(scene, k, fields[k - 1]["pn"]).sum(),
                                                                 fields[k - 1]["pn"].sum())
     state["plastic"] = plastic_before(scene, k, fields, state)
-    if d["M"] == 1 and f["mx"]*f["my"] > 120:
+    if d["M"] == 1 and f["mx"]*f["my"] > 80:
         # costs seconds
         return
     if d["M"] in (2, 3, 5):
