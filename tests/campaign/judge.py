@@ -83,8 +83,7 @@ class Run:
 
     def totals(self, case, patch=1):
         """Totals of a patch as plain numbers, by their names"""
-        totals = self.cases[case - 1]["patches"][patch - 1]["totals"]
-        return {name: value["value"] if isinstance(value, dict) else value for name, value in totals.items()}
+        return plain_totals(self.cases[case - 1], patch)
 
     def fields(self, case, patch=1):
         """Fields of a patch over the elements, arrays (my, mx), with the grid: from the HDF5 file where there is one and
@@ -135,6 +134,12 @@ class Run:
         return result
 
 
+def plain_totals(record, patch=1):
+    """Totals of a patch in a record of a case"""
+    totals = record["patches"][patch - 1]["totals"]
+    return {name: value["value"] if isinstance(value, dict) else value for name, value in totals.items()}
+
+
 def _refuse_constant(word):
     raise ValueError(f"{word} is no JSON")
 
@@ -169,12 +174,12 @@ class Tools:
         return (code, output.decode(errors="replace"), errors.decode(errors="replace"),
                 after.ru_utime - before.ru_utime)
 
-    def run(self, name, text, files=None, options=("--json", "--hdf5", "--quiet")):
+    def run(self, name, text, files=None, options=("--json", "--hdf5", "--quiet"), threads=1):
         """Run the program on an input text; files are further texts by their names"""
         for file_name, content in {name + ".inp": text, **(files or {})}.items():
             with open(os.path.join(self.folder, file_name), "w", encoding="utf-8") as file:
                 file.write(content)
-        code, output, errors, seconds = self.command([self.exe, "2", name, "--threads", "1", *options])
+        code, output, errors, seconds = self.command([self.exe, "2", name, "--threads", str(threads), *options])
         run = Run(self.folder, name, code, output, errors, seconds)
         run.read_cases()
         return run

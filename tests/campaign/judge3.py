@@ -51,6 +51,8 @@ def check(scene, tools):
         judge_numbers(run, k, fields[k], findings)
     for k in solved:
         not_converged(run.cases[k - 1], findings)
+    if run.code == 1 or scene.get("variant") == "checked":
+        checked(scene, run, tools, findings)
     if any(item["status"] != "refused" and item["judge"] in ("end", "numbers") for item in findings):
         return findings
     state = {}
@@ -64,6 +66,13 @@ def check(scene, tools):
     if not any(item["status"] == "disagreement" for item in findings) and run.code == 0:
         variant(scene, run, fields, tools, findings)
     return findings
+
+
+def checked(scene, run, tools, findings):
+    """The mode that only checks says what a run would say about the input"""
+    code, _, errors, _ = tools.command([tools.exe, "3", "run"])
+    if code != run.code:
+        findings.append(finding("checked", f"exit code {run.code} of the run, {code} of the check: {judge.without_numbers(errors or run.errors)}"))
 
 
 def text_of(scene):
@@ -781,6 +790,13 @@ def variant(scene, run, fields, tools, findings):
     if name == "refined":
         refined(scene, run, fields, tools, findings)
         return
+    if name == "interleaved":
+        interleaved(scene, run, tools, findings)
+        return
+    if name == "threads":
+        second = tools.run("run2", text_of(scene), other_files(scene), threads=2)
+        same_totals("threads", run, second, scene, findings)
+        return
     other, view = {"mirror_y": mirrored_y, "mirror_x": mirrored_x, "scaled": scaled, "moved": moved}.get(name, lambda s: (None, None))(
         copy.deepcopy(scene))
     if other is None:
@@ -1004,6 +1020,37 @@ def moved(s):
         xo, yo = case.get("centre", (0.0, 0.0))
         case["centre"] = [xo + x, yo + y]
     return s, lambda name, value: value
+
+
+def same_totals(name, run, second, scene, findings, chosen=lambda record: True):
+    """Totals of two runs are those of one computation"""
+    records = [record for record in second.cases if chosen(record)]
+    if second.code != run.code or len(records) != len(run.cases):
+        findings.append(finding(name, f"exit codes {run.code} and {second.code}, {len(run.cases)} and {len(records)} cases:"
+                                f" {judge.without_numbers(second.errors)}"))
+        return
+    for k, record in enumerate(records, start=1):
+        if not is_converged(run.cases[k - 1]):
+            return
+        t, u = run.totals(k), judge.plain_totals(record)
+        scale = max(abs(t["fn"]), 1e-300)*min(1.0, scale_of_friction(scene))
+        for total in ("fn", "fx", "fy"):
+            if t.get(total) is not None:
+                exceeds(findings, name, f"{total.upper()} of case {k}", abs(t[total] - u[total])/scale, LIBRARY*scene["eps"])
+
+
+def interleaved(scene, run, tools, findings):
+    """Two problems in turn, each a result element, give what each gives alone"""
+    import module3
+    other, _ = mirrored_y(copy.deepcopy(scene))
+    if other is None:
+        return
+    other["cases"] = other["cases"][::-1]
+    other["cases"][0].update(P=2, I=0, keep=False)
+    for case in other["cases"]:
+        case.pop("move", None)
+    both = tools.run("both", module3.interleaved_text([scene, other]), other_files(scene))
+    same_totals("interleaved", run, both, scene, findings, lambda record: record["result_element"] == 1)
 
 
 def refined(scene, run, fields, tools, findings):

@@ -6,7 +6,7 @@ import judge3
 
 # Digits whose values are rows of the table
 SHOWN = ("B", "T", "V", "L", "C", "M", "H", "G", "S", "E")
-VARIANTS = ("mirror_y", "mirror_x", "scaled", "moved", "refined", "library")
+VARIANTS = ("mirror_y", "mirror_x", "scaled", "moved", "refined", "library", "interleaved", "threads", "checked")
 
 
 def logarithmic(rng, low, high):
@@ -287,47 +287,62 @@ def files(scene):
 
 
 def input_text(scene):
-    d, lines = scene["digits"], []
-    for k, case in enumerate(scene["cases"]):
-        first, fresh = k == 0, not case["keep"]
-        lines.append("3 MODULE")
-        s = d["S"] if first else min(d["S"], 1)
-        lines.append(f" {case['P']}{d['B']}{d['T']}{case['N']}{case['F']}{s} P-B-T-N-F-S")
-        grid_digit, law, coefficients, gap = (2, d["L"], d["C"], 2) if fresh else (0, 1, 0, 0)
-        damping = " 2" if "damping" in case else " 0"
-        lines.append(f" {d['V']}{law}{grid_digit}{coefficients}{d['M']}{gap}{d['E']}{damping} V-L-D-C-M-Z-E")
-        heat = d["H"] if fresh else min(d["H"], 1)
-        lines.append(f" {heat}{d['G'] if fresh else 1}{case['I']}2201 H-G-I-A-O-W-R")
-        if fresh:
-            lines.append(f" 999 {scene['maxin']} 60 {scene['maxout']} {number(scene['eps'])} MAXGS")
-            if scene["omega"]:
-                lines.append(numbers(scene["omega"]))
-        lines.append(numbers([case["load"], case["x"], case["y"], case["phi"]] + case.get("centre", [])))
-        rows = [numbers(row) for row in scene["friction"]]
-        if "memory" in scene:
-            rows.append(numbers(scene["memory"]))
-        if fresh and d["V"] == 0:
-            lines += rows
-        if fresh and d["T"] >= 2:
-            lines.append(numbers(scene["rolling"]))
-        if fresh:
-            lines += _coefficient_lines(scene)
-        if "damping" in case:
-            lines.append(numbers(case["damping"]))
-        if fresh and d["H"] == 3:
-            lines += [numbers(body) for body in scene["heat"]]
-            if d["M"] == 4:
-                lines.append(" 0.5")
-        if fresh:
-            lines += _grid_lines(judge3.grid_of(scene, k + 1))
-        if fresh and d["V"] == 3:
-            lines += rows
-        if d["E"] == 9:
-            lines += [numbers(pair) for pair in case["extra"]]
-        if first and d["S"] == 3:
-            lines += [" 1 1", " 1"] + [numbers(row) for row in scene["points"]] + [" 0"]
-    lines.append("0 END")
-    return "\n".join(lines) + "\n"
+    lines = []
+    for k in range(len(scene["cases"])):
+        lines += ["3 MODULE"] + case_lines(scene, k)
+    return "\n".join(lines + ["0 END"]) + "\n"
+
+
+def interleaved_text(scenes):
+    """Cases of several scenes in turn, each scene a result element of its own"""
+    lines = []
+    for k in range(max(len(scene["cases"]) for scene in scenes)):
+        for element, scene in enumerate(scenes, start=1):
+            if k < len(scene["cases"]):
+                lines += [f"3 {element} 1 MODULE"] + case_lines(scene, k)
+    return "\n".join(lines + ["0 END"]) + "\n"
+
+
+def case_lines(scene, k):
+    """All lines of case k (from 0) behind its module line"""
+    d, lines, case = scene["digits"], [], scene["cases"][k]
+    first, fresh = k == 0, not case["keep"]
+    s = d["S"] if first else min(d["S"], 1)
+    lines.append(f" {case['P']}{d['B']}{d['T']}{case['N']}{case['F']}{s} P-B-T-N-F-S")
+    grid_digit, law, coefficients, gap = (2, d["L"], d["C"], 2) if fresh else (0, 1, 0, 0)
+    damping = " 2" if "damping" in case else " 0"
+    lines.append(f" {d['V']}{law}{grid_digit}{coefficients}{d['M']}{gap}{d['E']}{damping} V-L-D-C-M-Z-E")
+    heat = d["H"] if fresh else min(d["H"], 1)
+    lines.append(f" {heat}{d['G'] if fresh else 1}{case['I']}2201 H-G-I-A-O-W-R")
+    if fresh:
+        lines.append(f" 999 {scene['maxin']} 60 {scene['maxout']} {number(scene['eps'])} MAXGS")
+        if scene["omega"]:
+            lines.append(numbers(scene["omega"]))
+    lines.append(numbers([case["load"], case["x"], case["y"], case["phi"]] + case.get("centre", [])))
+    rows = [numbers(row) for row in scene["friction"]]
+    if "memory" in scene:
+        rows.append(numbers(scene["memory"]))
+    if fresh and d["V"] == 0:
+        lines += rows
+    if fresh and d["T"] >= 2:
+        lines.append(numbers(scene["rolling"]))
+    if fresh:
+        lines += _coefficient_lines(scene)
+    if "damping" in case:
+        lines.append(numbers(case["damping"]))
+    if fresh and d["H"] == 3:
+        lines += [numbers(body) for body in scene["heat"]]
+        if d["M"] == 4:
+            lines.append(" 0.5")
+    if fresh:
+        lines += _grid_lines(judge3.grid_of(scene, k + 1))
+    if fresh and d["V"] == 3:
+        lines += rows
+    if d["E"] == 9:
+        lines += [numbers(pair) for pair in case["extra"]]
+    if first and d["S"] == 3:
+        lines += [" 1 1", " 1"] + [numbers(row) for row in scene["points"]] + [" 0"]
+    return lines
 
 
 def _coefficient_lines(scene):
