@@ -195,6 +195,7 @@ contains
          & " K0_MF ALFAMF BETAMF", " GG3 LAYTHK TAU_C0 K_TAU", " K0_MF ALFAMF BETAMF", "", ""]
       type(combined_material) :: both
       real(wp) :: v(8)
+      logical :: unlike
       integer :: n
 
       n = size(values)
@@ -234,8 +235,10 @@ contains
             material%k_tau = v(8)
          end select
          both = combine(material%poiss, material%gg)
-         if (spec%iteration%maxout >= 2 .and. abs(both%ak) < quasi_identical) spec%iteration%maxout = 1
-         if (spec%iteration%maxout <= 1 .and. abs(both%ak) >= quasi_identical) spec%iteration%maxout = 10
+         unlike = abs(both%ak) >= quasi_identical
+         if (method == 1) unlike = unlike .or. material%relaxes_apart()
+         if (spec%iteration%maxout >= 2 .and. .not. unlike) spec%iteration%maxout = 1
+         if (spec%iteration%maxout <= 1 .and. unlike) spec%iteration%maxout = 10
       end associate
 
    contains

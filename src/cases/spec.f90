@@ -103,6 +103,9 @@ module contact_cases_spec
       real(wp), allocatable :: table_y(:), table_alpha(:)
       !> File of numerical influence coefficients
       character(len=:), allocatable :: cfname
+   contains
+      !> Are late responses of viscoelastic bodies so unlike that pressures and shear interact through them?
+      procedure :: relaxes_apart
    end type material_spec
 
    !> Force-based damping
@@ -186,6 +189,22 @@ module contact_cases_spec
    real(wp), parameter :: least_yield_limit = 1.0e-10_wp, largest_yield_limit = 1.0e10_wp
 
 contains
+
+   !> Lateral displacements by pressures that memory adds, fg (1 - 2 nu)/G, cancel if they are equal and fade alike
+   pure logical function relaxes_apart(self)
+      class(material_spec), intent(in) :: self
+      !> Difference relative to the compliance below which bodies count as alike, as for AK
+      real(wp), parameter :: alike = 1.0e-4_wp
+      real(wp) :: at_once(2), late(2), small
+
+      small = alike*sum(1.0_wp/self%gg)
+      late = self%fg*(1.0_wp - 2.0_wp*self%poiss)/self%gg
+      ! without relaxation time the whole response comes at once
+      at_once = merge(late, 0.0_wp, self%tc <= 0.0_wp)
+      late = late - at_once
+      relaxes_apart = abs(at_once(1) - at_once(2)) > small .or. abs(late(1) - late(2)) > small .or. &
+         & (abs(self%tc(1) - self%tc(2)) > alike*maxval(self%tc) .and. maxval(late) > small)
+   end function relaxes_apart
 
    pure logical function has_plasticity(self)
       class(case_spec), intent(in) :: self

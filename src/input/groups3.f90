@@ -313,7 +313,7 @@ contains
       type(case_spec), intent(inout) :: spec
       type(problem_list), intent(inout) :: problems
       type(error_type), allocatable, intent(out) :: error
-      type(input_value) :: v(4)
+      type(input_value) :: v(4), place
 
       if (spec%digits%c < 2) return
       associate (material => spec%material)
@@ -335,7 +335,7 @@ contains
          if (allocated(error)) return
          material%poiss = v(1:2)%r
          material%gg = v(3:4)%r
-         if (minval(material%gg) >= 1.0e-5_wp) call check_outer_iteration(spec, v(1), problems)
+         place = v(1)
 
          if (spec%digits%b == 1) then
             call read_values(lexer, "r", "FLXZ", v, problems, error)
@@ -343,6 +343,8 @@ contains
             material%flxz = v(1)%r
          end if
          call read_material_model(lexer, spec%digits%m, material, problems, error)
+         if (allocated(error)) return
+         if (minval(material%gg) >= 1.0e-5_wp) call check_outer_iteration(spec, place, problems)
       end associate
    end subroutine read_materials
 
@@ -436,15 +438,17 @@ contains
       type(input_value), intent(in) :: place
       type(problem_list), intent(inout) :: problems
       real(wp) :: ak
-      logical :: is_dissimilar_shape
+      logical :: is_dissimilar_shape, relaxes_apart
       character(len=:), allocatable :: given
 
       if (spec%digits%t == 0) return
       ak = difference_parameter(spec%material)
       is_dissimilar_shape = spec%digits%c == 4 .or. spec%digits%c == 9
+      relaxes_apart = spec%digits%m == 1
+      if (relaxes_apart) relaxes_apart = spec%material%relaxes_apart()
       given = "MAXOUT = " // integer_text(spec%iteration%maxout)
       if (spec%iteration%maxout >= 2) then
-         if (is_dissimilar_shape .or. abs(ak) >= quasi_identical) return
+         if (is_dissimilar_shape .or. relaxes_apart .or. abs(ak) >= quasi_identical) return
          call problems%add(severity%warning, given // " is replaced by 1: the bodies are quasi-identical, AK = " // &
             & real_text(ak), place%line, place%column)
          spec%iteration%maxout = 1
@@ -454,6 +458,9 @@ contains
       else if (is_dissimilar_shape) then
          call problems%add(severity%warning, given // " means no outer iteration, but the bodies have dissimilar " // &
             & "shapes, C = " // integer_text(spec%digits%c) // "; MAXOUT = 10 or more is recommended", place%line, place%column)
+      else if (relaxes_apart) then
+         call problems%add(severity%warning, given // " means no outer iteration, but the bodies relax differently, M = 1; " // &
+            & "MAXOUT = 10 or more is recommended", place%line, place%column)
       end if
    end subroutine check_outer_iteration
 

@@ -55,8 +55,10 @@ def set_problem(scene):
 def solve(scene, k):
     """Case k, its results"""
     case = scene["cases"][k]
-    # cntc_sethertzcontact has set B = 2 for line contacts
-    flags(ic_bound=scene["digits"]["B"], ic_pvtime=case["P"], ic_iestim=case["I"], ic_norm=case["N"], ic_force=case["F"], ic_exrhs=scene["digits"]["E"])
+    # cntc_sethertzcontact has set B = 2 for line contacts; cntc_setextrarigidslip sets E = 9
+    flags(ic_bound=scene["digits"]["B"], ic_pvtime=case["P"], ic_iestim=case["I"], ic_norm=case["N"], ic_force=case["F"])
+    if scene["digits"]["E"] in (2, 3):
+        flags(ic_exrhs=scene["digits"]["E"])
     if case["N"]:
         cntc.setnormalforce(IRE, ICP, case["load"])
     else:
