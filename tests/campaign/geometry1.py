@@ -10,6 +10,9 @@ import numpy as np
 import profiles
 
 
+SAMPLE = 0.005  # distance of points of the rail [mm]
+
+
 def turn(axis, angle):
     """Matrix of a turn about one axis, 0, 1, 2 for x, y, z"""
     c, s = math.cos(angle), math.sin(angle)
@@ -95,8 +98,8 @@ def gauge_point(curve, cant, height):
 
 
 def curves_of(pair):
-    """Rail and wheel of a pair, sampled"""
-    return Curve(pair["rail"], 0.01), Curve(pair["wheel"], 0.05)
+    """Rail and wheel of a pair, sampled; the rail is taken to be straight between its points"""
+    return Curve(pair["rail"], SAMPLE), Curve(pair["wheel"], 0.05)
 
 
 class Placed:
@@ -250,7 +253,9 @@ class Placed:
         low = np.where(np.isfinite(low), low, rows[best, j])
         x_low = places[inner, j] + np.where(t >= 0, t * (places[inner + 1, j] - places[inner, j]),
                                            -t * (places[inner - 1, j] - places[inner, j]))
-        angle = np.arctan(np.gradient(self.rail_height(x_low, y_rows), width))
+        step = max(width, 2.0 * SAMPLE)  # across the rail where it is, not along the line of smallest gaps
+        with np.errstate(invalid="ignore"):
+            angle = np.arctan((self.rail_height(x_low, y_rows + step) - self.rail_height(x_low, y_rows - step)) / (2.0 * step))
         depth = np.where(np.isfinite(low), np.maximum(-low, 0.0), 0.0)
         result = []
         inside = np.flatnonzero(depth > 0.0)

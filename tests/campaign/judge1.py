@@ -194,7 +194,7 @@ def places(scene, case, placed, totals, patches, findings):
     # the program tabulates the gap with steps of 0.3 DS and takes a parabola through three of them
     width = deepest["bounds"][1] - deepest["bounds"][0]
     coarse = (0.3 * ds / width)**2 if width > 0.0 else 1.0
-    if "smallest_gap" in totals:
+    if "smallest_gap" in totals and not deepest["edge"]:
         judge.exceeds(findings, "gap", "the smallest gap", abs(totals["smallest_gap"] + depth), (0.05 + coarse) * depth + slack)
     apart = [b["bounds"][0] - a["bounds"][1] for a, b in zip(regions, regions[1:])]
     d_sep, d_comb = scene["grid"][4], scene["grid"][5]
@@ -202,7 +202,7 @@ def places(scene, case, placed, totals, patches, findings):
         region, patch = deepest, patches[0]
         if width < 1.2 * ds:  # fewer points of the table than make a mean
             return
-        across = (0.05 * ds + 0.01 * width if width > 4 * ds else 0.3 * ds) + slack
+        across = (0.05 * ds + 0.01 * width if width > 4 * ds else 0.3 * ds) + slack + geometry1.SAMPLE
         along_x = 0.02 * (region["x_bounds"][1] - region["x_bounds"][0]) + (abs(math.tan(case["yaw"])) + 0.01) * across * 30
         judge.exceeds(findings, "places", "YCP", abs(region["y"] - patch["ycp_tr"]), across)
         judge.exceeds(findings, "places", "XCP", abs(region["x"] - patch["xcp_tr"]), along_x)
@@ -240,7 +240,8 @@ def distance(scene, run, number, placed, patches, findings):
         beyond = ~touching & np.isfinite(found)
         inside = found[beyond] < -1.002 * patch["pen"] - 0.04 * slack
         if inside.any():
-            findings.append(judge.finding("distance", "bodies overlap by more than the approach", -found[beyond].min(), patch["pen"]))
+            findings.append(judge.finding("distance", "bodies overlap by more than the approach", -found[beyond].min(),
+                                          patch["pen"]))
 
 
 def motion(scene, case, placed, totals, patches, findings):
@@ -278,10 +279,11 @@ def motion(scene, case, placed, totals, patches, findings):
 # ---- Relations ---------------------------------------------------------------------------------------------
 
 
-def compared(findings, what, one, two, tolerance, lengths=1.0, forces=1.0, position=None, patches=True, height=0.0):
+def compared(findings, what, one, two, tolerance, lengths=1.0, forces=1.0, position=None, patches=True, height=0.0, elements=0):
     """Compare cases of two runs; the second one is larger by the factors of lengths and forces
 
     height     by how much the surfaces may be displaced [mm]: forces grow with the power 1.5 of the approach
+    elements   patches with fewer elements in contact are not compared: forces jump with the place of the grid
     """
     least = tolerance
     for (record, totals, mine), (other, theirs, yours) in zip(one, two):
@@ -294,7 +296,7 @@ def compared(findings, what, one, two, tolerance, lengths=1.0, forces=1.0, posit
                 findings.append(judge.finding(what, "number of patches: %d and %d" % (len(mine), len(yours))))
             return
         size = sum(abs(patch["fn"]) for patch in mine)
-        if not size > 0.0:
+        if not size > 0.0 or min(patch["ncon"] for patch in mine) < elements:
             continue
         tolerance = least + 1.5 * height / min(patch["pen"] for patch in mine)
         for name in ("fx_tr", "fy_tr", "fz_tr"):
@@ -380,7 +382,8 @@ def refined_profile(scene, tools, run, cases, findings):
         if recipe.get("noise") or recipe.get("smooth") or recipe.get("spacing") or recipe.get("slices"):
             return
         recipe["refine"] = 2
-    compared(findings, "refined_profile", cases, results(scene1.solve(finer, tools, "finer"), scene["side"]), 2e-2, patches=False)
+    compared(findings, "refined_profile", cases, results(scene1.solve(finer, tools, "finer"), scene["side"]), 2e-2,
+             patches=False, elements=30)
 
 
 def cut(scene, tools, run, cases, findings):
@@ -407,13 +410,15 @@ def cut(scene, tools, run, cases, findings):
         return
     origin = placed.rail_origin - np.array([0.0, case["deviation"][0], case["deviation"][1]])
     part["pair"]["track"] = [-1.0, float(origin[1]), float(origin[2]), part["pair"]["track"][3]]
-    compared(findings, "cut", cases[:1], results(scene1.solve(part, tools, "part"), scene["side"]), 5e-3, height=2e-6)
+    compared(findings, "cut", cases[:1], results(scene1.solve(part, tools, "part"), scene["side"]), 5e-3, height=2e-6, elements=30)
 
 
 def slices(scene, tools, run, cases, findings):
     """A rail that does not vary, written as slices"""
     rail = scene["pair"]["rail"]
     if rail.get("slices") or scene["pair"]["wheel"].get("slices") or not scene1.sampled(scene):
+        return
+    if rail.get("spacing") or rail.get("noise"):  # slices are sampled with steps of 0.5 mm
         return
     if scene["roller"] or scene["digits"]["D"] == 4 or any(not settled(record) for record, _, _ in cases):
         return
@@ -425,7 +430,7 @@ def slices(scene, tools, run, cases, findings):
     same["pair"]["track"] = [-1.0, float(origin[1]), float(origin[2]), same["pair"]["track"][3]]
     same["pair"]["rail"]["slices"] = [[case["s"] + 100.0 * (k - 3), 0.0, 0.0] for k in range(7)]
     compared(findings, "slices", cases[:1], results(scene1.solve(same, tools, "same"), scene["side"]), 2e-2,
-             position=0.3 * scene["grid"][1], patches=False, height=2e-6)
+             position=0.3 * scene["grid"][1], patches=False, height=2e-6, elements=30)
 
 
 def refined_grid(scene, tools, run, cases, findings):
@@ -434,6 +439,8 @@ def refined_grid(scene, tools, run, cases, findings):
     finer["grid"][:2] = [0.5 * value for value in scene["grid"][:2]]
     if scene["digits"]["T"] in (1, 2) or scene["digits"]["B"]:
         return
+    if any(scene["pair"][body].get("spacing") and not scene["pair"][body].get("smooth") for body in ("rail", "wheel")):
+        return  # corners between straight pieces: pressures grow with every finer grid
     if any(not 60 <= patch["ncon"] <= 4000 for _, _, patches in cases for patch in patches):
         return
     compared(findings, "refined_grid", cases, results(scene1.solve(finer, tools, "finer"), scene["side"]), 4e-2, patches=False)
@@ -474,8 +481,8 @@ def library(scene, tools, run, cases, findings):
             for name, value, odd in zip(("xcp_tr", "ycp_tr", "zcp_tr", "deltcp_tr"), other["place"], (1.0, sign, 1.0, sign)):
                 judge.exceeds(findings, "library", name.upper(), abs(odd * value - patch[name]), SAME * max(1.0, abs(patch[name])))
             for name, odd in (("fn", 1.0), ("fx", 1.0), ("pmax", 1.0), ("pen", 1.0)):
-                judge.exceeds(findings, "library", name.upper(),
-                              abs(odd * other[name] - patch[name]) / max(abs(patch[name]), 1e-3 * patch["fn"]), SAME)
+                judge.exceeds(findings, "library", name.upper(), abs(odd * other[name] - patch[name])
+                              / max(abs(patch[name]), 0.1 * patch["fn"] if name == "fx" else 0.0), SAME)
     written = [name for name in os.listdir(tools.folder) if name.startswith("caddon") and name.endswith(".inp")
                or name.startswith("through") and name.endswith(".inp")]
     for name in written:

@@ -419,16 +419,16 @@ def pair(rng):
         one["scale"] = two["scale"] = size
         one.pop("smooth", None), two.pop("smooth", None)
         one.pop("noise", None), two.pop("noise", None)
+        if size < 0.8:  # points nearer than 1e-4 file units are dropped
+            one.pop("metres", None), two.pop("metres", None)
     elif kind == "guarded":
         one = {"body": "rail", "shape": ["guarded", rng.uniform(0.0, 4.0), rng.uniform(36.0, 45.0), rng.uniform(38.0, 47.0)],
                "format": rng.choice(["simpack", "table"])}
     elif kind == "flat":
-        depth, length = rng.uniform(0.05, 0.8), rng.uniform(30.0, 80.0)
-        count = 21
-        two = {"body": "wheel", "shape": ["S1002"], "cut": [-45.0, 40.0], "format": "simpack", "spacing": [1.0, 1.0],
-               "slices": [[round(1.2 * length / RADIUS * (2 * k / (count - 1) - 1) / 2, 9), 0.0,
-                           -round(0.5 * depth * (1 + math.cos(min(math.pi, 1.2 * math.pi * abs(2 * k / (count - 1) - 1)))), 9)]
-                          for k in range(count)]}
+        depth, half = rng.uniform(0.05, 0.8), rng.uniform(15.0, 40.0) / RADIUS
+        two = {"body": "wheel", "shape": ["S1002"], "cut": [-56.0, 45.0], "format": "simpack", "spacing": [1.0, 1.0],
+               "slices": [[angle, 0.0, -round(depth * math.cos(min(1.0, abs(angle) / half) * math.pi / 2)**2, 9)]
+                          for angle in (round(0.006 * k, 6) for k in range(-22, 23))]}
     elif kind == "varying":
         count, step = rng.choice([5, 9, 15]), rng.uniform(20.0, 100.0)
         one = {"body": "rail", "shape": ["60E1"], "format": "simpack", "spacing": [0.5, 0.5], "interpol": rng.choice([1, 1, 2]),

@@ -126,12 +126,14 @@ def _gauss(rng, size):
 
 def _give_heights(rng, scene):
     """Prescribe heights of the wheelset at which the bodies overlap a little"""
-    curves = geometry1.curves_of(scene["pair"]) if sampled(scene) else None
+    pair = copy.deepcopy(scene["pair"])
+    for body in ("rail", "wheel"):
+        if (pair[body].get("smooth") or [0])[0] == 2:
+            pair[body].pop("smooth")  # not known here; near enough for a height
+    curves = geometry1.curves_of(pair)
     depth = 0.5 * scene["cases"][0]["fz"]**(2.0 / 3.0) * 4e-5
     for case in scene["cases"]:
-        touch = None
-        if curves:
-            touch = geometry1.Placed(scene, case, 0.0, curves=curves).smallest()
+        touch = geometry1.Placed(scene, case, 0.0, curves=curves).smallest()
         case["z"] = float("%.9g" % ((touch[0] if touch else 0.3) + depth * rng.choice([1.0, 1.0, 0.7])))
 
 
