@@ -117,12 +117,14 @@ contains
       call estimate_extent(spec, problem, result, extent, found)
       if (.not. found) return
       associate (grid => problem%grid)
-         low = merge(ceiling([(grid%xl - extent%xl)/grid%dx, (grid%yl - extent%yl)/grid%dy]) + spare, 0, &
-            & result%border%side([1, 3]))
-         high = merge(ceiling([(extent%xl + extent%mx*extent%dx - grid%xl)/grid%dx - grid%mx, &
-            & (extent%yl + extent%my*extent%dy - grid%yl)/grid%dy - grid%my]) + spare, 0, result%border%side([2, 4]))
-         low = max(low, 0)
-         high = max(high, 0)
+         ! sides that are free now may not be when the contact is complete
+         low = max(0, spare + ceiling([(grid%xl - extent%xl)/grid%dx, (grid%yl - extent%yl)/grid%dy]))
+         high = max(0, spare + ceiling([(extent%xl + extent%mx*extent%dx - grid%xl)/grid%dx - grid%mx, &
+            & (extent%yl + extent%my*extent%dy - grid%yl)/grid%dy - grid%my]))
+         where ([grid%mx, grid%my] < 3)
+            low = 0
+            high = 0
+         end where
          text = "; with elements of this size MX = " // integer_text(grid%mx + low(1) + high(1)) // ", MY = " // &
             & integer_text(grid%my + low(2) + high(2)) // ", XL = " // real_text(grid%xl - low(1)*grid%dx) // ", YL = " // &
             & real_text(grid%yl - low(2)*grid%dy) // " would be enough"
@@ -154,6 +156,8 @@ contains
       logical, intent(out) :: found
       !> Steps by half of the width until the surfaces are apart
       integer, parameter :: most_steps = 30
+      !> Solutions on coarse grids until one of them is free at its border
+      integer, parameter :: most_passes = 8
       type(patch_problem) :: trial
       type(potential_contact) :: grid
       type(bounding_box) :: box
@@ -180,21 +184,39 @@ contains
          grid%dy = grid%dy + count(.not. closed(3:4))*span(2)/grid%my
       end do
       if (.not. all(closed)) return
-      do k = 1, 2
+      do k = 1, most_passes
          trial%grid = grid
          call undeformed_distance(spec%geometry, grid, h=trial%h, error=error)
          if (allocated(error)) return
          call find_contact(trial, box, found)
          if (.not. found) return
-         ! one more coarse element on each side
-         extent = grid
-         extent%xl = grid%xl + (box%ix0 - 2)*grid%dx
-         extent%yl = grid%yl + (box%iy0 - 2)*grid%dy
-         extent%dx = grid%dx*(box%ix1 - box%ix0 + 3)/grid%mx
-         extent%dy = grid%dy*(box%iy1 - box%iy0 + 3)/grid%my
-         grid = extent
+         extent = around(grid, box, 1)
+         found = k > 1 .and. (grid%mx < 3 .or. (box%ix0 > 1 .and. box%ix1 < grid%mx)) &
+            & .and. (grid%my < 3 .or. (box%iy0 > 1 .and. box%iy1 < grid%my))
+         if (found) return
+         grid = around(grid, box, 3)
       end do
    end subroutine estimate_extent
+
+   !> A box of elements with some more on each side, divided into as many elements as before; directions of less than 3
+   !> elements stay
+   pure function around(grid, box, more) result(new)
+      type(potential_contact), intent(in) :: grid
+      type(bounding_box), intent(in) :: box
+      !> Elements of the grid on each side
+      integer, intent(in) :: more
+      type(potential_contact) :: new
+
+      new = grid
+      if (grid%mx >= 3) then
+         new%xl = grid%xl + (box%ix0 - 1 - more)*grid%dx
+         new%dx = grid%dx*(box%ix1 - box%ix0 + 1 + 2*more)/grid%mx
+      end if
+      if (grid%my >= 3) then
+         new%yl = grid%yl + (box%iy0 - 1 - more)*grid%dy
+         new%dy = grid%dy*(box%iy1 - box%iy0 + 1 + 2*more)/grid%my
+      end if
+   end function around
 
    !> The same potential contact in few elements
    pure function with_coarse_elements(grid) result(new)

@@ -106,6 +106,22 @@ class Border(Program):
             better = self.enough("44 44 0 0 0.1 0.1", told[0])
             self.assertEqual(self.alarms(ball(better))[0], [], better)
 
+    def test_single_row_stays_one(self):
+        told, _ = self.alarms(ball("1\n10 1 -0.5 -500 0.1 1000", shape="1 1\n0.5 0 0 0 0 0", load=2500.0))
+        self.assertIn("(x low, x high)", told[0])
+        better = self.enough("10 1 0 0 0.1 1000", told[0])
+        self.assertEqual([better.split()[k] for k in (2, 4)], ["1", "-500"])
+        self.assertEqual(self.alarms(ball(better, shape="1 1\n0.5 0 0 0 0 0", load=2500.0))[0], [], better)
+
+    def test_contact_that_turns_up_elsewhere(self):
+        """A turned ellipse in a window that is too narrow along x: free at y low as long as contact is cut off"""
+        shape = "1 1\n0.027938643635698302 0.016483396011992665 0.012128411607624984 -0.0011796052442192857 0.0006041789909451606 0"
+        grid = "13 21 -0.02872227688322342 -0.11779670523792407 0.002920291453715877 0.007174467852392599"
+        told, patches = self.alarms(ball("1\n" + grid, shape=shape, load=7.640576310631044e-05, n=0, dx=grid.split()[4]))
+        self.assertNotIn("y low", patches[0]["border"]["reached"])
+        better = self.enough(grid, told[0])
+        self.assertEqual(self.alarms(ball(better, shape=shape, load=7.640576310631044e-05, n=0, dx=grid.split()[4]))[0], [], better)
+
     def test_profile_over_y(self):
         profile = "2 1\n81 0 1 -4 0.1\n" + "\n".join(f"{0.5*(0.1*k - 4)**2:.6f}" for k in range(81))
         told, _ = self.alarms(ball("1\n44 20 -2.2 -1.0 0.1 0.1", shape=profile))
