@@ -28,7 +28,8 @@ MAT_COLUMNS = "element eldiv h mu pn px py un ux uy slip".split()
 def finding(judge, what, size=None, limit=None, status="disagreement"):
     """One thing that a judge noticed.
 
-    status is "refused" (what: the reason), "not converged" (what: which iteration) or "disagreement". A size above its
+    status is "refused" (what: the reason), "not converged" (what: which iteration), "open" (what: a known reason) or
+    "disagreement". A size above its
     limit is what makes a disagreement, where there is a number.
     """
     result = {"status": status, "judge": judge, "what": what}

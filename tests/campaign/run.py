@@ -36,7 +36,7 @@ import judge
 import minimise
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-STATES = ("agreed", "refused", "not converged", "disagreement")
+STATES = ("agreed", "refused", "not converged", "open", "disagreement")
 
 
 def kind_of(number):
