@@ -28,7 +28,7 @@ module contact_cases_border_warning
 contains
 
    !> Warn of contact that is cut off
-   subroutine warn_of_border(spec, problem, result, log, patch)
+   subroutine warn_of_border(spec, problem, result, log, patch, advised)
       type(case_spec), intent(in) :: spec
       !> As it was solved
       type(patch_problem), intent(in) :: problem
@@ -37,32 +37,33 @@ contains
       type(log_type), intent(inout) :: log
       !> Number of the contact patch of wheel and rail; absent for one contact problem
       integer, intent(in), optional :: patch
+      !> Grid in whose place a larger one was named last, which takes some milliseconds: not again until it changes
+      type(potential_contact), intent(inout), optional :: advised
       character(len=:), allocatable :: text, places, enough
 
       associate (border => result%border)
          if (.not. (any(border%side) .or. any(border%surface_end))) return
          call border_words(spec, border, places)
-         text = "contact reaches " // places // ", with up to " // real_text(rounded(border%pressure)) // &
-            & " N/mm2 there: it is cut off, and pressures and forces are those of a smaller contact area"
+         text = "contact reaches " // places // ": it is cut off, and pressures and forces are those of a smaller contact area"
          if (present(patch)) text = "contact patch " // integer_text(patch) // ": " // text
-         if (any(border%side) .and. .not. present(patch)) then
-            call find_enough(spec, problem, result, enough)
-            text = text // ". A larger potential contact is needed" // enough
+         if (present(advised)) then
+            text = text // ". A larger potential contact is needed"
+            if (.not. is_same(advised, problem%grid)) then
+               call find_enough(spec, problem, result, enough)
+               text = text // enough
+               advised = problem%grid
+            end if
          end if
          call log%warning(text)
       end associate
    end subroutine warn_of_border
 
-   !> Three figures of a number
-   pure real(wp) function rounded(value)
-      real(wp), intent(in) :: value
-      real(wp) :: unit
+   !> Are two grids the same?
+   pure logical function is_same(a, b)
+      type(potential_contact), intent(in) :: a, b
 
-      rounded = value
-      if (.not. value > 0.0_wp) return
-      unit = 10.0_wp**(floor(log10(value)) - 2)
-      rounded = unit*anint(value/unit)
-   end function rounded
+      is_same = a%mx == b%mx .and. a%my == b%my .and. all(abs([a%xl - b%xl, a%yl - b%yl, a%dx - b%dx, a%dy - b%dy]) <= 0.0_wp)
+   end function is_same
 
    !> Sides and ends in words; blank when there are none
    !>

@@ -11,7 +11,7 @@ module contact_cases_session
    use contact_cases_spec, only : case_spec
    use contact_cases_subsurface, only : subsurface_stresses, warn_of_steps
    use contact_grid_element_division, only : element
-   use contact_grid_potential_contact, only : fit_field
+   use contact_grid_potential_contact, only : fit_field, potential_contact
    use contact_normal_estimate, only : elliptic_pressure
    use contact_patch_border, only : find_border
    use contact_patch_moments, only : clear_moment, link_moments
@@ -29,6 +29,8 @@ module contact_cases_session
       type(patch_state) :: state
       type(patch_workspace) :: workspace
       type(patch_problem) :: problem
+      !> The grid for which a warning has named a larger one
+      type(potential_contact) :: advised
    end type contact_session
 
 contains
@@ -64,7 +66,7 @@ contains
       call find_border(session%problem, result)
       ! given pressures are known everywhere: a grid that holds them all cuts nothing off
       if (allocated(session%problem%given_pressure) .and. spec%grid%scale >= 1.0_wp) result%border%side = .false.
-      call warn_of_border(spec, session%problem, result, log)
+      call warn_of_border(spec, session%problem, result, log, advised=session%advised)
       call name_effects(spec, session%problem, result)
       if (allocated(result%subsurface)) deallocate(result%subsurface)
       if (spec%stress == stress_choice%none) return

@@ -106,6 +106,13 @@ class Border(Program):
             better = self.enough("44 44 0 0 0.1 0.1", told[0])
             self.assertEqual(self.alarms(ball(better))[0], [], better)
 
+    def test_a_larger_grid_is_named_once(self):
+        """Later cases on the same grid say the same words, so that they count as one warning"""
+        later = "3\n203100\n0100000\n0001201\n999 100 30 1 1e-6\n{load} 0.001 0 0\n"
+        told, _ = self.alarms(ball("1\n10 10 -0.5 -0.5 0.1 0.1") + later.format(load=9.0) + later.format(load=8.0))
+        self.assertEqual(["would be enough" in text for text in told], [True, False, False])
+        self.assertEqual(told[1], told[2])
+
     def test_single_row_stays_one(self):
         told, _ = self.alarms(ball("1\n10 1 -0.5 -500 0.1 1000", shape="1 1\n0.5 0 0 0 0 0", load=2500.0))
         self.assertIn("(x low, x high)", told[0])
