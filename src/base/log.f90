@@ -1,9 +1,10 @@
 !> The two sinks of messages: the log (screen and .out file) and the result (.out file only)
 !>
-!> A log with both units zero swallows everything, which is what a library caller gets
+!> A log without screen and file swallows everything, which is what a library caller gets
 !> who did not ask for messages. Lines that solvers write carry the flow-trace level (W digit)
 !> from which on they appear.
 module contact_base_log
+   use contact_base_output_file, only : output_file
    implicit none (type, external)
    private
 
@@ -13,8 +14,8 @@ module contact_base_log
    type :: log_type
       !> Unit of the screen, 0 for none
       integer :: screen = 0
-      !> Unit of the .out file, 0 for none
-      integer :: out = 0
+      !> The .out file; not open for none
+      type(output_file) :: out
       !> Flow-trace level W of the case, 0...9
       integer :: level = 0
       !> Number of warnings written since the log was made
@@ -44,13 +45,13 @@ contains
       class(log_type), intent(inout) :: self
       character(len=*), intent(in) :: text
       if (self%screen /= 0) write(self%screen, '(A)') text
-      if (self%out /= 0) write(self%out, '(A)') text
+      call self%out%line(text)
    end subroutine log_line
 
    subroutine log_result(self, text)
       class(log_type), intent(inout) :: self
       character(len=*), intent(in) :: text
-      if (self%out /= 0) write(self%out, '(A)') text
+      call self%out%line(text)
    end subroutine log_result
 
    subroutine log_trace(self, level, text)
@@ -96,6 +97,6 @@ contains
    pure logical function log_shows(self, level) result(shows)
       class(log_type), intent(in) :: self
       integer, intent(in) :: level
-      shows = self%level >= level .and. (self%screen /= 0 .or. self%out /= 0)
+      shows = self%level >= level .and. (self%screen /= 0 .or. self%out%is_open())
    end function log_shows
 end module contact_base_log

@@ -31,7 +31,7 @@ contains
       !$omp critical (contact_registry)
       if (number /= library_code%success) call set_last_error(number, trim(call_of%name) // ": " // text, call_of)
       call library%log%line(trim(prefix_of(call_of)) // " " // text)
-      if (library%log%out /= 0) flush(library%log%out)
+      call library%log%out%flush_now()
       !$omp end critical (contact_registry)
    end subroutine complain
 

@@ -87,15 +87,14 @@ contains
    subroutine begin_run(work_folder, out_folder, name, screen)
       character(len=*), intent(in) :: work_folder, out_folder, name
       logical, intent(in) :: screen
-      character(len=:), allocatable :: path
-      integer :: status, unit, k
+      character(len=:), allocatable :: path, reason
+      integer :: k
 
       call set_folders(work_folder, out_folder, name)
       library%log = log_type()
       if (screen) library%log%screen = output_unit
       call place_result(library%name // ".out", path)
-      open(newunit=unit, file=path, status="replace", action="write", iostat=status)
-      if (status == 0) library%log%out = unit
+      call library%log%out%open_file(path, reason)
       library%phase = running
       library%input_dump = 0
       library%dump_was_tried = .false.
@@ -109,7 +108,7 @@ contains
       end do
       call library%total%start()
       call write_banner(library%log)
-      if (status /= 0) call set_last_error(-1, "the file " // path // " cannot be written")
+      if (allocated(reason)) call set_last_error(-1, "the file " // path // " cannot be written: " // reason)
    end subroutine begin_run
 
    !> Make a result element known; one that is active stays as it is
@@ -313,7 +312,7 @@ contains
       !$omp critical (contact_registry)
       library%calculations = library%calculations - 1
       ! The file can be read while the caller goes on
-      if (library%log%out /= 0) flush(library%log%out)
+      call library%log%out%flush_now()
       !$omp end critical (contact_registry)
       call leave(problem)
    end subroutine leave_calculation
@@ -362,7 +361,7 @@ contains
       !> False when something is in use, or no run was going on
       logical, intent(out) :: stopped
       integer :: k
-      logical :: freed
+      logical :: complete, freed
 
       !$omp critical (contact_registry)
       stopped = library%phase == running .and. .not. any_users()
@@ -377,7 +376,9 @@ contains
             close(library%input_dump)
          end if
          library%input_dump = 0
-         if (library%log%out /= 0) close(library%log%out)
+         call library%log%out%close_file(complete)
+         if (.not. complete) call set_last_error(library_code%other, &
+            & "the .out file of the library is not complete; is the disk full?")
          library%log = log_type()
          library%phase = finalised
       end if

@@ -23,7 +23,7 @@ module contact_experiment_run
    use contact_input_experiment_file, only : experiment_reader, input_case
    use contact_input_problems, only : problem_text, severity
    use contact_output_case_record, only : case_head
-   use contact_output_finished_file, only : close_completely
+   use contact_output_finished_file, only : close_result, open_result
    use contact_output_mat_file, only : mat_file_name, write_mat_file
    use contact_output_report, only : timer_line, write_banner, write_case, write_case_line, write_closing, write_end, &
       & write_subsurface
@@ -273,10 +273,9 @@ contains
       type(experiment_state), intent(inout) :: state
       !> [s]
       real(wp), parameter :: interval = 0.2_wp
-      integer :: status
 
       if (wall_clock() - state%last_flush < interval) return
-      flush(state%log%out, iostat=status)
+      call state%log%out%flush_now()
       state%last_flush = wall_clock()
    end subroutine keep_file_current
 
@@ -462,16 +461,8 @@ contains
    subroutine open_out_file(state, error)
       type(experiment_state), intent(inout) :: state
       type(error_type), allocatable, intent(out) :: error
-      character(len=200) :: reason
-      integer :: status, unit
 
-      reason = ""
-      open(newunit=unit, file=state%place%results // ".out", status="replace", action="write", iostat=status, iomsg=reason)
-      if (status == 0) then
-         state%log%out = unit
-      else
-         call fatal_error(error, "the file cannot be written: " // trim(reason), error_kind%file, state%place%results // ".out")
-      end if
+      call open_result(state%log%out, state%place%results // ".out", state%place%results // ".out", error)
    end subroutine open_out_file
 
    !> Timers and closing lines, and the end of the .out file
@@ -491,8 +482,7 @@ contains
       if (state%silent .and. state%cases > 0) call state%log%line( &
          & " No results were asked for: O, A and S are 0 in all cases.")
       call write_closing(state%log, state%errors > 0)
-      call close_completely(state%log%out, state%place%results // ".out", error)
-      state%log%out = 0
+      call close_result(state%log%out, state%place%results // ".out", error)
       if (allocated(error)) call report_error(state, error)
    end subroutine close_out_file
 end module contact_experiment_run

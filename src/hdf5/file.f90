@@ -15,18 +15,19 @@
 module contact_hdf5_file
    use, intrinsic :: ieee_arithmetic, only : ieee_quiet_nan, ieee_value
    use, intrinsic :: iso_c_binding, only : c_int, c_int64_t
-   use hdf5, only : h5aclose_f, h5acreate_f, h5awrite_f, h5d_compact_f, h5d_fill_time_never_f, h5dclose_f, h5dcreate_f, &
-      & h5dget_space_f, h5dset_extent_f, h5dwrite_f, h5eset_auto_f, h5f_acc_trunc_f, h5f_libver_earliest_f, &
-      & h5f_libver_v18_f, h5f_scope_local_f, h5fclose_f, h5fcreate_f, h5fflush_f, h5gclose_f, h5gcreate_f, h5lcreate_hard_f, &
-      & h5oclose_f, h5olink_f, h5open_f, h5p_dataset_create_f, h5p_default_f, h5p_file_access_f, &
-      & h5p_file_create_f, h5p_group_create_f, h5pclose_f, h5pcopy_f, h5pcreate_f, h5pset_chunk_f, h5pset_deflate_f, &
+   use hdf5, only : h5acreate_f, h5awrite_f, h5d_compact_f, h5d_fill_time_never_f, h5dcreate_f, &
+      & h5dget_space_f, h5dset_extent_f, h5dwrite_f, h5eset_auto_f, h5f_acc_trunc_f, h5f_close_strong_f, h5f_libver_earliest_f, &
+      & h5f_libver_v18_f, h5f_scope_local_f, h5fclose_f, h5fcreate_f, h5fflush_f, h5gcreate_f, h5idec_ref_f, h5lcreate_hard_f, &
+      & h5olink_f, h5open_f, h5p_dataset_create_f, h5p_default_f, h5p_file_access_f, &
+      & h5p_file_create_f, h5p_group_create_f, h5pcopy_f, h5pcreate_f, h5pset_chunk_f, h5pset_deflate_f, h5pset_fclose_degree_f, &
       & h5pset_fill_time_f, h5pset_fill_value_f, h5pset_istore_k_f, h5pset_layout_f, &
       & h5pset_libver_bounds_f, h5pset_link_phase_change_f, h5pset_obj_track_times_f, h5pset_shuffle_f, h5s_scalar_f, &
-      & h5s_select_set_f, h5s_unlimited_f, h5sclose_f, h5screate_f, h5screate_simple_f, h5sselect_hyperslab_f, &
-      & h5t_fortran_s1, h5t_ieee_f64le, h5t_native_double, h5t_native_integer, h5t_std_i32le, h5t_std_i8le, h5tclose_f, &
+      & h5s_select_set_f, h5s_unlimited_f, h5screate_f, h5screate_simple_f, h5sselect_hyperslab_f, &
+      & h5t_fortran_s1, h5t_ieee_f64le, h5t_native_double, h5t_native_integer, h5t_std_i32le, h5t_std_i8le, &
       & h5tcopy_f, h5tset_size_f, hid_t, hsize_t, size_t
    use contact_base_error, only : error_kind, error_type, fatal_error
    use contact_base_kinds, only : long, wp
+   use contact_base_output_file, only : output_file, remove_file
    use contact_output_finished_file, only : move_file
    use contact_output_record, only : record_writer
    implicit none (type, external)
@@ -157,6 +158,7 @@ module contact_hdf5_file
       procedure, private :: text_type
       procedure, private :: describe
       procedure, private :: check
+      procedure, private :: release
    end type hdf5_file
 
 contains
@@ -172,24 +174,29 @@ contains
       integer :: status
 
       self%name = name
+      call leave_exit_alone()
       call h5open_f(status)
       call h5eset_auto_f(0, status)
       call h5pcreate_f(h5p_file_access_f, access, status)
+      ! closing the file closes what a failure left open in it
+      call h5pset_fclose_degree_f(access, h5f_close_strong_f, status)
       ! newer layouts mark an open file, and refuse it after the end of a program that was killed. The group of all cases
       ! has the oldest layout: of the newer ones Octave looks through all names for each name
       call h5pset_libver_bounds_f(access, h5f_libver_earliest_f, h5f_libver_v18_f, status)
       call h5pcreate_f(h5p_file_create_f, creation, status)
       call h5pset_istore_k_f(creation, 8, status)
       call h5fcreate_f(name // unfinished, h5f_acc_trunc_f, self%file, status, creation, access)
-      if (status /= 0) then
+      call self%check(status)
+      call self%release(creation)
+      call self%release(access)
+      if (self%failed) then
+         call remove_file(name // unfinished)
          call fatal_error(error, "the file cannot be written", error_kind%file, name)
          return
       end if
       self%is_open = .true.
       call use_small_headers(self%file, status)
       call self%check(status)
-      call h5pclose_f(creation, status)
-      call h5pclose_f(access, status)
       call h5screate_f(h5s_scalar_f, self%scalar, status)
       call h5pcreate_f(h5p_group_create_f, self%groups, status)
       call h5pset_link_phase_change_f(self%groups, 100, 50, status)
@@ -210,7 +217,11 @@ contains
       call write_layout(self)
       call renew_copy(self)
       self%last_copy = clock()
-      if (self%failed) call fatal_error(error, "the file cannot be written", error_kind%file, name)
+      if (.not. self%failed) return
+      call h5fclose_f(self%file, status)
+      self%is_open = .false.
+      call remove_file(name // unfinished)
+      call fatal_error(error, "the file cannot be written", error_kind%file, name)
 
    contains
 
@@ -223,6 +234,20 @@ contains
          allocate(table%columns(64), table%pending(most_rows, 64))
       end subroutine start_table
    end subroutine open_file
+
+   !> Keep the library from ending itself when the process exits: after a write that failed it would write again, and crash the host
+   subroutine leave_exit_alone()
+      interface
+         function dont_atexit() result(status) bind(c, name="H5dont_atexit")
+            import :: c_int
+            integer(c_int) :: status
+         end function dont_atexit
+      end interface
+      integer(c_int) :: ignored
+
+      ! fails when the library is in use already; then whoever uses it has chosen
+      ignored = dont_atexit()
+   end subroutine leave_exit_alone
 
    !> Objects that are made from now on have the layout of HDF5 1.8, with smaller heads than the oldest
    subroutine use_small_headers(file, status)
@@ -266,7 +291,7 @@ contains
       one = 1
       call h5acreate_f(self%file, "layout", h5t_std_i32le, self%scalar, attribute, status)
       call h5awrite_f(attribute, h5t_native_integer, layout, one, status)
-      call h5aclose_f(attribute, status)
+      call self%release(attribute)
    end subroutine write_layout
 
    !> Write what is left and close
@@ -279,32 +304,37 @@ contains
       call write_rows(self, self%cases)
       call write_rows(self, self%patches)
       do k = 1, self%kept_count
-         call h5oclose_f(self%kept(k)%id, status)
+         if (self%kept(k)%id >= 0) call self%release(self%kept(k)%id)
       end do
       do k = 1, longest_text
-         if (self%texts(k) >= 0) call h5tclose_f(self%texts(k), status)
+         if (self%texts(k) >= 0) call self%release(self%texts(k))
       end do
-      call close_table(self%cases)
-      call close_table(self%patches)
-      call h5sclose_f(self%scalar, status)
-      call h5pclose_f(self%groups, status)
-      call h5pclose_f(self%small, status)
-      call h5pclose_f(self%bare, status)
+      call close_table(self, self%cases)
+      call close_table(self, self%patches)
+      call self%release(self%scalar)
+      call self%release(self%groups)
+      call self%release(self%small)
+      call self%release(self%bare)
       call h5fclose_f(self%file, status)
       call self%check(status)
       self%is_open = .false.
-      call self%check(-abs(move_file(self%name // unfinished, self%name)))
-      if (self%failed) call fatal_error(error, "the file is not complete; is the disk full?", error_kind%file, self%name)
+      if (.not. self%failed) call self%check(-abs(move_file(self%name // unfinished, self%name)))
+      if (.not. self%failed) return
+      ! what stands under the name is the last copy that was complete
+      call remove_file(self%name // unfinished)
+      call fatal_error(error, "cases are missing, because a write failed; is the disk full?", &
+         & error_kind%file, self%name)
    end subroutine close_file
 
-   subroutine close_table(table)
+   subroutine close_table(self, table)
+      class(hdf5_file), intent(inout) :: self
       type(column_table), intent(inout) :: table
-      integer :: k, status
+      integer :: k
 
       do k = 1, table%used
-         call h5dclose_f(table%columns(k)%id, status)
+         call self%release(table%columns(k)%id)
       end do
-      call h5gclose_f(table%group, status)
+      call self%release(table%group)
    end subroutine close_table
 
    !> Remember that something went wrong
@@ -313,6 +343,16 @@ contains
       integer, intent(in) :: status
       if (status < 0) self%failed = .true.
    end subroutine check
+
+   !> Give an identifier back. What an object kept in memory is written now, so this fails as writing does
+   subroutine release(self, id)
+      class(hdf5_file), intent(inout) :: self
+      integer(hid_t), intent(in) :: id
+      integer :: count, status
+
+      call h5idec_ref_f(id, count, status)
+      call self%check(status)
+   end subroutine release
 
    !> Begin a case
    subroutine begin_case(self, name, slot)
@@ -331,9 +371,8 @@ contains
    subroutine end_case(self)
       class(hdf5_file), intent(inout) :: self
       real(wp) :: before
-      integer :: status
 
-      call h5gclose_f(self%here, status)
+      call self%release(self%here)
       before = clock()
       if (before - self%last_copy < self%wait) return
       call write_rows(self, self%cases)
@@ -355,35 +394,33 @@ contains
    subroutine renew_copy(self)
       class(hdf5_file), intent(inout) :: self
       integer, parameter :: piece = 2**20
-      character(len=:), allocatable :: buffer
-      integer :: source, copy, status
+      character(len=:), allocatable :: buffer, reason
+      type(output_file) :: copy
+      integer :: source, status
       integer(long) :: left
-      logical :: opened
+      logical :: complete
 
+      if (self%failed) return
       call h5fflush_f(self%file, h5f_scope_local_f, status)
       call self%check(status)
+      if (self%failed) return
       inquire(file=self%name // unfinished, size=left)
       open(newunit=source, file=self%name // unfinished, access="stream", action="read", status="old", iostat=status)
       if (status == 0) then
-         open(newunit=copy, file=self%name // incomplete, access="stream", action="write", status="replace", iostat=status)
-         opened = status == 0
+         call copy%open_file(self%name // incomplete, reason)
          do while (status == 0 .and. left > 0)
             allocate(character(len=int(min(left, int(piece, long)))) :: buffer)
             read(source, iostat=status) buffer
-            if (status == 0) write(copy, iostat=status) buffer
+            call copy%bytes(buffer)
             left = left - len(buffer)
             deallocate(buffer)
          end do
          close(source)
-         if (opened) then
-            if (status == 0) then
-               close(copy, iostat=status)
-            else
-               close(copy, status="delete")
-            end if
-         end if
+         call copy%close_file(complete)
+         if (allocated(reason) .or. .not. complete) status = 1
       end if
       if (status == 0) status = move_file(self%name // incomplete, self%name)
+      if (status /= 0) call remove_file(self%name // incomplete)
       call self%check(-abs(status))
    end subroutine renew_copy
 
@@ -405,9 +442,8 @@ contains
    !> Back to the group around it
    subroutine leave(self)
       class(hdf5_file), intent(inout) :: self
-      integer :: status
 
-      call h5gclose_f(self%here, status)
+      call self%release(self%here)
       self%here = self%around(self%depth)
       self%depth = self%depth - 1
       self%place = self%place(:index(self%place, "/", back=.true.) - 1)
@@ -468,7 +504,7 @@ contains
             end if
          end do
       end if
-      if (len(self%leaf) == 0) return
+      if (len(self%leaf) == 0 .or. self%failed) return
       if (self%only_texts) then
          k = 0
          do i = 1, self%count_items
@@ -503,7 +539,7 @@ contains
       allocate(same(self%count_items))
       same = self%items(:self%count_items)
       call move_alloc(same, self%kept(k)%items)
-      if (self%kept(k)%id >= 0) call h5oclose_f(self%kept(k)%id, status)
+      if (self%kept(k)%id >= 0) call self%release(self%kept(k)%id)
       self%kept(k)%id = group
    end subroutine close_group
 
@@ -612,7 +648,7 @@ contains
          call h5dwrite_f(data, h5t_native_double, this%value, dims, status)
       case (item_kind%real_numbers)
          if (size(this%values) > 0) call h5dwrite_f(data, h5t_native_double, this%values, dims, status)
-         call h5sclose_f(space, status)
+         call self%release(space)
       case (item_kind%whole, item_kind%flag)
          call h5dwrite_f(data, h5t_native_integer, nint(this%value), dims, status)
       case default
@@ -623,7 +659,7 @@ contains
          call self%describe(data, "units", trim(this%unit))
          call self%describe(data, "long_name", trim(this%title))
       end if
-      call h5dclose_f(data, status)
+      call self%release(data)
    end subroutine write_item
 
    !> A text as an attribute
@@ -640,7 +676,7 @@ contains
       call h5acreate_f(object, name, kind, self%scalar, attribute, status)
       call self%check(status)
       if (len(value) > 0) call h5awrite_f(attribute, kind, value, one, status)
-      call h5aclose_f(attribute, status)
+      call self%release(attribute)
    end subroutine describe
 
    !> Type of a text of fixed length
@@ -773,8 +809,8 @@ contains
          call h5screate_simple_f(1, dims, space, status, most)
          call h5dcreate_f(table%group, trim(this%name), h5t_ieee_f64le, space, new%id, status, dcpl_id=properties)
          call self%check(status)
-         call h5sclose_f(space, status)
-         call h5pclose_f(properties, status)
+         call self%release(space)
+         call self%release(properties)
          if (len_trim(this%unit) > 0) call self%describe(new%id, "units", trim(this%unit))
          call self%describe(new%id, "long_name", trim(this%title))
       end associate
@@ -788,7 +824,7 @@ contains
       integer(hsize_t) :: first(1), length(1), total(1)
       integer :: k, status
 
-      if (table%waiting == 0) return
+      if (table%waiting == 0 .or. self%failed) return
       first = table%written
       length = table%waiting
       total = table%written + table%waiting
@@ -800,9 +836,9 @@ contains
          call h5sselect_hyperslab_f(space, h5s_select_set_f, first, length, status)
          call h5dwrite_f(table%columns(k)%id, h5t_native_double, table%pending(:table%waiting, k), length, status, memory, space)
          call self%check(status)
-         call h5sclose_f(space, status)
+         call self%release(space)
       end do
-      call h5sclose_f(memory, status)
+      call self%release(memory)
       table%written = table%written + table%waiting
       table%waiting = 0
    end subroutine write_rows
@@ -860,6 +896,7 @@ contains
       integer(hsize_t) :: chunk(size(dims))
       integer :: k, status
 
+      if (self%failed) return
       k = 0
       if (keep) then
          call self%find_kept(self%place // "/" // name, k)
@@ -892,15 +929,15 @@ contains
       call self%check(status)
       if (len(unit) > 0) call self%describe(data, "units", unit)
       call self%describe(data, "long_name", title)
-      call h5sclose_f(space, status)
-      if (properties /= self%small) call h5pclose_f(properties, status)
+      call self%release(space)
+      if (properties /= self%small) call self%release(properties)
       if (k > 0) then
          self%kept(k)%values = values
          self%kept(k)%dims = dims
-         if (self%kept(k)%id >= 0) call h5oclose_f(self%kept(k)%id, status)
+         if (self%kept(k)%id >= 0) call self%release(self%kept(k)%id)
          self%kept(k)%id = data
       else
-         call h5dclose_f(data, status)
+         call self%release(data)
       end if
    end subroutine write_array
 end module contact_hdf5_file

@@ -2,16 +2,14 @@
 module contact_output_finished_file
    use, intrinsic :: iso_c_binding, only : c_char, c_int, c_null_char
    use contact_base_error, only : error_kind, error_type, fatal_error
-   use contact_base_kinds, only : long
+   use contact_base_output_file, only : output_file, remove_file
    implicit none (type, external)
    private
 
-   public :: case_file_name, close_completely, finished_file, move_file
+   public :: case_file_name, close_result, finished_file, move_file, open_result
 
    !> A file in the making
-   type :: finished_file
-      !> Unit to write to, 0 when not open
-      integer :: unit = 0
+   type, extends(output_file) :: finished_file
       !> Final and temporary name
       character(len=:), allocatable :: name, temporary
    contains
@@ -63,86 +61,72 @@ contains
    end function case_file_name
 
    !> Open a temporary file in the folder of the final one
-   subroutine start_file(self, name, error, binary)
+   subroutine start_file(self, name, error)
       class(finished_file), intent(inout) :: self
       !> Final name
       character(len=*), intent(in) :: name
       type(error_type), allocatable, intent(out) :: error
-      !> Bytes instead of lines? Default false
-      logical, intent(in), optional :: binary
-      integer :: status
-      logical :: bytes
-      character(len=200) :: message
 
-      bytes = .false.
-      if (present(binary)) bytes = binary
       self%name = name
       self%temporary = name // ".tmp"
-      if (bytes) then
-         open(newunit=self%unit, file=self%temporary, status="replace", action="write", access="stream", form="unformatted", &
-            & iostat=status, iomsg=message)
-      else
-         open(newunit=self%unit, file=self%temporary, status="replace", action="write", iostat=status, iomsg=message)
-      end if
-      if (status == 0) return
-      self%unit = 0
-      call fatal_error(error, "cannot write the file: " // trim(message), error_kind%file, file=name)
+      call open_result(self, self%temporary, name, error)
    end subroutine start_file
 
-   !> Close and rename; with a status other than 0 the temporary file is removed and the error says why
-   subroutine finish_file(self, status, error)
+   !> Close and rename; when writing failed anywhere the temporary file is removed and the error says so
+   subroutine finish_file(self, error)
       class(finished_file), intent(inout) :: self
-      !> I/O status of the write statements, 0 for success
-      integer, intent(in) :: status
       type(error_type), allocatable, intent(out) :: error
-      integer :: closed, unit
-      type(error_type), allocatable :: incomplete
+      logical :: complete
 
-      if (self%unit == 0) return
-      closed = status
-      if (status == 0) then
-         call close_completely(self%unit, self%temporary, incomplete)
-         closed = merge(1, 0, allocated(incomplete))
-         if (closed == 0) closed = move_file(self%temporary, self%name)
-      else
-         close(self%unit, status="delete", iostat=unit)
-      end if
-      self%unit = 0
-      if (closed == 0) return
-      if (status == 0) then
-         open(newunit=unit, file=self%temporary, iostat=closed)
-         if (closed == 0) close(unit, status="delete", iostat=closed)
-      end if
+      if (.not. self%is_open()) return
+      call self%close_file(complete)
+      if (complete) complete = move_file(self%temporary, self%name) == 0
+      if (complete) return
+      call remove_file(self%temporary)
       call fatal_error(error, "the file could not be completed, it was not written", error_kind%file, file=self%name)
    end subroutine finish_file
 
-   !> Close a file and see whether all of it reached the disk
-   !>
-   !> The I/O library of gfortran 12 says nothing when the disk is full; lengths tell.
-   subroutine close_completely(unit, name, error)
-      integer, intent(in) :: unit
+   !> Open a file of results, or say why not
+   subroutine open_result(file, path, name, error)
+      class(output_file), intent(inout) :: file
+      !> Name to open, and name for the message
+      character(len=*), intent(in) :: path, name
+      type(error_type), allocatable, intent(out) :: error
+      character(len=:), allocatable :: reason
+
+      call file%open_file(path, reason)
+      if (allocated(reason)) call fatal_error(error, "the file cannot be written: " // reason, error_kind%file, name)
+   end subroutine open_result
+
+   !> Close a file of results and say whether all of it arrived
+   subroutine close_result(file, name, error)
+      class(output_file), intent(inout) :: file
       character(len=*), intent(in) :: name
       type(error_type), allocatable, intent(out) :: error
-      integer(long) :: written, arrived
-      integer :: status
+      logical :: complete
 
-      flush(unit, iostat=status)
-      inquire(unit=unit, size=written)
-      close(unit, iostat=status)
-      inquire(file=name, size=arrived)
-      if (status == 0 .and. arrived >= written) return
-      call fatal_error(error, "the file is not complete; is the disk full?", error_kind%file, name)
-   end subroutine close_completely
+      call file%close_file(complete)
+      if (.not. complete) call fatal_error(error, "the file is not complete; is the disk full?", error_kind%file, name)
+   end subroutine close_result
 
-   !> Rename a file; where the system refuses to replace, the old one is deleted first
+   !> Rename a file; where the system refuses to replace, the old one steps aside, and comes back when that did not help
    integer function move_file(from, to) result(status)
       character(len=*), intent(in) :: from, to
-      integer :: unit, ignored
+      character(len=*), parameter :: aside = ".old"
+      integer :: ignored, unit
 
       status = int(c_rename(from // c_null_char, to // c_null_char))
       if (status == 0) return
-      open(newunit=unit, file=to, status="old", iostat=ignored)
-      if (ignored == 0) close(unit, status="delete", iostat=ignored)
+      ! a folder of that name stays where it is
+      open(newunit=unit, file=to, status="old", action="read", iostat=ignored)
+      if (ignored /= 0) return
+      close(unit, iostat=ignored)
+      if (c_rename(to // c_null_char, to // aside // c_null_char) /= 0) return
       status = int(c_rename(from // c_null_char, to // c_null_char))
+      if (status /= 0) then
+         ignored = int(c_rename(to // aside // c_null_char, to // c_null_char))
+      else
+         call remove_file(to // aside)
+      end if
    end function move_file
 end module contact_output_finished_file

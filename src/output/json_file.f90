@@ -4,13 +4,13 @@
 !> are written whole, so a file that was cut short holds all cases but the last.
 module contact_output_json_file
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
-   use, intrinsic :: iso_fortran_env, only : output_unit
    use contact_base_error, only : error_kind, error_type, fatal_error
    use contact_base_kinds, only : wp
+   use contact_base_output_file, only : output_file
    use contact_cases_spec, only : case_spec
    use contact_output_case_record, only : case_head, describe_border, describe_head, describe_pair, describe_patch, &
       & describe_place, describe_solution
-   use contact_output_finished_file, only : close_completely
+   use contact_output_finished_file, only : close_result, open_result
    use contact_output_record, only : record_writer
    use contact_patch_result, only : patch_result
    use contact_wheelrail_result, only : pair_result
@@ -25,11 +25,8 @@ module contact_output_json_file
 
    !> A file of JSON lines, or the standard output
    type, extends(record_writer) :: json_file
-      !> Unit, 0 when closed
-      integer :: unit = 0
+      type(output_file), private :: file
       character(len=:), allocatable :: name
-      !> Is it the standard output?
-      logical :: is_screen = .false.
       !> The line in the making: its first `length` characters
       character(len=:), allocatable, private :: line
       integer, private :: length = 0
@@ -62,36 +59,25 @@ contains
       class(json_file), intent(inout) :: self
       character(len=*), intent(in) :: name
       type(error_type), allocatable, intent(out) :: error
-      character(len=200) :: reason
-      integer :: status
 
       self%name = name
-      self%is_screen = name == "-"
       allocate(character(len=first_length) :: self%line)
       self%length = 0
-      if (self%is_screen) then
-         self%unit = output_unit
-         return
+      if (name == "-") then
+         call self%file%open_standard_output()
+         if (.not. self%file%is_open()) call fatal_error(error, "it cannot be written", error_kind%file, "standard output")
+      else
+         call open_result(self%file, name, name, error)
       end if
-      reason = ""
-      open(newunit=self%unit, file=name, status="replace", action="write", iostat=status, iomsg=reason)
-      if (status == 0) return
-      self%unit = 0
-      call fatal_error(error, "the file cannot be written: " // trim(reason), error_kind%file, name)
    end subroutine open_json_file
 
    subroutine close_json_file(self, error)
       class(json_file), intent(inout) :: self
       type(error_type), allocatable, intent(out) :: error
-      integer :: status
 
-      if (self%unit == 0) return
-      if (self%is_screen) then
-         flush(self%unit, iostat=status)
-      else
-         call close_completely(self%unit, self%name, error)
-      end if
-      self%unit = 0
+      if (.not. self%file%is_open()) return
+      if (self%name == "-") self%name = "standard output"
+      call close_result(self%file, self%name, error)
    end subroutine close_json_file
 
    !> A case that has no result
@@ -291,11 +277,10 @@ contains
    !> Write the line and make sure that it leaves the program
    subroutine end_line(self)
       class(json_file), intent(inout) :: self
-      integer :: status
 
       call self%add("}")
-      write(self%unit, '(A)', iostat=status) self%line(:self%length)
-      flush(self%unit, iostat=status)
+      call self%file%line(self%line(:self%length))
+      call self%file%flush_now()
       self%length = 0
    end subroutine end_line
 

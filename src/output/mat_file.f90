@@ -79,25 +79,22 @@ contains
       type(mat_place), intent(in), optional :: place
       type(mat_place) :: here
       type(finished_file) :: file
-      integer :: status
 
       if (present(place)) here = place
       call file%start(file_name, error)
       if (allocated(error)) return
-      call write_header(file%unit, spec, result, here, status)
-      if (status == 0) call write_elements(file%unit, spec, result, status)
-      call file%finish(status, error)
+      call write_header(file, spec, result, here)
+      call write_elements(file, spec, result)
+      call file%finish(error)
       call add_context(error, "writing the .mat file")
    end subroutine write_mat_file
 
    !> Six pairs of a line with names and a line with values, then the names of the table columns
-   subroutine write_header(unit, spec, result, place, status)
-      integer, intent(in) :: unit
+   subroutine write_header(file, spec, result, place)
+      type(finished_file), intent(in) :: file
       type(case_spec), intent(in) :: spec
       type(patch_result), intent(in) :: result
       type(mat_place), intent(in) :: place
-      !> 0 or the status of the write statement that failed
-      integer, intent(out) :: status
       character(len=width) :: lines(13)
       real(wp), allocatable :: values(:)
       character(len=11), allocatable :: more(:)
@@ -134,18 +131,15 @@ contains
       lines(13) = name_line([character(len=11) :: "   I  IGS", "H", "MU", "PN", "PX", "PY", "UN", "UX", "UY", &
          & merge("SREL", "SHFT", rolling), more])
       do i = 1, size(lines)
-         write(unit, '(A)', iostat=status) trim(lines(i))
-         if (status /= 0) return
+         call file%line(trim(lines(i)))
       end do
    end subroutine write_header
 
    !> One line per element in ascending number; slip per step becomes relative slip
-   subroutine write_elements(unit, spec, result, status)
-      integer, intent(in) :: unit
+   subroutine write_elements(file, spec, result)
+      type(finished_file), intent(in) :: file
       type(case_spec), intent(in) :: spec
       type(patch_result), intent(in) :: result
-      !> 0 or the status of the write statement that failed
-      integer, intent(out) :: status
       character(len=width) :: line
       real(wp) :: slip, distance
       logical :: every, rolling
@@ -155,7 +149,6 @@ contains
       rolling = spec%motion == motion%transient_rolling .or. spec%motion == motion%steady_rolling
       distance = merge(result%dq, 1.0_wp, rolling)
       number = 0
-      status = 0
       do iy = 1, result%grid%my
          do ix = 1, result%grid%mx
             number = number + 1
@@ -164,8 +157,7 @@ contains
             line = two_integers(number, result%division(ix, iy)) // reals([result%h(ix, iy), result%mu(ix, iy), &
                & result%pn(ix, iy), result%px(ix, iy), result%py(ix, iy), result%un(ix, iy), result%ux(ix, iy), &
                & result%uy(ix, iy), slip, extra_values(result, ix, iy)])
-            write(unit, '(A)', iostat=status) trim(line)
-            if (status /= 0) return
+            call file%line(trim(line))
          end do
       end do
    end subroutine write_elements

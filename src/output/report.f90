@@ -79,9 +79,9 @@ contains
       type(case_spec), intent(in) :: spec
       type(patch_result), intent(in) :: result
 
-      if (log%out == 0 .and. log%screen == 0) return
+      if (.not. log%out%is_open() .and. log%screen == 0) return
       if (spec%output_level < 1) return
-      if (log%out /= 0) then
+      if (log%out%is_open()) then
          if (spec%output_level >= 2) call write_input(log, spec, result)
          call write_totals(log, spec, result)
          if (spec%output_level >= 2) call write_sensitivities(log, spec, result)
@@ -90,7 +90,7 @@ contains
       end if
       if (spec%output_level < 3 .or. .not. allocated(result%division)) return
       call write_picture(log, result%division, spec%motion, result%chi)
-      if (log%out /= 0 .and. spec%output_level >= 5 .and. allocated(result%pn)) call write_element_table(log, spec, result)
+      if (log%out%is_open() .and. spec%output_level >= 5 .and. allocated(result%pn)) call write_element_table(log, spec, result)
    end subroutine write_case
 
    !> Number of threads and table of timers; the percentages refer to the first timer

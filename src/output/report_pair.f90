@@ -37,7 +37,7 @@ contains
       type(pair_result), intent(in) :: result
       integer :: k, patches
 
-      if (log%out == 0 .and. log%screen == 0) return
+      if (.not. log%out%is_open() .and. log%screen == 0) return
       patches = 0
       if (allocated(result%patches)) patches = size(result%patches)
       if (spec%output_level >= 1) then

@@ -22,7 +22,7 @@ contains
       type(patch_result), intent(in) :: result
       integer :: i
 
-      if (log%out == 0) return
+      if (.not. log%out%is_open()) return
       if (spec%stress == stress_choice%none .or. spec%subsurface%output < 1) return
       if (.not. allocated(result%subsurface)) return
       do i = 1, size(result%subsurface)

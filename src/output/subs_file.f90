@@ -49,28 +49,24 @@ contains
       type(patch_result), intent(in) :: result
       type(error_type), allocatable, intent(out) :: error
       type(finished_file) :: file
-      integer :: i, status
+      integer :: i
 
       if (.not. allocated(result%subsurface)) return
       call file%start(file_name, error)
       if (allocated(error)) return
-      status = 0
       do i = 1, size(result%subsurface)
-         call write_block(file%unit, result%subsurface(i), spec%subsurface%matfil >= with_tensor, status)
-         if (status /= 0) exit
+         call write_block(file, result%subsurface(i), spec%subsurface%matfil >= with_tensor)
       end do
-      call file%finish(status, error)
+      call file%finish(error)
       call add_context(error, "writing the .subs file")
    end subroutine write_subs_file
 
    !> Sizes, names and points of one block
-   subroutine write_block(unit, block, tensor, status)
-      integer, intent(in) :: unit
+   subroutine write_block(file, block, tensor)
+      type(finished_file), intent(in) :: file
       type(subsurface_result), intent(in) :: block
       !> Write the stress tensor too?
       logical, intent(in) :: tensor
-      !> 0 or the status of the write statement that failed
-      integer, intent(out) :: status
       character(len=9), parameter :: name(14) = [character(len=9) :: "X", "Y", "Z", "UX", "UY", "UZ", "SIGHYD", "SIGVM", &
          & "SIGXX", "SIGXY", "SIGXZ", "SIGYY", "SIGYZ", "SIGZZ"]
       character(len=:), allocatable :: line, dashes
@@ -84,17 +80,15 @@ contains
          dashes = dashes // "           -"
          line = line // general(0.0_wp, 12, 4)
       end do
-      write(unit, '(A)', iostat=status) "%   NX          NY          NZ" // dashes
-      if (status == 0) write(unit, '(A)', iostat=status) line
-      if (status /= 0) return
+      call file%line("%   NX          NY          NZ" // dashes)
+      call file%line(line)
 
       line = repeat(" ", 12*columns)
       do i = 1, columns
          line(12*i - 6:12*i) = name(i)
       end do
       line(1:1) = "%"
-      write(unit, '(A)', iostat=status) trim(line)
-      if (status /= 0) return
+      call file%line(trim(line))
 
       do point = 1, size(block%position, 2)
          values = [block%position(:, point), block%displacement(:, point), block%sighyd(point), block%sigvm(point), &
@@ -102,8 +96,7 @@ contains
          do i = 1, columns
             line(12*i - 11:12*i) = smart(values(i), 12, 6, 5)
          end do
-         write(unit, '(A)', iostat=status) line
-         if (status /= 0) return
+         call file%line(line)
       end do
    end subroutine write_block
 end module contact_output_subs_file

@@ -4,14 +4,16 @@
 !> subsurface block, and <name>.pvd lists all of them with the number of the case as time. Arrays are
 !> appended as raw binary numbers. Wheel and rail: points and vectors are in track coordinates.
 module contact_output_vtk_files
+   use, intrinsic :: iso_c_binding, only : c_long
    use contact_base_choices, only : motion
    use contact_base_error, only : add_context, error_kind, error_type, fatal_error
    use contact_base_kinds, only : long, wp
+   use contact_base_output_file, only : output_file
    use contact_cases_spec, only : case_spec
    use contact_output_case_record, only : case_head, is_rolling, side_sign
-   use contact_output_finished_file, only : case_file_name, close_completely, finished_file
+   use contact_output_finished_file, only : case_file_name, close_result, finished_file, open_result
    use contact_patch_result, only : patch_result, subsurface_result
-   use contact_text_words, only : replaced
+   use contact_text_words, only : integer_text, replaced
    use contact_wheelrail_result, only : pair_patch, pair_result
    implicit none (type, external)
    private
@@ -22,8 +24,9 @@ module contact_output_vtk_files
    type :: vtk_files
       !> Folder and name of the results
       character(len=:), allocatable, private :: base
-      !> Unit of the collection, 0 when closed
-      integer, private :: unit = 0
+      !> The file of the collection, and the place of its closing lines in it [bytes]
+      type(output_file), private :: file
+      integer(c_long), private :: last = 0
    contains
       procedure :: open_collection
       procedure :: close_collection
@@ -49,7 +52,7 @@ module contact_output_vtk_files
       integer, allocatable :: lengths(:)
    end type vtk_grid
 
-   character(len=*), parameter :: closing(2) = ["  </Collection>", "</VTKFile>     "]
+   character(len=*), parameter :: closing = "  </Collection>" // new_line("a") // "</VTKFile>"
 
 contains
 
@@ -59,28 +62,23 @@ contains
       !> Folder and name of the results
       character(len=*), intent(in) :: base
       type(error_type), allocatable, intent(out) :: error
-      character(len=200) :: reason
-      integer :: status
 
       self%base = base
-      reason = ""
-      open(newunit=self%unit, file=base // ".pvd", status="replace", action="readwrite", iostat=status, iomsg=reason)
-      if (status /= 0) then
-         self%unit = 0
-         call fatal_error(error, "the file cannot be written: " // trim(reason), error_kind%file, base // ".pvd")
-         return
-      end if
-      write(self%unit, '(A)') '<?xml version="1.0"?>', '<VTKFile type="Collection" version="1.0">', '  <Collection>', &
-         & trim(closing(1)), trim(closing(2))
+      call open_result(self%file, base // ".pvd", base // ".pvd", error)
+      if (allocated(error)) return
+      call self%file%line('<?xml version="1.0"?>')
+      call self%file%line('<VTKFile type="Collection" version="1.0">')
+      call self%file%line("  <Collection>")
+      self%last = self%file%place()
+      call self%file%line(closing)
+      call self%file%flush_now()
    end subroutine open_collection
 
    subroutine close_collection(self, error)
       class(vtk_files), intent(inout) :: self
       type(error_type), allocatable, intent(out) :: error
 
-      if (self%unit == 0) return
-      call close_completely(self%unit, self%base // ".pvd", error)
-      self%unit = 0
+      if (self%file%is_open()) call close_result(self%file, self%base // ".pvd", error)
    end subroutine close_collection
 
    !> Add a file to the collection, which is complete again afterwards
@@ -88,14 +86,13 @@ contains
       class(vtk_files), intent(inout) :: self
       character(len=*), intent(in) :: name
       integer, intent(in) :: case_number, part
-      integer :: status
 
-      backspace(self%unit, iostat=status)
-      backspace(self%unit, iostat=status)
-      write(self%unit, '(A, I0, A, I0, 3A)', iostat=status) '    <DataSet timestep="', case_number, '" part="', part, &
-         & '" file="', for_xml(name(index(name, "/", back=.true.) + 1:)), '"/>'
-      write(self%unit, '(A)', iostat=status) trim(closing(1)), trim(closing(2))
-      flush(self%unit, iostat=status)
+      call self%file%go_to(self%last)
+      call self%file%line('    <DataSet timestep="' // integer_text(case_number) // '" part="' // integer_text(part) // '" file="' &
+         & // for_xml(name(index(name, "/", back=.true.) + 1:)) // '"/>')
+      self%last = self%file%place()
+      call self%file%line(closing)
+      call self%file%flush_now()
    end subroutine list_file
 
    !> A text as XML wants it
@@ -348,24 +345,23 @@ contains
       character(len=*), intent(in) :: name
       real(wp), intent(in) :: points(:)
       type(error_type), allocatable, intent(out) :: error
-      integer :: first, k, status
+      integer :: first, k
 
       grid%head = grid%head // trim(merge("</CellData> ", "</PointData>", grid%on_cells)) // new_line("a") // "<Points>" &
          & // new_line("a")
       call put(grid, "Points", 3, points)
       grid%head = grid%head // "</Points>" // new_line("a") // "</Piece>" // new_line("a") // "</StructuredGrid>" &
          & // new_line("a") // '<AppendedData encoding="raw">' // new_line("a") // "_"
-      call grid%file%start(name, error, binary=.true.)
+      call grid%file%start(name, error)
       if (allocated(error)) return
-      write(grid%file%unit, iostat=status) grid%head
+      call grid%file%bytes(grid%head)
       first = 0
       do k = 1, size(grid%lengths)
-         if (status /= 0) exit
-         write(grid%file%unit, iostat=status) 8_long*grid%lengths(k), grid%numbers(first + 1:first + grid%lengths(k))
+         call grid%file%bytes(transfer(8_long*grid%lengths(k), "12345678"))
+         call grid%file%bytes(grid%numbers(first + 1:first + grid%lengths(k)))
          first = first + grid%lengths(k)
       end do
-      if (status == 0) write(grid%file%unit, iostat=status) new_line("a") // "</AppendedData>" // new_line("a") // "</VTKFile>" &
-         & // new_line("a")
-      call grid%file%finish(status, error)
+      call grid%file%line(new_line("a") // "</AppendedData>" // new_line("a") // "</VTKFile>")
+      call grid%file%finish(error)
    end subroutine finish_grid
 end module contact_output_vtk_files

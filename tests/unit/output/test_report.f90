@@ -35,17 +35,20 @@ contains
       type(text_line), allocatable, intent(out) :: lines(:)
       type(log_type) :: log
       type(timer_line) :: timers(2)
+      character(len=:), allocatable :: reason
+      logical :: complete
 
       timers(1) = timer_line("total", 1, 2.0_wp, 4.0_wp)
       timers(2) = timer_line("part", 3, 1.0_wp, 1.0_wp)
-      open(newunit=log%out, file="report.out", status="replace", action="write")
+      call log%out%open_file("report.out", reason)
       call write_banner(log, "0.0")
       call write_case_line(log, case_number, 0)
       call write_case(log, spec, result)
       call write_subsurface(log, spec, result)
       call write_end(log, 2, timers)
       call write_closing(log, .false.)
-      close(log%out)
+      call log%out%close_file(complete)
+      call suite%check(complete, "the report is complete")
       call read_lines("report.out", lines)
    end subroutine write_file
 
@@ -413,6 +416,8 @@ contains
       type(patch_result) :: result
       type(text_line), allocatable :: lines(:)
       type(log_type) :: log
+      character(len=:), allocatable :: reason
+      logical :: complete
 
       spec%output_level = 6
       call write_case(log, spec, result)
@@ -420,9 +425,10 @@ contains
       call suite%equal(lines(find_line(lines, " Case", 1))%text, " Case  123456", "large number of a case")
       call suite%equal(find_line(lines, "FORM OF THE CONTACT", 1), 0, "no picture without element division")
 
-      open(newunit=log%out, file="element.out", status="replace", action="write")
+      call log%out%open_file("element.out", reason)
       call write_case_line(log, 12, 3)
-      close(log%out)
+      call log%out%close_file(complete)
+      call suite%check(complete, "the report is complete")
       call read_lines("element.out", lines)
       call suite%equal(lines(2)%text, " Case    12, result element   3", "result element")
 
