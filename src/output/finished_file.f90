@@ -118,7 +118,7 @@ contains
       status = int(c_rename(from // c_null_char, to // c_null_char))
       if (status == 0) return
       ! a folder of that name stays where it is
-      open(newunit=unit, file=to, status="old", action="read", iostat=ignored)
+      open(newunit=unit, file=to, status="old", action="readwrite", iostat=ignored)
       if (ignored /= 0) return
       close(unit, iostat=ignored)
       if (c_rename(to // c_null_char, to // aside // c_null_char) /= 0) return
