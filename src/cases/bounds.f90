@@ -114,6 +114,7 @@ module contact_cases_bounds
       & number_bounds("TAU_C0", "N/mm2", -rigid, rigid, .false., "0 and less, and 1e10 and more: no plasticity"), &
       & number_bounds("K_TAU", "N/mm3", -rigid, rigid, .false., "hardening or softening over a nanometre"), &
       & number_bounds("Y,ALPHA", "mm, rad", -far, far, .false., "a kilometre off the contact; angles are smaller by far"), &
+      & number_bounds("CZZ", "mm", -1.0e12_wp, 1.0e12_wp, .false., "an element yields by about its own side"), &
       & number_bounds("IF_METH", "integer", 0.0_wp, 1.0_wp, .false., "the methods that there are"), &
       & number_bounds("VARIANT", "integer", 1.0_wp, 4.0_wp, .false., "the variants that there are"), &
       & number_bounds("CDAMP", "s", 0.0_wp, 1.0e10_wp, .false., "damping does not drive"), &

@@ -14,6 +14,7 @@ module contact_cases_coefficient_file
    use contact_base_error, only : error_type, fatal_error
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
+   use contact_cases_bounds, only : bounds_of, bounds_table, describe_breach
    use contact_elastic_model, only : influence_table
    use contact_grid_potential_contact, only : potential_contact
    use contact_text_lexer, only : input_lexer, input_value, printable
@@ -25,6 +26,8 @@ module contact_cases_coefficient_file
 
    !> Numbers on a line of coefficients, and on a line that begins a matrix
    integer, parameter :: line_length = 11, heading_length = 3
+   !> What the columns of coefficients are called
+   character(len=3), parameter :: names(3:line_length) = ["CZZ", "CZX", "CZY", "CXZ", "CXX", "CXY", "CYZ", "CYX", "CYY"]
    !> Sides of elements may differ by this much [mm]
    real(wp), parameter :: spacing_tolerance = 1.0e-5_wp
    !> Most rows or columns, and most coefficients of a case
@@ -212,10 +215,10 @@ contains
       !> Number of values on the line, and column of the first
       integer, intent(out) :: n, first
       type(error_type), allocatable, intent(out) :: error
-      character(len=:), allocatable :: words
+      character(len=:), allocatable :: words, complaint
       character(len=*), parameter :: separators = " ,"
       real(wp) :: value
-      integer :: from, to, length, state
+      integer :: from, to, length, state, row
 
       values = 0.0_wp
       n = 0
@@ -243,6 +246,12 @@ contains
          end if
          n = n + 1
          if (n <= line_length) values(n) = value
+         if (n == 3) row = bounds_of("CZZ")
+         if (n < 3 .or. n > line_length) cycle
+         if (value >= bounds_table(row)%lowest .and. value <= bounds_table(row)%highest) cycle
+         call describe_breach("CZZ", words(from:to), value, complaint, names(n))
+         call fatal_error(error, complaint, file=text%file, line=line, column=from)
+         return
       end do
    end subroutine read_line
 

@@ -11,6 +11,7 @@ module contact_cases_pair_session
    use contact_cases_elastic_setup, only : set_model
    use contact_cases_friction_setup, only : parameters_of, set_friction, set_thermal
    use contact_cases_patch_setup, only : set_method, set_simplified_theory, set_yield_limit
+   use contact_cases_session, only : refuse_nonsense
    use contact_cases_spec, only : case_spec
    use contact_cases_subsurface, only : subsurface_stresses, warn_of_steps
    use contact_patch_damping, only : damping_law
@@ -59,6 +60,12 @@ contains
       if (allocated(error)) return
       call solve_pair(session%problem, session%memory, log, result, error)
       if (allocated(error)) return
+      if (.not. result%has_finite_totals()) then
+         call refuse_nonsense(error)
+         call session%memory%last%clear()
+         if (allocated(session%memory%slot)) session%memory%slot%state%started = .false.
+         return
+      end if
       if (spec%output_level >= 4) call keep_profiles(session, result)
       do k = 1, size(result%patches)
          associate (contact => result%patches(k)%contact, search => spec%wheel_rail%search)

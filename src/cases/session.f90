@@ -1,7 +1,7 @@
 !> One contact problem through its cases: specification in, result out
 module contact_cases_session
    use contact_base_choices, only : estimate_choice, motion, pressure_model, stress_choice
-   use contact_base_error, only : error_type
+   use contact_base_error, only : error_kind, error_type, fatal_error
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
    use contact_cases_border_warning, only : warn_of_border
@@ -22,7 +22,7 @@ module contact_cases_session
    implicit none (type, external)
    private
 
-   public :: contact_session, release_session, solve_case
+   public :: contact_session, refuse_nonsense, release_session, solve_case
 
    !> Memory of one problem: what the physics remembers, and scratch
    type :: contact_session
@@ -63,6 +63,11 @@ contains
       if (.not. spec%solve) return
       call solve_patch(session%problem, session%state, session%workspace, log, result, error)
       if (allocated(error)) return
+      if (.not. result%has_finite_totals()) then
+         call refuse_nonsense(error)
+         call forget(session, result)
+         return
+      end if
       call find_border(session%problem, result)
       ! given pressures are known everywhere: a grid that holds them all cuts nothing off
       if (allocated(session%problem%given_pressure) .and. spec%grid%scale >= 1.0_wp) result%border%side = .false.
@@ -73,6 +78,14 @@ contains
       call subsurface_stresses(spec, result, error)
       if (.not. allocated(error)) call warn_of_steps(result, log)
    end subroutine solve_case
+
+   !> The end of a case whose totals are infinite or not a number: it has no results
+   subroutine refuse_nonsense(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      call fatal_error(error, "the numbers of this case are too large or too small to compute with: the solution is not " // &
+         & "finite, and there are no results", error_kind%internal)
+   end subroutine refuse_nonsense
 
    !> Free what a session holds outside Fortran's memory; call it before the session goes
    subroutine release_session(session)

@@ -1,5 +1,6 @@
 !> What is known of one contact patch after the solution
 module contact_patch_result
+   use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
    use contact_base_kinds, only : wp
    use contact_base_solve_report, only : solve_report
    use contact_grid_potential_contact, only : potential_contact
@@ -109,6 +110,8 @@ module contact_patch_result
    contains
       !> Area of the elements in contact [mm2]
       procedure :: contact_area
+      !> Are all totals finite numbers?
+      procedure :: has_finite_totals
    end type patch_result
 
 contains
@@ -118,4 +121,13 @@ contains
 
       area = self%ncon*self%grid%dx*self%grid%dy
    end function contact_area
+
+   !> Sums over all elements of tractions, displacements and slip are among the totals, so that no element escapes
+   pure logical function has_finite_totals(self) result(finite)
+      class(patch_result), intent(in) :: self
+
+      finite = all(ieee_is_finite([self%fn, self%pen, self%pmax, self%fx, self%fy, self%fx_rel, self%fy_rel, self%mx, self%my, &
+         & self%mz, self%cksi, self%ceta, self%cphi, self%elastic_energy, self%friction_power]))
+      if (finite .and. allocated(self%temp1)) finite = ieee_is_finite(sum(self%temp1) + sum(self%temp2))
+   end function has_finite_totals
 end module contact_patch_result

@@ -3,6 +3,7 @@
 !> Right-hand pair throughout: for a wheel on the left side of the track this is the mirror
 !> image, and output mirrors it back. Track coordinates: x along the track, y to the right, z down.
 module contact_wheelrail_result
+   use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
    use contact_base_kinds, only : wp
    use contact_friction_law, only : friction_parameters
    use contact_patch_result, only : patch_result
@@ -76,9 +77,24 @@ module contact_wheelrail_result
       !> Evaluations of the total force, and how far it is from the prescribed one [N]
       integer :: force_evaluations = 0
       real(wp) :: force_error = 0.0_wp
+   contains
+      !> Are all totals, and those of the patches, finite numbers?
+      procedure :: has_finite_totals
    end type pair_result
 
 contains
+
+   pure logical function has_finite_totals(self) result(finite)
+      class(pair_result), intent(in) :: self
+      integer :: k
+
+      finite = all(ieee_is_finite([self%z_ws, self%vpitch, self%dy_defl, self%dz_defl, self%force_track, self%force_wheelset, &
+         & self%moment_rail, self%moment_wheel]))
+      if (.not. (finite .and. allocated(self%patches))) return
+      do k = 1, size(self%patches)
+         finite = finite .and. self%patches(k)%contact%has_finite_totals()
+      end do
+   end function has_finite_totals
 
    !> The solution of a patch on its grid with the origin of the elements: in a transient case that is not the reference
    pure function in_element_coordinates(patch) result(contact)

@@ -306,6 +306,7 @@ contains
       call refused(suite, 4, "17 13 nan 0.16", "is not a finite number")
       call refused(suite, 4, "17 12 0.12 0.16", "after the last coefficients")
       call refused(suite, 4, "17 14 0.12 0.16", "the end of the file is reached; expected IXOFS")
+      call refused(suite, 7, "0 0 1 2 1e300 4 5 6 7 8 9", "7:9: CZY = 1e300 is above its upper bound 1.00000E+12 mm")
       call refused(suite, 7, "0 0 1 2 NaN 4 5 6 7 8 9", '7:9: "NaN" is not a finite number')
       call refused(suite, 7, "0 0 1 2 x 4 5 6 7 8 9", '7:9: "x" is not')
       call refused(suite, 7, "nan 0 1 2 3 4 5 6 7 8 9", '7:1: "nan" is not')
