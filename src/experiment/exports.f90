@@ -154,7 +154,7 @@ contains
          allocate(curve, source=profile)
          return
       end if
-      call surface%cut(position, there)
+      call surface%continued(position, there)
       if (there%present) allocate(curve, source=there%curve)
    end subroutine take_section
 end module contact_experiment_exports

@@ -88,8 +88,10 @@ contains
    end function new_curve
 
    !> Cut the curve where y turns round, and keep at each y what is seen
-   subroutine find_visible(curve)
+   subroutine find_visible(curve, around)
       type(profile_curve), intent(inout) :: curve
+      !> Places s [mm]: only the stretches that hold one of them are looked at; default all
+      real(wp), intent(in), optional :: around(:)
       real(wp), allocatable :: turns(:), ends(:), low(:), high(:)
       type(stretch), allocatable :: stretches(:)
       real(wp) :: middle, best, here
@@ -105,11 +107,19 @@ contains
       allocate(low(n), high(n))
       low = min(curve%y%value(turns(:n)), curve%y%value(turns(2:)))
       high = max(curve%y%value(turns(:n)), curve%y%value(turns(2:)))
-      ends = sorted([low, high])
       allocate(stretches(n))
       do j = 1, n
          stretches(j) = stretch_between(curve%y, turns(j), turns(j + 1))
       end do
+      if (present(around)) then
+         do j = 1, n
+            if (any(around >= turns(j) .and. around <= turns(j + 1))) cycle
+            ! an empty range of y holds no point
+            low(j) = huge(low)
+            high(j) = -huge(high)
+         end do
+      end if
+      ends = sorted([pack(low, low <= high), pack(high, low <= high)])
       allocate(curve%parts(0))
       previous = 0
       do i = 1, size(ends) - 1
@@ -451,12 +461,15 @@ contains
 
    !> The curve in axes with another origin that are rolled by an angle; lateral coordinate along the rolled
    !> y axis, height along the rolled z axis. The pieces are transformed, not fitted again.
-   function seen_from(self, origin, angle, range) result(curve)
+   function seen_from(self, origin, angle, range, around) result(curve)
       class(profile_curve), intent(in) :: self
       !> Origin (y, z) [mm] and roll angle [rad] of the new axes in those of the curve
       real(wp), intent(in) :: origin(2), angle
       !> Only the pieces that this range of s touches
       real(wp), intent(in), optional :: range(2)
+      !> Places s: only what is reached from one of them without the new lateral coordinate turning round counts as seen.
+      !> Default: whatever is on top
+      real(wp), intent(in), optional :: around(:)
       type(profile_curve) :: curve
       type(cubic_spline) :: y, z
       integer :: first, last
@@ -474,7 +487,10 @@ contains
       z%c(:, :) = cos(angle)*self%z%c(:, first:last) - sin(angle)*self%y%c(:, first:last)
       y%c(0, :) = y%c(0, :) - (cos(angle)*origin(1) + sin(angle)*origin(2))
       z%c(0, :) = z%c(0, :) - (cos(angle)*origin(2) - sin(angle)*origin(1))
-      curve = new_curve(self%side, y, z)
+      curve%side = self%side
+      curve%y = y
+      curve%z = z
+      call find_visible(curve, around)
    end function seen_from
 
    !> Place s and height z of the point with the smallest z

@@ -41,7 +41,12 @@ module contact_profile_surface
       logical, allocatable, private :: is_kink(:)
       type(line_group), allocatable :: groups(:)
    contains
+      !> The section at a position
       procedure :: cut
+      !> The same where a rail that has ended, or a wheel that is not given there, goes on as at its nearest slice
+      procedure :: continued
+      !> Part of a stretch of rail that no slice describes
+      procedure :: part_beyond
    end type profile_surface
 
    !> A section of the surface across u
@@ -285,8 +290,7 @@ contains
       logical :: there(self%lines)
       integer :: g, j, k, first, last
 
-      u = position
-      if (self%side == profile_side%wheel) u = u - 2.0_wp*pi*nint(u/(2.0_wp*pi))
+      u = given_position(self, position)
       if (self%side == profile_side%wheel .or. abs(u - min(max(u, self%u_range(1)), self%u_range(2))) <= &
          & rounding*(self%u_range(2) - self%u_range(1))) u = min(max(u, self%u_range(1)), self%u_range(2))
       there = .false.
@@ -333,6 +337,43 @@ contains
       section%first_line = first
       section%present = .true.
    end subroutine cut
+
+   !> The section at a position; beyond the first and the last slice the nearest one, without slope along u
+   subroutine continued(self, position, section, axes)
+      class(profile_surface), intent(in) :: self
+      !> [mm] or [rad]
+      real(wp), intent(in) :: position
+      type(surface_cut), intent(out) :: section
+      !> See `cut`
+      real(wp), intent(in), optional :: axes(3)
+      real(wp) :: u
+
+      u = given_position(self, position)
+      call self%cut(min(max(u, self%u_range(1)), self%u_range(2)), section, axes)
+      if (.not. section%present .or. (u >= self%u_range(1) .and. u <= self%u_range(2))) return
+      section%y_u%c = 0.0_wp
+      section%z_u%c = 0.0_wp
+   end subroutine continued
+
+   !> Part of a stretch of rail that lies before the first or behind the last slice, 0...1
+   pure real(wp) function part_beyond(self, range) result(part)
+      class(profile_surface), intent(in) :: self
+      !> Rising [mm]
+      real(wp), intent(in) :: range(2)
+
+      part = 1.0_wp - max(0.0_wp, min(range(2), self%u_range(2)) - max(range(1), self%u_range(1)))/(range(2) - range(1))
+      if (part <= rounding) part = 0.0_wp
+   end function part_beyond
+
+   !> A position along the rail, or an angle within half a turn
+   pure real(wp) function given_position(self, position) result(u)
+      class(profile_surface), intent(in) :: self
+      !> [mm] or [rad]
+      real(wp), intent(in) :: position
+
+      u = position
+      if (self%side == profile_side%wheel) u = u - 2.0_wp*pi*nint(u/(2.0_wp*pi))
+   end function given_position
 
    !> Points (y, z) and their derivatives along u (y, z) in other axes
    pure subroutine turn(points, axes)

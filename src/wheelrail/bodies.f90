@@ -107,7 +107,7 @@ contains
       integer, intent(in) :: number
 
       if (self%made(number)) return
-      call self%surface%cut(self%origin + self%first + (number - 1)*self%step, self%sections(number), self%axes)
+      call self%surface%continued(self%origin + self%first + (number - 1)*self%step, self%sections(number), self%axes)
       self%made(number) = .true.
    end subroutine need
 
@@ -138,10 +138,10 @@ contains
       type(pair_placement), intent(in) :: placement
       !> Position along the track [mm]
       real(wp), intent(in) :: u
-      !> `present` is false where there is no rail
+      !> `present` is false where there is no rail between slices
       type(surface_cut), intent(out) :: section
 
-      call surface%cut(u, section, track_axes(placement))
+      call surface%continued(u, section, track_axes(placement))
    end subroutine rail_section
 
    !> Height and slope across at a place between two sections
@@ -193,7 +193,7 @@ contains
       !> Estimate on entry, solution on exit [mm]
       real(wp), intent(inout) :: n
       logical, intent(out) :: found
-      real(wp) :: point(3), z, z_y, correction, rho, place, along, across
+      real(wp) :: point(3), z, z_y, correction, rho, place, along, across, facing
       logical :: vertical
       integer :: step
       !> Of a step [mm]: with the slope that is used what remains is a thousandth of it
@@ -219,9 +219,14 @@ contains
             if (.not. found) return
             z = bodies%placement%roller_radius - sqrt(rho**2 - point(1)**2)
          end if
-         correction = (z - point(3))/(plane%axes(3, 3) - z_y*plane%axes(2, 3))
+         facing = plane%axes(3, 3) - z_y*plane%axes(2, 3)
+         correction = (z - point(3))/facing
          n = n + correction
-         if (vertical .or. abs(correction) <= tolerance) return
+         if (vertical .or. abs(correction) <= tolerance) then
+            ! a surface that turns its back on the plane is not the one in contact
+            found = facing > 0.0_wp
+            return
+         end if
       end do
       found = .false.
    end subroutine find_rail

@@ -12,6 +12,7 @@ module contact_wheelrail_curved_patch
    use contact_profile_curve, only : profile_curve
    use contact_wheelrail_bodies, only : find_rail_row, find_wheel_row, pair_bodies
    use contact_wheelrail_creepage, only : contact_motion, rigid_motion, velocity_of
+   use contact_wheelrail_flat_patch, only : nothing_there
    use contact_wheelrail_frame, only : frame, new_frame
    use contact_wheelrail_regions, only : contact_region
    implicit none (type, external)
@@ -45,8 +46,6 @@ module contact_wheelrail_curved_patch
    real(wp), parameter :: wider = 1.2_wp
    !> Rows beyond the region on each side
    integer, parameter :: guard_rows = 2
-   !> Distance where rail or wheel is missing [mm]
-   real(wp), parameter :: nothing_there = 999.0_wp
 
 contains
 
@@ -252,7 +251,7 @@ contains
    !> Velocity of the rail minus that of the wheel at facing points of the undeformed surfaces, in the axes of rows
    !>
    !> Particles slide along the deformed surface. It lies between the undeformed ones, in the ratio of the compliances,
-   !> and its slope along the track turns x: the velocity normal to the reference has a part in that direction.
+   !> and its slopes turn x and s: the velocity normal to the reference has a part in these directions.
    subroutine surface_slip(rail, wheel, curve, grid, on_rail, on_wheel, rail_share, slip)
       !> Motion of the bodies in track axes
       type(rigid_motion), intent(in) :: rail, wheel
@@ -265,7 +264,7 @@ contains
       !> Components along x and s [mm/s], or [mm] for displacements, shape (mx, my, 2)
       real(wp), allocatable, intent(out) :: slip(:, :, :)
       type(frame) :: row
-      real(wp) :: relative(3), slope
+      real(wp) :: relative(3), slope(2)
       integer :: ix, iy
 
       allocate(slip(grid%mx, grid%my, 2))
@@ -275,26 +274,36 @@ contains
             relative = velocity_of(rail, row%to_parent([grid%x(ix), 0.0_wp, on_rail(ix, iy)])) &
                & - velocity_of(wheel, row%to_parent([grid%x(ix), 0.0_wp, on_wheel(ix, iy)]))
             relative = matmul(relative, row%axes)
-            slope = (1.0_wp - rail_share)*slope_of(on_rail(:, iy), ix) + rail_share*slope_of(on_wheel(:, iy), ix)
-            slip(ix, iy, 1) = (relative(1) + slope*relative(3))/sqrt(1.0_wp + slope**2)
-            slip(ix, iy, 2) = relative(2)
+            slope(1) = interface_slope(on_rail(:, iy), on_wheel(:, iy), ix, grid%dx)
+            slope(2) = interface_slope(on_rail(ix, :), on_wheel(ix, :), iy, grid%dy)
+            slip(ix, iy, :) = (relative(:2) + slope*relative(3))/sqrt(1.0_wp + slope**2)
          end do
       end do
 
    contains
 
-      !> Slope of a surface along the track; level where it ends
-      pure real(wp) function slope_of(n, ix) result(slope)
-         real(wp), intent(in) :: n(:)
-         integer, intent(in) :: ix
+      !> Slope of the deformed surface along a line of elements
+      pure real(wp) function interface_slope(rail, wheel, i, step) result(slope)
+         !> Heights of the undeformed surfaces along the line, number of the element, distance of elements [mm]
+         real(wp), intent(in) :: rail(:), wheel(:)
+         integer, intent(in) :: i
+         real(wp), intent(in) :: step
+
+         slope = (1.0_wp - rail_share)*slope_of(rail, i, step) + rail_share*slope_of(wheel, i, step)
+      end function interface_slope
+
+      !> Slope of a surface along a line of elements; level where it ends
+      pure real(wp) function slope_of(n, i, step) result(slope)
+         real(wp), intent(in) :: n(:), step
+         integer, intent(in) :: i
          integer :: low, high
 
-         low = max(1, ix - 1)
-         high = min(size(n), ix + 1)
+         low = max(1, i - 1)
+         high = min(size(n), i + 1)
          slope = 0.0_wp
          if (low == high) return
          if (max(abs(n(low)), abs(n(high))) >= nothing_there) return
-         slope = (n(high) - n(low))/((high - low)*grid%dx)
+         slope = (n(high) - n(low))/((high - low)*step)
       end function slope_of
    end subroutine surface_slip
 

@@ -16,10 +16,10 @@ module contact_wheelrail_flat_patch
    implicit none (type, external)
    private
 
-   public :: patch_frame, patch_grid, undeformed_distance, wheel_height, wheel_row
+   public :: patch_frame, patch_grid, undeformed_distance, start_places, settle_distance, wheel_height, wheel_row
 
    !> Distance where rail or wheel is missing [mm]
-   real(wp), parameter :: nothing_there = 999.0_wp
+   real(wp), parameter, public :: nothing_there = 999.0_wp
 
 contains
 
@@ -81,19 +81,76 @@ contains
       grid%yl = (iy(1) - 0.5_wp)*ds - lead(2)
    end subroutine patch_grid
 
+   !> Arc lengths on the rail from which the section of a patch is followed [mm]: at its reference and in each of the stretches
+   !> that it was joined of
+   function start_places(rail, region) result(places)
+      !> The rail in track coordinates
+      type(profile_curve), intent(in) :: rail
+      type(contact_region), intent(in) :: region
+      real(wp), allocatable :: places(:)
+
+      places = rail%s_at([region%y, region%seeds])
+   end function start_places
+
+   !> From the distance of the undeformed bodies to h, whose minimum is zero, and the approach
+   !>
+   !> Where the gap falls by more than surfaces do from one row to the next, the line along n has met another part of the
+   !> rail or wheel, such as a guard rail. This and what lies beyond, seen from the reference, is taken to be missing.
+   pure subroutine settle_distance(grid, joined, h, approach, strangers)
+      type(potential_contact), intent(in) :: grid
+      !> Was the region joined of several? Then what lies between them may be of any shape, and nothing is left out
+      logical, intent(in) :: joined
+      !> Distance [mm], negative for interpenetration, on entry; shape (mx, my)
+      real(wp), intent(inout) :: h(:, :)
+      !> Largest interpenetration along n [mm]; negative when the bodies do not touch
+      real(wp), intent(out) :: approach
+      !> Elements that are left out though the bodies would overlap there
+      integer, intent(out) :: strangers
+      !> Largest fall of the gap from row to row: in mm, and relative to the distance of rows
+      real(wp), parameter :: largest_fall = 1.0_wp, steepest_fall = 10.0_wp
+      integer :: ix, iy, step, centre, known
+      logical :: beyond
+
+      strangers = 0
+      if (.not. joined) then
+         centre = min(max(nint(0.5_wp - grid%yl/grid%dy), 1), grid%my)
+         do step = -1, 1, 2
+            do ix = 1, grid%mx
+               beyond = .false.
+               known = 0
+               do iy = centre, merge(1, grid%my, step < 0), step
+                  if (h(ix, iy) >= 0.5_wp*nothing_there) cycle
+                  if (known > 0 .and. .not. beyond) beyond = h(ix, known) - h(ix, iy) &
+                     & > max(largest_fall, steepest_fall*grid%dy*abs(iy - known))
+                  known = iy
+                  if (.not. beyond) cycle
+                  if (h(ix, iy) < 0.0_wp) strangers = strangers + 1
+                  h(ix, iy) = nothing_there
+               end do
+            end do
+         end do
+      end if
+      approach = -minval(h)
+      h = h + approach
+   end subroutine settle_distance
+
    !> Distance of the undeformed bodies [mm], shifted so that its minimum is zero, and the approach
-   subroutine undeformed_distance(rail, wheel, placement, plane, grid, h, approach)
+   subroutine undeformed_distance(rail, wheel, placement, plane, places, grid, h, approach, strangers)
       !> The rail in track coordinates
       type(profile_curve), intent(in) :: rail
       !> The wheel in its own coordinates
       type(profile_curve), intent(in) :: wheel
       type(pair_placement), intent(in) :: placement
       type(frame), intent(in) :: plane
+      !> See `start_places`. The section of the rail is followed from these on as long as s does not turn round; anything
+      !> else that stands above the plane, such as the far wall of a groove, is not part of it
+      real(wp), intent(in) :: places(:)
       type(potential_contact), intent(in) :: grid
       !> Shape (mx, my)
       real(wp), allocatable, intent(inout) :: h(:, :)
-      !> Largest interpenetration along n [mm]; negative when the bodies do not touch
+      !> See `settle_distance`
       real(wp), intent(out) :: approach
+      integer, intent(out) :: strangers
       type(profile_curve) :: section
       type(frame) :: seen
       real(wp) :: x(grid%mx), n_wheel(grid%mx), start(2)
@@ -106,7 +163,7 @@ contains
       end if
       if (.not. allocated(h)) allocate(h(grid%mx, grid%my))
       delta = plane%roll()
-      section = rail%seen_from(plane%origin(2:3) - [0.0_wp, roller_lift()], delta)
+      section = rail%seen_from(plane%origin(2:3) - [0.0_wp, roller_lift()], delta, around=places)
       ! the plane seen from the wheel
       seen = placement%wheel%seen_from_here(plane)
       start = [wheel%s_at(seen%origin(2)), 0.0_wp]
@@ -120,8 +177,7 @@ contains
             h(ix, iy) = n_rail - merge(n_wheel(ix), -nothing_there, found(ix))
          end do
       end do
-      approach = -minval(h)
-      h = h + approach
+      call settle_distance(grid, size(places) > 2, h, approach, strangers)
 
    contains
 
@@ -151,7 +207,7 @@ contains
       real(wp), intent(in) :: radius, x, s
       !> Unchanged where there is no surface
       real(wp), intent(inout) :: n
-      real(wp) :: point(3), rho, z, trial, correction, slope
+      real(wp) :: point(3), rho, z, trial, correction, slope, facing
       integer :: step
 
       trial = 0.0_wp
@@ -163,10 +219,12 @@ contains
          z = radius - sqrt(rho**2 - point(1)**2)
          ! the surface lies below the trial point by z - point(3); its slope across the track turns the way along n
          slope = tan(rail%inclination(rail%s_at(point(2))))
-         correction = (z - point(3))/(plane%axes(3, 3) - slope*plane%axes(2, 3))
+         facing = plane%axes(3, 3) - slope*plane%axes(2, 3)
+         correction = (z - point(3))/facing
          trial = trial + correction
          if (abs(correction) < 1.0e-12_wp*radius) then
-            n = trial
+            ! a surface that turns its back on the plane is not the one in contact
+            if (facing > 0.0_wp) n = trial
             return
          end if
       end do

@@ -11,7 +11,7 @@ module contact_wheelrail_gap
    implicit none (type, external)
    private
 
-   public :: gap_curve, measure_gap, rail_in_track, locus_point, roller_drop
+   public :: gap_curve, measure_gap, rail_in_track, locus_point, roller_drop, smallest_in_row
 
    !> Gap on an even mesh over the rail, track coordinates
    type :: gap_curve
@@ -58,47 +58,71 @@ contains
 
    !> Point of the locus at a place of the wheel's profile, in track coordinates [mm]
    !>
-   !> The normal of the surface of revolution is perpendicular to the track there.
-   function locus_point(wheel, placement, s) result(point)
+   !> On a track the normal of the surface of revolution is perpendicular to the track there; on a roller wheel and
+   !> roller fall alike along it. See doc/theory/wheel_rail.md.
+   function locus_point(wheel, placement, s, rail) result(point)
       type(profile_curve), intent(in) :: wheel
       type(pair_placement), intent(in) :: placement
       !> Place on the profile [mm]
       real(wp), intent(in) :: s
+      !> The profile of a roller in track coordinates; not looked at on a track
+      type(profile_curve), intent(in) :: rail
       real(wp) :: point(3)
-      real(wp) :: radius, slope, x, y, z, across
+      real(wp) :: radius, lean, x, y, z, across, before, fall
+      logical :: on_roller
+      integer :: step
       !> A profile that is steeper than this counts as vertical [-]
       real(wp), parameter :: steepest = -1.0e-6_wp
+      !> Of a step, relative to the radius; every step is smaller than the one before by the square of the yaw angle
+      real(wp), parameter :: tolerance = 1.0e-13_wp
 
-      call wheel%point(s, y, z, across, slope)
+      on_roller = placement%roller_radius > 0.0_wp
+      call wheel%point(s, y, z, across, lean)
       radius = placement%wheel_radius + z
-      slope = slope/min(steepest, across)
+      lean = radius*(lean/min(steepest, across))
       associate (axes => placement%wheel%axes)
-         x = (radius*slope*axes(1, 2) - placement%wheel_radius*axes(1, 3))/axes(1, 1)
+         x = 0.0_wp
+         do step = 1, 20
+            before = x
+            point = placement%wheel%to_parent([x, y, depth(x) - placement%wheel_radius])
+            fall = 0.0_wp
+            if (on_roller) fall = roller_slope(placement, point(1), rail%height(point(2)))
+            ! the normal (x, -lean, depth) in the track has no part along (1, 0, fall)
+            x = ((axes(1, 2) + fall*axes(3, 2))*lean - (axes(1, 3) + fall*axes(3, 3))*depth(x))/(axes(1, 1) + fall*axes(3, 1))
+            if (on_roller) x = before + (x - before)/(1.0_wp + depth(before)/axle_depth(point))
+            x = max(-furthest*placement%wheel_radius, min(furthest*placement%wheel_radius, x))
+            ! the depth does not matter to a wheel that stands upright on a track
+            if (.not. (on_roller .or. abs(axes(1, 3)) > 0.0_wp)) exit
+            if (abs(x - before) <= tolerance*placement%wheel_radius) exit
+         end do
       end associate
-      x = max(-furthest*placement%wheel_radius, min(furthest*placement%wheel_radius, x))
-      if (placement%roller_radius > 0.0_wp) x = roller_locus(x)
-      point = placement%wheel%to_parent([x, y, sqrt(radius**2 - x**2) - placement%wheel_radius])
+      point = placement%wheel%to_parent([x, y, depth(x) - placement%wheel_radius])
 
    contains
 
-      !> On a roller the surface below slopes along the track, too: z = x/rho
-      real(wp) function roller_locus(start) result(place)
-         real(wp), intent(in) :: start
-         real(wp) :: d, here(3)
-         integer :: step
+      !> Depth below the axle of the point of this circle at a place along it [mm]
+      pure real(wp) function depth(x)
+         real(wp), intent(in) :: x
+         depth = sqrt(radius**2 - x**2)
+      end function depth
 
-         place = start
-         associate (axes => placement%wheel%axes)
-            do step = 1, 3
-               d = place*axes(3, 1) - radius*slope*axes(3, 2) + placement%wheel_radius*axes(3, 3)
-               here = placement%wheel%to_parent([place, y, sqrt(radius**2 - place**2) - placement%wheel_radius])
-               place = (-d*here(1)/placement%roller_radius + d*place/placement%roller_radius + radius*slope*axes(1, 2) &
-                  & - (placement%wheel_radius + z)*axes(1, 3))/(axes(1, 1) + d/placement%roller_radius)
-               place = max(-furthest*placement%wheel_radius, min(furthest*placement%wheel_radius, place))
-            end do
-         end associate
-      end function roller_locus
+      !> Height of a point of the track above the axle of the roller, at least a hundredth of its radius [mm]
+      pure real(wp) function axle_depth(point)
+         real(wp), intent(in) :: point(3)
+         axle_depth = max(0.01_wp*placement%roller_radius, placement%roller_radius - point(3))
+      end function axle_depth
    end function locus_point
+
+   !> Slope of a roller's surface along the track: dz/dx at a distance from its top
+   pure real(wp) function roller_slope(placement, x, z) result(slope)
+      type(pair_placement), intent(in) :: placement
+      !> Longitudinal position and height of its profile there [mm]
+      real(wp), intent(in) :: x, z
+      real(wp) :: rho
+
+      rho = placement%roller_radius - z
+      slope = x/sqrt(max(tiny(rho), rho**2 - x**2))
+   end function roller_slope
 
    !> How much lower a roller is at a distance from its top [mm]; 0 on a track
    pure real(wp) function roller_drop(placement, x, z) result(drop)
@@ -152,7 +176,7 @@ contains
          gap%alpha(i) = rail%inclination(s)
       end do
       associate (nodes => wheel%y%s)
-         lateral = lateral_positions(wheel, placement, nodes)
+         lateral = lateral_positions(wheel, placement, rail, nodes)
          do k = 1, size(nodes) - 1
             ! the surface faces the rail where places run with falling y
             if (lateral(k) > lateral(k + 1)) call add_piece(nodes(k:k + 1), lateral(k:k + 1))
@@ -173,7 +197,7 @@ contains
          do i = max(1, ceiling((lateral(2) - range(1))/gap%dy - tiny_part) + 1), &
             & min(gap%n, floor((lateral(1) - range(1))/gap%dy + tiny_part) + 1)
             if (.not. on_rail(i)) cycle
-            point = locus_at(wheel, placement, gap%y(i), places(1), places(2), lateral(1), lateral(2))
+            point = locus_at(wheel, placement, rail, gap%y(i), places(1), places(2), lateral(1), lateral(2))
             here = gap%z(i) + roller_drop(placement, point(1), gap%z(i)) - point(3)
             if (here >= gap%gap(i)) cycle
             gap%x(i) = point(1)
@@ -182,10 +206,31 @@ contains
       end subroutine add_piece
    end subroutine measure_gap
 
+   !> Smallest gap of a row of points, between them by a parabola
+   pure subroutine smallest_in_row(x, g, place, lowest)
+      real(wp), intent(in) :: x(:), g(:)
+      real(wp), intent(out) :: place, lowest
+      real(wp) :: bend, shift
+      integer :: i
+
+      i = minloc(g, 1)
+      place = x(i)
+      lowest = g(i)
+      if (i == 1 .or. i == size(x)) return
+      if (max(g(i - 1), g(i + 1)) >= no_surface) return
+      bend = g(i - 1) - 2.0_wp*g(i) + g(i + 1)
+      if (.not. bend > 0.0_wp) return
+      shift = 0.5_wp*(g(i - 1) - g(i + 1))/bend
+      place = place + shift*(x(2) - x(1))
+      lowest = lowest - 0.5_wp*bend*shift**2
+   end subroutine smallest_in_row
+
    !> Lateral positions in the track of the locus at places of the wheel's profile [mm]
-   function lateral_positions(wheel, placement, places) result(lateral)
+   function lateral_positions(wheel, placement, rail, places) result(lateral)
       type(profile_curve), intent(in) :: wheel
       type(pair_placement), intent(in) :: placement
+      !> See `locus_point`
+      type(profile_curve), intent(in) :: rail
       !> [mm]
       real(wp), intent(in) :: places(:)
       real(wp) :: lateral(size(places))
@@ -193,15 +238,17 @@ contains
       integer :: i
 
       do i = 1, size(places)
-         point = locus_point(wheel, placement, places(i))
+         point = locus_point(wheel, placement, places(i), rail)
          lateral(i) = point(2)
       end do
    end function lateral_positions
 
    !> Point of the locus with a given lateral position between two places, by the Illinois method
-   function locus_at(wheel, placement, y, s_high, s_low, y_high, y_low) result(point)
+   function locus_at(wheel, placement, rail, y, s_high, s_low, y_high, y_low) result(point)
       type(profile_curve), intent(in) :: wheel
       type(pair_placement), intent(in) :: placement
+      !> See `locus_point`
+      type(profile_curve), intent(in) :: rail
       real(wp), intent(in) :: y
       !> Places and their lateral positions, y_low <= y <= y_high
       real(wp), intent(in) :: s_high, s_low, y_high, y_low
@@ -219,7 +266,7 @@ contains
       if (abs(fb) < abs(fa)) s = b
       do step = 1, 60
          if (abs(fa - fb) > 0.0_wp) s = (a*fb - b*fa)/(fb - fa)
-         point = locus_point(wheel, placement, s)
+         point = locus_point(wheel, placement, s, rail)
          f = point(2) - y
          if (abs(f) <= tolerance) exit
          if ((f > 0.0_wp) .eqv. (fa > 0.0_wp)) then

@@ -103,7 +103,7 @@ contains
       here%touch = z + smallest_gap(here%gap)
    end subroutine measure
 
-   !> The rail's profile in track coordinates at a place along it; of a variable one within its slices
+   !> The rail's profile in track coordinates at a place along it; a variable one goes on as at its first and last slice
    function rail_at(problem, placement, x) result(curve)
       type(pair_problem), intent(in) :: problem
       type(pair_placement), intent(in) :: placement
@@ -111,13 +111,9 @@ contains
       real(wp), intent(in) :: x
       type(profile_curve) :: curve
       type(surface_cut) :: section
-      real(wp) :: u
 
       if (allocated(problem%rail_surface)) then
-         associate (range => problem%rail_surface%u_range)
-            u = min(max(problem%spec%wheelset%s + x, range(1)), range(2))
-         end associate
-         call rail_section(problem%rail_surface, placement, u, section)
+         call rail_section(problem%rail_surface, placement, problem%spec%wheelset%s + x, section)
          if (section%present) then
             curve = section%curve
             return

@@ -36,6 +36,8 @@ module contact_wheelrail_memory
       real(wp) :: reference(2) = 0.0_wp
       !> Window of the grid on the lattice, and that of the solution in `state`
       type(lattice_window) :: window, solved_window
+      !> Elements left out because the gap jumps between them and the reference; see `settle_distance`
+      integer :: strangers = 0
       !> Patches of the previous moment that this one continues
       integer, allocatable :: previous(:)
       !> Forces [N] and moment [N mm] on the rail in the axes x, s, n of the plane

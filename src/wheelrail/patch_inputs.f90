@@ -10,7 +10,7 @@ module contact_wheelrail_patch_inputs
    use contact_wheelrail_creepage, only : flat_creepage, flat_shift, rigid_motion
    use contact_wheelrail_curved_patch, only : curved_rows, fit_creepages, new_curved_reference, straight_reference, &
       & surface_heights, surface_slip
-   use contact_wheelrail_flat_patch, only : patch_frame, patch_grid, undeformed_distance
+   use contact_wheelrail_flat_patch, only : patch_frame, patch_grid, settle_distance, start_places, undeformed_distance
    use contact_wheelrail_geometry, only : lattice_x, pair_geometry, rail_at
    use contact_wheelrail_memory, only : patch_slot
    use contact_wheelrail_placement, only : rail_motion, wheel_motion
@@ -99,9 +99,10 @@ contains
          most = most_growth*[grid%mx, grid%my]
          do
             if (here%searches_table) then
-               call variable_distance(here%bodies, slot%plane, grid, h, approach)
+               call variable_distance(here%bodies, slot%plane, size(slot%region%seeds) > 1, grid, h, approach, slot%strangers)
             else
-               call undeformed_distance(rail, problem%wheel, here%placement, slot%plane, grid, h, approach)
+               call undeformed_distance(rail, problem%wheel, here%placement, slot%plane, start_places(rail, slot%region), grid, &
+                  & h, approach, slot%strangers)
             end if
             more(1, :) = merge(1, 0, [any(h(1, :) < approach), any(h(grid%mx, :) < approach)])
             more(2, :) = merge(1, 0, [any(h(:, 1) < approach), any(h(:, grid%my) < approach)])
@@ -141,8 +142,7 @@ contains
          end if
          call surface_heights(here%bodies, slot%curve, patch%grid, slot%on_rail, slot%on_wheel)
          h = slot%on_rail - slot%on_wheel
-         approach = -minval(h)
-         h = h + approach
+         call settle_distance(patch%grid, size(slot%region%seeds) > 1, h, approach, slot%strangers)
          if (allocated(patch%model%inclination)) then
             patch%model%inclination%s = [(patch%grid%y(iy), iy=1, patch%grid%my)]
             patch%model%inclination%alpha = slot%curve%alpha
@@ -163,7 +163,8 @@ contains
       allocate(slot%problem%parts)
       associate (parts => slot%problem%parts, grid => slot%problem%grid, plane => slot%plane)
          margin = part_margin*problem%spec%search%d_comb
-         section = rail%seen_from([plane%origin(2), rail%height(plane%origin(2))], plane%roll())
+         section = rail%seen_from([plane%origin(2), rail%height(plane%origin(2))], plane%roll(), &
+            & around=start_places(rail, slot%region))
          allocate(parts%label(grid%mx, grid%my), source=0)
          parts%interaction = slot%region%interaction
          do iy = 1, grid%my

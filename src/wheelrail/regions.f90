@@ -11,6 +11,7 @@ module contact_wheelrail_regions
    use contact_base_kinds, only : wp
    use contact_wheelrail_gap, only : gap_curve, no_surface
    use contact_wheelrail_spec, only : search_spec
+   use contact_wheelrail_spots, only : separate_spots, spot
    implicit none (type, external)
    private
 
@@ -32,6 +33,8 @@ module contact_wheelrail_regions
       real(wp) :: weight = 0.0_wp
       !> Smallest gap [mm], negative for interpenetration
       real(wp) :: gap = 0.0_wp
+      !> Lateral positions of the deepest points of the stretches of interpenetration that it was joined of [mm]
+      real(wp), allocatable :: seeds(:)
       !> Do the bodies interpenetrate?
       logical :: touches = .false.
       !> Parts of a blended patch with their bounds; of size 1 otherwise
@@ -87,7 +90,7 @@ contains
       call avoid_vertical(regions)
    end subroutine find_regions
 
-   !> One region per stretch of interpenetration, and the nearest misses
+   !> One region per stretch of interpenetration, or per spot where it falls apart along the track; the nearest misses
    subroutine preliminary_regions(gap, g, weight_power, regions, misses)
       type(gap_curve), intent(in) :: gap
       !> Gap at the present height [mm]
@@ -95,7 +98,8 @@ contains
       integer, intent(in) :: weight_power
       type(contact_region), allocatable, intent(out) :: regions(:), misses(:)
       type(contact_region) :: region
-      integer :: i, first, last, n
+      type(spot), allocatable :: spots(:)
+      integer :: i, k, first, last, n
 
       n = size(g)
       allocate(regions(0), misses(0))
@@ -108,8 +112,17 @@ contains
                if (.not. g(last + 1) < 0.0_wp) exit
                last = last + 1
             end do
-            call describe(gap, g, first, last, weight_power, region)
-            regions = [regions, region]
+            allocate(spots(0))
+            if (allocated(gap%table)) call separate_spots(gap, g, first, last, spots)
+            if (size(spots) == 0) then
+               call describe(gap, g, first, last, weight_power, region)
+               regions = [regions, region]
+            end if
+            do k = 1, size(spots)
+               call describe(spots(k)%gap, spots(k)%g, spots(k)%first, spots(k)%last, weight_power, region)
+               regions = [regions, region]
+            end do
+            deallocate(spots)
             i = last + 1
          else
             if (is_minimum(g, i)) then
@@ -185,6 +198,7 @@ contains
       if (first == 1) region%box%y(1) = 2.0_wp*region%y - region%box%y(2)
       if (last == gap%n) region%box%y(2) = 2.0_wp*region%y - region%box%y(1)
       call find_deepest(gap, g, first, last, region%gap, region%deepest)
+      allocate(region%seeds(1), source=region%deepest(2))
       allocate(region%part(1), source=region%box)
       allocate(region%interaction(1, 1), source=1.0_wp)
    end subroutine describe
@@ -319,6 +333,7 @@ contains
       ! a miss does not become a contact by interpolation
       call find_deepest(gap, g, i, i, region%gap, region%deepest)
       region%gap = max(1.0e-10_wp, region%gap)
+      allocate(region%seeds(1), source=region%y)
       region%box%x = gap%x(i)
       region%box%y = gap%y(i)
       region%box%z = gap%z(i)
@@ -344,7 +359,7 @@ contains
       end do
    end subroutine sort_regions
 
-   !> Distance of two regions, the first one on the field side [mm]
+   !> Distance of two regions, the first one on the field side [mm]; where they are beside each other along the track, along it
    pure real(wp) function distance(field, gauge, along_track)
       type(region_box), intent(in) :: field, gauge
       !> Count the distance along the track, too?
@@ -353,52 +368,65 @@ contains
 
       d = 0.0_wp
       if (along_track) d(1) = max(0.0_wp, field%x(1) - gauge%x(2), gauge%x(1) - field%x(2))
-      d(2) = max(0.0_wp, field%y(1) - gauge%y(2))
-      d(3) = field%z(1) - gauge%z(2)
+      if (.not. side_by_side(field, gauge)) then
+         d(2) = field%y(1) - gauge%y(2)
+         d(3) = field%z(1) - gauge%z(2)
+      end if
       distance = norm2(d)
    end function distance
+
+   !> Have two regions lateral positions in common?
+   pure logical function side_by_side(a, b)
+      type(region_box), intent(in) :: a, b
+      side_by_side = a%y(1) < b%y(2) .and. b%y(1) < a%y(2)
+   end function side_by_side
 
    !> First combine what is near, then blend what is not far
    subroutine join_regions(search, regions)
       type(search_spec), intent(in) :: search
       type(contact_region), allocatable, intent(inout) :: regions(:)
-      logical :: joined
-      integer :: i
 
-      joined = .true.
-      do while (joined)
-         joined = .false.
-         do i = 1, size(regions) - 1
-            if (distance(regions(i)%box, regions(i + 1)%box, .true.) > search%d_comb) cycle
-            if (abs(regions(i)%alpha - regions(i + 1)%alpha) > search%a_sep) cycle
-            call join(i, .false.)
-            joined = .true.
-            exit
-         end do
-      end do
-      joined = .true.
-      do while (joined)
-         joined = .false.
-         do i = 1, size(regions) - 1
-            if (distance(regions(i)%box, regions(i + 1)%box, .true.) > search%d_sep) cycle
-            if (abs(regions(i)%alpha - regions(i + 1)%alpha) > search%a_sep) cycle
-            call join(i, .true.)
-            joined = .true.
-            exit
-         end do
-      end do
+      call join_within(search%d_comb, .false.)
+      call join_within(search%d_sep, .true.)
 
    contains
 
-      !> Make one region of a neighbouring pair
-      subroutine join(i, blend)
-         integer, intent(in) :: i
+      !> Join neighbours until none are near each other: across the track those that follow each other, and along it
+      subroutine join_within(furthest, blend)
+         !> Distance [mm]
+         real(wp), intent(in) :: furthest
+         !> Do the parts stay known?
+         logical, intent(in) :: blend
+         integer :: i, j
+
+         i = 1
+         do while (i < size(regions))
+            do j = i + 1, size(regions)
+               if (j > i + 1 .and. .not. side_by_side(regions(i)%box, regions(j)%box)) cycle
+               if (distance(regions(i)%box, regions(j)%box, .true.) > furthest) cycle
+               if (abs(regions(i)%alpha - regions(j)%alpha) > search%a_sep) cycle
+               exit
+            end do
+            if (j > size(regions)) then
+               i = i + 1
+            else
+               call join(i, j, blend)
+               call sort_regions(regions)
+               i = 1
+            end if
+         end do
+      end subroutine join_within
+
+      !> Make one region of two
+      subroutine join(i, j, blend)
+         !> Their numbers, i < j
+         integer, intent(in) :: i, j
          !> Do the parts stay known?
          logical, intent(in) :: blend
          type(contact_region) :: both
          real(wp) :: w(2)
 
-         associate (a => regions(i), b => regions(i + 1))
+         associate (a => regions(i), b => regions(j))
             w = [a%weight, b%weight]/(a%weight + b%weight)
             both = a
             both%x = w(1)*a%x + w(2)*b%x
@@ -407,9 +435,11 @@ contains
             both%weight = a%weight + b%weight
             both%gap = min(a%gap, b%gap)
             if (b%gap < a%gap) both%deepest = b%deepest
+            both%seeds = [a%seeds, b%seeds]
             both%box%x = [min(a%box%x(1), b%box%x(1)), max(a%box%x(2), b%box%x(2))]
-            both%box%y = [b%box%y(1), a%box%y(2)]
-            both%box%z = [b%box%z(1), a%box%z(2)]
+            both%box%y = [min(a%box%y(1), b%box%y(1)), max(a%box%y(2), b%box%y(2))]
+            both%box%z = [merge(a%box%z(1), b%box%z(1), a%box%y(1) < b%box%y(1)), &
+               & merge(b%box%z(2), a%box%z(2), b%box%y(2) > a%box%y(2))]
             deallocate(both%part, both%interaction)
             if (blend) then
                both%part = [a%part, b%part]
@@ -419,7 +449,7 @@ contains
                allocate(both%interaction(1, 1), source=1.0_wp)
             end if
          end associate
-         regions = [regions(:i - 1), both, regions(i + 2:)]
+         regions = [regions(:i - 1), both, regions(i + 1:j - 1), regions(j + 1:)]
       end subroutine join
    end subroutine join_regions
 

@@ -28,6 +28,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(contact_region), allocatable :: regions(:), misses(:)
       type(lattice_box), allocatable :: boxes(:)
+      character(len=15) :: name
       integer :: k, n
 
       ! a gap that was measured for less penetration is measured again, with some more to spare for the next trials
@@ -56,12 +57,37 @@ contains
          memory%slot(k)%region = regions(k)
          memory%slot(k)%previous = memory%here%before%sources(k)
          call solve_slot(problem, memory%here, k, memory%slot(k), with_friction, log, error)
+         name = "contact patch " // achar(iachar("0") + mod(k, 10))
          if (allocated(error)) then
-            call add_context(error, "contact patch " // achar(iachar("0") + mod(k, 10)))
+            call add_context(error, name)
             return
          end if
+         call warn_beyond_slices(problem, memory%slot(k), name, log)
+         if (memory%slot(k)%strangers > 0) call log%warning(name // ": the gap falls by more than 1 mm from one row of elements &
+            &to the next; what lies beyond belongs to another part of rail or wheel and is left out.")
       end do
    end subroutine evaluate
+
+   !> Say that elements of a patch stand where no slice describes the rail. A wheel that is given on a part of the turn is
+   !> meant to go on as at its last slice
+   subroutine warn_beyond_slices(problem, slot, name, log)
+      type(pair_problem), intent(in) :: problem
+      type(patch_slot), intent(in) :: slot
+      !> What messages call the patch
+      character(len=*), intent(in) :: name
+      type(log_type), intent(inout) :: log
+      real(wp) :: s(2)
+      character(len=200) :: text
+
+      if (.not. allocated(problem%rail_surface)) return
+      associate (given => problem%rail_surface%u_range, grid => slot%problem%grid)
+         s = problem%spec%wheelset%s + slot%plane%origin(1) + grid%xl + [0.0_wp, grid%mx*grid%dx]
+         if (.not. problem%rail_surface%part_beyond(s) > 0.0_wp) return
+         write(text, '(4(a,f0.2),a)') ": its elements stand from S = ", s(1), " to ", s(2), " mm along the track, the &
+            &slices of the rail from ", given(1), " to ", given(2), " mm. Beyond them it goes on as at the nearest one."
+      end associate
+      call log%warning(name // trim(text))
+   end subroutine warn_beyond_slices
 
    !> Bring the slots into the order of the regions, so that each one continues its own solution
    subroutine match_slots(memory, regions)
@@ -74,8 +100,10 @@ contains
          best = 0
          largest = 0.0_wp
          do j = k, memory%used
-            associate (old => memory%slot(j)%region%box%y, new => regions(k)%box%y)
-               overlap = min(old(2), new(2)) - max(old(1), new(1))
+            associate (old => memory%slot(j)%region%box, new => regions(k)%box)
+               overlap = min(old%y(2), new%y(2)) - max(old%y(1), new%y(1))
+               ! spots beside each other along the track are told apart by what they have in common there
+               overlap = overlap*(1.0_wp + max(0.0_wp, min(old%x(2), new%x(2)) - max(old%x(1), new%x(1))))
             end associate
             if (overlap <= largest) cycle
             largest = overlap

@@ -7,8 +7,9 @@ module contact_wheelrail_variable
    use contact_base_kinds, only : wp
    use contact_grid_potential_contact, only : potential_contact
    use contact_wheelrail_bodies, only : find_rail_row, find_wheel, find_wheel_row, pair_bodies
+   use contact_wheelrail_flat_patch, only : nothing_there, settle_distance
    use contact_wheelrail_frame, only : frame
-   use contact_wheelrail_gap, only : gap_curve, no_surface
+   use contact_wheelrail_gap, only : gap_curve, no_surface, smallest_in_row
    implicit none (type, external)
    private
 
@@ -25,8 +26,6 @@ module contact_wheelrail_variable
    real(wp), parameter :: hidden = 0.1_wp
    !> Lateral mesh relative to the elements, and search along the track to both sides, of the radius
    real(wp), parameter :: mesh_share = 0.3_wp, reach = 0.125_wp
-   !> Distance where a surface is missing [mm]
-   real(wp), parameter :: nothing_there = 999.0_wp
 
 contains
 
@@ -302,25 +301,6 @@ contains
       end do
    end subroutine find_smallest
 
-   !> Smallest gap of a row of points, between them by a parabola
-   pure subroutine smallest_in_row(x, g, place, lowest)
-      real(wp), intent(in) :: x(:), g(:)
-      real(wp), intent(out) :: place, lowest
-      real(wp) :: bend, shift
-      integer :: i
-
-      i = minloc(g, 1)
-      place = x(i)
-      lowest = g(i)
-      if (i == 1 .or. i == size(x)) return
-      if (max(g(i - 1), g(i + 1)) >= no_surface) return
-      bend = g(i - 1) - 2.0_wp*g(i) + g(i + 1)
-      if (.not. bend > 0.0_wp) return
-      shift = 0.5_wp*(g(i - 1) - g(i + 1))/bend
-      place = place + shift*(x(2) - x(1))
-      lowest = lowest - 0.5_wp*bend*shift**2
-   end subroutine smallest_in_row
-
    !> Smallest gap between two rows of the coarse mesh
    pure subroutine smallest_between(x, corner, row, place, lowest)
       real(wp), intent(in) :: x(:), corner(:, :)
@@ -366,14 +346,17 @@ contains
    end subroutine find_inclinations
 
    !> Distance of the undeformed bodies over a plane [mm], shifted so that its minimum is zero, and the approach
-   subroutine variable_distance(bodies, plane, grid, h, approach)
+   subroutine variable_distance(bodies, plane, joined, grid, h, approach, strangers)
       type(pair_bodies), intent(inout) :: bodies
       type(frame), intent(in) :: plane
+      !> See `settle_distance`
+      logical, intent(in) :: joined
       type(potential_contact), intent(in) :: grid
       !> Shape (mx, my)
       real(wp), allocatable, intent(inout) :: h(:, :)
-      !> Largest interpenetration along n [mm]; negative when the bodies do not touch
+      !> See `settle_distance`
       real(wp), intent(out) :: approach
+      integer, intent(out) :: strangers
       type(frame) :: seen
       real(wp) :: x(grid%mx), n_wheel(grid%mx), n_rail(grid%mx)
       logical :: on_wheel(grid%mx), on_rail(grid%mx)
@@ -390,7 +373,6 @@ contains
          call find_wheel_row(bodies, seen, x, grid%y(iy), n_wheel, on_wheel)
          h(:, iy) = merge(n_rail - n_wheel, nothing_there, on_rail .and. on_wheel)
       end do
-      approach = -minval(h)
-      h = h + approach
+      call settle_distance(grid, joined, h, approach, strangers)
    end subroutine variable_distance
 end module contact_wheelrail_variable

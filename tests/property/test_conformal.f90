@@ -33,6 +33,7 @@ program test_conformal
    call inclined_coefficients(suite)
    call slip_in_groove(suite)
    call slip_on_interface(suite)
+   call yawed_ball(suite)
    call fitted_slip(suite)
    call friction_by_angle(suite)
    call hard_cases(suite)
@@ -325,6 +326,57 @@ contains
       call surface_slip(rail, wheel, curve, grid, on_rail, on_wheel, 0.5_wp, slip)
       call suite%close_to(slip(2:40, 2, 1), spread(0.0_wp, 1, 39), 1.0e-6_wp*v, "no slip midway between bodies that are alike")
    end subroutine slip_on_interface
+
+   !> A ball that rolls obliquely on a plane slips in its direction of rolling, wherever its axle points: the velocity normal
+   !> to the contact has parts along both directions of the deformed surface
+   subroutine yawed_ball(suite)
+      type(test_suite), intent(inout) :: suite
+      real(wp), parameter :: yaw(3) = [0.0_wp, 0.3_wp, -0.3_wp], rate = 10.0_wp
+      integer, parameter :: location(2) = [contact_location%locus_extended, contact_location%conformal]
+      type(pair_problem) :: problem
+      type(pair_result) :: straight, oblique
+      real(wp) :: along, across
+      integer :: k, j
+
+      do j = 1, size(location)
+         do k = 1, size(yaw)
+            problem = sphere_in_groove(0.0_wp, location(j))
+            problem%rail = plane_rail()
+            problem%template%motion = motion%steady_rolling
+            associate (set => problem%spec%wheelset)
+               set%z = pressed
+               set%yaw = yaw(k)
+               set%vs = rate*sphere*cos(yaw(k))
+               set%vy = rate*sphere*sin(yaw(k))
+               set%vpitch = -rate
+            end associate
+            call solve(suite, problem, oblique, "oblique ball")
+            call suite%equal(size(oblique%patches), 1, "one patch of a ball")
+            if (size(oblique%patches) /= 1) return
+            if (k == 1) straight = oblique
+            ! velocities are divided by the forward speed
+            along = straight%patches(1)%contact%cksi
+            call suite%check(along < -1.0e-4_wp, "a ball that is pressed in creeps")
+            across = along*tan(yaw(k))
+            call suite%close_to(oblique%patches(1)%contact%cksi, along, 0.02_wp*abs(along), "creepage of an oblique ball")
+            call suite%close_to(oblique%patches(1)%contact%ceta, across, 0.02_wp*abs(along), "its lateral creepage")
+         end do
+      end do
+   end subroutine yawed_ball
+
+   !> A level rail
+   function plane_rail() result(curve)
+      type(profile_curve) :: curve
+      type(cubic_spline) :: splines(2)
+      real(wp) :: s(81), f(81, 2)
+      integer :: i
+
+      s = [(1.0_wp*(i - 1), i=1, 81)]
+      f(:, 1) = s - 40.0_wp
+      f(:, 2) = 0.0_wp
+      call natural_splines(s, f, splines)
+      curve = new_curve(profile_side%rail, splines(1), splines(2))
+   end function plane_rail
 
    !> Creepages and spin come back, what they do not describe remains
    subroutine fitted_slip(suite)

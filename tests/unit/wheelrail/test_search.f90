@@ -12,18 +12,21 @@ program test_search
    use contact_profile_request, only : profile_request, profile_side
    use contact_test_files, only : write_profile
    use contact_test_harness, only : environment, test_suite
-   use contact_wheelrail_flat_patch, only : patch_frame, patch_grid, undeformed_distance
+   use contact_wheelrail_flat_patch, only : patch_frame, patch_grid, start_places, undeformed_distance
    use contact_wheelrail_frame, only : frame
    use contact_wheelrail_gap, only : gap_curve, measure_gap, rail_in_track
    use contact_wheelrail_placement, only : gauge_point, pair_placement, place_pair
    use contact_wheelrail_regions, only : contact_region, find_regions, smallest_gap
    use contact_wheelrail_spec, only : wheel_rail_spec
    implicit none (type, external)
+   !> A conical wheel: height at y = 0 and slope of the profile
+   real(wp), parameter :: height = 30.0_wp, slope = -0.9_wp
    type(test_suite) :: suite
 
    call suite%start("contact search")
    call sphere_on_plane(suite)
    call mirrored_wheel(suite)
+   call locus_on_roller(suite)
    call benchmark(suite)
    call suite%finish()
 
@@ -43,6 +46,87 @@ contains
       call read_profile(request, curve, log, error)
    end subroutine profile_of
 
+   !> A yawed and rolled conical wheel on a small roller: the locus is where the gap is smallest, by trying all places
+   subroutine locus_on_roller(suite)
+      type(test_suite), intent(inout) :: suite
+      real(wp), parameter :: yaw(4) = [0.02_wp, -0.02_wp, 0.1_wp, 0.1_wp], radius(4) = [300.0_wp, 300.0_wp, 200.0_wp, 1.0e6_wp]
+      !> Flexible roll of the wheel
+      real(wp), parameter :: bent = 0.01_wp
+      type(profile_curve) :: rail, wheel, in_track
+      type(error_type), allocatable :: error
+      type(wheel_rail_spec) :: pair
+      type(pair_placement) :: placement
+      type(gap_curve) :: gap
+      real(wp) :: a, b, low, high, gap_a, gap_b, place
+      integer :: i, j, k
+
+      call write_profile("roller.txt", [(0.5_wp*i, i=-60, 60)], [(0.002_wp*(0.5_wp*i)**2, i=-60, 60)])
+      call write_profile("cone.txt", [(-1.0_wp*i, i=-50, 50)], [(height - slope*i, i=-50, 50)])
+      call profile_of("roller.txt", profile_side%rail, rail, error)
+      if (.not. allocated(error)) call profile_of("cone.txt", profile_side%wheel, wheel, error)
+      call suite%check(.not. allocated(error), "the profiles of roller and wheel are read")
+      if (allocated(error)) return
+      pair%track%gaught = -1.0_wp
+      pair%wheelset%fbdist = 0.0_wp
+      pair%wheelset%fbpos = 0.0_wp
+      pair%wheelset%nomradw = 460.0_wp
+      pair%wheelset%roll = 0.05_wp
+      pair%wheelset%flexible(4) = bent
+      do k = 1, size(yaw)
+         pair%wheelset%yaw = yaw(k)
+         pair%roller = .true.
+         pair%track%nomradr = radius(k)
+         ! wheel and roller nearly touch at y = 0
+         call place_pair(pair, wheel, 0.0_wp, 0.0_wp, -height, [0.0_wp, 0.0_wp], placement)
+         in_track = rail_in_track(rail, placement)
+         call measure_gap(in_track, wheel, placement, 0.5_wp, gap)
+         do i = gap%n/2 - 40, gap%n/2 + 40, 20
+            ! the gap is convex along the track: nested intervals
+            low = -100.0_wp
+            high = 100.0_wp
+            do j = 1, 120
+               a = low + 0.381966_wp*(high - low)
+               b = low + 0.618034_wp*(high - low)
+               call gap_by_hand(placement, in_track, a, gap%y(i), gap_a, place)
+               call gap_by_hand(placement, in_track, b, gap%y(i), gap_b, place)
+               if (gap_a < gap_b) then
+                  high = b
+               else
+                  low = a
+               end if
+            end do
+            call suite%close_to(gap%gap(i), gap_a, 1.0e-9_wp, "smallest gap on the roller")
+            call suite%close_to(gap%x(i), place, 1.0e-4_wp, "where it is")
+         end do
+      end do
+   end subroutine locus_on_roller
+
+   !> Gap [mm] between a conical wheel and a roller at a lateral position of the track, on the section at a place x of the
+   !> wheel's axes; and where this is along the track
+   subroutine gap_by_hand(placement, rail, x, y, gap, place)
+      type(pair_placement), intent(in) :: placement
+      !> In track coordinates
+      type(profile_curve), intent(in) :: rail
+      real(wp), intent(in) :: x, y
+      real(wp), intent(out) :: gap, place
+      real(wp) :: point(3), ends(2), middle, rho
+      integer :: n
+
+      ends = [-50.0_wp, 50.0_wp]
+      do n = 1, 60
+         middle = 0.5_wp*(ends(1) + ends(2))
+         point = placement%wheel%to_parent([x, middle, sqrt((460.0_wp + height + slope*middle)**2 - x**2) - 460.0_wp])
+         if (point(2) < y) then
+            ends(1) = middle
+         else
+            ends(2) = middle
+         end if
+      end do
+      place = point(1)
+      rho = placement%roller_radius - rail%height(y)
+      gap = rail%height(y) + place**2/(rho + sqrt(rho**2 - place**2)) - point(3)
+   end subroutine gap_by_hand
+
    !> A ball of 500 mm on a plane: the gap is that of a sphere
    subroutine sphere_on_plane(suite)
       type(test_suite), intent(inout) :: suite
@@ -57,7 +141,7 @@ contains
       type(potential_contact) :: grid
       real(wp), allocatable :: h(:, :), y(:)
       real(wp) :: approach, exact, worst
-      integer :: i, ix, iy
+      integer :: i, ix, iy, strangers
 
       y = [(real(i, wp), i=-60, 60)]*0.5_wp
       call write_profile("plane.txt", y, 0.0_wp*y)
@@ -85,7 +169,7 @@ contains
       call suite%close_to(regions(1)%box%x, [-1.0_wp, 1.0_wp]*sqrt(2.0_wp*radius*pen), 1.0e-3_wp, "longitudinal extent")
       plane = patch_frame(in_track, placement, regions(1))
       call patch_grid(in_track, pair%search, regions(1), plane, [0.0_wp, 0.0_wp], 20000, grid)
-      call undeformed_distance(in_track, wheel, placement, plane, grid, h, approach)
+      call undeformed_distance(in_track, wheel, placement, plane, start_places(in_track, regions(1)), grid, h, approach, strangers)
       worst = 0.0_wp
       do iy = 1, grid%my
          do ix = 1, grid%mx
@@ -155,7 +239,7 @@ contains
       real(wp) :: top_z, gauge_y, approach
       character(len=16) :: what
       logical :: there
-      integer :: k
+      integer :: k, strangers
       !> Lateral position, roll, yaw, height of the wheelset; then published: reference x, y, z, contact angle, approach
       !> (an inclined one hangs on the height of 4 decimals), number of elements
       real(wp), parameter :: cases(10, 8) = reshape([ &
@@ -200,7 +284,8 @@ contains
          call suite%close_to(plane%roll(), cases(8, k), 1.0e-4_wp, trim(what) // ": contact angle")
          call patch_grid(in_track, pair%search, regions(1), plane, [0.0_wp, 0.0_wp], 20000, grid)
          call suite%equal(grid%npot(), nint(cases(10, k)), trim(what) // ": elements")
-         call undeformed_distance(in_track, wheel, placement, plane, grid, h, approach)
+         call undeformed_distance(in_track, wheel, placement, plane, start_places(in_track, regions(1)), grid, h, &
+            & approach, strangers)
          call suite%close_to(approach, cases(9, k), 2.5e-4_wp, trim(what) // ": approach")
          call suite%check(size(regions(1)%part) == merge(2, 1, k == 5), trim(what) // ": blended parts")
          if (k == 5 .and. size(regions(1)%part) == 2) call suite%close_to(regions(1)%interaction(1, 2), 0.389_wp, 1.0e-3_wp, &

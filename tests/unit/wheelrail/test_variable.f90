@@ -13,7 +13,7 @@ program test_variable
    use contact_test_files, only : write_file
    use contact_test_harness, only : environment, reference_folder, test_suite
    use contact_wheelrail_bodies, only : find_rail, find_wheel, pair_bodies, place_bodies
-   use contact_wheelrail_flat_patch, only : patch_frame, patch_grid, undeformed_distance
+   use contact_wheelrail_flat_patch, only : patch_frame, patch_grid, start_places, undeformed_distance
    use contact_wheelrail_frame, only : frame
    use contact_wheelrail_gap, only : gap_curve, measure_gap, no_surface, rail_in_track
    use contact_wheelrail_placement, only : place_pair
@@ -128,6 +128,7 @@ contains
       type(pair_bodies) :: bodies
       type(gap_curve) :: one, two
       type(contact_region), allocatable :: first(:), second(:), misses(:)
+      integer :: strangers
       type(frame) :: plane
       type(potential_contact) :: grid
       real(wp), allocatable :: h(:, :), same(:, :)
@@ -163,8 +164,9 @@ contains
       call place_pair(pair, wheel%curve, 0.0_wp, 0.0_wp, z, [0.0_wp, 0.0_wp], bodies%placement)
       plane = patch_frame(bodies%rail, bodies%placement, first(1))
       call patch_grid(bodies%rail, pair%search, first(1), plane, [0.0_wp, 0.0_wp], 20000, grid)
-      call undeformed_distance(bodies%rail, bodies%wheel, bodies%placement, plane, grid, h, pen)
-      call variable_distance(bodies, plane, grid, same, same_pen)
+      call undeformed_distance(bodies%rail, bodies%wheel, bodies%placement, plane, start_places(bodies%rail, first(1)), grid, h, &
+         & pen, strangers)
+      call variable_distance(bodies, plane, .false., grid, same, same_pen, strangers)
       call suite%close_to(same_pen, pen, 2.0e-5_wp, what // ": approach")
       ! Slices are sampled every 0.5 mm, which shows at the jumps of curvature between arcs
       call suite%close_to(pack(same - h, h < 2.0_wp*pen), 0.0_wp*pack(h, h < 2.0_wp*pen), 1.0e-4_wp, &
@@ -261,27 +263,12 @@ contains
       type(wheel_rail_spec) :: pair
       type(pair_bodies) :: bodies
       type(gap_curve) :: gap(3)
-      character(len=:), allocatable :: text, points
-      character(len=2) :: k
-      real(wp) :: theta, dr
       real(wp), parameter :: pitch(3) = [0.0_wp, 0.03_wp, -0.03_wp]
       integer :: i, j
 
       call write_file("flat.txt", plane_table(0.0_wp))
       call load(suite, "flat.txt", profile_side%rail, plane)
-      text = "0 1" // nl // "41" // nl // "0 0 0" // nl // "1" // nl
-      do i = 1, 41
-         write(k, '(i0)') i
-         theta = 0.01_wp*(i - 21)
-         dr = -0.4_wp*exp(-(theta/0.05_wp)**2)
-         points = ""
-         do j = -40, 40
-            points = points // number(-real(j, wp)) // " " // number(dr) // nl
-         end do
-         call write_file("spot" // trim(k) // ".txt", points)
-         text = text // number(theta) // " 'spot" // trim(k) // ".txt'" // nl
-      end do
-      call write_file("spot.slcw", text)
+      call write_spot("spot", 0.4_wp, 0.05_wp)
       call load(suite, "spot.slcw", profile_side%wheel, spot)
       if (.not. ready) return
       pair = pair_at(0.0_wp, 0.0_wp)
@@ -301,7 +288,73 @@ contains
       call suite%close_to(gap(2)%gap(j), smallest_by_hand(0.03_wp), 2.0e-5_wp, "gap beside the spot")
       call suite%close_to(gap(3)%gap(j), gap(2)%gap(j), 1.0e-8_wp, "symmetric in the pitch")
       call suite%close_to(gap(3)%x(j), -gap(2)%x(j), 1.0e-6_wp, "and the place along the track")
+      call write_spot("ends", 0.9_wp, 0.03_wp)
+      call load(suite, "ends.slcw", profile_side%wheel, spot)
+      if (.not. ready) return
+      bodies%wheel = spot%curve
+      call place_bodies(bodies, 0.0_wp, 0.0_wp, 0.5_wp, plane%surface, spot%surface)
+      call measure_variable_gap(bodies, 0.5_wp, .true., gap(1), depth=0.5_wp)
+      call two_spots(suite, gap(1), pair)
    end subroutine wave
+
+   !> Slices of a plane wheel with a flat that fades out on both sides
+   subroutine write_spot(name, depth, width)
+      character(len=*), intent(in) :: name
+      !> [mm] and [rad]
+      real(wp), intent(in) :: depth, width
+      character(len=:), allocatable :: text
+      character(len=2) :: k
+      real(wp) :: theta
+      integer :: i
+
+      text = "0 1" // nl // "41" // nl // "0 0 0" // nl // "1" // nl
+      do i = 1, 41
+         write(k, '(i0)') i
+         theta = 0.01_wp*(i - 21)
+         call write_file(name // trim(k) // ".txt", straight(-depth*exp(-(theta/width)**2)))
+         text = text // number(theta) // " '" // name // trim(k) // ".txt'" // nl
+      end do
+      call write_file(name // ".slcw", text)
+   end subroutine write_spot
+
+   !> A wheel on the two ends of its flat has two patches, unless they are to be combined
+   subroutine two_spots(suite, gap, pair)
+      type(test_suite), intent(inout) :: suite
+      type(gap_curve), intent(in) :: gap
+      type(wheel_rail_spec), intent(in) :: pair
+      type(contact_region), allocatable :: regions(:), misses(:)
+      type(wheel_rail_spec) :: near
+      real(wp) :: theta, lowest, here, place
+      integer :: i
+
+      lowest = huge(lowest)
+      do i = 1, 20000
+         theta = 1.0e-5_wp*i
+         here = -(460.0_wp - 0.9_wp*exp(-(theta/0.03_wp)**2))*cos(theta)
+         if (here >= lowest) cycle
+         lowest = here
+         place = 460.0_wp*sin(theta)
+      end do
+      call find_regions(gap, smallest_gap(gap) + 0.02_wp, pair%search, 2, regions, misses)
+      call suite%equal(size(regions), 2, "two spots")
+      if (size(regions) /= 2) return
+      call suite%close_to(abs(regions%x), [place, place], 0.2_wp, "places of the spots")
+      call suite%check(regions(1)%x*regions(2)%x < 0.0_wp, "one in front and one behind")
+      call suite%close_to(regions(1)%weight/regions(2)%weight, 1.0_wp, 1.0e-3_wp, "spots that are alike")
+      call suite%check(all([regions(1)%box%x*sign(1.0_wp, regions(1)%x), regions(2)%box%x*sign(1.0_wp, regions(2)%x)] > 0.0_wp), &
+         & "their bounds do not cross the middle")
+      near = pair
+      near%search%d_sep = 60.0_wp
+      call find_regions(gap, smallest_gap(gap) + 0.02_wp, near%search, 2, regions, misses)
+      call suite%equal(size(regions), 1, "blended spots")
+      if (size(regions) == 1) call suite%equal(size(regions(1)%part), 2, "two parts")
+      near%search%d_comb = 60.0_wp
+      call find_regions(gap, smallest_gap(gap) + 0.02_wp, near%search, 2, regions, misses)
+      call suite%equal(size(regions), 1, "combined spots")
+      if (size(regions) == 1) call suite%close_to(regions(1)%x, 0.0_wp, 1.0e-2_wp, "their common reference")
+      call find_regions(gap, smallest_gap(gap) + 0.4_wp, pair%search, 2, regions, misses)
+      call suite%equal(size(regions), 1, "a wheel pressed in as far as its flat is deep has one patch")
+   end subroutine two_spots
 
    !> Slices 1.5 mm apart, of which one is 0.01 mm higher: heights between the sections are those of the surface
    subroutine dent(suite)
@@ -345,7 +398,7 @@ contains
       call suite%close_to(worst, 0.0_wp, 2.0e-5_wp, "heights between sections")
    end subroutine dent
 
-   !> Beyond the last slice there is no rail; a wheel smaller than the coarse mesh still meets one
+   !> Beyond the last slice a rail goes on as it ends; a wheel smaller than the coarse mesh still meets one
    subroutine ends(suite)
       type(test_suite), intent(inout) :: suite
       type(prepared_profile) :: rail, wheel
@@ -353,7 +406,10 @@ contains
       type(pair_bodies) :: bodies
       type(gap_curve) :: gap
       logical :: weighs
-      integer :: k
+      type(prepared_profile) :: last
+      type(gap_curve) :: prismatic
+      real(wp), parameter :: place(3) = [1.0e5_wp, 150.3_wp, -150.3_wp]
+      integer :: j, k
 
       call load(suite, "dip.slcs", profile_side%rail, rail)
       call load(suite, "level.txt", profile_side%wheel, wheel)
@@ -367,9 +423,21 @@ contains
          call place_pair(pair, wheel%curve, 0.0_wp, 0.0_wp, 0.0_wp, [0.0_wp, 0.0_wp], bodies%placement)
          bodies%rail = rail_in_track(rail%curve, bodies%placement)
          bodies%wheel = wheel%curve
-         call place_bodies(bodies, 500.0_wp, 0.0_wp, 0.5_wp, rail%surface, wheel%surface)
-         call measure_variable_gap(bodies, 0.5_wp, weighs, gap)
-         call suite%close_to(smallest_gap(gap), no_surface, 0.0_wp, "no rail beyond its slices")
+         do j = 1, 3
+            ! far beyond the last slice, and just beyond either end
+            call place_bodies(bodies, place(j), 0.0_wp, 0.5_wp, rail%surface, wheel%surface)
+            call measure_variable_gap(bodies, 0.5_wp, weighs, gap)
+            call load(suite, trim(merge("dip1.txt ", "dip31.txt", place(j) < 0.0_wp)), profile_side%rail, last)
+            bodies%rail = rail_in_track(last%curve, bodies%placement)
+            call measure_gap(bodies%rail, bodies%wheel, bodies%placement, 0.5_wp, prismatic)
+            ! near its end the surface has a corner of 0.04 rad, which sections 0.5 mm apart round off
+            call suite%close_to(smallest_gap(gap), smallest_gap(prismatic), merge(1.0e-5_wp, 2.0e-3_wp, j == 1), &
+               & "beyond its slices a rail goes on")
+            call suite%close_to(gap%x(minloc(gap%gap, 1)), 0.0_wp, merge(1.0e-3_wp, 0.5_wp, j == 1), "and is level along the track")
+            call suite%check(rail%surface%part_beyond(place(j) + [-1.0_wp, 1.0_wp]) > 0.5_wp, "the part without slices")
+         end do
+         call suite%close_to(rail%surface%part_beyond([-151.0_wp, -149.0_wp]), 0.5_wp, 1.0e-12_wp, "half of it")
+         call suite%close_to(rail%surface%part_beyond([-150.0_wp, 150.0_wp]), 0.0_wp, 0.0_wp, "none of it")
          pair%wheelset%nomradw = 10.0_wp
          call place_pair(pair, wheel%curve, 0.0_wp, 0.0_wp, 0.0_wp, [0.0_wp, 0.0_wp], bodies%placement)
          call place_bodies(bodies, 0.0_wp, 0.0_wp, 0.5_wp, rail%surface, wheel%surface)

@@ -1,0 +1,114 @@
+!> Interpenetration that falls apart along the track, as below the two ends of a wheel flat
+!>
+!> Where the gap is known over a mesh, points with interpenetration that touch each other, also at corners, are one spot.
+!> A stretch of lateral positions that holds several spots is divided into gap curves of one spot each.
+module contact_wheelrail_spots
+   use contact_base_kinds, only : wp
+   use contact_wheelrail_gap, only : gap_curve, no_surface, smallest_in_row
+   implicit none (type, external)
+   private
+
+   public :: spot, separate_spots
+
+   !> One of several spots
+   type :: spot
+      !> The gap without the interpenetration of the others
+      type(gap_curve) :: gap
+      !> Smallest gap per lateral position at the present height [mm]
+      real(wp), allocatable :: g(:)
+      !> First and last lateral position with interpenetration
+      integer :: first = 0, last = 0
+   end type spot
+
+contains
+
+   !> The spots of a stretch; none when it holds only one
+   subroutine separate_spots(gap, g, first, last, spots)
+      !> With its table
+      type(gap_curve), intent(in) :: gap
+      !> Gap at the present height [mm]
+      real(wp), intent(in) :: g(:)
+      !> The lateral positions with g < 0
+      integer, intent(in) :: first, last
+      type(spot), allocatable, intent(out) :: spots(:)
+      integer :: label(size(gap%x_table), first:last)
+      integer :: i, k, n
+
+      do i = first, last
+         label(:, i) = merge(-1, 0, gap%table(:, i) + (g(i) - gap%gap(i)) < 0.0_wp)
+         ! a stretch too short for the table is at the place of the smallest gap
+         if (all(label(:, i) == 0)) label(minloc(abs(gap%x_table - gap%x(i)), 1), i) = -1
+      end do
+      call number_spots(label, n)
+      if (n < 2) then
+         allocate(spots(0))
+         return
+      end if
+      allocate(spots(n))
+      do k = 1, n
+         spots(k)%first = first - 1 + findloc(any(label == k, 1), .true., 1)
+         spots(k)%last = first - 1 + findloc(any(label == k, 1), .true., 1, back=.true.)
+         call take_spot(gap, g, label, first, k, spots(k))
+      end do
+   end subroutine separate_spots
+
+   !> Number the points of each spot, 1...n, in place of -1
+   pure subroutine number_spots(label, n)
+      integer, intent(inout) :: label(:, :)
+      integer, intent(out) :: n
+      integer :: waiting(2, size(label))
+      integer :: i, j, ix, iy, x, y, w
+
+      n = 0
+      do j = 1, size(label, 2)
+         do i = 1, size(label, 1)
+            if (label(i, j) /= -1) cycle
+            n = n + 1
+            label(i, j) = n
+            waiting(:, 1) = [i, j]
+            w = 1
+            do while (w > 0)
+               x = waiting(1, w)
+               y = waiting(2, w)
+               w = w - 1
+               do iy = max(1, y - 1), min(size(label, 2), y + 1)
+                  do ix = max(1, x - 1), min(size(label, 1), x + 1)
+                     if (label(ix, iy) /= -1) cycle
+                     label(ix, iy) = n
+                     w = w + 1
+                     waiting(:, w) = [ix, iy]
+                  end do
+               end do
+            end do
+         end do
+      end do
+   end subroutine number_spots
+
+   !> The gap without the interpenetration of the other spots
+   pure subroutine take_spot(gap, g, label, start, k, own)
+      type(gap_curve), intent(in) :: gap
+      real(wp), intent(in) :: g(:)
+      !> Lateral position of its first row
+      integer, intent(in) :: start
+      !> Numbers of spots on the table, from the first lateral position of the stretch on
+      integer, intent(in) :: label(:, start:)
+      integer, intent(in) :: k
+      !> With its first and last lateral position
+      type(spot), intent(inout) :: own
+      integer :: i, beside, low, high
+
+      own%gap = gap
+      own%g = g
+      do i = max(start, own%first - 1), min(ubound(label, 2), own%last + 1)
+         ! beyond the ends of the spot the gap is that beside its last row
+         beside = min(max(i, own%first), own%last)
+         low = max(1, findloc(label(:, beside) == k, .true., 1) - 1)
+         high = min(size(label, 1), findloc(label(:, beside) == k, .true., 1, back=.true.) + 1)
+         where (label(:, i) > 0 .and. label(:, i) /= k) own%gap%table(:, i) = no_surface
+         call smallest_in_row(gap%x_table(low:high), own%gap%table(low:high, i), own%gap%x(i), own%gap%gap(i))
+         own%g(i) = own%gap%gap(i) + (g(i) - gap%gap(i))
+         if (i == beside) cycle
+         own%g(i) = max(own%g(i), tiny(1.0_wp))
+      end do
+   end subroutine take_spot
+end module contact_wheelrail_spots
