@@ -258,10 +258,6 @@ contains
    end subroutine rail_heights
 
    !> Place and value of the smallest gap along the track at each lateral position; the rail there
-   !>
-   !> The inclination is that of the rail's section at the wheelset, not at the place of the smallest gap: the
-   !> established program does so, and published results depend on it where a rail changes quickly (0.025 rad for
-   !> a wing rail that moves sideways 1:10).
    subroutine find_smallest(bodies, gap, table, first, last, xc, corner)
       type(pair_bodies), intent(inout) :: bodies
       type(gap_curve), intent(inout) :: gap
@@ -272,14 +268,12 @@ contains
       real(wp), intent(in) :: xc(:), corner(:, :)
       type(frame) :: track, seen
       real(wp) :: place, wheel
-      logical :: found, inclined(gap%n)
+      logical :: found
       integer :: j
 
       gap%x = spread(0.0_wp, 1, gap%n)
       gap%gap = spread(no_surface, 1, gap%n)
       gap%z = gap%x
-      gap%alpha = gap%x
-      call find_inclinations(bodies, bodies%placement%wheel%origin(1), gap%dy, gap%y, gap%alpha, inclined)
       seen = bodies%placement%wheel%seen_from_here(track)
       wheel = 0.0_wp
       do j = 1, gap%n
@@ -296,9 +290,8 @@ contains
          else
             wheel = 0.0_wp
          end if
-         if (inclined(j)) cycle
-         call find_inclinations(bodies, xc(minloc(abs(xc - gap%x(j)), 1)), gap%dy, gap%y(j:j), gap%alpha(j:j), inclined(j:j))
       end do
+      call find_inclinations(bodies, gap)
    end subroutine find_smallest
 
    !> Smallest gap between two rows of the coarse mesh
@@ -319,29 +312,33 @@ contains
       lowest = g(i)
    end subroutine smallest_between
 
-   !> Inclinations of the rail's section at a place where it has one [rad], by differences; one-sided at ends
-   subroutine find_inclinations(bodies, x, dy, y, alpha, found)
+   !> Inclinations of the rail across the track at the places of the smallest gap [rad], by differences; one-sided at ends
+   !>
+   !> They belong to the section of the contact: wheel and rail share their tangent there, and the plane of a patch holds
+   !> the direction of the track. On a yawed wheel that section is not the one below the axle (doc/theory/wheel_rail.md).
+   subroutine find_inclinations(bodies, gap)
       type(pair_bodies), intent(inout) :: bodies
-      !> Place in the track and distance of the two points [mm]
-      real(wp), intent(in) :: x, dy
-      !> Rising
-      real(wp), intent(in) :: y(:)
-      !> Unchanged where there is no surface
-      real(wp), intent(inout) :: alpha(:)
-      !> Is there any surface?
-      logical, intent(out) :: found(:)
-      real(wp) :: height(size(y), 3)
-      logical :: there(size(y), 3)
+      type(gap_curve), intent(inout) :: gap
+      real(wp) :: height(gap%n, 3), slope
+      logical :: there(gap%n, 3)
       integer :: j, k, low, high
 
+      gap%alpha = spread(0.0_wp, 1, gap%n)
+      there = .false.
       do k = 1, 3
-         call rail_heights(bodies, x, y + 0.5_wp*(k - 2)*dy, height(:, k), there(:, k))
+         if (.not. allocated(bodies%rail_strip)) then
+            call bodies%rail%heights(gap%y + 0.5_wp*(k - 2)*gap%dy, height(:, k), there(:, k))
+            cycle
+         end if
+         do j = 1, gap%n
+            if (gap%gap(j) < no_surface) call bodies%rail_strip%at(gap%x(j), gap%y(j) + 0.5_wp*(k - 2)*gap%dy, height(j, k), &
+               & slope, there(j, k))
+         end do
       end do
-      do j = 1, size(y)
+      do j = 1, gap%n
          low = findloc(there(j, :), .true., 1)
          high = findloc(there(j, :), .true., 1, back=.true.)
-         found(j) = high > low
-         if (found(j)) alpha(j) = atan((height(j, high) - height(j, low))/(0.5_wp*(high - low)*dy))
+         if (high > low) gap%alpha(j) = atan((height(j, high) - height(j, low))/(0.5_wp*(high - low)*gap%dy))
       end do
    end subroutine find_inclinations
 
