@@ -70,8 +70,8 @@ contains
       do k = 1, size(result%patches)
          associate (contact => result%patches(k)%contact, search => spec%wheel_rail%search)
             if (spec%solve) call warn_of_border(spec, session%memory%slot(k)%problem, contact, log, k)
-            if (contact%grid%dx > 1.5_wp*search%dx .or. contact%grid%dy > 1.5_wp*search%ds) call log%warning("the elements of &
-               &patch " // integer_text(k) // " have sides of " // real_text(contact%grid%dx) // " x " // &
+            if (spec%solve .and. max(contact%grid%dx/search%dx, contact%grid%dy/search%ds) > 1.5_wp) call log%warning("the &
+               &elements of patch " // integer_text(k) // " have sides of " // real_text(contact%grid%dx) // " x " // &
                & real_text(contact%grid%dy) // " mm instead of DX x DS = " // real_text(search%dx) // " x " // &
                & real_text(search%ds) // " mm, because there are at most NPOT_MAX = " // &
                & integer_text(spec%iteration%npot_max))
