@@ -17,12 +17,12 @@ module contact_cases_session
    use contact_patch_moments, only : clear_moment, link_moments
    use contact_patch_problem, only : patch_problem, patch_state
    use contact_patch_result, only : patch_result
-   use contact_patch_solve, only : solve_patch
+   use contact_patch_solve, only : check_problem, solve_patch
    use contact_patch_workspace, only : patch_workspace, release_workspace
    implicit none (type, external)
    private
 
-   public :: contact_session, refuse_nonsense, release_session, solve_case
+   public :: check_case, contact_session, refuse_nonsense, release_session, solve_case
 
    !> Memory of one problem: what the physics remembers, and scratch
    type :: contact_session
@@ -86,6 +86,25 @@ contains
       call fatal_error(error, "the numbers of this case are too large or too small to compute with: the solution is not " // &
          & "finite, and there are no results", error_kind%internal)
    end subroutine refuse_nonsense
+
+   !> What a solution would refuse, without one
+   subroutine check_case(session, spec, log, result, error, folder)
+      type(contact_session), intent(inout) :: session
+      type(case_spec), intent(in) :: spec
+      type(log_type), intent(inout) :: log
+      !> Of no meaning
+      type(patch_result), intent(inout) :: result
+      type(error_type), allocatable, intent(out) :: error
+      !> Folder to which names of files are relative; default the current one
+      character(len=*), intent(in), optional :: folder
+      type(case_spec) :: unsolved
+
+      unsolved = spec
+      unsolved%solve = .false.
+      call solve_case(session, unsolved, log, result, error, folder)
+      if (allocated(error) .or. .not. spec%solve) return
+      call check_problem(session%problem, error)
+   end subroutine check_case
 
    !> Free what a session holds outside Fortran's memory; call it before the session goes
    subroutine release_session(session)

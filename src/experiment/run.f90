@@ -13,7 +13,7 @@ module contact_experiment_run
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
    use contact_cases_pair_session, only : check_profiles, solve_pair_case
-   use contact_cases_session, only : solve_case
+   use contact_cases_session, only : check_case, solve_case
    use contact_cases_slot, only : open_contact, open_pair, problem_slot, release_slot
    use contact_cases_spec, only : case_spec
    use contact_experiment_exports, only : export_files, export_request
@@ -185,17 +185,14 @@ contains
       type(case_spec), intent(in) :: given
       type(experiment_state), intent(inout) :: state
       type(error_type), allocatable, intent(out) :: error
-      type(case_spec) :: spec
 
       if (allocated(given%wheel_rail)) then
          if (.not. (given%wheel_rail%new_rail_profile .or. given%wheel_rail%new_wheel_profile)) return
          call open_pair(slot)
          call check_profiles(slot%pair, given, state%place%folder, state%log, error)
       else
-         spec = given
-         spec%solve = .false.
          call open_contact(slot)
-         call solve_case(slot%session, spec, state%log, slot%result, error, state%place%folder)
+         call check_case(slot%session, given, state%log, slot%result, error, state%place%folder)
       end if
    end subroutine check_without_solving
 

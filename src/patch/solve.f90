@@ -24,7 +24,7 @@ module contact_patch_solve
    implicit none (type, external)
    private
 
-   public :: solve_patch
+   public :: check_problem, solve_patch
 
    !> Passes that the extrapolation remembers
    integer, parameter :: outer_depth = 10

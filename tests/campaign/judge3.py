@@ -32,12 +32,6 @@ OPEN = (
     ("mirror", lambda scene, item: scene["digits"]["B"] == 6,
      "B = 6: ANALYN takes local differences of the gap, which coarse and rough grids make uneven"),
     ("moved", lambda scene, item: scene["digits"]["B"] == 6, "B = 6: of two equally low columns ANALYN takes one, by round-off"),
-    ("checked", lambda scene, item: "need steps of one element" in item["what"],
-     "mode 3 does not see that C = 4, 9 with T = 2 needs DQ = DX"),
-    ("checked", lambda scene, item: "cannot be combined with plasticity" in item["what"],
-     "mode 3 does not see that L = 6 and plasticity exclude each other"),
-    ("checked", lambda scene, item: "works with piecewise constant" in item["what"],
-     "mode 3 does not see that M = 1 needs C = 2"),
 )
 
 
