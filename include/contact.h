@@ -42,6 +42,16 @@ enum {
 int contact_run_with(const char *experiment, int mode, const char *output_dir, int threads,
                      int outputs, char *message, int message_length);
 
+/* The same as contact_run_with, with limits.
+ *
+ * strict     not 0: the call fails when a case does not converge
+ * seconds    time that each case may take [s], megabytes: memory of each case by estimate [MB], elements: of each
+ *            potential contact area; 0 for no limit. A case beyond a limit has no results; the run goes on.
+ */
+int contact_run_limited(const char *experiment, int mode, const char *output_dir, int threads,
+                        int outputs, int strict, double seconds, double megabytes, double elements,
+                        char *message, int message_length);
+
 /* What went wrong last, for callers of contact_addon.h.
  *
  * ire, icp        result element and contact patch (-1 for wheel and rail); ire 0: the library as a whole
@@ -52,6 +62,33 @@ int contact_run_with(const char *experiment, int mode, const char *output_dir, i
  * was asked for, and when the problem is calculated again.
  */
 int contact_last_error(int ire, int icp, char *message, int message_length);
+
+/* How a case ended */
+enum {
+  CONTACT_NOT_CALCULATED = -1, /* there is no such problem, or nothing was calculated */
+  CONTACT_SOLVED = 0,          /* every iteration reached its tolerance, every prescribed force is there */
+  CONTACT_NOT_CONVERGED = 1,   /* there are results; an iteration or a prescribed force was missed */
+  CONTACT_REFUSED = 2          /* there is no result */
+};
+
+/* What did not converge */
+enum {
+  CONTACT_MISSED_NONE = 0,
+  CONTACT_MISSED_NORMAL = 1,
+  CONTACT_MISSED_TANGENTIAL = 2,
+  CONTACT_MISSED_OUTER = 3, /* pressures against tractions, friction against slip or temperature */
+  CONTACT_MISSED_FORCE = 4  /* a prescribed force */
+};
+
+/* How the last calculation of a problem ended, whatever its error code was.
+ *
+ * ire, icp        result element and contact patch (-1 for wheel and rail)
+ * iteration       receives CONTACT_MISSED_...; NULL if not wanted
+ * message         receives "" or the reason in one sentence, cut to fit; NULL if not wanted
+ * message_length  size of message in bytes, the final null included
+ *
+ * Returns CONTACT_SOLVED, CONTACT_NOT_CONVERGED, CONTACT_REFUSED or CONTACT_NOT_CALCULATED. */
+int contact_case_status(int ire, int icp, int *iteration, char *message, int message_length);
 
 #ifdef __cplusplus
 }

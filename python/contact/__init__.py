@@ -6,7 +6,7 @@ routines of the library one by one. The library is loaded when it is first neede
 from typing import TYPE_CHECKING, Any
 
 from ._signatures import VERSION as __version__
-from .errors import ContactError, ContactWarning
+from .errors import ContactError, ContactWarning, NotConvergedWarning
 
 if TYPE_CHECKING:
     from . import cntc
@@ -14,8 +14,8 @@ if TYPE_CHECKING:
     from .problem import Problem, Result
     from .wheel_rail import Forces, WheelRail, WheelRailPatch, WheelRailResult, Wrench
 
-__all__ = ["ContactError", "ContactWarning", "Forces", "Patch", "Problem", "Result", "Stresses", "WheelRail",
-           "WheelRailPatch", "WheelRailResult", "Wrench", "cntc", "output_to"]
+__all__ = ["ContactError", "ContactWarning", "Forces", "NotConvergedWarning", "Patch", "Problem", "Result", "Stresses",
+           "WheelRail", "WheelRailPatch", "WheelRailResult", "Wrench", "cntc", "output_to"]
 
 _HOMES = {"Patch": "_element", "Stresses": "_element", "output_to": "_element", "Problem": "problem",
           "Result": "problem", "WheelRail": "wheel_rail", "WheelRailPatch": "wheel_rail",

@@ -14,9 +14,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import cntc
-from ._library import last_error
+from ._library import case_status, last_error
 from .cntc import CNTC
-from .errors import ContactError, ContactWarning
+from .errors import ContactError, ContactWarning, NotConvergedWarning
 
 Field = NDArray[np.floating[Any]]
 _Self = TypeVar("_Self", bound="Element")
@@ -373,5 +373,10 @@ class Element:
         """Solve; the number of elements at the border"""
         self.set_flags(ic_pvtime=2 if initiation else 0)
         code: Any = cntc.calculate(self.number, self._icp, idebug=0)
-        fail_if(code < 0 or code == 305, code, "The problem was not solved", self.number, self._icp)
+        self._status, self._reason = case_status(self.number, self._icp)
+        if code < 0 or code == 305:
+            reason = last_error(self.number, self._icp)[1] or cntc.meaning(code)
+            raise ContactError(f"The problem was not solved: {reason}", code, self._status)
+        if self._status != "solved":
+            warnings.warn(f"The problem is {self._status}: {self._reason}", NotConvergedWarning, stacklevel=3)
         return int(code)

@@ -137,3 +137,12 @@ def last_error(ire: int = 0, icp: int = -1) -> tuple[int, str]:
     room = ctypes.create_string_buffer(2000)
     code = library().contact_last_error(ire, icp, room, len(room))
     return code, room.value.decode("utf-8", errors="replace")
+
+
+def case_status(ire: int = 1, icp: int = -1) -> tuple[str, str]:
+    """How the last calculation of a problem ended, "solved", "not converged" or "refused", and the reason in one
+    sentence; ("", "") when nothing was calculated."""
+    room = ctypes.create_string_buffer(2000)
+    state = library().contact_case_status(ire, icp, None, room, len(room))
+    words = {0: "solved", 1: "not converged", 2: "refused"}
+    return words.get(state, ""), room.value.decode("utf-8", errors="replace")

@@ -9,12 +9,19 @@ class ContactError(RuntimeError):
     ----------
     code : int
         Number of the error as the library returns it, for instance -32; 0 when the library was not reached.
+    status : str
+        How the case ended, ``"not converged"`` or ``"refused"``; empty when the error is not that of a calculation.
     """
 
-    def __init__(self, text: str, code: int = 0) -> None:
+    def __init__(self, text: str, code: int = 0, status: str = "") -> None:
         super().__init__(text)
         self.code = code
+        self.status = status
 
 
 class ContactWarning(UserWarning):
     """A result that is there and that should be doubted."""
+
+
+class NotConvergedWarning(ContactWarning):
+    """An iteration or a prescribed force was missed; the text tells which, and by how much."""

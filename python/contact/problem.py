@@ -20,9 +20,13 @@ class Result(Patch):
     border_elements
         Number of elements in contact in the first and last rows and columns. Not zero means that the grid
         may be too small.
+    status, reason
+        ``"solved"`` and an empty text: what did not converge raises an error.
     """
 
     border_elements: int
+    status: str = "solved"
+    reason: str = ""
 
 
 class Problem(Element):
@@ -165,7 +169,7 @@ class Problem(Element):
         border = self._calculate(initiation)
         patch = read_patch(self.number, 1)
         warn_of_border(patch, "contact")
-        return Result(**patch.__dict__, border_elements=border)
+        return Result(**patch.__dict__, border_elements=border, status=self._status, reason=self._reason)
 
     def stresses(self, block: int = 1) -> Stresses:
         """Stresses in the points of :meth:`add_block`, below the tractions of the last solution."""

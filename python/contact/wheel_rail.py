@@ -76,12 +76,17 @@ class WheelRailResult:
         s, y, z [L], roll, yaw, pitch [A]; z solved for when the vertical force is given. Shape (6,).
     wheelset_velocity
         vs, vy, vz [V], rates of roll, yaw, pitch [A/T]. Shape (6,).
+    status, reason
+        How the case ended: ``"solved"``, or ``"not converged"`` and what was missed, of which a
+        :class:`NotConvergedWarning` tells as well.
     """
 
     patches: tuple[WheelRailPatch, ...]
     forces: Forces
     wheelset_position: Field
     wheelset_velocity: Field
+    status: str = "solved"
+    reason: str = ""
 
 
 class WheelRail(Element):
@@ -220,7 +225,8 @@ class WheelRail(Element):
             warn_of_border(patch, f"contact patch {icp}")
         values = cntc.getglobalforces(number, -1).reshape(4, 2, 3)
         forces = Forces(*(Wrench(force, moment) for force, moment in values))
-        return WheelRailResult(patches, forces, cntc.getwheelsetposition(number), cntc.getwheelsetvelocity(number))
+        return WheelRailResult(patches, forces, cntc.getwheelsetposition(number), cntc.getwheelsetvelocity(number),
+                               self._status, self._reason)
 
     def _patch(self, icp: int) -> WheelRailPatch:
         """Results of one patch, copied"""

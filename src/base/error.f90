@@ -19,6 +19,12 @@ module contact_base_error
       integer :: memory = 4
       !> A program fault: NaN from finite input, broken invariants
       integer :: internal = 5
+      !> Cases did not converge, and the caller asked to be told by a failure
+      integer :: not_converged = 6
+      !> More elements or memory than a limit allows
+      integer :: limit = 7
+      !> The time that was allowed ran out
+      integer :: time = 8
    end type error_kind_list
    !> Names of the kinds of failure
    type(error_kind_list), parameter :: error_kind = error_kind_list()

@@ -10,6 +10,15 @@ module contact_base_log
 
    public :: log_type
 
+   !> Different warnings of a case that are told apart, and what is compared of them
+   integer, parameter :: most_told = 16, told_length = 160
+
+   !> A warning of the present case and how often it came
+   type :: told_warning
+      character(len=told_length) :: text = ""
+      integer :: times = 0
+   end type told_warning
+
    !> Where messages go
    type :: log_type
       !> Unit of the screen, 0 for none
@@ -18,8 +27,13 @@ module contact_base_log
       type(output_file) :: out
       !> Flow-trace level W of the case, 0...9
       integer :: level = 0
-      !> Number of warnings written since the log was made
+      !> Number of warnings since the log was made; those that a case repeats count once
       integer :: warnings = 0
+      !> The same with those that were repeated
+      integer :: heard = 0
+      !> The warnings of the present case, so that each one is written once; 1...told are in use
+      integer, private :: told = 0
+      type(told_warning), private :: said(most_told)
       !> Warnings that wait for `speak`, one a line; allocated while they are held back
       character(len=:), allocatable, private :: held
    contains
@@ -29,8 +43,12 @@ module contact_base_log
       procedure :: result => log_result
       !> Write a line to both sinks when the flow-trace level is high enough
       procedure :: trace => log_trace
-      !> Write a warning to both sinks and count it
+      !> Write a warning to both sinks and count it; one that was written in this case is only counted
       procedure :: warning => log_warning
+      !> A case begins: nothing was said yet
+      procedure :: begin_case
+      !> A case ends: tell how often its warnings came
+      procedure :: end_case
       !> From now on hold warnings back, and forget those that are held: they belong to a trial that did not count
       procedure :: hold => log_hold
       !> Write the warnings that are held, and all later ones at once
@@ -66,13 +84,73 @@ contains
       class(log_type), intent(inout) :: self
       !> The sentence, without the leading word
       character(len=*), intent(in) :: text
+      integer :: k
+
       if (allocated(self%held)) then
          self%held = self%held // text // new_line(text)
          return
       end if
+      self%heard = self%heard + 1
+      do k = 1, self%told
+         if (.not. says_the_same(self%said(k)%text, text)) cycle
+         self%said(k)%times = self%said(k)%times + 1
+         return
+      end do
+      if (self%told < most_told) then
+         self%told = self%told + 1
+         self%said(self%told)%text = text
+         self%said(self%told)%times = 1
+      end if
       self%warnings = self%warnings + 1
       call self%line(" Warning: " // text)
    end subroutine log_warning
+
+   subroutine begin_case(self)
+      class(log_type), intent(inout) :: self
+      self%told = 0
+   end subroutine begin_case
+
+   subroutine end_case(self)
+      class(log_type), intent(inout) :: self
+      character(len=48) :: count
+      integer :: k
+
+      do k = 1, self%told
+         if (self%said(k)%times < 2) cycle
+         write(count, '(" Warning: (", I0, " times in this case) ")') self%said(k)%times
+         call self%line(trim(count) // " " // trim(self%said(k)%text))
+      end do
+      self%told = 0
+   end subroutine end_case
+
+   !> Are two warnings the same but for their numbers with a point?
+   pure logical function says_the_same(one, other) result(same)
+      !> Cut to told_length, and whole
+      character(len=*), intent(in) :: one, other
+      integer :: a, b, next_a, next_b, length
+
+      same = .false.
+      length = min(len_trim(other), told_length)
+      a = 1
+      b = 1
+      do
+         next_a = a + scan(one(a:) // " ", " ") - 1
+         next_b = b + scan(other(b:length) // " ", " ") - 1
+         if (one(a:next_a - 1) /= other(b:next_b - 1)) then
+            if (.not. (is_real(one(a:next_a - 1)) .and. is_real(other(b:next_b - 1)))) return
+         end if
+         a = next_a + 1
+         b = next_b + 1
+         if (a > len_trim(one) .or. b > length) exit
+      end do
+      same = a > len_trim(one) .and. b > length
+   end function says_the_same
+
+   !> Is a word a number with a point?
+   pure logical function is_real(word)
+      character(len=*), intent(in) :: word
+      is_real = scan(word, "0123456789") > 0 .and. index(word, ".") > 0 .and. verify(word, "0123456789.+-Ee,;:()") == 0
+   end function is_real
 
    subroutine log_hold(self)
       class(log_type), intent(inout) :: self

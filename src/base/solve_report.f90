@@ -17,6 +17,10 @@ module contact_base_solve_report
       integer :: stagnated = 3
       !> The iterates grew
       integer :: diverged = 4
+      !> More force is prescribed than friction gives
+      integer :: beyond_friction = 5
+      !> The time that was allowed ran out
+      integer :: out_of_time = 6
    end type ending_list
    !> Names of the ways in which an iteration ends
    type(ending_list), parameter :: ending = ending_list()
@@ -57,25 +61,31 @@ contains
       succeeded = self%ended == ending%converged .or. self%ended == ending%not_started
    end function report_succeeded
 
-   !> One sentence about an iteration that did not reach its tolerance, with blanks behind
+   !> What an iteration that failed has missed, and by how much, with blanks behind
    function failure_text(name, report) result(text)
-      !> Which problem was iterated, "normal" or "tangential"
+      !> What was iterated, such as "normal problem"
       character(len=*), intent(in) :: name
       type(solve_report), intent(in) :: report
       character(len=len(name) + name_length + 80) :: text
-      character(len=32) :: residual
+      character(len=10) :: numbers(2)
       character(len=22) :: how
 
-      write(residual, '(ES10.2)') report%residual
       select case (report%ended)
       case (ending%iteration_limit)
          how = "used up its iterations"
       case (ending%stagnated)
          how = "stagnated"
+      case (ending%beyond_friction)
+         how = "of a force too large"
+      case (ending%out_of_time)
+         how = "ran out of time"
       case default
          how = "diverged"
       end select
-      text = "the " // name // " problem: " // trim(report%method) // " " // trim(how) // "; relative residual " &
-         & // trim(adjustl(residual))
+      text = name // ", " // trim(report%method) // " " // how
+      if (report%residual < 0.0_wp) return
+      write(numbers, '(ES10.1E2)') report%residual, report%tolerance
+      numbers = adjustl(numbers)
+      text = trim(text) // ": relative residual " // trim(numbers(1)) // ", tolerance " // trim(numbers(2))
    end function failure_text
 end module contact_base_solve_report

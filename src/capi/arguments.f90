@@ -4,14 +4,14 @@
 !> value, so that no entry has to look at pointers itself.
 module contact_capi_arguments
    use, intrinsic :: ieee_arithmetic, only : ieee_quiet_nan, ieee_value
-   use, intrinsic :: iso_c_binding, only : c_char, c_double, c_int, c_null_char
+   use, intrinsic :: iso_c_binding, only : c_associated, c_char, c_double, c_f_pointer, c_int, c_null_char, c_ptr
    use contact_base_kinds, only : wp
    use contact_text_words, only : replaced
    implicit none (type, external)
    private
 
    public :: no_number, integer_of, real_of, count_of, path_of, integers_of, reals_of, raised
-   public :: give, give_list, give_zeros
+   public :: give, give_list, give_message, give_zeros
 
    !> Stands for an integer that was not given; no code, index or count is that large
    integer, parameter :: no_number = -huge(1)
@@ -148,4 +148,22 @@ contains
       n = count_of(length, present(array))
       if (n >= first) array(first:n) = 0.0_c_double
    end subroutine give_zeros
+
+   !> Copy a text into the buffer of the caller, cut to fit and null-terminated
+   subroutine give_message(text, buffer, length)
+      character(len=*), intent(in) :: text
+      type(c_ptr), intent(in) :: buffer
+      !> Size of the buffer, the final null included
+      integer(c_int), intent(in) :: length
+      character(kind=c_char), pointer :: letters(:)
+      integer :: i, n
+
+      if (.not. c_associated(buffer) .or. length < 1) return
+      call c_f_pointer(buffer, letters, [length])
+      n = min(len(text), int(length) - 1)
+      do i = 1, n
+         letters(i) = text(i:i)
+      end do
+      letters(n + 1) = c_null_char
+   end subroutine give_message
 end module contact_capi_arguments

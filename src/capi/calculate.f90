@@ -2,12 +2,13 @@
 module contact_capi_calculate
    use, intrinsic :: iso_c_binding, only : c_int
    use omp_lib, only : omp_get_max_threads, omp_set_num_threads
+   use contact_base_case_status, only : case_status
    use contact_base_kinds, only : wp
    use contact_capi_arguments, only : give, integer_of
    use contact_capi_calculate1, only : calculate_pair
    use contact_capi_calculate3, only : calculate_contact
    use contact_capi_library, only : entry_type
-   use contact_capi_messages, only : complain, first_refusal, forget_complaint, say
+   use contact_capi_messages, only : complain, first_refusal, forget_complaint, keep_status, say
    use contact_capi_problem, only : library_problem, most_patches
    use contact_capi_registry, only : enter_calculation, leave_calculation, scope, scope_type, threads_inside
    use contact_control_library_codes, only : code_text, library_code
@@ -48,6 +49,8 @@ contains
       type(scope_type), intent(in) :: allowed
       integer(c_int), intent(inout), optional :: ierror
       type(library_problem), pointer :: problem
+      type(case_status) :: status
+      character(len=:), allocatable :: reason
       real(wp) :: cpu, wall
       integer :: code, threads, link, estimate, k
 
@@ -67,7 +70,10 @@ contains
          k = first_refusal(problem, "cntc_set")
          if (k > 0) then
             code = problem%refused(k)%code
-            call complain(this, "a setting was refused and not made anew: " // problem%refused(k)%reason, code)
+            reason = "a setting was refused and not made anew: " // problem%refused(k)%reason
+            call status%refuse(reason)
+            call keep_status(problem, status)
+            call complain(this, reason, code)
          else if (problem%module_number == 1) then
             call calculate_pair(this, problem, code)
          else

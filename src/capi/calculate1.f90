@@ -1,5 +1,6 @@
 !> Wheel on rail of a caller from its settings to its results and files (module 1)
 module contact_capi_calculate1
+   use contact_base_case_status, only : case_status
    use contact_base_choices, only : heat_model, motion
    use contact_base_error, only : error_kind, error_type, fatal_error, full_text
    use contact_base_kinds, only : wp
@@ -8,13 +9,13 @@ module contact_capi_calculate1
    use contact_capi_files, only : find_result_file, find_working_folder
    use contact_capi_input_dump, only : dump_pair_case
    use contact_capi_library, only : entry_type
-   use contact_capi_messages, only : complain, library_log, say
+   use contact_capi_messages, only : complain, keep_status, library_log, say
    use contact_capi_problem, only : library_problem, most_patches
    use contact_cases_pair_session, only : solve_pair_case
    use contact_cases_spec, only : case_spec
    use contact_control_digits, only : digit_value
    use contact_control_digits1, only : digit1_names, digit1_value_is_known
-   use contact_control_library_codes, only : code_text, library_code
+   use contact_control_library_codes, only : code_of_pair, library_code
    use contact_input_control1, only : name_choices1
    use contact_input_control3, only : check_physics, control_words, refuse_unbuilt_digits
    use contact_input_problems, only : problem_list
@@ -37,6 +38,7 @@ contains
       type(error_type), allocatable :: error
       type(log_type) :: log
       character(len=:), allocatable :: folder
+      type(case_status) :: status
 
       log = library_log()
       problem%cases = problem%cases + 1
@@ -51,6 +53,8 @@ contains
          if (.not. allocated(error)) call solve_pair_case(problem%pair, problem%spec, folder, log, problem%pair_result, error)
       end if
       if (allocated(error)) then
+         call status%refuse(full_text(error))
+         call keep_status(problem, status)
          call complain(this, full_text(error), code)
          return
       end if
@@ -58,13 +62,14 @@ contains
       problem%has_result = .true.
       call keep_solution(problem)
       if (problem%spec%solve) then
-         ! a wheel beside the rail has no contact to reach the force with, which is no failure
-         if (.not. problem%pair_result%solved .and. size(problem%pair_result%patches) > 0) then
-            code = library_code%tolerance
-            call complain(this, trim(code_text(code)) // ", by " // real_text(problem%pair_result%force_error) // " N", code)
+         status = problem%pair_result%status
+         if (.not. status%is_solved()) then
+            code = code_of_pair(status, size(problem%pair_result%patches))
+            call complain(this, status%reason, code)
          end if
          call write_results(this, problem, log)
       end if
+      call keep_status(problem, status)
       call report_patches(this, problem)
    end subroutine calculate_pair
 
@@ -202,22 +207,15 @@ contains
       if (allocated(error)) call complain(this, full_text(error))
    end subroutine write_results
 
-   !> Solvers that did not converge in a patch, and results without contact, are told in the log only
+   !> Results without contact, or with more patches than can be asked for, are told in the log only
    subroutine report_patches(this, problem)
       type(entry_type), intent(in) :: this
       type(library_problem), intent(in) :: problem
-      integer :: k
 
       associate (patches => problem%pair_result%patches)
          if (size(patches) == 0) call say(1, this, "wheel and rail do not touch")
          if (size(patches) > most_patches) call say(0, this, "more than " // integer_text(most_patches) // &
             & " contact patches, the last ones cannot be asked for")
-         do k = 1, size(patches)
-            if (.not. patches(k)%contact%normal%succeeded()) call say(0, this, "the normal problem of patch " // &
-               & integer_text(k) // " did not converge")
-            if (.not. patches(k)%contact%tangential%succeeded()) call say(0, this, "the tangential problem of patch " // &
-               & integer_text(k) // " did not converge")
-         end do
       end associate
    end subroutine report_patches
 end module contact_capi_calculate1

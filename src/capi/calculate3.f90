@@ -1,18 +1,18 @@
 !> A contact problem of a caller from its settings to its results and files (module 3)
 module contact_capi_calculate3
-   use contact_base_choices, only : estimate_choice, heat_model, motion, slip_source, time_link
+   use contact_base_case_status, only : case_status
+   use contact_base_choices, only : estimate_choice, force_control, heat_model, motion, normal_control, slip_source, time_link
    use contact_base_error, only : error_type, fatal_error, full_text
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
-   use contact_base_solve_report, only : failure_text
    use contact_capi_files, only : find_result_file, find_working_folder
    use contact_capi_input_dump, only : dump_contact_case
    use contact_capi_library, only : entry_type
-   use contact_capi_messages, only : complain, library_log, say
+   use contact_capi_messages, only : complain, keep_status, library_log, say
    use contact_capi_problem, only : library_problem
    use contact_cases_session, only : solve_case
    use contact_cases_spec, only : case_spec
-   use contact_control_library_codes, only : library_code
+   use contact_control_library_codes, only : code_of_contact, library_code
    use contact_grid_potential_contact, only : potential_contact
    use contact_input_checks3, only : case_lines, check_case
    use contact_input_control3, only : check_physics, control_words, name_choices, refuse_unbuilt_digits
@@ -39,6 +39,7 @@ contains
       type(error_type), allocatable :: error
       type(log_type) :: log
       character(len=:), allocatable :: folder
+      type(case_status) :: status
 
       log = library_log()
       problem%cases = problem%cases + 1
@@ -59,15 +60,19 @@ contains
          end if
       end if
       if (allocated(error)) then
+         call status%refuse(full_text(error))
+         call keep_status(problem, status)
          call complain(this, full_text(error), code)
          return
       end if
       if (problem%spec%solve) then
+         status = problem%result%status
          problem%has_result = .true.
          call keep_solution(problem)
          call write_results(this, problem, log)
          call dump_contact_case(problem)
       end if
+      call keep_status(problem, status)
       call judge(this, problem, code)
    end subroutine calculate_contact
 
@@ -176,14 +181,18 @@ contains
       type(library_problem), intent(inout) :: problem
 
       associate (result => problem%result, kinematics => problem%spec%kinematics, rolling => problem%spec%rolling)
-         kinematics%pen = result%pen
-         kinematics%fn = result%fn
+         ! what is prescribed stays, also where it was missed
+         if (problem%spec%normal == normal_control%force) then
+            kinematics%pen = result%pen
+         else
+            kinematics%fn = result%fn
+         end if
          rolling%chi = result%chi
          rolling%dq = result%dq
          rolling%veloc = result%veloc
          if (problem%spec%motion == motion%none) return
-         kinematics%fx = result%fx_rel
-         kinematics%fy = result%fy_rel
+         if (problem%spec%force < force_control%fx_and_ceta) kinematics%fx = result%fx_rel
+         if (problem%spec%force < force_control%fx_and_fy) kinematics%fy = result%fy_rel
          kinematics%cksi = result%cksi
          kinematics%ceta = result%ceta
       end associate
@@ -228,16 +237,10 @@ contains
 
       code = library_code%success
       if (.not. problem%has_result) return
-      if (problem%spec%solve) then
-         if (.not. problem%result%normal%succeeded()) then
-            code = library_code%normal
-            call complain(this, trim(failure_text("normal", problem%result%normal)), code)
-            return
-         else if (.not. problem%result%tangential%succeeded()) then
-            code = library_code%tangential
-            call complain(this, trim(failure_text("tangential", problem%result%tangential)), code)
-            return
-         end if
+      if (problem%spec%solve .and. .not. problem%result%status%is_solved()) then
+         code = code_of_contact(problem%result%status)
+         call complain(this, problem%result%status%reason, code)
+         return
       end if
       code = border_elements(problem%result%division)
    end subroutine judge

@@ -2,11 +2,12 @@
 !>
 !> They are refused inside parallel regions of OpenMP.
 module contact_capi_lifecycle
-   use, intrinsic :: iso_c_binding, only : c_associated, c_char, c_f_pointer, c_int, c_null_char, c_ptr
+   use, intrinsic :: iso_c_binding, only : c_char, c_int, c_ptr
    use omp_lib, only : omp_in_parallel
-   use contact_capi_arguments, only : give, integer_of, integers_of, path_of
+   use contact_base_case_status, only : case_status
+   use contact_capi_arguments, only : give, give_message, integer_of, integers_of, path_of
    use contact_capi_library, only : entry_type
-   use contact_capi_messages, only : complain, last_complaint, say, set_debugging
+   use contact_capi_messages, only : complain, last_complaint, last_status, say, set_debugging
    use contact_capi_registry, only : is_running, most_threads, record_units, register_element, remove_element, set_threads, &
       & start_library, stop_library
    use contact_control_flags, only : flag
@@ -16,7 +17,7 @@ module contact_capi_lifecycle
    private
 
    public :: cntc_setfileunits, cntc_initializefirst, cntc_initializefirst_new, cntc_initialize, cntc_setglobalflags
-   public :: cntc_getmaxnumthreads, cntc_finalize, cntc_finalizelast, contact_last_error, set_global_flag
+   public :: cntc_getmaxnumthreads, cntc_finalize, cntc_finalizelast, contact_case_status, contact_last_error, set_global_flag
 
 contains
 
@@ -171,17 +172,34 @@ contains
       integer(c_int), value :: message_length
       integer(c_int) :: code
       character(len=:), allocatable :: text
-      character(kind=c_char), pointer :: letters(:)
-      integer :: number, i, n
+      integer :: number
 
       call last_complaint(number, text, int(ire), int(icp))
       code = int(number, c_int)
-      if (.not. c_associated(message) .or. message_length < 1) return
-      call c_f_pointer(message, letters, [message_length])
-      n = min(len(text), int(message_length) - 1)
-      do i = 1, n
-         letters(i) = text(i:i)
-      end do
-      letters(n + 1) = c_null_char
+      call give_message(text, message, message_length)
    end function contact_last_error
+
+   !> How the last calculation of a problem ended, member of case_state; -1 when there was none
+   function contact_case_status(ire, icp, iteration, message, message_length) result(state) bind(c)
+      !> Result element; contact patch, -1 for wheel and rail
+      integer(c_int), value :: ire, icp
+      !> What did not converge, member of missed_iteration; absent (null) if not wanted
+      integer(c_int), intent(inout), optional :: iteration
+      !> Buffer of the reason, null if not wanted, and its size with the final null
+      type(c_ptr), value :: message
+      integer(c_int), value :: message_length
+      integer(c_int) :: state
+      type(case_status) :: status
+      logical :: known
+
+      call last_status(int(ire), int(icp), known, status)
+      state = -1_c_int
+      if (known) state = int(status%state, c_int)
+      if (present(iteration)) iteration = int(status%iteration, c_int)
+      if (allocated(status%reason)) then
+         call give_message(status%reason, message, message_length)
+      else
+         call give_message("", message, message_length)
+      end if
+   end function contact_case_status
 end module contact_capi_lifecycle

@@ -1,6 +1,7 @@
 !> What callers are told: complaints about calls, which the library keeps, and messages that they ask for
 module contact_capi_messages
    use omp_lib, only : omp_get_thread_num, omp_in_parallel
+   use contact_base_case_status, only : case_status
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
    use contact_capi_library, only : entry_type, existing_problem, library
@@ -12,7 +13,7 @@ module contact_capi_messages
    private
 
    public :: complain, say, is_heard, set_debugging, library_log
-   public :: last_complaint, forget_complaint, set_last_error
+   public :: keep_status, last_complaint, last_status, forget_complaint, set_last_error
    public :: begin_setting, end_setting, first_refusal
    public :: fits, count_fits
 
@@ -82,6 +83,36 @@ contains
       if (allocated(problem%last_error)) deallocate(problem%last_error)
       !$omp end critical (contact_registry)
    end subroutine forget_complaint
+
+   !> A calculation has ended like that
+   subroutine keep_status(problem, status)
+      type(library_problem), intent(inout) :: problem
+      type(case_status), intent(in) :: status
+
+      !$omp critical (contact_registry)
+      problem%status = status
+      problem%was_calculated = .true.
+      !$omp end critical (contact_registry)
+   end subroutine keep_status
+
+   !> How the last calculation of a problem ended
+   subroutine last_status(ire, icp, known, status)
+      !> Result element and contact problem, -1 for wheel and rail
+      integer, intent(in) :: ire, icp
+      !> Was there a calculation?
+      logical, intent(out) :: known
+      type(case_status), intent(out) :: status
+      type(library_problem), pointer :: problem
+
+      known = .false.
+      !$omp critical (contact_registry)
+      problem => existing_problem(ire, icp)
+      if (associated(problem)) then
+         known = problem%was_calculated
+         status = problem%status
+      end if
+      !$omp end critical (contact_registry)
+   end subroutine last_status
 
    !> What went wrong last, "" when nothing did; forgotten by this question
    subroutine last_complaint(code, text, ire, icp)

@@ -4,6 +4,7 @@
 !> patches (module 1). Everything is in internal units; conventions act at the door.
 module contact_capi_problem
    use omp_lib, only : omp_destroy_lock, omp_init_lock, omp_lock_kind
+   use contact_base_case_status, only : case_status
    use contact_base_choices, only : kernel_model, pressure_model, stress_choice
    use contact_base_constants, only : pi
    use contact_base_kinds, only : wp
@@ -90,6 +91,9 @@ module contact_capi_problem
       !> The setting that is being made, and those that were refused and not made since; unallocated: none
       type(refused_setting) :: setting
       type(refused_setting), allocatable :: refused(:)
+      !> How the last calculation ended, and whether there was one
+      type(case_status) :: status
+      logical :: was_calculated = .false.
       !> One thread at a time
       integer(omp_lock_kind) :: lock
       !> Threads that are inside or wait, guarded by the registry

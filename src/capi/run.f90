@@ -1,13 +1,15 @@
 !> The C interface: an experiment run by a host program, see include/contact.h
 module contact_capi_run
-   use, intrinsic :: iso_c_binding, only : c_associated, c_char, c_f_pointer, c_int, c_null_char, c_ptr, c_size_t
+   use, intrinsic :: iso_c_binding, only : c_associated, c_char, c_double, c_f_pointer, c_int, c_ptr, c_size_t
    use contact_base_error, only : error_type, fatal_error, full_text
+   use contact_base_kinds, only : long
+   use contact_capi_arguments, only : give_message
    use contact_capi_host, only : give_floats_back, hold_floats
    use contact_experiment_run, only : run_experiment, run_settings
    implicit none (type, external)
    private
 
-   public :: contact_run, contact_run_with
+   public :: contact_run, contact_run_limited, contact_run_with
 
    !> What a host may ask for, as in the header
    integer(c_int), parameter :: mode_run = 2, mode_check = 3
@@ -43,11 +45,28 @@ contains
       status = contact_run_with(experiment, mode, output_dir, threads, 0_c_int, message, message_length)
    end function contact_run
 
+   !> Run or check one experiment silently, without limits
+   function contact_run_with(experiment, mode, output_dir, threads, outputs, message, message_length) result(status) &
+      & bind(c, name="contact_run_with")
+      !> As for contact_run_limited
+      type(c_ptr), value :: experiment
+      integer(c_int), value :: mode
+      type(c_ptr), value :: output_dir
+      integer(c_int), value :: threads
+      integer(c_int), value :: outputs
+      type(c_ptr), value :: message
+      integer(c_int), value :: message_length
+      integer(c_int) :: status
+
+      status = contact_run_limited(experiment, mode, output_dir, threads, outputs, 0_c_int, 0.0_c_double, 0.0_c_double, &
+         & 0.0_c_double, message, message_length)
+   end function contact_run_with
+
    !> Run or check one experiment silently
    !>
    !> 0 is success, 1 a call with unusable arguments, 10 and above a failure by its error_kind.
-   function contact_run_with(experiment, mode, output_dir, threads, outputs, message, message_length) result(status) &
-      & bind(c, name="contact_run_with")
+   function contact_run_limited(experiment, mode, output_dir, threads, outputs, strict, seconds, megabytes, elements, message, &
+      & message_length) result(status) bind(c, name="contact_run_limited")
       !> Path of the experiment, null-terminated
       type(c_ptr), value :: experiment
       integer(c_int), value :: mode
@@ -57,6 +76,10 @@ contains
       integer(c_int), value :: threads
       !> Files beside the usual ones, a sum of bits as in the header
       integer(c_int), value :: outputs
+      !> Not 0: a case that does not converge is a failure
+      integer(c_int), value :: strict
+      !> Limits of each case: time [s], memory [MB], number of elements; 0 for none
+      real(c_double), value :: seconds, megabytes, elements
       !> Buffer of the reason of a failure, null if not wanted, and its size
       type(c_ptr), value :: message
       integer(c_int), value :: message_length
@@ -68,6 +91,10 @@ contains
       call take_text(output_dir, settings%output_folder)
       settings%check_only = mode == mode_check
       settings%threads = int(threads)
+      settings%strict = strict /= 0_c_int
+      if (seconds > 0.0_c_double) settings%limits%deadline%seconds = seconds
+      if (megabytes > 0.0_c_double) settings%limits%bytes = int(1.0e6_c_double*megabytes, long)
+      if (elements > 0.0_c_double) settings%limits%elements = int(elements, long)
       if (btest(outputs, json_bit)) settings%exports%json = ""
       settings%exports%hdf5 = btest(outputs, hdf5_bit)
       settings%exports%vtk = btest(outputs, vtk_bit)
@@ -79,6 +106,9 @@ contains
          call fatal_error(error, "contact_run: the number of threads is negative")
       else if (outputs < 0 .or. outputs > all_outputs) then
          call fatal_error(error, "contact_run_with: the outputs are not a sum of CONTACT_WRITE_JSON, _HDF5 and _VTK")
+      else if (.not. all([seconds, megabytes, elements] >= 0.0_c_double &
+         & .and. [seconds, megabytes, elements] < 1.0e12_c_double)) then
+         call fatal_error(error, "contact_run_limited: a limit is negative, not a number, or 1e12 and more; 0 stands for none")
       end if
       status = 0
       if (allocated(error)) then
@@ -94,7 +124,7 @@ contains
       else
          call give_message("", message, message_length)
       end if
-   end function contact_run_with
+   end function contact_run_limited
 
    !> A null-terminated text as a Fortran one, "" for a null pointer
    subroutine take_text(pointer, text)
@@ -111,22 +141,4 @@ contains
          text(i:i) = letters(i)
       end do
    end subroutine take_text
-
-   !> Copy a text into the buffer of the caller, cut to fit and null-terminated
-   subroutine give_message(text, buffer, length)
-      character(len=*), intent(in) :: text
-      type(c_ptr), intent(in) :: buffer
-      !> Size of the buffer, the final null included
-      integer(c_int), intent(in) :: length
-      character(kind=c_char), pointer :: letters(:)
-      integer :: i, n
-
-      if (.not. c_associated(buffer) .or. length < 1) return
-      call c_f_pointer(buffer, letters, [length])
-      n = min(len(text), int(length) - 1)
-      do i = 1, n
-         letters(i) = text(i:i)
-      end do
-      letters(n + 1) = c_null_char
-   end subroutine give_message
 end module contact_capi_run

@@ -1,6 +1,8 @@
 !> Which effects acted in a patch, in words for the report
 module contact_cases_effects
-   use contact_base_choices, only : contact_location, heat_source_name, motion, pressure_model, stress_choice, variation
+   use contact_base_choices, only : contact_location, heat_source_name, kernel_model, motion, pressure_model, stress_choice, &
+      & variation
+   use contact_base_kinds, only : wp
    use contact_cases_spec, only : case_spec
    use contact_patch_problem, only : patch_problem
    use contact_patch_result, only : patch_result
@@ -28,9 +30,12 @@ contains
          call add("elastic bodies with tabulated influence coefficients")
       else if (allocated(problem%model%inclination)) then
          call add("elastic half-spaces with coefficients corrected for inclination")
+      else if (allocated(problem%model%memory)) then
+         call add("viscoelastic half-spaces")
       else
          call add("elastic half-spaces")
       end if
+      if (problem%model%kernel == kernel_model%bilinear) call add(", bilinear tractions")
       if (allocated(spec%wheel_rail)) then
          if (spec%wheel_rail%search%location == contact_location%conformal) call add(", curved reference surface")
       end if
@@ -51,11 +56,14 @@ contains
          end if
          if (problem%motion /= motion%none) then
             call add_friction()
-            if (problem%remembers_yield) call add(", plastic shearing")
+            if (problem%model%layer > 0.0_wp) call add(", elastic layer between the bodies")
+            if (result%nplast > 0) call add(", plastic shearing")
             if (problem%model%coupled() .and. .not. allocated(problem%model%tabulated) &
                & .and. (problem%model%material%coupled() .or. .not. allocated(problem%model%inclination)) &
                & .and. .not. allocated(problem%simplified)) call add(", dissimilar bodies")
-            if (allocated(problem%extra_slip)) call add(", extra rigid slip")
+            if (allocated(problem%extra_slip)) then
+               if (any(abs(problem%extra_slip) > 0.0_wp)) call add(", extra rigid slip")
+            end if
          end if
          if (allocated(problem%thermal)) then
             call add(", surface temperatures (")
@@ -64,7 +72,9 @@ contains
          end if
          if (spec%stress /= stress_choice%none) call add(", subsurface stresses")
       end if
-      if (allocated(problem%damping)) call add(", damping forces")
+      if (allocated(result%damping)) then
+         if (any(abs(result%damping) > 0.0_wp)) call add(", damping forces")
+      end if
       result%effects = text(:n)
 
    contains

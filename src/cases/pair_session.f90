@@ -51,9 +51,24 @@ contains
       type(log_type), intent(inout) :: log
       type(pair_result), intent(inout) :: result
       type(error_type), allocatable, intent(out) :: error
-      integer :: k
 
       log%level = spec%flow_level
+      call log%begin_case()
+      call solve_and_describe(session, spec, folder, log, result, error)
+      call log%end_case()
+   end subroutine solve_pair_case
+
+   !> The case between the first and the last word of the log
+   subroutine solve_and_describe(session, spec, folder, log, result, error)
+      type(pair_session), intent(inout) :: session
+      type(case_spec), intent(in) :: spec
+      !> As for solve_pair_case
+      character(len=*), intent(in) :: folder
+      type(log_type), intent(inout) :: log
+      type(pair_result), intent(inout) :: result
+      type(error_type), allocatable, intent(out) :: error
+      integer :: k
+
       call check_combinations(spec, error)
       if (allocated(error)) return
       call set_pair(session, spec, folder, log, error)
@@ -83,7 +98,7 @@ contains
          end associate
          if (allocated(error)) return
       end do
-   end subroutine solve_pair_case
+   end subroutine solve_and_describe
 
    !> Points of the profiles in track coordinates: the rail at the wheelset, the wheel at its lowest meridian
    subroutine keep_profiles(session, result)
@@ -188,6 +203,7 @@ contains
          problem%link = spec%link
          problem%weight_power = spec%wheel_rail%search%weight_power
          problem%most_elements = spec%iteration%npot_max
+         problem%limits = spec%limits
          call require_memory(int(spec%iteration%npot_max, long), bytes_per_element, "elements, as many as are allowed,", error)
          if (.not. allocated(error)) call set_model(spec, template%model, error)
          if (allocated(error)) return

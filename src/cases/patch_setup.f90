@@ -132,6 +132,7 @@ contains
       problem%maxin = spec%iteration%maxin
       problem%maxnr = spec%iteration%maxnr
       problem%maxout = spec%iteration%maxout
+      problem%deadline = spec%limits%deadline
       problem%relaxation_given = spec%solver == solver_choice%convex_gs .or. spec%solver == solver_choice%gauss_seidel
       problem%omegah = spec%iteration%omegah
       problem%omegas = spec%iteration%omegas
@@ -155,6 +156,7 @@ contains
 
       problem%has_geometry = .false.
       call build_grid(spec%grid, result%hertz, grid, error)
+      if (.not. allocated(error)) call spec%limits%check(int(grid%npot(), long), bytes_per_element, "elements", error)
       if (.not. allocated(error)) call require_memory(int(grid%npot(), long), bytes_per_element, "elements", error)
       if (allocated(error)) return
       problem%grid = grid

@@ -48,11 +48,26 @@ contains
       character(len=*), intent(in), optional :: folder
 
       log%level = spec%flow_level
+      call log%begin_case()
       if (present(folder)) then
-         call set_problem(spec, folder, session%problem, log, result, error)
+         call solve_in_folder(session, spec, folder, log, result, error)
       else
-         call set_problem(spec, "", session%problem, log, result, error)
+         call solve_in_folder(session, spec, "", log, result, error)
       end if
+      call log%end_case()
+   end subroutine solve_case
+
+   !> The same with a folder, between the first and the last word of the log
+   subroutine solve_in_folder(session, spec, folder, log, result, error)
+      type(contact_session), intent(inout) :: session
+      type(case_spec), intent(in) :: spec
+      !> "" for the current folder
+      character(len=*), intent(in) :: folder
+      type(log_type), intent(inout) :: log
+      type(patch_result), intent(inout) :: result
+      type(error_type), allocatable, intent(out) :: error
+
+      call set_problem(spec, folder, session%problem, log, result, error)
       if (allocated(error)) return
       call link_moments(session%problem, spec%link, session%state, error)
       if (allocated(error)) then
@@ -62,7 +77,11 @@ contains
       call choose_estimate(session, spec, result)
       if (.not. spec%solve) return
       call solve_patch(session%problem, session%state, session%workspace, log, result, error)
-      if (allocated(error)) return
+      if (allocated(error)) then
+         ! what was left half done is no previous time step
+         if (error%kind == error_kind%time) call forget(session, result)
+         return
+      end if
       if (.not. result%has_finite_totals()) then
          call refuse_nonsense(error)
          call forget(session, result)
@@ -77,7 +96,7 @@ contains
       if (spec%stress == stress_choice%none) return
       call subsurface_stresses(spec, result, error)
       if (.not. allocated(error)) call warn_of_steps(result, log)
-   end subroutine solve_case
+   end subroutine solve_in_folder
 
    !> The end of a case whose totals are infinite or not a number: it has no results
    subroutine refuse_nonsense(error)

@@ -6,6 +6,7 @@
 module contact_cases_spec
    use contact_base_choices, only : heat_source, material_model
    use contact_base_kinds, only : wp
+   use contact_base_limits, only : case_limits
    use contact_wheelrail_spec, only : wheel_rail_spec
    use contact_subsurface_points, only : point_block
    implicit none (type, external)
@@ -164,6 +165,8 @@ module contact_cases_spec
       logical :: new_grid = .false., new_geometry = .false., new_kernel = .false.
       !> Output: .mat file 0, 1, 2; .out level 0...6; flow trace 0...9
       integer :: mat_file = 0, output_level = 0, flow_level = 0
+      !> What it may take
+      type(case_limits) :: limits
       !> Solve the case, or only store its input?
       logical :: solve = .true.
       type(iteration_spec) :: iteration

@@ -1,8 +1,9 @@
 !> Subsurface stresses of one contact patch: blocks of points in, fields out
 module contact_cases_subsurface
-   use contact_base_choices, only : kernel_model
+   use contact_base_choices, only : kernel_model, stress_choice
    use contact_base_error, only : add_context, error_type, fatal_error
    use contact_base_kinds, only : long
+   use contact_base_limits, only : case_limits
    use contact_base_log, only : log_type
    use contact_base_memory, only : require_memory
    use contact_cases_spec, only : case_spec
@@ -18,7 +19,7 @@ module contact_cases_subsurface
    implicit none (type, external)
    private
 
-   public :: subsurface_stresses, warn_of_steps
+   public :: stress_memory, subsurface_stresses, warn_of_steps
 
    !> Most points of one block, some 3 GB
    integer(long), parameter :: most_points = 20000000_long
@@ -53,7 +54,9 @@ contains
       end if
       allocate(result%subsurface(size(spec%subsurface%blocks)))
       do k = 1, size(result%subsurface)
-         call block_stresses(load, spec%subsurface%blocks(k), area, result%subsurface(k), error)
+         call spec%limits%deadline%watch("before the stresses below the surface", error)
+         if (.not. allocated(error)) &
+            & call block_stresses(load, spec%subsurface%blocks(k), area, spec%limits, result%subsurface(k), error)
          if (.not. allocated(error)) cycle
          write(text, '(A, I0)') "subsurface block ", k
          call add_context(error, trim(text))
@@ -104,12 +107,29 @@ contains
       area%my = box%iy1 - box%iy0 + 3
    end function around_contact
 
+   !> Memory that the stresses of a case take on a grid [bytes]
+   pure integer(long) function stress_memory(spec, grid) result(bytes)
+      type(case_spec), intent(in) :: spec
+      !> Its numbers of columns and rows count
+      type(potential_contact), intent(in) :: grid
+      type(point_set) :: points
+      integer :: k
+
+      bytes = 0_long
+      if (spec%stress == stress_choice%none .or. .not. allocated(spec%subsurface%blocks)) return
+      do k = 1, size(spec%subsurface%blocks)
+         call expand_points(spec%subsurface%blocks(k), grid, points)
+         bytes = bytes + bytes_per_point*points%n()
+      end do
+   end function stress_memory
+
    !> One block
-   subroutine block_stresses(load, block, area, result, error)
+   subroutine block_stresses(load, block, area, limits, result, error)
       type(surface_load), intent(in) :: load
       type(point_block), intent(in) :: block
       !> The elements in contact and those beside them
       type(potential_contact), intent(in) :: area
+      type(case_limits), intent(in) :: limits
       type(subsurface_result), intent(out) :: result
       type(error_type), allocatable, intent(out) :: error
       type(point_set) :: points
@@ -122,7 +142,8 @@ contains
             & " are not computed at once; several smaller blocks"
          call fatal_error(error, trim(text))
       else
-         call require_memory(points%n(), bytes_per_point, "points below the surface", error)
+         call limits%check(points%n(), bytes_per_point, "points below the surface", error)
+         if (.not. allocated(error)) call require_memory(points%n(), bytes_per_point, "points below the surface", error)
       end if
       if (allocated(error)) return
       n = int(points%n())

@@ -2,7 +2,9 @@
 module contact_cli_arguments
    use, intrinsic :: iso_fortran_env, only : error_unit, input_unit, output_unit
    use contact_base_choices, only : heat_source
-   use contact_base_error, only : error_type, fatal_error
+   use contact_base_error, only : error_kind, error_type, fatal_error
+   use contact_base_kinds, only : long, wp
+   use contact_base_limits, only : case_limits
    use contact_cli_command_line, only : take_word
    use contact_cli_report, only : is_report, run_report
    use contact_cli_versions, only : contact_version, write_versions
@@ -26,7 +28,7 @@ module contact_cli_arguments
    type(mode_list), parameter :: mode = mode_list()
 
    !> Exit statuses
-   integer, parameter :: success = 0, failure = 1
+   integer, parameter :: success = 0, failure = 1, unconverged = 2
    !> Name of the experiment when the answer to the question for it is empty
    character(len=*), parameter :: default_experiment = "contact"
    !> Longest answer
@@ -53,6 +55,10 @@ module contact_cli_arguments
       logical :: vtk = .false.
       !> Member of heat_source
       integer :: heat_source = heat_source%established
+      !> What a case may take
+      type(case_limits) :: limits
+      !> Exit with a status of its own when a case does not converge?
+      logical :: strict = .false.
       logical :: quiet = .false., help = .false., version = .false.
    end type command
 
@@ -108,6 +114,8 @@ contains
       settings%version = contact_version
       settings%check_only = asked%mode == mode%check
       settings%threads = asked%threads
+      settings%strict = asked%strict
+      settings%limits = asked%limits
       settings%exports%hdf5 = asked%hdf5
       settings%exports%vtk = asked%vtk
       settings%heat_source = asked%heat_source
@@ -118,7 +126,9 @@ contains
       end if
       settings%complaints = error_unit
       call run_experiment(settings, error)
-      status = merge(failure, success, allocated(error))
+      status = success
+      if (.not. allocated(error)) return
+      status = merge(unconverged, failure, error%kind == error_kind%not_converged)
    end subroutine run
 
    !> Sort the words of the command line into options and positional arguments
@@ -196,6 +206,11 @@ contains
                & "', is not known; established and moving-source are")
          end select
          return
+      case ("--limit-time", "--limit-memory", "--limit-elements")
+         call take_limit()
+         return
+      case ("--strict")
+         asked%strict = .true.
       case ("--hdf5")
          asked%hdf5 = .true.
       case ("--vtk")
@@ -210,12 +225,36 @@ contains
          return
       case default
          call fatal_error(error, "there is no option '" // name // &
-            & "'; the options are --help, --version, --output-dir DIR, --threads N, --heat NAME, --hdf5, --json, --vtk and --quiet")
+            & "'; the options are --help, --version, --output-dir DIR, --threads N, --heat NAME, --hdf5, " // &
+            & "--json, --vtk, --limit-time S, --limit-memory MB, --limit-elements N, --strict and --quiet")
          return
       end select
       if (equals > 0) call fatal_error(error, "the option " // name // " takes no value")
 
    contains
+
+      !> A limit, a positive number
+      subroutine take_limit()
+         real(wp) :: number
+         integer :: status
+
+         call take_value("a positive number")
+         if (allocated(error)) return
+         number = -1.0_wp
+         if (verify(value, "0123456789.eE+-") == 0) read(value, *, iostat=status) number
+         if (.not. (number > 0.0_wp .and. number < 1.0e12_wp)) then
+            call fatal_error(error, "the value of " // name // ", '" // value // "', is not a positive number below 1e12")
+            return
+         end if
+         select case (name)
+         case ("--limit-time")
+            asked%limits%deadline%seconds = number
+         case ("--limit-memory")
+            asked%limits%bytes = int(1.0e6_wp*number, long)
+         case default
+            asked%limits%elements = int(number, long)
+         end select
+      end subroutine take_limit
 
       !> The value of the option: after the equals sign, or the next word
       subroutine take_value(what)
@@ -333,10 +372,13 @@ contains
          & "  --json            write the totals of every case as JSON lines to EXPNAM.jsonl; --json=- writes", &
          & "                    them to the standard output, and nothing else", &
          & "  --vtk             write contact surfaces and subsurface blocks as VTK files, listed in EXPNAM.pvd", &
+         & "  --limit-time S    give up a case after S seconds, and go on with the next", &
+         & "  --limit-memory MB, --limit-elements N  refuse cases that need more memory or elements", &
+         & "  --strict          exit with status 2 when a case did not converge", &
          & "  --quiet           write nothing but errors to the screen", &
          & "  --help            this text", &
          & "  --version         versions of program, compiler and libraries", &
          & "", &
-         & "The exit status is 0 when all went well, and 1 after any error."
+         & "The exit status is 0 when all went well, 1 after any error, and with --strict 2 when a case did not converge."
    end subroutine write_help
 end module contact_cli_arguments

@@ -1,9 +1,11 @@
 !> Numbers that callers of the library get and give: error codes, fields, kinds of input files
 module contact_control_library_codes
+   use contact_base_case_status, only : case_status, missed_iteration
    use contact_control_units, only : orientation
    implicit none (type, external)
    private
 
+   public :: code_of_contact, code_of_pair
    public :: library_code, code_text, input_type, field_row, field_table, field_kind, interface_version
 
    !> What initialisation tells callers, 100 major + 10 minor + update of the published interface
@@ -69,6 +71,29 @@ module contact_control_library_codes
       & field_row(field_kind%wy, 0, 0, orientation%across)]
 
 contains
+
+   !> Code of a contact problem (module 3) with a result, by its status
+   pure integer function code_of_contact(status) result(code)
+      type(case_status), intent(in) :: status
+
+      code = library_code%success
+      if (status%is_solved()) return
+      code = library_code%tangential
+      if (status%iteration == missed_iteration%normal) code = library_code%normal
+   end function code_of_contact
+
+   !> Code of wheel and rail (module 1) with a result, by its status
+   !>
+   !> The published interface has no code for patches that did not converge, and none for a wheel beside the rail, which cannot
+   !> reach its force: contact_case_status tells them.
+   pure integer function code_of_pair(status, patches) result(code)
+      type(case_status), intent(in) :: status
+      !> Number of contact patches
+      integer, intent(in) :: patches
+
+      code = library_code%success
+      if (status%iteration == missed_iteration%force .and. patches > 0) code = library_code%tolerance
+   end function code_of_pair
 
    !> A code in words
    pure function code_text(code) result(text)

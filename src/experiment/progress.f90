@@ -5,7 +5,7 @@ module contact_experiment_progress
    use, intrinsic :: iso_c_binding, only : c_int
    use, intrinsic :: iso_fortran_env, only : error_unit
    use contact_base_kinds, only : wp
-   use contact_experiment_stopwatch, only : wall_clock
+   use contact_base_limits, only : wall_clock
    implicit none (type, external)
    private
 

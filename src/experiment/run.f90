@@ -8,10 +8,13 @@
 !> cannot be written are reported, and the run goes on. After any of them the run counts as failed.
 module contact_experiment_run
    use omp_lib, only : omp_get_max_threads, omp_set_num_threads
+   use contact_base_case_status, only : case_state, case_status
    use contact_base_choices, only : heat_source
    use contact_base_error, only : add_context, error_kind, error_type, fatal_error, full_text
    use contact_base_kinds, only : wp
+   use contact_base_limits, only : case_limits, wall_clock
    use contact_base_log, only : log_type
+   use contact_cases_estimate, only : case_cost, cost_text, estimate_cost
    use contact_cases_pair_session, only : check_profiles, solve_pair_case
    use contact_cases_session, only : check_case, solve_case
    use contact_cases_slot, only : open_contact, open_pair, problem_slot, release_slot
@@ -19,7 +22,7 @@ module contact_experiment_run
    use contact_experiment_exports, only : export_files, export_request
    use contact_experiment_place, only : experiment_place, locate_experiment
    use contact_experiment_progress, only : is_terminal, progress_line
-   use contact_experiment_stopwatch, only : stopwatch, wall_clock
+   use contact_experiment_stopwatch, only : stopwatch
    use contact_input_experiment_file, only : experiment_reader, input_case
    use contact_input_problems, only : problem_text, severity
    use contact_output_case_record, only : case_head
@@ -40,6 +43,9 @@ module contact_experiment_run
    !> Stands for no unit; 0 is the standard error stream of gfortran
    integer, parameter :: no_unit = -1
 
+   !> Cases that are estimated to take more time [s] or memory [bytes] are announced: by a check, and before they are computed
+   real(wp), parameter :: told_seconds = 1.0_wp, told_bytes = 1.0e8_wp, large_seconds = 10.0_wp, large_bytes = 1.0e9_wp
+
    !> What is to be run and where messages go
    type :: run_settings
       !> Name of the experiment, with or without folder and suffix .inp
@@ -58,6 +64,10 @@ module contact_experiment_run
       integer :: complaints = no_unit
       !> May a progress line be shown on the terminal?
       logical :: progress = .false.
+      !> What each case may take
+      type(case_limits) :: limits
+      !> Is a case that does not converge a failure of the run?
+      logical :: strict = .false.
       !> Files for other programs beside the usual ones
       type(export_request) :: exports
       !> How temperatures are computed, member of heat_source
@@ -81,8 +91,9 @@ module contact_experiment_run
       type(numbered_slot), allocatable :: slots(:)
       !> Unit for errors, or no_unit
       integer :: complaints = no_unit
-      !> Numbers of cases read, of cases that did not reach their tolerance, of errors
-      integer :: cases = 0, unconverged = 0, errors = 0
+      !> Numbers of cases read, of errors, and of cases by how they ended, members of case_state
+      integer :: cases = 0, errors = 0
+      integer :: ended(case_state%solved:case_state%refused) = 0
       !> Has no case asked for results so far?
       logical :: silent = .true.
       !> The first error; unallocated when there was none
@@ -124,6 +135,9 @@ contains
       end if
       call omp_set_num_threads(default_threads)
       call move_alloc(state%first_error, error)
+      if (settings%strict .and. .not. allocated(error) .and. state%ended(case_state%not_converged) > 0) &
+         & call fatal_error(error, integer_text(state%ended(case_state%not_converged)) // " of " // &
+         & counted(state%cases, "case") // " did not converge", error_kind%not_converged)
       if (state%errors > 1) call add_context(error, "first of " // integer_text(state%errors) // " errors")
    end subroutine run_experiment
 
@@ -142,6 +156,8 @@ contains
       type(experiment_state), intent(inout) :: state
       type(error_type), allocatable :: error
       type(input_case) :: this
+      !> Elements and memory of the largest case, time of all cases
+      type(case_cost) :: total
       integer :: faulty, k
 
       faulty = 0
@@ -160,6 +176,7 @@ contains
          end if
          state%cases = state%cases + 1
          call report_problems(state, this)
+         if (this%problems%is_usable()) call add_cost(state, this, total)
          if (.not. this%problems%is_usable()) then
             faulty = faulty + 1
             cycle
@@ -177,6 +194,8 @@ contains
       call state%log%line(" " // state%place%input // ": " // counted(state%cases, "case") // " checked, " // &
          & counted(faulty, "faulty case") // ", " // counted(state%errors, "error") // ", " // &
          & counted(state%log%warnings, "warning"))
+      if (state%cases > faulty) call state%log%line(" Estimate on one thread, largest case and time of all: " // &
+         & trim(cost_text(total)))
    end subroutine check_all_cases
 
    !> What only the preparation of a case finds: its profiles, its files, what its motion does not go with
@@ -195,6 +214,24 @@ contains
          call check_case(slot%session, given, state%log, slot%result, error, state%place%folder)
       end if
    end subroutine check_without_solving
+
+   !> Add the cost of a case to that of all; tell it when it is large
+   subroutine add_cost(state, this, total)
+      type(experiment_state), intent(inout) :: state
+      type(input_case), intent(in) :: this
+      type(case_cost), intent(inout) :: total
+      type(case_cost) :: cost
+
+      call estimate_cost(this%spec, cost)
+      if (cost%elements > total%elements) then
+         total%elements = cost%elements
+         total%at_most = cost%at_most
+      end if
+      total%bytes = max(total%bytes, cost%bytes)
+      total%seconds = total%seconds + cost%seconds
+      if (cost%seconds > told_seconds .or. cost%bytes > told_bytes) call state%log%line(" Estimate of case " // &
+         & integer_text(this%number) // " on one thread: " // trim(cost_text(cost)))
+   end subroutine add_cost
 
    !> "1 case", "2 cases"
    pure function counted(n, what) result(text)
@@ -251,6 +288,8 @@ contains
          state%cases = state%cases + 1
          this%spec%heat%source = settings%heat_source
          if (this%spec%output_level > 0 .or. this%spec%mat_file > 0 .or. this%spec%digits%s > 0) state%silent = .false.
+         this%spec%limits = settings%limits
+         call this%spec%limits%deadline%start()
          call compute_case(state, this, go_on)
          if (.not. go_on) exit
          call keep_file_current(state)
@@ -284,6 +323,8 @@ contains
       logical, intent(out) :: go_on
       type(error_type), allocatable :: error
       type(case_head) :: head
+      character(len=:), allocatable :: reason
+      type(case_cost) :: cost
       real(wp) :: solving_before
       integer :: k
 
@@ -295,13 +336,20 @@ contains
       if (.not. go_on) then
          call state%log%line(" The run ends at case " // integer_text(this%number) // ", line " // &
             & integer_text(this%first_line) // ": its input cannot be used.")
-         head%failure = "its input cannot be used"
+         call refusal_of(this, reason)
+         call head%status%refuse(reason)
+         call count_case(state, head%status)
          if (state%exports%wanted()) call state%exports%write_failure(head)
          return
       end if
 
       call find_slot(state, this%reid, this%cpid, k)
       associate (slot => state%slots(k))
+         if (this%spec%solve) then
+            call estimate_cost(this%spec, cost)
+            if (cost%seconds > large_seconds .or. cost%bytes > large_bytes) call state%log%line( &
+               & " Estimate of this case on one thread: " // trim(cost_text(cost)))
+         end if
          solving_before = state%solving%wall
          call state%solving%start()
          state%log%level = this%spec%flow_level
@@ -315,19 +363,28 @@ contains
          call state%solving%halt()
          head%seconds = state%solving%wall - solving_before
          if (allocated(error)) then
-            head%failure = full_text(error)
+            if (error%kind == error_kind%time) then
+               call head%status%run_out_of_time(full_text(error))
+            else
+               call head%status%refuse(full_text(error))
+            end if
+         else if (this%module_number == 1) then
+            head%status = slot%pair_result%status
+         else
+            head%status = slot%result%status
+         end if
+         if (allocated(error) .or. this%spec%solve) call count_case(state, head%status)
+         if (allocated(error)) then
             if (state%exports%wanted()) call state%exports%write_failure(head)
             call add_context(error, "case " // integer_text(this%number))
             if (this%reid > 0) call add_context(error, "result element " // integer_text(this%reid))
             call report_error(state, error)
          else if (this%module_number == 1) then
-            if (this%spec%solve .and. .not. slot%pair_result%solved) state%unconverged = state%unconverged + 1
             call state%writing%start()
             if (this%spec%solve) then
                call write_pair(state%log, this%spec, slot%pair_result)
                call write_pair_files(state%place%results, this%number, this%reid, this%spec, slot%pair_result, error)
                if (allocated(error)) call report_error(state, error)
-               head%converged = slot%pair_result%solved
                if (state%exports%wanted()) then
                   call state%exports%write_pair(head, this%spec, slot%pair, slot%pair_result, error)
                   if (allocated(error)) call report_error(state, error)
@@ -335,11 +392,8 @@ contains
             end if
             call state%writing%halt()
          else if (this%spec%solve) then
-            if (.not. (slot%result%normal%succeeded() .and. slot%result%tangential%succeeded())) &
-               & state%unconverged = state%unconverged + 1
             call state%writing%start()
             call write_results(state, this, slot%result)
-            head%converged = slot%result%normal%succeeded() .and. slot%result%tangential%succeeded()
             if (state%exports%wanted()) then
                call state%exports%write_contact(head, this%spec, slot%result, error)
                if (allocated(error)) call report_error(state, error)
@@ -348,6 +402,30 @@ contains
          end if
       end associate
    end subroutine compute_case
+
+   !> Count a case by how it ended
+   subroutine count_case(state, status)
+      type(experiment_state), intent(inout) :: state
+      type(case_status), intent(in) :: status
+
+      state%ended(status%state) = state%ended(status%state) + 1
+   end subroutine count_case
+
+   !> Why the input of a case cannot be used: its first error
+   subroutine refusal_of(this, reason)
+      type(input_case), intent(in) :: this
+      character(len=:), allocatable, intent(out) :: reason
+      integer :: k
+
+      reason = "its input cannot be used"
+      do k = 1, this%problems%count
+         associate (item => this%problems%items(k))
+            if (item%severity == severity%warning) cycle
+            reason = reason // ": " // full_text(item%what)
+         end associate
+         return
+      end do
+   end subroutine refusal_of
 
    !> Report, .mat and .subs file of a solved case
    subroutine write_results(state, this, result)
@@ -474,8 +552,10 @@ contains
       call state%solving%fill_line("Solving cases", lines(3))
       call state%writing%fill_line("Writing results", lines(4))
       call write_end(state%log, omp_get_max_threads(), lines)
-      if (state%unconverged > 0) call state%log%line(" Number of cases that did not reach their tolerance: " // &
-         & integer_text(state%unconverged))
+      call state%log%line(" " // counted(state%cases, "case") // ": " // &
+         & integer_text(state%ended(case_state%solved)) // " solved, " // &
+         & integer_text(state%ended(case_state%not_converged)) // " not converged, " // &
+         & integer_text(state%ended(case_state%refused)) // " refused")
       if (state%silent .and. state%cases > 0) call state%log%line( &
          & " No results were asked for: O, A and S are 0 in all cases.")
       call write_closing(state%log, state%errors > 0)

@@ -1,11 +1,12 @@
 !> How often and how long the phases of a run were at work
 module contact_experiment_stopwatch
-   use contact_base_kinds, only : long, wp
+   use contact_base_kinds, only : wp
+   use contact_base_limits, only : wall_clock
    use contact_output_report, only : timer_line
    implicit none (type, external)
    private
 
-   public :: stopwatch, wall_clock
+   public :: stopwatch
 
    !> Calls and seconds of one phase
    type :: stopwatch
@@ -64,12 +65,4 @@ contains
       line%cpu = self%cpu
       line%wall = self%wall
    end subroutine fill_line
-
-   !> Elapsed time since a fixed moment [s]
-   real(wp) function wall_clock() result(seconds)
-      integer(long) :: ticks, rate
-
-      call system_clock(ticks, rate)
-      seconds = real(ticks, wp)/real(rate, wp)
-   end function wall_clock
 end module contact_experiment_stopwatch

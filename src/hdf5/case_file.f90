@@ -112,9 +112,15 @@ contains
       call file%open_group("", columns=.true.)
       call describe_head(file, head)
       call file%close_group()
-      if (.not. allocated(head%failure)) return
+      if (head%status%is_solved()) return
+      call file%open_group("status")
+      call file%text("status", "how the case ended", trim(head%status%word()))
+      call file%text("iteration", "what did not converge", trim(head%status%iteration_word()))
+      call file%text("reason", "which iteration, and by how much it missed; or why there is no result", head%status%reason)
+      call file%close_group()
+      if (head%status%has_result()) return
       call file%open_group("failure")
-      call file%text("reason", "why there is no result", head%failure)
+      call file%text("reason", "why there is no result", head%status%reason)
       call file%close_group()
    end subroutine begin
 

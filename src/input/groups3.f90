@@ -25,6 +25,8 @@ module contact_input_groups3
    real(wp), parameter :: unreachable_yield = 1.0e10_wp
    !> Difference parameters below this value count as zero [-]
    real(wp), parameter :: quasi_identical = 1.0e-4_wp
+   !> Below this there is no difference in the equations, see contact_elastic_material
+   real(wp), parameter :: no_difference = 1.0e-6_wp
 
 contains
 
@@ -449,8 +451,9 @@ contains
       given = "MAXOUT = " // integer_text(spec%iteration%maxout)
       if (spec%iteration%maxout >= 2) then
          if (is_dissimilar_shape .or. relaxes_apart .or. abs(ak) >= quasi_identical) return
-         call problems%add(severity%warning, given // " is replaced by 1: the bodies are quasi-identical, AK = " // &
-            & real_text(ak), place%line, place%column)
+         ! where pressures and tractions do not act on each other at all, one pass is all that can be done
+         if (abs(ak) >= no_difference) call problems%add(severity%warning, given // " is replaced by 1: the bodies are " // &
+            & "quasi-identical, AK = " // real_text(ak), place%line, place%column)
          spec%iteration%maxout = 1
       else if (abs(ak) >= quasi_identical) then
          call problems%add(severity%warning, given // " means no outer iteration, but the bodies have dissimilar " // &

@@ -9,6 +9,7 @@
 module contact_normal_conjugate_gradient
    use contact_base_constants, only : excluded_threshold
    use contact_base_kinds, only : wp
+   use contact_base_limits, only : deadline_type
    use contact_base_log, only : log_type
    use contact_base_solve_report, only : ending, solve_report
    use contact_elastic_compliance, only : compliance
@@ -36,6 +37,8 @@ module contact_normal_conjugate_gradient
       !> Tolerance on the contact conditions relative to the approach, largest number of iterations
       real(wp) :: eps = 1.0e-6_wp
       integer :: maxgs = 999
+      !> When the time is up
+      type(deadline_type) :: deadline
       !> Parts that act on each other with less than full strength; unallocated: everything acts fully
       type(contact_parts), allocatable :: parts
    end type normal_problem
@@ -317,6 +320,10 @@ contains
             exit
          end if
          if (it > problem%maxgs) exit
+         if (problem%deadline%has_passed()) then
+            report%ended = ending%out_of_time
+            exit
+         end if
          report%iterations = it
 
          level%free = (p > 0.0_wp .or. level%r > 0.0_wp) .and. problem%h < excluded_threshold
@@ -506,6 +513,7 @@ contains
       coarse%force_prescribed = fine%force_prescribed
       coarse%fn = fine%fn
       coarse%maxgs = fine%maxgs
+      coarse%deadline = fine%deadline
       do iy = 1, my
          do ix = 1, mx
             h = 0.0_wp

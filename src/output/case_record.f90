@@ -3,6 +3,7 @@
 !> Values are unfiltered, unlike those of the .out file. For a wheel on the left side of the track
 !> they are mirrored to that side here.
 module contact_output_case_record
+   use contact_base_case_status, only : case_status
    use contact_base_choices, only : motion
    use contact_base_kinds, only : wp
    use contact_base_solve_report, only : ending, solve_report
@@ -24,12 +25,10 @@ module contact_output_case_record
       integer :: number = 0, result_element = 0, contact_problem = 1, module_number = 3
       !> Line of the input at which the case begins
       integer :: line = 0
-      !> Did every iteration reach its tolerance?
-      logical :: converged = .true.
+      !> How it ended
+      type(case_status) :: status
       !> Elapsed time of the solution [s]
       real(wp) :: seconds = 0.0_wp
-      !> Why there is no result; unallocated when there is one
-      character(len=:), allocatable :: failure
    end type case_head
 
 contains
@@ -59,10 +58,18 @@ contains
       call record%count("contact_problem", "contact problem of the module line", head%contact_problem)
       call record%count("module", "1: wheel and rail, 3: one contact problem", head%module_number)
       call record%count("line", "line of the input at which the case begins", head%line)
-      call record%flag("solved", "is there a result?", .not. allocated(head%failure))
-      call record%flag("converged", "did all iterations reach their tolerance?", head%converged)
+      call record%flag("solved", "is there a result?", head%status%has_result())
+      call record%flag("converged", "did all iterations reach their tolerance, and are all prescribed forces there?", &
+         & head%status%is_solved())
+      call record%text("status", "how the case ended: solved, not converged, refused", trim(head%status%word()))
+      call record%count("status_code", "how the case ended, 0: solved, 1: not converged, 2: refused", head%status%state)
+      call record%count("missed", "what did not converge, 0: none, 1: normal, 2: tangential, 3: outer, 4: force, 5: time", &
+         & head%status%iteration)
       call record%number("seconds", "", "elapsed time of the solution", head%seconds)
-      if (allocated(head%failure)) call record%text("failure", "why there is no result", head%failure)
+      if (head%status%is_solved()) return
+      call record%text("iteration", "what did not converge", trim(head%status%iteration_word()))
+      call record%text("reason", "which iteration, and by how much it missed; or why there is no result", head%status%reason)
+      if (.not. head%status%has_result()) call record%text("failure", "why there is no result", head%status%reason)
    end subroutine describe_head
 
    !> Forces of wheel on rail that all patches make together, and the positions that were found
@@ -246,6 +253,10 @@ contains
          name = "iteration limit"
       else if (report%ended == ending%stagnated) then
          name = "stagnated"
+      else if (report%ended == ending%beyond_friction) then
+         name = "beyond friction"
+      else if (report%ended == ending%out_of_time) then
+         name = "out of time"
       else
          name = "diverged"
       end if

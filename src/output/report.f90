@@ -86,7 +86,7 @@ contains
          call write_totals(log, spec, result)
          if (spec%output_level >= 2) call write_sensitivities(log, spec, result)
          if (spec%output_level >= 2) call write_statistics(log, spec, result)
-         call write_solution_line(log, spec, result)
+         call write_solution_line(log, spec, result, result%status)
       end if
       if (spec%output_level < 3 .or. .not. allocated(result%division)) return
       call write_picture(log, result%division, spec%motion, result%chi)

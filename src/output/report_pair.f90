@@ -3,6 +3,7 @@
 !> The calculation is that of a right-hand pair; for the left side of the track the values that
 !> depend on it are mirrored here.
 module contact_output_report_pair
+   use contact_base_case_status, only : case_status
    use contact_base_choices, only : contact_location, kernel_model, material_model, motion, normal_control, pressure_model, &
       & stress_choice, variation
    use contact_base_constants, only : pi
@@ -16,7 +17,8 @@ module contact_output_report_pair
    use contact_output_formats, only : fixed, general, generals, heading, smart, smarts, whole
    use contact_grid_picture, only : write_picture
    use contact_output_report_input, only : write_friction
-   use contact_output_report_result, only : highest_temperature, shown_totals, without_noise, write_solution_line, write_statistics
+   use contact_output_report_result, only : ending_text, highest_temperature, shown_totals, without_noise, &
+      & write_solution_line, write_statistics
    use contact_output_report_subsurface, only : write_subsurface
    use contact_patch_result, only : patch_result
    use contact_wheelrail_result, only : in_element_coordinates, pair_patch, pair_result
@@ -47,9 +49,10 @@ contains
             call log%line(" ------------ NO CONTACT FOUND FOR THIS WHEEL / WHEEL-SET ------------")
          end if
          call write_total_forces(log, spec, result)
+         if (patches == 0 .and. .not. result%status%is_solved()) call log%result(ending_text(result%status))
       end if
       do k = 1, patches
-         call write_patch(log, spec, result%patches(k), k)
+         call write_patch(log, spec, result%patches(k), k, result%status)
       end do
       if (spec%output_level >= 4) call write_profiles(log, spec, result)
    end subroutine write_pair
@@ -383,11 +386,13 @@ contains
    end subroutine write_total_forces
 
    !> One contact patch
-   subroutine write_patch(log, spec, patch, number)
+   subroutine write_patch(log, spec, patch, number, status)
       type(log_type), intent(inout) :: log
       type(case_spec), intent(in) :: spec
       type(pair_patch), intent(in) :: patch
       integer, intent(in) :: number
+      !> How the case ended
+      type(case_status), intent(in) :: status
       character(len=:), allocatable :: origin
       real(wp) :: s
       integer :: k
@@ -418,7 +423,7 @@ contains
          end if
          call write_patch_totals(log, spec, patch, s)
          if (spec%output_level >= 2) call write_statistics(log, spec, patch%contact)
-         call write_solution_line(log, spec, patch%contact)
+         call write_solution_line(log, spec, patch%contact, status)
          if (spec%output_level >= 3) then
             call write_picture(log, patch%contact%division, spec%motion, patch%contact%chi)
             if (allocated(patch%curve)) call write_curve(log, patch, s)

@@ -1,9 +1,10 @@
 !> Results of a case in the .out file: totals, sensitivities, statistics, how it was solved
 module contact_output_report_result
+   use contact_base_case_status, only : case_status
    use contact_base_choices, only : force_control, motion, pressure_model, variation
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
-   use contact_base_solve_report, only : ending, solve_report
+   use contact_base_solve_report, only : solve_report
    use contact_cases_spec, only : case_spec
    use contact_grid_element_division, only : element
    use contact_output_formats, only : scientific, smart, smarts, whole
@@ -11,7 +12,7 @@ module contact_output_report_result
    implicit none (type, external)
    private
 
-   public :: highest_temperature, shown_totals, without_noise
+   public :: ending_text, highest_temperature, shown_totals, without_noise
    public :: write_sensitivities, write_solution_line, write_statistics, write_totals
 
    !> Totals as they are printed: what is below the solver tolerance is zero
@@ -188,10 +189,12 @@ contains
    !> Which effects acted, which solvers ended the case and how well: one line of free text
    !>
    !> Begins with a blank and holds words in front of all numbers, so that readers of columns skip it.
-   subroutine write_solution_line(log, spec, result)
+   subroutine write_solution_line(log, spec, result, status)
       type(log_type), intent(inout) :: log
       type(case_spec), intent(in) :: spec
       type(patch_result), intent(in) :: result
+      !> How the case ended that the patch belongs to
+      type(case_status), intent(in) :: status
       character(len=:), allocatable :: line
       logical :: has_tangential
 
@@ -217,11 +220,18 @@ contains
       line = line // "; CONTACT AREA: " // trim(adjustl(smart(result%contact_area(), 12, 4, 4))) // " mm2"
       call add_fall_back(line, result%normal)
       if (has_tangential) call add_fall_back(line, result%tangential)
-      if (allocated(result%friction)) call add_ending(line, result%friction, "friction")
-      call add_ending(line, result%normal, "normal")
-      if (has_tangential) call add_ending(line, result%tangential, "tangential")
+      if (.not. status%is_solved()) line = line // ";" // harmless(ending_text(status))
       call log%result(line)
    end subroutine write_solution_line
+
+   !> What did not converge, for a line of the .out file
+   pure function ending_text(status) result(text)
+      !> Of a case that was not solved
+      type(case_status), intent(in) :: status
+      character(len=len(" NOT CONVERGED: ") + len(status%reason)) :: text
+
+      text = " NOT CONVERGED: " // status%reason
+   end function ending_text
 
    !> Name of the method that ended an iteration
    pure function method_name(report) result(name)
@@ -250,27 +260,6 @@ contains
       if (report%gave_up == "") return
       line = line // "; FALL-BACK: " // harmless(report%gave_up) // " to " // method_name(report)
    end subroutine add_fall_back
-
-   !> Tell how an iteration ended that did not converge
-   pure subroutine add_ending(line, report, problem)
-      character(len=:), allocatable, intent(inout) :: line
-      type(solve_report), intent(in) :: report
-      !> Name of the problem
-      character(len=*), intent(in) :: problem
-
-      if (report%succeeded()) return
-      line = line // "; NOT CONVERGED: " // problem // " problem, "
-      if (report%ended == ending%iteration_limit) then
-         line = line // "all allowed iterations used"
-      else if (report%ended == ending%stagnated) then
-         line = line // "residual no longer decreasing"
-      else if (report%ended == ending%diverged) then
-         line = line // "iterates growing"
-      else
-         line = line // "reason unknown"
-      end if
-      line = line // ", tolerance " // trim(residual_text(report%tolerance))
-   end subroutine add_ending
 
    !> Text without the word by which readers count cases
    pure function harmless(text) result(safe)

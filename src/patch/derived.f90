@@ -38,8 +38,6 @@ contains
       result%cksi = problem%creep(1)
       result%ceta = problem%creep(2)
       result%cphi = problem%spin
-      result%fx_rel = problem%force(1)
-      result%fy_rel = problem%force(2)
       result%flx = 0.0_wp
       result%k_eff = 0.0_wp
       result%sensitivity = 0.0_wp
@@ -104,16 +102,16 @@ contains
       result%ncon = count(result%division > element%exterior)
       result%nadh = count(result%division == element%adhesion)
       result%nslip = count(result%division == element%slip)
+      result%fx = area*sum(result%px)
+      result%fy = area*sum(result%py)
       scale = result%mu_scal*result%fn + tiny(scale)
       if (problem%motion == motion%none) then
          result%fx_rel = 0.0_wp
          result%fy_rel = 0.0_wp
       else
-         if (problem%n_forces < 1) result%fx_rel = area*sum(result%px)/scale
-         if (problem%n_forces < 2) result%fy_rel = area*sum(result%py)/scale
+         result%fx_rel = result%fx/scale
+         result%fy_rel = result%fy/scale
       end if
-      result%fx = result%fx_rel*scale
-      result%fy = result%fy_rel*scale
       result%mx = 0.0_wp
       result%my = 0.0_wp
       result%mz = 0.0_wp

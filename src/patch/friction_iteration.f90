@@ -26,8 +26,8 @@ module contact_patch_friction_iteration
    type :: friction_iteration
       !> Member of ending; not_started while the iteration goes on
       integer :: ended = 0
-      !> Solutions handed over so far
-      integer :: passes = 0
+      !> Solutions handed over so far, and how many of them in a row had not converged
+      integer :: passes = 0, failures = 0
       !> Last change of slip velocity [mm/s] or temperature [degC], and its size; root mean squares
       real(wp) :: change = 0.0_wp, size = 0.0_wp
       !> Slip velocity of the present coefficients [mm/s], shape (mx, my)
@@ -58,6 +58,9 @@ module contact_patch_friction_iteration
    !> Passes that MAXIN allows in excess of those of the friction iteration
    integer, parameter :: spare_passes = 10
 
+   !> After that many solutions in a row that did not converge, more of them will not either
+   integer, parameter :: most_failures = 10
+
 contains
 
    !> First coefficients of a case, or those on a contact area that has changed
@@ -74,6 +77,7 @@ contains
 
       self%ended = ending%not_started
       self%passes = 0
+      self%failures = 0
       self%slipping = -1
       self%dt = dt
       self%omega = problem%slip_relaxation
@@ -91,13 +95,15 @@ contains
    end subroutine start
 
    !> Take a solution; choose the next coefficients or end
-   subroutine advance(self, problem, state, box, solution, log, mu)
+   subroutine advance(self, problem, state, box, solution, converged, log, mu)
       class(friction_iteration), intent(inout) :: self
       type(patch_problem), intent(in) :: problem
       type(patch_state), intent(in) :: state
       !> Part of the grid on which the solution is
       type(bounding_box), intent(in) :: box
       type(tangential_solution), intent(in) :: solution
+      !> Did the tangential problem reach its tolerance?
+      logical, intent(in) :: converged
       type(log_type), intent(inout) :: log
       !> Coefficients of the solution on entry, the next ones on exit [-], shape (mx, my)
       real(wp), contiguous, intent(inout) :: mu(:, :)
@@ -107,6 +113,7 @@ contains
 
       by_temperature = problem%friction%driver == friction_driver%temperature
       self%passes = self%passes + 1
+      self%failures = merge(0, self%failures + 1, converged)
       slipping = count(solution%division == element%slip)
       self%last = self%speed
       self%last_mu = mu
@@ -138,6 +145,8 @@ contains
          self%ended = ending%converged
       else if (self%passes >= max(1, problem%maxin - spare_passes)) then
          self%ended = ending%iteration_limit
+      else if (self%failures >= most_failures) then
+         self%ended = ending%stagnated
       end if
       if (by_temperature) then
          ! the tractions are those of the coefficients that they were computed with

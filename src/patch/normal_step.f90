@@ -4,7 +4,7 @@ module contact_patch_normal_step
    use contact_base_constants, only : excluded_threshold
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
-   use contact_base_solve_report, only : ending, failure_text
+   use contact_base_solve_report, only : ending
    use contact_grid_element_division, only : element
    use contact_grid_picture, only : trace_picture
    use contact_normal_approximate, only : approximate_pressure
@@ -59,6 +59,7 @@ contains
             normal%fn = problem%fn
             normal%eps = problem%eps
             normal%maxgs = problem%maxgs
+            normal%deadline = problem%deadline
             if (problem%pressure == pressure_model%full) then
                call log%trace(4, " NORM")
                call solve_normal(normal, workspace%window, workspace%normal_work, state%now%pn, result%pen, result%normal, log)
@@ -93,7 +94,6 @@ contains
             call log%trace(3, trim(line))
          end if
          call trace_picture(log, state%now%division)
-         if (.not. result%normal%succeeded()) call log%warning(trim(failure_text("normal", result%normal)))
       end if
       if (.not. problem%force_prescribed) result%fn = problem%grid%dx*problem%grid%dy*sum(state%now%pn)
       if (problem%motion == motion%none) then

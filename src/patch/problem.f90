@@ -2,6 +2,7 @@
 module contact_patch_problem
    use contact_base_choices, only : motion, pressure_model
    use contact_base_kinds, only : wp
+   use contact_base_limits, only : deadline_type
    use contact_elastic_model, only : elastic_model
    use contact_friction_law, only : friction_law
    use contact_friction_memory, only : friction_memory
@@ -75,6 +76,8 @@ module contact_patch_problem
       !> Tolerance and iteration limits
       real(wp) :: eps = 1.0e-5_wp
       integer :: maxgs = 999, maxin = 20, maxnr = 25, maxout = 1
+      !> When the time is up
+      type(deadline_type) :: deadline
       !> Relaxation from the input; only when given, otherwise chosen by the solver
       logical :: relaxation_given = .false.
       real(wp) :: omegah = 0.9_wp, omegas = 1.0_wp

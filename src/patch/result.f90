@@ -1,6 +1,7 @@
 !> What is known of one contact patch after the solution
 module contact_patch_result
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
+   use contact_base_case_status, only : case_status
    use contact_base_kinds, only : wp
    use contact_base_solve_report, only : solve_report
    use contact_grid_potential_contact, only : potential_contact
@@ -48,6 +49,8 @@ module contact_patch_result
 
    !> Totals, fields and reports of a solved patch
    type :: patch_result
+      !> How the solution ended, from the reports below and the prescribed forces
+      type(case_status) :: status
       type(potential_contact) :: grid
       !> Hertz data; unallocated for other geometries
       type(hertz_result), allocatable :: hertz

@@ -3,7 +3,7 @@ module contact_patch_simplified_step
    use contact_base_choices, only : motion
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
-   use contact_base_solve_report, only : ending, failure_text
+   use contact_base_solve_report, only : ending
    use contact_grid_element_division, only : bounding_box, contact_box, element
    use contact_patch_kinematics, only : rigid_slip
    use contact_patch_problem, only : patch_problem, patch_state, rolling_direction, traction_fields
@@ -49,21 +49,9 @@ contains
          end do
          result%flx = solution%flx
          result%k_eff = solution%slope
-         if (problem%n_forces >= 1) then
-            result%cksi = solution%creep(1)
-            result%fx_rel = solution%force(1)
-         end if
-         if (problem%n_forces >= 2) then
-            result%ceta = solution%creep(2)
-            result%fy_rel = solution%force(2)
-         end if
+         if (problem%n_forces >= 1) result%cksi = solution%creep(1)
+         if (problem%n_forces >= 2) result%ceta = solution%creep(2)
          call rigid_slip(problem, result, spin_weight=solution%flx(1:2)/solution%flx(3))
-         if (report%succeeded()) return
-         if (solution%sliding) then
-            call log%warning("the prescribed tangential force is not reached: all elements slide")
-         else
-            call log%warning(trim(failure_text("tangential", report)))
-         end if
       end associate
    end subroutine simplified_step
 

@@ -10,6 +10,7 @@ module contact_patch_solve
    use contact_base_error, only : error_kind, error_type, fatal_error
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
+   use contact_base_solve_report, only : ending, solve_report
    use contact_patch_damping, only : damping_forces
    use contact_patch_derived, only : derive, remember_friction, reset_result
    use contact_patch_heat, only : derive_temperatures
@@ -19,6 +20,7 @@ module contact_patch_solve
    use contact_patch_result, only : patch_result
    use contact_patch_sensitivities, only : find_sensitivities
    use contact_patch_simplified_step, only : simplified_step
+   use contact_patch_status, only : derive_status
    use contact_patch_tangential_step, only : tangential_step
    use contact_patch_workspace, only : fit_workspace, patch_workspace
    implicit none (type, external)
@@ -40,8 +42,9 @@ contains
       type(log_type), intent(inout) :: log
       type(patch_result), intent(inout) :: result
       type(error_type), allocatable, intent(out) :: error
+      !> Iteration between pressures and tractions
+      type(solve_report) :: turns
       integer :: outer
-      logical :: ended
 
       call check_problem(problem, error)
       if (allocated(error)) return
@@ -67,11 +70,21 @@ contains
          call tangential_step(problem, state, workspace, log, result)
          if (problem%maxout <= 1 .or. result%ncon == 0 .or. .not. problem%couples()) exit
          if (.not. (result%normal%succeeded() .and. result%tangential%succeeded())) exit
-         call next_pass(problem, state, workspace, log, result, ended)
-         if (ended) exit
-         if (outer == problem%maxout) call log%warning("the outer iteration did not reach its tolerance in MAXOUT passes")
+         if (problem%deadline%has_passed()) then
+            turns%ended = ending%out_of_time
+            exit
+         end if
+         call next_pass(problem, state, workspace, log, result, turns)
+         if (turns%ended /= ending%not_started) exit
+         if (outer == problem%maxout) turns%ended = ending%iteration_limit
       end do
+      if (any([result%normal%ended, result%tangential%ended, turns%ended] == ending%out_of_time)) then
+         call problem%deadline%watch("in the solution of a contact patch", error)
+         return
+      end if
       call derive(problem, state, workspace, result)
+      call derive_status(problem, turns, result)
+      if (.not. result%status%is_solved()) call log%warning(result%status%reason)
       call remember_forces(problem, state, result)
       call find_sensitivities(problem, workspace, result, log)
       call remember_friction(problem, result, state)
@@ -80,13 +93,14 @@ contains
    end subroutine solve_patch
 
    !> Judge a pass; choose what the pressures of the next one belong to
-   subroutine next_pass(problem, state, workspace, log, result, ended)
+   subroutine next_pass(problem, state, workspace, log, result, turns)
       type(patch_problem), intent(in) :: problem
       type(patch_state), intent(in) :: state
       type(patch_workspace), intent(inout) :: workspace
       type(log_type), intent(inout) :: log
       type(patch_result), intent(in) :: result
-      logical, intent(out) :: ended
+      !> Ended when the change is within the tolerance
+      type(solve_report), intent(inout) :: turns
       real(wp) :: change, scale
       integer :: level
       character(len=96) :: line
@@ -100,8 +114,14 @@ contains
             & problem%eps*scale
          call log%trace(level, trim(line))
       end if
-      ended = change <= problem%eps*scale
-      if (ended) return
+      turns%method = "outer iteration"
+      turns%iterations = result%outer_iterations
+      turns%residual = change/scale
+      turns%tolerance = problem%eps
+      if (change <= problem%eps*scale) then
+         turns%ended = ending%converged
+         return
+      end if
       if (result%outer_iterations == 1) call workspace%outer%start(size(workspace%un), outer_depth)
       call workspace%outer%advance(workspace%un, workspace%lift)
    end subroutine next_pass

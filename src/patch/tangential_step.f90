@@ -3,7 +3,7 @@ module contact_patch_tangential_step
    use contact_base_choices, only : motion, solver_choice
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
-   use contact_base_solve_report, only : ending, failure_text, solve_report
+   use contact_base_solve_report, only : ending, solve_report
    use contact_elastic_coefficients, only : fill_shifted_coefficients
    use contact_friction_law, only : friction_driver
    use contact_grid_element_division, only : bounding_box, contact_box, element
@@ -14,6 +14,7 @@ module contact_patch_tangential_step
    use contact_patch_workspace, only : patch_workspace, prepare_box
    use contact_patch_yield, only : carry_yield, set_yield
    use contact_tangential_classical, only : classical_method, solve_classical
+   use contact_tangential_full_sliding, only : is_beyond_friction, slide_fully
    use contact_tangential_nested, only : solve_newton_krylov
    use contact_tangential_problem, only : prepare_solution, tangential_problem, tangential_solution
    implicit none (type, external)
@@ -63,7 +64,6 @@ contains
          if (log%shows(3)) call trace_division(log, solution, result%tangential)
       end associate
       if (problem%remembers_yield) call carry_yield(problem, box, workspace%solution, state)
-      if (.not. result%tangential%succeeded()) call log%warning(trim(failure_text("tangential", result%tangential)))
    end subroutine tangential_step
 
    !> Do coefficients of friction depend on the solution?
@@ -87,13 +87,13 @@ contains
          call choose_and_solve(problem, workspace, log, result%tangential)
          result%tangential%passes = result%tangential%passes + 1
          if (log%shows(9)) call show_division(state, box, workspace%solution, log)
-         call workspace%friction%advance(problem, state, box, workspace%solution, log, result%mu)
+         if (result%tangential%ended == ending%out_of_time) return
+         call workspace%friction%advance(problem, state, box, workspace%solution, result%tangential%succeeded(), log, result%mu)
          if (workspace%friction%ended /= ending%not_started) exit
          call set_bound(state, box, result%mu, workspace%tangential, workspace%solution)
       end do
       if (.not. allocated(result%friction)) allocate(result%friction)
       call workspace%friction%report(problem, result%friction)
-      if (.not. result%friction%succeeded()) call log%warning(trim(failure_text("friction", result%friction)))
    end subroutine solve_with_friction
 
    !> New traction bounds; tractions on the old bound move to the new one, so that little is left to do
@@ -160,6 +160,7 @@ contains
          t%maxgs = problem%maxgs
          t%maxin = problem%maxin
          t%maxnr = problem%maxnr
+         t%deadline = problem%deadline
          call set_relaxation(problem, result%ncon, t)
          t%fdecay = problem%fdecay
          t%betath = problem%betath
@@ -267,6 +268,10 @@ contains
       method = classical_method%tang_cg
       if (problem%motion == motion%steady_rolling) method = classical_method%steady_gs
       choice = problem%solver
+      if (is_beyond_friction(workspace%tangential) .and. .not. problem%general_step) then
+         call slide_fully(workspace%tangential, workspace%box, workspace%solution, report)
+         return
+      end if
       if (problem%general_step) then
          call solve_classical(workspace%tangential, workspace%box, classical_method%convex_gs, workspace%solution, report, log, &
             & workspace%shifted)
@@ -290,6 +295,7 @@ contains
          if (problem%motion == motion%steady_rolling) method = classical_method%gd_steady
       case default
          call solve_newton_krylov(workspace%tangential, workspace%box, workspace%tangential_work, workspace%solution, report, log)
+         if (report%ended == ending%out_of_time) return
          if (report%succeeded() .or. (problem%motion == motion%steady_rolling .and. .not. workspace%box%has_table())) return
          call log%warning("Newton-Krylov made no further progress; a classical method takes over")
          call solve_classical(workspace%tangential, workspace%box, method, workspace%solution, report, log)

@@ -40,9 +40,9 @@ contains
          call clean_profile(request, curve, unheard, error)
          return
       end if
-      before = log%warnings
+      before = log%heard
       call clean_profile(request, curve, log, error)
-      if (request%doubt == doubt%refuse .and. log%warnings > before .and. .not. allocated(error)) then
+      if (request%doubt == doubt%refuse .and. log%heard > before .and. .not. allocated(error)) then
          call take_name(request, name)
          call fatal_error(error, "ERRHND = 1 refuses a profile with warnings", file=name)
       end if

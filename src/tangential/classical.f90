@@ -131,7 +131,7 @@ contains
          do
             solution%creep = creep
             call solve_once()
-            if (sum_g <= 0.0_wp .or. report%ended == ending%diverged) exit
+            if (sum_g <= 0.0_wp .or. report%ended == ending%diverged .or. report%ended == ending%out_of_time) exit
             force = [sum(solution%p(:, :, 1)), sum(solution%p(:, :, 2))]/sum_g
             call forces%advance(force, any(solution%division == element%adhesion &
                & .or. solution%division == element%plastic), creep)

@@ -52,7 +52,8 @@ contains
       end if
       skew = any(kxy /= 0.0_wp)
       own = rows%own_compliance()
-      watch = update_watch(eps=eps, n_contact=rows%n_contact, largest_bound=maxval(rows%bound))
+      watch = update_watch(eps=eps, n_contact=rows%n_contact, largest_bound=maxval(rows%bound), &
+         & deadline=problem%deadline)
       before = rows%p
       do sweep = 1, problem%maxgs
          before = rows%p

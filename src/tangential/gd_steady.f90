@@ -65,7 +65,8 @@ contains
       allocate(slip, r, v, q, before, best, mold=p)
       allocate(weight(problem%mx, problem%my))
       own = operator%diagonal(2:3) - [operator%table%xx(1, 0), operator%table%yy(1, 0)]
-      watch = update_watch(eps=eps, n_contact=count(problem%contact), largest_bound=maxval(problem%bound))
+      watch = update_watch(eps=eps, n_contact=count(problem%contact), largest_bound=maxval(problem%bound), &
+         & deadline=problem%deadline)
       call slip_of(problem, operator, p, creep, slip)
       usual = 0.0_wp
       held = 0

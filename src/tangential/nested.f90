@@ -187,6 +187,7 @@ contains
       step = merge(real(fx, wp), 1.0_wp, fine%steady)
       coarse%dq = step*fine%dq
       coarse%n_forces = fine%n_forces
+      coarse%deadline = fine%deadline
       do iy = 1, my
          do ix = 1, mx
             g = 0.0_wp

@@ -137,6 +137,10 @@ contains
             exit
          end if
          if (step == max_steps) exit
+         if (problem%deadline%has_passed()) then
+            outcome%ended = ending%out_of_time
+            exit
+         end if
 
          call linearise(problem, system, solution, workspace)
          do k = 1, problem%n_forces

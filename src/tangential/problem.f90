@@ -11,6 +11,7 @@
 !> is settled, and the return map replaces the projection.
 module contact_tangential_problem
    use contact_base_kinds, only : wp
+   use contact_base_limits, only : deadline_type
    use contact_elastic_compliance, only : compliance
    use contact_grid_element_division, only : element
    use contact_tangential_yield, only : return_map, yield_data, yield_point
@@ -48,6 +49,8 @@ module contact_tangential_problem
       !> Relative tolerance and iteration limits
       real(wp) :: eps = 1.0e-6_wp
       integer :: maxgs = 999, maxin = 20, maxnr = 25
+      !> When the time is up
+      type(deadline_type) :: deadline
       !> Relaxation of the Gauss-Seidel methods
       real(wp) :: omegah = 0.9_wp, omegas = 1.0_wp
       !> Parameters of GDsteady

@@ -35,7 +35,8 @@ contains
       integer :: iy, sweep
       real(wp) :: slip(rows%mx, 2)
 
-      watch = update_watch(eps=eps, n_contact=rows%n_contact, largest_bound=maxval(rows%bound))
+      watch = update_watch(eps=eps, n_contact=rows%n_contact, largest_bound=maxval(rows%bound), &
+         & deadline=problem%deadline)
       before = rows%p
       do sweep = 1, problem%maxgs
          before = rows%p

@@ -2,6 +2,7 @@
 module contact_tangential_sweep
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
    use contact_base_kinds, only : wp
+   use contact_base_limits, only : deadline_type
    use contact_base_log, only : log_type
    use contact_base_solve_report, only : ending
    use contact_grid_element_division, only : element
@@ -19,6 +20,8 @@ module contact_tangential_sweep
       real(wp) :: largest_bound = 0.0_wp
       !> First and last size of an update, size of the tractions [N/mm2], root mean squares
       real(wp) :: first = 0.0_wp, dif = 0.0_wp, size = 0.0_wp
+      !> When the time is up
+      type(deadline_type) :: deadline
       !> Number of updates so far
       integer :: updates = 0
    contains
@@ -51,6 +54,8 @@ contains
          ended = ending%iteration_limit
          if (self%rate() > 0.997_wp) ended = ending%stagnated
          if (self%rate() > 1.0_wp) ended = ending%diverged
+      else if (self%deadline%has_passed()) then
+         ended = ending%out_of_time
       else
          ended = ending%not_started
       end if

@@ -53,7 +53,8 @@ contains
       allocate(slip, r, z, v, q, before, at_check, mold=p)
       allocate(sigma(problem%mx, problem%my))
       n_contact = count(problem%contact)
-      watch = update_watch(eps=eps, n_contact=n_contact, largest_bound=maxval(problem%bound))
+      watch = update_watch(eps=eps, n_contact=n_contact, largest_bound=maxval(problem%bound), &
+         & deadline=problem%deadline)
       precondition = .true.
       restart = .true.
       v = 0.0_wp

@@ -30,7 +30,6 @@ contains
       type(root_search) :: search
       type(log_type) :: silent
       real(wp) :: first, step, tolerance, residual
-      character(len=12) :: missed
 
       first = memory%here%deflection
       associate (rail => problem%spec%rail)
@@ -56,24 +55,24 @@ contains
          if (allocated(error)) return
          residual = unbalanced()
          if (abs(residual) <= max(tolerance, small_step*norm2(total_force(memory)))) return
-         result%solved = .false.
-         write(missed, '(ES10.2)') residual
-         if (search%bracketed) then
-            call log%warning("the lateral force on the rail misses that of its spring by " // trim(adjustl(missed)) // &
-               & " N: it jumps where contact patches appear, join or separate")
-         else
-            call log%warning("the lateral force on the rail misses that of its spring by " // trim(adjustl(missed)) // &
-               & " N: no deflection balances them")
-         end if
+         call result%status%miss_force("lateral force of the rail's spring", spring_force(), spring_force() + residual, &
+            & trim(merge("it jumps where contact patches appear, join or separate", &
+            &            "no deflection balances them                            ", search%bracketed)))
+         call log%warning(result%status%reason)
       end associate
 
    contains
+
+      !> Lateral force that the spring and the static force take [N], right-hand pair
+      real(wp) function spring_force()
+         spring_force = problem%spec%rail%ky*memory%here%deflection - side_sign(problem%spec)*problem%spec%rail%fy
+      end function spring_force
 
       !> Lateral force that neither the spring nor the static force takes [N], right-hand pair
       real(wp) function unbalanced()
          real(wp) :: force(3)
          force = total_force(memory)
-         unbalanced = force(2) + side_sign(problem%spec)*problem%spec%rail%fy - problem%spec%rail%ky*memory%here%deflection
+         unbalanced = force(2) - spring_force()
       end function unbalanced
    end subroutine search_deflection
 

@@ -50,6 +50,8 @@ contains
             if (.not. problem%geometry_only) then
                call find_border(memory%slot(k)%problem, result%patches(k)%contact)
                call mark_profile_ends(problem, memory%here, memory%slot(k), result%patches(k)%contact%border)
+               call result%status%include(memory%slot(k)%result%status, "contact patch " // achar(iachar("0") + mod(k, 10)) &
+                  & // ": ")
             end if
             if (allocated(result%patches(k)%curve)) deallocate(result%patches(k)%curve)
             if (problem%spec%search%location == contact_location%conformal) then

@@ -5,6 +5,7 @@
 !> normal ones; the tangential problem comes last and corrects that ratio. References and grids belong to the
 !> height of each trial.
 module contact_wheelrail_height
+   use contact_base_case_status, only : case_status
    use contact_base_choices, only : force_control, motion
    use contact_base_error, only : error_type, fatal_error
    use contact_base_kinds, only : wp
@@ -48,7 +49,7 @@ contains
       character(len=12) :: wanted, touching
       logical :: height_is_unknown
 
-      result%solved = .false.
+      result%status = case_status()
       height_is_unknown = problem%force_prescribed .or. problem%force == force_control%massless_rail
       z = problem%spec%wheelset%z
       if (height_is_unknown) then
@@ -65,13 +66,14 @@ contains
             return
          end if
          call evaluate(problem, memory, z, with_friction=.true., log=log, error=error)
-         result%solved = .not. allocated(error)
          return
       end if
       if (memory%here%touch - z > out_of_sight) then
          memory%used = 0
          z = memory%here%touch
-         call log%warning("wheel and rail do not meet: their lateral positions are apart")
+         call result%status%miss_force("vertical force", problem%spec%wheelset%fz, 0.0_wp, &
+            & "wheel and rail do not meet: their lateral positions are apart")
+         call log%warning(result%status%reason)
          return
       end if
       associate (touch => memory%here%touch, rail => problem%spec%rail)
@@ -87,7 +89,6 @@ contains
             call balance_forces(problem, memory, target, spring, z, log, result, error)
          else
             memory%used = 0
-            result%solved = .true.
             z = touch
             if (.not. problem%force_prescribed) z = problem%spec%wheelset%z - rail%fz/rail%kz
          end if
@@ -121,7 +122,6 @@ contains
          ! there are no forces to tell a better height
          z = guess
          call evaluate(problem, memory, z, with_friction=.false., log=log, error=error)
-         result%solved = .not. allocated(error)
          return
       end if
       do round = 1, most_rounds
@@ -164,8 +164,10 @@ contains
       memory%here%penetration = z - touch
       result%force_error = vertical_force(memory) + spring*(z - touch) - target
       ! grids follow the contact in whole elements, which leaves small steps in the force
-      result%solved = abs(result%force_error) <= max(balance%tolerance, small_step*target)
-      if (.not. result%solved) call complain(balance, target, result%force_error, log)
+      if (abs(result%force_error) > max(balance%tolerance, small_step*target)) then
+         call result%status%miss_force("vertical force", target, target + result%force_error, trim(reason_of(balance)))
+         call log%warning(result%status%reason)
+      end if
 
    contains
 
@@ -192,16 +194,11 @@ contains
       call log%trace(1, trim(line))
    end subroutine trace_trial
 
-   !> Say why the force was not reached
-   subroutine complain(balance, target, force_error, log)
+   !> Why the force was not reached, with blanks behind
+   pure function reason_of(balance) result(why)
       type(force_balance), intent(in) :: balance
-      real(wp), intent(in) :: target, force_error
-      type(log_type), intent(inout) :: log
-      character(len=12) :: wanted, missed
-      character(len=:), allocatable :: why
+      character(len=64) :: why
 
-      write(wanted, '(ES10.3)') target
-      write(missed, '(ES10.2)') force_error
       select case (balance%ended)
       case (balance_ending%jump)
          why = "the force jumps over it where contact patches join or separate"
@@ -212,9 +209,7 @@ contains
       case default
          why = "the lateral forces do not settle"
       end select
-      call log%warning("the vertical force " // trim(adjustl(wanted)) // " N is missed by " // trim(adjustl(missed)) // &
-         & " N: " // why)
-   end subroutine complain
+   end function reason_of
 
    !> Penetration by Hertz's theory for the place of first touch [mm]
    real(wp) function penetration_guess(problem, memory, force) result(pen)

@@ -1,5 +1,6 @@
 !> One wheel on one rail: contact patches, their solutions, total forces
 module contact_wheelrail_pair
+   use contact_base_case_status, only : case_status
    use contact_base_choices, only : force_control, motion, time_link
    use contact_base_error, only : error_type
    use contact_base_kinds, only : wp
@@ -36,7 +37,7 @@ contains
          memory%here%shares = 0
       end if
       call begin_step(problem, memory, log)
-      result%solved = .false.
+      result%status = case_status()
       result%force_evaluations = 0
       memory%here%penetration = 0.0_wp
       if (.not. (memory%started .and. problem%use_previous)) then

@@ -2,8 +2,10 @@
 module contact_wheelrail_patch_inputs
    use contact_base_choices, only : contact_location, friction_model, motion, variation
    use contact_base_constants, only : excluded_distance
-   use contact_base_error, only : error_type
-   use contact_base_kinds, only : wp
+   use contact_base_error, only : error_kind, error_type, fatal_error
+   use contact_base_kinds, only : long, wp
+   use contact_base_memory, only : bytes_per_element
+   use contact_grid_potential_contact, only : potential_contact
    use contact_friction_new_law, only : new_friction_law
    use contact_profile_curve, only : profile_curve
    use contact_wheelrail_carry_over, only : place_on_lattice
@@ -60,6 +62,8 @@ contains
       else
          slot%window = place_on_lattice(slot%problem%grid, [0.0_wp, 0.0_wp])
       end if
+      call check_size(problem, slot%problem%grid, error)
+      if (allocated(error)) return
       if (follows_surface(problem)) then
          call follow_surface(problem, here, rail, slot, h, approach)
       else
@@ -75,6 +79,26 @@ contains
       if (allocated(error)) return
       call set_motion(problem, here, slot, approach)
    end subroutine set_up_patch
+
+   !> Refuse a grid beyond the limits of the case, and one that makes a transient case hopeless
+   !>
+   !> The elements of transient cases stand on the rail and are not made larger where NPOT_MAX is exceeded.
+   subroutine check_size(problem, grid, error)
+      type(pair_problem), intent(in) :: problem
+      type(potential_contact), intent(in) :: grid
+      type(error_type), allocatable, intent(out) :: error
+      !> Times NPOT_MAX
+      integer(long), parameter :: hopeless = 10_long
+      character(len=200) :: text
+      integer(long) :: number
+
+      number = int(grid%mx, long)*int(grid%my, long)
+      call problem%limits%check(number, bytes_per_element, "elements", error)
+      if (allocated(error) .or. number <= hopeless*problem%most_elements) return
+      write(text, '(A, I0, A, I0, A)') "a contact patch needs ", number, " elements, more than ten times NPOT_MAX = ", &
+         & problem%most_elements, "; larger elements DX and DS, a larger NPOT_MAX, or stiffer bodies"
+      call fatal_error(error, trim(text), error_kind%input)
+   end subroutine check_size
 
    !> Undeformed distance of a flat patch, on a grid that holds all of the overlap
    !>

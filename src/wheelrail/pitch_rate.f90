@@ -32,7 +32,6 @@ contains
       type(root_search) :: search
       type(log_type) :: silent
       real(wp) :: slope, tolerance, residual, moving
-      character(len=12) :: wanted, missed
 
       call settle(problem, memory, z, silent, result, error)
       if (allocated(error)) return
@@ -57,20 +56,22 @@ contains
       if (allocated(error)) return
       residual = missing()
       if (abs(residual) <= max(tolerance, small_step*norm2(total_force(memory)))) return
-      result%solved = .false.
-      write(wanted, '(ES10.3)') problem%spec%wheelset%fx
-      write(missed, '(ES10.2)') -residual
-      if (memory%used == 0) then
-         call log%warning("the longitudinal force " // trim(adjustl(wanted)) // " N needs contact, and there is none")
-      else if (search%bracketed) then
-         call log%warning("the longitudinal force " // trim(adjustl(wanted)) // " N is missed by " // trim(adjustl(missed)) // &
-            & " N: the force jumps over it")
-      else
-         call log%warning("the longitudinal force " // trim(adjustl(wanted)) // " N is missed by " // trim(adjustl(missed)) // &
-            & " N: the whole contact slides, friction cannot do more")
-      end if
+      call result%status%miss_force("longitudinal force", problem%spec%wheelset%fx, problem%spec%wheelset%fx - residual, &
+         & trim(reason()))
+      call log%warning(result%status%reason)
 
    contains
+
+      !> Why the force is not there, with blanks behind
+      character(len=56) function reason()
+         if (memory%used == 0) then
+            reason = "it needs contact, and there is none"
+         else if (search%bracketed) then
+            reason = "the force jumps over it"
+         else
+            reason = "the whole contact slides, friction cannot do more"
+         end if
+      end function reason
 
       !> Longitudinal force in wheelset axes that is missing [N]
       real(wp) function missing()

@@ -2,6 +2,7 @@
 module contact_wheelrail_problem
    use contact_base_choices, only : contact_location, force_control, friction_model, motion, time_link, variation
    use contact_base_kinds, only : wp
+   use contact_base_limits, only : case_limits
    use contact_friction_law, only : friction_parameters
    use contact_patch_problem, only : patch_problem
    use contact_profile_curve, only : profile_curve
@@ -37,6 +38,8 @@ module contact_wheelrail_problem
       integer :: force = force_control%creepages
       !> Only search for contact?
       logical :: geometry_only = .false.
+      !> What the case may take; the deadline stands in the template, too
+      type(case_limits) :: limits
       !> Start from the previous case?
       logical :: use_previous = .false.
       !> How the case continues the previous one, member of time_link

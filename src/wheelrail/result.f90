@@ -4,6 +4,7 @@
 !> image, and output mirrors it back. Track coordinates: x along the track, y to the right, z down.
 module contact_wheelrail_result
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
+   use contact_base_case_status, only : case_status
    use contact_base_kinds, only : wp
    use contact_friction_law, only : friction_parameters
    use contact_patch_result, only : patch_result
@@ -51,8 +52,8 @@ module contact_wheelrail_result
 
    !> The pair
    type :: pair_result
-      !> Is there a solution? False when positions or forces cannot be reached
-      logical :: solved = .false.
+      !> How the case ended: its patches, and the searches for prescribed forces
+      type(case_status) :: status
       !> Combined modulus [N/mm2], Poisson ratio [-], difference parameter [-]
       real(wp) :: gg = 1.0_wp, nu = 0.0_wp, ak = 0.0_wp
       !> Height of the wheelset [mm] and pitch rate [rad/s], prescribed or found

@@ -31,6 +31,8 @@ contains
       character(len=15) :: name
       integer :: k, n
 
+      call problem%limits%deadline%watch("in the search for contact", error)
+      if (allocated(error)) return
       ! a gap that was measured for less penetration is measured again, with some more to spare for the next trials
       if (z - memory%here%touch > memory%here%gap%depth) &
          & call measure(problem, memory%here, memory%here%gap_height, 1.5_wp*(z - memory%here%touch))

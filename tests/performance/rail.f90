@@ -250,7 +250,7 @@ contains
 
       call solve_pair_case(session, spec, "", log, result, error)
       if (allocated(error)) error stop full_text(error)
-      if (.not. result%solved) error stop "the vertical force is not reached"
+      if (.not. result%status%is_solved()) error stop "the vertical force is not reached"
    end subroutine solve
 
    !> A session as on the first day

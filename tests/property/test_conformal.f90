@@ -496,7 +496,7 @@ contains
          end if
          call solve(suite, problem, result, "prescribed force")
          force = result%force_track(3)
-         call suite%check(result%solved, "the force is reached")
+         call suite%check(result%status%is_solved(), "the force is reached")
          call suite%close_to(force, 2500.0_wp, 0.3_wp, "prescribed force")
       end do
 

@@ -52,7 +52,7 @@ contains
          if (.not. pair%result%patches(k)%contact%normal%succeeded()) failures = failures + 1
       end do
       call suite%check(failures > 0 .and. pair%result%force_evaluations > 1, "pressures are unfinished in several trials")
-      if (.not. pair%result%solved) failures = failures + 1
+      if (.not. pair%result%status%is_solved()) failures = failures + 1
       call suite%equal(pair%log%warnings, failures, "warnings of the last height only")
       call pair%release()
       call strict%release()
@@ -185,7 +185,7 @@ contains
       pair%spec%wheel_rail%search%dx = 1.0_wp
       pair%spec%wheel_rail%search%ds = 1.0_wp
       call pair%try(error)
-      call suite%check(.not. allocated(error) .and. .not. pair%result%solved .and. pair%log%warnings > 0, &
+      call suite%check(.not. allocated(error) .and. .not. pair%result%status%is_solved() .and. pair%log%warnings > 0, &
          & "a lateral force out of reach ends with a warning")
       call pair%release()
    end subroutine rail_out_of_reach
@@ -230,7 +230,7 @@ contains
          pair%spec%force = force_control%longitudinal_force
          pair%spec%wheel_rail%wheelset%fx = fx(k)
          call pair%try(error)
-         call suite%check(.not. allocated(error) .and. .not. pair%result%solved .and. pair%log%warnings == k, &
+         call suite%check(.not. allocated(error) .and. .not. pair%result%status%is_solved() .and. pair%log%warnings == k, &
             & "a longitudinal force out of reach ends with a warning")
          call suite%close_to(abs(pair%result%force_wheelset(1)), 0.35_wp*60000.0_wp, 200.0_wp, "with full sliding")
          call suite%check(pair%result%force_wheelset(1)*fx(k) > 0.0_wp, "in the direction of the force")
@@ -249,7 +249,7 @@ contains
       call pair%run(suite, "no load and no force")
       pair%spec%wheel_rail%wheelset%fx = 100.0_wp
       call pair%try(error)
-      call suite%check(.not. allocated(error) .and. .not. pair%result%solved .and. pair%log%warnings == 1, &
+      call suite%check(.not. allocated(error) .and. .not. pair%result%status%is_solved() .and. pair%log%warnings == 1, &
          & "a force without contact is out of reach")
       call pair%release()
    end subroutine nothing_to_pull

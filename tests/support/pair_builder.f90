@@ -45,7 +45,7 @@ contains
          call suite%check(.false., what // ": " // full_text(error))
          return
       end if
-      call suite%check(self%result%solved, what // ": the forces are reached")
+      call suite%check(self%result%status%is_solved(), what // ": the forces are reached")
       do k = 1, size(self%result%patches)
          associate (contact => self%result%patches(k)%contact)
             if (.not. (contact%normal%succeeded() .and. contact%tangential%succeeded())) &

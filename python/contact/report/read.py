@@ -189,12 +189,16 @@ def read_experiment(path: str) -> tuple[dict[str, Any], list[dict[str, str]]]:
             if ident["result_element"]:
                 label = "%d:%s" % (ident["result_element"], label)
             case = {"label": label, "number": ident["case"], "module": ident["module"], "solved": bool(head["solved"]),
-                    "converged": bool(head["converged"]), "seconds": _plain(head["seconds"]), "inputs": reader.input_of(group),
+                    "converged": bool(head["converged"]), "status": "solved", "seconds": _plain(head["seconds"]), "inputs": reader.input_of(group),
                     "totals": {name: _plain(head[name]) for name in case_rows
-                               if ident["module"] == 1 and name not in ("case", "line", "solved", "converged", "seconds")},
+                               if ident["module"] == 1 and name not in ("case", "line", "solved", "converged", "status_code", "missed", "seconds")},
                     "patches": []}
-            if "failure" in group:
-                case["failure"] = reader.values(group["failure"])["reason"]
+            if "status" in group:
+                case.update(reader.values(group["status"]))
+            elif "failure" in group:  # files of earlier versions
+                case.update(status="refused", reason=reader.values(group["failure"])["reason"])
+            elif not case["converged"]:
+                case.update(status="not converged", reason="look at the residuals before using this case")
             if "markers" in group:
                 case["markers"] = reader.values(group["markers"])
                 case["profiles"] = {body: reader.blobs.add(np.stack([item["y"][...], item["z"][...]], axis=1))

@@ -634,11 +634,11 @@ function tableOfCases() {
     (c.patches.length ? c.patches : [null]).forEach((p, patch) => {
       const row = body.insertRow();
       row.dataset.index = index; row.dataset.patch = patch;
-      cell(row, c.label + (c.solved && !c.converged ? " !" : ""));
+      cell(row, c.label + (c.status === "not converged" ? " !" : ""));
       if (many) cell(row, p ? p.number : "\u2013");
       if (p) for (const name of wanted) cell(row, figures(shown(name, p.totals)));
-      else { const td = cell(row, c.solved ? "no contact" : "no result"); td.colSpan = wanted.length; }
-      if (!c.solved || !c.converged) row.className = "bad";
+      else { const td = cell(row, !c.solved ? "no result" : c.status === "solved" ? "no contact" : "no contact, " + c.status); td.colSpan = wanted.length; }
+      if (c.status !== "solved") row.className = "bad";
       row.addEventListener("click", () => go(index, patch));
     });
   });
@@ -658,14 +658,13 @@ function valueRow(table, name, value, unit, title) {
 function tellTotals() {
   const table = byId("totals"), c = nowCase(), p = nowPatch();
   table.replaceChildren();
-  const skip = ["case", "patch", "result_element", "contact_problem", "module", "line", "solved", "converged", "seconds"];
+  const skip = ["case", "patch", "result_element", "contact_problem", "module", "line", "solved", "converged", "status_code", "missed", "seconds"];
   for (const from of [p && p.totals, c.totals]) for (const name of Object.keys(from || {}).sort((a, b) => rank(a) - rank(b)))
     if (!skip.includes(name) && !/^(normal|tangential|friction)_(iterations|residual|tolerance)$|^outer_|^coupled_/.test(name) && from[name] !== null)
       valueRow(table, name, figures(shown(name, from), 6), meta(name).unit, meta(name).title);
   const box = byId("solution"), notes = [];
   const note = (title, text, bad) => { const e = document.createElement("p"); e.className = "note" + (bad ? " bad" : ""); const b = document.createElement("b"); b.textContent = title + " "; e.append(b, text); notes.push(e); };
-  if (c.failure) note("No result:", c.failure, true);
-  if (c.solved && !c.converged) note("Not converged.", "The tolerance was not reached; look at the residual before using this case.", true);
+  if (c.status !== "solved") note(c.status[0].toUpperCase() + c.status.slice(1) + (c.solved ? ":" : ", no result:"), c.reason, true);
   if (p) {
     if (p.border) note("Contact is cut off", `at ${p.border}: pressures and forces are those of a smaller contact area.`, true);
     note("Effects:", p.effects || "none");

@@ -646,7 +646,8 @@ contains
       type(problem_list) :: problems
       type(error_type), allocatable :: error
 
-      call dubious(suite, "4=100 100 30 10 1e-5", "MAXOUT = 10 is replaced by 1")
+      call right(suite, "4=100 100 30 10 1e-5")
+      call dubious(suite, "4=100 100 30 10 1e-5|8=.3 .3001 1 1", "MAXOUT = 10 is replaced by 1")
       call read_one("4=100 100 30 10 1e-5", spec, problems, error)
       call suite%check(spec%iteration%maxout == 1, "MAXOUT becomes 1 for similar bodies")
       call dubious(suite, "8=.3 .4 1 1", "dissimilar materials, AK = 0.05;")

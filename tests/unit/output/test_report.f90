@@ -1,5 +1,6 @@
 !> The .out file as public scripts read it: search for texts, skip lines, split on blanks
 program test_report
+   use contact_base_case_status, only : missed_iteration
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
    use contact_base_solve_report, only : ending
@@ -198,6 +199,7 @@ contains
       result%tangential%gave_up = "third method"
       result%tangential%ended = ending%stagnated
       result%tangential%tolerance = 1.0e-6_wp
+      call result%status%judge(missed_iteration%tangential, "tangential problem", result%tangential)
       call write_file(spec, result, 1, lines)
       at = find_line(lines, " EFFECTS: ", 1)
       call suite%check(index(lines(at)%text, " EFFECTS: thin sheet in case of need;") == 1, "effects, harmless for counters")

@@ -457,6 +457,7 @@ contains
       do k = 1, size(choices)
          request%doubt = choices(k)
          log%warnings = 0
+         call log%begin_case()
          call read_profile(request, curve, log, error)
          call suite%equal(log%warnings, warnings(k), "warnings about a zig-zag")
          call suite%check(allocated(error) .eqv. choices(k) == doubt%refuse, "refused only when asked for")

@@ -1,0 +1,94 @@
+!> What a case may take: time, memory, elements; and the clock
+!>
+!> Without limits nothing is asked: the clock is read only where there is a deadline.
+module contact_base_limits
+   use contact_base_error, only : error_kind, error_type, fatal_error
+   use contact_base_kinds, only : long, wp
+   implicit none (type, external)
+   private
+
+   public :: case_limits, deadline_type, wall_clock
+
+   !> When the time of a case is up
+   type :: deadline_type
+      !> Time allowed [s], huge for any
+      real(wp) :: seconds = huge(1.0_wp)
+      !> Moment by wall_clock [s], huge for never
+      real(wp), private :: at = huge(1.0_wp)
+   contains
+      !> The time begins to run
+      procedure :: start
+      !> Is the time up?
+      procedure :: has_passed
+      !> An error when the time is up
+      procedure :: watch
+   end type deadline_type
+
+   !> The limits of a case
+   type :: case_limits
+      type(deadline_type) :: deadline
+      !> Memory, by the estimate of contact_base_memory [bytes]
+      integer(long) :: bytes = huge(1_long)
+      !> Elements of the potential contact area, of each patch in wheel-rail contact
+      integer(long) :: elements = huge(1_long)
+   contains
+      !> Refuse more elements or more memory than allowed
+      procedure :: check
+   end type case_limits
+
+contains
+
+   !> Elapsed time since a fixed moment [s]
+   real(wp) function wall_clock() result(seconds)
+      integer(long) :: ticks, rate
+
+      call system_clock(ticks, rate)
+      seconds = real(ticks, wp)/real(rate, wp)
+   end function wall_clock
+
+   subroutine start(self)
+      class(deadline_type), intent(inout) :: self
+
+      self%at = huge(1.0_wp)
+      if (self%seconds < huge(1.0_wp)) self%at = wall_clock() + self%seconds
+   end subroutine start
+
+   logical function has_passed(self) result(passed)
+      class(deadline_type), intent(in) :: self
+
+      passed = .false.
+      if (self%at < huge(1.0_wp)) passed = wall_clock() > self%at
+   end function has_passed
+
+   subroutine watch(self, where, error)
+      class(deadline_type), intent(in) :: self
+      !> What was going on, such as "in the normal problem"
+      character(len=*), intent(in) :: where
+      type(error_type), allocatable, intent(out) :: error
+      character(len=24) :: text
+
+      if (.not. self%has_passed()) return
+      write(text, '(G0.4)') self%seconds
+      call fatal_error(error, "the time limit of " // trim(text) // " s was reached " // where, error_kind%time)
+   end subroutine watch
+
+   subroutine check(self, number, bytes_each, what, error)
+      class(case_limits), intent(in) :: self
+      !> Number of elements or points, bytes that each of them takes
+      integer(long), intent(in) :: number, bytes_each
+      !> What they are: "elements" are limited in number, everything in memory
+      character(len=*), intent(in) :: what
+      type(error_type), allocatable, intent(out) :: error
+      character(len=160) :: text
+
+      if (what == "elements" .and. number > self%elements) then
+         write(text, '(I0, 3A, I0)') number, " ", what, " are more than the limit of ", self%elements
+      else if (number > self%bytes/bytes_each) then
+         write(text, '(I0, 3A, I0, A, I0, A)') number, " ", what, " need about ", number*bytes_each/1000000_long, &
+            & " MB of memory, more than the limit of ", self%bytes/1000000_long, " MB"
+      else
+         return
+      end if
+      call fatal_error(error, trim(text), error_kind%limit)
+   end subroutine check
+end module contact_base_limits

@@ -1,0 +1,128 @@
+!> What a case will cost, before it starts: elements, memory, time on one thread
+!>
+!> Times are rough, to tell seconds from hours. They were measured for a ball on a plane, half of the potential contact
+!> area in contact, EPS 1e-5, grids of 20 x 20 to 400 x 400 elements, at commit f1ba010 on one core of a server of 2022.
+!> Stresses below the surface count for memory only.
+module contact_cases_estimate
+   use contact_base_choices, only : friction_model, motion, normal_control, solver_choice
+   use contact_base_kinds, only : long, wp
+   use contact_base_memory, only : bytes_per_element
+   use contact_cases_spec, only : case_spec
+   use contact_cases_subsurface, only : stress_memory
+   use contact_elastic_material, only : combine, combined_material
+   use contact_grid_potential_contact, only : potential_contact
+   implicit none (type, external)
+   private
+
+   public :: case_cost, cost_text, estimate_cost
+
+   !> Cost of a case
+   type :: case_cost
+      !> Elements of the potential contact area; of one patch in wheel-rail contact
+      integer(long) :: elements = 0
+      !> Is that number only an upper bound?
+      logical :: at_most = .false.
+      !> Memory [bytes] and processor time [s]
+      real(wp) :: bytes = 0.0_wp, seconds = 0.0_wp
+   end type case_cost
+
+   !> Whatever the case is [s]
+   real(wp), parameter :: every_case = 1.0e-4_wp, every_search = 2.0e-3_wp
+   !> Per element [s]: pressures; tractions in shifts and transient rolling; in steady rolling
+   real(wp), parameter :: pressures = 2.2e-6_wp, by_step = 4.5e-6_wp, steadily = 1.1e-5_wp
+   !> Per element to the power 1.5 [s]: ConvexGS; SteadyGS and GDsteady
+   real(wp), parameter :: by_convex_gs = 3.6e-7_wp, by_steady_gs = 2.2e-7_wp
+   !> Factors: friction that changes with slip; turns of pressures and tractions at most; trials for a prescribed force
+   real(wp), parameter :: changing_friction = 1.7_wp, trials = 8.0_wp
+   integer, parameter :: turns = 8
+   !> Typical radius of curvature in wheel-rail contact [mm], and the side of the grid relative to the contact
+   real(wp), parameter :: typical_radius = 400.0_wp, margin = 1.25_wp
+
+contains
+
+   !> Estimate from the specification alone
+   subroutine estimate_cost(spec, cost)
+      type(case_spec), intent(in) :: spec
+      type(case_cost), intent(out) :: cost
+      type(potential_contact) :: grid
+      real(wp) :: n, tangential
+
+      cost%seconds = every_case
+      if (.not. spec%solve) return
+      if (allocated(spec%wheel_rail)) then
+         call guess_patch(spec, cost)
+      else
+         cost%elements = int(spec%grid%mx, long)*int(spec%grid%my, long)
+      end if
+      n = real(cost%elements, wp)
+      grid%mx = nint(sqrt(n))
+      grid%my = grid%mx
+      if (.not. allocated(spec%wheel_rail)) then
+         grid%mx = spec%grid%mx
+         grid%my = spec%grid%my
+      end if
+      cost%bytes = n*bytes_per_element + real(stress_memory(spec, grid), wp)
+      tangential = 0.0_wp
+      select case (spec%motion)
+      case (motion%none)
+         continue
+      case (motion%steady_rolling)
+         tangential = steadily*n
+         if (spec%solver == solver_choice%gauss_seidel .or. spec%solver == solver_choice%gd_steady) &
+            & tangential = by_steady_gs*n**1.5_wp
+      case default
+         tangential = by_step*n
+      end select
+      if (spec%solver == solver_choice%convex_gs .and. spec%motion /= motion%none) tangential = by_convex_gs*n**1.5_wp
+      if (spec%friction_law /= friction_model%coulomb) tangential = changing_friction*tangential
+      if (is_dissimilar(spec)) then
+         tangential = tangential*min(spec%iteration%maxout, turns)
+         cost%seconds = cost%seconds + pressures*n*(min(spec%iteration%maxout, turns) - 1)
+      end if
+      cost%seconds = cost%seconds + pressures*n + tangential
+      if (.not. allocated(spec%wheel_rail)) return
+      cost%seconds = cost%seconds + every_search
+      if (spec%normal == normal_control%force .or. spec%force > 0) cost%seconds = cost%seconds + trials*pressures*n
+   end subroutine estimate_cost
+
+   !> Does the outer iteration turn?
+   pure logical function is_dissimilar(spec)
+      type(case_spec), intent(in) :: spec
+      type(combined_material) :: material
+
+      material = combine(spec%material%poiss, spec%material%gg)
+      is_dissimilar = material%coupled() .and. spec%motion /= motion%none .and. spec%iteration%maxout > 1
+   end function is_dissimilar
+
+   !> Elements of a patch of wheel-rail contact, by Hertz for a ball; all that are allowed where no force is prescribed
+   subroutine guess_patch(spec, cost)
+      type(case_spec), intent(in) :: spec
+      type(case_cost), intent(inout) :: cost
+      type(combined_material) :: material
+      real(wp) :: a, n
+
+      cost%elements = spec%iteration%npot_max
+      cost%at_most = .true.
+      if (spec%normal /= normal_control%force) return
+      material = combine(spec%material%poiss, spec%material%gg)
+      a = (0.75_wp*max(0.0_wp, spec%wheel_rail%wheelset%fz)*typical_radius*(1.0_wp - material%nu)/material%gg)**(1.0_wp/3.0_wp)
+      n = (2.0_wp*margin*a)**2/(spec%wheel_rail%search%dx*spec%wheel_rail%search%ds)
+      if (n >= real(cost%elements, wp)) return
+      cost%elements = nint(n, long)
+      cost%at_most = .false.
+   end subroutine guess_patch
+
+   !> A cost in words, with blanks behind
+   pure function cost_text(cost) result(text)
+      type(case_cost), intent(in) :: cost
+      character(len=100) :: text
+      character(len=12) :: memory, time
+
+      write(memory, '(I0)') int(cost%bytes/1.0e6_wp, long) + 1_long
+      write(time, '(ES9.0)') cost%seconds
+      if (cost%seconds < 1.0e6_wp) write(time, '(F9.3)') cost%seconds
+      if (cost%seconds >= 1.0_wp .and. cost%seconds < 1.0e6_wp) write(time, '(I0)') nint(cost%seconds)
+      write(text, '(2A, I0, 5A)') trim(merge("at most", "about  ", cost%at_most)), " ", cost%elements, " elements, ", &
+         & trim(memory), " MB, ", trim(adjustl(time)), " s"
+   end function cost_text
+end module contact_cases_estimate

@@ -1,0 +1,124 @@
+#!/usr/bin/env python3
+"""Limits of time, memory and elements; estimates before a case; hopeless cases that end soon.
+
+The environment tells CONTACT_PROGRAM and CONTACT_SOURCE.
+"""
+import json
+import os
+import subprocess
+import tempfile
+import time
+import unittest
+
+PROGRAM = os.environ["CONTACT_PROGRAM"]
+SOURCE = os.environ["CONTACT_SOURCE"]
+
+CASE = """3
+203100
+0022020
+0{g}01201
+{limits}
+100 0.001 0 0
+0.3 0.3
+0 {dx} 1000
+0.28 0.28 82000 82000
+1
+{n} {n} -1 -1 {dx} {dx}
+1 1
+0.01 0 0.01 0 0 0
+"""
+
+
+def case(n=20, g=0, limits="999 100 30 1 1e-5"):
+    return CASE.format(n=n, dx=2 / n, g=g, limits=limits)
+
+
+class Limits(unittest.TestCase):
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(scratch.cleanup)
+        self.folder = scratch.name
+        os.symlink(os.path.join(SOURCE, "examples", "profiles"), os.path.join(self.folder, "profiles"))
+
+    def run_program(self, text, *arguments, mode="2"):
+        with open(os.path.join(self.folder, "a.inp"), "w") as file:
+            file.write(text)
+        start = time.monotonic()
+        done = subprocess.run([PROGRAM, *arguments, "--json", mode, "a"], cwd=self.folder, stdin=subprocess.DEVNULL,
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=120)
+        self.seconds = time.monotonic() - start
+        lines = []
+        if mode == "2":
+            with open(os.path.join(self.folder, "a.jsonl")) as file:
+                lines = [json.loads(line) for line in file]
+        return done, lines
+
+    def test_elements(self):
+        done, lines = self.run_program(case(40) + case(20) + "0\n", "--limit-elements", "400")
+        self.assertEqual([line["status"] for line in lines], ["refused", "solved"])
+        self.assertIn("1600 elements are more than the limit of 400", lines[0]["reason"])
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("1 solved, 0 not converged, 1 refused", done.stdout)
+
+    def test_memory(self):
+        done, lines = self.run_program(case(60) + case(20) + "0\n", "--limit-memory=1")
+        self.assertEqual([line["status"] for line in lines], ["refused", "solved"])
+        self.assertIn("more than the limit of 1 MB", lines[0]["reason"])
+
+    def test_time_inside_a_solution(self):
+        # ConvexGS with a tolerance that it does not reach in a minute
+        slow = case(160, g=2, limits="9999 100 30 1 1e-13\n0.9 1.0 0 0.5")
+        done, lines = self.run_program(slow + case(20) + "0\n", "--limit-time", "0.5")
+        self.assertEqual([(line["status"], line["iteration"] if "iteration" in line else "") for line in lines],
+                         [("not converged", "time"), ("solved", "")])
+        self.assertIn("time limit of 0.5", lines[0]["reason"])
+        self.assertFalse(lines[0]["solved"] or lines[0]["converged"])
+        self.assertLess(self.seconds, 30.0)
+        self.assertIn("1 solved, 1 not converged, 0 refused", done.stdout)
+
+    def test_time_of_wheel_and_rail(self):
+        with open(os.path.join(SOURCE, "examples", "wheel_on_rail.inp")) as file:
+            text = file.read()
+        done, lines = self.run_program(text, "--limit-time", "1e-6")
+        self.assertTrue(lines)
+        self.assertEqual({line["iteration"] for line in lines}, {"time"})
+
+    def test_a_case_after_one_without_result(self):
+        # it has no previous time step, and no tractions of a half-done solution
+        first = case(160, g=2, limits="9999 100 30 1 1e-13\n0.9 1.0 0 0.5")
+        second = case(160).replace("203100", "001100").replace("0 0.0125 1000\n", "")
+        alone = second.replace("001100", "201100")
+        _, lines = self.run_program(first + second + "0\n", "--limit-time", "0.5")
+        self.assertEqual(lines[0]["iteration"], "time")
+        _, fresh = self.run_program(alone + "0\n")
+        got, wanted = (line["patches"][0]["totals"]["fx"]["value"] for line in (lines[1], fresh[0]))
+        self.assertAlmostEqual(got, wanted, delta=1e-4 * abs(wanted))
+
+    def test_options(self):
+        for option in ("--limit-time=0", "--limit-time=-1", "--limit-memory=much", "--limit-elements=nan", "--limit-time"):
+            done = subprocess.run([PROGRAM, option], cwd=self.folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                                  stderr=subprocess.PIPE, text=True, timeout=60)
+            self.assertEqual(done.returncode, 1, option)
+            self.assertIn("positive number", done.stderr, option)
+
+    def test_estimate(self):
+        done, _ = self.run_program(case(20) + case(400) + case(1400) + "0\n", mode="3")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        told = [line for line in done.stdout.splitlines() if "Estimate" in line]
+        self.assertEqual(len(told), 3, told)
+        self.assertIn("Estimate of case 2 on one thread: about 160000 elements", told[0])
+        self.assertIn("1960000 elements", told[2])
+
+    def test_soft_bodies_in_a_transient_case(self):
+        # the contact of a first trial would cover the whole wheel
+        with open(os.path.join(SOURCE, "examples", "rolling_steps.inp")) as file:
+            text = file.read().replace("0.28 0.28 82000. 82000.", "0.28 0.28 1e-3 82000.", 1)
+        first = text[:text.index("1 MODULE", text.index("1 MODULE") + 5)]
+        done, lines = self.run_program(first + "0\n")
+        self.assertLess(self.seconds, 60.0)
+        self.assertNotEqual(lines[0]["status"], "solved")
+        self.assertIn("NPOT_MAX", lines[0]["reason"])
+
+
+if __name__ == "__main__":
+    unittest.main()
