@@ -203,6 +203,11 @@ contains
       end select
       total = sum(problem%given_pressure)*problem%grid%dx*problem%grid%dy
       if (abs(total - problem%fn) <= rough*problem%fn) return
+      if (.not. total > 0.0_wp) then
+         call fatal_error(error, "the pressures by formula (B = 2, 3, 4) are zero at the centres of all elements: the grid " // &
+            & "is too coarse, or SCALE too large, for a contact that carries FN", error_kind%input)
+         return
+      end if
       write(percent, '(I0)') nint(100*min(total/problem%fn, 1.0e6_wp))
       call log%warning("the grid is too coarse or too small for pressures by formula: at the centres of its elements they " // &
          & "add up to " // trim(percent) // " % of FN")

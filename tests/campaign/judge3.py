@@ -596,7 +596,8 @@ def judge_yield(scene, k, f, growth, limit_before, slip, findings):
     # an element that slips may have hardened up to the bound of friction in this step
     plastic = (f["eldiv"] == 3) | ((f["eldiv"] == 2) & (size > 0))
     pt = np.hypot(f["px"], f["py"])
-    tolerance = 10*scene["eps"] + 1e-9 + 20*f["error"]
+    # relative to the yield limit; the solvers' tolerance is relative to the bound of friction
+    tolerance = 10*scene["eps"]*max(1.0, (f["mu"]*f["pn"]).max()/tau) + 1e-9 + 20*f["error"]
     if (~plastic & inside).any():
         exceeds(findings, "yield", f"plastic flow of elements that do not yield, case {k}", size[~plastic & inside].max()/scale, tolerance)
     want = np.maximum(limit_before + slope*size, 0.1*tau)
