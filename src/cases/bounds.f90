@@ -220,12 +220,12 @@ module contact_cases_bounds
       & number_bounds("SCALEYZ", "-", -1.0e9_wp, 1.0e9_wp, .false., "a factor of units"), &
       & number_bounds("SMOOTH", "mm ...", -1.0e9_wp, 1.0e9_wp, .false., "a wavelength or a weight"), &
       & number_bounds("PRFOPT", "integer", 0.0_wp, 2.0_wp, .false., "the groups that there are"), &
-      & number_bounds("ISMOOTH", "integer", -2.0e9_wp, 2.0e9_wp, .false., "the methods that there are"), &
+      & number_bounds("ISMOOTH", "integer", 0.0_wp, 2.0_wp, .false., "the methods that there are"), &
       & number_bounds("ZIGTHRS", "rad", -1.0e4_wp, 1.0e4_wp, .false., "an angle; degrees need a d: 150d"), &
       & number_bounds("KINKHIGH", "rad", -1.0e4_wp, 1.0e4_wp, .false., "an angle; degrees need a d: 30d"), &
       & number_bounds("KINKLOW", "rad", -1.0e4_wp, 1.0e4_wp, .false., "an angle; degrees need a d: 6d"), &
       & number_bounds("KINKWID", "mm", -far, far, .false., "a distance in a profile"), &
-      & number_bounds("ERRHND", "integer", -2.0e9_wp, 2.0e9_wp, .false., "the levels that there are"), &
+      & number_bounds("ERRHND", "integer", -2.0_wp, 1.0_wp, .false., "the levels that there are"), &
       & number_bounds("MAXOMIT", "-", -1.0e9_wp, 1.0e9_wp, .false., "a part of the points")]
 
    type(number_bounds), parameter :: wheel_rows(*) = [ &

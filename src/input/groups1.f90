@@ -24,7 +24,8 @@ module contact_input_groups1
    real(wp), parameter :: least_step = 1.0e-6_wp
    !> Scales below this value mean 1 [-]
    real(wp), parameter :: no_scale = 5.0e-4_wp
-   real(wp), parameter :: degree = pi/180.0_wp
+   !> Smallest turning angle that makes a zig-zag [rad]
+   real(wp), parameter :: least_zigzag = 0.25_wp*pi*(1.0_wp - epsilon(1.0_wp))
 
 contains
 
@@ -303,6 +304,7 @@ contains
          & "profile file", v(1)%line, v(1)%column)
       profile%mirror_y = v(2)%i
       profile%scale = v(3)%r
+      call expect(v(3), v(3)%r >= 0.0_wp, "a factor to mm; MIRRORY and MIRRORZ mirror a profile")
       if (v(3)%r <= no_scale) profile%scale = 1.0_wp
       profile%smoothing = max(0.0_wp, v(4)%r)
       if (v(5)%given) then
@@ -318,16 +320,30 @@ contains
       profile%largest_omission = previous%largest_omission
       call read_values(lexer, "iaaar", "ISMOOTH ZIGTHRS KINKHIGH KINKLOW KINKWID", v, problems, error)
       if (allocated(error)) return
-      profile%smoothing_method = min(2, max(0, v(1)%i))
-      profile%zigzag = max(45.0_wp*degree, v(2)%r)
+      profile%smoothing_method = v(1)%i
+      profile%zigzag = v(2)%r
+      call expect(v(2), v(2)%r >= least_zigzag, "an angle of at least 45 degrees (45d), 180d and more for none")
       profile%kink_high = v(3)%r
       profile%kink_low = v(4)%r
       profile%kink_width = v(5)%r
       if (option < 2) return
       call read_values(lexer, "ir", "ERRHND MAXOMIT", v, problems, error)
       if (allocated(error)) return
-      profile%error_handling = min(1, max(-2, v(1)%i))
-      profile%largest_omission = min(1.0_wp, max(0.0_wp, v(2)%r))
+      profile%error_handling = v(1)%i
+      profile%largest_omission = v(2)%r
+      call expect(v(2), v(2)%r >= 0.0_wp .and. v(2)%r <= 1.0_wp, "a part of the length, 0 to 1")
+
+   contains
+
+      !> Refuse a number that the preparation of profiles cannot use
+      subroutine expect(value, usable, accepted)
+         type(input_value), intent(in) :: value
+         logical, intent(in) :: usable
+         character(len=*), intent(in) :: accepted
+
+         if (.not. usable) call problems%add(severity%error, value%name // " = " // value%word // &
+            & " cannot be used; accepted is " // accepted, value%line, value%column)
+      end subroutine expect
    end subroutine read_profile_choice
 
    !> Is it a file with slices of a variable profile?

@@ -7,7 +7,7 @@ module contact_profile_line
    implicit none (type, external)
    private
 
-   public :: end_of_values, split_assignment, is_numeric, read_row, file_place, most_columns, point_list
+   public :: end_of_values, split_assignment, leading_numbers, read_row, file_place, most_columns, point_list
 
    !> Numbers of a row that are looked at
    integer, parameter :: most_columns = 12
@@ -23,8 +23,11 @@ module contact_profile_line
    type :: point_list
       integer :: n = 0
       real(wp), allocatable :: y(:), z(:)
+      !> Where each of them stands in its file
+      integer, allocatable :: line(:)
    contains
       procedure :: add => add_point
+      procedure :: take => take_points
    end type point_list
 
 contains
@@ -58,25 +61,29 @@ contains
       value = trim(adjustl(line(i + 1:)))
    end subroutine split_assignment
 
-   !> Does a line consist of numbers only?
-   pure logical function is_numeric(line) result(numeric)
+   !> How many numbers does a line begin with, and does text follow them?
+   pure subroutine leading_numbers(line, n, text_follows)
       character(len=*), intent(in) :: line
+      integer, intent(out) :: n
+      logical, intent(out) :: text_follows
       real(wp) :: value
       integer :: first, last, state
 
-      numeric = .false.
+      n = 0
       last = 0
+      text_follows = .false.
       do
          call next_word(line, last + 1, first, last)
          if (first == 0) return
          call to_real(line(first:last), value, state)
-         numeric = state /= word_state%malformed
-         if (.not. numeric) return
+         text_follows = state == word_state%malformed
+         if (text_follows) return
+         n = n + 1
       end do
-   end function is_numeric
+   end subroutine leading_numbers
 
    !> All numbers of a line; a word that is none is an error
-   subroutine read_row(line, place, expected, row, n, error)
+   subroutine read_row(line, place, expected, row, n, error, enough)
       character(len=*), intent(in) :: line
       type(file_place), intent(in) :: place
       !> What should stand here, for messages
@@ -86,6 +93,8 @@ contains
       !> How many there are, also beyond the last that is kept
       integer, intent(out) :: n
       type(error_type), allocatable, intent(out) :: error
+      !> Behind so many numbers text is ignored; default: nowhere
+      integer, intent(in), optional :: enough
       real(wp) :: value
       integer :: first, last, state
 
@@ -96,6 +105,9 @@ contains
          call next_word(line, last + 1, first, last)
          if (first == 0) exit
          call to_real(line(first:last), value, state)
+         if (present(enough)) then
+            if (n >= enough .and. state == word_state%malformed) exit
+         end if
          if (state /= word_state%good) then
             call fatal_error(error, '"' // printable(line(first:last)) // '" ' // trim(complaint(state)) // "; expected " // &
                & expected // '; the line reads "' // printable(line) // '"', file=place%file, line=place%line, column=first)
@@ -138,22 +150,35 @@ contains
       if (length >= 0) last = first + length - 1
    end subroutine next_word
 
-   pure subroutine add_point(self, y, z)
+   pure subroutine add_point(self, y, z, line)
       class(point_list), intent(inout) :: self
       real(wp), intent(in) :: y, z
-      real(wp), allocatable :: longer(:)
+      integer, intent(in) :: line
 
-      if (.not. allocated(self%y)) allocate(self%y(256), self%z(256))
+      if (.not. allocated(self%y)) allocate(self%y(256), self%z(256), self%line(256))
       if (self%n == size(self%y)) then
-         allocate(longer(2*self%n))
-         longer(:self%n) = self%y
-         call move_alloc(longer, self%y)
-         allocate(longer(2*self%n))
-         longer(:self%n) = self%z
-         call move_alloc(longer, self%z)
+         self%y = [self%y, self%y]
+         self%z = [self%z, self%z]
+         self%line = [self%line, self%line]
       end if
       self%n = self%n + 1
       self%y(self%n) = y
       self%z(self%n) = z
+      self%line(self%n) = line
    end subroutine add_point
+
+   !> Take the points that were collected
+   pure subroutine take_points(self, y, z, line)
+      class(point_list), intent(in) :: self
+      real(wp), allocatable, intent(out) :: y(:), z(:)
+      integer, allocatable, intent(out) :: line(:)
+
+      if (self%n == 0) then
+         allocate(y(0), z(0), line(0))
+         return
+      end if
+      y = self%y(:self%n)
+      z = self%z(:self%n)
+      line = self%line(:self%n)
+   end subroutine take_points
 end module contact_profile_line

@@ -1,13 +1,14 @@
 !> Miniprof profiles, .ban for rails and .whl for wheels, and plain tables of two columns
 !>
-!> Lines KEY=value up to the first blank line, then rows of numbers. A file without a header is a table.
-!> Comments begin with ! " % or #.
+!> Lines KEY=value up to the first blank line, then rows of numbers; text behind the numbers of a row is ignored. A header of
+!> another kind begins with a line of text without "="; all up to the next blank line belongs to it. A file without a header is a
+!> table. Comments begin with ! " % or #.
 module contact_profile_miniprof
    use contact_base_error, only : error_type, fatal_error
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
-   use contact_profile_line, only : file_place, is_numeric, most_columns, point_list, read_row, split_assignment, &
-      & end_of_values
+   use contact_profile_line, only : end_of_values, file_place, leading_numbers, most_columns, point_list, read_row, &
+      & split_assignment
    use contact_profile_request, only : profile_file
    use contact_text_lexer, only : input_lexer, printable
    use contact_text_words, only : integer_text
@@ -32,10 +33,12 @@ contains
       type(point_list) :: points
       character(len=:), allocatable :: line, key, value, columns
       real(wp) :: row(most_columns)
-      integer :: n, skipped
-      logical :: assigned, blank_seen, header_seen, extra_seen
+      integer :: n, skipped, header_end
+      logical :: assigned, blank_seen, header_seen, extra_seen, text_seen, text_follows
 
       columns = ""
+      header_end = 0
+      text_seen = .false.
       skipped = 0
       blank_seen = .false.
       header_seen = .false.
@@ -46,8 +49,11 @@ contains
          line = text%line_text(place%line)
          if (len_trim(line) == 0) blank_seen = .true.
          line = line(:end_of_values(line, '!"%#'))
-         if (len_trim(line) == 0) cycle
+         if (len_trim(line) == 0 .or. place%line < header_end) cycle
          call split_assignment(line, key, value, assigned)
+         call leading_numbers(line, n, text_follows)
+         ! text behind the numbers of a point may hold anything
+         assigned = assigned .and. .not. (points%n > 0 .and. n >= 2)
          if (assigned) then
             if (points%n > 0) then
                call fatal_error(error, '"' // printable(key) // '" stands behind the first point; expected rows of numbers', &
@@ -56,7 +62,9 @@ contains
                header_seen = .true.
                call take_key()
             end if
-         else if (points%n > 0 .or. is_numeric(line)) then
+         else if (points%n == 0 .and. (n == 0 .or. text_follows .and. n < 2)) then
+            call find_header_end()
+         else
             if (points%n == 0 .and. header_seen .and. .not. blank_seen) call log%warning(text%file // ", line " // &
                & integer_text(place%line) // ": points begin without a blank line before.")
             call take_point()
@@ -64,14 +72,40 @@ contains
          if (allocated(error)) return
       end do
       if (skipped > most_messages) call log%warning(text%file // ": " // integer_text(skipped) // " rows were skipped.")
-      if (points%n > 0) then
-         profile%y = points%y(:points%n)
-         profile%z = points%z(:points%n)
-      else
-         allocate(profile%y(0), profile%z(0))
-      end if
+      call points%take(profile%y, profile%z, profile%line)
 
    contains
+
+      !> A line of text begins a header: where it ends. A heading of a table, after which no blank line separates points, is but
+      !> this line
+      subroutine find_header_end()
+         character(len=:), allocatable :: later
+         integer :: i, rows, numbers
+         logical :: more
+
+         header_end = 0
+         rows = 0
+         do i = place%line + 1, text%count_lines()
+            later = text%line_text(i)
+            if (len_trim(later) == 0 .and. header_end == 0) then
+               header_end = i
+               numbers = rows
+               rows = 0
+            end if
+            later = later(:end_of_values(later, '!"%#'))
+            call leading_numbers(later, n, more)
+            if (n >= 2) rows = rows + 1
+         end do
+         ! rows behind the blank line are the points
+         if (header_end == 0) return
+         if (rows == 0) then
+            header_end = 0
+         else if (numbers > 0) then
+            call log%warning(text%file // ", line " // integer_text(place%line) // ": text without = begins a header; it ends &
+               &at the blank line " // integer_text(header_end) // ", and " // integer_text(numbers) // " rows of numbers in it &
+               &are no points.")
+         end if
+      end subroutine find_header_end
 
       subroutine take_key()
          select case (key)
@@ -81,6 +115,17 @@ contains
             call take_offset(profile%shift_y)
          case ("YOffset", "Yoffset")
             call take_offset(profile%shift_z)
+         case ("Units")
+            if (.not. any(value == [character(len=11) :: "", "mm", "MM", "Mm", "millimetre", "millimeter", "millimetres", &
+               & "millimeters"])) then
+               profile%unit_name = value
+               profile%unit_line = place%line
+            end if
+         case ("Tilt")
+            call read_row(value, place, "one number for Tilt", row, n, error, enough=0)
+            if (.not. allocated(error) .and. abs(row(1)) > 0.0_wp) call log%warning(text%file // ", line " // &
+               & integer_text(place%line) // ": Tilt = " // printable(value) // " is not applied; the points are taken as they are &
+               &(turn a rail by CANT or ROLL).")
          end select
       end subroutine take_key
 
@@ -110,11 +155,14 @@ contains
       end subroutine take_columns
 
       subroutine take_point()
-         call read_row(line, place, "a point, numbers y z", row, n, error)
+         call read_row(line, place, "a point, numbers y z", row, n, error, enough=2)
          if (allocated(error)) return
+         if (text_follows .and. .not. text_seen) call log%warning(text%file // ", line " // integer_text(place%line) // &
+            & ": text behind the numbers is ignored, here and in later rows.")
+         text_seen = text_seen .or. text_follows
          if (len(columns) > 0) then
             if (n == len(columns)) then
-               call points%add(row(index(columns, "X")), row(index(columns, "Y")))
+               call points%add(row(index(columns, "X")), row(index(columns, "Y")), place%line)
                return
             end if
             skipped = skipped + 1
@@ -129,7 +177,7 @@ contains
                & ": of " // integer_text(n) // " columns the first two are used (numbers need points, not commas, before &
                &their decimals).")
             extra_seen = extra_seen .or. n > 2
-            call points%add(row(1), row(2))
+            call points%add(row(1), row(2), place%line)
          end if
       end subroutine take_point
    end subroutine read_miniprof

@@ -10,7 +10,7 @@ module contact_profile_points
    private
 
    public :: drop_close_points, remove_zig_zags, keep_points, needs_mirror_z, needs_reversal, runs_backwards
-   public :: chord_lengths, find_loop, find_kinks, turning_angles
+   public :: chord_lengths, find_loop, find_kinks, find_outlier, find_hole, turning_angles
 
 contains
 
@@ -53,6 +53,60 @@ contains
          turn(i) = atan2(dy(1)*dz(2) - dz(1)*dy(2), dy(1)*dy(2) + dz(1)*dz(2))
       end do
    end function turning_angles
+
+   !> The first point that stands out of the line of its neighbours like a spike; 0 when there is none
+   !>
+   !> Without it the way from the point before to the point behind is much shorter: to less than half, or the line turns to one
+   !> side there and to the other side at both neighbours. Corners, also coarse ones, have no such neighbours.
+   pure integer function find_outlier(y, z, height) result(first)
+      !> [mm]
+      real(wp), intent(in) :: y(:), z(:)
+      !> Least distance from the line through the neighbours [mm]
+      real(wp), intent(in) :: height
+      !> Least angles of the spike and of the line beside it [rad]
+      real(wp), parameter :: sharp = pi/3.0_wp, turned = pi/9.0_wp
+      real(wp) :: turn(size(y)), way(2), chord, distance
+      integer :: i, n
+
+      n = size(y)
+      first = 0
+      if (n < 6) return
+      turn = turning_angles(y, z)
+      do i = 2, n - 1
+         way = [hypot(y(i) - y(i - 1), z(i) - z(i - 1)), hypot(y(i + 1) - y(i), z(i + 1) - z(i))]
+         if (minval(way) < height) cycle
+         chord = hypot(y(i + 1) - y(i - 1), z(i + 1) - z(i - 1))
+         ! twice the area of the triangle over its base, or the shorter side where the base vanishes
+         distance = minval(way)
+         if (chord > 0.0_wp) distance = min(distance, abs((y(i + 1) - y(i - 1))*(z(i) - z(i - 1)) &
+            & - (z(i + 1) - z(i - 1))*(y(i) - y(i - 1)))/chord)
+         if (chord < 0.5_wp*minval(way)) distance = minval(way)
+         if (distance < height) cycle
+         if (chord >= 0.5_wp*minval(way)) then
+            if (abs(turn(i)) < sharp) cycle
+            if (any(-turn([max(2, i - 1), min(n - 1, i + 1)])*sign(1.0_wp, turn(i)) < turned)) cycle
+         end if
+         first = i
+         return
+      end do
+   end function find_outlier
+
+   !> The first point behind which the next one is very far away, compared with the usual distance; 0 when there is none
+   pure integer function find_hole(y, z, least, ratio) result(first)
+      !> [mm]
+      real(wp), intent(in) :: y(:), z(:)
+      !> Least distance [mm], and relative to the mean without the largest distance
+      real(wp), intent(in) :: least, ratio
+      real(wp) :: step(size(y) - 1), usual
+      integer :: n
+
+      n = size(step)
+      first = 0
+      if (n < 10) return
+      step = hypot(y(2:) - y(:n), z(2:) - z(:n))
+      usual = (sum(step) - maxval(step))/(n - 1)
+      first = findloc(step > max(least, ratio*usual), .true., 1)
+   end function find_hole
 
    !> Replace the two ends of a segment that runs backwards by their mean
    !>

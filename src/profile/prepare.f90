@@ -8,8 +8,8 @@ module contact_profile_prepare
    use contact_numeric_spline, only : cubic_spline, natural_splines, smoothing_splines
    use contact_profile_curve, only : new_curve, profile_curve
    use contact_profile_miniprof, only : read_miniprof
-   use contact_profile_points, only : chord_lengths, drop_close_points, find_kinks, find_loop, keep_points, &
-      & needs_mirror_z, needs_reversal, remove_zig_zags, runs_backwards
+   use contact_profile_points, only : chord_lengths, drop_close_points, find_hole, find_kinks, find_loop, find_outlier, &
+      & keep_points, needs_mirror_z, needs_reversal, remove_zig_zags, runs_backwards
    use contact_profile_request, only : doubt, profile_file, profile_request, profile_side, smoothing_method
    use contact_profile_simpack, only : read_simpack
    use contact_text_lexer, only : input_lexer
@@ -130,6 +130,9 @@ contains
 
       y = file%y
       z = file%z
+      call refuse_units(file, request, error)
+      if (allocated(error)) return
+      call doubt_points(file, request, log)
       call drop_close_points(y, z, file%nearest)
       call remove_zig_zags(y, z, request%zig_zag, zig_zags)
       if (zig_zags > 0) then
@@ -138,6 +141,7 @@ contains
       end if
       y = y + file%shift_y
       z = z + file%shift_z
+      if (abs(file%rotation) > 0.0_wp) call rotate(y, z, file%rotation)
       if (file%lower_y < file%upper_y) call keep_points(y, z, y >= file%lower_y .and. y <= file%upper_y)
       if (file%lower_z < file%upper_z) then
          z = min(max(z, file%lower_z), file%upper_z)
@@ -166,7 +170,14 @@ contains
          y = y(size(y):1:-1)
          z = z(size(z):1:-1)
       end if
-      if (runs_backwards(request%side, y) .or. needs_reversal(request%side, y, z)) then
+      if (runs_in_reverse(request%side, y, z) .and. .not. runs_in_reverse(request%side, y(size(y):1:-1), z(size(z):1:-1))) then
+         call take_name(request, expected)
+         call log%warning(expected // ": the points run from y = " // real_text(y(1)) // " to " // real_text(y(size(y))) // &
+            & " mm with the inversion that the file asks for; they are taken in the other order, as the shape tells.")
+         y = y(size(y):1:-1)
+         z = z(size(z):1:-1)
+      end if
+      if (runs_in_reverse(request%side, y, z)) then
          expected = "that of a wheel must fall with the flange down"
          if (request%side == profile_side%rail) expected = "that of a rail must rise with the surface on top"
          call fatal_error(error, "the lateral coordinate runs from " // real_text(y(1)) // " to " // real_text(y(size(y))) // &
@@ -180,6 +191,74 @@ contains
             & " mm; a curve without loops is needed", file=request%file)
       end if
    end subroutine normalise
+
+   !> Does the order of the points contradict the shape?
+   pure logical function runs_in_reverse(side, y, z) result(reverse)
+      !> Member of profile_side
+      integer, intent(in) :: side
+      real(wp), intent(in) :: y(:), z(:)
+
+      reverse = runs_backwards(side, y) .or. needs_reversal(side, y, z)
+   end function runs_in_reverse
+
+   !> Turn points about the x axis, from y towards z
+   pure subroutine rotate(y, z, angle)
+      real(wp), intent(inout) :: y(:), z(:)
+      !> [rad]
+      real(wp), intent(in) :: angle
+      real(wp) :: before(size(y))
+
+      before = y
+      y = cos(angle)*y - sin(angle)*z
+      z = sin(angle)*before + cos(angle)*z
+   end subroutine rotate
+
+   !> A file in another unit needs a factor
+   subroutine refuse_units(file, request, error)
+      type(profile_file), intent(in) :: file
+      type(profile_request), intent(in) :: request
+      type(error_type), allocatable, intent(out) :: error
+
+      if (.not. allocated(file%unit_name) .or. abs(request%scale - 1.0_wp) > 0.0_wp) return
+      call fatal_error(error, "Units = " // file%unit_name // ", but SCALEYZ is 1; expected millimetres, or the factor to &
+         &millimetres as SCALEYZ", file=request%file, line=file%unit_line)
+   end subroutine refuse_units
+
+   !> Warn of points that no wheel or rail has: a spike, or a hole between two points
+   subroutine doubt_points(file, request, log)
+      type(profile_file), intent(in) :: file
+      type(profile_request), intent(in) :: request
+      type(log_type), intent(inout) :: log
+      !> Height of a spike [mm]; length of a hole [mm], and relative to the usual distance of points
+      real(wp), parameter :: spike = 1.0_wp, hole = 10.0_wp, hole_ratio = 20.0_wp
+      real(wp) :: factor
+      integer :: i
+
+      factor = abs(request%scale)/file%units_per_mm
+      i = find_outlier(factor*file%y, factor*file%z, spike)
+      if (i > 0) then
+         call warn(i, " stands out of the line of its neighbours by more than " // real_text(spike) // " mm; the curve goes &
+            &through it all the same.")
+         return
+      end if
+      i = find_hole(factor*file%y, factor*file%z, hole, hole_ratio)
+      if (i > 0) call warn(i, " is " // real_text(factor*hypot(file%y(i + 1) - file%y(i), file%z(i + 1) - file%z(i))) // " mm away &
+         &from the next one, much farther than others; the curve between them is a guess.")
+
+   contains
+
+      !> Warn of a point
+      subroutine warn(i, what)
+         integer, intent(in) :: i
+         character(len=*), intent(in) :: what
+         character(len=:), allocatable :: name
+
+         call take_name(request, name)
+         if (allocated(file%line)) name = name // ", line " // integer_text(file%line(i))
+         call log%warning(name // ": point " // integer_text(i) // " at y = " // real_text(file%y(i)) // ", z = " // &
+            & real_text(file%z(i)) // what)
+      end subroutine warn
+   end subroutine doubt_points
 
    !> Two requests cancel each other, and "no" of the user cancels that of the file
    pure logical function mirrors_y(file, request) result(mirror)

@@ -68,10 +68,14 @@ module contact_profile_request
    type :: profile_file
       !> Lateral and vertical coordinates
       real(wp), allocatable :: y(:), z(:)
+      !> Line of each point in the file; unallocated for points that a caller gives
+      integer, allocatable :: line(:)
       !> Points nearer than this to the one before are dropped
       real(wp) :: nearest = 1.0e-4_wp
       !> Added to the coordinates
       real(wp) :: shift_y = 0.0_wp, shift_z = 0.0_wp
+      !> Rotation about x [rad] behind the shift, from y towards z as the file has them
+      real(wp) :: rotation = 0.0_wp
       !> Points outside of these bounds are dropped (y) or moved to them (z); none when lower is not
       !> below upper
       real(wp) :: lower_y = 1.0_wp, upper_y = 0.0_wp, lower_z = 1.0_wp, upper_z = 0.0_wp
@@ -82,6 +86,10 @@ module contact_profile_request
       integer :: inversion = -1
       !> Units of the file per millimetre
       real(wp) :: units_per_mm = 1.0_wp
+      !> Unit of length that the file names though it does not say how it is to be used; unallocated: none, or mm
+      character(len=:), allocatable :: unit_name
+      !> Line where it does
+      integer :: unit_line = 0
    end type profile_file
 
 contains

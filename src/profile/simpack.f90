@@ -3,7 +3,8 @@
 !> A block header.begin ... header.end, a block spline.begin ... spline.end with the processing, in it a
 !> block point.begin ... point.end with rows y z [weight]. Comments begin with ! or %.
 module contact_profile_simpack
-   use contact_base_error, only : error_kind, error_type, fatal_error
+   use contact_base_constants, only : pi
+   use contact_base_error, only : error_type, fatal_error
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
    use contact_profile_line, only : end_of_values, file_place, most_columns, point_list, read_row, split_assignment
@@ -21,8 +22,6 @@ module contact_profile_simpack
    type(section_list), parameter :: section = section_list()
    character(len=*), parameter :: section_names(0:3) = [character(len=6) :: "", "header", "spline", "point"]
 
-   !> Angles below this are no rotation [rad]
-   real(wp), parameter :: no_rotation = 1.0e-6_wp
    !> Smallest distance of points that a file may ask for
    real(wp), parameter :: smallest_distance = 1.0e-6_wp
    !> Messages of one kind per file
@@ -42,9 +41,10 @@ contains
       type(point_list) :: points
       character(len=:), allocatable :: line, key, value
       real(wp) :: row(most_columns), rotation, angle_unit, length_unit
-      integer :: now, n, skipped
+      integer :: now, n, skipped, rotation_line
       logical :: assigned, finished
 
+      rotation_line = 0
       now = section%none
       skipped = 0
       rotation = 0.0_wp
@@ -72,19 +72,15 @@ contains
          call fatal_error(error, "the end of the file is reached; expected spline.end", file=text%file, line=place%line)
          return
       end if
-      if (abs(rotation/angle_unit) > no_rotation) then
-         call fatal_error(error, "rotate = " // real_text(rotation) // " is not built; accepted is 0 (rotate the points in the &
-            &file, or use the cant of the rail)", error_kind%unsupported, text%file)
+      profile%rotation = rotation/angle_unit
+      if (abs(profile%rotation) > pi) then
+         call fatal_error(error, "rotate = " // real_text(rotation) // " is an angle of " // real_text(profile%rotation) // &
+            & " rad; expected at most pi (are units.ang.f per radian?)", file=text%file, line=rotation_line)
          return
       end if
       profile%units_per_mm = length_unit/1000.0_wp
       if (skipped > most_messages) call log%warning(text%file // ": " // integer_text(skipped) // " rows were skipped.")
-      if (points%n > 0) then
-         profile%y = points%y(:points%n)
-         profile%z = points%z(:points%n)
-      else
-         allocate(profile%y(0), profile%z(0))
-      end if
+      call points%take(profile%y, profile%z, profile%line)
 
    contains
 
@@ -92,7 +88,7 @@ contains
          call read_row(line, place, "a point, two or three numbers y z [weight]", row, n, error)
          if (allocated(error)) return
          if (n == 2 .or. n == 3) then
-            call points%add(row(1), row(2))
+            call points%add(row(1), row(2), place%line)
             return
          end if
          skipped = skipped + 1
@@ -197,7 +193,9 @@ contains
          case ("point.dist.min"); profile%nearest = max(smallest_distance, number)
          case ("shift.y"); profile%shift_y = number
          case ("shift.z"); profile%shift_z = number
-         case ("rotate"); rotation = number
+         case ("rotate")
+            rotation = number
+            rotation_line = place%line
          case ("bound.y.min"); profile%lower_y = number
          case ("bound.y.max"); profile%upper_y = number
          case ("bound.z.min"); profile%lower_z = number

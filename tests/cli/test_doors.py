@@ -169,6 +169,20 @@ class Refusals(Doors):
         self.refused(text.replace("1360 -70 460", "1360 -70 1e-5"), "NOMRADW = 1e-5 is below its lower bound 0.001 mm: ")
         self.refused(text.replace("14 0 1435 0\n", "0 0 1e300 0\n"), "RAILZ0 = 1e300 is above")
 
+    def test_options_of_profiles(self):
+        """Values that were clipped or replaced"""
+        text = "1\n" + NEW1.format(**PLAIN1) + "0\n"
+        for scale, smoothing, handling, words in (
+                ("-1", "0 150d 30d 6d 2", "0 0.5", "x.inp:10:14: SCALEYZ = -1 cannot be used; accepted is a factor"),
+                ("1", "3 150d 30d 6d 2", "0 0.5", "ISMOOTH = 3 is outside its range 0 to 2"),
+                ("1", "0 -1 30d 6d 2", "0 0.5", "ZIGTHRS = -1 cannot be used; accepted is an angle of at least 45 degrees"),
+                ("1", "0 150d 30d 6d 2", "2 0.5", "ERRHND = 2 is outside its range -2 to 1"),
+                ("1", "0 150d 30d 6d 2", "0 1.5", "MAXOMIT = 1.5 cannot be used; accepted is a part of the length")):
+            line = f"'60E1.prr' 0 {scale} 0 0 2\n{smoothing}\n{handling}\n"
+            self.refused(text.replace("'60E1.prr' 0 1 0\n", line), words)
+        line = "'60E1.prr' 0 1 0 0 2\n0 45d 30d 6d 2\n-2 1\n"
+        self.assertEqual(self.run_text(text.replace("'60E1.prr' 0 1 0\n", line))[0].returncode, 0)
+
     def test_first_case_keeps_nothing(self):
         """Digits that keep values which no case has given"""
         for digits, word in (({"vldcmze": "0021020"}, "C = 1"), ({"vldcmze": "0020020"}, "C = 0"), ({"vldcmze": "0022010"}, "Z = 1"),

@@ -28,6 +28,7 @@ program test_profile
    call tables(suite)
    call simpack(suite)
    call miniprof(suite)
+   call outliers(suite)
    call refusals(suite)
    call arc(suite)
    call hidden(suite)
@@ -243,6 +244,8 @@ contains
 
    subroutine simpack(suite)
       type(test_suite), intent(inout) :: suite
+      !> Cosine and sine of 30 degrees
+      real(wp), parameter :: c = sqrt(0.75_wp), s = 0.5_wp
       type(profile_curve) :: curve
       type(profile_request) :: request
       character(len=:), allocatable :: text
@@ -274,9 +277,23 @@ contains
          & nl // "0 0" // nl // "5 1" // nl // "20 10" // nl // simpack_tail, curve, "mirrored by the user")
       call suite%close_to(curve%y%nodes(), [-20.0_wp, -5.0_wp, 0.0_wp, 10.0_wp, 20.0_wp], 1.0e-12_wp, "mirrored and reordered")
       request%mirror_y = 0
-      call refused(suite, request, simpack_head // "inversion = 1" // nl // "point.begin" // nl // roof // simpack_tail, &
-         & "lateral coordinate", 0, "a file that is wrong about its order")
-      request%mirror_y = 0
+      ! a file that is wrong about its order, either way
+      call read_text(suite, request, simpack_head // "inversion = 1" // nl // "point.begin" // nl // roof // simpack_tail, curve, &
+         & "reversed in vain", warnings=1)
+      call is_roof(suite, curve, "reversed in vain")
+      call read_text(suite, request, simpack_head // "inversion = 0" // nl // "point.begin" // nl // "20 10" // nl // "10 3" // nl &
+         & // "5 1" // nl // "0 0" // nl // "-5 1" // nl // "-10 3" // nl // "-20 10" // nl // &
+         & simpack_tail, curve, "not reversed", &
+         & warnings=1)
+      call is_roof(suite, curve, "not reversed")
+      ! behind the shift, before the bounds: (y, z) = (3, 4) + (1, 0) becomes (4 c - 4 s, 4 s + 4 c)
+      call read_text(suite, request, simpack_head // "shift.y = 1" // nl // "units.ang.f = 57.29577951308232" // nl // &
+         & "rotate = 30" // nl // "bound.y.max = 1e3" // nl // "bound.y.min = -18" // nl // "point.begin" // nl // "-20 10" // nl &
+         & // "-17 8" // nl // "3 4" // nl // "20 10" // nl // simpack_tail, curve, "rotated")
+      call suite%close_to(curve%y%nodes(), [-16.0_wp*c - 8.0_wp*s, 4.0_wp*c - 4.0_wp*s, 21.0_wp*c - 10.0_wp*s], 1.0e-12_wp, &
+         & "rotated y")
+      call suite%close_to(curve%z%nodes(), [-16.0_wp*s + 8.0_wp*c, 4.0_wp*s + 4.0_wp*c, 21.0_wp*s + 10.0_wp*c], 1.0e-12_wp, &
+         & "rotated z")
       call read_text(suite, request, simpack_head // "point.begin" // nl // roof // "1" // nl // "1 2 3 4" // nl // &
          & "30 20 1.0" // nl // simpack_tail, curve, "rows of wrong length", warnings=2)
       call suite%equal(size(curve%y%s), 8, "rows of wrong length are skipped")
@@ -299,7 +316,82 @@ contains
       call is_roof(suite, curve, "columns in other order")
       call read_text(suite, request, "old style header" // nl // nl // roof, curve, "header without keys")
       call is_roof(suite, curve, "header without keys")
+      ! numbers below a line of text belong to the header, up to the blank line, and a warning says so
+      call read_text(suite, request, "Rail profile" // nl // "12.5 7.25 1e3" // nl // "Gauge 1435" // nl // "x=1" // &
+         & nl // "9 9" // &
+         & nl // nl // roof, curve, "header with numbers", warnings=1)
+      call is_roof(suite, curve, "header with numbers")
+      call read_text(suite, request, "Rail profile" // nl // "Gauge 1435" // nl // nl // roof // nl, curve, "header of text")
+      call is_roof(suite, curve, "header of text")
+      ! the heading of a table, also when a blank line ends the file
+      call read_text(suite, request, "y z" // nl // roof // nl, curve, "heading of a table")
+      call is_roof(suite, curve, "heading of a table")
+      ! text behind the numbers
+      call read_text(suite, request, "-20 10 gauge side" // nl // "-10 3" // nl // "-5 1 a=2" // nl // "0 0 top" // &
+         & nl // "5 1" // nl &
+         & // "10 3" // nl // "20 10", curve, "text behind numbers", warnings=1)
+      call is_roof(suite, curve, "text behind numbers")
+      call read_text(suite, request, "ColumnDef=X,Y" // nl // nl // "-20 10 left" // nl // "-10 3 a" // nl // "-5 1" // &
+         & nl // "0 0" // &
+         & nl // "5 1" // nl // "10 3" // nl // "20 10", curve, "text behind columns", warnings=1)
+      call is_roof(suite, curve, "text behind columns")
+      ! what the file says of its unit and tilt
+      call read_text(suite, request, "Units=mm" // nl // "Tilt=0.0" // nl // nl // roof, curve, "units and tilt")
+      call read_text(suite, request, "Tilt=0.5" // nl // nl // roof, curve, "tilt", warnings=1)
+      call refused(suite, request, "Tilt=0" // nl // "Units=inch" // nl // nl // roof, "Units = inch", 2, "inches without a factor")
+      request%scale = 2.0_wp
+      call read_text(suite, request, "Units=inch" // nl // nl // roof, curve, "inches with a factor")
    end subroutine miniprof
+
+   !> Points that no wheel or rail has bring a warning with file, line and point; corners, also coarse ones, do not
+   subroutine outliers(suite)
+      type(test_suite), intent(inout) :: suite
+      real(wp), parameter :: moved(2, 8) = reshape([0.0_wp, 3.0_wp, 0.0_wp, -3.0_wp, 115.0_wp, 0.0_wp, -115.0_wp, 0.0_wp, &
+         & 0.0_wp, 1.2_wp, 0.0_wp, 0.0_wp, 0.1_wp, 0.0_wp, 0.0_wp, 0.02_wp], [2, 8])
+      real(wp), parameter :: spacing(3) = [0.2_wp, 0.5_wp, 1.5_wp]
+      type(profile_curve) :: curve
+      type(profile_request) :: request
+      type(error_type), allocatable :: error
+      type(log_type) :: log
+      real(wp) :: y, z
+      character(len=:), allocatable :: text
+      character(len=40) :: row
+      integer :: i, j, k, n
+
+      request = rail_request("outlier.txt")
+      request%doubt = doubt%refuse
+      do j = 1, size(spacing)
+         n = nint(30.0_wp/spacing(j))
+         do k = 1, size(moved, 2)
+            text = ""
+            do i = -n, n
+               y = spacing(j)*i
+               ! a head with a corner at its side
+               z = 0.002_wp*y**2 + max(0.0_wp, abs(y) - 25.0_wp)*4.0_wp
+               if (i == 5) y = y + moved(1, k)
+               if (i == 5) z = z + moved(2, k)
+               write(row, '(2F20.10)') y, z
+               text = text // row // nl
+            end do
+            call write_file(request%file, text)
+            call read_profile(request, curve, log, error)
+            if (k > 5) then
+               call suite%check(.not. allocated(error), "noise and a corner are no outliers")
+            else
+               call suite%check(allocated(error), "an outlier is noticed")
+            end if
+         end do
+      end do
+      ! a hole: the last points are far away; and coarse tables without any
+      call read_text(suite, rail_request("hole.txt"), "-5 .1" // nl // "-4 .08" // nl // "-3 .05" // nl // "-2 .02" // &
+         & nl // "-1 0" // &
+         & nl // "0 0" // nl // "1 0" // nl // "2 .02" // nl // "3 .05" // nl // "4 .08" // nl // "5 .1" // nl // &
+         & "95 9", curve, "hole", &
+         & warnings=1)
+      call read_text(suite, rail_request("coarse.txt"), "-36 30" // nl // "-35 2" // nl // "-33 0" // nl // "33 0" // &
+         & nl // "35 2" // nl &
+         & // "36 30" // nl // "60 30" // nl // "60.5 0" // nl // "75 0" // nl // "76 30", curve, "coarse")
+   end subroutine outliers
 
    subroutine refusals(suite)
       type(test_suite), intent(inout) :: suite
@@ -333,8 +425,8 @@ contains
       call refused(suite, request, "header.begin" // nl // "spline.begin", "inside the block header", 2, "wrong nesting")
       call refused(suite, request, "point.begin", "stands outside", 1, "points without a block")
       call refused(suite, request, "spline.start", "is not known", 1, "a word that is not known")
-      call refused(suite, request, simpack_head // "rotate = 0.1" // nl // "point.begin" // nl // roof // simpack_tail, &
-         & "rotate = 0.1", 0, "a rotation")
+      call refused(suite, request, simpack_head // "rotate = 5" // nl // "point.begin" // nl // roof // simpack_tail, &
+         & "rotate = 5", 9, "a rotation in degrees without their unit")
       call refused(suite, request, simpack_head // "units.ang.f = 0", "expected a positive number", 9, "a unit of zero")
       call refused(suite, request, simpack_head // "point.begin" // nl // "0 0" // nl // "inf 1" // nl // simpack_tail, &
          & "not a finite number", 11, "an infinite point")
