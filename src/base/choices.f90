@@ -10,6 +10,7 @@ module contact_base_choices
    public :: kernel_model, material_model, solver_choice, estimate_choice, slip_source, heat_model, heat_source, heat_source_name
    public :: variation, stress_choice, contact_location
    public :: sensitivity_choice
+   public :: has_slope_reduction, is_fastrip, is_simplified
 
    !> How a case is linked to the previous one (P)
    type :: time_link_list
@@ -64,6 +65,8 @@ module contact_base_choices
    !> Material behaviour (M)
    type :: material_model_list
       integer :: elastic = 0, viscoelastic = 1, fastsim_single = 2, fastsim = 3, interfacial_layer = 4, fastrip = 5
+      !> FaStrip without slope reduction: as published, and with flexibilities that become one when everything slides
+      integer :: fastrip_plain = 6, fastrip_sliding = 7
    end type material_model_list
    type(material_model_list), parameter :: material_model = material_model_list()
 
@@ -135,4 +138,32 @@ module contact_base_choices
       integer :: none = 0, forces = 1, normal = 2, all = 3
    end type sensitivity_choice_list
    type(sensitivity_choice_list), parameter :: sensitivity_choice = sensitivity_choice_list()
+
+contains
+
+   !> Is the tangential problem one of simplified theory?
+   elemental logical function is_simplified(model)
+      !> Member of material_model
+      integer, intent(in) :: model
+
+      is_simplified = model == material_model%fastsim_single .or. model == material_model%fastsim .or. is_fastrip(model)
+   end function is_simplified
+
+   !> Does strip theory give the tractions where elements adhere?
+   elemental logical function is_fastrip(model)
+      !> Member of material_model
+      integer, intent(in) :: model
+
+      is_fastrip = model == material_model%fastrip .or. model == material_model%fastrip_plain &
+         & .or. model == material_model%fastrip_sliding
+   end function is_fastrip
+
+   !> Are the springs of simplified theory softened by parameters of the case?
+   elemental logical function has_slope_reduction(model)
+      !> Member of material_model
+      integer, intent(in) :: model
+
+      has_slope_reduction = is_simplified(model) .and. model /= material_model%fastrip_plain &
+         & .and. model /= material_model%fastrip_sliding
+   end function has_slope_reduction
 end module contact_base_choices

@@ -1,6 +1,7 @@
 !> Entries for what both modules know: solvers, materials, temperatures, friction, rolling
 module contact_capi_physics
    use, intrinsic :: iso_c_binding, only : c_double, c_int
+   use contact_base_choices, only : pressure_model
    use contact_base_kinds, only : wp
    use contact_capi_arguments, only : integer_of, integers_of, raised, real_of, reals_of
    use contact_capi_library, only : entry_type
@@ -8,7 +9,7 @@ module contact_capi_physics
    use contact_capi_problem, only : library_problem
    use contact_capi_registry, only : enter, leave, scope
    use contact_cases_spec, only : case_spec, damping_spec, friction_set, heat_spec
-   use contact_control_digits, only : choice_of
+   use contact_control_digits, only : choice_of, digit_of
    use contact_control_digits1, only : choice1_of
    use contact_control_units, only : inward, quantity, unit_convention
    use contact_elastic_material, only : combine, combined_material
@@ -129,7 +130,7 @@ contains
       integer, parameter :: fewest(0:12) = [4, 8, 8, 7, 8, 7, 4, 4, -1, -1, 0, 0, 4]
       integer, parameter :: most(0:12) = [4, 8, 8, 7, 8, 7, 4, 4, -1, -1, 1, 1, 4]
       real(wp), allocatable :: values(:)
-      integer :: method
+      integer :: method, with_sheet
 
       this = entry_type("cntc_setMaterialParameters", integer_of(ire), integer_of(icp))
       call enter(this, scope%settings, problem)
@@ -139,13 +140,20 @@ contains
       if (method >= 10) problem%setting%group = "damping"
       if (method < 0 .or. method > 12 .or. method == 8 .or. method == 9) then
          call complain(this, "there is no material method " // integer_text(method))
-      else if (count_fits(this, method, size(values), fewest(method), most(method))) then
+      else
+         ! the flexibility of an elastic thin sheet comes last, where there is one
+         with_sheet = 0
+         if (method < 10 .and. problem%spec%digits%b == digit_of("B", pressure_model%thin_sheet)) with_sheet = 1
+         if (.not. count_fits(this, method, size(values), fewest(method), most(method) + with_sheet)) then
+            call leave(problem)
+            return
+         end if
          if (method >= 12) then
             call set_damping(this, values, problem)
          else if (method >= 10) then
             call keep_damping(method == 11, problem%spec)
          else
-            call set_material(this, method, values, problem%units, problem%spec)
+            call set_material(this, method, values, size(values) > most(method), problem%units, problem%spec)
          end if
       end if
       call leave(problem)
@@ -184,17 +192,19 @@ contains
    end subroutine set_damping
 
    !> Elastic constants and what belongs to the model
-   subroutine set_material(this, method, values, units, spec)
+   subroutine set_material(this, method, values, with_sheet, units, spec)
       type(entry_type), intent(in) :: this
       integer, intent(in) :: method
       real(wp), intent(in) :: values(:)
+      !> Is the last value the flexibility of an elastic thin sheet?
+      logical, intent(in) :: with_sheet
       type(unit_convention), intent(in) :: units
       type(case_spec), intent(inout) :: spec
       !> Names of the values of each method; 6 and 7 have those of 0
       character(len=*), parameter :: names(0:7) = [character(len=44) :: "", " FG1 FG2 TC1 TC2", " FLX K0_MF ALFAMF BETAMF", &
          & " K0_MF ALFAMF BETAMF", " GG3 LAYTHK TAU_C0 K_TAU", " K0_MF ALFAMF BETAMF", "", ""]
       type(combined_material) :: both
-      real(wp) :: v(8)
+      real(wp) :: v(9)
       logical :: unlike
       integer :: n
 
@@ -212,12 +222,15 @@ contains
             v(5:8) = v(5:8)*[pressure, inward(units, quantity%length), pressure, inward(units, quantity%pressure_slope)]
          end select
       end associate
-      if (.not. fits(this, "POISS1 POISS2 GG1 GG2" // trim(names(method)), v(:n))) return
+      if (with_sheet) v(n) = values(n)*inward(units, quantity%compliance)
+      if (.not. fits(this, "POISS1 POISS2 GG1 GG2" // trim(names(method)) // trim(merge(" FLXZ", "     ", with_sheet)), v(:n))) &
+         & return
       spec%digits%m = method
       spec%material_model = choice_of("M", method)
       associate (material => spec%material)
          material%poiss = v(1:2)
          material%gg = v(3:4)
+         if (with_sheet) material%flxz = v(n)
          select case (method)
          case (1)
             material%fg = v(5:6)

@@ -41,6 +41,8 @@ contains
       end if
       if (allocated(problem%parts)) call add(", blended parts")
       select case (spec%pressure)
+      case (pressure_model%thin_sheet)
+         call add(", elastic thin sheet")
       case (pressure_model%elliptical, pressure_model%parabolical)
          call add(", Hertzian pressure")
       case (pressure_model%sdec)
@@ -64,6 +66,8 @@ contains
             if (allocated(problem%extra_slip)) then
                if (any(abs(problem%extra_slip) > 0.0_wp)) call add(", extra rigid slip")
             end if
+            if (problem%spin_weight(1) < 1.0_wp) call add(", longitudinal part of the spin cancelled")
+            if (problem%spin_weight(2) < 1.0_wp) call add(", lateral part of the spin cancelled")
          end if
          if (allocated(problem%thermal)) then
             call add(", surface temperatures (")

@@ -1,6 +1,6 @@
 !> From the specification of a case to its elastic model
 module contact_cases_elastic_setup
-   use contact_base_choices, only : kernel_model, material_model, motion
+   use contact_base_choices, only : kernel_model, material_model, motion, pressure_model
    use contact_base_error, only : error_kind, error_type, fatal_error
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
@@ -27,6 +27,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       model%kernel = spec%kernel
+      if (spec%pressure == pressure_model%thin_sheet) model%sheet = spec%material%flxz
       associate (material => spec%material)
          model%material = combine(material%poiss, material%gg)
          if (spec%material_model == material_model%viscoelastic) then
@@ -35,7 +36,8 @@ contains
                   & // "(C = 2), not with bilinear, conformal or tabulated coefficients", error_kind%input)
                return
             end if
-            call model%set_viscoelastic(material%poiss, material%gg, material%fg, spec%rolling%veloc*material%tc)
+            call model%set_viscoelastic(material%poiss, material%gg, material%fg, spec%rolling%veloc*material%tc, &
+               & merge(-1, 1, cos(spec%rolling%chi) < 0.0_wp))
          else if (spec%material_model == material_model%interfacial_layer) then
             if (material%laythk >= thinnest_layer) model%layer = material%laythk/material%gg3
          end if

@@ -14,7 +14,7 @@ module contact_cases_geometry
    implicit none (type, external)
    private
 
-   public :: solve_hertz, build_grid, undeformed_distance, curvature_radius, is_line_contact
+   public :: solve_hertz, build_grid, undeformed_distance, curvature_radius, is_line_contact, part_labels
    public :: require_finite, require_positive
 
    !> Curvatures [1/mm], lengths [mm] and ratios [-] below this value are taken for missing
@@ -408,6 +408,7 @@ contains
       type(potential_contact), intent(in) :: grid
       real(wp), intent(inout) :: h(:, :)
       type(error_type), allocatable, intent(out) :: error
+      integer, allocatable :: label(:, :)
       integer :: ix, iy
       logical :: inside
 
@@ -420,11 +421,13 @@ contains
             return
          end if
       case (4)
-         call fatal_error(error, "a planform of several patches (IPLAN = 4) is not supported; " &
-            & // "1, 2 and 3 are", kind=error_kind%unsupported)
+         call check_parts(spec, error)
+         if (allocated(error)) return
+         label = part_labels(spec, grid)
+         where (label == 0) h = excluded_distance
          return
       case default
-         call fatal_error(error, "IPLAN = " // integer_text(spec%iplan) // " is not a planform; 1, 2 and 3 are")
+         call fatal_error(error, "IPLAN = " // integer_text(spec%iplan) // " is not a planform; 1 to 4 are")
          return
       end select
       do iy = 1, grid%my
@@ -439,6 +442,43 @@ contains
          end do
       end do
    end subroutine apply_planform
+
+   !> Rectangles and factors of a planform of several parts that can be computed with
+   subroutine check_parts(spec, error)
+      type(geometry_spec), intent(in) :: spec
+      type(error_type), allocatable, intent(out) :: error
+      integer :: parts
+
+      parts = 0
+      if (allocated(spec%rectangles) .and. allocated(spec%interaction)) parts = size(spec%rectangles, 2)
+      if (parts == 0) then
+         call fatal_error(error, "a planform of several parts (IPLAN = 4) needs their rectangles and factors")
+      else if (.not. (all(ieee_is_finite(spec%rectangles)) .and. all(ieee_is_finite(spec%interaction)))) then
+         call fatal_error(error, "the numbers of the planform (IPLAN = 4) must be finite")
+      else if (any(shape(spec%interaction) /= parts)) then
+         call fatal_error(error, "a planform of several parts (IPLAN = 4) needs a factor for each pair of parts")
+      end if
+   end subroutine check_parts
+
+   !> Number of the part of a planform that each element belongs to, by its centre: the first one in the list, 0 for none
+   pure function part_labels(spec, grid) result(label)
+      !> With rectangles
+      type(geometry_spec), intent(in) :: spec
+      type(potential_contact), intent(in) :: grid
+      integer, allocatable :: label(:, :)
+      integer :: ix, iy, k
+
+      allocate(label(grid%mx, grid%my), source=0)
+      do iy = 1, grid%my
+         do ix = 1, grid%mx
+            do k = 1, size(spec%rectangles, 2)
+               if (.not. in_rectangle(spec%rectangles(:, k), grid%x(ix), grid%y(iy))) cycle
+               label(ix, iy) = k
+               exit
+            end do
+         end do
+      end do
+   end function part_labels
 
    !> Does a point lie in the closed rectangle xl, xh, yl, yh?
    pure logical function in_rectangle(sides, x, y) result(inside)

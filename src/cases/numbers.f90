@@ -4,7 +4,7 @@
 !> everybody else, so that NaN and infinities never travel silently.
 module contact_cases_numbers
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
-   use contact_base_choices, only : force_control, motion, normal_control, slip_source
+   use contact_base_choices, only : force_control, motion, normal_control, pressure_model, slip_source
    use contact_base_error, only : error_type, fatal_error
    use contact_cases_bounds, only : check_number
    use contact_cases_spec, only : case_spec
@@ -24,6 +24,7 @@ contains
       call check_number("GG2", spec%material%gg(2), error)
       call check_number("POISS1", spec%material%poiss(1), error)
       call check_number("POISS2", spec%material%poiss(2), error)
+      if (spec%pressure == pressure_model%thin_sheet) call check_number("FLXZ", spec%material%flxz, error)
       call check_number("EPS", spec%iteration%eps, error)
       if (spec%normal == normal_control%force) then
          call check_number("FN", spec%kinematics%fn, error)

@@ -1,7 +1,7 @@
 !> Wheel on rail through its cases: specification in, result out
 module contact_cases_pair_session
    use contact_base_choices, only : contact_location, estimate_choice, force_control, kernel_model, material_model, &
-      & normal_control, sensitivity_choice, stress_choice, time_link, variation
+      & normal_control, pressure_model, sensitivity_choice, stress_choice, time_link, variation
    use contact_base_error, only : add_context, error_kind, error_type, fatal_error
    use contact_base_kinds, only : long, wp
    use contact_base_log, only : log_type
@@ -141,18 +141,8 @@ contains
          & .and. .not. spec%wheel_rail%rail%kz > 0.0_wp) then
          call fatal_error(error, "a rail on springs with a prescribed height, F = 3 and N = 0, needs a " &
             & // "vertical stiffness above 0", error_kind%input)
-      else if (spec%material_model == material_model%viscoelastic .and. moves_backwards(spec)) then
-         call fatal_error(error, "viscoelastic material, M = 1, needs a wheel that rolls forward", error_kind%input)
       end if
    end subroutine check_combinations
-
-   !> Does the wheel roll towards -x?
-   pure logical function moves_backwards(spec)
-      type(case_spec), intent(in) :: spec
-
-      moves_backwards = spec%wheel_rail%wheelset%vs < 0.0_wp
-      if (spec%wheel_rail%roller) moves_backwards = spec%wheel_rail%wheelset%rpitch < 0.0_wp
-   end function moves_backwards
 
    !> Read and prepare the profiles of a case without solving it, and see whether they fit the nominal radii
    subroutine check_profiles(session, spec, folder, log, error)
@@ -221,6 +211,8 @@ contains
          end associate
          call set_method(spec, template)
          template%pressure = spec%pressure
+         ! a sheet belongs to the bodies: the normal problem is the same
+         if (spec%pressure == pressure_model%thin_sheet) template%pressure = pressure_model%full
          template%grid%my = 1
          problem%variation = spec%variation
          problem%friction_law = spec%friction_law

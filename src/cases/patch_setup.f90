@@ -1,14 +1,14 @@
 !> From the specification of a case to the problem of its patch
 module contact_cases_patch_setup
-   use contact_base_choices, only : friction_model, material_model, motion, normal_control, pressure_model, sensitivity_choice, &
-      & slip_source, solver_choice
+   use contact_base_choices, only : friction_model, has_slope_reduction, is_fastrip, is_simplified, material_model, motion, &
+      & normal_control, pressure_model, sensitivity_choice, slip_source, solver_choice
    use contact_base_error, only : error_kind, error_type, fatal_error
    use contact_base_kinds, only : long, wp
    use contact_base_log, only : log_type
    use contact_base_memory, only : bytes_per_element, require_memory
    use contact_cases_elastic_setup, only : set_coefficients, set_inclination, set_model
    use contact_cases_friction_setup, only : set_friction, set_thermal
-   use contact_cases_geometry, only : build_grid, is_line_contact, require_positive, solve_hertz, undeformed_distance
+   use contact_cases_geometry, only : build_grid, is_line_contact, part_labels, require_positive, solve_hertz, undeformed_distance
    use contact_cases_numbers, only : check_numbers
    use contact_cases_spec, only : case_spec
    use contact_friction_law, only : friction_driver
@@ -63,6 +63,7 @@ contains
       problem%creep = [spec%kinematics%cksi, spec%kinematics%ceta]
       problem%spin = spec%kinematics%cphi
       problem%spin_centre = [spec%kinematics%spinxo, spec%kinematics%spinyo]
+      problem%spin_weight = merge(0.0_wp, 1.0_wp, spec%slip_source == [slip_source%no_spin_x, slip_source%no_spin_y])
       call set_method(spec, problem)
       problem%sensitivity = spec%iteration%sensitivity
       ! what nobody asked for is computed only if it gets printed
@@ -162,6 +163,12 @@ contains
       problem%grid = grid
       call undeformed_distance(spec%geometry, grid, result%hertz, problem%h, error)
       if (allocated(error)) return
+      if (allocated(problem%parts)) deallocate(problem%parts)
+      if (.not. allocated(result%hertz) .and. allocated(spec%geometry%rectangles)) then
+         allocate(problem%parts)
+         problem%parts%label = part_labels(spec%geometry, grid)
+         problem%parts%interaction = spec%geometry%interaction
+      end if
       problem%has_geometry = .true.
    end subroutine set_geometry
 
@@ -178,6 +185,8 @@ contains
       real(wp) :: total
 
       problem%pressure = spec%pressure
+      ! a sheet belongs to the bodies: the normal problem is the same
+      if (spec%pressure == pressure_model%thin_sheet) problem%pressure = pressure_model%full
       call check_pressure_model(spec, allocated(result%hertz), error)
       if (allocated(error)) return
       select case (spec%pressure)
@@ -222,11 +231,8 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       if (allocated(problem%simplified)) deallocate(problem%simplified)
-      if (spec%motion == motion%none) return
-      select case (spec%material_model)
-      case (material_model%fastsim_single, material_model%fastsim)
-         continue
-      case (material_model%fastrip)
+      if (spec%motion == motion%none .or. .not. is_simplified(spec%material_model)) return
+      if (is_fastrip(spec%material_model)) then
          if (spec%motion /= motion%steady_rolling) then
             call fatal_error(error, "FaStrip needs steady rolling; Fastsim, M = 2 or 3, can do shifts and transient rolling")
             return
@@ -236,9 +242,7 @@ contains
                & "Fastsim, M = 2 or 3, can")
             return
          end if
-      case default
-         return
-      end select
+      end if
       if (spec%motion == motion%shift .and. spec%material%alfamf < 1.0_wp .and. spec%material%betamf > 0.0_wp) then
          call fatal_error(error, "slope reduction depends on creepages of rolling, a shift has none: ALFAMF must be 1 or " // &
             & "BETAMF 0 with T = 1")
@@ -257,7 +261,8 @@ contains
       associate (model => problem%simplified)
          model%choice = spec%material_model
          model%flx = spec%material%flx
-         model%reduction = slope_reduction(spec%material%k0_mf, spec%material%alfamf, spec%material%betamf)
+         if (has_slope_reduction(spec%material_model)) model%reduction = slope_reduction(spec%material%k0_mf, &
+            & spec%material%alfamf, spec%material%betamf)
          if (allocated(result%hertz)) model%hertz = ellipse(result%hertz%aa, result%hertz%bb)
          call require_positive("slope reduction factor K0_MF", model%reduction%k0, error)
          if (model%choice == material_model%fastsim_single) call require_positive("flexibility FLX", model%flx, error)
@@ -276,7 +281,7 @@ contains
 
       by_force = spec%normal == normal_control%force
       select case (spec%pressure)
-      case (pressure_model%full)
+      case (pressure_model%full, pressure_model%thin_sheet)
          if (spec%grid%ipotcn == -6) call fatal_error(error, "the double-elliptical geometry (IPOTCN = -6) has no undeformed " &
             & // "distance to solve the normal problem for; it needs the pressures of SDEC, B = 4")
       case (pressure_model%elliptical, pressure_model%parabolical)
@@ -291,8 +296,6 @@ contains
       case (pressure_model%kpec, pressure_model%analyn)
          if (by_force) call fatal_error(error, "KPEC and ANALYN need the approach (N = 0); a prescribed force goes with " &
             & // "the full solution, B = 0, or with Hertzian pressures, B = 2 or 3")
-      case default
-         call fatal_error(error, "the normal problem of an elastic thin sheet is not built; B = 0 solves it for half-spaces")
       end select
    end subroutine check_pressure_model
 
@@ -321,15 +324,12 @@ contains
       ! particles of a layer are followed from element to element
       if (spec%motion /= motion%steady_rolling .and. spec%material_model /= material_model%interfacial_layer) then
          if (allocated(problem%simplified) .or. problem%dq <= (1.0_wp + step_tolerance)*problem%grid%dx) return
-         problem%corrects_leading_edge = problem%n_forces == 0 .and. .not. oblique
-         if (.not. problem%corrects_leading_edge) call log%warning("DQ is larger than DX: slip near the leading edge is " // &
-            & "corrected for given creepages (F=0) and rolling along x only; DQ at most DX needs no correction")
+         call set_leading_edge()
          return
       end if
       problem%general_step = (oblique .or. other_step) .and. takes_any_step(spec, problem)
       if (problem%general_step) then
-         if (problem%dq > (1.0_wp + step_tolerance)*problem%grid%dx) call log%warning("DQ is larger than DX: slip near the " // &
-            & "leading edge is less accurate; in steady rolling it is not corrected")
+         if (problem%dq > (1.0_wp + step_tolerance)*problem%grid%dx) call set_leading_edge()
          return
       end if
       if (oblique) then
@@ -343,6 +343,15 @@ contains
          & call log%warning(trim(kind_of_rolling(spec)) // " advances by one element per step: DQ is set to DX; " // &
          & "ConvexGS (G=2) takes other steps")
       problem%dq = problem%grid%dx
+
+   contains
+
+      !> Steps longer than an element: along x the edge of contact is found in each row
+      subroutine set_leading_edge()
+         problem%corrects_leading_edge = .not. oblique
+         if (oblique) call log%warning("DQ is larger than DX: slip near the leading edge is corrected for rolling along x " // &
+            & "only; DQ at most DX needs no correction")
+      end subroutine set_leading_edge
    end subroutine set_rolling
 
    !> Name of what advances by one element per step

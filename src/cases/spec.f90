@@ -144,6 +144,9 @@ module contact_cases_spec
       real(wp), allocatable :: h(:)
       !> IPLAN 2: PL1...PL6; IPLAN 3: XL1 XH1 YL1 YH1 XL2 XH2 YL2 YH2
       real(wp) :: pl(8) = 0.0_wp
+      !> IPLAN 4: XL XH YL YH of each part [mm], shape (4, parts), and the factors by which the pressures of one part act
+      !> on another [-], symmetric, 1 on the diagonal, shape (parts, parts); unallocated for the other planforms
+      real(wp), allocatable :: rectangles(:, :), interaction(:, :)
    end type geometry_spec
 
    !> Subsurface request

@@ -11,7 +11,7 @@ module contact_control_digits
    private
 
    public :: digit_row, digit_table, digit_names
-   public :: is_known, is_built, choice_of, digit_text, allowed_text, listed, digit_value
+   public :: is_known, is_built, choice_of, digit_of, digit_text, allowed_text, listed, digit_value
    public :: decode_words, encode_words, word_text
 
    !> Length of the words for a value, and of the list of all values of a digit
@@ -41,7 +41,7 @@ module contact_control_digits
       & digit_row("P", 2, time_link%initiate, .true., "new sequence: no previous tractions"), &
       & digit_row("P", 3, time_link%repeat_step, .true., "new iteration: previous tractions stay as they are"), &
       & digit_row("B", 0, pressure_model%full, .true., "full solution of the normal problem"), &
-      & digit_row("B", 1, pressure_model%thin_sheet, .false., "elastic thin sheet with a vertical flexibility"), &
+      & digit_row("B", 1, pressure_model%thin_sheet, .true., "elastic thin sheet with a vertical flexibility"), &
       & digit_row("B", 2, pressure_model%elliptical, .true., "Hertzian: elliptical pressure and traction bound"), &
       & digit_row("B", 3, pressure_model%parabolical, .true., "Hertzian ellipse with a parabolical traction bound"), &
       & digit_row("B", 4, pressure_model%sdec, .true., "simple double-elliptical contact (SDEC)"), &
@@ -85,15 +85,15 @@ module contact_control_digits
       & digit_row("M", 3, material_model%fastsim, .true., "simplified theory, three flexibilities (modified Fastsim)"), &
       & digit_row("M", 4, material_model%interfacial_layer, .true., "interfacial layer with near-surface plasticity"), &
       & digit_row("M", 5, material_model%fastrip, .true., "modified FaStrip"), &
-      & digit_row("M", 6, 6, .false., "experimental variant of FaStrip, not supported"), &
-      & digit_row("M", 7, 7, .false., "experimental variant of FaStrip, not supported"), &
+      & digit_row("M", 6, material_model%fastrip_plain, .true., "FaStrip as published, without slope reduction"), &
+      & digit_row("M", 7, material_model%fastrip_sliding, .true., "as 6, with the correction of full sliding"), &
       & digit_row("Z", 0, 0, .true., "keep the undeformed distance and planform"), &
       & digit_row("Z", 1, 1, .true., "form the undeformed distance from the values in store"), &
       & digit_row("Z", 2, 2, .true., "read the undeformed distance and planform"), &
       & digit_row("E", 0, slip_source%none, .true., "no extra term in the rigid slip"), &
       & digit_row("E", 1, slip_source%keep, .true., "keep the extra term of the previous case"), &
-      & digit_row("E", 2, slip_source%no_spin_y, .false., "extra term that cancels the lateral part of the spin"), &
-      & digit_row("E", 3, slip_source%no_spin_x, .false., "extra term that cancels the longitudinal part of the spin"), &
+      & digit_row("E", 2, slip_source%no_spin_y, .true., "extra term that cancels the lateral part of the spin"), &
+      & digit_row("E", 3, slip_source%no_spin_x, .true., "extra term that cancels the longitudinal part of the spin"), &
       & digit_row("E", 9, slip_source%given, .true., "read an extra term for each element"), &
       & digit_row("M2", 0, 0, .true., "no damping"), &
       & digit_row("M2", 1, 1, .true., "keep the damping of the previous case"), &
@@ -187,6 +187,20 @@ contains
       choice = digit
       if (row > 0) choice = digit_table(row)%choice
    end function choice_of
+
+   !> Digit that stands for a named choice, -1 when there is none
+   pure integer function digit_of(name, choice) result(digit)
+      character(len=*), intent(in) :: name
+      integer, intent(in) :: choice
+      integer :: row
+
+      digit = -1
+      do row = 1, size(digit_table)
+         if (digit_table(row)%choice /= choice .or. digit_table(row)%name /= name) cycle
+         digit = digit_table(row)%digit
+         return
+      end do
+   end function digit_of
 
    !> What the digit means, in words
    pure function digit_text(name, digit) result(text)

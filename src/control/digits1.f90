@@ -19,7 +19,7 @@ module contact_control_digits1
       & digit_row("C1", 4, 4, .true., "left wheel on a roller"), &
       & digit_row("C1", 5, 5, .true., "right wheel on a roller"), &
       & digit_row("B", 0, pressure_model%full, .true., "full solution of the normal problem"), &
-      & digit_row("B", 1, pressure_model%thin_sheet, .false., "elastic thin sheet with a vertical flexibility"), &
+      & digit_row("B", 1, pressure_model%thin_sheet, .true., "elastic thin sheet with a vertical flexibility"), &
       & digit_row("B", 5, pressure_model%kpec, .true., "Kik-Piotrowski approach with ellipse correction (KPEC)"), &
       & digit_row("B", 6, pressure_model%analyn, .true., "modified ANALYN approach"), &
       & digit_row("F", 0, force_control%creepages, .true., "velocities prescribed"), &

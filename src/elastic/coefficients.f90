@@ -31,6 +31,7 @@ contains
          call fill_table(table, model%material, dx, dy, nx, ny)
       end if
       if (model%rotates_by_offset()) call rotate_table(table, model%inclination)
+      table%nn(0, 0) = table%nn(0, 0) + model%sheet
       table%xx(0, 0) = table%xx(0, 0) + model%layer
       table%yy(0, 0) = table%yy(0, 0) + model%layer
    end subroutine fill_coefficients

@@ -1,4 +1,4 @@
-!> Influence coefficients of viscoelastic bodies in steady motion towards increasing x
+!> Influence coefficients of viscoelastic bodies in steady motion towards increasing x, or the mirror image of it
 !>
 !> A standard linear solid adds to its elastic response the memory of what its particles met
 !> before. A particle that is at X now was at X + v s when s relaxation times ago, v the distance
@@ -66,12 +66,26 @@ contains
       end if
       if (memory%length(1) > 0.0_wp .and. memory%length(1) == memory%length(2)) then
          call add_memory(table, together(memory%late), memory%length(1))
-         return
+      else
+         do a = 1, 2
+            if (memory%length(a) > 0.0_wp) call add_memory(table, memory%late(a), memory%length(a))
+         end do
       end if
-      do a = 1, 2
-         if (memory%length(a) > 0.0_wp) call add_memory(table, memory%late(a), memory%length(a))
-      end do
+      if (memory%direction < 0) call turn_around(table)
    end subroutine fill_with_memory
+
+   !> Coefficients of motion towards decreasing x: the mirror image, in which x-components change sign
+   pure subroutine turn_around(table)
+      type(kernel_table), intent(inout) :: table
+
+      table%nn = table%nn(table%nx:-table%nx:-1, :)
+      table%xx = table%xx(table%nx:-table%nx:-1, :)
+      table%yy = table%yy(table%nx:-table%nx:-1, :)
+      table%xy = -table%xy(table%nx:-table%nx:-1, :)
+      if (.not. allocated(table%xn)) return
+      table%xn = -table%xn(table%nx:-table%nx:-1, :)
+      table%yn = table%yn(table%nx:-table%nx:-1, :)
+   end subroutine turn_around
 
    !> Sum of two responses
    pure function together(late) result(both)

@@ -16,6 +16,8 @@ module contact_elastic_model
       type(combined_material) :: late(2)
       !> Distance travelled within the relaxation time, v_a = V tau_a [mm]; 0: the body has no memory
       real(wp) :: length(2) = 0.0_wp
+      !> Motion towards increasing (+1) or decreasing (-1) x
+      integer :: direction = 1
    end type fading_memory
 
    !> Inclination of a curved surface across the rolling direction
@@ -57,6 +59,8 @@ module contact_elastic_model
       integer :: kernel = kernel_model%piecewise_constant
       !> Tangential displacement in a thin layer between the bodies per unit traction [mm3/N]; 0: no layer
       real(wp) :: layer = 0.0_wp
+      !> Normal displacement in a thin elastic sheet between the bodies per unit pressure [mm3/N]; 0: no sheet
+      real(wp) :: sheet = 0.0_wp
       !> Late response in steady motion; unallocated: none
       type(fading_memory), allocatable :: memory
       !> Inclination of the surface for kernel_model%conformal; unallocated: flat
@@ -111,12 +115,12 @@ contains
       type(elastic_model), intent(in) :: other
 
       same = self%material%same_as(other%material) .and. self%kernel == other%kernel .and. self%layer == other%layer &
-         & .and. (allocated(self%memory) .eqv. allocated(other%memory)) &
+         & .and. self%sheet == other%sheet .and. (allocated(self%memory) .eqv. allocated(other%memory)) &
          & .and. (allocated(self%inclination) .eqv. allocated(other%inclination)) &
          & .and. (allocated(self%tabulated) .eqv. allocated(other%tabulated))
       if (.not. same) return
       if (allocated(self%memory)) same = all(self%memory%length == other%memory%length) &
-         & .and. all(self%memory%late%same_as(other%memory%late))
+         & .and. self%memory%direction == other%memory%direction .and. all(self%memory%late%same_as(other%memory%late))
       if (same .and. allocated(self%tabulated)) same = self%tabulated%same_table(other%tabulated)
       if (.not. allocated(self%inclination)) return
       associate (a => self%inclination, b => other%inclination)
@@ -135,7 +139,7 @@ contains
    end function same_table
 
    !> A body whose relaxation time is 0 responds at once with its late compliance
-   pure subroutine set_viscoelastic(self, poiss, gg, ratio, length)
+   pure subroutine set_viscoelastic(self, poiss, gg, ratio, length, direction)
       class(elastic_model), intent(inout) :: self
       !> Poisson ratios [-] and instantaneous moduli of rigidity [N/mm2] of bodies 1 and 2
       real(wp), intent(in) :: poiss(2), gg(2)
@@ -143,6 +147,8 @@ contains
       real(wp), intent(in) :: ratio(2)
       !> Distance travelled within the relaxation time [mm]
       real(wp), intent(in) :: length(2)
+      !> Motion towards increasing (+1) or decreasing (-1) x
+      integer, intent(in) :: direction
       real(wp) :: modulus(2)
       integer :: a
 
@@ -152,6 +158,7 @@ contains
       if (allocated(self%memory)) deallocate(self%memory)
       if (.not. any(length > 0.0_wp .and. ratio > 0.0_wp)) return
       allocate(self%memory)
+      self%memory%direction = direction
       do a = 1, 2
          if (length(a) <= 0.0_wp .or. ratio(a) <= 0.0_wp) cycle
          self%memory%length(a) = length(a)

@@ -99,6 +99,7 @@ contains
                   do k = 0, highest
                      values(1 + k, 1) = t%c(k, l, b, slice + self%row_offset)
                   end do
+                  if (l == 0 .and. b == 1) values(1, 1) = values(1, 1) + self%model%sheet
                   if (l == 0 .and. (b == 5 .or. b == 9)) values(1, 1) = values(1, 1) + self%model%layer
                   do k = 1, highest
                      values(px + 1 - k, 1) = merge(-1.0_wp, 1.0_wp, is_odd(b))*values(1 + k, 1)
@@ -116,6 +117,7 @@ contains
          do b = 1, 3
             self%diagonal(b) = sum(t%c(0, 0, 4*b - 3, self%row_offset + 1:self%row_offset + slices))/slices
          end do
+         self%diagonal(1) = self%diagonal(1) + self%model%sheet
          self%diagonal(2:3) = self%diagonal(2:3) + self%model%layer
       end associate
    end subroutine make_spectra

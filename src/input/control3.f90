@@ -1,5 +1,6 @@
 !> The control words of a case of module 3 and the checks of its digits
 module contact_input_control3
+   use contact_base_choices, only : contact_location, is_fastrip, is_simplified, slip_source
    use contact_base_error, only : error_type
    use contact_cases_spec, only : case_digits, case_spec
    use contact_control_digits, only : allowed_text, choice_of, decode_words, digit_names, digit_text, digit_value, &
@@ -234,19 +235,21 @@ contains
       associate (digits => spec%digits)
          if (digits%m == 1 .and. digits%t /= 3) call add_for_digit(problems, words, severity%error, "M", &
             & "M = 1, viscoelastic material, needs steady rolling, T = 3, not T = " // integer_text(digits%t))
-         if (digits%m == 5 .and. (digits%t == 1 .or. digits%t == 2)) call add_for_digit(problems, words, severity%error, &
-            & "M", "M = 5, FaStrip, needs steady rolling, T = 3, not T = " // integer_text(digits%t) // &
-            & "; Fastsim, M = 2 or 3, can do it")
-         if (digits%m == 5 .and. digits%t == 3 .and. (digits%e == 1 .or. digits%e == 9)) call add_for_digit(problems, words, &
-            & severity%error, "E", "E = " // integer_text(digits%e) // ", an extra term in the rigid slip, cannot be used " // &
-            & "with M = 5, FaStrip, whose strips know creepages and spin only; Fastsim, M = 2 or 3, can do it")
+         if (is_fastrip(spec%material_model)) then
+            if (digits%t == 1 .or. digits%t == 2) call add_for_digit(problems, words, severity%error, "M", "M = " // &
+               & integer_text(digits%m) // ", FaStrip, needs steady rolling, T = 3, not T = " // integer_text(digits%t) // &
+               & "; Fastsim, M = 2 or 3, can do it")
+            if (digits%t == 3 .and. spec%slip_source /= slip_source%none) call add_for_digit(problems, words, severity%error, &
+               & "E", "E = " // integer_text(digits%e) // ", an extra term in the rigid slip, cannot be used with M = " // &
+               & integer_text(digits%m) // ", FaStrip, whose strips know creepages and spin only; Fastsim, M = 2 or 3, can do it")
+         end if
          if (digits%h >= 1 .and. (digits%t == 1 .or. digits%t == 2)) call add_for_digit(problems, words, severity%error, "H", &
             & "H = " // integer_text(digits%h) // ", surface temperatures, needs steady rolling, T = 3, or T = 0, not T = " // &
-            & integer_text(digits%t))
+            & integer_text(digits%t) // ": they are those of a motion that does not change")
          if (spec%friction_law == 6) then
             if (digits%h == 0) call add_for_digit(problems, words, severity%error, "L", &
                & "L = 6, friction falling with temperature, needs surface temperatures, H = 1 or 3")
-            if (any(digits%m == [2, 3, 5, 6, 7])) call add_for_digit(problems, words, severity%error, "L", &
+            if (is_simplified(spec%material_model)) call add_for_digit(problems, words, severity%error, "L", &
                & "L = 6, friction falling with temperature, cannot be used with M = " // integer_text(digits%m))
          end if
       end associate
@@ -270,7 +273,8 @@ contains
          digit = kept_digit(spec, name, on_rail)
          if (on_rail) then
             if (digit1_is_built(name, digit) .or. .not. digit1_value_is_known(name, digit)) cycle
-            text = trim(digit1_text(name, digit)) // ", is known but not built in this version for wheel on rail"
+            text = trim(digit1_text(name, digit)) // ", is known but not built in this version for wheel on rail" // &
+               & trim(alternative(spec, name))
          else
             if (is_built(name, digit) .or. .not. is_known(name, digit)) cycle
             text = trim(digit_text(name, digit)) // ", is known but not built in this version"
@@ -278,6 +282,20 @@ contains
          call add_for_digit(problems, words, severity%unsupported, name, name // " = " // integer_text(digit) // ", " // text)
       end do
    end subroutine refuse_unbuilt_digits
+
+   !> What to use instead of a digit of module 1 that is not built, with a semicolon before it; blank when nothing is known
+   pure function alternative(spec, name) result(text)
+      type(case_spec), intent(in) :: spec
+      !> Letter of the digit
+      character(len=*), intent(in) :: name
+      character(len=64) :: text
+
+      text = ""
+      if (name /= "D") return
+      text = "; use D = 2 or 7, whose search needs no direction of view"
+      if (spec%wheel_rail%search%location == contact_location%oblique_grid) &
+         & text = "; use D = 5 or 6, whose search needs no direction of view"
+   end function alternative
 
    !> A digit, or the one that it keeps
    pure integer function kept_digit(spec, name, on_rail) result(digit)

@@ -1,6 +1,6 @@
 !> The groups of a case of module 3 that belong to the grid: potential contact, geometry, extra slip
 module contact_input_grid3
-   use contact_base_error, only : error_type, fatal_error
+   use contact_base_error, only : error_kind, error_type, fatal_error
    use contact_base_kinds, only : long, wp
    use contact_cases_spec, only : case_spec, geometry_spec, grid_spec
    use contact_input_problems, only : problem_list, severity
@@ -220,7 +220,9 @@ contains
       type(input_value) :: v(8)
       real(wp), allocatable :: list(:)
       character(len=:), allocatable :: words
-      integer :: n
+      integer :: n, i, j, k
+      !> Most parts of a planform
+      integer, parameter :: most_parts = 100
 
       select case (option%i)
       case (1)
@@ -240,20 +242,47 @@ contains
          call problems%add(severity%error, "the rectangles of IPLAN = 3 need XL < XH " // &
             & "and YL < YH; given are XL1, XH1, YL1, YH1, XL2, XH2, YL2, YH2 = " // words, v(1)%line, v(1)%column)
       case (4)
-         call read_values(lexer, "i", "NP", v, problems, error)
+         call lexer%read_group("i", "NP", v, error)
          if (allocated(error)) return
-         n = max(1, min(100, v(1)%i))
+         n = v(1)%i
+         if (n < 1 .or. n > most_parts) then
+            ! how much to read is not known
+            call fatal_error(error, "NP = " // v(1)%word // ", the number of parts of IPLAN = 4, is outside its range 1 to " // &
+               & integer_text(most_parts), error_kind%input, lexer%file, v(1)%line, v(1)%column)
+            return
+         end if
          call read_list(lexer, 4*n, "XL,XH,YL,YH", list, problems, error)
          if (allocated(error)) return
+         geometry%rectangles = reshape(list, [4, n])
+         if (any(list(1::4) >= list(2::4) .or. list(3::4) >= list(4::4))) call problems%add(severity%error, &
+            & "the rectangles of IPLAN = 4 need XL < XH and YL < YH; rectangle " // integer_text(first_bad(geometry%rectangles)) &
+            & // " has not", v(1)%line, v(1)%column)
          call read_list(lexer, (n*(n - 1))/2, "FAC", list, problems, error)
          if (allocated(error)) return
-         call problems%add(severity%unsupported, "IPLAN = 4, weighted interaction between sub-patches, " // &
-            & "is known but not built in this version", option%line, option%column)
+         allocate(geometry%interaction(n, n), source=1.0_wp)
+         k = 0
+         do i = 1, n
+            do j = i + 1, n
+               k = k + 1
+               geometry%interaction(i, j) = list(k)
+               geometry%interaction(j, i) = list(k)
+            end do
+         end do
       case default
          call problems%add(severity%error, "IPLAN = " // option%word // &
             & " is not a known option; allowed are 1 to 4", option%line, option%column)
       end select
    end subroutine read_planform
+
+   !> Number of the first rectangle whose ends are not in order
+   pure integer function first_bad(rectangles) result(k)
+      !> XL XH YL YH of each, shape (4, n)
+      real(wp), intent(in) :: rectangles(:, :)
+
+      do k = 1, size(rectangles, 2)
+         if (rectangles(1, k) >= rectangles(2, k) .or. rectangles(3, k) >= rectangles(4, k)) return
+      end do
+   end function first_bad
 
    !> Extra term of the rigid slip (E); 0 removes it
    subroutine read_extra_slip(lexer, spec, problems, error)

@@ -299,8 +299,8 @@ contains
          if (spec%digits%c < 2) return
          call read_values(lexer, "arrR", "CHI DQ VELOC FACPHI", v, problems, error)
          if (allocated(error)) return
-         if (spec%digits%m == 1 .and. abs(v(1)%r) > 0.01_wp) call problems%add(severity%error, "CHI = " // v(1)%word // &
-            & " is outside its range -0.01 to 0.01 rad for viscoelastic material", v(1)%line, v(1)%column)
+         if (spec%digits%m == 1 .and. abs(sin(v(1)%r)) > 0.01_wp) call problems%add(severity%error, "CHI = " // v(1)%word // &
+            & " is not along x, 0 or 180 degrees within 0.01 rad, which viscoelastic material needs", v(1)%line, v(1)%column)
          rolling%chi = v(1)%r
          rolling%dq = v(2)%r
          rolling%veloc = v(3)%r

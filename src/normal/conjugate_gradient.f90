@@ -16,7 +16,7 @@ module contact_normal_conjugate_gradient
    use contact_elastic_model, only : elastic_model
    use contact_elastic_new_compliance, only : new_compliance
    use contact_grid_coarsening, only : coarse_neighbours, coarse_size, coarsening_factor, shortest_side
-   use contact_normal_parts, only : contact_parts
+   use contact_normal_parts, only : contact_parts, displacement_between
    implicit none (type, external)
    private
 
@@ -89,11 +89,7 @@ contains
       real(wp), contiguous, intent(in) :: p(:, :)
       real(wp), contiguous, intent(inout) :: u(:, :)
 
-      if (allocated(problem%parts)) then
-         call problem%parts%displacement(operator, p, u)
-      else
-         call operator%normal(p, u)
-      end if
+      call displacement_between(problem%parts, operator, p, u)
    end subroutine pressure_displacement
 
    !> Solve for pressures and approach or force

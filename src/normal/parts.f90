@@ -9,7 +9,7 @@ module contact_normal_parts
    implicit none (type, external)
    private
 
-   public :: contact_parts
+   public :: contact_parts, displacement_between
 
    !> The parts of a patch
    type :: contact_parts
@@ -23,6 +23,24 @@ module contact_normal_parts
    end type contact_parts
 
 contains
+
+   !> Normal displacements by pressures, in one part or several
+   subroutine displacement_between(parts, operator, p, u)
+      !> Unallocated: everything acts with full strength
+      type(contact_parts), allocatable, intent(in) :: parts
+      !> Prepared for the window
+      class(compliance), intent(inout) :: operator
+      !> Pressures [N/mm2], shape (mx, my)
+      real(wp), contiguous, intent(in) :: p(:, :)
+      !> Normal displacement differences [mm]
+      real(wp), contiguous, intent(inout) :: u(:, :)
+
+      if (allocated(parts)) then
+         call parts%displacement(operator, p, u)
+      else
+         call operator%normal(p, u)
+      end if
+   end subroutine displacement_between
 
    subroutine displacement(self, operator, p, u)
       class(contact_parts), intent(in) :: self

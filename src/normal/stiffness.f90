@@ -7,6 +7,7 @@
 module contact_normal_stiffness
    use contact_base_kinds, only : wp
    use contact_elastic_compliance, only : compliance
+   use contact_normal_parts, only : contact_parts, displacement_between
    implicit none (type, external)
    private
 
@@ -15,9 +16,11 @@ module contact_normal_stiffness
 contains
 
    !> Solve A q = 1 on the contact area by preconditioned conjugate gradients
-   subroutine pressure_derivative(operator, contact, tolerance, most_iterations, q, reached)
+   subroutine pressure_derivative(operator, parts, contact, tolerance, most_iterations, q, reached)
       !> Prepared for the window
       class(compliance), intent(inout) :: operator
+      !> Parts that act on each other with less than full strength; unallocated: everything acts fully
+      type(contact_parts), allocatable, intent(in) :: parts
       !> Elements in contact, shape (mx, my)
       logical, contiguous, intent(in) :: contact(:, :)
       !> On the residual relative to 1, root of the mean square over the contact area
@@ -50,7 +53,7 @@ contains
             d = z + (rz/previous)*d
          end if
          previous = rz
-         call operator%normal(d, u)
+         call displacement_between(parts, operator, d, u)
          curvature = sum(d*u)
          if (.not. curvature > 0.0_wp) exit
          q = q + (rz/curvature)*d

@@ -1,6 +1,6 @@
 !> Cases as input files: what was solved through the library can be solved by the program
 module contact_output_input_case
-   use contact_base_choices, only : motion
+   use contact_base_choices, only : motion, slip_source
    use contact_base_kinds, only : wp
    use contact_cases_spec, only : case_spec, geometry_spec
    use contact_grid_element_division, only : bounding_box, contact_box
@@ -32,7 +32,8 @@ contains
          digits%s = 0
          digits%d = 2
          digits%z = 2
-         digits%e = merge(9, 0, allocated(spec%extra_slip) .and. spec%digits%e > 0)
+         if (all(spec%slip_source /= [slip_source%no_spin_x, slip_source%no_spin_y])) &
+            & digits%e = merge(9, 0, allocated(spec%extra_slip) .and. spec%digits%e > 0)
          digits%r = merge(1, 3, spec%solve)
          ! how materials and temperatures act, not whether they were set again
          if (spec%has_damping) digits%m2 = 2

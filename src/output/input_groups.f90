@@ -148,6 +148,7 @@ contains
          ! only wheel and rail, whose inclinations are those of the profiles
          if (spec%digits%c == 4) call put_line(unit, integers([m%if_meth, m%variant]), "IF_METH VARIANT")
          call put_line(unit, numbers([m%poiss, m%gg]), "POISS 1, 2, GG 1, 2")
+         if (spec%digits%b == 1) call put_line(unit, numbers([m%flxz]), "FLXZ")
          select case (spec%digits%m)
          case (1)
             call put_line(unit, numbers([m%fg, m%tc]), "FG 1, 2, TC 1, 2")

@@ -1,6 +1,6 @@
 !> The input of a case for programs: what was asked, kept groups included
 module contact_output_input_record
-   use contact_base_choices, only : friction_model, heat_source_name, material_model
+   use contact_base_choices, only : friction_model, has_slope_reduction, heat_source_name, material_model, pressure_model
    use contact_base_kinds, only : wp
    use contact_cases_spec, only : case_spec, friction_set
    use contact_output_record, only : record_writer
@@ -165,15 +165,20 @@ contains
          call record%count("model", "digit M", spec%material_model)
          call record%numbers("gg", "N/mm2", "moduli of rigidity of bodies 1 and 2", m%gg)
          call record%numbers("poiss", "-", "Poisson ratios", m%poiss)
+         if (spec%pressure == pressure_model%thin_sheet) call record%number("flxz", "mm3/N", &
+            & "vertical flexibility of the elastic thin sheet", m%flxz)
          select case (spec%material_model)
          case (material_model%viscoelastic)
             call record%numbers("fg", "-", "ratios of viscoelastic to elastic flexibility", m%fg)
             call record%numbers("tc", "s", "relaxation times", m%tc)
-         case (material_model%fastsim_single, material_model%fastsim, material_model%fastrip)
+         case (material_model%fastsim_single, material_model%fastsim, material_model%fastrip, material_model%fastrip_plain, &
+            & material_model%fastrip_sliding)
             call record%number("flx", "mm3/N", "flexibility of simplified theory", m%flx)
-            call record%number("k0_mf", "-", "initial slope reduction", m%k0_mf)
-            call record%number("alfamf", "-", "final slope reduction over initial one", m%alfamf)
-            call record%number("betamf", "-", "decay of the slope reduction", m%betamf)
+            if (has_slope_reduction(spec%material_model)) then
+               call record%number("k0_mf", "-", "initial slope reduction", m%k0_mf)
+               call record%number("alfamf", "-", "final slope reduction over initial one", m%alfamf)
+               call record%number("betamf", "-", "decay of the slope reduction", m%betamf)
+            end if
          case (material_model%interfacial_layer)
             call record%number("gg3", "N/mm2", "modulus of rigidity of the layer", m%gg3)
             call record%number("laythk", "mm", "thickness of the layer", m%laythk)
@@ -198,7 +203,11 @@ contains
             call record%count("iplan", "planform", g%iplan)
             call record%numbers("b", "", "coefficients of the undeformed distance", g%b)
             if (allocated(g%profile)) call record%numbers("profile", "mm", "profile B(1...NN)", g%profile)
-            if (g%iplan > 1) call record%numbers("pl", "mm", "parameters of the planform", g%pl)
+            if (g%iplan == 2 .or. g%iplan == 3) call record%numbers("pl", "mm", "parameters of the planform", g%pl)
+            if (allocated(g%rectangles)) then
+               call record%numbers("rectangles", "mm", "XL XH YL YH of each part of the planform", pack(g%rectangles, .true.))
+               call record%numbers("interaction", "-", "factors between the parts of the planform", pack(g%interaction, .true.))
+            end if
          end associate
       else
          associate (g => spec%grid)

@@ -192,7 +192,8 @@ contains
       select case (model)
       case (material_model%viscoelastic)
          names = [character(len=11) :: "GG1", "GG2", "POISS1", "POISS2", "FG1", "FG2", "TC1", "TC2"]
-      case (material_model%fastsim_single, material_model%fastsim, material_model%fastrip)
+      case (material_model%fastsim_single, material_model%fastsim, material_model%fastrip, material_model%fastrip_plain, &
+            & material_model%fastrip_sliding)
          names = [character(len=11) :: "GG1", "GG2", "POISS1", "FLX1", "FLX2", "FLX3", "K0_MF", "ALFAMF", "BETAMF"]
       case (material_model%interfacial_layer)
          names = [character(len=11) :: "GG1", "GG2", "POISS1", "POISS2", "GG3", "LAYTHK", "TAU_C0", "K_TAU"]
@@ -212,7 +213,8 @@ contains
          select case (spec%material_model)
          case (material_model%viscoelastic)
             values = [material%gg, material%poiss, material%fg, material%tc]
-         case (material_model%fastsim_single, material_model%fastsim, material_model%fastrip)
+         case (material_model%fastsim_single, material_model%fastsim, material_model%fastrip, material_model%fastrip_plain, &
+            & material_model%fastrip_sliding)
             values = [material%gg, material%poiss(1), solved%flx, material%k0_mf, material%alfamf, material%betamf]
          case (material_model%interfacial_layer)
             values = [material%gg, material%poiss, material%gg3, material%laythk, material%tau_c0, material%k_tau]

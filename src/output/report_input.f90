@@ -1,17 +1,17 @@
 !> Echo of the input of a case in the .out file (output level 2 and higher)
 module contact_output_report_input
-   use contact_base_choices, only : force_control, friction_model, material_model, motion, normal_control, &
-      & pressure_model, solver_choice, variation
+   use contact_base_choices, only : force_control, friction_model, has_slope_reduction, is_fastrip, material_model, motion, &
+      & normal_control, pressure_model, solver_choice, variation
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
    use contact_cases_friction_setup, only : values_of
-   use contact_cases_spec, only : case_digits, case_spec, friction_set, kinematics_spec
+   use contact_cases_spec, only : case_digits, case_spec, friction_set, kinematics_spec, material_spec
    use contact_output_formats, only : fixed, general, generals, heading, smart, smarts, whole
    use contact_patch_result, only : hertz_result, patch_result
    implicit none (type, external)
    private
 
-   public :: write_input, write_friction
+   public :: write_input, write_friction, write_sheet
 
    !> Digits from which on a group of the input is new and therefore echoed
    integer, parameter :: new_kernel = 2, new_damping = 2, kept_friction = 1, kept_geometry = 1, with_heat = 1
@@ -79,7 +79,7 @@ contains
 
       if (spec%material_model == material_model%fastsim_single .or. spec%material_model == material_model%fastsim) then
          call log%result(' STEADY STATE ROLLING,  "FASTSIM APPROACH"')
-      else if (spec%material_model == material_model%fastrip) then
+      else if (is_fastrip(spec%material_model)) then
          call log%result(' STEADY STATE ROLLING,  "FASTRIP APPROACH"')
       else if (spec%motion == motion%shift) then
          call log%result(" SHIFT TRANSIENT")
@@ -199,6 +199,7 @@ contains
       call log%result("")
       call log%result("    POISS(1)    POISS(2)     GG(1)       GG(2)")
       call log%result("  " // generals([spec%material%poiss, spec%material%gg]))
+      if (spec%pressure == pressure_model%thin_sheet) call write_sheet(log, spec%material)
       if (spec%digits%m2 >= new_damping) then
          call log%result("")
          call log%result(heading([character(len=9) :: "CDAMPN", "CDAMPT", "DFNMAX", "DFTMAX"]))
@@ -215,6 +216,17 @@ contains
       end if
       call write_material_model(log, spec, result)
    end subroutine write_materials
+
+   !> Flexibility of an elastic thin sheet between the bodies
+   subroutine write_sheet(log, material)
+      type(log_type), intent(inout) :: log
+      type(material_spec), intent(in) :: material
+
+      call log%result("")
+      call log%result(" ELASTIC THIN SHEET PARAMETERS")
+      call log%result(heading([character(len=9) :: "FLXZ"]))
+      call log%result("  " // generals([material%flxz]))
+   end subroutine write_sheet
 
    !> Constants of other than elastic behaviour
    subroutine write_material_model(log, spec, result)
@@ -259,8 +271,9 @@ contains
          call log%result("  " // generals(result%flx))
          call log%result("")
       end if
+      if (.not. has_slope_reduction(spec%material_model)) return
       method = "FASTSIM"
-      if (spec%material_model == material_model%fastrip) method = "FASTRIP"
+      if (is_fastrip(spec%material_model)) method = "FASTRIP"
       call log%result(" MODIFIED " // method // " SLOPE REDUCTION PARAMETERS")
       associate (material => spec%material)
          if (spec%motion == motion%none) then

@@ -4,8 +4,8 @@
 !> depend on it are mirrored here.
 module contact_output_report_pair
    use contact_base_case_status, only : case_status
-   use contact_base_choices, only : contact_location, kernel_model, material_model, motion, normal_control, pressure_model, &
-      & stress_choice, variation
+   use contact_base_choices, only : contact_location, has_slope_reduction, is_fastrip, is_simplified, kernel_model, &
+      & material_model, motion, normal_control, pressure_model, stress_choice, variation
    use contact_base_constants, only : pi
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
@@ -16,7 +16,7 @@ module contact_output_report_pair
    use contact_output_element_table, only : write_element_table
    use contact_output_formats, only : fixed, general, generals, heading, smart, smarts, whole
    use contact_grid_picture, only : write_picture
-   use contact_output_report_input, only : write_friction
+   use contact_output_report_input, only : write_friction, write_sheet
    use contact_output_report_result, only : ending_text, highest_temperature, shown_totals, without_noise, &
       & write_solution_line, write_statistics
    use contact_output_report_subsurface, only : write_subsurface
@@ -129,7 +129,7 @@ contains
          end select
          if (any(spec%material_model == [material_model%fastsim_single, material_model%fastsim])) &
             & text = text // ', "FASTSIM APPROACH"'
-         if (spec%material_model == material_model%fastrip) text = text // ', "FASTRIP APPROACH"'
+         if (is_fastrip(spec%material_model)) text = text // ', "FASTRIP APPROACH"'
          if (spec%force == 1) then
             text = text // ", X-FORCE PRESCRIBED"
          else if (spec%motion == motion%shift) then
@@ -169,6 +169,7 @@ contains
       call log%result("")
       call log%result("    POISS(R)    POISS(W)     GG(R)       GG(W)")
       call log%result("  " // generals(spec%material%poiss) // smarts(spec%material%gg))
+      if (spec%pressure == pressure_model%thin_sheet) call write_sheet(log, spec%material)
       if (spec%digits%m2 >= 2) then
          call log%result("")
          call log%result(heading([character(len=9) :: "CDAMPN", "CDAMPT", "DFNMAX", "DFTMAX"]))
@@ -205,6 +206,7 @@ contains
 
       if (model == material_model%elastic) return
       if (relative_motion == motion%none .and. model /= material_model%viscoelastic) return
+      if (is_simplified(model) .and. .not. has_slope_reduction(model)) return
       call log%result("")
       select case (model)
       case (material_model%viscoelastic)
@@ -223,7 +225,7 @@ contains
             call log%result("")
          end if
          method = "FASTSIM"
-         if (model == material_model%fastrip) method = "FASTRIP"
+         if (is_fastrip(model)) method = "FASTRIP"
          call log%result(" MODIFIED " // method // " SLOPE REDUCTION PARAMETERS")
          call log%result(heading([character(len=9) :: "K0_MF", "ALFAMF", "BETAMF"]))
          call log%result("  " // generals([material%k0_mf, material%alfamf, material%betamf]))
@@ -495,15 +497,16 @@ contains
       type(patch_result), intent(in) :: contact
       character(len=7) :: method
 
-      if (.not. any(model == [material_model%fastsim_single, material_model%fastsim, material_model%fastrip])) return
+      if (.not. is_simplified(model)) return
       if (model /= material_model%fastsim_single) then
          call log%result("")
          call log%result(" SIMPLIFIED THEORY MATERIAL CONSTANTS")
          call log%result(heading([character(len=9) :: "FLX1", "FLX2", "FLX3"]))
          call log%result("  " // generals(contact%flx))
       end if
+      if (.not. has_slope_reduction(model)) return
       method = "FASTSIM"
-      if (model == material_model%fastrip) method = "FASTRIP"
+      if (is_fastrip(model)) method = "FASTRIP"
       call log%result("")
       call log%result(" MODIFIED " // method // " SLOPE REDUCTION PARAMETERS")
       call log%result(heading([character(len=9) :: "K0_EFF"]))

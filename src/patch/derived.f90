@@ -4,6 +4,7 @@ module contact_patch_derived
    use contact_base_kinds, only : wp
    use contact_base_solve_report, only : solve_report
    use contact_grid_element_division, only : bounding_box, contact_box, element
+   use contact_normal_parts, only : displacement_between
    use contact_patch_problem, only : patch_problem, patch_state
    use contact_patch_result, only : patch_result
    use contact_patch_workspace, only : patch_workspace, prepare_window
@@ -176,7 +177,7 @@ contains
       result%uy = workspace%simplified_solution%compliance(2)*result%py
       if (allocated(problem%given_pressure)) return
       call prepare_window(problem, workspace)
-      call workspace%window%normal(state%now%pn, result%un)
+      call displacement_between(problem%parts, workspace%window, state%now%pn, result%un)
       if (.not. problem%want_exterior) then
          where (result%division == element%exterior) result%un = 0.0_wp
       end if
@@ -205,7 +206,7 @@ contains
 
       if (problem%want_exterior .or. problem%motion == motion%none) then
          call prepare_window(problem, workspace)
-         call workspace%window%normal(state%now%pn, result%un)
+         call displacement_between(problem%parts, workspace%window, state%now%pn, result%un)
          if (problem%motion /= motion%none) then
             workspace%pt(:, :, 1) = state%now%px
             workspace%pt(:, :, 2) = state%now%py
@@ -225,8 +226,13 @@ contains
          return
       end if
       workspace%box_pn = state%now%pn(box%ix0:box%ix1, box%iy0:box%iy1)
-      call workspace%box%normal(workspace%box_pn, workspace%box_un)
-      result%un(box%ix0:box%ix1, box%iy0:box%iy1) = workspace%box_un
+      if (allocated(problem%parts)) then
+         call prepare_window(problem, workspace)
+         call displacement_between(problem%parts, workspace%window, state%now%pn, result%un)
+      else
+         call workspace%box%normal(workspace%box_pn, workspace%box_un)
+         result%un(box%ix0:box%ix1, box%iy0:box%iy1) = workspace%box_un
+      end if
       call workspace%box%tangential(workspace%solution%p, workspace%box_ut)
       result%ux(box%ix0:box%ix1, box%iy0:box%iy1) = workspace%box_ut(:, :, 1)
       result%uy(box%ix0:box%ix1, box%iy0:box%iy1) = workspace%box_ut(:, :, 2)

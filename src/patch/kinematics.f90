@@ -28,8 +28,8 @@ contains
       y0 = problem%spin_centre(2) - problem%spin_offset*problem%dq*sin(problem%chi)
       cx = merge(problem%creep(1), 0.0_wp, problem%n_forces < 1)
       cy = merge(problem%creep(2), 0.0_wp, problem%n_forces < 2)
-      spin = problem%spin
-      if (present(spin_weight)) spin = spin_weight*problem%spin
+      spin = problem%spin_weight*problem%spin
+      if (present(spin_weight)) spin = spin_weight*spin
       do iy = 1, problem%grid%my
          do ix = 1, problem%grid%mx
             result%wx(ix, iy) = problem%dq*(cx - spin(1)*(problem%grid%y(iy) - y0))

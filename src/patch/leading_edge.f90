@@ -1,9 +1,10 @@
 !> Elements that entered the contact area during the step
 !>
-!> When the step of transient rolling is longer than an element, particles next to the leading edge were still outside the
+!> When the step of rolling is longer than an element, particles next to the leading edge were still outside the
 !> contact a step ago. They slip during the part of the step since they passed the edge, and what
-!> they have been displaced by is counted from there: S = share W + u - u_edge. The edge is at the centre of
-!> the first exterior element, where u_edge is the displacement by the previous tractions.
+!> they have been displaced by is counted from there: S = share (W + dq c) + u - u_edge. The edge is at the centre of
+!> the first exterior element, where u_edge is the displacement by the previous tractions in transient rolling, by
+!> the present ones in steady rolling.
 module contact_patch_leading_edge
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
@@ -30,14 +31,17 @@ contains
       type(bounding_box), intent(in) :: box
       !> Rigid slip per step
       type(patch_result), intent(in) :: result
-      !> Tangential problem with its shift; displacements at the edge are known. Gets the shares
+      !> Tangential problem with its shift; displacements at the edge by previous tractions are known. Gets shares and edges
       type(patch_workspace), intent(inout) :: workspace
       type(log_type), intent(inout) :: log
       real(wp) :: share
       integer :: iy, k, ix, edge, hidden
       character(len=12) :: text
 
-      workspace%share = 1.0_wp
+      associate (t => workspace%tangential)
+         workspace%share = 1.0_wp
+         if (t%steady) allocate(t%edge(t%mx, t%my), source=0)
+      end associate
       hidden = 0
       do iy = box%iy0, box%iy1
          edge = 0
@@ -53,11 +57,18 @@ contains
             if (edge == 0) cycle
             share = abs(ix - edge)*problem%grid%dx/problem%dq
             if (share >= whole_step) cycle
-            workspace%share(ix - box%ix0 + 1, iy - box%iy0 + 1) = share
-            workspace%tangential%shift(ix - box%ix0 + 1, iy - box%iy0 + 1, :) = &
-               & share*[result%wx(ix, iy), result%wy(ix, iy)] - workspace%edge_displacement(edge, iy, :)
+            associate (t => workspace%tangential, jx => ix - box%ix0 + 1, jy => iy - box%iy0 + 1)
+               workspace%share(jx, jy) = share
+               t%shift(jx, jy, :) = share*[result%wx(ix, iy), result%wy(ix, iy)]
+               if (t%steady) then
+                  t%edge(jx, jy) = abs(ix - edge)
+               else
+                  t%shift(jx, jy, :) = t%shift(jx, jy, :) - workspace%edge_displacement(edge, iy, :)
+               end if
+            end associate
          end do
       end do
+      if (problem%n_forces > 0) workspace%tangential%share = workspace%share
       if (hidden == 0) return
       write(text, '(I0)') hidden
       call log%trace(3, "      Tang: contact up to the border of the grid, no leading-edge correction in rows : " // trim(text))

@@ -45,6 +45,8 @@ module contact_patch_problem
       real(wp) :: force(2) = 0.0_wp
       !> Creepages [-] or shifts [mm]; spin [rad/mm] or rotation [rad]; spin centre [mm]
       real(wp) :: creep(2) = 0.0_wp, spin = 0.0_wp, spin_centre(2) = 0.0_wp
+      !> Parts of the spin that act along x and y [-]: 1, or 0 for what an extra term cancels
+      real(wp) :: spin_weight(2) = 1.0_wp
       !> Offset of the spin contribution in steps [-]
       real(wp) :: spin_offset = 0.0_wp
       !> Extra rigid slip per unit distance [-], shape (mx, my, 2); unallocated: none
@@ -86,7 +88,7 @@ module contact_patch_problem
       integer :: kdowfb = 1
       real(wp) :: d_ifc = 1.0_wp, d_lin = 1.0_wp, d_cns = 1.0_wp, d_slp = 1.0_wp, pow_s = 0.9_wp
       !> Are elements that entered the contact during the step treated as such? Only with steps longer than an
-      !> element, along x, creepages given
+      !> element, along x
       logical :: corrects_leading_edge = .false.
       !> Steady rolling in any direction, with steps of any length (ConvexGS)? Otherwise one element per step along x
       logical :: general_step = .false.

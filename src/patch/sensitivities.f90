@@ -77,7 +77,7 @@ contains
 
       contact = result%division > element%exterior
       allocate(q, mold=result%pn)
-      call pressure_derivative(operator, contact, problem%epsens, problem%mxsens, q, reached)
+      call pressure_derivative(operator, problem%parts, contact, problem%epsens, problem%mxsens, q, reached)
       result%sensitivity(row_fn, to_pen) = problem%grid%dx*problem%grid%dy*sum(q)
    end subroutine normal_stiffness
 
@@ -126,8 +126,8 @@ contains
             case (to_phi)
                do iy = 1, t%my
                   do ix = 1, t%mx
-                     shift(ix, iy, 1) = -problem%dq*(problem%grid%y(box%iy0 + iy - 1) - y0)
-                     shift(ix, iy, 2) = problem%dq*(problem%grid%x(box%ix0 + ix - 1) - x0)
+                     shift(ix, iy, 1) = -problem%spin_weight(1)*problem%dq*(problem%grid%y(box%iy0 + iy - 1) - y0)
+                     shift(ix, iy, 2) = problem%spin_weight(2)*problem%dq*(problem%grid%x(box%ix0 + ix - 1) - x0)
                   end do
                end do
             end select

@@ -96,6 +96,7 @@ contains
       window%dq = problem%dq
       window%creep = problem%creep
       window%spin = problem%spin
+      window%spin_weight = problem%spin_weight
       window%spin_centre = problem%spin_centre
       window%spin_offset = problem%spin_offset*problem%dq*[cos(problem%chi), sin(problem%chi)]
       window%n_forces = problem%n_forces

@@ -11,7 +11,7 @@ module contact_patch_tangential_step
    use contact_patch_leading_edge, only : correct_leading_edge
    use contact_patch_problem, only : patch_problem, patch_state, rolling_direction
    use contact_patch_result, only : patch_result
-   use contact_patch_workspace, only : patch_workspace, prepare_box
+   use contact_patch_workspace, only : patch_workspace, prepare_box, prepare_window
    use contact_patch_yield, only : carry_yield, set_yield
    use contact_tangential_classical, only : classical_method, solve_classical
    use contact_tangential_full_sliding, only : is_beyond_friction, slide_fully
@@ -171,6 +171,8 @@ contains
          t%d_slp = problem%d_slp
          t%pow_s = problem%pow_s
          if (allocated(t%yield)) deallocate(t%yield)
+         if (allocated(t%share)) deallocate(t%share)
+         if (allocated(t%edge)) deallocate(t%edge)
          call prepare_solution(t, s)
          s%creep = [result%cksi, result%ceta]
          do iy = 1, my
@@ -223,6 +225,7 @@ contains
          call workspace%previous%tangential(workspace%box_un, workspace%box_un, workspace%box_pn, &
             & workspace%box_ut(:, :, 1), workspace%box_ut(:, :, 2))
          workspace%box_ut = -workspace%box_ut
+         if (allocated(workspace%tangential%edge)) call count_from_edge(problem, state, box, workspace)
       else if (workspace%tangential%steady) then
          call workspace%box%steady_by_normal(workspace%box_pn, workspace%box_ut)
       else
@@ -230,6 +233,28 @@ contains
       end if
       workspace%tangential%shift = workspace%tangential%shift + workspace%box_ut
    end subroutine add_by_pressures
+
+   !> Displacements by the present pressures at the edges of contact, for the particles that entered during the step
+   subroutine count_from_edge(problem, state, box, workspace)
+      type(patch_problem), intent(in) :: problem
+      type(patch_state), intent(in) :: state
+      type(bounding_box), intent(in) :: box
+      !> box_ut: displacements of the same particles a step ago, taken off
+      type(patch_workspace), intent(inout) :: workspace
+      integer :: ix, iy, edge
+
+      call prepare_window(problem, workspace)
+      call workspace%window%tangential_by_normal(state%now%pn, workspace%ut)
+      associate (t => workspace%tangential)
+         do iy = 1, t%my
+            do ix = 1, t%mx
+               if (t%edge(ix, iy) == 0) cycle
+               edge = box%ix0 + ix - 1 + t%direction*t%edge(ix, iy)
+               workspace%box_ut(ix, iy, :) = -workspace%ut(edge, box%iy0 + iy - 1, :)
+            end do
+         end do
+      end associate
+   end subroutine count_from_edge
 
    !> Relaxation of the Gauss-Seidel methods: from the input, or by the shape of the elements
    pure subroutine set_relaxation(problem, ncon, t)

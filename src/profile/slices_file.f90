@@ -76,7 +76,8 @@ contains
          kinks = v(2)%i
          call refuse_outside(v(2), 0, features - 2)
          if (.not. allocated(error) .and. v(3)%i /= 0) call fatal_error(error, "NACCEL = " // integer_text(v(3)%i) // &
-            & ": jumps of curvature between parts are not built; accepted is 0", error_kind%unsupported, text%file, v(3)%line)
+            & ": jumps of curvature between parts are not built; accepted is 0, with a kink (NKINK) where the section bends", &
+            & error_kind%unsupported, text%file, v(3)%line, v(3)%column)
          if (allocated(error)) return
       end if
       call text%read_group("i", "U_INTPOL", v, error)

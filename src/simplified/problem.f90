@@ -1,6 +1,6 @@
 !> A tangential problem of the simplified theory, and the tractions for given creepages
 module contact_simplified_problem
-   use contact_base_choices, only : material_model
+   use contact_base_choices, only : is_fastrip, material_model
    use contact_base_kinds, only : wp
    use contact_friction_law, only : friction_driver, friction_law
    use contact_grid_element_division, only : element
@@ -15,7 +15,7 @@ module contact_simplified_problem
 
    !> What a case asks for
    type :: simplified_model
-      !> Member of material_model: fastsim_single, fastsim or fastrip
+      !> Member of material_model that is_simplified
       integer :: choice = material_model%fastsim
       !> Flexibility [mm3/N] of the model with a single one
       real(wp) :: flx = 0.0_wp
@@ -54,6 +54,8 @@ module contact_simplified_problem
       real(wp), allocatable :: before(:, :, :)
       !> Creepages [-] (shifts [mm] for dq = 1), spin [rad/mm], spin centre and offset of its effect [mm]
       real(wp) :: creep(2) = 0.0_wp, spin = 0.0_wp, spin_centre(2) = 0.0_wp, spin_offset(2) = 0.0_wp
+      !> Parts of the spin that act along x and y [-]
+      real(wp) :: spin_weight(2) = 1.0_wp
       !> Extra rigid slip per unit distance [-], shape (mx, my, 2); unallocated: none
       real(wp), allocatable :: extra_slip(:, :, :)
       !> Number of prescribed forces: 0, 1 (Fx), 2 (Fx, Fy), and the forces relative to mu_scal fn [-]
@@ -137,9 +139,9 @@ contains
 
       solution%creep = creep
       solution%flx = problem%flx0
-      if (problem%model%choice /= material_model%fastsim_single .and. problem%n_forces == 0 .and. .not. problem%shift) &
-         & solution%flx = blended_flexibilities(problem%flx0, problem%reference, problem%gg, problem%nu, &
-         & mean(problem%mu)*problem%fn, creep, problem%spin)
+      if (problem%model%choice /= material_model%fastsim_single .and. problem%model%choice /= material_model%fastrip_plain &
+         & .and. problem%n_forces == 0 .and. .not. problem%shift) solution%flx = blended_flexibilities(problem%flx0, &
+         & problem%reference, problem%gg, problem%nu, mean(problem%mu)*problem%fn, creep, problem%spin)
       call friction_of_rows(problem, norm2(creep), solution%mu)
       solution%slope = slope_factor(problem%model%reduction, problem%area, problem%gg, problem%nu, mean(solution%mu)*problem%fn, &
          & creep, problem%direction*problem%spin)
@@ -155,7 +157,7 @@ contains
          call step_fastsim(problem%contact, solution%bound, solution%shift, solution%compliance, problem%before, &
             & solution%p, solution%slip, solution%division)
       end if
-      if (problem%model%choice == material_model%fastrip) then
+      if (is_fastrip(problem%model%choice)) then
          call apply_strip_theory(strips_of(problem, solution), problem%x, problem%y, problem%dx, solution%mu, &
             & problem%contact, solution%bound, solution%p, solution%slip, solution%division)
       end if
@@ -195,7 +197,7 @@ contains
       real(wp) :: turn(2), x0, y0
       integer :: iy
 
-      turn = problem%dq*problem%spin*solution%flx(1:2)/solution%flx(3)
+      turn = problem%spin_weight*problem%dq*problem%spin*solution%flx(1:2)/solution%flx(3)
       x0 = problem%spin_centre(1) - problem%spin_offset(1)
       y0 = problem%spin_centre(2) - problem%spin_offset(2)
       do iy = 1, size(problem%y)

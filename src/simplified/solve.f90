@@ -3,7 +3,7 @@
 !> Forces fall with the creepages, so each unknown creepage can be held between two bounds. Newton's
 !> method comes first where there are two unknowns; the nested search always ends.
 module contact_simplified_solve
-   use contact_base_choices, only : material_model
+   use contact_base_choices, only : is_fastrip
    use contact_base_kinds, only : wp
    use contact_base_solve_report, only : ending, solve_report
    use contact_numeric_root_search, only : root_search
@@ -27,7 +27,7 @@ contains
       integer :: n
 
       report%method = "Fastsim"
-      if (problem%model%choice == material_model%fastrip) report%method = "FaStrip"
+      if (is_fastrip(problem%model%choice)) report%method = "FaStrip"
       report%iterations = 0
       report%tolerance = problem%eps
       report%ended = ending%converged

@@ -33,7 +33,7 @@ contains
       type(solve_report), intent(inout) :: report
       type(log_type), intent(inout) :: log
       type(update_watch) :: watch
-      type(element_compliance) :: own
+      type(element_compliance) :: own, here
       real(wp), allocatable :: before(:, :, :)
       !> Displacements within a row by a unit change of traction, offset "receiving minus loaded"
       real(wp) :: kxx(0:rows%mx - 1), kyy(0:rows%mx - 1), kxy(0:rows%mx - 1)
@@ -66,9 +66,14 @@ contains
                if (rows%state(i, iy) == element%exterior) cycle
                if (rest .and. rows%state(i, iy) == element%slip) cycle
                old = rows%p(i, :, iy)
-               s0(1) = slip(i, 1) - own%xx*old(1) - own%xy*old(2)
-               s0(2) = slip(i, 2) - own%xy*old(1) - own%yy*old(2)
-               call rows%solve_one(i, iy, own, s0, problem%omegah, problem%omegas, p)
+               here = own
+               if (rows%entered(i, iy)) then
+                  here = rows%entered_compliance(i, iy)
+                  slip(i, :) = rows%entered_slip(i, iy)
+               end if
+               s0(1) = slip(i, 1) - here%xx*old(1) - here%xy*old(2)
+               s0(2) = slip(i, 2) - here%xy*old(1) - here%yy*old(2)
+               call rows%solve_one(i, iy, here, s0, problem%omegah, problem%omegas, p)
                change = p - old
                rows%p(i, :, iy) = p
                call spread(change, i, rows%last(iy))

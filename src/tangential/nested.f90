@@ -207,10 +207,27 @@ contains
          end do
       end do
       coarse%target = fine%target/(fx*fy)
+      if (allocated(coarse%share)) deallocate(coarse%share)
+      if (allocated(fine%share)) call coarsen_share()
       if (allocated(coarse%yield)) deallocate(coarse%yield)
       if (fine%hardens()) call coarsen_limits()
 
    contains
+
+      !> Mean shares of the step
+      subroutine coarsen_share()
+         integer :: last_x, last_y
+
+         allocate(coarse%share(mx, my))
+         do iy = 1, my
+            last_y = min(fy*iy, fine%my)
+            do ix = 1, mx
+               last_x = min(fx*ix, fine%mx)
+               coarse%share(ix, iy) = sum(fine%share(fx*(ix - 1) + 1:last_x, fy*(iy - 1) + 1:last_y)) &
+                  & /((last_x - fx*(ix - 1))*(last_y - fy*(iy - 1)))
+            end do
+         end do
+      end subroutine coarsen_share
 
       !> Mean yield limits; plastic displacements do not depend on the size of the elements
       subroutine coarsen_limits()

@@ -15,7 +15,7 @@ module contact_tangential_newton
    use contact_base_solve_report, only : ending
    use contact_elastic_compliance, only : compliance
    use contact_grid_element_division, only : element
-   use contact_tangential_problem, only : apply_operator, divide_elements, limits_before, residual_scale, &
+   use contact_tangential_problem, only : add_creepages, apply_operator, divide_elements, limits_before, residual_scale, &
       & slip_of, tangential_problem, tangential_solution, true_residual
    use contact_tangential_yield, only : return_map, yield_point
    implicit none (type, external)
@@ -272,16 +272,15 @@ contains
             if (.not. problem%contact(ix, iy)) cycle
             weight = max(1.0e-3_wp*problem%bound(ix, iy), &
                & problem%bound(ix, iy) - hypot(solution%p(ix, iy, 1), solution%p(ix, iy, 2)))
-            total = total + weight
             creep = creep + weight*solution%slip(ix, iy, :)
+            if (allocated(problem%share)) weight = weight*problem%share(ix, iy)
+            total = total + weight
          end do
       end do
       creep(problem%n_forces + 1:) = 0.0_wp
       creep = creep/(total*problem%dq)
       workspace%trial_slip = solution%slip
-      do k = 1, problem%n_forces
-         workspace%trial_slip(:, :, k) = workspace%trial_slip(:, :, k) - problem%dq*creep(k)
-      end do
+      call add_creepages(problem, -creep, workspace%trial_slip)
       other = true_residual(problem, solution%p, workspace%trial_slip, system%r)
       if (other >= residual) return
       residual = other
@@ -480,8 +479,13 @@ contains
       call apply_operator(problem, operator, dp, workspace%trial)
       creep = 0.0_wp
       do k = 1, system%n_forces
-         creep(k) = problem%dq*system%creep_scale*y(system%n + k)/system%g_norm
+         creep(k) = system%creep_scale*y(system%n + k)/system%g_norm
       end do
+      if (allocated(problem%share)) then
+         call add_creepages(problem, creep, workspace%trial)
+         creep = 0.0_wp
+      end if
+      creep = problem%dq*creep
       if (allocated(workspace%point)) then
          do k = 1, 2
             workspace%trial(:, :, k) = dp(:, :, k) - system%r*(workspace%trial(:, :, k) + creep(k))
@@ -549,12 +553,14 @@ contains
       type(newton_workspace), intent(inout) :: workspace
       integer, intent(inout) :: preconditionings
       integer :: k, j
-      real(wp) :: s(2, 2), det
+      real(wp) :: s(2, 2), det, creep(2)
 
       s = 0.0_wp
       do k = 1, system%n_forces
          workspace%best_slip = 0.0_wp
-         workspace%best_slip(:, :, k) = system%r*problem%dq*system%creep_scale/system%g_norm
+         creep = 0.0_wp
+         creep(k) = system%r*system%creep_scale/system%g_norm
+         call add_creepages(problem, creep, workspace%best_slip)
          call apply_d(workspace, workspace%best_slip)
          call precondition_field(problem, operator, system, workspace, workspace%best_slip, workspace%border(:, :, :, k))
          preconditionings = preconditionings + 1

@@ -81,7 +81,7 @@ contains
       !> Sensitivities of the previous case, 0 when unknown
       real(wp), intent(in) :: sensitivity(2, 2)
       real(wp), allocatable :: g(:, :, :), u(:, :, :)
-      real(wp) :: sum_g, steps
+      real(wp) :: sum_g, steps, shares
       integer :: k, n_contact
       logical :: usable
 
@@ -109,12 +109,14 @@ contains
       n_contact = count(problem%contact)
       steps = 1.0_wp
       if (problem%steady) steps = 0.5_wp*n_contact/count(any(problem%contact, dim=1))
+      shares = n_contact
+      if (allocated(problem%share)) shares = sum(problem%share, mask=problem%contact)
       allocate(g(problem%mx, problem%my, 2), u(problem%mx, problem%my, 2), source=0.0_wp)
       do k = 1, 2
          g = 0.0_wp
          g(:, :, k) = problem%bound
          call operator%tangential(g, u)
-         self%linear(k) = -problem%dq*steps*n_contact/sum(u(:, :, k), mask=problem%contact)
+         self%linear(k) = -problem%dq*steps*shares/sum(u(:, :, k), mask=problem%contact)
       end do
       self%sensitivity(1, 1) = self%linear(1)
       self%sensitivity(2, 2) = self%linear(2)

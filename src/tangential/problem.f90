@@ -1,7 +1,8 @@
 !> A tangential contact problem with given traction bounds, and its true residual
 !>
 !> The slip per step is  S(p) = W + dq c + B p,  with B the compliance A (shift, transient
-!> rolling) or the difference A - A' between two moments (steady rolling). In every element of
+!> rolling) or the difference A - A' between two moments (steady rolling). Elements that have been in contact for a share of
+!> the step have share dq c, and in steady rolling the displacement at the edge of contact for A'. In every element of
 !> the contact area: |p| <= g, and where S /= 0, p = -g S/|S|. Written as one equation,
 !>
 !>     p - P_g(p - r S(p)) = 0
@@ -19,7 +20,7 @@ module contact_tangential_problem
    private
 
    public :: tangential_problem, tangential_solution, prepare_solution
-   public :: apply_operator, slip_of, true_residual, divide_elements
+   public :: add_creepages, apply_operator, slip_of, true_residual, divide_elements
    public :: residual_scale, limits_before, settle
 
    !> Data of a tangential problem on a window; constant during the solution
@@ -42,6 +43,12 @@ module contact_tangential_problem
       integer :: row_direction = 1
       !> Distance per step [mm]; multiplies unknown creepages
       real(wp) :: dq = 1.0_wp
+      !> Part of the step that each element has been in contact, which multiplies unknown creepages too, shape (mx, my);
+      !> unallocated: the whole step everywhere
+      real(wp), allocatable :: share(:, :)
+      !> Steady rolling in long steps: columns from an element to the edge of contact ahead of it, where its particle
+      !> was when the contact began, 0 for a particle that was in contact all the time, shape (mx, my); unallocated: 0 everywhere
+      integer, allocatable :: edge(:, :)
       !> Number of prescribed forces: 0, 1 (Fx), 2 (Fx, Fy)
       integer :: n_forces = 0
       !> Prescribed forces as sums of tractions over the elements, F/(dx dy) [N/mm2]
@@ -125,14 +132,29 @@ contains
       real(wp), contiguous, intent(in) :: p(:, :, :)
       real(wp), intent(in) :: creep(2)
       real(wp), contiguous, intent(inout) :: slip(:, :, :)
-      integer :: k
 
       call apply_operator(problem, operator, p, slip)
       slip = slip + problem%shift
-      do k = 1, problem%n_forces
-         slip(:, :, k) = slip(:, :, k) + problem%dq*creep(k)
-      end do
+      call add_creepages(problem, creep, slip)
    end subroutine slip_of
+
+   !> Add the slip per step by unknown creepages
+   pure subroutine add_creepages(problem, creep, slip)
+      type(tangential_problem), intent(in) :: problem
+      !> Creepages [-], of which the first n_forces count
+      real(wp), intent(in) :: creep(2)
+      !> [mm], shape (mx, my, 2)
+      real(wp), contiguous, intent(inout) :: slip(:, :, :)
+      integer :: k
+
+      do k = 1, problem%n_forces
+         if (allocated(problem%share)) then
+            slip(:, :, k) = slip(:, :, k) + problem%dq*creep(k)*problem%share
+         else
+            slip(:, :, k) = slip(:, :, k) + problem%dq*creep(k)
+         end if
+      end do
+   end subroutine add_creepages
 
    !> Scale r of the slip in the residual [(N/mm2)/mm]: the stiffness of an element, 1/A_xx(0), but
    !> enough for the return map when the yield limit falls

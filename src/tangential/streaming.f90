@@ -57,6 +57,11 @@ module contact_tangential_streaming
       integer :: direction = 1
       !> Yield limits before the step, with the same columns; unallocated unless they have a slope
       type(yield_data), allocatable :: yield
+      !> Columns to the edge of contact upstream, where the particle was when its contact began, 0 for particles that were in
+      !> contact all the time, shape (mx, my); unallocated: 0 everywhere
+      integer, allocatable :: edge(:, :)
+      !> Coefficients at all distances of rows, shape (-mx:mx, 1 - my:my - 1); for elements with an edge only
+      real(wp), allocatable, private :: all_xx(:, :), all_yy(:, :), all_xy(:, :)
       !> Yield limits [N/mm2] and plastic displacements [mm] at present, shape (mx + 1, my)
       real(wp), allocatable :: limit(:, :), plastic(:, :)
       !> Is the limit before the step that of the next element upstream?
@@ -89,6 +94,11 @@ module contact_tangential_streaming
       procedure :: landing_compliance
       !> Compliance of an element on itself
       procedure :: own_compliance
+      !> The same, and the slip, of an element whose particle entered the contact during the step
+      procedure :: entered_compliance
+      procedure :: entered_slip
+      !> Is this such an element?
+      procedure :: entered
       !> New traction and state of an element
       procedure :: solve_one
       !> Largest traction of an adhering element
@@ -161,6 +171,15 @@ contains
       self%near_xx = operator%table%xx(-mx:mx, 0)
       self%near_yy = operator%table%yy(-mx:mx, 0)
       self%near_xy = operator%table%xy(-mx:mx, 0)
+      if (allocated(self%edge)) deallocate(self%edge, self%all_xx, self%all_yy, self%all_xy)
+      if (allocated(problem%edge)) then
+         self%edge = problem%edge
+         if (self%direction < 0) self%edge = problem%edge(mx:1:-1, :)
+         allocate(self%all_xx(-mx:mx, 1 - my:my - 1), self%all_yy(-mx:mx, 1 - my:my - 1), self%all_xy(-mx:mx, 1 - my:my - 1))
+         self%all_xx = operator%table%xx(-mx:mx, 1 - my:my - 1)
+         self%all_yy = operator%table%yy(-mx:mx, 1 - my:my - 1)
+         self%all_xy = operator%table%xy(-mx:mx, 1 - my:my - 1)
+      end if
       if (.not. present(shifted)) then
          call whole_period%release()
          return
@@ -265,7 +284,7 @@ contains
       !> Estimate of the tractions [N/mm2], shape (mx, my, 2), admissible
       real(wp), intent(in) :: p(:, :, :)
       integer :: ix, iy, jx, k
-      real(wp) :: sign_, extra
+      real(wp) :: sign_, extra, share
 
       do iy = 1, self%my
          do k = 1, 2
@@ -274,7 +293,9 @@ contains
             if (k <= problem%n_forces) extra = problem%dq*creep(k)
             do ix = 1, self%mx
                jx = window_column(self, ix)
-               self%shift(ix, k, iy) = sign_*(problem%shift(jx, iy, k) + extra)
+               share = 1.0_wp
+               if (allocated(problem%share)) share = problem%share(jx, iy)
+               self%shift(ix, k, iy) = sign_*(problem%shift(jx, iy, k) + share*extra)
                self%p(ix, k, iy) = 0.0_wp
                if (self%state(ix, iy) /= element%exterior) self%p(ix, k, iy) = sign_*p(jx, iy, k)
             end do
@@ -466,6 +487,50 @@ contains
       end if
    end function own_compliance
 
+   pure logical function entered(self, i, iy)
+      class(streaming_rows), intent(in) :: self
+      !> Column and row
+      integer, intent(in) :: i, iy
+
+      entered = .false.
+      if (allocated(self%edge)) entered = self%edge(i, iy) > 0
+   end function entered
+
+   !> The edge, where the displacement is counted from, moves with the traction as well
+   pure function entered_compliance(self, i, iy) result(c)
+      class(streaming_rows), intent(in) :: self
+      !> Column and row
+      integer, intent(in) :: i, iy
+      type(element_compliance) :: c
+
+      c%xx = self%all_xx(0, 0) - self%all_xx(self%edge(i, iy), 0)
+      c%yy = self%all_yy(0, 0) - self%all_yy(self%edge(i, iy), 0)
+      c%xy = 0.0_wp
+   end function entered_compliance
+
+   !> Slip by all tractions as they are now, summed directly: there are few such elements
+   pure function entered_slip(self, i, iy) result(slip)
+      class(streaming_rows), intent(in) :: self
+      !> Column and row
+      integer, intent(in) :: i, iy
+      !> Slip per step [mm]
+      real(wp) :: slip(2)
+      real(wp) :: xx, yy, xy
+      integer :: j, l, edge
+
+      slip = self%shift(i, :, iy)
+      edge = i + self%edge(i, iy)
+      do l = 1, self%my
+         do j = self%first(l), self%last(l)
+            xx = self%all_xx(i - j, iy - l) - self%all_xx(edge - j, iy - l)
+            yy = self%all_yy(i - j, iy - l) - self%all_yy(edge - j, iy - l)
+            xy = self%all_xy(i - j, iy - l) - self%all_xy(edge - j, iy - l)
+            slip(1) = slip(1) + xx*self%p(j, 1, l) + xy*self%p(j, 2, l)
+            slip(2) = slip(2) + xy*self%p(j, 1, l) + yy*self%p(j, 2, l)
+         end do
+      end do
+   end function entered_slip
+
    pure subroutine get_tractions(self, p)
       class(streaming_rows), intent(in) :: self
       !> Tractions [N/mm2], shape (mx, my, 2)
@@ -492,6 +557,7 @@ contains
          call self%row_slip(iy, row)
          do ix = 1, self%mx
             jx = window_column(self, ix)
+            if (self%entered(ix, iy)) row(ix, :) = self%entered_slip(ix, iy)
             slip(jx, iy, 1) = self%direction*row(ix, 1)
             slip(jx, iy, 2) = row(ix, 2)
          end do

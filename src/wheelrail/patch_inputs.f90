@@ -285,7 +285,8 @@ contains
          end if
          if (allocated(problem%relaxation)) then
             associate (bodies => problem%relaxation)
-               call patch%model%set_viscoelastic(bodies%poiss, bodies%gg, bodies%ratio, patch%veloc*bodies%time)
+               call patch%model%set_viscoelastic(bodies%poiss, bodies%gg, bodies%ratio, patch%veloc*bodies%time, &
+                  & merge(-1, 1, cos(patch%chi) < 0.0_wp))
             end associate
          end if
          ! as in module 3: a layer that yields follows its particles, simplified theory starts anew at each edge

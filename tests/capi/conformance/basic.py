@@ -100,6 +100,50 @@ def variations():
     close(cntc.getpenetration(1, 1), 0.05000976, 2e-5, "approach of a normal force")
 
 
+def materials():
+    """A thin sheet, and FaStrip as published: limits that need no reference"""
+    start()
+    case_a(1, eps=1e-8)
+    same(cntc.calculate(1, 1), 0, "elastic: error code")
+    elastic = np.array(cntc.getcontactforces(1, 1))
+    constants = [0.28, 0.28, 82e3, 82e3]
+    cntc.setflags(1, 1, CNTC["ic_bound"], 1)
+    check(cntc.calculate(1, 1) != 0, "a sheet without flexibility is refused")
+    cntc.setmaterialparameters(1, 1, 0, [*constants, 1e-10])
+    same(cntc.calculate(1, 1), 0, "stiff sheet: error code")
+    close(cntc.getcontactforces(1, 1), elastic, 1e-3 * np.abs(elastic) * 1e-1, "stiff sheet: forces")
+    for units, ire in (("un_si", 2), ("un_spck", 3)):
+        start(ire)
+        case_a(ire, 1, units, eps=1e-8)
+        cntc.setflags(ire, 1, CNTC["ic_bound"], 1)
+        cntc.setmaterialparameters(ire, 1, 0, [0.28, 0.28, 82e9, 82e9, 1e-4 * 1e-9])
+        same(cntc.calculate(ire, 1), 0, f"soft sheet, {units}: error code")
+    cntc.setmaterialparameters(1, 1, 0, [*constants, 1e-4])
+    same(cntc.calculate(1, 1), 0, "soft sheet: error code")
+    soft = np.array(cntc.getcontactforces(1, 1))
+    check(soft[0] < 0.9 * elastic[0], "soft sheet: less force for the same approach")
+    for ire in (2, 3):
+        close(cntc.getcontactforces(ire, 1)[0], soft[0], 1e-6 * soft[0], "soft sheet: other units")
+    # The gap is closed where there is contact: sheet and bodies together
+    pn = cntc.gettractions(1, 1)[0]
+    un = cntc.getdisplacements(1, 1)[0]
+    h = cntc.getfielddata(1, 1, CNTC["fld_h"])
+    close((h + un)[pn > 0], 0.05, 1e-7, "soft sheet: displacements close the gap")
+    # One value more is too much for other methods
+    cntc.setflags(1, 1, CNTC["ic_bound"], 0)
+    cntc.setmaterialparameters(1, 1, 0, [0.1, 0.1, 1.0, 1.0, 1e-4])
+    cntc.setmaterialparameters(1, 1, 7, constants)
+    same(cntc.calculate(1, 1), 0, "M = 7: error code")
+    found = np.array(cntc.getcontactforces(1, 1))
+    close(found[0], elastic[0], 1e-6 * elastic[0], "M = 7: a list that is too long was refused")
+    cntc.setmaterialparameters(1, 1, 5, [*constants, 1, 1, 1])
+    same(cntc.calculate(1, 1), 0, "M = 5: error code")
+    close(found, cntc.getcontactforces(1, 1), 1e-9 * np.abs(found), "M = 7 is M = 5 without slope reduction")
+    cntc.setmaterialparameters(1, 1, 6, constants)
+    same(cntc.calculate(1, 1), 0, "M = 6: error code")
+    close(cntc.getcontactforces(1, 1)[1:3], elastic[1:3], 0.1 * 0.3 * elastic[0], "M = 6: near the elastic solution")
+
+
 def stresses():
     """Stresses on the axis below the normal force of the published figures (version 25.2.0)"""
     start()
@@ -597,8 +641,8 @@ if __name__ == "__main__":
     for stale in os.listdir("."):
         if stale.endswith((".mat", ".out", ".inp", ".subs")):
             os.remove(stale)
-    scenarios = (conventions, variations, stresses, sensitivities, codes, wrong_counts, clamps, refusals, separate, continued,
-                 case_number, replay, second_run, timers, array_lengths, kalker, names)
+    scenarios = (conventions, variations, materials, stresses, sensitivities, codes, wrong_counts, clamps, refusals, separate,
+                 continued, case_number, replay, second_run, timers, array_lengths, kalker, names)
     chosen = [scenario for scenario in scenarios if scenario.__name__ == sys.argv[-1]]
     if not chosen:
         raise SystemExit("usage: basic.py " + " | ".join(scenario.__name__ for scenario in scenarios))

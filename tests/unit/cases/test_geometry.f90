@@ -5,7 +5,7 @@ program test_geometry
    use contact_base_constants, only : excluded_distance
    use contact_base_error, only : error_type
    use contact_base_kinds, only : wp
-   use contact_cases_geometry, only : build_grid, curvature_radius, solve_hertz, undeformed_distance
+   use contact_cases_geometry, only : build_grid, curvature_radius, part_labels, solve_hertz, undeformed_distance
    use contact_cases_spec, only : geometry_spec, grid_spec
    use contact_grid_potential_contact, only : potential_contact
    use contact_patch_result, only : hertz_result
@@ -237,7 +237,13 @@ contains
       call expect_error(suite, error, "excludes all", "planform: nothing left")
       spec%iplan = 4
       call undeformed_distance(spec, grid, h=h, error=error)
-      call expect_error(suite, error, "IPLAN = 4", "planform: several patches")
+      call expect_error(suite, error, "IPLAN = 4", "planform: several parts without rectangles")
+      spec%rectangles = reshape([-1.0_wp, 0.0_wp, -1.0_wp, 0.0_wp, -0.2_wp, 0.2_wp, -0.2_wp, 0.2_wp], [4, 2])
+      spec%interaction = reshape([1.0_wp, 0.5_wp, 0.5_wp, 1.0_wp], [2, 2])
+      call undeformed_distance(spec, grid, h=h, error=error)
+      call suite%check(.not. allocated(error), "planform: two parts")
+      call suite%equal(count(h < excluded_distance), 28, "planform: two parts exclude what two rectangles exclude")
+      call suite%equal(count(part_labels(spec, grid) == 1), 25, "planform: an element in both belongs to the first part")
    end subroutine planforms
 
    subroutine geometry_errors(suite)

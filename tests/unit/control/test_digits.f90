@@ -1,7 +1,7 @@
 !> The table of control digits, decoding and encoding of the control words, and the manual
 program test_digits
    use contact_cases_spec, only : case_digits
-   use contact_control_digits, only : allowed_text, choice_of, decode_words, digit_names, digit_row, digit_table, &
+   use contact_control_digits, only : allowed_text, choice_of, decode_words, digit_names, digit_of, digit_row, digit_table, &
       & digit_text, digit_value, encode_words, is_built, is_known, word_text
    use contact_test_harness, only : test_suite
    implicit none (type, external)
@@ -124,7 +124,9 @@ contains
       call suite%check(.not. is_known("Q", 0), "an unknown digit")
       call suite%check(choice_of("L", 5) == 5, "an unknown value is its own choice")
       call suite%check(digit_text("L", 5) == "unknown", "an unknown value has no meaning")
-      call suite%check(.not. is_built("B", 1), "an elastic thin sheet is not built")
+      call suite%check(is_built("B", 1), "an elastic thin sheet is built")
+      call suite%equal(digit_of("B", 1), 1, "digit of a choice")
+      call suite%equal(digit_of("B", 77), -1, "no digit for what is no choice")
    end subroutine questions
 
    !> The manual lists every row with its words: `| P | 0 | text |`, marked when it is not built

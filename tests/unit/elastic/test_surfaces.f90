@@ -155,7 +155,7 @@ contains
       dx = 0.16_wp
       do j = 1, 2
          do i = 1, size(length)
-            call model%set_viscoelastic([0.4_wp, 0.2_wp], [1143.0_wp, 3000.0_wp], [1.5_wp, 0.0_wp], [length(i), 0.0_wp])
+            call model%set_viscoelastic([0.4_wp, 0.2_wp], [1143.0_wp, 3000.0_wp], [1.5_wp, 0.0_wp], [length(i), 0.0_wp], 1)
             memory = model%memory
             call fill_with_memory(table, model%material, memory, .true., dx, side(j), 10, 1)
             call fill_table(elastic, model%material, dx, side(j), 10, 1)
@@ -201,10 +201,10 @@ contains
       type(kernel_table) :: a, b
       integer :: k, l
 
-      call hard%set_viscoelastic([0.4_wp, 0.1_wp], [1143.0_wp, 2000.0_wp], [0.0_wp, 0.0_wp], [1.0_wp, 1.0_wp])
-      call soft%set_viscoelastic([0.4_wp, 0.1_wp], [1143.0_wp, 2000.0_wp], [1.0_wp, 2.0_wp], [0.0_wp, 0.0_wp])
-      call fast%set_viscoelastic([0.4_wp, 0.1_wp], [1143.0_wp, 2000.0_wp], [1.0_wp, 2.0_wp], [1.0e-12_wp, 2.0e-12_wp])
-      call slow%set_viscoelastic([0.4_wp, 0.1_wp], [1143.0_wp, 2000.0_wp], [1.0_wp, 2.0_wp], [1.0e12_wp, 1.0e12_wp])
+      call hard%set_viscoelastic([0.4_wp, 0.1_wp], [1143.0_wp, 2000.0_wp], [0.0_wp, 0.0_wp], [1.0_wp, 1.0_wp], 1)
+      call soft%set_viscoelastic([0.4_wp, 0.1_wp], [1143.0_wp, 2000.0_wp], [1.0_wp, 2.0_wp], [0.0_wp, 0.0_wp], 1)
+      call fast%set_viscoelastic([0.4_wp, 0.1_wp], [1143.0_wp, 2000.0_wp], [1.0_wp, 2.0_wp], [1.0e-12_wp, 2.0e-12_wp], 1)
+      call slow%set_viscoelastic([0.4_wp, 0.1_wp], [1143.0_wp, 2000.0_wp], [1.0_wp, 2.0_wp], [1.0e12_wp, 1.0e12_wp], 1)
       call suite%check(.not. allocated(soft%memory) .and. .not. allocated(hard%memory), "bodies without memory")
       call suite%check(fast%coupled() .and. slow%coupled(), "memory of dissimilar bodies couples")
       call fill_with_memory(a, fast%material, fast%memory, .true., 0.16_wp, 0.2_wp, 12, 5)
@@ -221,7 +221,7 @@ contains
             call suite%close_to(entry_of(a, k, l), entry_of(b, k, l), 1.0e-9_wp*b%nn(0, 0), "slow relaxation")
          end do
       end do
-      call fast%set_viscoelastic([0.4_wp, 0.4_wp], [1.0_wp, 1.0_wp], [1.0_wp, 1.0_wp], [1.0_wp, 1.0_wp])
+      call fast%set_viscoelastic([0.4_wp, 0.4_wp], [1.0_wp, 1.0_wp], [1.0_wp, 1.0_wp], [1.0_wp, 1.0_wp], 1)
       call suite%check(.not. fast%coupled(), "memory of similar bodies does not couple")
    end subroutine memory_limits
 
@@ -234,7 +234,7 @@ contains
       integer, parameter :: shapes(2, 4) = reshape([1, 1, 7, 1, 1, 5, 9, 6], [2, 4])
       integer :: k
 
-      call model%set_viscoelastic([0.4_wp, 0.1_wp], [1143.0_wp, 2000.0_wp], [1.0_wp, 2.0_wp], [0.3_wp, 0.8_wp])
+      call model%set_viscoelastic([0.4_wp, 0.1_wp], [1143.0_wp, 2000.0_wp], [1.0_wp, 2.0_wp], [0.3_wp, 0.8_wp], 1)
       do k = 1, size(shapes, 2)
          call fill_with_memory(table, model%material, model%memory, .true., 0.16_wp, 0.2_wp, 12, 12)
          call new_compliance(model, operator)

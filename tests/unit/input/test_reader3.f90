@@ -1,7 +1,7 @@
 !> Reading of cases of module 3: what is stored, what is kept, and one faulty input per check
 program test_reader3
    use contact_base_constants, only : pi
-   use contact_base_error, only : error_kind, error_type, full_text
+   use contact_base_error, only : error_type, full_text
    use contact_base_kinds, only : wp
    use contact_cases_spec, only : case_spec
    use contact_input_experiment_file, only : case_failure, experiment_reader, input_case
@@ -35,7 +35,7 @@ program test_reader3
    call grids_of_two_cases(suite)
    call outer_iteration(suite)
    call unreadable(suite)
-   call unbuilt(suite)
+   call rare_choices(suite)
    call collected(suite)
    call experiments(suite)
    call manual_example(suite)
@@ -452,7 +452,7 @@ contains
       call wrong(suite, "7=0 0 1000", "DQ = 0 is below its lower bound 1.00000E-08 mm")
       call wrong(suite, "7=0 0.1 -1000", "VELOC = -1000 is below")
       call right(suite, "4=100 100 30 1 0.5")
-      call wrong(suite, "2=0022120|7=1d 0.1 1000|8=.3 .3 1 1;0 0 0 0", "CHI = 1d is outside")
+      call wrong(suite, "2=0022120|7=1d 0.1 1000|8=.3 .3 1 1;0 0 0 0", "CHI = 1d is not along x")
    end subroutine numbers
 
    !> Friction laws
@@ -674,27 +674,32 @@ contains
       call fails(suite, "2=0022029|10=1000000 8 0 0 1 1", "the list EXRHS has one entry for each element")
    end subroutine unreadable
 
-   !> What is known but not built
-   subroutine unbuilt(suite)
+   !> Choices that few cases make, with their numbers
+   subroutine rare_choices(suite)
       type(test_suite), intent(inout) :: suite
-
-      call refused(suite, "1=213100|8=.3 .3 1 1;1", "B = 1, elastic thin sheet")
-      call refused(suite, "2=0022720", "M = 7, experimental")
-      call refused(suite, "2=0022022", "E = 2, extra term")
-      call refused(suite, "11=1 4|12=0 0 0 0 0 0;1;0 1 0 1", "IPLAN = 4, weighted")
-   end subroutine unbuilt
-
-   subroutine refused(suite, changes, phrase)
-      type(test_suite), intent(inout) :: suite
-      character(len=*), intent(in) :: changes, phrase
       type(case_spec) :: spec
       type(problem_list) :: problems
       type(error_type), allocatable :: error
 
-      call read_one(changes, spec, problems, error)
-      call one_problem(suite, severity%unsupported, phrase, problems, error, changes)
-      call suite%check(.not. problems%is_usable(), "is not usable: " // changes)
-   end subroutine refused
+      call right(suite, "1=213100|8=.3 .3 1 1;1")
+      call right(suite, "2=0022620")
+      call right(suite, "2=0022720")
+      call right(suite, "2=0022022")
+      call right(suite, "2=0022023")
+      call right(suite, "2=0022120|7=180d 0.1 1000|8=.3 .3 1 1;0 0 0 0")
+      call wrong(suite, "1=202100|2=0022620", "M = 6, FaStrip, needs steady rolling")
+      call wrong(suite, "2=0022622", "whose strips know creepages and spin only")
+      call right(suite, "11=1 4|12=0 0 0 0 0 0;1;0 1 0 1")
+      call wrong(suite, "11=1 4|12=0 0 0 0 0 0;1;0 1 1 1", "rectangle 1 has not")
+      call wrong(suite, "11=1 4|12=0 0 0 0 0 0;2;0 1 0 1 2 3 0 1;1.1", "1.1 is above its upper bound 1")
+      call fails(suite, "11=1 4|12=0 0 0 0 0 0;101", "NP = 101, the number of parts of IPLAN = 4, is outside its range 1 to 100")
+      call read_one("11=1 4|12=0 0 0 0 0 0;3;0 1 0 1 2 3 0 1 4 5 0 1;.1 .2;.3", spec, problems, error)
+      call suite%check(.not. allocated(error), "three parts are read")
+      call suite%equal(size(spec%geometry%rectangles, 2), 3, "three parts")
+      call suite%close_to([spec%geometry%interaction(1, 2), spec%geometry%interaction(1, 3), spec%geometry%interaction(2, 3), &
+         & spec%geometry%interaction(3, 2), spec%geometry%interaction(2, 2)], [0.1_wp, 0.2_wp, 0.3_wp, 0.3_wp, 1.0_wp], &
+         & 1.0e-15_wp, "factors of three parts, by rows of the upper triangle")
+   end subroutine rare_choices
 
    !> Several problems at once are all reported, in the order of the file
    subroutine collected(suite)
@@ -779,8 +784,7 @@ contains
       type(input_case) :: this
       type(error_type), allocatable :: error
 
-      call reader%open_text("3" // nl // new_case("") // "3" // nl // new_case("4=0 0 1 1 1e-5") // "3" // nl // &
-         & new_case("2=0022720") // "0", "test")
+      call reader%open_text("3" // nl // new_case("") // "3" // nl // new_case("4=0 0 1 1 1e-5") // "0", "test")
       call reader%next_case(this, error)
       call case_failure(this, error)
       call suite%check(.not. allocated(error), "a good case has no failure")
@@ -789,11 +793,6 @@ contains
       call suite%check(allocated(error), "a faulty case has a failure")
       if (allocated(error)) call suite%equal(full_text(error), "test:15: case 2, which starts at this line, has 2 errors " // &
          & "in its input and cannot be solved", "its words")
-      call reader%next_case(this, error)
-      call case_failure(this, error)
-      call suite%check(allocated(error), "a case that is not built has a failure")
-      if (allocated(error)) call suite%check(error%kind == error_kind%unsupported .and. index(full_text(error), "M = 7") > 0, &
-         & "its kind and name")
    end subroutine failures
 
    !> What is known only after a case was prepared can be put into the store
