@@ -165,6 +165,7 @@ module contact_cases_bounds
       & number_bounds("YL2", "mm", -1.0e38_wp, 1.0e38_wp, .false., "a side without end is written as 1e30"), &
       & number_bounds("YH2", "mm", -1.0e38_wp, 1.0e38_wp, .false., "a side without end is written as 1e30"), &
       & number_bounds("XL,XH,YL,YH", "mm", -1.0e38_wp, 1.0e38_wp, .false., "a side without end is written as 1e30"), &
+      & number_bounds("NP", "integer", 1.0_wp, 100.0_wp, .false., "a number of sub-patches"), &
       & number_bounds("FAC", "-", 0.0_wp, 1.0_wp, .false., "a part of what one patch would do to the other")]
 
    type(number_bounds), parameter :: subsurface_rows(*) = [ &

@@ -116,19 +116,19 @@ def materials():
         start(ire)
         case_a(ire, 1, units, eps=1e-8)
         cntc.setflags(ire, 1, CNTC["ic_bound"], 1)
-        cntc.setmaterialparameters(ire, 1, 0, [0.28, 0.28, 82e9, 82e9, 1e-4 * 1e-9])
+        cntc.setmaterialparameters(ire, 1, 0, [0.28, 0.28, 82e9, 82e9, 1e-5 * 1e-9])
         same(cntc.calculate(ire, 1), 0, f"soft sheet, {units}: error code")
-    cntc.setmaterialparameters(1, 1, 0, [*constants, 1e-4])
+    cntc.setmaterialparameters(1, 1, 0, [*constants, 1e-5])
     same(cntc.calculate(1, 1), 0, "soft sheet: error code")
     soft = np.array(cntc.getcontactforces(1, 1))
-    check(soft[0] < 0.9 * elastic[0], "soft sheet: less force for the same approach")
+    check(soft[0] < 0.97 * elastic[0], "soft sheet: less force for the same approach")
     for ire in (2, 3):
         close(cntc.getcontactforces(ire, 1)[0], soft[0], 1e-6 * soft[0], "soft sheet: other units")
     # The gap is closed where there is contact: sheet and bodies together
     pn = cntc.gettractions(1, 1)[0]
     un = cntc.getdisplacements(1, 1)[0]
     h = cntc.getfielddata(1, 1, CNTC["fld_h"])
-    close((h + un)[pn > 0], 0.05, 1e-7, "soft sheet: displacements close the gap")
+    close(np.abs((h + un)[pn > 0] - 0.05).max(), 0, 1e-7, "soft sheet: displacements close the gap")
     # One value more is too much for other methods
     cntc.setflags(1, 1, CNTC["ic_bound"], 0)
     cntc.setmaterialparameters(1, 1, 0, [0.1, 0.1, 1.0, 1.0, 1e-4])
