@@ -4,7 +4,6 @@ module contact_patch_derived
    use contact_base_kinds, only : wp
    use contact_base_solve_report, only : solve_report
    use contact_grid_element_division, only : bounding_box, contact_box, element
-   use contact_normal_parts, only : displacement_between
    use contact_patch_problem, only : patch_problem, patch_state
    use contact_patch_result, only : patch_result
    use contact_patch_workspace, only : patch_workspace, prepare_window
@@ -177,7 +176,7 @@ contains
       result%uy = workspace%simplified_solution%compliance(2)*result%py
       if (allocated(problem%given_pressure)) return
       call prepare_window(problem, workspace)
-      call displacement_between(problem%parts, workspace%window, state%now%pn, result%un)
+      call workspace%window%normal(state%now%pn, result%un)
       if (.not. problem%want_exterior) then
          where (result%division == element%exterior) result%un = 0.0_wp
       end if
@@ -206,7 +205,7 @@ contains
 
       if (problem%want_exterior .or. problem%motion == motion%none) then
          call prepare_window(problem, workspace)
-         call displacement_between(problem%parts, workspace%window, state%now%pn, result%un)
+         call workspace%window%normal(state%now%pn, result%un)
          if (problem%motion /= motion%none) then
             workspace%pt(:, :, 1) = state%now%px
             workspace%pt(:, :, 2) = state%now%py
@@ -226,13 +225,8 @@ contains
          return
       end if
       workspace%box_pn = state%now%pn(box%ix0:box%ix1, box%iy0:box%iy1)
-      if (allocated(problem%parts)) then
-         call prepare_window(problem, workspace)
-         call displacement_between(problem%parts, workspace%window, state%now%pn, result%un)
-      else
-         call workspace%box%normal(workspace%box_pn, workspace%box_un)
-         result%un(box%ix0:box%ix1, box%iy0:box%iy1) = workspace%box_un
-      end if
+      call workspace%box%normal(workspace%box_pn, workspace%box_un)
+      result%un(box%ix0:box%ix1, box%iy0:box%iy1) = workspace%box_un
       call workspace%box%tangential(workspace%solution%p, workspace%box_ut)
       result%ux(box%ix0:box%ix1, box%iy0:box%iy1) = workspace%box_ut(:, :, 1)
       result%uy(box%ix0:box%ix1, box%iy0:box%iy1) = workspace%box_ut(:, :, 2)
@@ -274,7 +268,8 @@ contains
             worst = max(worst, abs(gap))
          end do
       end do
-      if (.not. problem%solves_for_pressure()) return
+      ! the displacements are those without the factors between parts
+      if (.not. problem%solves_for_pressure() .or. allocated(problem%parts)) return
       result%residual = max(result%tangential%residual, &
          & worst/max(abs(result%pen - minval(result%h)), tiny(worst)))
    end subroutine coupled_residual

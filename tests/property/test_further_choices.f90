@@ -50,8 +50,10 @@ contains
          two%spec%geometry%interaction = reshape([1.0_wp, factor(k), factor(k), 1.0_wp], [2, 2])
          call two%run(suite, "two parts")
          fn(k) = two%result%fn
+         ! the displacements at the surface are those of half-spaces, without the factors
          gap = maxval(abs(two%result%h + two%result%un - two%result%pen), two%result%division > element%exterior)
-         call suite%close_to(gap, 0.0_wp, 1.0e-10_wp, "two parts: no gap in the contact area")
+         if (k == 3) call suite%close_to(gap, 0.0_wp, 1.0e-10_wp, "two parts: no gap in the contact area")
+         if (k < 3) call suite%check(gap > 1.0e-4_wp, "two parts: displacements without the factors overlap")
          call suite%check(index(two%result%effects, "parts") > 0, "two parts: they are named")
          if (k == 3) call same(two%result%pn, one%result%pn, 1.0e-8_wp*one%result%pmax, "factors 1: one problem")
          if (k > 1) cycle
