@@ -161,7 +161,7 @@ contains
       end associate
    end function rail_motion
 
-   !> Motion of the wheel: that of the wheelset, and its flexible deviations
+   !> Motion of the wheel: that of the wheelset, and its flexible deviations, which turn about the origin of the wheel profile
    pure function wheel_motion(pair, placement, pitch_rate) result(motion)
       type(wheel_rail_spec), intent(in) :: pair
       type(pair_placement), intent(in) :: placement
@@ -176,8 +176,8 @@ contains
          motion%rotation = matmul(axes, [s*w%vroll, pitch_rate, s*w%vyaw])
          motion%velocity = [merge(0.0_wp, w%vs, pair%roller), s*w%vy, w%vz]
          if (.not. any(abs(w%flexible_rate) > 0.0_wp)) return
-         ! the flexible rotation is about the centre of the wheel
-         lever = matmul(axes, [w%flexible(1), 0.5_wp*w%fbdist - w%fbpos + s*w%flexible(2), w%flexible(3)])
+         ! the flexible deviations are those of the origin of the wheel profile, and so are their rates
+         lever = placement%wheel%origin - placement%wheelset%origin
          flexible = matmul(axes, [s*w%flexible_rate(4), w%flexible_rate(6), s*w%flexible_rate(5)])
          motion%rotation = motion%rotation + flexible
          motion%velocity = motion%velocity + matmul(axes, [w%flexible_rate(1), s*w%flexible_rate(2), w%flexible_rate(3)]) &

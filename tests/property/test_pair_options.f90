@@ -118,7 +118,9 @@ contains
       end do
       ! rotations add up; the rolling velocity that creepages refer to is that of the rigid wheelset, 0.1 % different
       associate (wheelset => flexible%spec%wheel_rail%wheelset)
+         ! the flexible rotation is about the origin of the wheel profile; with this velocity it is about the axle
          wheelset%flexible_rate(6) = 0.1_wp
+         wheelset%flexible_rate(1) = 0.1_wp*wheelset%nomradw
          wheelset%vpitch = wheelset%vpitch - 0.1_wp
       end associate
       call flexible%run(suite, "flexible wheelset that twists")
