@@ -24,7 +24,8 @@ _Self = TypeVar("_Self", bound="Element")
 _UNITS = {"mm": "un_cntc", "si": "un_si", "simpack": "un_spck"}
 _SOURCES = {"established": 0, "moving": 1}
 _SIDES = ("x low", "x high", "y low", "y high", "inner end of the rail profile", "outer end of the rail profile",
-          "inner end of the wheel profile", "outer end of the wheel profile")
+          "inner end of the wheel profile", "outer end of the wheel profile",
+          "a part of the profiles that cannot be seen from the plane of the contact")
 _MOTIONS = {"frictionless": 0, "shift": 1, "transient": 2, "steady": 3}
 
 _lock = threading.Lock()

@@ -42,7 +42,7 @@ contains
       character(len=:), allocatable :: text, places, enough
 
       associate (border => result%border)
-         if (.not. (any(border%side) .or. any(border%surface_end))) return
+         if (.not. (any(border%side) .or. any(border%surface_end) .or. border%hidden)) return
          call border_words(spec, border, places)
          text = "contact reaches " // places // ": it is cut off, and pressures and forces are those of a smaller contact area"
          if (present(patch)) text = "contact patch " // integer_text(patch) // ": " // text
@@ -92,6 +92,7 @@ contains
                & trim(body_names(body)) // " profile"
          end do
       end do
+      if (border%hidden) ends = ends // ", a part of the profiles that cannot be seen from the plane of the contact"
       words = ends
       if (len(sides) > 0) words = ", the border of the potential contact (" // sides(3:) // ")" // ends
       if (len(words) > 0) words = words(3:)

@@ -65,7 +65,7 @@ module contact_control_flags
       & flag_row(flag%timers, "  ", 0, 2, .true., .false.), &
       & flag_row(flag%ncase, "  ", 0, huge(1)), &
       & flag_row(flag%own_heat, "  ", 0, 1), &
-      & flag_row(flag%own_border, "  ", 0, 255, .false., .true.), &
+      & flag_row(flag%own_border, "  ", 0, 511, .false., .true.), &
       & flag_row(flag%own_stepped, "  ", 0, huge(1), .false., .true.)]
 
 contains

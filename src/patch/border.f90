@@ -76,12 +76,12 @@ contains
    end function border_elements
 
    !> Sides and ends as one number: 1 x low, 2 x high, 4 y low, 8 y high, 16 and 32 the low and high end of body 1, 64 and
-   !> 128 those of body 2
+   !> 128 those of body 2, 256 a surface that is hidden
    pure integer function border_code(border, mirrored) result(code)
       type(border_contact), intent(in) :: border
       !> Is y of the other sign for the caller? Default: no
       logical, intent(in), optional :: mirrored
-      logical :: side(4), reached(8)
+      logical :: side(4), reached(9)
       integer :: k
 
       side = border%side
@@ -90,6 +90,7 @@ contains
       end if
       reached(1:4) = side
       reached(5:8) = reshape(border%surface_end, [4])
+      reached(9) = border%hidden
       code = 0
       do k = 1, size(reached)
          if (reached(k)) code = ibset(code, k - 1)

@@ -18,6 +18,8 @@ module contact_patch_result
       logical :: side(4) = .false.
       !> Does contact end where the surface of a body ends along y? (low and high end, body)
       logical :: surface_end(2, 2) = .false.
+      !> Does it end where a surface is hidden by another part of the same body, or turns away from the reference?
+      logical :: hidden = .false.
       !> Largest pressure in the elements at those sides and ends [N/mm2]
       real(wp) :: pressure = 0.0_wp
    end type border_contact

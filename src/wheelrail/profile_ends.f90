@@ -3,6 +3,7 @@
 !> Beyond the last point of a profile nothing is known: contact that would go on there is cut off, and its pressures are those
 !> of a sharp edge.
 module contact_wheelrail_profile_ends
+   use contact_base_constants, only : excluded_threshold
    use contact_base_kinds, only : wp
    use contact_grid_element_division, only : element
    use contact_patch_result, only : border_contact
@@ -16,18 +17,20 @@ module contact_wheelrail_profile_ends
 
    public :: mark_profile_ends
 
-   !> Undeformed distances above this value stand for a surface that is missing [mm]
+   !> Undeformed distances above this value stand for a surface that is missing [mm]; those above excluded_threshold for
+   !> elements that may not touch, whatever the surfaces do
    real(wp), parameter :: missing = 500.0_wp
 
 contains
 
-   !> Which ends of the profiles contact reaches: in the next element along y a surface is missing, and the end is near
+   !> Which ends of the profiles contact reaches: in the next element along y a surface is missing, and the end is near;
+   !> where none is near, the surface goes on unseen
    subroutine mark_profile_ends(problem, here, slot, border)
       type(pair_problem), intent(in) :: problem
       type(pair_geometry), intent(in) :: here
       !> Solved
       type(patch_slot), intent(in) :: slot
-      !> `surface_end` and `pressure` are set; body 1 is the rail
+      !> `surface_end`, `hidden` and `pressure` are set; body 1 is the rail
       type(border_contact), intent(inout) :: border
       !> Elements between the centre of the element without surface and the end, at most
       real(wp), parameter :: nearest = 2.0_wp
@@ -44,14 +47,19 @@ contains
                do side = -1, 1, 2
                   next = iy + side
                   if (next >= 1 .and. next <= grid%my) then
-                     if (h(ix, next) < missing) cycle
+                     if (h(ix, next) < missing .or. h(ix, next) > excluded_threshold) cycle
                   end if
                   if (.not. known) call find_ends(problem, here, ends)
                   known = .true.
                   distance = norm2(ends - spread(spread(point_of(slot, next), 2, 2), 3, 2), dim=1)
                   found = minloc(distance)
-                  if (distance(found(1), found(2)) > nearest*grid%dy) cycle
-                  border%surface_end(found(1), found(2)) = .true.
+                  if (distance(found(1), found(2)) <= nearest*grid%dy) then
+                     border%surface_end(found(1), found(2)) = .true.
+                  else if (next >= 1 .and. next <= grid%my) then
+                     border%hidden = .true.
+                  else
+                     cycle
+                  end if
                   border%pressure = max(border%pressure, result%pn(ix, iy))
                end do
             end do
