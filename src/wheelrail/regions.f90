@@ -226,42 +226,86 @@ contains
       extent = x + [-t, t]
    end subroutine weigh_parabola
 
-   !> The same from a table of gaps along the track, by its sum; ends between points on straight lines
+   !> The same from a table of gaps along the track, by its sum; ends on straight lines between places
+   !>
+   !> A stretch with few points of the table is summed up at places between them, too, on curves through four points:
+   !> else the centre of a contact that is as short as the steps of the table would be that of one or two points.
    pure subroutine weigh_table(places, g, locus, power, weight, x, extent)
       real(wp), intent(in) :: places(:), g(:)
       !> Place of the smallest gap [mm], for a stretch too short for the table
       real(wp), intent(in) :: locus
       integer, intent(in) :: power
       real(wp), intent(out) :: weight, x, extent(2)
-      real(wp) :: depth, moment, step
-      integer :: i
+      !> Stretches with fewer points of the table are refined, and how much
+      integer, parameter :: few = 16, parts = 16
+      real(wp) :: moment, step, before, now, depth, place
+      integer :: i, k, n, first, last
 
       weight = 0.0_wp
       moment = 0.0_wp
       x = locus
       extent = locus
-      step = places(2) - places(1)
+      n = 1
+      if (count(g < 0.0_wp) < few) n = parts
+      step = (places(2) - places(1))/n
+      ! the smallest value may be positive although the curve dips below zero beside it
+      first = minloc(g, 1)
+      last = first
       do i = 1, size(g)
          if (.not. g(i) < 0.0_wp) cycle
-         depth = abs(g(i))**power
-         weight = weight + depth*step
-         moment = moment + depth*(places(i) - locus)*step
-         extent(1) = min(extent(1), end_of_stretch(i, i - 1))
-         extent(2) = max(extent(2), end_of_stretch(i, i + 1))
+         first = min(first, i)
+         last = max(last, i)
+      end do
+      first = max(1, first - 1)
+      last = min(size(g), last + 1)
+      before = g(first)
+      do i = first, last
+         do k = 1, n
+            if (i == last .and. k > 1) exit
+            place = places(i) + (k - 1)*step
+            now = g(i)
+            if (k > 1) now = between(i, real(k - 1, wp)/n)
+            if (now < 0.0_wp) then
+               depth = abs(now)**power
+               weight = weight + depth*step
+               moment = moment + depth*(place - locus)*step
+               extent = [min(extent(1), place), max(extent(2), place)]
+            end if
+            ! where the gap vanishes between the place before and this one
+            if (min(before, now) < 0.0_wp .and. max(before, now) >= 0.0_wp .and. max(before, now) <= far_away) then
+               place = place - step*now/(now - before)
+               extent = [min(extent(1), place), max(extent(2), place)]
+            end if
+            before = now
+         end do
       end do
       if (weight > 0.0_wp) x = locus + moment/weight
 
    contains
 
-      !> Where the gap vanishes between a point inside and its neighbour
-      pure real(wp) function end_of_stretch(inside, outside) result(place)
-         integer, intent(in) :: inside, outside
+      !> Gap between two points of the table, by the cubic with the slopes of parabolas; straight beside missing surfaces
+      pure real(wp) function between(i, t)
+         integer, intent(in) :: i
+         !> Share of the way to the next point
+         real(wp), intent(in) :: t
+         real(wp) :: rise, bend(2)
 
-         place = places(inside)
-         if (outside < 1 .or. outside > size(g)) return
-         if (g(outside) < 0.0_wp .or. g(outside) > far_away) return
-         place = place + (places(outside) - place)*g(inside)/(g(inside) - g(outside))
-      end function end_of_stretch
+         if (max(g(i), g(i + 1)) > far_away) then
+            between = merge(g(i), g(i + 1), t < 0.5_wp)
+            return
+         end if
+         rise = g(i + 1) - g(i)
+         bend = 0.0_wp
+         if (i > 1) then
+            if (g(i - 1) < far_away) bend(1) = g(i - 1) - 2.0_wp*g(i) + g(i + 1)
+         end if
+         if (i + 2 <= size(g)) then
+            if (g(i + 2) < far_away) bend(2) = g(i) - 2.0_wp*g(i + 1) + g(i + 2)
+         end if
+         if (i == 1) bend(1) = bend(2)
+         if (i + 2 > size(g)) bend(2) = bend(1)
+         between = g(i) + t*rise - 0.5_wp*t*(1.0_wp - t)*((1.0_wp - t)*bend(1) + t*bend(2))
+      end function between
    end subroutine weigh_table
 
    !> Lateral position where the gap vanishes between a point inside and its neighbour outside

@@ -276,6 +276,7 @@ class Placed:
                            "weight": total * width, "low": y_rows[part[np.argmax(depth[part])]],
                            "x_low": x_low[part[np.argmax(depth[part])]],
                            "bounds": (y_rows[part[0]], y_rows[part[-1]]), "bend": np.ptp(angle[part]),
+                           "lean": np.ptp(x_low[part]),
                            "x_bounds": ((x_low[part] - reach).min(), (x_low[part] + reach).max()),
                            "edge": bool(part[0] <= 1 or part[-1] >= len(y_rows) - 2)})
         return result

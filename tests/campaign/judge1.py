@@ -203,11 +203,11 @@ def places(scene, case, placed, totals, patches, findings):
         if width < 1.2 * ds:  # fewer points of the table than make a mean
             return
         across = (0.05 * ds + 0.01 * width if width > 4 * ds else 0.3 * ds) + slack + geometry1.SAMPLE
-        along_x = 0.02 * (region["x_bounds"][1] - region["x_bounds"][0]) + (abs(math.tan(case["yaw"])) + 0.01) * across * 30
+        share = 2.0 * min(1.0, across / width)
+        along_x = 0.01 * (region["x_bounds"][1] - region["x_bounds"][0]) + share * region["lean"] + 2e-3 * ds
         judge.exceeds(findings, "places", "YCP", abs(region["y"] - patch["ycp_tr"]), across)
         judge.exceeds(findings, "places", "XCP", abs(region["x"] - patch["xcp_tr"]), along_x)
-        bend = region["bend"] * min(1.0, across / width) * 2 + 2e-4
-        judge.exceeds(findings, "places", "DELTCP", abs(region["angle"] - patch["deltcp_tr"]), bend)
+        judge.exceeds(findings, "places", "DELTCP", abs(region["angle"] - patch["deltcp_tr"]), share * region["bend"] + 2e-4)
         judge.exceeds(findings, "places", "approach beyond the overlap", patch["pen"] - depth * math.cos(patch["deltcp_tr"]),
                       0.05 * depth + slack)
     elif all(distance > 1.5 * max(2 * d_sep - d_comb, d_sep) for distance in apart) \
