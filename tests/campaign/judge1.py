@@ -191,7 +191,8 @@ def places(scene, case, placed, totals, patches, findings):
         return
     steep = max(abs(math.tan(patch["deltcp_tr"])) for patch in patches)
     slack = 2e-5 * (1.0 + min(steep, 20.0))  # of the sampled curves, vertically [mm]
-    regions = [region for region in placed.regions(depth, by_rows=digits["D"] not in (5, 6)) if region["depth"] > 1e-3 * depth]
+    by_rows = digits["D"] not in (5, 6) and not placed.wheel.slices
+    regions = [region for region in placed.regions(depth, by_rows) if region["depth"] > 1e-3 * depth]
     if not regions:
         return
     deepest = max(regions, key=lambda region: region["depth"])
@@ -213,7 +214,7 @@ def places(scene, case, placed, totals, patches, findings):
         judge.exceeds(findings, "places", "XCP", abs(region["x"] - patch["xcp_tr"]), along_x)
         judge.exceeds(findings, "places", "DELTCP", abs(region["angle"] - patch["deltcp_tr"]), share * region["bend"] + 2e-4)
         judge.exceeds(findings, "places", "approach beyond the overlap", patch["pen"] - depth * math.cos(patch["deltcp_tr"]),
-                      0.05 * depth + slack)
+                      (0.05 + 0.5 * region["bend"]) * depth + slack)
     elif all(distance > 1.5 * max(2 * d_sep - d_comb, d_sep) for distance in apart) \
             and all(region["depth"] > 0.05 * depth for region in regions):
         judge.exceeds(findings, "places", "number of patches", abs(len(patches) - len(regions)), 0)
