@@ -6,7 +6,7 @@ module contact_capi_messages
    use contact_base_log, only : log_type
    use contact_capi_library, only : entry_type, existing_problem, library
    use contact_capi_problem, only : library_problem, refused_setting
-   use contact_cases_bounds, only : describe_breach
+   use contact_text_bounds, only : describe_breach
    use contact_control_library_codes, only : library_code
    use contact_text_words, only : integer_text
    implicit none (type, external)

@@ -14,7 +14,7 @@ module contact_cases_coefficient_file
    use contact_base_error, only : error_type, fatal_error
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
-   use contact_cases_bounds, only : bounds_of, bounds_table, describe_breach
+   use contact_text_bounds, only : bounds_of, bounds_table, describe_breach
    use contact_elastic_model, only : influence_table
    use contact_grid_potential_contact, only : potential_contact
    use contact_text_lexer, only : input_lexer, input_value, printable

@@ -6,7 +6,7 @@ module contact_cases_numbers
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
    use contact_base_choices, only : force_control, motion, normal_control, pressure_model, slip_source
    use contact_base_error, only : error_type, fatal_error
-   use contact_cases_bounds, only : check_number
+   use contact_text_bounds, only : check_number
    use contact_cases_spec, only : case_spec
    implicit none (type, external)
    private

@@ -346,7 +346,8 @@ contains
          end if
          call read_material_model(lexer, spec%digits%m, material, problems, error)
          if (allocated(error)) return
-         if (minval(material%gg) >= 1.0e-5_wp) call check_outer_iteration(spec, place, problems)
+         if (minval(material%gg) >= 1.0e-5_wp .and. minval([material%fg, material%tc]) >= 0.0_wp) &
+            & call check_outer_iteration(spec, place, problems)
       end associate
    end subroutine read_materials
 

@@ -2,7 +2,7 @@
 module contact_input_values
    use contact_base_error, only : error_type
    use contact_base_kinds, only : wp
-   use contact_cases_bounds, only : bounds_of, bounds_table
+   use contact_text_bounds, only : bounds_of, bounds_table
    use contact_input_problems, only : problem_list
    use contact_text_lexer, only : input_lexer, input_value
    implicit none (type, external)

@@ -2,6 +2,7 @@
 module contact_profile_line
    use contact_base_error, only : error_type, fatal_error
    use contact_base_kinds, only : wp
+   use contact_text_bounds, only : bounds_of, bounds_table, describe_breach
    use contact_text_lexer, only : printable
    use contact_text_words, only : to_real, word_state
    implicit none (type, external)
@@ -95,8 +96,9 @@ contains
       type(error_type), allocatable, intent(out) :: error
       !> Behind so many numbers text is ignored; default: nowhere
       integer, intent(in), optional :: enough
+      character(len=:), allocatable :: breach
       real(wp) :: value
-      integer :: first, last, state
+      integer :: first, last, state, bounds
 
       row = 0.0_wp
       n = 0
@@ -111,6 +113,12 @@ contains
          if (state /= word_state%good) then
             call fatal_error(error, '"' // printable(line(first:last)) // '" ' // trim(complaint(state)) // "; expected " // &
                & expected // '; the line reads "' // printable(line) // '"', file=place%file, line=place%line, column=first)
+            return
+         end if
+         if (n == 0) bounds = bounds_of("PROFILE")
+         if (value < bounds_table(bounds)%lowest .or. value > bounds_table(bounds)%highest) then
+            call describe_breach("PROFILE", line(first:last), value, breach, "a number of the profile")
+            call fatal_error(error, breach, file=place%file, line=place%line, column=first)
             return
          end if
          n = n + 1

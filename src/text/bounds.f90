@@ -3,7 +3,7 @@
 !> The reader of input files adds the place in the file, the library its code. Bounds end nonsense
 !> before it costs time or becomes a result; they lie orders of magnitude beyond all use, from gels to
 !> bodies that count as rigid and from nanometres to a kilometre. Units are the internal ones.
-module contact_cases_bounds
+module contact_text_bounds
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
    use contact_base_error, only : error_type, fatal_error
    use contact_base_kinds, only : wp
@@ -215,6 +215,7 @@ module contact_cases_bounds
       & number_bounds("KZRAIL", "N/mm", 0.0_wp, rigid, .false., "springs do not push further; rigid"), &
       & number_bounds("FZRAIL", "N", -heavy, heavy, .false., "the weight of a mountain"), &
       & number_bounds("DYSTEP0", "mm", 0.0_wp, far, .true., "a trial step"), &
+      & number_bounds("PROFILE", "mm ...", -1.0e9_wp, 1.0e9_wp, .false., "a number of a profile; a kilometre in micrometres"), &
       & number_bounds("MIRRORY", "integer", -1.0_wp, 1.0_wp, .false., "1 for yes, 0 and -1 for no"), &
       & number_bounds("MIRRORZ", "integer", -1.0_wp, 1.0_wp, .false., "1 for yes, -1 for no, 0 for as the file suggests"), &
       & number_bounds("SCALEYZ", "-", -1.0e9_wp, 1.0e9_wp, .false., "a factor of units"), &
@@ -372,4 +373,4 @@ contains
       call describe_breach(name, "", value, complaint, shown)
       if (len(complaint) > 0) call fatal_error(error, complaint)
    end subroutine check_number
-end module contact_cases_bounds
+end module contact_text_bounds

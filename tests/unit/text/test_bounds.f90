@@ -2,7 +2,7 @@
 program test_bounds
    use, intrinsic :: ieee_arithmetic, only : ieee_positive_inf, ieee_quiet_nan, ieee_value
    use contact_base_kinds, only : wp
-   use contact_cases_bounds, only : bounds_of, bounds_table, describe_breach, number_bounds
+   use contact_text_bounds, only : bounds_of, bounds_table, describe_breach, number_bounds
    use contact_test_harness, only : test_suite
    use contact_text_words, only : real_text
    implicit none (type, external)
