@@ -11,6 +11,7 @@ module contact_normal_analyn
    use contact_base_kinds, only : wp
    use contact_grid_potential_contact, only : potential_contact
    use contact_normal_hertz, only : hertz_by_curvatures, hertz_contact, hertz_load
+   use contact_normal_kpec, only : equally_small
    implicit none (type, external)
    private
 
@@ -25,6 +26,12 @@ module contact_normal_analyn
    integer, parameter :: most_samples = 10
    real(wp), parameter :: fallen = 0.3_wp
 
+   !> Where the gap of a row is smallest
+   type :: low_place
+      !> Position and gap [mm], half the second derivatives along and across the row [1/mm]
+      real(wp) :: x = 0.0_wp, lowest = 0.0_wp, a1 = 0.0_wp, b1 = 0.0_wp
+   end type low_place
+
 contains
 
    !> Pressures [N/mm2]
@@ -38,34 +45,90 @@ contains
       !> Shape (mx, my), positive in contact
       real(wp), intent(out) :: pn(:, :)
       type(hertz_contact) :: hertz
-      real(wp) :: overlap, depth, a1, b1, half_length, highest
-      real(wp) :: lowest(size(gap, 2)), place(size(gap, 2))
-      integer :: column(size(gap, 2))
-      integer :: ix, iy
+      type(low_place) :: here
+      real(wp) :: overlap, tolerance, depth, half_length, highest
+      integer :: ix, iy, first, last
 
       pn = 0.0_wp
       if (size(gap) == 0) return
+      tolerance = equally_small*abs(minval(gap))
+      overlap = -huge(overlap)
       do iy = 1, grid%my
-         column(iy) = minloc(gap(:, iy), dim=1)
-         call lowest_point(grid, gap(:, iy), column(iy), place(iy), lowest(iy))
+         last = 0
+         do
+            call next_run(gap(:, iy), tolerance, first, last)
+            if (first == 0) exit
+            here = lowest_place(grid, gap, iy, first, last)
+            overlap = max(overlap, -here%lowest)
+         end do
       end do
-      overlap = -minval(lowest)
       if (.not. overlap > least_overlap) return
       do iy = 1, grid%my
-         if (.not. lowest(iy) < 0.0_wp) cycle
-         a1 = max(curvature_along(grid, gap(:, iy), column(iy)), least_curvature)
-         b1 = max(curvature_across(grid, gap(column(iy), :), iy), least_curvature)
-         hertz = hertz_by_curvatures(hertz_load(normal_control%approach, pen=overlap, modulus=modulus), a1, b1)
-         depth = 1.0_wp - (lowest(iy) + overlap)/(b1*hertz%bb**2)
-         if (.not. depth > 0.0_wp) cycle
-         half_length = hertz%aa*sqrt(depth)
-         highest = 1.5_wp*hertz%fn/(pi*hertz%aa*hertz%bb)*sqrt(depth)
-         do ix = 1, grid%mx
-            if (.not. gap(ix, iy) < excluded_threshold) cycle
-            pn(ix, iy) = highest*sqrt(max(0.0_wp, 1.0_wp - ((grid%x(ix) - place(iy))/half_length)**2))
+         last = 0
+         do
+            call next_run(gap(:, iy), tolerance, first, last)
+            if (first == 0) exit
+            here = lowest_place(grid, gap, iy, first, last)
+            if (.not. here%lowest < 0.0_wp) cycle
+            hertz = hertz_by_curvatures(hertz_load(normal_control%approach, pen=overlap, modulus=modulus), here%a1, here%b1)
+            depth = 1.0_wp - (here%lowest + overlap)/(here%b1*hertz%bb**2)
+            if (.not. depth > 0.0_wp) cycle
+            half_length = hertz%aa*sqrt(depth)
+            highest = 1.5_wp*hertz%fn/(pi*hertz%aa*hertz%bb)*sqrt(depth)
+            do ix = 1, grid%mx
+               if (.not. gap(ix, iy) < excluded_threshold) cycle
+               pn(ix, iy) = max(pn(ix, iy), highest*sqrt(max(0.0_wp, 1.0_wp - ((grid%x(ix) - here%x)/half_length)**2)))
+            end do
          end do
       end do
    end subroutine analyn_pressure
+
+   !> The next run of neighbours in a row whose gaps are equal to the smallest one
+   !>
+   !> More than one element in a row that is symmetric about the side of an element; more than one run where two humps of
+   !> the same height are in contact.
+   pure subroutine next_run(row, tolerance, first, last)
+      !> Gap of the row [mm], and what counts as equal
+      real(wp), intent(in) :: row(:), tolerance
+      !> First element of the run, 0 when there is none
+      integer, intent(out) :: first
+      !> Last element of the previous run on entry, 0 to begin with; of this one on exit
+      integer, intent(inout) :: last
+      real(wp) :: lowest
+      integer :: ix
+
+      lowest = minval(row)
+      first = 0
+      do ix = last + 1, size(row)
+         if (row(ix) > lowest + tolerance) then
+            if (first > 0) return
+         else
+            if (first == 0) first = ix
+            last = ix
+         end if
+      end do
+   end subroutine next_run
+
+   !> Mean position, gap and curvatures of a run
+   pure type(low_place) function lowest_place(grid, gap, iy, first, last) result(mean)
+      type(potential_contact), intent(in) :: grid
+      real(wp), intent(in) :: gap(:, :)
+      !> Row, first and last element of the run
+      integer, intent(in) :: iy, first, last
+      real(wp) :: x, lowest
+      integer :: ix
+
+      do ix = first, last
+         call lowest_point(grid, gap(:, iy), ix, x, lowest)
+         mean%x = mean%x + x
+         mean%lowest = mean%lowest + lowest
+         mean%a1 = mean%a1 + max(curvature_along(grid, gap(:, iy), ix), least_curvature)
+         mean%b1 = mean%b1 + max(curvature_across(grid, gap(ix, :), iy), least_curvature)
+      end do
+      if (first == last) return
+      mean = low_place(mean%x/(last - first + 1), mean%lowest/(last - first + 1), mean%a1/(last - first + 1), &
+         & mean%b1/(last - first + 1))
+   end function lowest_place
 
    !> Where along a row the gap is smallest: vertex of the parabola through three elements
    !>

@@ -60,13 +60,14 @@ contains
       real(wp), contiguous, intent(inout) :: pn(:, :)
       type(solve_report), intent(inout) :: report
       real(wp), allocatable :: un(:, :)
-      integer :: place(2)
+      logical, allocatable :: deepest(:, :)
 
-      call kpec_shape(grid, gap, pn, place)
+      allocate(deepest(size(gap, 1), size(gap, 2)))
+      call kpec_shape(grid, gap, pn, deepest)
       if (.not. any(pn > 0.0_wp)) return
       allocate(un, mold=pn)
       call operator%normal(pn, un)
-      pn = pn*(-gap(place(1), place(2))/un(place(1), place(2)))
+      pn = pn*(-sum(gap, deepest)/sum(un, deepest))
       report%products = report%products + 1
       report%fft_pairs = report%fft_pairs + 1.0_wp
    end subroutine scaled_kpec

@@ -22,6 +22,9 @@ module contact_normal_kpec
    real(wp), parameter :: half_way = 0.5_wp
    !> Smallest curvature that counts: it would open the gap by this part of the overlap along the window [-]
    real(wp), parameter :: least_rise = 0.25_wp
+   !> Gaps that differ by less than this part of the overlap count as equal [-]: of two elements that are mirror images of
+   !> each other rounding makes one the deeper one
+   real(wp), parameter, public :: equally_small = 1.0e-9_wp
    !> Distance of the ends of a row of contact beyond the outermost centres, at least, in elements [-]
    real(wp), parameter :: least_overhang = 0.01_wp
 
@@ -41,27 +44,27 @@ contains
    !>
    !> The factor is found by the caller, who knows the compliance: at the place of the smallest
    !> gap the pressures bring about a displacement equal to the overlap.
-   pure subroutine kpec_shape(grid, gap, shape_, place)
+   pure subroutine kpec_shape(grid, gap, shape_, deepest)
       type(potential_contact), intent(in) :: grid
       !> Distance of the undeformed surfaces less the approach [mm], shape (mx, my); negative where
       !> they overlap, above excluded_threshold where there is no contact possible
       real(wp), intent(in) :: gap(:, :)
       !> Pressures [-], shape (mx, my): positive in contact, largest 1 or less; all zero without overlap
       real(wp), intent(out) :: shape_(:, :)
-      !> Element of the smallest gap
-      integer, intent(out) :: place(2)
+      !> Elements of the smallest gap, shape (mx, my)
+      logical, intent(out) :: deepest(:, :)
       type(threshold_ellipse) :: ellipse
       real(wp) :: overlap, longest
       real(wp) :: middle(size(gap, 2)), half_length(size(gap, 2)), limit(size(gap, 2))
       integer :: ix, iy
 
       shape_ = 0.0_wp
-      place = 1
+      deepest = .false.
       if (size(gap) == 0) return
-      place = minloc(gap)
-      overlap = -gap(place(1), place(2))
+      overlap = -minval(gap)
       if (.not. overlap > least_overlap) return
-      ellipse = fit_ellipse(grid, gap, place, overlap)
+      deepest = gap <= (equally_small - 1.0_wp)*overlap
+      ellipse = fit_ellipse(grid, gap, deepest, overlap)
       do iy = 1, grid%my
          limit(iy) = (row_level(ellipse, grid%y(iy)) - 1.0_wp)*overlap
          call row_extent(grid, gap(:, iy), limit(iy), middle(iy), half_length(iy))
@@ -87,25 +90,32 @@ contains
    end function row_level
 
    !> Hertz's ellipse for the curvatures of the overlap
-   pure function fit_ellipse(grid, gap, place, overlap) result(ellipse)
+   pure function fit_ellipse(grid, gap, deepest, overlap) result(ellipse)
       type(potential_contact), intent(in) :: grid
       real(wp), intent(in) :: gap(:, :)
-      !> Element of the smallest gap
-      integer, intent(in) :: place(2)
+      !> Elements of the smallest gap, shape (mx, my)
+      logical, intent(in) :: deepest(:, :)
       !> Overlap there [mm]
       real(wp), intent(in) :: overlap
       type(threshold_ellipse) :: ellipse
       type(hertz_contact) :: hertz
       real(wp) :: a1, b1, start, end_
+      integer :: ix, iy
       logical :: one_row
 
-      a1 = curvature_along(grid, gap(:, place(2)), place(1), overlap)
+      a1 = 0.0_wp
+      do iy = 1, grid%my
+         do ix = 1, grid%mx
+            if (deepest(ix, iy)) a1 = a1 + curvature_along(grid, gap(:, iy), ix, overlap)
+         end do
+      end do
+      a1 = a1/count(deepest)
       call extent_across(grid, gap, overlap, start, end_, one_row)
       ellipse%ym = 0.5_wp*(start + end_)
       b1 = half_way*overlap/(0.5_wp*(end_ - start))**2
       hertz = hertz_by_curvatures(hertz_load(normal_control%approach, pen=overlap), a1, b1)
       ellipse%bb = hertz%bb
-      if (one_row) ellipse%bb = max(ellipse%bb, 1.1_wp*abs(grid%y(place(2)) - ellipse%ym))
+      if (one_row) ellipse%bb = max(ellipse%bb, 1.1_wp*abs(grid%y(findloc(any(deepest, dim=1), .true., dim=1)) - ellipse%ym))
       ellipse%level_x = a1*hertz%aa**2/overlap
       ellipse%level_y = b1*hertz%bb**2/overlap
    end function fit_ellipse
@@ -170,24 +180,44 @@ contains
          last = iy
       end do
       one_row = first == last
-      start = grid%y(first) - grid%dy*steps_to_level(gap, first, -1, -half_way*overlap)
-      end_ = grid%y(last) + grid%dy*steps_to_level(gap, last, 1, -half_way*overlap)
+      start = grid%y(first) - grid%dy*mean_steps(gap, first, -1, overlap)
+      end_ = grid%y(last) + grid%dy*mean_steps(gap, last, 1, overlap)
    end subroutine extent_across
 
-   !> Distance from a row to where the gap reaches a level, in rows: linear between the row and
-   !> the next one outwards, at the column of the smallest gap; linear extrapolation at the edge of the window
-   pure real(wp) function steps_to_level(gap, row, outwards, level) result(steps)
+   !> Distance from a row to where half of the overlap is left, in rows: mean over the columns of its smallest gap
+   pure real(wp) function mean_steps(gap, row, outwards, overlap) result(steps)
       real(wp), intent(in) :: gap(:, :)
-      !> Last row with a gap below the level
+      !> Row at the rim
       integer, intent(in) :: row
+      !> +1 or -1
+      integer, intent(in) :: outwards
+      !> [mm]
+      real(wp), intent(in) :: overlap
+      integer :: ix, n
+
+      steps = 0.0_wp
+      n = 0
+      do ix = 1, size(gap, 1)
+         if (gap(ix, row) > minval(gap(:, row)) + equally_small*overlap) cycle
+         steps = steps + steps_to_level(gap, row, ix, outwards, -half_way*overlap)
+         n = n + 1
+      end do
+      steps = steps/n
+   end function mean_steps
+
+   !> Distance from a row to where the gap of a column reaches a level, in rows: linear between the row and
+   !> the next one outwards; linear extrapolation at the edge of the window
+   pure real(wp) function steps_to_level(gap, row, column, outwards, level) result(steps)
+      real(wp), intent(in) :: gap(:, :)
+      !> Last row with a gap below the level; the column
+      integer, intent(in) :: row, column
       !> +1 or -1
       integer, intent(in) :: outwards
       !> [mm]
       real(wp), intent(in) :: level
       real(wp) :: here, there
-      integer :: column, next
+      integer :: next
 
-      column = minloc(gap(:, row), dim=1)
       here = gap(column, row)
       next = row + outwards
       steps = 0.5_wp

@@ -26,9 +26,70 @@ program test_approximate
    call degenerate_gaps(suite)
    call warning_at_edge(suite)
    call double_ellipse(suite)
+   call mirrors(suite)
    call suite%finish()
 
 contains
+
+   !> Mirrored surfaces have mirrored pressures, on grids of odd and even size that are coarse, with humps of equal height, and
+   !> wherever rounding puts the smallest gap
+   subroutine mirrors(suite)
+      type(test_suite), intent(inout) :: suite
+      type(potential_contact) :: grid
+      real(wp), allocatable :: gap(:, :), pn(:, :), image(:, :)
+      integer :: i, shape_, mx, my, ix, iy
+      real(wp) :: x, y
+
+      do mx = 20, 21
+         do my = 4, 7
+            grid = window(mx, my, 3.0_wp, 2.0_wp)
+            allocate(gap(mx, my))
+            do shape_ = 1, 4
+               do iy = 1, my
+                  do ix = 1, mx
+                     x = grid%x(ix)
+                     y = grid%y(iy)
+                     select case (shape_)
+                     case (1)
+                        gap(ix, iy) = 0.01_wp*x**2 + 0.02_wp*y**2
+                     case (2)
+                        ! waves across the rolling direction: several humps are equally deep
+                        gap(ix, iy) = 0.002_wp*sin(4.2_wp*x) + 0.002_wp*x**2 + 0.02_wp*y**2
+                     case (3)
+                        gap(ix, iy) = 1.0e-3_wp*(x**2 - 1.5_wp)**2 + 0.02_wp*y**2 + 1.0e-3_wp*y
+                     case default
+                        gap(ix, iy) = 0.01_wp*(x - 0.3_wp)**2 + 0.02_wp*abs(y - 0.2_wp)**3 + 0.003_wp*x*y
+                     end select
+                  end do
+               end do
+               gap = gap - minval(gap) - 0.02_wp
+               do i = 1, size(methods)
+                  pn = pressure_of(methods(i), grid, gap)
+                  image = pressure_of(methods(i), grid, gap(mx:1:-1, :))
+                  call suite%close_to(maxval(abs(image(mx:1:-1, :) - pn)), 0.0_wp, 1.0e-7_wp*maxval(pn), name_of(i) // &
+                     & ": mirrored in x")
+                  image = pressure_of(methods(i), grid, gap(:, my:1:-1))
+                  call suite%close_to(maxval(abs(image(:, my:1:-1) - pn)), 0.0_wp, 1.0e-7_wp*maxval(pn), name_of(i) // &
+                     & ": mirrored in y")
+                  if (shape_ /= 1 .and. shape_ /= 3) cycle
+                  call suite%close_to(maxval(abs(pn(mx:1:-1, :) - pn)), 0.0_wp, 1.0e-7_wp*maxval(pn), name_of(i) // &
+                     & ": symmetric in x as the gap is")
+                  ! rounding chooses the smallest gap
+                  image = gap*(1.0_wp + 1.0e-15_wp*spread([(real(mod(7*ix, 5), wp), ix=1, mx)], 2, my))
+                  image = pressure_of(methods(i), grid, image)
+                  call suite%close_to(maxval(abs(image - pn)), 0.0_wp, 1.0e-6_wp*maxval(pn), name_of(i) // ": rounding")
+               end do
+            end do
+            deallocate(gap)
+         end do
+      end do
+      grid = window(13, 10, 3.0_wp, 2.0_wp)
+      pn = reshape([(0.0_wp, i=1, 130)], [13, 10])
+      image = pn
+      call sdec_pressure(grid, 2.0_wp, 0.7_wp, 1.5_wp, 100.0_wp, pn)
+      call sdec_pressure(grid, 2.0_wp, 1.5_wp, 0.7_wp, 100.0_wp, image)
+      call suite%close_to(maxval(abs(image(:, 10:1:-1) - pn)), 0.0_wp, 1.0e-12_wp*maxval(pn), "SDEC: mirrored in y")
+   end subroutine mirrors
 
    !> Square window around the origin
    pure function window(mx, my, half_x, half_y) result(grid)
