@@ -1,6 +1,6 @@
 !> The .out file as public scripts read it: search for texts, skip lines, split on blanks
 program test_report
-   use contact_base_case_status, only : missed_iteration
+   use contact_base_case_status, only : case_status, missed_iteration
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
    use contact_base_solve_report, only : ending
@@ -208,6 +208,7 @@ contains
       call suite%check(index(lines(at)%text, "NOT CONVERGED: tangential problem") > 0, "a failure is told")
 
       spec%motion = 0
+      result%status = case_status()
       call write_file(spec, result, 1, lines)
       at = find_line(lines, " EFFECTS: ", 1)
       call suite%equal(index(lines(at)%text, "second method"), 0, "no tangential solver without tangential problem")
