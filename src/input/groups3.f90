@@ -448,6 +448,8 @@ contains
       ak = difference_parameter(spec%material)
       is_dissimilar_shape = spec%digits%c == 4 .or. spec%digits%c == 9
       relaxes_apart = spec%digits%m == 1
+      ! wrong values have been told already
+      if (relaxes_apart) relaxes_apart = min(minval(spec%material%fg), minval(spec%material%tc)) >= 0.0_wp
       if (relaxes_apart) relaxes_apart = spec%material%relaxes_apart()
       given = "MAXOUT = " // integer_text(spec%iteration%maxout)
       if (spec%iteration%maxout >= 2) then
