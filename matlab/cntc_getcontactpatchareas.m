@@ -16,5 +16,8 @@ function [ carea, harea, sarea, parea ] = cntc_getcontactpatchareas( ire, icp )
    [carea, harea, sarea] = cntc_call('cntc_getcontactpatchareas', ire, icp, [], [], []);
    cntc_tell('cntc_getcontactpatchareas', ire, icp);
    parea = carea - harea - sarea;
+   if parea <= 1e-9*carea   % areas are whole numbers of elements: rounding
+      parea = 0;
+   end
 
 end % function cntc_getcontactpatchareas

@@ -538,7 +538,9 @@ def getcontactforces(ire: Number = 1, icp: Number = 1) -> tuple[float, float, fl
 def getcontactpatchareas(ire: Number = 1, icp: Number = 1) -> tuple[float, float, float, float]:
     """Areas of contact, adhesion, slip and plasticity [L2]."""
     contact, adhesion, slip = call("cntc_getcontactpatchareas", _element(ire), _patch(icp))
-    return contact, adhesion, slip, contact - adhesion - slip
+    # Areas are whole numbers of elements: what is left of one is rounding
+    plastic = contact - adhesion - slip
+    return contact, adhesion, slip, plastic if plastic > 1e-9 * contact else 0.0
 
 
 def getmaximumpressure(ire: Number = 1, icp: Number = 1) -> float:

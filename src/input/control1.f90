@@ -1,6 +1,6 @@
 !> The control words of a case of module 1 and the checks of its digits
 module contact_input_control1
-   use contact_base_choices, only : kernel_model, slip_source
+   use contact_base_choices, only : contact_location, kernel_model, slip_source
    use contact_base_error, only : error_type
    use contact_cases_spec, only : case_digits, case_spec
    use contact_wheelrail_spec, only : wheel_rail_spec
@@ -174,6 +174,9 @@ contains
       associate (digits => spec%digits)
          if (digits%f /= 0 .and. digits%t == 0) call add_for_digit(problems, words, severity%error, "F", "F = " // &
             & integer_text(digits%f) // " needs a tangential problem, T = 1, 2 or 3")
+         if (digits%c == 4 .and. digits%d >= 2 .and. choice1_of("D", digits%d) /= contact_location%conformal) &
+            & call add_for_digit(problems, words, severity%warning, "C", "C = 4, the angle correction for conformal contact, " // &
+            & "has no effect with D = " // integer_text(digits%d) // ", whose patches are flat; D = 4 has curved ones")
       end associate
       call check_physics(words, spec, problems)
    end subroutine check_combinations

@@ -220,6 +220,10 @@ contains
       call has_problem(suite, problems, "test:2:1: D = 8, contact locus in an oblique view that fits few profiles, " // &
          & "is known but not built", &
          & "by its name, with its place", severity%unsupported)
+      call read_text(new_case(word2="0024033", friction="0.3 0.3;0 4"), spec, problems, error)
+      call has_problem(suite, problems, "C = 4, the angle correction for conformal contact, has no effect with D = 2", &
+         & "flat patches have no inclination", severity%warning)
+      call read_text(new_case(word2="0082033"), spec, problems, error)
       call read_text(new_case(word2="0011002", friction="", search="", rail="", &
          & wheelset="0. 0. 1. 0. 0. 0.;2000. 0. 0. 0. 0. -4."), later, problems, error, spec)
       call has_problem(suite, problems, "D = 8,", "a search that is kept counts, too", severity%unsupported)
