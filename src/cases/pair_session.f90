@@ -162,6 +162,11 @@ contains
          if (.not. allocated(error)) call load_profile(session%profiles, spec%wheel_rail%wheel_profile, profile_side%wheel, &
             & folder, problem%wheel, problem%wheel_surface, log, error)
          if (allocated(error)) return
+         associate (height => spec%wheel_rail%track%gaught, z => problem%rail%z%nodes())
+            if (spec%wheel_rail%new_rail_profile .and. height > maxval(z) - minval(z)) call log%warning("GAUGHT = " // &
+               & real_text(height) // " mm, but the profile of the rail is only " // real_text(maxval(z) - minval(z)) // &
+               & " mm high: its gauge end is taken for the gauge point")
+         end associate
          if (spec%wheel_rail%roller .and. spec%wheel_rail%track%nomradr < at_axle*maxval(problem%rail%z%nodes())) then
             call fatal_error(error, "NOMRADR = " // real_text(spec%wheel_rail%track%nomradr) // " mm is less than the depth of &
                &the profile, " // real_text(maxval(problem%rail%z%nodes())) // " mm: its sides would lie beyond the axle")

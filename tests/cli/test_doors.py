@@ -245,6 +245,11 @@ class Words(Doors):
         self.assertIn("MODULE = 0 ends the input; what stands below is not read", out)
         self.assertEqual(run.returncode, 0)
 
+    def test_gauge_point_below_the_profile(self):
+        text = "1\n" + NEW1.format(**PLAIN1) + "0\n"
+        self.assertNotIn("gauge end", self.run_text(text)[1])
+        self.assertIn("its gauge end is taken for the gauge point", self.run_text(text.replace("14 0 1435 0\n", "150 0 1435 0\n"))[1])
+
     def test_no_results(self):
         run, out, _ = self.run_text("3\n" + NEW3.format(**{**PLAIN3, "third": "0000001"}) + "0\n")
         self.assertNotIn("No results were asked for", out)
