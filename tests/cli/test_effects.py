@@ -38,6 +38,8 @@ TABLE = {
     "layer that yields": (case(laws="0022420", more="8200 0.01 20 0"),
                           PLAIN + ", elastic layer between the bodies, plastic shearing"),
     "layer far from its limit": (case(laws="0022420", more="8200 0.01 1e6 0"), PLAIN + ", elastic layer between the bodies"),
+    "thin sheet": (case(digits="213100", more="1e-6"),
+                   "elastic half-spaces, elastic thin sheet, Coulomb friction in steady rolling"),
     "bilinear": (case(laws="0023020"), "elastic half-spaces, bilinear tractions, Coulomb friction in steady rolling"),
     "dissimilar": (case(material="0.28 0.28 82000 8200"), PLAIN + ", dissimilar bodies"),
     "damping": (case(laws="0022020 2", more="1e-3 1e-3 1e10 1e10"), PLAIN),
