@@ -409,7 +409,9 @@ def judge_contact(scene, k, run, fields, findings, state):
             judge_springs(scene, k, f, previous, totals, findings)
     else:
         spaces = half_spaces(scene, f)
-        coupled = spaces.coupled and scene["maxout"] > 1
+        # below 1e-4 the difference parameter counts as none for the pressures, and MAXOUT becomes 1, with a warning
+        alike = abs(spaces.k) < 1e-4 and d["C"] in (2, 3) and d["M"] != 1
+        coupled = spaces.coupled and scene["maxout"] > 1 and not alike
         if d["B"] in (0, 1) and (coupled or not spaces.coupled or case["I"] == 0):
             judge_normal(scene, k, f, state, totals, findings, spaces, coupled)
         if d["T"]:
