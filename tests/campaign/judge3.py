@@ -534,7 +534,7 @@ def judge_tangential(scene, k, run, f, previous, findings, spaces, plastic, stat
     for name, s in (("sx", sx), ("sy", sy)):
         if f["error"] == 0 and slipping.any():
             exceeds(findings, "slip", f"printed {name} of case {k}", np.abs((f[name]*step - s)[slipping]).max()/scale,
-                    10*scene["eps"] + 1e-8 + (5e-3 if d["L"] else 0.0))
+                    10*scene["eps"] + 1e-8 + (5e-3 if d["L"] else 0.0) + (QUADRATURE if d["M"] == 1 else 0.0))
 
 
 def upstream(field, sign):
