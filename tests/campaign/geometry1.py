@@ -192,15 +192,27 @@ class Placed:
     def smallest(self):
         """The smallest vertical gap: its size, s on the wheel, angle; None where the bodies do not meet"""
         s, angles = self.wheel.s[::6], np.linspace(-0.3, 0.3, 121)
-        for _ in range(6):
-            _, gap = self.gaps(s, angles)
-            if not np.isfinite(gap).any():
-                return None
-            k, m = np.unravel_index(np.argmin(np.where(np.isfinite(gap), gap, np.inf)), gap.shape)
-            best = gap[k, m], s[m], angles[k]
-            ds, da = s[1] - s[0], angles[1] - angles[0]
+        _, gap = self.gaps(s, angles)
+        gap = np.where(np.isfinite(gap), gap, np.inf)
+        low = np.concatenate([[np.inf], gap.min(axis=0), [np.inf]])
+        places = np.flatnonzero((low[1:-1] <= low[:-2]) & (low[1:-1] <= low[2:]) & np.isfinite(low[1:-1]))
+        if not len(places):
+            return None
+        places = places[np.argsort(low[1:-1][places])][:4]
+        return min((self._around(s[m], angles[np.argmin(gap[:, m])], s[1] - s[0], angles[1] - angles[0]) for m in places),
+                   key=lambda found: found[0])
+
+    def _around(self, place, angle, ds, da):
+        """The smallest gap near a place"""
+        best = np.inf, place, angle
+        for _ in range(5):
             s = np.linspace(max(best[1] - 2 * ds, 0.0), min(best[1] + 2 * ds, self.wheel.length), 41)
             angles = np.linspace(best[2] - 2 * da, best[2] + 2 * da, 41)
+            _, gap = self.gaps(s, angles)
+            gap = np.where(np.isfinite(gap), gap, np.inf)
+            k, m = np.unravel_index(np.argmin(gap), gap.shape)
+            best = gap[k, m], s[m], angles[k]
+            ds, da = s[1] - s[0], angles[1] - angles[0]
         return best
 
     def regions(self, depth, by_rows=True):
@@ -214,9 +226,10 @@ class Placed:
         half = math.sqrt(max(depth, 1e-9) / kappa)
         angles = np.linspace(-0.3, 0.3, 241)
         points, gap = self.gaps(s, angles)
-        below = np.isfinite(gap) & (gap < 0.25 * depth)
+        # between these points the gap may be smaller by what the curvatures make of half a step
+        below = np.isfinite(gap) & (gap < 0.25 * depth + 1.5 * kappa * (0.5 * (angles[1] - angles[0]) * self.radius)**2 + 2e-4)
         if not below.any():
-            below = np.isfinite(gap) & (gap <= np.nanmin(np.where(np.isfinite(gap), gap, np.nan)) + depth)
+            return []
         found = np.flatnonzero(below.any(axis=0))
         around = np.flatnonzero(below.any(axis=1))
         step = angles[1] - angles[0]

@@ -423,7 +423,7 @@ def slices(scene, tools, run, cases, findings):
     rail = scene["pair"]["rail"]
     if rail.get("slices") or scene["pair"]["wheel"].get("slices") or not scene1.sampled(scene):
         return
-    if rail.get("spacing") or rail.get("noise"):  # slices are sampled with steps of 0.5 mm
+    if rail.get("spacing") or rail.get("noise") or rail.get("scale", 1.0) < 0.8:  # slices are sampled with steps of 0.5 mm
         return
     if scene["roller"] or scene["digits"]["D"] == 4 or any(not settled(record) for record, _, _ in cases):
         return
