@@ -244,6 +244,7 @@ contains
          ! the contact stiffness leads the search for the height
          template%sensitivity = merge(sensitivity_choice%normal, sensitivity_choice%none, &
             & problem%force_prescribed .or. problem%force == force_control%massless_rail)
+         template%reports_sensitivity = .false.
          template%mxsens = spec%iteration%mxsens
          template%epsens = spec%iteration%epsens
       end associate

@@ -105,6 +105,7 @@ contains
       call record%number("dy_defl", "mm", "lateral deflection of the rail", s*pair%dy_defl)
       call record%number("dz_defl", "mm", "vertical deflection of the rail", pair%dz_defl)
       call record%number("smallest_gap", "mm", "smallest vertical gap, negative: overlap", pair%smallest_gap)
+      call record%count("force_trials", "heights tried in a search for the vertical force, at most", pair%most_trials)
       call record%close_group()
    end subroutine describe_pair
 

@@ -17,7 +17,7 @@ module contact_output_report_pair
    use contact_output_formats, only : fixed, general, generals, heading, smart, smarts, whole
    use contact_grid_picture, only : write_picture
    use contact_output_report_input, only : write_friction, write_sheet
-   use contact_output_report_result, only : ending_text, highest_temperature, shown_totals, without_noise, &
+   use contact_output_report_result, only : ending_text, highest_temperature, shown_totals, without_noise, write_damping, &
       & write_solution_line, write_statistics
    use contact_output_report_subsurface, only : write_subsurface
    use contact_patch_result, only : patch_result
@@ -580,6 +580,7 @@ contains
          end if
          call log%result("  " // names(1) // names(2) // names(3) // "   APPROACH     PMAX    " // last_name)
          call log%result("  " // smarts([first, fx, fs]) // smart(contact%pen, 12, 6, 4) // smart(contact%pmax, 12, 4, 4) // last)
+         call write_damping(log, spec, contact, "FS", s)
       end associate
    end subroutine write_patch_totals
 

@@ -13,7 +13,7 @@ module contact_output_report_result
    private
 
    public :: ending_text, highest_temperature, shown_totals, without_noise
-   public :: write_sensitivities, write_solution_line, write_statistics, write_totals
+   public :: write_sensitivities, write_damping, write_solution_line, write_statistics, write_totals
 
    !> Totals as they are printed: what is below the solver tolerance is zero
    type :: shown_totals
@@ -105,12 +105,23 @@ contains
       call log%result("     FN/G      " // first_name // " " // second_name // " APPROACH     PMAX    " // last_name)
       call log%result("  " // smarts([result%fn/result%gg, first, second]) // smart(result%pen, 12, 6, 4) &
          & // smart(result%pmax, 12, 4, 4) // last)
-      if (allocated(result%damping)) then
-         if (spec%output_level >= 2) call log%result("")
-         call log%result(" DAMPING FORCES, NOT INCLUDED ABOVE:    FN          FX          FY")
-         call log%result("                                  " // smarts(result%damping))
-      end if
+      call write_damping(log, spec, result, "FY", 1.0_wp)
    end subroutine write_totals
+
+   !> Damping forces, where there are any
+   subroutine write_damping(log, spec, result, lateral, sign)
+      type(log_type), intent(inout) :: log
+      type(case_spec), intent(in) :: spec
+      type(patch_result), intent(in) :: result
+      !> Name of the lateral force, and -1 for the left side of the track
+      character(len=2), intent(in) :: lateral
+      real(wp), intent(in) :: sign
+
+      if (.not. allocated(result%damping)) return
+      if (spec%output_level >= 2) call log%result("")
+      call log%result(" DAMPING FORCES, NOT INCLUDED ABOVE:    FN          FX          " // lateral)
+      call log%result("                                  " // smarts([result%damping(:2), sign*result%damping(3)]))
+   end subroutine write_damping
 
    !> Highest surface temperature in contact [degC]; anywhere without contact
    pure real(wp) function highest_temperature(result) result(highest)

@@ -94,6 +94,8 @@ module contact_patch_problem
       logical :: general_step = .false.
       !> Member of sensitivity_choice; tolerance and largest number of iterations for them
       integer :: sensitivity = 0, mxsens = 30
+      !> Are they results? A search for the height has its own use of them, and does without accuracy
+      logical :: reports_sensitivity = .true.
       real(wp) :: epsens = 1.0e-4_wp
       !> Damping in proportion to the rate of forces; unallocated: none
       type(damping_law), allocatable :: damping

@@ -23,6 +23,7 @@ module contact_patch_solve
    use contact_patch_status, only : derive_status
    use contact_patch_tangential_step, only : tangential_step
    use contact_patch_workspace, only : fit_workspace, patch_workspace
+   use contact_text_words, only : real_text
    implicit none (type, external)
    private
 
@@ -90,7 +91,22 @@ contains
       call remember_friction(problem, result, state)
       call derive_temperatures(problem, log, result)
       state%started = .true.
+      if (any(problem%motion == [motion%transient_rolling, motion%steady_rolling])) call judge_creepages(result, log)
    end subroutine solve_patch
+
+   !> Warn of surfaces that slide faster than they roll
+   subroutine judge_creepages(result, log)
+      type(patch_result), intent(in) :: result
+      type(log_type), intent(inout) :: log
+      character(len=:), allocatable :: which
+
+      which = ""
+      if (abs(result%cksi) > 1.0_wp) which = "CKSI = " // real_text(result%cksi)
+      if (abs(result%ceta) > 1.0_wp .and. len(which) > 0) which = which // ", "
+      if (abs(result%ceta) > 1.0_wp) which = which // "CETA = " // real_text(result%ceta)
+      if (len(which) > 0 .and. result%ncon > 0) call log%warning("creepages beyond 1 (" // which // "): the surfaces slide &
+         &faster than they roll; creepages are relative to the rolling velocity, 1 % is 0.01")
+   end subroutine judge_creepages
 
    !> Judge a pass; choose what the pressures of the next one belong to
    subroutine next_pass(problem, state, workspace, log, result, turns)

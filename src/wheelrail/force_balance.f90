@@ -4,6 +4,8 @@
 !> kinks where patches appear and possibly with jumps where they merge. F**(2/3) is nearly linear in
 !> d, so that interpolation is done for it. There is always a bracket from below, the first touch with
 !> F = 0; as soon as there is one from above, every trial halves it at the latest in every third step.
+!> Where the force rises much more between the ends of the bracket than the stiffness of the contact explains, it
+!> jumps: the bracket is halved in every step, and the search ends when the place of the jump is known well enough.
 !> The caller asks for trials and answers with forces; nothing is called back.
 module contact_wheelrail_force_balance
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
@@ -11,7 +13,7 @@ module contact_wheelrail_force_balance
    implicit none (type, external)
    private
 
-   public :: force_balance, balance_ending
+   public :: force_balance, balance_ending, height_trial
 
    type :: balance_ending_list
       !> Not finished
@@ -24,9 +26,17 @@ module contact_wheelrail_force_balance
       integer :: trial_limit = 3
       !> The force cannot be reached within the range of heights
       integer :: out_of_reach = 4
+      !> The force is exceeded at the first touch already
+      integer :: above_touch = 5
    end type balance_ending_list
    !> Names of the ways in which the search ends
    type(balance_ending_list), parameter :: balance_ending = balance_ending_list()
+
+   !> One trial: height [mm], force [N], slope dF/dz [N/mm] or 0 when unknown, number of contact patches
+   type :: height_trial
+      real(wp) :: z = 0.0_wp, force = 0.0_wp, slope = 0.0_wp
+      integer :: patches = 0
+   end type height_trial
 
    !> A search for the height
    type :: force_balance
@@ -40,14 +50,17 @@ module contact_wheelrail_force_balance
       real(wp) :: z = 0.0_wp, force = 0.0_wp
       !> Member of balance_ending
       integer :: ended = 0
-      !> Bracket: heights and forces [mm], [N]; above only when it was found
-      real(wp), private :: low = 0.0_wp, low_force = 0.0_wp, high = 0.0_wp, high_force = 0.0_wp
-      logical, private :: has_high = .false.
-      !> Last trial with its slope dF/dz [N/mm], 0 when unknown
-      real(wp), private :: last = 0.0_wp, last_force = 0.0_wp, last_slope = 0.0_wp
+      !> Bracket; above only when it was found
+      type(height_trial) :: low, high
+      logical :: has_high = .false.
+      !> Forces of trials are those of friction that is only estimated: what looks like a jump ends the search at once
+      logical, private :: forces_are_estimates = .false.
+      type(height_trial), private :: last
       !> Trials since the bracket was last halved, and its width then
       integer, private :: slow = 0
       real(wp), private :: old_width = huge(1.0_wp)
+      !> Trials with a force above the target, while there is none below it
+      integer, private :: from_above = 0
    contains
       !> Begin a search
       procedure :: start
@@ -63,11 +76,15 @@ module contact_wheelrail_force_balance
    real(wp), parameter :: alike = 0.2_wp
    !> Trials stay this part of a bracket away from its ends
    real(wp), parameter :: margin = 1.0e-3_wp
+   !> A force that rises this many times as much as the contact is stiff seems to jump, and jumps
+   real(wp), parameter :: seems_to_jump = 5.0_wp, jumps = 20.0_wp
+   !> The place of a jump is sought up to this distance [mm], and this part of the penetration
+   real(wp), parameter :: place_of_jump = 1.0e-6_wp, part_of_penetration = 1.0e-3_wp
 
 contains
 
    !> Begin a search between the first touch and the highest height
-   subroutine start(self, target, eps, touch, highest, most_trials)
+   subroutine start(self, target, eps, touch, highest, most_trials, forces_are_estimates)
       class(force_balance), intent(inout) :: self
       !> Force to be reached [N], positive
       real(wp), intent(in) :: target
@@ -76,6 +93,8 @@ contains
       !> Height of first touch and highest height allowed [mm], z downwards
       real(wp), intent(in) :: touch, highest
       integer, intent(in) :: most_trials
+      !> Are the forces those of friction that is only estimated? A jump is then not located
+      logical, intent(in) :: forces_are_estimates
 
       self%target = target
       self%tolerance = eps*target
@@ -87,14 +106,13 @@ contains
       self%z = touch
       self%force = 0.0_wp
       self%ended = balance_ending%running
-      self%low = touch
-      self%low_force = 0.0_wp
+      self%low = height_trial(z=touch)
       self%has_high = .false.
-      self%last = touch
-      self%last_force = 0.0_wp
-      self%last_slope = 0.0_wp
+      self%last = height_trial(z=touch)
+      self%forces_are_estimates = forces_are_estimates
       self%slow = 0
       self%old_width = huge(1.0_wp)
+      self%from_above = 0
    end subroutine start
 
    !> Height of the next trial
@@ -113,18 +131,30 @@ contains
       z = newton_step(self)
       if (.not. self%has_high) then
          ! from below: at least a little further, and not too far
-         z = max(z, self%touch + 1.02_wp*(self%low - self%touch) + self%resolution)
-         z = min(z, self%touch + largest_growth*max(self%low - self%touch, 1.0e-3_wp), self%highest)
+         z = max(z, self%touch + 1.02_wp*(self%low%z - self%touch) + self%resolution)
+         z = min(z, self%touch + largest_growth*max(self%low%z - self%touch, 1.0e-3_wp), self%highest)
          return
       end if
-      width = self%high - self%low
-      if (self%slow >= 3) then
-         z = 0.5_wp*(self%low + self%high)
+      width = self%high%z - self%low%z
+      if (self%from_above >= 3 .and. newton_from(self, self%high) < self%touch + margin*width) then
+         ! everything points to a force at the first touch
+         z = self%touch + 2.0_wp*self%resolution
+      else if (self%slow >= 3 .or. rises_more(self, seems_to_jump)) then
+         z = 0.5_wp*(self%low%z + self%high%z)
          self%slow = 0
          self%old_width = width
-      else if (.not. (z > self%low + margin*width .and. z < self%high - margin*width)) then
+      else if (self%low%z > self%touch .and. .not. self%low%force > 0.0_wp) then
+         if (self%low%force < 0.0_wp) then
+            ! friction carries more than the pressures: the power of the penetration means nothing
+            z = self%low%z + width*(self%target - self%low%force)/(self%high%force - self%low%force)
+         else
+            ! the end below tells nothing of the force: from the one above
+            z = newton_from(self, self%high)
+         end if
+         if (.not. (z > self%low%z + margin*width .and. z < self%high%z - margin*width)) z = 0.5_wp*(self%low%z + self%high%z)
+      else if (.not. (z > self%low%z + margin*width .and. z < self%high%z - margin*width)) then
          z = interpolated(self)
-         z = min(max(z, self%low + margin*width), self%high - margin*width)
+         z = min(max(z, self%low%z + margin*width), self%high%z - margin*width)
       end if
    end function next_trial
 
@@ -132,18 +162,29 @@ contains
    !> bracket: the caller's slope leaves out that steep patches turn
    pure real(wp) function newton_step(self) result(z)
       class(force_balance), intent(in) :: self
-      real(wp) :: ratio, chord
+      real(wp) :: chord
 
-      chord = self%last_slope
-      if (self%has_high .and. self%low > self%touch) chord = (self%high_force - self%low_force)/(self%high - self%low)
-      if (.not. (self%last_slope > 0.0_wp .and. self%last_force > 0.0_wp) &
-         & .or. abs(chord - self%last_slope) > alike*abs(self%last_slope)) then
-         z = interpolated(self)
-         return
-      end if
-      ratio = self%target/self%last_force
-      z = self%last + 1.5_wp*self%last_force/self%last_slope*(ratio**(2.0_wp/3.0_wp) - 1.0_wp)
+      associate (last => self%last, low => self%low, high => self%high)
+         chord = last%slope
+         if (self%has_high .and. low%z > self%touch) chord = (high%force - low%force)/(high%z - low%z)
+         if (.not. (last%slope > 0.0_wp .and. last%force > 0.0_wp) &
+            & .or. abs(chord - last%slope) > alike*abs(last%slope)) then
+            z = interpolated(self)
+            return
+         end if
+         z = newton_from(self, last)
+      end associate
    end function newton_step
+
+   !> Newton's step for F**(2/3) from a trial; the trial itself where its force or its slope is not positive
+   pure real(wp) function newton_from(self, trial) result(z)
+      class(force_balance), intent(in) :: self
+      type(height_trial), intent(in) :: trial
+
+      z = trial%z
+      if (trial%force > 0.0_wp .and. trial%slope > 0.0_wp) &
+         & z = z + 1.5_wp*trial%force/trial%slope*((self%target/trial%force)**(2.0_wp/3.0_wp) - 1.0_wp)
+   end function newton_from
 
    !> Linear interpolation of F**(2/3) in the bracket; extrapolation from touch and the best trial without one
    pure real(wp) function interpolated(self) result(z)
@@ -151,34 +192,45 @@ contains
       real(wp) :: below, above, wanted
 
       wanted = self%target**(2.0_wp/3.0_wp)
-      below = max(0.0_wp, self%low_force)**(2.0_wp/3.0_wp)
+      below = max(0.0_wp, self%low%force)**(2.0_wp/3.0_wp)
       if (self%has_high) then
-         above = max(0.0_wp, self%high_force)**(2.0_wp/3.0_wp)
+         above = max(0.0_wp, self%high%force)**(2.0_wp/3.0_wp)
          if (above - below > 1.0e-14_wp*wanted) then
-            z = self%low + (self%high - self%low)*(wanted - below)/(above - below)
+            z = self%low%z + (self%high%z - self%low%z)*(wanted - below)/(above - below)
          else
-            z = 0.5_wp*(self%low + self%high)
+            z = 0.5_wp*(self%low%z + self%high%z)
          end if
       else if (below > 0.0_wp) then
-         z = self%touch + (self%low - self%touch)*wanted/below
+         z = self%touch + (self%low%z - self%touch)*wanted/below
       else
-         z = self%touch + 2.0_wp*(self%low - self%touch) + 1.0e-3_wp
+         z = self%touch + 2.0_wp*(self%low%z - self%touch) + 1.0e-3_wp
       end if
    end function interpolated
 
+   !> Does the force rise more in the bracket than so many times the stiffness of the contact at its ends explains?
+   pure logical function rises_more(self, times)
+      class(force_balance), intent(in) :: self
+      real(wp), intent(in) :: times
+      real(wp) :: stiffness
+
+      stiffness = max(self%low%slope, self%high%slope)
+      rises_more = self%has_high .and. stiffness > 0.0_wp &
+         & .and. self%high%force - self%low%force > times*stiffness*(self%high%z - self%low%z)
+   end function rises_more
+
    !> Answer to a trial: the force found there, and its slope where that is known
-   subroutine record(self, z, force, slope)
+   subroutine record(self, z, force, slope, patches)
       class(force_balance), intent(inout) :: self
       !> Height [mm] and force [N]
       real(wp), intent(in) :: z, force
       !> dF/dz [N/mm]; not positive when unknown
       real(wp), intent(in) :: slope
+      !> Number of contact patches
+      integer, intent(in) :: patches
       real(wp) :: width
 
       self%trials = self%trials + 1
-      self%last = z
-      self%last_force = force
-      self%last_slope = slope
+      self%last = height_trial(z, force, slope, patches)
       if (.not. ieee_is_finite(force)) then
          self%ended = balance_ending%out_of_reach
          return
@@ -191,31 +243,29 @@ contains
          self%ended = balance_ending%reached
          return
       end if
+      if (force > self%target .and. z - self%touch <= 4.0_wp*self%resolution) then
+         self%ended = balance_ending%above_touch
+         return
+      end if
       if (force < self%target) then
          ! in a bracket with a jump or a fold a trial may be lower than the end below; the bracket still shrinks
-         if (z > self%low .and. (.not. self%has_high .or. z < self%high)) then
-            self%low = z
-            self%low_force = force
-         end if
-      else if (.not. self%has_high .or. z < self%high) then
+         if (z > self%low%z .and. (.not. self%has_high .or. z < self%high%z)) self%low = self%last
+      else if (.not. self%has_high .or. z < self%high%z) then
          self%has_high = .true.
-         self%high = z
-         self%high_force = force
+         self%high = self%last
          ! a lower force was found deeper: the bracket begins at the touch again
-         if (self%low >= self%high) then
-            self%low = self%touch
-            self%low_force = 0.0_wp
-         end if
+         if (self%low%z >= self%high%z) self%low = height_trial(z=self%touch)
       end if
 
       if (self%has_high) then
-         width = self%high - self%low
+         width = self%high%z - self%low%z
+         self%from_above = merge(0, self%from_above + 1, self%low%z > self%touch)
          self%slow = self%slow + 1
          if (width <= 0.5_wp*self%old_width) then
             self%slow = 0
             self%old_width = width
          end if
-         if (width <= self%resolution*2.0_wp) then
+         if (width <= self%resolution*2.0_wp .or. jump_is_known(self, width)) then
             self%ended = balance_ending%jump
             return
          end if
@@ -225,4 +275,18 @@ contains
       end if
       if (self%trials >= self%most_trials) self%ended = balance_ending%trial_limit
    end subroutine record
+
+   !> Does the force jump in the bracket, and is the place known well enough? Estimated forces only raise suspicion
+   pure logical function jump_is_known(self, width)
+      class(force_balance), intent(in) :: self
+      !> Of the bracket [mm]
+      real(wp), intent(in) :: width
+
+      if (self%forces_are_estimates) then
+         jump_is_known = rises_more(self, seems_to_jump)
+      else
+         jump_is_known = width <= min(place_of_jump, part_of_penetration*(self%high%z - self%touch))
+         if (jump_is_known) jump_is_known = rises_more(self, jumps)
+      end if
+   end function jump_is_known
 end module contact_wheelrail_force_balance

@@ -24,12 +24,17 @@ module contact_wheelrail_geometry
       !> Lateral position [mm] and contact angle [rad]
       real(wp) :: y = 0.0_wp, alpha = 0.0_wp
       real(wp) :: share(3) = 0.0_wp
+      !> Does a patch of the present trial continue the one that this was learned from?
+      logical :: is_taken = .false.
+   contains
+      !> How far another patch is from here, relative to what counts as the same place
+      procedure :: distance_to
    end type learned_share
 
    !> Where the bodies are and what the search for contact found: what the patches of a trial share
    type :: pair_geometry
-      !> Shares 1...shares are known. They serve all trials until the next tangential solution, whether
-      !> patches come and go or not, so that the force is one function of the height
+      !> Shares 1...shares are known. They serve all trials until the next tangential solution; a patch of a trial that
+      !> continues none of those they were learned from is solved with friction, and what is found there is learned
       integer :: shares = 0
       type(learned_share) :: learned(most_patches)
       type(gap_curve) :: gap
@@ -41,6 +46,8 @@ module contact_wheelrail_geometry
       type(pair_placement) :: placement
       !> Height at which the gap was measured, and that of first touch [mm]
       real(wp) :: gap_height = 0.0_wp, touch = 0.0_wp
+      !> Regions of contact are those of this height at least [mm]; see `balance_forces`
+      real(wp) :: lowest_for_regions = -huge(1.0_wp)
       !> Penetration that carries the prescribed force [mm]: of the last search of this case, or 0
       real(wp) :: penetration = 0.0_wp
       !> Lateral deflection of the rail [mm] and pitch rate of the wheelset [rad/s]: prescribed, or the present trial
@@ -53,7 +60,18 @@ module contact_wheelrail_geometry
       real(wp) :: travel = 0.0_wp, profile_origin = 0.0_wp
    end type pair_geometry
 
+   !> A ratio is taken over by patches within this distance [mm] and angle [rad]
+   real(wp), parameter :: same_place = 5.0_wp, same_angle = 0.2_wp
+
 contains
+
+   pure real(wp) function distance_to(self, y, alpha) result(distance)
+      class(learned_share), intent(in) :: self
+      !> Lateral position [mm] and contact angle [rad]
+      real(wp), intent(in) :: y, alpha
+
+      distance = hypot((self%y - y)/same_place, (self%alpha - alpha)/same_angle)
+   end function distance_to
 
    !> Put the wheelset at a height
    subroutine place(problem, here, z, dz)

@@ -10,6 +10,7 @@ module contact_wheelrail_height
    use contact_base_error, only : error_type, fatal_error
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
+   use contact_text_words, only : integer_text, real_text
    use contact_wheelrail_force_balance, only : balance_ending, force_balance
    use contact_wheelrail_geometry, only : measure
    use contact_wheelrail_memory, only : pair_memory, vertical_force, vertical_slope
@@ -21,15 +22,17 @@ module contact_wheelrail_height
 
    public :: settle, out_of_sight, small_step
 
-   !> Rounds of tangential solutions with a new search for the height; in the first ones ratios of friction are kept while
-   !> the height is searched
-   integer, parameter :: most_rounds = 8, rounds_apart = 4
+   !> Searches with ratios of friction that are kept, each followed by a tangential solution
+   integer, parameter :: rounds_apart = 4
 
    !> Steps of the force that are due to the grids, relative to the force
    real(wp), parameter :: small_step = 1.0e-4_wp
 
    !> Forces below this value ask for a wheel that just touches [N]
    real(wp), parameter :: no_force = 1.0e-9_wp
+
+   !> Where the normal forces are so many times the prescribed force, friction carries nearly all of them
+   real(wp), parameter :: mostly_friction = 20.0_wp
 
    !> Heights and deflections this far away are out of reach [mm]
    real(wp), parameter :: out_of_sight = 500.0_wp
@@ -57,6 +60,7 @@ contains
          if (memory%started) z = memory%z_ws
       end if
       call measure(problem, memory%here, z)
+      memory%here%lowest_for_regions = -huge(z)
       if (.not. height_is_unknown) then
          if (z - memory%here%touch > memory%here%placement%wheel_radius) then
             write(wanted, '(ES10.3)') z
@@ -70,7 +74,6 @@ contains
       end if
       if (memory%here%touch - z > out_of_sight) then
          memory%used = 0
-         z = memory%here%touch
          call result%status%miss_force("vertical force", problem%spec%wheelset%fz, 0.0_wp, &
             & "wheel and rail do not meet: their lateral positions are apart")
          call log%warning(result%status%reason)
@@ -91,11 +94,20 @@ contains
             memory%used = 0
             z = touch
             if (.not. problem%force_prescribed) z = problem%spec%wheelset%z - rail%fz/rail%kz
+            if (problem%force_prescribed .and. target < -no_force) then
+               call result%status%miss_force("vertical force", target, 0.0_wp, "FZ < 0 pulls at the wheel, which contact &
+                  &cannot: the wheel stands at first touch without any force")
+               call log%warning(result%status%reason)
+            end if
          end if
       end associate
    end subroutine settle
 
    !> Search the height at which the vertical force acts
+   !>
+   !> First without friction in the trials: the forces of friction follow the normal ones in the ratio of the last tangential
+   !> solution, which is corrected at every height found. Where that does not lead to the force, a new search begins with
+   !> friction in every trial; what it says is final.
    subroutine balance_forces(problem, memory, target, spring, z, log, result, error)
       type(pair_problem), intent(in) :: problem
       type(pair_memory), intent(inout) :: memory
@@ -107,9 +119,10 @@ contains
       type(pair_result), intent(inout) :: result
       type(error_type), allocatable, intent(out) :: error
       type(force_balance) :: balance
-      real(wp) :: force, trial, guess, touch, slope
+      character(len=:), allocatable :: why
+      real(wp) :: force, first_guess, guess, touch, bottom, slope, miss, last_miss
       logical :: separate
-      integer :: round
+      integer :: round, trials
 
       touch = memory%here%touch
       ! friction decouples from the pressures for bodies that are alike
@@ -124,62 +137,109 @@ contains
          call evaluate(problem, memory, z, with_friction=.false., log=log, error=error)
          return
       end if
-      do round = 1, most_rounds
-         ! on steep flanks friction carries so much of the force that its ratio does not settle by itself
-         separate = separate .and. round <= rounds_apart
-         call balance%start(target, problem%template%eps, touch, touch + 1.1_wp*memory%here%placement%wheel_radius, &
-            & problem%template%maxnr)
-         do while (balance%ended == balance_ending%running)
-            trial = balance%next_trial(guess)
-            call evaluate_trial(trial, with_friction=.not. separate)
-            if (allocated(error)) return
-            force = vertical_force(memory) + spring*(trial - touch)
-            slope = vertical_slope(memory) + spring
-            call balance%record(trial, force, slope)
-            result%force_evaluations = result%force_evaluations + 1
-            call trace_trial(log, result%force_evaluations, trial, force, slope)
-         end do
-         z = balance%z
+      first_guess = guess
+      bottom = touch
+      trials = 0
+      last_miss = huge(last_miss)
+      do round = 1, rounds_apart
          if (.not. separate) exit
+         call search(with_friction=.false., most_trials=problem%template%maxnr/2 - trials)
+         if (allocated(error)) return
+         if (balance%ended /= balance_ending%reached .and. abs(balance%force - target) > small_step*target) then
+            separate = .false.
+            guess = balance%z
+            if (balance%has_high) guess = balance%next_trial(guess)
+            if (balance%ended == balance_ending%out_of_reach) guess = first_guess
+            exit
+         end if
          ! the tangential problem at the height found corrects the lateral forces
-         call evaluate_trial(z, with_friction=.true.)
+         call try_height(z, with_friction=.true.)
          if (allocated(error)) return
          call learn_shares(memory)
-         force = vertical_force(memory) + spring*(z - touch)
-         slope = vertical_slope(memory) + spring
-         result%force_evaluations = result%force_evaluations + 1
-         call trace_trial(log, result%force_evaluations, z, force, slope)
-         if (abs(force - target) <= balance%tolerance) exit
-         ! a force that was not reached is not mended by friction, but for the small steps of the grids
-         if (balance%ended /= balance_ending%reached .and. abs(balance%force - target) > small_step*target) exit
+         miss = abs(force - target)
+         if (miss <= balance%tolerance) exit
          guess = z + (target - force)/max(slope, 0.1_wp*target/max(z - touch, 1.0e-6_wp))
-         if (guess <= touch) guess = z
+         if (guess <= bottom) guess = z
+         ! on steep flanks friction carries so much of the force that its ratio does not settle by itself
+         separate = round < rounds_apart .and. miss < 0.5_wp*last_miss .and. trials < problem%template%maxnr/2
+         last_miss = miss
       end do
-      if (.not. separate .and. abs(balance%force - force) > 0.0_wp) then
-         ! the last trial need not be the best one
-         call evaluate_trial(z, with_friction=.true.)
+      if (.not. separate) then
+         ! one trial is left for a last look at the best height
+         call search(with_friction=.true., most_trials=problem%template%maxnr - trials - 1)
          if (allocated(error)) return
+         if (abs(balance%force - force) > 0.0_wp) then
+            call try_height(z, with_friction=.true.)
+            if (allocated(error)) return
+         end if
       end if
       call log%speak()
       memory%here%penetration = z - touch
+      result%force_evaluations = result%force_evaluations + trials
+      result%most_trials = max(result%most_trials, trials)
       result%force_error = vertical_force(memory) + spring*(z - touch) - target
       ! grids follow the contact in whole elements, which leaves small steps in the force
       if (abs(result%force_error) > max(balance%tolerance, small_step*target)) then
-         call result%status%miss_force("vertical force", target, target + result%force_error, trim(reason_of(balance)))
+         call explain(balance, target, sum_of_normal_forces(memory), why)
+         call result%status%miss_force("vertical force", target, target + result%force_error, why)
          call log%warning(result%status%reason)
       end if
 
    contains
 
-      !> Patches at a height; only the warnings of the last trial, or of one that fails, are those of the case
-      subroutine evaluate_trial(z, with_friction)
+      !> A search from a bracket of its own, from `guess` on; its best height is z
+      subroutine search(with_friction, most_trials)
+         logical, intent(in) :: with_friction
+         integer, intent(in) :: most_trials
+         integer :: before, k
+
+         before = trials
+         call bracket(with_friction, most_trials)
+         if (allocated(error) .or. balance%ended /= balance_ending%above_touch) return
+         ! Elements overlap before the mesh of the gap does, by less than its width shows: the regions of the first touch stay
+         ! while the wheel is lifted off
+         memory%here%lowest_for_regions = touch + 2.0_wp*balance%resolution
+         bottom = touch - 1.0e-6_wp
+         do k = 1, memory%used
+            bottom = min(bottom, touch - 6.0_wp*memory%slot(k)%result%pen)
+         end do
+         guess = touch
+         call bracket(with_friction, most_trials - (trials - before))
+      end subroutine search
+
+      !> A search between two heights
+      subroutine bracket(with_friction, most_trials)
+         logical, intent(in) :: with_friction
+         integer, intent(in) :: most_trials
+         real(wp) :: trial
+
+         call balance%start(target, problem%template%eps, bottom, touch + 1.1_wp*memory%here%placement%wheel_radius, &
+            & max(1, most_trials), forces_are_estimates=.not. with_friction)
+         do while (balance%ended == balance_ending%running)
+            trial = balance%next_trial(guess)
+            call try_height(trial, with_friction)
+            if (allocated(error)) return
+            call balance%record(trial, force, slope, memory%used)
+         end do
+         z = balance%z
+      end subroutine bracket
+
+      !> Force and slope at a height; only the warnings of the last trial, or of one that fails, are those of the case
+      subroutine try_height(z, with_friction)
          real(wp), intent(in) :: z
          logical, intent(in) :: with_friction
 
          call log%hold()
          call evaluate(problem, memory, z, with_friction, log, error)
-         if (allocated(error)) call log%speak()
-      end subroutine evaluate_trial
+         trials = trials + 1
+         if (allocated(error)) then
+            call log%speak()
+            return
+         end if
+         force = vertical_force(memory) + spring*(z - touch)
+         slope = vertical_slope(memory) + spring
+         call trace_trial(log, result%force_evaluations + trials, z, force, slope)
+      end subroutine try_height
    end subroutine balance_forces
 
    !> Line of the flow trace
@@ -194,22 +254,48 @@ contains
       call log%trace(1, trim(line))
    end subroutine trace_trial
 
-   !> Why the force was not reached, with blanks behind
-   pure function reason_of(balance) result(why)
-      type(force_balance), intent(in) :: balance
-      character(len=64) :: why
+   !> Normal forces of all patches [N]
+   pure real(wp) function sum_of_normal_forces(memory) result(total)
+      type(pair_memory), intent(in) :: memory
+      integer :: k
 
-      select case (balance%ended)
-      case (balance_ending%jump)
-         why = "the force jumps over it where contact patches join or separate"
-      case (balance_ending%out_of_reach)
-         why = "it is out of reach"
-      case (balance_ending%trial_limit)
-         why = "all MAXNR trials were used"
-      case default
-         why = "the lateral forces do not settle"
-      end select
-   end function reason_of
+      total = 0.0_wp
+      do k = 1, memory%used
+         total = total + memory%slot(k)%result%fn
+      end do
+   end function sum_of_normal_forces
+
+   !> Say why the force was not reached
+   pure subroutine explain(balance, target, normal_forces, why)
+      type(force_balance), intent(in) :: balance
+      !> Prescribed force, and the sum of the normal forces of all patches [N]
+      real(wp), intent(in) :: target, normal_forces
+      character(len=:), allocatable, intent(out) :: why
+
+      associate (low => balance%low, high => balance%high)
+         select case (balance%ended)
+         case (balance_ending%jump)
+            why = "it jumps from " // real_text(low%force) // " to " // real_text(high%force) // " N at a penetration of " &
+               & // real_text(high%z - balance%touch) // " mm, where contact patches "
+            if (low%patches /= high%patches) then
+               why = why // "join or separate (" // integer_text(low%patches) // ", then " // integer_text(high%patches) // ")"
+            else
+               why = why // "change their place or their angle"
+            end if
+         case (balance_ending%above_touch)
+            why = "more acts at the first touch already"
+         case (balance_ending%out_of_reach)
+            why = "it is out of reach"
+         case default
+            why = "all MAXNR trials were used"
+            if (balance%has_high) why = why // "; " // real_text(low%force) // " and " // real_text(high%force) &
+               & // " N act at penetrations of " // real_text(low%z - balance%touch) // " and " &
+               & // real_text(high%z - balance%touch) // " mm"
+         end select
+      end associate
+      if (normal_forces > mostly_friction*target) why = why // "; friction carries the wheel: of normal forces of " &
+         & // real_text(normal_forces) // " N next to nothing remains"
+   end subroutine explain
 
    !> Penetration by Hertz's theory for the place of first touch [mm]
    real(wp) function penetration_guess(problem, memory, force) result(pen)

@@ -5,6 +5,7 @@ module contact_wheelrail_pair
    use contact_base_error, only : error_type
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
+   use contact_text_words, only : real_text
    use contact_wheelrail_deflection, only : lower_rail, search_deflection
    use contact_wheelrail_gather, only : gather
    use contact_wheelrail_geometry, only : box_on_lattice, most_patches, place
@@ -39,6 +40,7 @@ contains
       call begin_step(problem, memory, log)
       result%status = case_status()
       result%force_evaluations = 0
+      result%most_trials = 0
       memory%here%penetration = 0.0_wp
       if (.not. (memory%started .and. problem%use_previous)) then
          memory%here%deflection = 0.0_wp
@@ -60,6 +62,7 @@ contains
          call memory%last%clear()
          return
       end if
+      call judge_direction(problem, memory%here%pitch_rate, log)
       memory%z_ws = z
       memory%started = .true.
       if (.not. problem%geometry_only) call keep_moment(problem, memory)
@@ -72,6 +75,25 @@ contains
       result%z_ws = z
       call gather(problem, memory, result)
    end subroutine solve_pair
+
+   !> Warn of a wheel that turns against its direction of travel
+   subroutine judge_direction(problem, pitch_rate, log)
+      type(pair_problem), intent(in) :: problem
+      !> Pitch rate of the wheelset, given or found [rad/s]
+      real(wp), intent(in) :: pitch_rate
+      type(log_type), intent(inout) :: log
+      character(len=:), allocatable :: travel
+
+      if (.not. any(problem%template%motion == [motion%transient_rolling, motion%steady_rolling])) return
+      if (.not. pitch_rate*rate_of_pure_rolling(problem) < 0.0_wp) return
+      if (problem%spec%roller) then
+         travel = "the roller: with RPITCH = " // real_text(problem%spec%wheelset%rpitch) // " rad/s"
+      else
+         travel = "the direction of travel: with VS = " // real_text(problem%spec%wheelset%vs) // " mm/s"
+      end if
+      call log%warning("the wheel turns against " // travel // " it rolls at about VPITCH = " &
+         & // real_text(rate_of_pure_rolling(problem)) // " rad/s, and VPITCH = " // real_text(pitch_rate) // " rad/s")
+   end subroutine judge_direction
 
    !> What the case continues from, according to its link to the previous one
    subroutine begin_step(problem, memory, log)

@@ -115,34 +115,63 @@ contains
       real(wp), allocatable, intent(inout) :: h(:, :)
       !> Largest interpenetration along the normal [mm]
       real(wp), intent(out) :: approach
-      !> The grid grows at most to this multiple in each direction
-      integer, parameter :: most_growth = 3
-      integer :: most(2), more(2, 2), side
+      integer :: most(2)
+      logical :: grown
+
+      most = most_elements(slot%problem%grid)
+      do
+         if (here%searches_table) then
+            call variable_distance(here%bodies, slot%plane, size(slot%region%seeds) > 1, slot%problem%grid, h, approach, &
+               & slot%strangers)
+         else
+            call undeformed_distance(rail, problem%wheel, here%placement, slot%plane, start_places(rail, slot%region), &
+               & slot%problem%grid, h, approach, slot%strangers)
+         end if
+         call grow(slot, h < approach, most, .true., grown)
+         if (.not. grown) exit
+      end do
+   end subroutine cover_overlap
+
+   !> A grid that does not hold all of the overlap grows at most to so many elements in each direction
+   pure function most_elements(grid) result(most)
+      type(potential_contact), intent(in) :: grid
+      integer :: most(2)
+      !> Multiples of its size; small grids by a number
+      integer, parameter :: times = 3, more = 40
+
+      most = max(times*[grid%mx, grid%my], [grid%mx, grid%my] + more)
+   end function most_elements
+
+   !> Add elements at sides where bodies overlap in the outermost ones
+   subroutine grow(slot, overlap, most, rows_too, grown)
+      type(patch_slot), intent(inout) :: slot
+      !> In the elements of its grid
+      logical, intent(in) :: overlap(:, :)
+      !> Columns and rows at most
+      integer, intent(in) :: most(2)
+      !> May rows be added, too?
+      logical, intent(in) :: rows_too
+      !> Is the grid another one now?
+      logical, intent(out) :: grown
+      integer :: more(2, 2), side
 
       associate (grid => slot%problem%grid)
-         most = most_growth*[grid%mx, grid%my]
-         do
-            if (here%searches_table) then
-               call variable_distance(here%bodies, slot%plane, size(slot%region%seeds) > 1, grid, h, approach, slot%strangers)
-            else
-               call undeformed_distance(rail, problem%wheel, here%placement, slot%plane, start_places(rail, slot%region), grid, &
-                  & h, approach, slot%strangers)
-            end if
-            more(1, :) = merge(1, 0, [any(h(1, :) < approach), any(h(grid%mx, :) < approach)])
-            more(2, :) = merge(1, 0, [any(h(:, 1) < approach), any(h(:, grid%my) < approach)])
-            do side = 1, 2
-               ! by small steps, as the overlap of a neighbouring patch must stay outside
-               more(:, side) = more(:, side)*(1 + [grid%mx, grid%my]/32)
-            end do
-            if (all(more == 0) .or. any([grid%mx, grid%my] + sum(more, dim=2) > most)) exit
-            grid%mx = grid%mx + sum(more(1, :))
-            grid%my = grid%my + sum(more(2, :))
-            grid%xl = grid%xl - more(1, 1)*grid%dx
-            grid%yl = grid%yl - more(2, 1)*grid%dy
-            slot%window%first = slot%window%first - more(:, 1)
+         more(1, :) = merge(1, 0, [any(overlap(1, :)), any(overlap(grid%mx, :))])
+         more(2, :) = merge(1, 0, [any(overlap(:, 1)), any(overlap(:, grid%my))])
+         if (.not. rows_too) more(2, :) = 0
+         do side = 1, 2
+            ! by small steps, as the overlap of a neighbouring patch must stay outside
+            more(:, side) = more(:, side)*(1 + [grid%mx, grid%my]/32)
          end do
+         grown = any(more > 0) .and. .not. any([grid%mx, grid%my] + sum(more, dim=2) > most)
+         if (.not. grown) return
+         grid%mx = grid%mx + sum(more(1, :))
+         grid%my = grid%my + sum(more(2, :))
+         grid%xl = grid%xl - more(1, 1)*grid%dx
+         grid%yl = grid%yl - more(2, 1)*grid%dy
+         slot%window%first = slot%window%first - more(:, 1)
       end associate
-   end subroutine cover_overlap
+   end subroutine grow
 
    !> Reference surface of a patch at the rows of its grid, and the undeformed distance along its normals
    subroutine follow_surface(problem, here, rail, slot, h, approach)
@@ -156,17 +185,25 @@ contains
       real(wp), allocatable, intent(inout) :: h(:, :)
       !> Largest interpenetration along normals [mm]
       real(wp), intent(out) :: approach
-      integer :: iy
+      integer :: most(2), iy
+      logical :: conformal, grown
 
       associate (patch => slot%problem)
-         if (problem%spec%search%location == contact_location%conformal) then
-            slot%curve = new_curved_reference(rail, here%bodies, slot%plane, patch%grid)
-         else
-            slot%curve = straight_reference(slot%plane, patch%grid)
-         end if
-         call surface_heights(here%bodies, slot%curve, patch%grid, slot%on_rail, slot%on_wheel)
-         h = slot%on_rail - slot%on_wheel
-         call settle_distance(patch%grid, size(slot%region%seeds) > 1, h, approach, slot%strangers)
+         conformal = problem%spec%search%location == contact_location%conformal
+         most = most_elements(patch%grid)
+         do
+            if (conformal) then
+               slot%curve = new_curved_reference(rail, here%bodies, slot%plane, patch%grid)
+            else
+               slot%curve = straight_reference(slot%plane, patch%grid)
+            end if
+            call surface_heights(here%bodies, slot%curve, patch%grid, slot%on_rail, slot%on_wheel)
+            h = slot%on_rail - slot%on_wheel
+            call settle_distance(patch%grid, size(slot%region%seeds) > 1, h, approach, slot%strangers)
+            ! rows of a curved reference are chosen with room to spare
+            call grow(slot, h < approach, most, .not. conformal, grown)
+            if (.not. grown) exit
+         end do
          if (allocated(patch%model%inclination)) then
             patch%model%inclination%s = [(patch%grid%y(iy), iy=1, patch%grid%my)]
             patch%model%inclination%alpha = slot%curve%alpha

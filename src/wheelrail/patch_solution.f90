@@ -9,7 +9,7 @@ module contact_wheelrail_patch_solution
    use contact_patch_solve, only : solve_patch
    use contact_wheelrail_carry_over, only : carried_moment
    use contact_wheelrail_curved_patch, only : curved_forces
-   use contact_wheelrail_geometry, only : pair_geometry
+   use contact_wheelrail_geometry, only : learned_share, most_patches, pair_geometry
    use contact_wheelrail_memory, only : patch_slot
    use contact_wheelrail_patch_inputs, only : set_up_patch
    use contact_wheelrail_problem, only : pair_problem
@@ -17,9 +17,6 @@ module contact_wheelrail_patch_solution
    private
 
    public :: solve_slot
-
-   !> A ratio is taken over by patches within this distance [mm] and angle [rad]
-   real(wp), parameter :: same_place = 5.0_wp, same_angle = 0.2_wp
 
 contains
 
@@ -30,13 +27,20 @@ contains
       !> Number of the patch
       integer, intent(in) :: number
       type(patch_slot), intent(inout) :: slot
+      !> Solve the tangential problem, too? It is solved in any case for a patch of which nothing is known while something
+      !> is known of others
       logical, intent(in) :: with_friction
       type(log_type), intent(inout) :: log
       type(error_type), allocatable, intent(out) :: error
+      logical :: is_new, has_friction
 
       call set_up_patch(problem, here, number, slot, error)
       if (allocated(error)) return
-      if (.not. with_friction) slot%problem%motion = motion%none
+      is_new = .false.
+      if (.not. with_friction .and. problem%template%motion /= motion%none .and. here%shares > 0) &
+         & call find_share(here, slot, is_new)
+      has_friction = with_friction .or. is_new
+      if (.not. has_friction) slot%problem%motion = motion%none
       slot%friction_share = share_at(problem, here, slot)
       if (problem%geometry_only) return
 
@@ -51,10 +55,58 @@ contains
          slot%force = [slot%result%fx, slot%result%fy, slot%result%fn]
          slot%moment = [slot%result%mx, slot%result%my, slot%result%mz]
       end if
-      if (with_friction .and. problem%template%motion /= motion%none .and. slot%result%fn > 0.0_wp) then
+      if (has_friction .and. problem%template%motion /= motion%none .and. slot%result%fn > 0.0_wp) then
          slot%friction_share = (slot%force - slot%pressure_force)/slot%result%fn
+         if (is_new) call add_share(here, slot)
       end if
    end subroutine solve_slot
+
+   !> Does the patch continue one whose friction is known? Each of these is continued by one patch; a patch that took the
+   !> place of two of them is a new one
+   subroutine find_share(here, slot, is_new)
+      type(pair_geometry), intent(inout) :: here
+      type(patch_slot), intent(in) :: slot
+      logical, intent(out) :: is_new
+      real(wp) :: distance, smallest
+      integer :: k, nearest, inside
+
+      nearest = 0
+      inside = 0
+      smallest = 1.0_wp
+      do k = 1, here%shares
+         associate (known => here%learned(k))
+            if (known%y >= slot%region%box%y(1) .and. known%y <= slot%region%box%y(2)) inside = inside + 1
+            distance = known%distance_to(slot%plane%origin(2), slot%plane%roll())
+            if (known%is_taken .or. distance >= smallest) cycle
+            smallest = distance
+            nearest = k
+         end associate
+      end do
+      is_new = nearest == 0 .or. inside > 1
+      if (nearest > 0) here%learned(nearest)%is_taken = .true.
+   end subroutine find_share
+
+   !> Learn the friction of a patch, in place of what was known of places within its bounds
+   subroutine add_share(here, slot)
+      type(pair_geometry), intent(inout) :: here
+      type(patch_slot), intent(in) :: slot
+      integer :: k, kept
+
+      kept = 0
+      do k = 1, here%shares
+         associate (known => here%learned(k))
+            if (known%y >= slot%region%box%y(1) .and. known%y <= slot%region%box%y(2)) cycle
+            kept = kept + 1
+            here%learned(kept) = known
+         end associate
+      end do
+      if (kept == most_patches) then
+         here%learned(:kept - 1) = here%learned(2:kept)
+         kept = kept - 1
+      end if
+      here%shares = kept + 1
+      here%learned(here%shares) = learned_share(slot%plane%origin(2), slot%plane%roll(), slot%friction_share, is_taken=.true.)
+   end subroutine add_share
 
    !> Estimate and previous moment on the window of this solution
    !>
@@ -132,7 +184,7 @@ contains
       share(2) = total*mu*sin(slot%plane%roll())
       do k = 1, here%shares
          associate (known => here%learned(k))
-            distance = hypot((known%y - slot%plane%origin(2))/same_place, (known%alpha - slot%plane%roll())/same_angle)
+            distance = known%distance_to(slot%plane%origin(2), slot%plane%roll())
             weight = (max(0.0_wp, 1.0_wp - distance)/max(distance, 1.0e-6_wp))**2
             share = share + weight*known%share
             total = total + weight

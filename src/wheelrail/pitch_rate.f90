@@ -7,9 +7,11 @@ module contact_wheelrail_pitch_rate
    use contact_base_log, only : log_type
    use contact_grid_element_division, only : element
    use contact_numeric_root_search, only : root_search
-   use contact_wheelrail_height, only : settle, small_step
+   use contact_wheelrail_gap, only : roller_drop
+   use contact_wheelrail_geometry, only : measure
+   use contact_wheelrail_height, only : out_of_sight, settle, small_step
    use contact_wheelrail_memory, only : pair_memory, total_force
-   use contact_wheelrail_problem, only : pair_problem
+   use contact_wheelrail_problem, only : pair_problem, rate_of_pure_rolling
    use contact_wheelrail_result, only : pair_result
    implicit none (type, external)
    private
@@ -20,7 +22,9 @@ contains
 
    !> Search the pitch rate at which the prescribed longitudinal force acts
    !>
-   !> A wheel that turns faster about the axis to the right drags the rail forward.
+   !> A wheel that turns faster about the axis to the right drags the rail forward. Where all of the contact slides, the
+   !> force changes no more; the search ends there only if friction acts in the direction in which force is missing, otherwise
+   !> it has not come to the rate yet at which the slip changes its direction.
    subroutine search_pitch_rate(problem, memory, z, log, result, error)
       type(pair_problem), intent(in) :: problem
       type(pair_memory), intent(inout) :: memory
@@ -33,6 +37,7 @@ contains
       type(log_type) :: silent
       real(wp) :: slope, tolerance, residual, moving
 
+      if (.not. (memory%started .and. problem%use_previous)) call roll_at_contact(problem, memory)
       call settle(problem, memory, z, silent, result, error)
       if (allocated(error)) return
       residual = missing()
@@ -43,7 +48,7 @@ contains
          moving = maxval(memory%slot(:memory%used)%motion%veloc)/memory%here%placement%wheel_radius
          search%resolution = 1.0e-10_wp*moving
          do
-            call search%answer(residual, slides_fully(memory))
+            call search%answer(residual, slides_fully(memory) .and. friction_along(memory)*residual > 0.0_wp)
             if (search%finished) exit
             memory%here%pitch_rate = search%x
             call settle(problem, memory, z, silent, result, error)
@@ -79,6 +84,28 @@ contains
       end function missing
    end subroutine search_pitch_rate
 
+   !> Begin with the rate at which the circumference of the wheel is as fast as the rail where they touch first
+   subroutine roll_at_contact(problem, memory)
+      type(pair_problem), intent(in) :: problem
+      type(pair_memory), intent(inout) :: memory
+      real(wp) :: on_wheel(3), z, radius, on_roller
+      integer :: i
+
+      z = merge(memory%z_ws, 0.0_wp, memory%started)
+      call measure(problem, memory%here, z)
+      if (memory%here%touch - z > out_of_sight) return
+      associate (gap => memory%here%gap, placement => memory%here%placement)
+         i = minloc(gap%gap, dim=1)
+         on_wheel = placement%wheel%to_local([gap%x(i), gap%y(i), gap%z(i) + roller_drop(placement, gap%x(i), gap%z(i)) &
+            & - gap%gap(i)])
+         radius = (placement%wheel_radius + on_wheel(3))/problem%spec%wheelset%nomradw
+         on_roller = 1.0_wp
+         if (problem%spec%roller) on_roller = 1.0_wp - gap%z(i)/placement%roller_radius
+         if (radius > 0.0_wp .and. on_roller > 0.0_wp) &
+            & memory%here%pitch_rate = rate_of_pure_rolling(problem)*on_roller/radius
+      end associate
+   end subroutine roll_at_contact
+
    !> Order of magnitude of the change of the longitudinal force with the pitch rate, without slip [N s/rad]
    !>
    !> A contact area pi a**2 holds 2.5 G a per mm of rigid displacement, which comes about in a shift, in a
@@ -100,6 +127,20 @@ contains
          end associate
       end do
    end function force_per_pitch_rate
+
+   !> Force of friction on the rail along the wheelset's x axis [N]
+   pure real(wp) function friction_along(memory) result(force)
+      type(pair_memory), intent(in) :: memory
+      integer :: k
+
+      force = 0.0_wp
+      do k = 1, memory%used
+         associate (slot => memory%slot(k))
+            force = force + slot%result%fn*dot_product(matmul(slot%plane%axes, slot%friction_share), &
+               & memory%here%placement%wheelset%axes(:, 1))
+         end associate
+      end do
+   end function friction_along
 
    !> Do all contact elements slip?
    pure logical function slides_fully(memory)

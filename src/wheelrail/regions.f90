@@ -45,8 +45,10 @@ module contact_wheelrail_regions
 
    !> Gaps beyond this value do not take part in the search [mm]
    real(wp), parameter :: far_away = 777.0_wp
-   !> Least weight of a mesh point
-   real(wp), parameter :: least_weight = 1.0e-10_wp
+   !> Least weight of a mesh point; below that of the lightest contact, as points that weigh alike move its reference
+   real(wp), parameter :: least_weight = 1.0e-60_wp
+   !> A contact of so few mesh points is described by the parabola through the gap around its deepest point
+   integer, parameter :: few_points = 4
    !> Exponent of the decrease of interaction with the distance of blended parts
    real(wp), parameter :: blend_exponent = 0.8_wp
    !> Angles nearer than this to a vertical plane are moved away from it [rad]
@@ -56,11 +58,19 @@ module contact_wheelrail_regions
 
 contains
 
-   !> Smallest gap of all mesh points [mm]
+   !> Smallest gap, at mesh points and between them [mm]
    pure real(wp) function smallest_gap(gap)
       type(gap_curve), intent(in) :: gap
+      real(wp) :: lowest, place(3)
+      integer :: i
+
       smallest_gap = no_surface
       if (gap%n > 0) smallest_gap = minval(gap%gap)
+      do i = 2, gap%n - 1
+         if (gap%gap(i) > far_away .or. gap%gap(i) > gap%gap(i - 1) .or. gap%gap(i) > gap%gap(i + 1)) cycle
+         call find_deepest(gap, gap%gap, i, i, lowest, place)
+         smallest_gap = min(smallest_gap, lowest)
+      end do
    end function smallest_gap
 
    !> Patches for a wheel that is lower by dz than where the gap was measured, field side first
@@ -116,6 +126,7 @@ contains
             if (allocated(gap%table)) call separate_spots(gap, g, first, last, spots)
             if (size(spots) == 0) then
                call describe(gap, g, first, last, weight_power, region)
+               if (last - first < few_points) call describe_small(gap, g, first, last, weight_power, region)
                regions = [regions, region]
             end if
             do k = 1, size(spots)
@@ -127,7 +138,12 @@ contains
          else
             if (is_minimum(g, i)) then
                call describe_miss(gap, g, i, region)
-               call keep_miss(region, misses)
+               call describe_small(gap, g, i, i, weight_power, region)
+               if (region%touches) then
+                  regions = [regions, region]
+               else
+                  call keep_miss(region, misses)
+               end if
             end if
             i = i + 1
          end if
@@ -202,6 +218,49 @@ contains
       allocate(region%part(1), source=region%box)
       allocate(region%interaction(1, 1), source=1.0_wp)
    end subroutine describe
+
+   !> Reference, weight and bounds of a contact that is small compared with the mesh, from the parabola through three points
+   !>
+   !> A region stays as it is where there is no such parabola, or where it does not reach below zero.
+   pure subroutine describe_small(gap, g, first, last, weight_power, region)
+      type(gap_curve), intent(in) :: gap
+      real(wp), intent(in) :: g(:)
+      !> The points with g < 0, or a point with a lower gap than its neighbours
+      integer, intent(in) :: first, last
+      integer, intent(in) :: weight_power
+      !> With the description by mesh points
+      type(contact_region), intent(inout) :: region
+      real(wp) :: lowest, place(3), bend, half, w, x, extent(2)
+      integer :: i
+
+      i = first - 1 + minloc(g(first:last), dim=1)
+      if (i <= 1 .or. i >= gap%n) return
+      if (max(g(i - 1), g(i + 1)) > far_away) return
+      call find_deepest(gap, g, first, last, lowest, place)
+      bend = 0.5_wp*(g(i - 1) - 2.0_wp*g(i) + g(i + 1))/gap%dy**2
+      if (.not. (lowest < 0.0_wp .and. bend > 0.0_wp)) return
+      half = sqrt(-lowest/bend)
+      if (allocated(gap%table)) then
+         call weigh_table(gap%x_table, gap%table(:, i) + (lowest - gap%gap(i)), place(1), weight_power, w, x, extent)
+      else
+         call weigh_parabola(gap, i, -lowest, weight_power, w, x, extent)
+         extent = extent + (place(1) - x)
+         x = place(1)
+      end if
+      region%touches = .true.
+      region%x = x
+      region%y = place(2)
+      region%alpha = place(3)
+      region%gap = lowest
+      region%deepest = place
+      region%seeds = [place(2)]
+      ! the weights of all lateral positions, integrated: (1 - u**2)**2.5 and (1 - u**2)**1.5 from -1 to 1
+      region%weight = max(least_weight, w)*half*merge(5.0_wp/16.0_wp, 3.0_wp/8.0_wp, weight_power == 2)*pi
+      region%box%x = extent
+      region%box%y = place(2) + [-half, half]
+      region%box%z = gap%z(i) + (region%box%y - gap%y(i))*(gap%z(i + 1) - gap%z(i - 1))/(2.0_wp*gap%dy)
+      region%part = [region%box]
+   end subroutine describe_small
 
    !> Weight of the interpenetration along the track at one lateral position, round wheel: c - kappa (x - x_locus)**2
    pure subroutine weigh_parabola(gap, i, c, power, weight, x, extent)

@@ -77,6 +77,8 @@ module contact_wheelrail_result
       type(profile_points) :: rail_profile, wheel_profile
       !> Evaluations of the total force, and how far it is from the prescribed one [N]
       integer :: force_evaluations = 0
+      !> Heights tried in one search for the vertical force: largest number of this case
+      integer :: most_trials = 0
       real(wp) :: force_error = 0.0_wp
    contains
       !> Are all totals, and those of the patches, finite numbers?

@@ -38,7 +38,8 @@ contains
          & call measure(problem, memory%here, memory%here%gap_height, 1.5_wp*(z - memory%here%touch))
       call place(problem, memory%here, z)
       memory%here%bodies%placement = memory%here%placement
-      call find_regions(memory%here%gap, z - memory%here%gap_height, problem%spec%search, problem%weight_power, regions, misses)
+      call find_regions(memory%here%gap, max(z, memory%here%lowest_for_regions) - memory%here%gap_height, &
+         & problem%spec%search, problem%weight_power, regions, misses)
       n = size(regions)
       if (n > most_patches) then
          call log%warning("more than 10 contact patches; the ones with the smallest weight are left out")
@@ -55,6 +56,7 @@ contains
          boxes(k) = box_on_lattice(problem, memory%here, regions(k))
       end do
       call memory%here%before%share_out(boxes)
+      memory%here%learned%is_taken = .false.
       do k = 1, n
          memory%slot(k)%region = regions(k)
          memory%slot(k)%previous = memory%here%before%sources(k)

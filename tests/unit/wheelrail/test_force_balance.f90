@@ -23,6 +23,7 @@ program test_force_balance
    end do
    call reaches(suite, fold, 5.0e3_wp, 0.1_wp, .false., 40)
    call over_a_jump(suite)
+   call jump_with_slopes(suite)
    call out_of_reach(suite)
    call suite%finish()
 
@@ -55,21 +56,22 @@ contains
    end subroutine force_at
 
    !> Run a search
-   subroutine search(shape, target, guess, with_slope, most, balance)
+   subroutine search(shape, target, guess, with_slope, most, estimated, balance)
       integer, intent(in) :: shape
       real(wp), intent(in) :: target, guess
       logical, intent(in) :: with_slope
       integer, intent(in) :: most
+      logical, intent(in) :: estimated
       type(force_balance), intent(inout) :: balance
       real(wp), parameter :: touch = 0.7_wp
       real(wp) :: z, force, slope
 
-      call balance%start(target, 1.0e-8_wp, touch, 500.0_wp, most)
+      call balance%start(target, 1.0e-8_wp, touch, 500.0_wp, most, estimated)
       do while (balance%ended == balance_ending%running)
          z = balance%next_trial(touch + guess)
          call force_at(shape, z - touch, force, slope)
          if (.not. with_slope) slope = 0.0_wp
-         call balance%record(z, force, slope)
+         call balance%record(z, force, slope, merge(2, 1, z > touch + 0.1_wp))
       end do
    end subroutine search
 
@@ -83,7 +85,7 @@ contains
       character(len=60) :: what
       real(wp) :: force, slope
 
-      call search(shape, target, guess, with_slope, most, balance)
+      call search(shape, target, guess, with_slope, most, .false., balance)
       call force_at(shape, balance%z - 0.7_wp, force, slope)
       write(what, '(a,i0,a,es9.2,a,i0,a,i0)') "shape ", shape, ", force ", target, ": trials ", balance%trials, ", ended ", &
          & balance%ended
@@ -100,23 +102,47 @@ contains
       type(test_suite), intent(inout) :: suite
       type(force_balance) :: balance
 
-      call search(jump_down, 1.0e5_wp*0.1_wp**1.5_wp - 5.0e2_wp, 0.2_wp, .false., 40, balance)
+      call search(jump_down, 1.0e5_wp*0.1_wp**1.5_wp - 5.0e2_wp, 0.2_wp, .false., 40, .false., balance)
       call suite%check(balance%ended == balance_ending%reached, "two solutions: one is found")
-      call search(jump_up, 1.0e5_wp*0.1_wp**1.5_wp + 3.0e2_wp, 0.2_wp, .false., 80, balance)
+      call search(jump_up, 1.0e5_wp*0.1_wp**1.5_wp + 3.0e2_wp, 0.2_wp, .false., 80, .false., balance)
       call suite%check(balance%ended == balance_ending%jump, "a force inside an upward jump is stated")
       call suite%close_to(balance%z, 0.8_wp, 1.0e-9_wp, "with the place of the jump")
       call suite%close_to(balance%force, 1.0e5_wp*0.1_wp**1.5_wp, 1.0_wp, "and the closer side")
    end subroutine over_a_jump
 
+   !> Where the stiffness of the contact is known, a jump is told from a steep rise, and is found in few trials
+   subroutine jump_with_slopes(suite)
+      type(test_suite), intent(inout) :: suite
+      type(force_balance) :: balance
+      real(wp), parameter :: foot = 1.0e5_wp*0.1_wp**1.5_wp
+      integer :: k
+
+      do k = 1, 9
+         call search(jump_up, foot + 1.0e2_wp*k, 0.03_wp*k, .true., 28, .false., balance)
+         call suite%check(balance%ended == balance_ending%jump, "an upward jump is found in 28 trials")
+         call suite%check(balance%low%z <= 0.8_wp .and. balance%high%z > 0.8_wp .and. balance%high%z - balance%low%z < 1.1e-6_wp, &
+            & "the place of the jump lies between the ends of the bracket, which are near")
+         call suite%close_to(balance%low%force, foot, 1.0_wp, "force below the jump")
+         call suite%close_to(balance%high%force, foot + 1.0e3_wp, 1.0_wp, "force above it")
+         call suite%check(balance%low%patches == 1 .and. balance%high%patches == 2, "patches on both sides")
+         ! forces that are only estimated: the caller is told to look again, before trials are spent on the place
+         call search(jump_up, foot + 1.0e2_wp*k, 0.03_wp*k, .true., 28, .true., balance)
+         call suite%check(balance%ended == balance_ending%jump .and. balance%trials < 15, "a suspected jump ends the search early")
+      end do
+      ! a second patch that is much stiffer than the first one is no jump
+      call search(second_patch, 3.0e3_wp, 0.02_wp, .true., 12, .true., balance)
+      call suite%check(balance%ended == balance_ending%reached, "a kink is no jump")
+   end subroutine jump_with_slopes
+
    subroutine out_of_reach(suite)
       type(test_suite), intent(inout) :: suite
       type(force_balance) :: balance
 
-      call search(bounded, 2.0e3_wp, 0.1_wp, .false., 60, balance)
+      call search(bounded, 2.0e3_wp, 0.1_wp, .false., 60, .false., balance)
       call suite%check(balance%ended == balance_ending%out_of_reach, "a force that is never reached")
-      call search(broken, 1.0e3_wp, 0.05_wp, .false., 60, balance)
+      call search(broken, 1.0e3_wp, 0.05_wp, .false., 60, .false., balance)
       call suite%check(balance%ended == balance_ending%out_of_reach, "a force that is not a number")
-      call search(second_patch, 1.0e4_wp, 0.02_wp, .false., 2, balance)
+      call search(second_patch, 1.0e4_wp, 0.02_wp, .false., 2, .false., balance)
       call suite%check(balance%ended == balance_ending%trial_limit, "too few trials")
    end subroutine out_of_reach
 end program test_force_balance
