@@ -501,7 +501,12 @@ def judge_tangential(scene, k, run, f, previous, findings, spaces, plastic, stat
         before = [spaces.displacement(c, *old, ahead=ahead) for c in "xy"]
         if layer:
             sign = 1 if math.cos(chi) > 0 else -1
-            before[0], before[1] = before[0] + layer*upstream(old[0], sign), before[1] + layer*upstream(old[1], sign)
+            # tractions where the particle was, between two elements
+            whole = int(step/f["dx"] + 1e-6)
+            part = max(0.0, step/f["dx"] - whole)
+            for c in (0, 1):
+                there = (1 - part)*elastic.shifted(old[c], sign*whole, 0) + part*elastic.shifted(old[c], sign*(whole + 1), 0)
+                before[c] = before[c] + layer*there
         along = abs(math.sin(chi)) < 1e-9
         told = "DQ is larger than DX" in run.text(".out")
         if step > f["dx"]*1.01 and along and (not told or (d["T"] == 2 and case["F"] == 0)):
