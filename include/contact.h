@@ -58,7 +58,8 @@ int contact_run_limited(const char *experiment, int mode, const char *output_dir
  * message         receives "" or the reason, cut to fit; NULL if not wanted
  * message_length  size of message in bytes, the final null included
  *
- * Returns the error code that belongs to it, 0 when nothing went wrong. It is forgotten when it
+ * Returns the error code that belongs to it, 0 when nothing went wrong; 0 with a text is a warning,
+ * as of a flag that was replaced by the nearest value. It is forgotten when it
  * was asked for, and when the problem is calculated again.
  */
 int contact_last_error(int ire, int icp, char *message, int message_length);

@@ -280,11 +280,13 @@ class Element:
         return self._number
 
     def _do(self, routine: Callable[..., None], *arguments: Any) -> None:
-        """Call a routine that sets something; what it refuses is an error"""
+        """Call a routine that sets something; what it refuses is an error, what it replaces a warning"""
         routine(*arguments)
         code, message = last_error(self.number, self._icp)
         if code != 0:
             raise ContactError(message, code)
+        if message:
+            warnings.warn(message, ContactWarning, stacklevel=3)
 
     def set_flags(self, **flags: int) -> None:
         """Flags and control digits by their names in :data:`contact.cntc.CNTC`, for instance ``ic_bound=4``."""

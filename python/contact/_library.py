@@ -133,7 +133,7 @@ def text(value: str | os.PathLike[str] | None) -> tuple[bytes, int]:
 
 def last_error(ire: int = 0, icp: int = -1) -> tuple[int, str]:
     """Code and text of what went wrong last with a problem, or with ire = 0 in the library; (0, "") when nothing
-    did since this was asked last."""
+    did since this was asked last. Code 0 with a text is a warning."""
     room = ctypes.create_string_buffer(2000)
     code = library().contact_last_error(ire, icp, room, len(room))
     return code, room.value.decode("utf-8", errors="replace")

@@ -6,7 +6,7 @@ module contact_capi_flags
    use contact_capi_arguments, only : give_list, integer_of, integers_of, reals_of
    use contact_capi_library, only : entry_type
    use contact_capi_lifecycle, only : set_global_flag
-   use contact_capi_messages, only : begin_setting, complain, end_setting, fits, is_heard, say
+   use contact_capi_messages, only : begin_setting, complain, end_setting, fits, is_heard, say, warn
    use contact_capi_problem, only : library_problem
    use contact_capi_registry, only : enter, leave, scope
    use contact_capi_timers, only : set_timer_level
@@ -101,7 +101,8 @@ contains
             & integer_text(highest_of(flag_table(row), problem%module_number)) // "; nothing is stored")
          return
       end if
-      if (stored /= number) call say(1, this, flag_text(code, number) // " is replaced by " // integer_text(stored))
+      if (stored /= number) call warn(this, flag_text(code, number) // " is none of its values and is replaced by " // &
+         & integer_text(stored))
       if (is_heard(2)) call say(2, this, flag_text(code, stored))
       call store_flag(this, code, stored, problem)
 

@@ -163,7 +163,8 @@ contains
 
    !> What went wrong last, with a problem or with the library, and its code
    !>
-   !> Success and an empty text when nothing did since this was asked last, or when there is no such problem.
+   !> Success and an empty text when nothing did since this was asked last, or when there is no such problem;
+   !> success and a text for a warning.
    function contact_last_error(ire, icp, message, message_length) result(code) bind(c)
       !> Result element, 0 for calls without one; contact patch, -1 for wheel and rail
       integer(c_int), value :: ire, icp

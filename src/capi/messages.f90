@@ -12,7 +12,7 @@ module contact_capi_messages
    implicit none (type, external)
    private
 
-   public :: complain, say, is_heard, set_debugging, library_log
+   public :: complain, warn, say, is_heard, set_debugging, library_log
    public :: keep_status, last_complaint, last_status, forget_complaint, set_last_error
    public :: begin_setting, end_setting, first_refusal
    public :: fits, count_fits
@@ -35,6 +35,24 @@ contains
       call library%log%out%flush_now()
       !$omp end critical (contact_registry)
    end subroutine complain
+
+   !> A warning: into the log at every level of debugging, and kept for the caller with the code of success
+   !>
+   !> A complaint that the caller has not asked for yet stays.
+   subroutine warn(call_of, text)
+      type(entry_type), intent(in) :: call_of
+      character(len=*), intent(in) :: text
+      type(library_problem), pointer :: problem
+
+      call complain(call_of, "Warning: " // text, library_code%success)
+      !$omp critical (contact_registry)
+      if (library%last_code == library_code%success) library%last_error = trim(call_of%name) // ": Warning: " // text
+      problem => existing_problem(call_of%ire, call_of%icp)
+      if (associated(problem)) then
+         if (problem%last_code == library_code%success) problem%last_error = trim(call_of%name) // ": Warning: " // text
+      end if
+      !$omp end critical (contact_registry)
+   end subroutine warn
 
    !> A message that callers see when they ask for messages of that level
    subroutine say(level, call_of, text)

@@ -20,53 +20,60 @@ module contact_control_flags
    !> Codes of the flags
    type(flag_list), parameter :: flag = flag_list()
 
+   type :: out_of_range_list
+      !> Refused; the nearest accepted value is taken; 0 is taken
+      integer :: refused = 1, nearest = 2, zero = 3
+   end type out_of_range_list
+   !> What happens with a value that is out of range: what the published interface promises, see CNTC_ic_... there
+   type(out_of_range_list), parameter :: out_of_range = out_of_range_list()
+
    !> One flag
    type :: flag_row
       integer :: code = 0
       !> Name of the control digit behind it; blank for other settings
       character(len=2) :: digit = ""
-      !> Range of accepted values
-      integer :: lowest = 0, highest = 0
+      !> Range of accepted values, and member of out_of_range
+      integer :: lowest = 0, highest = 0, outside = out_of_range%refused
       !> May it be set by cntc_setflags, and read by cntc_getflags?
       logical :: can_set = .true., can_get = .true.
    end type flag_row
 
    !> All flags; the range is that of module 1 where the modules differ
    type(flag_row), parameter :: flag_table(*) = [ &
-      & flag_row(flag%units, "  ", 1934, 1937, .true., .false.), &
-      & flag_row(flag%config, "C1", 0, 5), &
-      & flag_row(flag%pvtime, "P ", 0, 3), &
-      & flag_row(flag%bound, "B ", 0, 6), &
-      & flag_row(flag%tang, "T ", 0, 3), &
-      & flag_row(flag%norm, "N ", 0, 1), &
-      & flag_row(flag%force, "F ", 0, 3), &
-      & flag_row(flag%frclaw, "L ", 0, 6, .false., .true.), &
+      & flag_row(flag%units, "  ", 1934, 1937, out_of_range%refused, .true., .false.), &
+      & flag_row(flag%config, "C1", 0, 5, out_of_range%nearest), &
+      & flag_row(flag%pvtime, "P ", 0, 3, out_of_range%nearest), &
+      & flag_row(flag%bound, "B ", 0, 6, out_of_range%nearest), &
+      & flag_row(flag%tang, "T ", 0, 3, out_of_range%nearest), &
+      & flag_row(flag%norm, "N ", 0, 1, out_of_range%nearest), &
+      & flag_row(flag%force, "F ", 0, 3, out_of_range%nearest), &
+      & flag_row(flag%frclaw, "L ", 0, 6, out_of_range%refused, .false., .true.), &
       & flag_row(flag%discns, "D ", 0, 9), &
       & flag_row(flag%inflcf, "C ", 0, 4), &
-      & flag_row(flag%mater, "M ", 0, 7, .false., .true.), &
-      & flag_row(flag%exrhs, "E ", 0, 3, .true., .false.), &
+      & flag_row(flag%mater, "M ", 0, 7, out_of_range%refused, .false., .true.), &
+      & flag_row(flag%exrhs, "E ", 0, 3, out_of_range%nearest, .true., .false.), &
       & flag_row(flag%xflow, "X ", 0, 9999999), &
-      & flag_row(flag%heat, "H ", 0, 3, .false., .true.), &
-      & flag_row(flag%iestim, "I ", 0, 3), &
-      & flag_row(flag%output, "O ", 0, 6), &
-      & flag_row(flag%flow, "W ", 0, 9), &
-      & flag_row(flag%return, "R ", 0, 3), &
-      & flag_row(flag%matfil, "A ", 0, 2), &
-      & flag_row(flag%sens, "  ", 0, 3), &
-      & flag_row(flag%ifmeth, "  ", 0, 1), &
-      & flag_row(flag%ifvari, "  ", 1, 4), &
-      & flag_row(flag%sbsout, "  ", 0, 4), &
-      & flag_row(flag%sbsfil, "  ", 0, 2), &
-      & flag_row(flag%npomax, "  ", 100, 1000000), &
-      & flag_row(flag%idebug, "  ", -huge(1), huge(1), .true., .false.), &
-      & flag_row(flag%licdbg, "  ", -huge(1), huge(1), .true., .false.), &
+      & flag_row(flag%heat, "H ", 0, 3, out_of_range%refused, .false., .true.), &
+      & flag_row(flag%iestim, "I ", 0, 3, out_of_range%nearest), &
+      & flag_row(flag%output, "O ", 0, 6, out_of_range%nearest), &
+      & flag_row(flag%flow, "W ", 0, 9, out_of_range%nearest), &
+      & flag_row(flag%return, "R ", 0, 3, out_of_range%nearest), &
+      & flag_row(flag%matfil, "A ", 0, 2, out_of_range%zero), &
+      & flag_row(flag%sens, "  ", 0, 3, out_of_range%nearest), &
+      & flag_row(flag%ifmeth, "  ", 0, 1, out_of_range%nearest), &
+      & flag_row(flag%ifvari, "  ", 1, 4, out_of_range%nearest), &
+      & flag_row(flag%sbsout, "  ", 0, 4, out_of_range%nearest), &
+      & flag_row(flag%sbsfil, "  ", 0, 2, out_of_range%zero), &
+      & flag_row(flag%npomax, "  ", 100, 1000000, out_of_range%nearest), &
+      & flag_row(flag%idebug, "  ", -huge(1), huge(1), out_of_range%refused, .true., .false.), &
+      & flag_row(flag%licdbg, "  ", -huge(1), huge(1), out_of_range%refused, .true., .false.), &
       & flag_row(flag%wrtinp, "  ", 0, 2), &
-      & flag_row(flag%openmp, "  ", -huge(1), huge(1), .true., .false.), &
-      & flag_row(flag%timers, "  ", 0, 2, .true., .false.), &
+      & flag_row(flag%openmp, "  ", -huge(1), huge(1), out_of_range%refused, .true., .false.), &
+      & flag_row(flag%timers, "  ", 0, 2, out_of_range%refused, .true., .false.), &
       & flag_row(flag%ncase, "  ", 0, huge(1)), &
       & flag_row(flag%own_heat, "  ", 0, 1), &
-      & flag_row(flag%own_border, "  ", 0, 511, .false., .true.), &
-      & flag_row(flag%own_stepped, "  ", 0, huge(1), .false., .true.)]
+      & flag_row(flag%own_border, "  ", 0, 511, out_of_range%refused, .false., .true.), &
+      & flag_row(flag%own_stepped, "  ", 0, huge(1), out_of_range%refused, .false., .true.)]
 
 contains
 
@@ -90,7 +97,7 @@ contains
       if (row%code == flag%force .and. module_number == 3) highest = 2
    end function highest_of
 
-   !> What is stored for a value that a caller gives, and whether it is stored at all
+   !> What is stored for a value that a caller gives, which may be another one, and whether it is stored at all
    pure subroutine accepted_value(row, value, module_number, stored, accepted)
       type(flag_row), intent(in) :: row
       integer, intent(in) :: value
@@ -101,6 +108,11 @@ contains
 
       stored = value
       accepted = value >= row%lowest .and. value <= highest_of(row, module_number)
+      if (.not. accepted) then
+         if (row%outside == out_of_range%nearest) stored = max(row%lowest, min(highest_of(row, module_number), value))
+         if (row%outside == out_of_range%zero) stored = 0
+         accepted = row%outside /= out_of_range%refused
+      end if
       ! output of subsurface stresses has no level 3
       if (row%code == flag%sbsout .and. stored == 3) stored = 2
    end subroutine accepted_value

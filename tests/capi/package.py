@@ -106,6 +106,8 @@ def errors():
         check(error.code != 0, "an error has a code")
         raises(contact.ContactError, problem.solve, "was refused", "a material that was refused")
         problem.set_material(g=82000.0, nu=0.28)
+        texts = warned(lambda: problem.set_flags(ic_matfil=9))[1]
+        check(len(texts) == 1 and "= 9" in texts[0] and "replaced by 0" in texts[0], f"a flag that is replaced warns: {texts}")
         same(problem.solve().border_elements, 0, "the problem still works")
         raises(contact.ContactError, lambda: problem.set_creepages(float("nan")), "number", "creepage that is none")
         raises(ValueError, lambda: problem.set_flags(ic_nothing=3), "ic_nothing", "unknown flag")

@@ -277,22 +277,44 @@ def wrong_counts():
 
 
 def clamps():
-    """Values out of range are refused, and the next calculation tells so until a good one is set"""
+    """Flags that are documented to take the nearest value say so and go on; others are refused until a good one is set"""
     start()
     start(2, 1)
     case_a(1)
+    last_error(0)
+    for ire, icp, flag, value, stored, good in (
+            (1, 1, "ic_tang", 9, 3, 3), (1, 1, "ic_tang", -1, 0, 3), (1, 1, "ic_matfil", 9, 0, 0), (1, 1, "ic_matfil", -1, 0, 0),
+            (1, 1, "ic_sbsout", 7, 4, 0), (1, 1, "ic_sbsout", 3, 2, 0), (1, 1, "ic_sbsfil", 5, 0, 0), (2, -1, "ic_config", 7, 5, 1),
+            (2, -1, "ic_config", -3, 0, 1), (1, 1, "ic_pvtime", 8, 3, 2), (1, 1, "ic_norm", 5, 1, 0), (1, 1, "ic_force", 7, 2, 0),
+            (2, -1, "ic_force", 7, 3, 0), (1, 1, "ic_iestim", 9, 3, 0), (1, 1, "ic_flow", 12, 9, 0), (1, 1, "ic_return", 5, 3, 1),
+            (1, 1, "ic_output", 9, 6, 0), (1, 1, "ic_sens", 8, 3, 1), (1, 1, "ic_ifmeth", 4, 1, 0), (1, 1, "ic_ifvari", 9, 4, 4),
+            (1, 1, "ic_ifvari", 0, 1, 4), (2, -1, "ic_npomax", 5, 100, 20000), (2, -1, "ic_npomax", 5000000, 1000000, 20000),
+            (1, 1, "ic_bound", 11, 6, 0), (1, 1, "ic_exrhs", 2**31 - 1, 3, 0), (1, 1, "ic_exrhs", -2**31, 0, 0)):
+        lines = len(log_text().splitlines())
+        cntc.setflags(ire, icp, CNTC[flag], value)
+        told = [line for line in log_text().splitlines()[lines:] if "**" in line]
+        words = (f"flag {CNTC[flag]} = {value} ", f"replaced by {stored}")
+        check(len(told) == 1 and "Warning" in told[0] and all(part in told[0] for part in words),
+              f"{flag} = {value} is told: {told}")
+        for place in ((ire, icp), (0, -1)):
+            code, text = last_error(*place)
+            check(code == 0 and "Warning" in text and all(part in text for part in words), f"{flag} = {value}, {place}: {text}")
+        if flag != "ic_exrhs":
+            same(int(cntc.getflags(ire, icp, CNTC[flag])[0]), stored, f"{flag} after {value}")
+        if (flag, value) in (("ic_tang", 9), ("ic_matfil", 9), ("ic_sbsout", 7), ("ic_ifvari", 0)):
+            same(cntc.calculate(ire, icp), 0, f"{flag} = {value} is calculated with {stored}")
+        cntc.setflags(ire, icp, CNTC[flag], good)
+        same(last_error(ire, icp), (0, ""), f"{flag} = {good} needs no word")
     for ire, icp, flag, value, good in (
-            (1, 1, "ic_tang", 9, 3), (1, 1, "ic_tang", -1, 3), (1, 1, "ic_matfil", 9, 0), (1, 1, "ic_sbsout", 7, 4),
-            (1, 1, "ic_sbsfil", 5, 0), (2, -1, "ic_config", 7, 5), (2, -1, "ic_config", -3, 0), (1, 1, "ic_pvtime", 8, 2),
-            (1, 1, "ic_norm", 5, 0), (1, 1, "ic_force", 7, 0), (1, 1, "ic_iestim", 9, 0), (1, 1, "ic_flow", 12, 0),
-            (1, 1, "ic_return", 5, 1), (1, 1, "ic_sens", 8, 1), (1, 1, "ic_ifmeth", 4, 1), (1, 1, "ic_ifvari", 9, 4),
-            (1, 1, "ic_ifvari", 0, 1), (2, -1, "ic_npomax", 5, 100), (2, -1, "ic_npomax", 5000000, 1000000),
-            (1, 1, "ic_bound", 11, 0), (2, -1, "ic_force", 2, 0), (1, 1, "if_units", 1, 1934), (1, 1, "ic_inflcf", 9, 2)):
+            (2, -1, "ic_force", 2, 0), (1, 1, "if_units", 1, 1934), (1, 1, "ic_inflcf", 9, 2), (2, -1, "ic_discns", 10, 2),
+            (1, 1, "if_wrtinp", 3, 0), (1, 1, "ic_xflow", -1, 0)):
         can_get = flag != "if_units"
         before = int(cntc.getflags(ire, icp, CNTC[flag])[0]) if can_get else 0
         cntc.setflags(ire, icp, CNTC[flag], value)
+        cntc.setflags(ire, icp, CNTC["ic_tang"], 9)
         code, text = last_error(ire, icp)
-        check(code == -99 and ("range" in text or "not available" in text), f"{flag} = {value} is refused: {text}")
+        check(code == -99 and ("range" in text or "not available" in text),
+              f"{flag} = {value} is refused, and no warning hides it: {text}")
         if can_get:
             same(int(cntc.getflags(ire, icp, CNTC[flag])[0]), before, f"{flag} after {value}")
         if ire == 1:
@@ -301,8 +323,10 @@ def clamps():
         cntc.setflags(ire, icp, CNTC[flag], good)
         if ire == 1:
             same(cntc.calculate(ire, icp), 0, f"{flag} = {good} cures it")
-    cntc.setflags(1, 1, CNTC["ic_sbsout"], 3)
-    same(int(cntc.getflags(1, 1, CNTC["ic_sbsout"])[0]), 2, "output of subsurface stresses has no level 3")
+    # a good value that is clamped cures as well
+    cntc.setflags(1, 1, CNTC["ic_inflcf"], 9)
+    cntc.setflags(1, 1, [CNTC["ic_inflcf"], CNTC["ic_tang"]], [2, 9])
+    same(cntc.calculate(1, 1), 0, "refused, made anew, and another one replaced")
     lines = len(log_text().splitlines())
     cntc.setflags(1, 1, [0, 4711], [1, 1])
     check(len(log_text().splitlines()) > lines, "an unknown flag is told")
