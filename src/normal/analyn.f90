@@ -11,7 +11,6 @@ module contact_normal_analyn
    use contact_base_kinds, only : wp
    use contact_grid_potential_contact, only : potential_contact
    use contact_normal_hertz, only : hertz_by_curvatures, hertz_contact, hertz_load
-   use contact_normal_kpec, only : equally_small
    implicit none (type, external)
    private
 
@@ -19,6 +18,9 @@ module contact_normal_analyn
 
    !> Smallest curvature that is told from the unevenness of profiles [1/mm], a radius of 5 m; as in CONTACT
    real(wp), parameter :: least_curvature = 1.0e-4_wp
+   !> Gaps that differ by less than this part of the overlap count as equal [-]: of two elements that are mirror images of
+   !> each other rounding makes one the deeper one
+   real(wp), parameter :: equally_small = 1.0e-9_wp
    !> Overlap below which there is no contact [mm]; only to keep clear of underflow
    real(wp), parameter :: least_overlap = 1.0e-30_wp
    !> Samples on either side for the curvature along a row, at most; they end where the overlap has fallen

@@ -60,14 +60,14 @@ contains
       real(wp), contiguous, intent(inout) :: pn(:, :)
       type(solve_report), intent(inout) :: report
       real(wp), allocatable :: un(:, :)
-      logical, allocatable :: deepest(:, :)
+      real(wp), allocatable :: weight(:, :)
 
-      allocate(deepest(size(gap, 1), size(gap, 2)))
-      call kpec_shape(grid, gap, pn, deepest)
+      allocate(weight, mold=pn)
+      call kpec_shape(grid, gap, pn, weight)
       if (.not. any(pn > 0.0_wp)) return
       allocate(un, mold=pn)
       call operator%normal(pn, un)
-      pn = pn*(-sum(gap, deepest)/sum(un, deepest))
+      pn = pn*(-sum(weight*gap)/sum(weight*un))
       report%products = report%products + 1
       report%fft_pairs = report%fft_pairs + 1.0_wp
    end subroutine scaled_kpec

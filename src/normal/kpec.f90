@@ -22,11 +22,14 @@ module contact_normal_kpec
    real(wp), parameter :: half_way = 0.5_wp
    !> Smallest curvature that counts: it would open the gap by this part of the overlap along the window [-]
    real(wp), parameter :: least_rise = 0.25_wp
-   !> Gaps that differ by less than this part of the overlap count as equal [-]: of two elements that are mirror images of
-   !> each other rounding makes one the deeper one
-   real(wp), parameter, public :: equally_small = 1.0e-9_wp
-   !> Distance of the ends of a row of contact beyond the outermost centres, at least, in elements [-]
-   real(wp), parameter :: least_overhang = 0.01_wp
+   !> Elements whose gap is larger than the smallest one by less than this part of the overlap stand for the deepest place,
+   !> with a weight that falls to zero there [-]. With one element alone pressures would jump where another one takes its place
+   real(wp), parameter :: nearly_deepest = 0.01_wp
+   !> Distance of the ends of a row of contact beyond the outermost centres, at least, in elements [-]; only to keep an
+   !> element of contact
+   real(wp), parameter :: least_overhang = 1.0e-4_wp
+   !> Extent across the rows, at least, in rows [-]
+   real(wp), parameter :: least_extent = 0.02_wp
 
    !> The ellipse that gives the threshold of each row
    type :: threshold_ellipse
@@ -42,29 +45,30 @@ contains
 
    !> Pressures up to a factor.
    !>
-   !> The factor is found by the caller, who knows the compliance: at the place of the smallest
-   !> gap the pressures bring about a displacement equal to the overlap.
-   pure subroutine kpec_shape(grid, gap, shape_, deepest)
+   !> The factor is found by the caller, who knows the compliance: at the deepest place the pressures bring about a
+   !> displacement equal to the overlap.
+   pure subroutine kpec_shape(grid, gap, shape_, weight)
       type(potential_contact), intent(in) :: grid
       !> Distance of the undeformed surfaces less the approach [mm], shape (mx, my); negative where
       !> they overlap, above excluded_threshold where there is no contact possible
       real(wp), intent(in) :: gap(:, :)
       !> Pressures [-], shape (mx, my): positive in contact, largest 1 or less; all zero without overlap
       real(wp), intent(out) :: shape_(:, :)
-      !> Elements of the smallest gap, shape (mx, my)
-      logical, intent(out) :: deepest(:, :)
+      !> Weights of the elements in what is told of the deepest place [-], shape (mx, my); their sum is 1 where there is overlap
+      real(wp), intent(out) :: weight(:, :)
       type(threshold_ellipse) :: ellipse
       real(wp) :: overlap, longest
       real(wp) :: middle(size(gap, 2)), half_length(size(gap, 2)), limit(size(gap, 2))
       integer :: ix, iy
 
       shape_ = 0.0_wp
-      deepest = .false.
+      weight = 0.0_wp
       if (size(gap) == 0) return
       overlap = -minval(gap)
       if (.not. overlap > least_overlap) return
-      deepest = gap <= (equally_small - 1.0_wp)*overlap
-      ellipse = fit_ellipse(grid, gap, deepest, overlap)
+      weight = max(0.0_wp, 1.0_wp - (gap + overlap)/(nearly_deepest*overlap))
+      weight = weight/sum(weight)
+      ellipse = fit_ellipse(grid, gap, weight, overlap)
       do iy = 1, grid%my
          limit(iy) = (row_level(ellipse, grid%y(iy)) - 1.0_wp)*overlap
          call row_extent(grid, gap(:, iy), limit(iy), middle(iy), half_length(iy))
@@ -90,11 +94,11 @@ contains
    end function row_level
 
    !> Hertz's ellipse for the curvatures of the overlap
-   pure function fit_ellipse(grid, gap, deepest, overlap) result(ellipse)
+   pure function fit_ellipse(grid, gap, weight, overlap) result(ellipse)
       type(potential_contact), intent(in) :: grid
       real(wp), intent(in) :: gap(:, :)
-      !> Elements of the smallest gap, shape (mx, my)
-      logical, intent(in) :: deepest(:, :)
+      !> Weights of the elements at the deepest place [-], shape (mx, my)
+      real(wp), intent(in) :: weight(:, :)
       !> Overlap there [mm]
       real(wp), intent(in) :: overlap
       type(threshold_ellipse) :: ellipse
@@ -106,16 +110,15 @@ contains
       a1 = 0.0_wp
       do iy = 1, grid%my
          do ix = 1, grid%mx
-            if (deepest(ix, iy)) a1 = a1 + curvature_along(grid, gap(:, iy), ix, overlap)
+            if (weight(ix, iy) > 0.0_wp) a1 = a1 + weight(ix, iy)*curvature_along(grid, gap(:, iy), ix, overlap)
          end do
       end do
-      a1 = a1/count(deepest)
       call extent_across(grid, gap, overlap, start, end_, one_row)
       ellipse%ym = 0.5_wp*(start + end_)
       b1 = half_way*overlap/(0.5_wp*(end_ - start))**2
       hertz = hertz_by_curvatures(hertz_load(normal_control%approach, pen=overlap), a1, b1)
       ellipse%bb = hertz%bb
-      if (one_row) ellipse%bb = max(ellipse%bb, 1.1_wp*abs(grid%y(findloc(any(deepest, dim=1), .true., dim=1)) - ellipse%ym))
+      if (one_row) ellipse%bb = max(ellipse%bb, 1.1_wp*abs(grid%y(maxloc(maxval(weight, dim=1), dim=1)) - ellipse%ym))
       ellipse%level_x = a1*hertz%aa**2/overlap
       ellipse%level_y = b1*hertz%bb**2/overlap
    end function fit_ellipse
@@ -130,10 +133,11 @@ contains
       !> Place of the smallest gap
       integer, intent(in) :: middle
       real(wp), intent(in) :: overlap
-      real(wp) :: rise, low, high
+      real(wp) :: rise, next_rise, low, high, gap_before, part
       integer :: k
 
       rise = 0.0_wp
+      gap_before = -overlap
       do k = 1, size(row)
          if (.not. (is_possible(row, middle - k) .or. is_possible(row, middle + k))) exit
          if (is_possible(row, middle - k) .and. is_possible(row, middle + k)) then
@@ -146,8 +150,16 @@ contains
             low = row(merge(middle - k, middle + k, is_possible(row, middle - k)))
             high = low
          end if
-         rise = (0.5_wp*(low + high) + overlap)/(k*grid%dx)**2
-         if (max(low, high) > -half_way*overlap) exit
+         next_rise = (0.5_wp*(low + high) + overlap)/(k*grid%dx)**2
+         if (max(low, high) > -half_way*overlap) then
+            ! between the elements on either side of the level, so that it passes from one to the next without a jump
+            part = 1.0_wp
+            if (k > 1) part = (-half_way*overlap - gap_before)/(max(low, high) - gap_before)
+            rise = rise + part*(next_rise - rise)
+            exit
+         end if
+         rise = next_rise
+         gap_before = max(low, high)
       end do
       curvature = max(rise, least_rise*overlap/(size(row)*grid%dx)**2)
    end function curvature_along
@@ -170,64 +182,44 @@ contains
       real(wp), intent(out) :: start, end_
       !> Does one row only overlap so much?
       logical, intent(out) :: one_row
+      real(wp) :: lowest(size(gap, 2)), widen
       integer :: iy, first, last
 
+      lowest = minval(gap, dim=1)
       first = 0
       last = 0
       do iy = 1, grid%my
-         if (minval(gap(:, iy)) > -half_way*overlap) cycle
+         if (lowest(iy) > -half_way*overlap) cycle
          if (first == 0) first = iy
          last = iy
       end do
       one_row = first == last
-      start = grid%y(first) - grid%dy*mean_steps(gap, first, -1, overlap)
-      end_ = grid%y(last) + grid%dy*mean_steps(gap, last, 1, overlap)
+      start = grid%y(first) - grid%dy*steps_to_level(lowest, first, -1, -half_way*overlap)
+      end_ = grid%y(last) + grid%dy*steps_to_level(lowest, last, 1, -half_way*overlap)
+      widen = 0.5_wp*max(0.0_wp, least_extent*grid%dy - (end_ - start))
+      start = start - widen
+      end_ = end_ + widen
    end subroutine extent_across
 
-   !> Distance from a row to where half of the overlap is left, in rows: mean over the columns of its smallest gap
-   pure real(wp) function mean_steps(gap, row, outwards, overlap) result(steps)
-      real(wp), intent(in) :: gap(:, :)
-      !> Row at the rim
-      integer, intent(in) :: row
-      !> +1 or -1
-      integer, intent(in) :: outwards
-      !> [mm]
-      real(wp), intent(in) :: overlap
-      integer :: ix, n
-
-      steps = 0.0_wp
-      n = 0
-      do ix = 1, size(gap, 1)
-         if (gap(ix, row) > minval(gap(:, row)) + equally_small*overlap) cycle
-         steps = steps + steps_to_level(gap, row, ix, outwards, -half_way*overlap)
-         n = n + 1
-      end do
-      steps = steps/n
-   end function mean_steps
-
-   !> Distance from a row to where the gap of a column reaches a level, in rows: linear between the row and
+   !> Distance from a row to where the smallest gaps of the rows reach a level, in rows: linear between the row and
    !> the next one outwards; linear extrapolation at the edge of the window
-   pure real(wp) function steps_to_level(gap, row, column, outwards, level) result(steps)
-      real(wp), intent(in) :: gap(:, :)
-      !> Last row with a gap below the level; the column
-      integer, intent(in) :: row, column
-      !> +1 or -1
-      integer, intent(in) :: outwards
+   pure real(wp) function steps_to_level(lowest, row, outwards, level) result(steps)
+      !> Smallest gap of each row [mm]
+      real(wp), intent(in) :: lowest(:)
+      !> Last row with a gap below the level; +1 or -1
+      integer, intent(in) :: row, outwards
       !> [mm]
       real(wp), intent(in) :: level
       real(wp) :: here, there
-      integer :: next
 
-      here = gap(column, row)
-      next = row + outwards
+      here = lowest(row)
       steps = 0.5_wp
-      if (is_possible(gap(column, :), next)) then
-         there = gap(column, next)
-         if (there > here) steps = min(1.0_wp, (level - here)/(there - here))
-         steps = max(least_overhang, steps)
-      else if (is_possible(gap(column, :), row - outwards)) then
-         there = 2.0_wp*here - gap(column, row - outwards)
-         steps = real(size(gap, 2), wp)
+      if (is_possible(lowest, row + outwards)) then
+         ! the next row is above the level
+         steps = (level - here)/(lowest(row + outwards) - here)
+      else if (is_possible(lowest, row - outwards)) then
+         there = 2.0_wp*here - lowest(row - outwards)
+         steps = real(size(lowest), wp)
          if (there > here) steps = min(steps, (level - here)/(there - here))
          steps = max(0.5_wp, steps)
       end if

@@ -27,9 +27,49 @@ program test_approximate
    call warning_at_edge(suite)
    call double_ellipse(suite)
    call mirrors(suite)
+   call no_jumps(suite)
    call suite%finish()
 
 contains
+
+   !> Pressures by KPEC follow the gap without jumps: where the deepest place changes from a hump to a wider one, and while an
+   !> overlap of several rows grows. The force then changes in 400 small steps by much the same amount
+   subroutine no_jumps(suite)
+      type(test_suite), intent(inout) :: suite
+      integer, parameter :: n = 400
+      type(potential_contact) :: grid
+      real(wp), allocatable :: gap(:, :), pn(:, :)
+      real(wp) :: force(0:n), y, approach, tilt
+      integer :: i, ix, iy, series
+      character(len=60) :: what
+
+      grid = window(41, 60, 8.0_wp, 14.0_wp)
+      allocate(gap(grid%mx, grid%my))
+      do series = 1, 2
+         do i = 0, n
+            approach = 0.05_wp
+            tilt = 0.0_wp
+            if (series == 1) tilt = 1.0e-7_wp*(i - n/2)
+            if (series == 2) approach = 0.05_wp*(1.0_wp + 1.0e-4_wp*i)
+            do iy = 1, grid%my
+               y = grid%y(iy)
+               do ix = 1, grid%mx
+                  gap(ix, iy) = grid%x(ix)**2/920.0_wp + tilt*y - approach
+                  if (series == 1) then
+                     gap(ix, iy) = gap(ix, iy) + min((y + 5.0_wp)**2/200.0_wp, (y - 5.0_wp)**2/1200.0_wp)
+                  else
+                     gap(ix, iy) = gap(ix, iy) + 3.0e-5_wp*(y - 1.3_wp)**4
+                  end if
+               end do
+            end do
+            pn = pressure_of(pressure_model%kpec, grid, gap)
+            force(i) = sum(pn)*grid%dx*grid%dy
+         end do
+         write(what, '(A,I0,A,ES9.2,A)') "KPEC without jumps, series ", series, ": largest step", &
+            & maxval(abs(force(1:) - force(:n - 1)))/force(0), " of FN"
+         call suite%check(maxval(abs(force(1:) - force(:n - 1))) < 1.0e-3_wp*force(0), trim(what))
+      end do
+   end subroutine no_jumps
 
    !> Mirrored surfaces have mirrored pressures, on grids of odd and even size that are coarse, with humps of equal height, and
    !> wherever rounding puts the smallest gap
