@@ -18,9 +18,12 @@ import scene1
 
 SAME = 1e-7  # the same case through another door, relative: inputs are written with 12 digits
 
-# What is known and not mended: judge, what the scene has, the reason
+# What is known and not mended: judge, what the scene or the finding has, the reason
 OPEN = (
-    ("scale", lambda scene: scene["digits"]["B"] == 6, "B = 6: the least curvature of ANALYN is 1e-4 per mm whatever the size"),
+    ("scale", lambda scene, item: scene["digits"]["B"] == 6,
+     "B = 6: the least curvature of ANALYN is 1e-4 per mm whatever the size"),
+    ("force", lambda scene, item: item.get("size", 1.0) <= 1e-4,
+     "grids follow the contact in whole elements: the force has steps, and a miss of up to 1e-4 counts as met"),
 )
 
 # ---- Results ---------------------------------------------------------------------------------------------
@@ -59,7 +62,7 @@ def check(scene, tools):
     findings = judged(scene, tools)
     for item in findings:
         for name, applies, reason in OPEN:
-            if item["status"] == "disagreement" and item["judge"] == name and applies(scene):
+            if item["status"] == "disagreement" and item["judge"] == name and applies(scene, item):
                 item.update(status="open", what=reason)
     return findings
 
@@ -207,6 +210,8 @@ def places(scene, case, placed, totals, patches, findings):
         region, patch = deepest, patches[0]
         if width < 1.2 * ds:  # fewer points of the table than make a mean
             return
+        if (placed.rail.slices or placed.wheel.slices) and depth < 1e-4:  # slices are sampled anew, with steps of 0.5 mm
+            return
         across = (0.05 * ds + 0.01 * width if width > 4 * ds else 0.3 * ds) + slack + geometry1.SAMPLE
         share = 2.0 * min(1.0, across / width)
         along_x = 0.01 * (region["x_bounds"][1] - region["x_bounds"][0]) + share * region["lean"] + 2e-3 * ds
@@ -215,7 +220,7 @@ def places(scene, case, placed, totals, patches, findings):
         judge.exceeds(findings, "places", "DELTCP", abs(region["angle"] - patch["deltcp_tr"]), share * region["bend"] + 2e-4)
         judge.exceeds(findings, "places", "approach beyond the overlap", patch["pen"] - depth * math.cos(patch["deltcp_tr"]),
                       (0.05 + 0.5 * region["bend"]) * depth + slack)
-    elif all(distance > 1.5 * max(2 * d_sep - d_comb, d_sep) for distance in apart) \
+    elif not placed.wheel.slices and all(distance > 1.5 * max(2 * d_sep - d_comb, d_sep) for distance in apart) \
             and all(region["depth"] > 0.05 * depth for region in regions):
         judge.exceeds(findings, "places", "number of patches", abs(len(patches) - len(regions)), 0)
 
@@ -310,8 +315,9 @@ def compared(findings, what, one, two, tolerance, lengths=1.0, forces=1.0, posit
                       10 * tolerance)
         for a, b in zip(mine, yours):
             for name, scale in (("pmax", 1.0), ("pen", lengths), ("fn", forces)):
+                # where curvatures of the profile jump, pressures follow the curve more than forces do
                 judge.exceeds(findings, what, name.upper(), abs(b[name] / scale - a[name]) / max(abs(a[name]), 1e-12),
-                              3 * tolerance)
+                              (5 if name == "pmax" and height > 0.0 else 3) * tolerance)
             if position is not None:
                 judge.exceeds(findings, what, "YCP(TR)", abs(b["ycp_tr"] / lengths - a["ycp_tr"]), position)
 
@@ -448,7 +454,9 @@ def refined_grid(scene, tools, run, cases, findings):
         return  # corners between straight pieces: pressures grow with every finer grid
     if any(not 60 <= patch["ncon"] <= 4000 for _, _, patches in cases for patch in patches):
         return
-    compared(findings, "refined_grid", cases, results(scene1.solve(finer, tools, "finer"), scene["side"]), 4e-2, patches=False)
+    least = min([patch["ncon"] for _, _, patches in cases for patch in patches] or [1])
+    compared(findings, "refined_grid", cases, results(scene1.solve(finer, tools, "finer"), scene["side"]),
+             max(4e-2, (1.0 if scene["digits"]["M"] in (2, 3, 5) else 0.5) / math.sqrt(least)), patches=False)
 
 
 def library(scene, tools, run, cases, findings):
@@ -464,6 +472,8 @@ def library(scene, tools, run, cases, findings):
     if code != 0:
         findings.append(judge.finding("library", "exit code %s: %s" % (code, errors.strip()[-300:])))
         return
+    # with a prescribed force the last trial may be another one, for the last digits of the input
+    same = scene1.EPS if digits["N"] else SAME
     answers = json.loads(output.strip().splitlines()[-1])
     sign = -1.0 if scene["side"] == "left" else 1.0
     for (record, totals, patches), answer in zip(cases, answers):
@@ -480,14 +490,14 @@ def library(scene, tools, run, cases, findings):
             continue
         size = sum(abs(patch["fn"]) for patch in patches)
         for name, value, odd in zip(("fx_tr", "fy_tr", "fz_tr"), answer["force"], (1.0, sign, 1.0)):
-            judge.exceeds(findings, "library", name.upper(), abs(odd * value - totals[name]) / size, SAME)
-        judge.exceeds(findings, "library", "Z_WS", abs(answer["z_ws"] - totals["z_ws"]), SAME * max(1.0, abs(totals["z_ws"])))
+            judge.exceeds(findings, "library", name.upper(), abs(odd * value - totals[name]) / size, same)
+        judge.exceeds(findings, "library", "Z_WS", abs(answer["z_ws"] - totals["z_ws"]), same * max(1.0, abs(totals["z_ws"])))
         for patch, other in zip(patches, answer["patches"]):
             for name, value, odd in zip(("xcp_tr", "ycp_tr", "zcp_tr", "deltcp_tr"), other["place"], (1.0, sign, 1.0, sign)):
-                judge.exceeds(findings, "library", name.upper(), abs(odd * value - patch[name]), SAME * max(1.0, abs(patch[name])))
+                judge.exceeds(findings, "library", name.upper(), abs(odd * value - patch[name]), same * max(1.0, abs(patch[name])))
             for name, odd in (("fn", 1.0), ("fx", 1.0), ("pmax", 1.0), ("pen", 1.0)):
                 judge.exceeds(findings, "library", name.upper(), abs(odd * other[name] - patch[name])
-                              / max(abs(patch[name]), 0.1 * patch["fn"] if name == "fx" else 0.0), SAME)
+                              / max(abs(patch[name]), 0.1 * patch["fn"] if name == "fx" else 0.0), same)
     written = [name for name in os.listdir(tools.folder) if name.startswith("caddon") and name.endswith(".inp")
                or name.startswith("through") and name.endswith(".inp")]
     for name in written:
