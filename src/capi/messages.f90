@@ -279,7 +279,7 @@ contains
             if (present(shown)) label = word_of(shown, k)
          end if
          call describe_breach(trim(name), "", values(k), complaint, trim(label))
-         if (len(complaint) == 0) cycle
+         if (.not. allocated(complaint)) cycle
          fits = .false.
          if (size(values) > words .and. k >= words) complaint = "value " // integer_text(k) // ": " // complaint
          call complain(call_of, complaint // "; nothing is stored")

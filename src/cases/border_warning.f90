@@ -40,21 +40,24 @@ contains
       !> Grid in whose place a larger one was named last, which takes some milliseconds: not again until it changes
       type(potential_contact), intent(inout), optional :: advised
       character(len=:), allocatable :: text, places, enough
+      character(len=*), parameter :: cut_off = ": it is cut off, and pressures and forces are those of a smaller contact area"
+      character(len=*), parameter :: needed = ". A larger potential contact is needed"
 
       associate (border => result%border)
          if (.not. (any(border%side) .or. any(border%surface_end) .or. border%hidden)) return
          call border_words(spec, border, places)
-         text = "contact reaches " // places // ": it is cut off, and pressures and forces are those of a smaller contact area"
-         if (present(patch)) text = "contact patch " // integer_text(patch) // ": " // text
-         if (present(advised)) then
-            text = text // ". A larger potential contact is needed"
-            if (.not. is_same(advised, problem%grid)) then
-               call find_enough(spec, problem, result, enough)
-               text = text // enough
-               advised = problem%grid
-            end if
+         if (.not. present(advised)) then
+            text = "contact reaches " // places // cut_off
+            if (present(patch)) text = "contact patch " // integer_text(patch) // ": " // text
+            call log%warning(text)
+         else if (is_same(advised, problem%grid)) then
+            ! nothing more is built, as this may come with every case of a table
+            call log%warning("contact reaches " // places // cut_off // needed)
+         else
+            call find_enough(spec, problem, result, enough)
+            call log%warning("contact reaches " // places // cut_off // needed // enough)
+            advised = problem%grid
          end if
-         call log%warning(text)
       end associate
    end subroutine warn_of_border
 
@@ -73,29 +76,47 @@ contains
       type(border_contact), intent(in) :: border
       character(len=:), allocatable, intent(out) :: words
       character(len=5), parameter :: end_names(2) = ["inner", "outer"], body_names(2) = ["rail ", "wheel"]
-      character(len=:), allocatable :: sides, ends
+      character(len=300) :: text
       logical :: side(4)
-      integer :: body, k
+      integer :: body, k, length
 
       side = border%side
       if (allocated(spec%wheel_rail)) then
          if (spec%wheel_rail%left) side = side([1, 2, 4, 3])
       end if
-      sides = ""
-      do k = 1, 4
-         if (side(k)) sides = sides // ", " // trim(side_names(k))
-      end do
-      ends = ""
+      length = 0
+      if (any(side)) then
+         call add("the border of the potential contact (")
+         do k = 1, 4
+            if (.not. side(k)) cycle
+            call add(side_names(k)(:len_trim(side_names(k))))
+            if (any(side(k + 1:))) call add(", ")
+         end do
+         call add(")")
+      end if
       do body = 1, 2
          do k = 1, 2
-            if (border%surface_end(k, body)) ends = ends // ", the " // end_names(k) // " end of the " // &
-               & trim(body_names(body)) // " profile"
+            if (.not. border%surface_end(k, body)) cycle
+            if (length > 0) call add(", ")
+            call add("the " // end_names(k) // " end of the ")
+            call add(body_names(body)(:len_trim(body_names(body))))
+            call add(" profile")
          end do
       end do
-      if (border%hidden) ends = ends // ", a part of the profiles that cannot be seen from the plane of the contact"
-      words = ends
-      if (len(sides) > 0) words = ", the border of the potential contact (" // sides(3:) // ")" // ends
-      if (len(words) > 0) words = words(3:)
+      if (border%hidden) then
+         if (length > 0) call add(", ")
+         call add("a part of the profiles that cannot be seen from the plane of the contact")
+      end if
+      words = text(:length)
+
+   contains
+
+      subroutine add(piece)
+         character(len=*), intent(in) :: piece
+
+         text(length + 1:length + len(piece)) = piece
+         length = length + len(piece)
+      end subroutine add
    end subroutine border_words
 
    !> What would be large enough, where the geometry is known beyond the potential contact

@@ -116,7 +116,7 @@ contains
       else
          call describe_breach(value%name, value%word, value%r, complaint)
       end if
-      if (len(complaint) > 0) call self%add(severity%error, complaint, value%line, value%column)
+      if (allocated(complaint)) call self%add(severity%error, complaint, value%line, value%column)
    end subroutine check_bounds
 
    !> An integer must lie within bounds that depend on others, which are inclusive

@@ -100,6 +100,7 @@ contains
       type(log_type), intent(inout) :: log
       character(len=:), allocatable :: which
 
+      if (max(abs(result%cksi), abs(result%ceta)) <= 1.0_wp) return
       which = ""
       if (abs(result%cksi) > 1.0_wp) which = "CKSI = " // real_text(result%cksi)
       if (abs(result%ceta) > 1.0_wp .and. len(which) > 0) which = which // ", "

@@ -265,6 +265,8 @@ module contact_text_bounds
    !> All numbers, in the order in which the groups of a case come
    type(number_bounds), parameter :: bounds_table(*) = [solver_rows, motion_rows, friction_rows, material_rows, grid_rows, &
       & subsurface_rows, track_rows, wheel_rows]
+   !> The names one beside the other, to be searched
+   character(len=*), parameter :: names(*) = bounds_table%name
 
 contains
 
@@ -291,20 +293,27 @@ contains
    !> Row of exactly this name, 0 when there is none
    pure integer function row_of(name) result(row)
       character(len=*), intent(in) :: name
+      character(len=len(names)) :: whole
 
-      do row = 1, size(bounds_table)
-         if (bounds_table(row)%name == name) return
+      row = 0
+      if (len_trim(name) > len(whole)) return
+      whole = name
+      ! the first letter alone is compared without a call of the library
+      do row = 1, size(names)
+         if (names(row)(1:1) /= whole(1:1)) cycle
+         if (names(row) == whole) return
       end do
       row = 0
    end function row_of
 
-   !> "GG1 = 1e-30 is below its lower bound 1.00000E-05 N/mm2: from the softest gels ..."; "" when the bounds are kept
+   !> "GG1 = 1e-30 is below its lower bound 1.00000E-05 N/mm2: from the softest gels ..."
    subroutine describe_breach(name, word, value, complaint, shown)
       !> As in the input files
       character(len=*), intent(in) :: name
       !> The value as it was given, "" to write it anew
       character(len=*), intent(in) :: word
       real(wp), intent(in) :: value
+      !> Not allocated when the bounds are kept
       character(len=:), allocatable, intent(out) :: complaint
       !> Name in the complaint, where that is another one
       character(len=*), intent(in), optional :: shown
@@ -312,17 +321,16 @@ contains
       type(number_bounds) :: bounds
       integer :: row
 
-      complaint = ""
       row = bounds_of(name)
       if (row == 0) then
          complaint = name // " has no bounds in the table of this program, which is a fault of it"
          return
       end if
-      bounds = bounds_table(row)
-      if (ieee_is_finite(value) .and. value <= bounds%highest) then
-         if (value > bounds%lowest) return
-         if (value >= bounds%lowest .and. .not. bounds%is_open) return
+      if (ieee_is_finite(value) .and. value <= bounds_table(row)%highest) then
+         if (value > bounds_table(row)%lowest) return
+         if (value >= bounds_table(row)%lowest .and. .not. bounds_table(row)%is_open) return
       end if
+      bounds = bounds_table(row)
       who = name
       if (present(shown)) who = shown
       if (.not. ieee_is_finite(value)) then
@@ -371,6 +379,6 @@ contains
 
       if (allocated(error)) return
       call describe_breach(name, "", value, complaint, shown)
-      if (len(complaint) > 0) call fatal_error(error, complaint)
+      if (allocated(complaint)) call fatal_error(error, complaint)
    end subroutine check_number
 end module contact_text_bounds

@@ -85,6 +85,7 @@ contains
       character(len=:), allocatable :: complaint
 
       call describe_breach(name, "", value, complaint)
+      if (.not. allocated(complaint)) complaint = ""
       if (len(words) == 0) then
          call suite%check(len(complaint) == 0, name // " is accepted: " // complaint)
       else
