@@ -5,7 +5,7 @@ module contact_capi_physics
    use contact_base_kinds, only : wp
    use contact_capi_arguments, only : integer_of, integers_of, raised, real_of, reals_of
    use contact_capi_library, only : entry_type
-   use contact_capi_messages, only : complain, count_fits, fits, say
+   use contact_capi_messages, only : complain, count_fits, fits, say, warn
    use contact_capi_problem, only : library_problem
    use contact_capi_registry, only : enter, leave, scope
    use contact_cases_spec, only : case_spec, damping_spec, friction_set, heat_spec
@@ -22,6 +22,8 @@ module contact_capi_physics
 
    !> Smallest coefficient of friction, slope reduction factor [-], and modulus of a layer [N/mm2]
    real(wp), parameter :: least_value = 1.0e-6_wp
+   !> Coefficients of friction that differ by less, relative, are one number
+   real(wp), parameter :: same_friction = 1.0e-3_wp
    !> Smallest half-value slip velocity [mm/s]
    real(wp), parameter :: least_speed = 1.0e-4_wp
    !> Bodies with a smaller difference parameter need no outer iteration [-]
@@ -444,6 +446,9 @@ contains
          good = fits(this, "FSTAT", v)
          set%fstat = min(v(1), v(2))
          set%fkin = set%fstat
+         if (good .and. abs(v(1) - v(2)) > same_friction*abs(v(1))) call warn(this, "FSTAT = " // real_text(v(1)) // &
+            & " and FKIN = " // real_text(v(2)) // " differ; Coulomb friction has one coefficient: here the smaller one, " // &
+            & "in an input file FSTAT")
       case (2, 3, 4)
          v(1) = raised(v(1), least_value)
          v([3, 5]) = raised(v([3, 5])*velocity, least_speed)

@@ -242,7 +242,8 @@ contains
       select case (law)
       case (0)
          if (abs(v(1)%r - v(2)%r) > 1.0e-3_wp*abs(v(1)%r)) call problems%add(severity%warning, "FKIN = " // v(2)%word // &
-            & " differs from FSTAT; Coulomb friction uses FSTAT = " // v(1)%word // " only", v(2)%line, v(2)%column)
+            & " differs from FSTAT; Coulomb friction has one coefficient: in an input file FSTAT = " // v(1)%word // &
+            & ", by cntc_setFrictionMethod the smaller one", v(2)%line, v(2)%column)
          set%fstat = v(1)%r
          set%fkin = v(1)%r
       case (2, 3, 4)

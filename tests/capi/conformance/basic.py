@@ -323,6 +323,18 @@ def clamps():
         cntc.setflags(ire, icp, CNTC[flag], good)
         if ire == 1:
             same(cntc.calculate(ire, icp), 0, f"{flag} = {good} cures it")
+    # Coulomb friction has one coefficient, in the library the smaller one
+    for values, variation in (([0.3, 0.2], 0), ([0.2, 0.3], 0), ([2, 0.0, 0.2, 0.2, 1.0, 0.3, 0.2], 10)):
+        place = (1, 1) if variation == 0 else (2, -1)
+        cntc.setfrictionmethod(*place, variation, values)
+        code, text = last_error(*place)
+        check(code == 0 and "Warning" in text and "0.2" in text and "0.3" in text and "smaller" in text,
+              f"L = 0, {values}: {text}")
+    acting = cntc.getparameters(1, 1, 3)
+    close([acting["fstat"][0], acting["fkin"][0]], [0.2, 0.2], 1e-15, "the smaller coefficient acts")
+    for values in ([0.3, 0.3], [0.3, 0.30000001]):
+        cntc.setfrictionmethod(1, 1, 0, values)
+        same(last_error(1, 1), (0, ""), f"L = 0, {values} needs no word")
     # a good value that is clamped cures as well
     cntc.setflags(1, 1, CNTC["ic_inflcf"], 9)
     cntc.setflags(1, 1, [CNTC["ic_inflcf"], CNTC["ic_tang"]], [2, 9])

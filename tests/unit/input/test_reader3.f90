@@ -461,6 +461,7 @@ contains
 
       call wrong(suite, "6=0 0", "FSTAT = 0 is below its lower bound 1.00000E-06")
       call dubious(suite, "6=0.3 0.2", "FKIN = 0.2 differs from FSTAT")
+      call dubious(suite, "6=0.3 0.2", "in an input file FSTAT = 0.3, by cntc_setFrictionMethod the smaller one")
       call right(suite, "2=0222020|6=0.1 0.2 1.0 0.0 0.0;0.001 10")
       call wrong(suite, "2=0222020|6=-0.1 0.2 1.0 0.1 1.0;0.001 10", "FKIN = -0.1 is below")
       call wrong(suite, "2=0222020|6=0.1 -0.2 1.0 0.1 1.0;0.001 10", "FLIN1 = -0.2 is below")
