@@ -22,7 +22,7 @@ module contact_cases_coefficient_file
    implicit none (type, external)
    private
 
-   public :: read_coefficients
+   public :: read_coefficients, read_whole_table
 
    !> Numbers on a line of coefficients, and on a line that begins a matrix
    integer, parameter :: line_length = 11, heading_length = 3
@@ -46,17 +46,56 @@ contains
       type(log_type), intent(inout) :: log
       type(error_type), allocatable, intent(out) :: error
       integer :: matrices, mx, my
+      character(len=:), allocatable :: sizes
 
-      call read_heading(text, grid, matrices, mx, my, log, error)
+      call read_heading(text, [grid%dx, grid%dy], ["DX", "DY"], grid%my, matrices, mx, my, log, error)
       if (allocated(error)) return
+      sizes = text%file // " has influence coefficients for " // integer_text(mx) // " by " // integer_text(my) // &
+         & " elements, the case has " // integer_text(grid%mx) // " by " // integer_text(grid%my)
+      if (mx < grid%mx .or. my < grid%my) call log%warning(sizes // ": coefficients at larger distances are 0")
+      if (mx > grid%mx .or. my > grid%my) call log%warning(sizes // ": coefficients at larger distances are not used")
       ! with one column more than the grid has, for the shift of one element in steady rolling
       table%nx = grid%mx
       table%ny = grid%my - 1
       table%y_first = grid%y(1)
+      call fill_table(text, matrices, mx, my, gg, table, error)
+   end subroutine read_coefficients
+
+   !> Read all coefficients of a file with one matrix, for grids whose size is not known yet
+   subroutine read_whole_table(text, sides, gg, table, log, error)
+      type(input_lexer), intent(inout) :: text
+      !> Sides of the elements of wheel on rail, DX and DS [mm]
+      real(wp), intent(in) :: sides(2)
+      !> Combined modulus of rigidity [N/mm2]
+      real(wp), intent(in) :: gg
+      type(influence_table), intent(out) :: table
+      type(log_type), intent(inout) :: log
+      type(error_type), allocatable, intent(out) :: error
+      integer :: matrices, mx, my
+
+      call read_heading(text, sides, ["DX", "DS"], 0, matrices, mx, my, log, error)
+      if (allocated(error)) return
+      table%nx = mx
+      table%ny = my - 1
+      call fill_table(text, matrices, mx, my, gg, table, error)
+   end subroutine read_whole_table
+
+   !> The coefficients below the heading, for the offsets that a table is made for
+   subroutine fill_table(text, matrices, mx, my, gg, table, error)
+      type(input_lexer), intent(in) :: text
+      !> Number of matrices, columns and rows in the file
+      integer, intent(in) :: matrices, mx, my
+      !> Combined modulus of rigidity [N/mm2]
+      real(wp), intent(in) :: gg
+      !> With its range of offsets
+      type(influence_table), intent(inout) :: table
+      type(error_type), allocatable, intent(out) :: error
+
       table%fingerprint = text%fingerprint()
       if (real(table%nx + 1, wp)*(2*table%ny + 1)*9*matrices > most_coefficients) then
-         call fatal_error(error, "a grid of " // integer_text(grid%mx) // " by " // integer_text(grid%my) // " elements with " &
-            & // integer_text(matrices) // " matrices needs too many coefficients; accepted are 5e8", file=text%file)
+         call fatal_error(error, "a table for " // integer_text(table%nx) // " by " // integer_text(table%ny + 1) &
+            & // " elements with " // integer_text(matrices) // " matrices needs too many coefficients; accepted are 5e8", &
+            & file=text%file)
          return
       end if
       allocate(table%c(0:table%nx, -table%ny:table%ny, 9, matrices), source=0.0_wp)
@@ -66,21 +105,24 @@ contains
       if (allocated(error)) return
       table%c = table%c/gg
       ! beyond the last column of a file that just covers the grid: like 1/distance
-      if (mx == grid%mx) table%c(mx, :, :, :) = table%c(mx - 1, :, :, :)*(mx - 1)/mx
+      if (mx == table%nx) table%c(mx, :, :, :) = table%c(mx - 1, :, :, :)*(mx - 1)/mx
       ! odd in x
       table%c(0, :, [2, 4, 6, 8], :) = 0.0_wp
-   end subroutine read_coefficients
+   end subroutine fill_table
 
    !> The four groups above the coefficients
-   subroutine read_heading(text, grid, matrices, mx, my, log, error)
+   subroutine read_heading(text, sides, side_names, rows, matrices, mx, my, log, error)
       type(input_lexer), intent(inout) :: text
-      type(potential_contact), intent(in) :: grid
+      !> Sides of the elements of the case [mm], and what they are called
+      real(wp), intent(in) :: sides(2)
+      character(len=2), intent(in) :: side_names(2)
+      !> Rows of the grid; 0: patches are found and have none in advance
+      integer, intent(in) :: rows
       !> Number of matrices, rows and columns in the file
       integer, intent(out) :: matrices, mx, my
       type(log_type), intent(inout) :: log
       type(error_type), allocatable, intent(out) :: error
       type(input_value) :: v(4)
-      character(len=:), allocatable :: sizes
 
       matrices = 0
       mx = 0
@@ -88,7 +130,10 @@ contains
       call text%read_group("ii", "NMATRIX IACONVEX", v, error)
       if (allocated(error)) return
       matrices = v(1)%i
-      if (matrices /= 1) call accept(v(1), [grid%my], "1, or MY = ")
+      if (matrices /= 1 .and. rows > 0) call accept(v(1), [rows], "1, or MY = ")
+      if (matrices /= 1 .and. rows == 0) call fatal_error(error, "NMATRIX = " // integer_text(matrices) // " cannot be used: " // &
+         & "the rows of patches of wheel on rail are found and have no fixed place among matrices by row; accepted is 1, a " // &
+         & "file with one matrix, or C = 4 with D = 4", file=text%file, line=v(1)%line, column=v(1)%column)
       if (.not. allocated(error)) call accept(v(2), [1, 2])
       if (allocated(error)) return
       call log%line(" Influence coefficients from " // text%file // ", body " // integer_text(v(2)%i) // " (" &
@@ -102,15 +147,11 @@ contains
       if (.not. allocated(error)) call text%read_group("iirr", "MXFILE MYFILE DXFILE DYFILE", v, error)
       if (.not. allocated(error)) call accept_size(v(1))
       if (.not. allocated(error)) call accept_size(v(2))
-      if (.not. allocated(error)) call accept_side(v(3), grid%dx, "DX")
-      if (.not. allocated(error)) call accept_side(v(4), grid%dy, "DY")
+      if (.not. allocated(error)) call accept_side(v(3), sides(1), side_names(1))
+      if (.not. allocated(error)) call accept_side(v(4), sides(2), side_names(2))
       if (allocated(error)) return
       mx = v(1)%i
       my = v(2)%i
-      sizes = text%file // " has influence coefficients for " // integer_text(mx) // " by " // integer_text(my) // &
-         & " elements, the case has " // integer_text(grid%mx) // " by " // integer_text(grid%my)
-      if (mx < grid%mx .or. my < grid%my) call log%warning(sizes // ": coefficients at larger distances are 0")
-      if (mx > grid%mx .or. my > grid%my) call log%warning(sizes // ": coefficients at larger distances are not used")
 
    contains
 

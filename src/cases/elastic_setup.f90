@@ -4,19 +4,27 @@ module contact_cases_elastic_setup
    use contact_base_error, only : error_kind, error_type, fatal_error
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
-   use contact_cases_coefficient_file, only : read_coefficients
+   use contact_cases_coefficient_file, only : read_coefficients, read_whole_table
    use contact_cases_spec, only : case_spec
    use contact_elastic_material, only : combine
-   use contact_elastic_model, only : elastic_model
+   use contact_elastic_model, only : elastic_model, influence_table
    use contact_grid_potential_contact, only : potential_contact
    use contact_text_lexer, only : input_lexer
    implicit none (type, external)
    private
 
-   public :: set_coefficients, set_inclination, set_model
+   public :: kept_table, set_coefficients, set_inclination, set_model, update_table
 
    !> Thinner layers do not count [mm]
    real(wp), parameter :: thinnest_layer = 1.0e-10_wp
+
+   !> Influence coefficients from a file, kept from case to case
+   type :: kept_table
+      !> Unallocated: none were needed yet
+      type(influence_table), allocatable :: table
+      !> DX and DS [mm] and the modulus [N/mm2] for which the file was read
+      real(wp) :: key(3) = 0.0_wp
+   end type kept_table
 
 contains
 
@@ -90,9 +98,50 @@ contains
       type(log_type), intent(inout) :: log
       type(error_type), allocatable, intent(out) :: error
       type(input_lexer) :: text
-      character(len=:), allocatable :: file
 
       if (spec%kernel /= kernel_model%tabulated) return
+      call open_coefficients(spec, folder, text, error)
+      if (allocated(error)) return
+      allocate(model%tabulated)
+      call read_coefficients(text, grid, model%material%gg, model%tabulated, log, error)
+   end subroutine set_coefficients
+
+   !> Influence coefficients for wheel on rail, when the case wants them; a file that did not change is not read again
+   subroutine update_table(spec, folder, kept, log, error)
+      type(case_spec), intent(in) :: spec
+      !> As for set_coefficients
+      character(len=*), intent(in) :: folder
+      type(kept_table), intent(inout) :: kept
+      type(log_type), intent(inout) :: log
+      type(error_type), allocatable, intent(out) :: error
+      type(input_lexer) :: text
+      type(elastic_model) :: model
+      real(wp) :: key(3)
+
+      if (spec%kernel /= kernel_model%tabulated) return
+      call set_model(spec, model, error)
+      if (.not. allocated(error)) call open_coefficients(spec, folder, text, error)
+      if (allocated(error)) return
+      key = [spec%wheel_rail%search%dx, spec%wheel_rail%search%ds, model%material%gg]
+      if (allocated(kept%table)) then
+         if (kept%table%fingerprint == text%fingerprint() .and. all(abs(kept%key - key) <= 0.0_wp)) return
+         deallocate(kept%table)
+      end if
+      kept%key = key
+      allocate(kept%table)
+      call read_whole_table(text, key(1:2), key(3), kept%table, log, error)
+      if (allocated(error)) deallocate(kept%table)
+   end subroutine update_table
+
+   !> Find the file of coefficients of a case
+   subroutine open_coefficients(spec, folder, text, error)
+      type(case_spec), intent(in) :: spec
+      !> As for set_coefficients
+      character(len=*), intent(in) :: folder
+      type(input_lexer), intent(inout) :: text
+      type(error_type), allocatable, intent(out) :: error
+      character(len=:), allocatable :: file
+
       file = ""
       if (allocated(spec%material%cfname)) file = trim(spec%material%cfname)
       if (len(file) == 0) then
@@ -107,8 +156,5 @@ contains
          file = folder // file
       end if
       call text%open_file(file, error)
-      if (allocated(error)) return
-      allocate(model%tabulated)
-      call read_coefficients(text, grid, model%material%gg, model%tabulated, log, error)
-   end subroutine set_coefficients
+   end subroutine open_coefficients
 end module contact_cases_elastic_setup

@@ -8,12 +8,14 @@ module contact_cases_pair_session
    use contact_base_memory, only : bytes_per_element, require_memory
    use contact_cases_border_warning, only : warn_of_border
    use contact_cases_effects, only : name_effects
-   use contact_cases_elastic_setup, only : set_model
+   use contact_cases_elastic_setup, only : kept_table, set_model, update_table
    use contact_cases_friction_setup, only : parameters_of, set_friction, set_thermal
    use contact_cases_patch_setup, only : set_method, set_simplified_theory, set_yield_limit
    use contact_cases_session, only : refuse_nonsense
    use contact_cases_spec, only : case_spec
    use contact_cases_subsurface, only : subsurface_stresses, warn_of_steps
+   use contact_elastic_model, only : influence_table
+   use contact_grid_potential_contact, only : potential_contact
    use contact_patch_damping, only : damping_law
    use contact_patch_result, only : patch_result
    use contact_profile_curve, only : profile_curve
@@ -29,7 +31,7 @@ module contact_cases_pair_session
    implicit none (type, external)
    private
 
-   public :: pair_session, check_profiles, load_profile, release_pair_session, solve_pair_case
+   public :: pair_session, check_files, load_profile, release_pair_session, solve_pair_case
 
    !> Memory of one wheel on one rail
    type :: pair_session
@@ -37,6 +39,8 @@ module contact_cases_pair_session
       type(pair_memory) :: memory
       !> Profiles that were used so far
       type(profile_store) :: profiles
+      !> Influence coefficients from a file
+      type(kept_table) :: coefficients
    end type pair_session
 
 contains
@@ -90,6 +94,7 @@ contains
                & real_text(contact%grid%dy) // " mm instead of DX x DS = " // real_text(search%dx) // " x " // &
                & real_text(search%ds) // " mm, because there are at most NPOT_MAX = " // &
                & integer_text(spec%iteration%npot_max))
+            if (spec%solve) call warn_of_small_table(session%problem%template%model%tabulated, contact%grid, k, log)
             if (allocated(contact%subsurface)) deallocate(contact%subsurface)
             if (spec%stress /= stress_choice%none) &
                & call subsurface_stresses(spec, contact, error, spec%wheel_rail%left)
@@ -99,6 +104,22 @@ contains
          if (allocated(error)) return
       end do
    end subroutine solve_and_describe
+
+   !> Tell that a patch has more elements than a table of influence coefficients
+   subroutine warn_of_small_table(table, grid, number, log)
+      !> Unallocated: half-spaces
+      type(influence_table), allocatable, intent(in) :: table
+      type(potential_contact), intent(in) :: grid
+      !> Number of the patch
+      integer, intent(in) :: number
+      type(log_type), intent(inout) :: log
+
+      if (.not. allocated(table)) return
+      if (grid%mx <= table%nx .and. grid%my <= table%ny + 1) return
+      call log%warning("patch " // integer_text(number) // " has " // integer_text(grid%mx) // " by " // integer_text(grid%my) &
+         & // " elements, the file of influence coefficients only " // integer_text(table%nx) // " by " // &
+         & integer_text(table%ny + 1) // ": coefficients at larger distances are 0")
+   end subroutine warn_of_small_table
 
    !> Points of the profiles in track coordinates: the rail at the wheelset, the wheel at its lowest meridian
    subroutine keep_profiles(session, result)
@@ -144,8 +165,9 @@ contains
       end if
    end subroutine check_combinations
 
-   !> Read and prepare the profiles of a case without solving it, and see whether they fit the nominal radii
-   subroutine check_profiles(session, spec, folder, log, error)
+   !> Read and prepare the files of a case without solving it: profiles, which must fit the nominal radii, and influence
+   !> coefficients
+   subroutine check_files(session, spec, folder, log, error)
       type(pair_session), intent(inout) :: session
       !> Complete specification of a case of module 1
       type(case_spec), intent(in) :: spec
@@ -175,7 +197,8 @@ contains
                &of the profile, " // real_text(-minval(problem%wheel%z%nodes())) // " mm: it would reach beyond the axle")
          end if
       end associate
-   end subroutine check_profiles
+      if (.not. allocated(error)) call update_table(spec, folder, session%coefficients, log, error)
+   end subroutine check_files
 
    !> From the specification to the problem of the pair
    subroutine set_pair(session, spec, folder, log, error)
@@ -189,7 +212,7 @@ contains
 
       associate (problem => session%problem, template => session%problem%template)
          problem%spec = spec%wheel_rail
-         call check_profiles(session, spec, folder, log, error)
+         call check_files(session, spec, folder, log, error)
          if (allocated(error)) return
          problem%force_prescribed = spec%normal == normal_control%force
          problem%geometry_only = .not. spec%solve
@@ -202,6 +225,7 @@ contains
          call require_memory(int(spec%iteration%npot_max, long), bytes_per_element, "elements, as many as are allowed,", error)
          if (.not. allocated(error)) call set_model(spec, template%model, error)
          if (allocated(error)) return
+         if (spec%kernel == kernel_model%tabulated) template%model%tabulated = session%coefficients%table
          if (allocated(problem%relaxation)) deallocate(problem%relaxation)
          if (spec%material_model == material_model%viscoelastic) problem%relaxation = relaxing_bodies( &
             & spec%material%poiss, spec%material%gg, spec%material%fg, spec%material%tc)

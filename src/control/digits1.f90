@@ -43,6 +43,7 @@ module contact_control_digits1
       & digit_row("C", 2, kernel_model%piecewise_constant, .true., "half-space, piecewise constant; read materials"), &
       & digit_row("C", 3, kernel_model%bilinear, .true., "half-space with bilinear tractions"), &
       & digit_row("C", 4, kernel_model%conformal, .true., "half-space with angle correction for conformal contact"), &
+      & digit_row("C", 9, kernel_model%tabulated, .true., "numerical influence coefficients from a file"), &
       & digit_row("Z", 0, 0, .true., "keep track and rail"), &
       & digit_row("Z", 1, 1, .true., "read the track dimensions"), &
       & digit_row("Z", 2, 2, .true., "read the deviations of the rail"), &

@@ -9,13 +9,13 @@
 module contact_experiment_run
    use omp_lib, only : omp_get_max_threads, omp_set_num_threads
    use contact_base_case_status, only : case_state, case_status
-   use contact_base_choices, only : heat_source
+   use contact_base_choices, only : heat_source, kernel_model
    use contact_base_error, only : add_context, error_kind, error_type, fatal_error, full_text
    use contact_base_kinds, only : wp
    use contact_base_limits, only : case_limits, wall_clock
    use contact_base_log, only : log_type
    use contact_cases_estimate, only : case_cost, cost_text, estimate_cost
-   use contact_cases_pair_session, only : check_profiles, solve_pair_case
+   use contact_cases_pair_session, only : check_files, solve_pair_case
    use contact_cases_session, only : check_case, solve_case
    use contact_cases_slot, only : open_contact, open_pair, problem_slot, release_slot
    use contact_cases_spec, only : case_spec
@@ -206,9 +206,10 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       if (allocated(given%wheel_rail)) then
-         if (.not. (given%wheel_rail%new_rail_profile .or. given%wheel_rail%new_wheel_profile)) return
+         if (.not. (given%wheel_rail%new_rail_profile .or. given%wheel_rail%new_wheel_profile &
+            & .or. given%kernel == kernel_model%tabulated)) return
          call open_pair(slot)
-         call check_profiles(slot%pair, given, state%place%folder, state%log, error)
+         call check_files(slot%pair, given, state%place%folder, state%log, error)
       else
          call open_contact(slot)
          call check_case(slot%session, given, state%log, slot%result, error, state%place%folder)

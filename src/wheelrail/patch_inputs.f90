@@ -63,6 +63,7 @@ contains
          slot%window = place_on_lattice(slot%problem%grid, [0.0_wp, 0.0_wp])
       end if
       call check_size(problem, slot%problem%grid, error)
+      if (.not. allocated(error)) call check_sides(problem, slot%problem%grid, error)
       if (allocated(error)) return
       if (follows_surface(problem)) then
          call follow_surface(problem, here, rail, slot, h, approach)
@@ -99,6 +100,25 @@ contains
          & problem%most_elements, "; larger elements DX and DS, a larger NPOT_MAX, or stiffer bodies"
       call fatal_error(error, trim(text), error_kind%input)
    end subroutine check_size
+
+   !> Refuse elements that NPOT_MAX makes larger than those of a table of influence coefficients
+   subroutine check_sides(problem, grid, error)
+      type(pair_problem), intent(in) :: problem
+      type(potential_contact), intent(in) :: grid
+      type(error_type), allocatable, intent(out) :: error
+      !> Relative
+      real(wp), parameter :: same = 1.0e-6_wp
+      character(len=280) :: text
+
+      if (.not. allocated(problem%template%model%tabulated)) return
+      associate (search => problem%spec%search)
+         if (abs(grid%dx - search%dx) <= same*search%dx .and. abs(grid%dy - search%ds) <= same*search%ds) return
+      end associate
+      write(text, '(A, F0.4, A, F0.4, A, I0, A)') "a contact patch needs larger elements than DX x DS, ", grid%dx, " x ", &
+         & grid%dy, " mm, because of NPOT_MAX = ", problem%most_elements, ", but influence coefficients from a file " // &
+         & "(C = 9) hold for DX x DS only; a larger NPOT_MAX, or a file for larger elements"
+      call fatal_error(error, trim(text), error_kind%input)
+   end subroutine check_sides
 
    !> Undeformed distance of a flat patch, on a grid that holds all of the overlap
    !>

@@ -9,6 +9,7 @@ import math
 import os
 import random
 import re
+import shutil
 import subprocess
 import tempfile
 import unittest
@@ -312,6 +313,105 @@ class Statements(Case):
         """M = 1: the search for the height uses the stiffness of the contact; how accurate that is is its own affair"""
         _, out = self.solve(self.case(mater=1, physics=" 0.5 0.5 0.0001 0.0001\n"))
         self.assertNotIn("sensitivities", out)
+
+
+# ---- Coefficients from a file (C = 9) ----------------------------------------------------------------
+def halfspace_table(path, mx, my, dx, dy, nu=0.28, matrices=1):
+    """Write the coefficients of two equal half-spaces, from the closed integrals over a rectangle, to a file"""
+    def over_element(primitive, x, y):
+        return sum(sx*sy*primitive(x + sx*dx/2, y + sy*dy/2) for sx in (-1, 1) for sy in (-1, 1))
+
+    with open(path, "w") as file:
+        file.write(" %d 1\n 0 312\n 1 0\n %d %d %.6f %.6f\n" % (matrices, mx, my, dx, dy))
+        for iy in range(1 - my, my):
+            file.write("% offset in y\n% of the rows below\n")
+            for ix in range(mx):
+                x, y = ix*dx, iy*dy
+                along = over_element(lambda a, b: b*math.log(a + math.hypot(a, b)), x, y)    # of x^2/r^3
+                across = over_element(lambda a, b: a*math.log(b + math.hypot(a, b)), x, y)   # of y^2/r^3
+                mixed = over_element(lambda a, b: -math.hypot(a, b), x, y)                   # of x y/r^3
+                normal = (1 - nu)*(along + across)
+                values = [normal, 0, 0, 0, normal + nu*along, nu*mixed, 0, nu*mixed, normal + nu*across]
+                file.write(" %d %.4f %s\n" % (ix, x, " ".join("%.15e" % (value/math.pi) for value in values)))
+
+
+class Tables(Case):
+    """Coefficients of half-spaces that stand in a file give what half-spaces give"""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.stored = tempfile.TemporaryDirectory()
+        halfspace_table(os.path.join(cls.stored.name, "half.txt"), 70, 90, 0.5, 0.5)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.stored.cleanup()
+
+    def pair(self, table=None, solver="10 1e-8", search="90d 8 4", cant=0.025, fz=20000.0, **values):
+        """The case with half-spaces, or with a file in place of them"""
+        text = self.case(fz=fz, **values).replace(" 999 100 30 1 1e-5", " 999 100 30 " + solver).replace("90d 8 4", search)
+        text = text.replace(" 14 0 1435 0.025", " 14 0 1435 %g" % cant)
+        if table is None:
+            return text
+        location = " 00%d" % values.get("location", 2)
+        return text.replace(location + "20", location + "90").replace(" 0.28 0.28", " '%s'\n 0.28 0.28" % table)
+
+    def check(self, count, **values):
+        shutil.copy(os.path.join(self.stored.name, "half.txt"), self.folder)
+        given = self.pair("half.txt", **values)
+        (flat, table, again), out = self.solve(self.pair(**values), given, given)
+        self.assertEqual([len(result["patches"]) for result in (flat, table, again)], [count]*3)
+        self.assertEqual(out.count("Influence coefficients from"), 1, "the file is read once")
+        self.assertIn("tabulated influence coefficients", out)
+        # what the force search leaves, relative to the load and to levers of 100 mm
+        for a, b in [(flat, table)] + list(zip(flat["patches"], table["patches"])):
+            for name, item in a["totals"].items():
+                scale = {"N": 6e4, "N mm": 6e6}.get(item.get("unit") if isinstance(item, dict) else None)
+                if scale:
+                    self.assertAlmostEqual(b["totals"][name]["value"]/scale, item["value"]/scale, delta=1e-7, msg=name)
+
+    def test_one_patch(self):
+        for values in (dict(), dict(location=3, yaw=0.01), dict(location=4, side=0), dict(location=5, tang=2)):
+            with self.subTest(**values):
+                self.check(1, **values)
+
+    def test_two_patches(self):
+        self.check(2, y=5.5, search="0.2 2 1", cant=0.05, fz=60000.0)
+
+    def refused(self, *phrases, **values):
+        """Both where cases are solved and where they are only checked"""
+        for mode in ("2", "3"):
+            with open(os.path.join(self.folder, "x.inp"), "w") as file:
+                file.write(self.pair("half.txt", **values) + "\n 0 MODULE\n")
+            run = subprocess.run([PROGRAM, mode, "x"], cwd=self.folder, stdin=subprocess.DEVNULL, capture_output=True, text=True,
+                                 timeout=60)
+            self.assertNotEqual(run.returncode, 0)
+            for phrase in phrases:
+                self.assertIn(phrase, run.stdout + run.stderr)
+
+    def test_refused_files(self):
+        path = os.path.join(self.folder, "half.txt")
+        self.refused("half.txt", "cannot be opened")
+        halfspace_table(path, 5, 5, 0.4, 0.5)
+        self.refused("half.txt:4:", "DXFILE = 0.4 mm cannot be used; accepted is DX = 0.5 mm")
+        halfspace_table(path, 5, 5, 0.5, 0.4)
+        self.refused("half.txt:4:", "DYFILE = 0.4 mm cannot be used; accepted is DS = 0.5 mm")
+        halfspace_table(path, 5, 5, 0.5, 0.5, matrices=3)
+        self.refused("half.txt:1:", "NMATRIX = 3 cannot be used", "no fixed place", "one matrix")
+
+    def test_sizes(self):
+        """Small files are told, elements that NPOT_MAX enlarges are refused"""
+        path = os.path.join(self.folder, "half.txt")
+        halfspace_table(path, 12, 10, 0.5, 0.5)
+        _, out = self.solve(self.pair("half.txt"))
+        self.assertRegex(out, r"patch 1 has \d+ by \d+ elements, the file of influence coefficients only 12 by 10: coefficients")
+        with open(os.path.join(self.folder, "x.inp"), "w") as file:
+            file.write(self.pair("half.txt", solver="10 1e-9 200") + "\n 0 MODULE\n")
+        run = subprocess.run([PROGRAM, "2", "x"], cwd=self.folder, stdin=subprocess.DEVNULL, capture_output=True, text=True,
+                             timeout=60)
+        self.assertNotEqual(run.returncode, 0)
+        self.assertIn("because of NPOT_MAX = 200, but influence coefficients from a file (C = 9) hold for DX x DS only",
+                      run.stdout + run.stderr)
 
 
 if __name__ == "__main__":
