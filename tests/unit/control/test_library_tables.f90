@@ -95,20 +95,20 @@ contains
       call suite%check(abs(outward(units, quantity%force, along, left) - sign) <= 0.0_wp, what)
    end subroutine expect_sign
 
-   !> Values out of range are not stored
+   !> Values out of range: the nearest one where that is documented, else nothing is stored
    subroutine ranges(suite)
       type(test_suite), intent(inout) :: suite
 
-      call expect_range(suite, flag%tang, 9, 3, -1)
-      call expect_range(suite, flag%tang, -1, 3, -1)
-      call expect_range(suite, flag%matfil, 9, 3, -1)
+      call expect_range(suite, flag%tang, 9, 3, 3)
+      call expect_range(suite, flag%tang, -1, 3, 0)
+      call expect_range(suite, flag%matfil, 9, 3, 0)
       call expect_range(suite, flag%sbsout, 3, 3, 2)
-      call expect_range(suite, flag%sbsout, 9, 3, -1)
-      call expect_range(suite, flag%config, 7, 1, -1)
+      call expect_range(suite, flag%sbsout, 9, 3, 4)
+      call expect_range(suite, flag%config, 7, 1, 5)
       call expect_range(suite, flag%force, 3, 1, 3)
-      call expect_range(suite, flag%force, 3, 3, -1)
-      call expect_range(suite, flag%ifvari, 0, 3, -1)
-      call expect_range(suite, flag%npomax, 7, 1, -1)
+      call expect_range(suite, flag%force, 3, 3, 2)
+      call expect_range(suite, flag%ifvari, 0, 3, 1)
+      call expect_range(suite, flag%npomax, 7, 1, 100)
       call expect_range(suite, flag%output, 6, 3, 6)
       call expect_range(suite, flag%inflcf, 9, 3, -1)
       call expect_range(suite, flag%units, 1, 3, -1)
