@@ -27,6 +27,8 @@ contains
       result%grid = potential_contact(mx=4, my=3, xl=-2.0_wp, yl=-1.5_wp, dx=1.0_wp, dy=1.0_wp)
       allocate(result%pn(4, 3), source=1.0_wp)
       allocate(result%px(4, 3), result%py(4, 3), source=0.0_wp)
+      allocate(result%division(4, 3), source=1)
+      result%ncon = 12
       call subsurface_stresses(spec, result, error)
       call suite%check(.not. allocated(error) .and. .not. allocated(result%subsurface), "no blocks: no results")
 
