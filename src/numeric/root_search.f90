@@ -29,6 +29,8 @@ module contact_numeric_root_search
       integer :: evaluations = 0
       !> Intervals this short count as a point; set it after the start
       real(wp) :: resolution = 0.0_wp
+      !> Shorter steps than this tell nothing of a saturated function; set it after the start
+      real(wp) :: reach = 0.0_wp
       !> Two points with values of different sign once bracketed; before, the last one is a
       real(wp), private :: a = 0.0_wp, fa = 0.0_wp, b = 0.0_wp, fb = 0.0_wp
       real(wp), private :: step = 1.0_wp, tolerance = 0.0_wp
@@ -62,6 +64,7 @@ contains
       self%step = max(step, tiny(x))
       self%tolerance = tolerance
       self%resolution = 0.0_wp
+      self%reach = 0.0_wp
    end subroutine start
 
    !> Take the value of the function at x, and think of the next question
@@ -102,11 +105,14 @@ contains
             call next_inside(self)
             return
          end if
-         if (saturated .and. abs(f) > abs(self%fa) - 0.1_wp*self%tolerance) then
-            self%finished = .true.
-            return
-         end if
          self%step = growth*self%step
+         if (saturated .and. abs(f) > abs(self%fa) - 0.1_wp*self%tolerance) then
+            if (abs(self%x - self%a) >= 0.5_wp*self%reach) then
+               self%finished = .true.
+               return
+            end if
+            self%step = max(self%step, self%reach)
+         end if
       end if
       self%a = self%x
       self%fa = f

@@ -7,6 +7,7 @@ module contact_wheelrail_pitch_rate
    use contact_base_log, only : log_type
    use contact_grid_element_division, only : element
    use contact_numeric_root_search, only : root_search
+   use contact_patch_result, only : patch_result
    use contact_wheelrail_gap, only : roller_drop
    use contact_wheelrail_geometry, only : measure
    use contact_wheelrail_height, only : out_of_sight, settle, small_step
@@ -17,6 +18,9 @@ module contact_wheelrail_pitch_rate
    private
 
    public :: search_pitch_rate
+
+   !> A change of the creepage by less than this part of the slip does not tell whether friction can do more [-]
+   real(wp), parameter :: part_of_slip = 0.5_wp
 
 contains
 
@@ -47,6 +51,8 @@ contains
          call search%start(memory%here%pitch_rate, 1.1_wp*abs(residual)/slope, tolerance)
          moving = maxval(memory%slot(:memory%used)%motion%veloc)/memory%here%placement%wheel_radius
          search%resolution = 1.0e-10_wp*moving
+         ! where the spin turns the slip another way at each place, the force changes although all slides
+         search%reach = part_of_slip*largest_slip(memory)*moving
          do
             call search%answer(residual, slides_fully(memory) .and. friction_along(memory)*residual > 0.0_wp)
             if (search%finished) exit
@@ -106,6 +112,13 @@ contains
       end associate
    end subroutine roll_at_contact
 
+   !> Radius of a circle as large as the contact area [mm]
+   pure real(wp) function contact_radius(contact)
+      type(patch_result), intent(in) :: contact
+
+      contact_radius = sqrt(contact%ncon*contact%grid%dx*contact%grid%dy/pi)
+   end function contact_radius
+
    !> Order of magnitude of the change of the longitudinal force with the pitch rate, without slip [N s/rad]
    !>
    !> A contact area pi a**2 holds 2.5 G a per mm of rigid displacement, which comes about in a shift, in a
@@ -118,7 +131,7 @@ contains
       slope = 0.0_wp
       do k = 1, memory%used
          associate (patch => memory%slot(k)%problem, contact => memory%slot(k)%result)
-            a = sqrt(contact%ncon*patch%grid%dx*patch%grid%dy/pi)
+            a = contact_radius(contact)
             length = 1.0_wp
             if (patch%motion == motion%transient_rolling) length = patch%dq
             if (patch%motion == motion%steady_rolling) length = a
@@ -127,6 +140,19 @@ contains
          end associate
       end do
    end function force_per_pitch_rate
+
+   !> Order of magnitude of the largest slip in the contact, relative to the rolling velocity [-]
+   pure real(wp) function largest_slip(memory) result(slip)
+      type(pair_memory), intent(in) :: memory
+      integer :: k
+
+      slip = 0.0_wp
+      do k = 1, memory%used
+         associate (contact => memory%slot(k)%result)
+            slip = max(slip, norm2([contact%cksi, contact%ceta]) + abs(contact%cphi)*contact_radius(contact))
+         end associate
+      end do
+   end function largest_slip
 
    !> Force of friction on the rail along the wheelset's x axis [N]
    pure real(wp) function friction_along(memory) result(force)

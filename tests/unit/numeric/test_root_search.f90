@@ -62,5 +62,19 @@ contains
          call search%answer(1.0_wp, .false.)
       end do
       call suite%check(.not. search%found, "a constant has no root")
+
+      ! all of the function counts as saturated, and the first steps are too short to tell how it goes on
+      call search%start(0.0_wp, 1.0e-7_wp, 1.0e-6_wp)
+      search%reach = 1.0_wp
+      do while (.not. search%finished)
+         call search%answer(0.1_wp*(2.0_wp - search%x), .true.)
+      end do
+      call suite%check(search%found .and. search%evaluations < 15, "a walk in short steps goes on where the function still falls")
+      call search%start(0.0_wp, 1.0e-7_wp, 1.0e-6_wp)
+      search%reach = 1.0_wp
+      do while (.not. search%finished)
+         call search%answer(1.0_wp, .true.)
+      end do
+      call suite%check(.not. search%found .and. search%evaluations == 3, "a saturated constant is known after one long step")
    end subroutine without_root
 end program test_root_search
