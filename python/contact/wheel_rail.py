@@ -11,6 +11,8 @@ from numpy.typing import ArrayLike
 from . import cntc
 from ._element import Element, Field, Patch, Stresses, fail_if, read_patch, read_stresses, warn_of_border
 
+# Values of the flag own_angle
+_ANGLES = {"established": 0, "contact": 1}
 _SIDES = {("left", False): 0, ("right", False): 1, ("left", True): 4, ("right", True): 5}
 
 
@@ -100,18 +102,23 @@ class WheelRail(Element):
         Whether the wheel runs on a roller.
     motion, units
         As for :class:`contact.Problem`.
+    contact_angle
+        On rails that vary along the track: ``"contact"``, the angle of wheel and rail where they touch, or
+        ``"established"``, that of the rail's section below the axle, as the established program takes it.
     """
 
     _module = 1
     _icp = -1
 
     def __init__(self, side: str = "right", *, roller: bool = False, motion: str = "steady",
-                 units: str = "mm") -> None:
+                 units: str = "mm", contact_angle: str = "contact") -> None:
         if (side, roller) not in _SIDES:
             raise ValueError(f"side = {side!r} is neither 'left' nor 'right'")
+        if contact_angle not in _ANGLES:
+            raise ValueError(f"contact_angle = {contact_angle!r} is none of {', '.join(_ANGLES)}")
         super().__init__(motion, units)
         self.side = side
-        self.set_flags(ic_config=_SIDES[side, roller])
+        self.set_flags(ic_config=_SIDES[side, roller], own_angle=_ANGLES[contact_angle])
 
     def set_grid(self, dx: float, ds: float, *, a_sep: float = np.pi / 2, d_sep: float | None = None,
                  d_comb: float | None = None, step: float = 1.0) -> None:

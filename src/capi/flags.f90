@@ -176,6 +176,8 @@ contains
             problem%write_input = number
          case (flag%own_heat)
             spec%heat%source = number
+         case (flag%own_angle)
+            if (is_pair) spec%wheel_rail%search%angle_below_axle = number == 0
          case (flag%timers)
             call set_timer_level(number)
          case (flag%ncase)
@@ -240,6 +242,9 @@ contains
          case (flag%wrtinp); number = problem%write_input
          case (flag%ncase); number = problem%cases
          case (flag%own_heat); number = spec%heat%source
+         case (flag%own_angle)
+            number = 0
+            if (is_pair) number = merge(0, 1, spec%wheel_rail%search%angle_below_axle)
          case (flag%own_border); number = border_of(problem, icp)
          case (flag%own_stepped); number = stepped_points_of(problem, icp)
          case default; number = digit_value(spec%digits, trim(flag_table(row_of_flag(code))%digit))

@@ -55,6 +55,8 @@ module contact_cli_arguments
       logical :: vtk = .false.
       !> Member of heat_source
       integer :: heat_source = heat_source%established
+      !> Contact angles as in the established program?
+      logical :: angle_below_axle = .true.
       !> What a case may take
       type(case_limits) :: limits
       !> Exit with a status of its own when a case does not converge?
@@ -119,6 +121,7 @@ contains
       settings%exports%hdf5 = asked%hdf5
       settings%exports%vtk = asked%vtk
       settings%heat_source = asked%heat_source
+      settings%angle_below_axle = asked%angle_below_axle
       if (allocated(asked%json)) settings%exports%json = asked%json
       if (.not. asked%quiet) then
          settings%screen = output_unit
@@ -205,6 +208,13 @@ contains
             call fatal_error(error, "the way to compute temperatures, '" // value // &
                & "', is not known; established and moving-source are")
          end select
+         return
+      case ("--contact-angle")
+         call take_value("where contact angles are taken: established or contact")
+         if (allocated(error)) return
+         asked%angle_below_axle = value == "established"
+         if (value /= "contact" .and. value /= "established") call fatal_error(error, "the contact angle, '" // value // &
+            & "', is not known; established and contact are")
          return
       case ("--limit-time", "--limit-memory", "--limit-elements")
          call take_limit()
@@ -368,6 +378,8 @@ contains
          & "  --threads N       number of threads; default is OMP_NUM_THREADS or all processors", &
          & "  --heat NAME       surface temperatures: established, as the established program (default), or", &
          & "                    moving-source, without counting the heat of an element twice at its centre", &
+         & "  --contact-angle NAME  on rails that vary along the track: established, of the section below the axle", &
+         & "                    (default), or contact, of wheel and rail where they touch", &
          & "  --hdf5            write inputs, totals and fields of all cases to EXPNAM.h5", &
          & "  --json            write the totals of every case as JSON lines to EXPNAM.jsonl; --json=- writes", &
          & "                    them to the standard output, and nothing else", &

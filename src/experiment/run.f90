@@ -72,6 +72,8 @@ module contact_experiment_run
       type(export_request) :: exports
       !> How temperatures are computed, member of heat_source
       integer :: heat_source = heat_source%established
+      !> Contact angles on rails that vary along the track: of the section below the axle, as in the established program?
+      logical :: angle_below_axle = .true.
    end type run_settings
 
    !> The problem of one result element and contact patch
@@ -288,6 +290,7 @@ contains
          end if
          state%cases = state%cases + 1
          this%spec%heat%source = settings%heat_source
+         if (allocated(this%spec%wheel_rail)) this%spec%wheel_rail%search%angle_below_axle = settings%angle_below_axle
          if (this%spec%output_level > 0 .or. this%spec%mat_file > 0 .or. this%spec%digits%s > 0) state%silent = .false.
          this%spec%limits = settings%limits
          call this%spec%limits%deadline%start()

@@ -43,6 +43,8 @@ module contact_wheelrail_bodies
       type(strip), allocatable :: rail_strip
       !> Sections of a wheel that is out of round, in its own coordinates, by the angle from its bottom
       type(strip), allocatable :: wheel_strip
+      !> See search_spec
+      logical :: angle_below_axle = .false.
    end type pair_bodies
 
    !> Distance of sections along the surface at most [mm]

@@ -108,6 +108,7 @@ contains
          here%bodies%rail = here%rail_in_track
          here%bodies%wheel = problem%wheel
          here%bodies%placement = here%placement
+         here%bodies%angle_below_axle = problem%spec%search%angle_below_axle
          call place_bodies(here%bodies, problem%spec%wheelset%s, problem%spec%wheelset%pitch, &
             & problem%spec%search%dx, problem%rail_surface, problem%wheel_surface)
       end if

@@ -45,6 +45,9 @@ module contact_wheelrail_spec
       real(wp) :: g_miss = -1.0_wp
       !> Power of the interpenetration in the weights of the contact reference
       integer :: weight_power = 2
+      !> Contact angle on a rail that varies: of the section below the axle, as the established program takes it, instead of the
+      !> section at the contact? Not part of the input file
+      logical :: angle_below_axle = .true.
    end type search_spec
 
    !> Track or roller rig, and the place of the rail in it (Z)

@@ -5,11 +5,12 @@ module contact_wheelrail_trial
    use contact_base_log, only : log_type
    use contact_patch_problem, only : patch_state
    use contact_wheelrail_carry_over, only : lattice_box, lattice_window
-   use contact_wheelrail_geometry, only : box_on_lattice, learned_share, measure, most_patches, place
+   use contact_wheelrail_geometry, only : box_on_lattice, learned_share, measure, most_patches, pair_geometry, place
    use contact_wheelrail_memory, only : pair_memory, patch_slot
    use contact_wheelrail_patch_solution, only : solve_slot
    use contact_wheelrail_problem, only : pair_problem
    use contact_wheelrail_regions, only : contact_region, find_regions
+   use contact_wheelrail_variable, only : turn_of_rail
    implicit none (type, external)
    private
 
@@ -67,10 +68,34 @@ contains
             return
          end if
          call warn_beyond_slices(problem, memory%slot(k), name, log)
+         call warn_of_angle(problem, memory%here, regions(k), name, log)
          if (memory%slot(k)%strangers > 0) call log%warning(name // ": the gap falls by more than 1 mm from one row of elements &
             &to the next; what lies beyond belongs to another part of rail or wheel and is left out.")
       end do
    end subroutine evaluate
+
+   !> Say that the plane of a patch does not follow the surfaces: on a rail that varies along the track it has the inclination of
+   !> the section below the axle, unless asked otherwise
+   subroutine warn_of_angle(problem, here, region, name, log)
+      type(pair_problem), intent(in) :: problem
+      type(pair_geometry), intent(inout) :: here
+      type(contact_region), intent(in) :: region
+      !> What messages call the patch
+      character(len=*), intent(in) :: name
+      type(log_type), intent(inout) :: log
+      !> A lateral force of half a per cent of the normal force [rad]
+      real(wp), parameter :: noticeable = 5.0e-3_wp
+      real(wp) :: turn
+      character(len=400) :: text
+
+      if (.not. (problem%spec%search%angle_below_axle .and. allocated(problem%rail_surface))) return
+      turn = turn_of_rail(here%bodies, region%x, region%y)
+      if (abs(turn) < noticeable) return
+      write(text, '(A,F6.3,A)') ": its plane has the inclination of the rail's section below the axle, as in the &
+         &established program. Where wheel and rail touch they are inclined by ", turn, " rad more; lateral forces &
+         &miss that part of the normal force. The angle of the contact is taken on request"
+      call log%warning(name // trim(text))
+   end subroutine warn_of_angle
 
    !> Say that elements of a patch stand where no slice describes the rail. A wheel that is given on a part of the turn is
    !> meant to go on as at its last slice

@@ -13,7 +13,7 @@ module contact_wheelrail_variable
    implicit none (type, external)
    private
 
-   public :: measure_variable_gap, variable_distance
+   public :: measure_variable_gap, turn_of_rail, variable_distance
 
    !> Fine mesh along the track [mm], about: where the rail varies its points stand on sections
    real(wp), parameter :: fine_x = 0.5_wp
@@ -315,11 +315,11 @@ contains
    !> Inclinations of the rail across the track at the places of the smallest gap [rad], by differences; one-sided at ends
    !>
    !> They belong to the section of the contact: wheel and rail share their tangent there, and the plane of a patch holds
-   !> the direction of the track. On a yawed wheel that section is not the one below the axle (doc/theory/wheel_rail.md).
+   !> the direction of the track. The section below the axle is taken on request only (doc/theory/wheel_rail.md).
    subroutine find_inclinations(bodies, gap)
       type(pair_bodies), intent(inout) :: bodies
       type(gap_curve), intent(inout) :: gap
-      real(wp) :: height(gap%n, 3), slope
+      real(wp) :: height(gap%n, 3), slope, x
       logical :: there(gap%n, 3)
       integer :: j, k, low, high
 
@@ -331,8 +331,9 @@ contains
             cycle
          end if
          do j = 1, gap%n
-            if (gap%gap(j) < no_surface) call bodies%rail_strip%at(gap%x(j), gap%y(j) + 0.5_wp*(k - 2)*gap%dy, height(j, k), &
-               & slope, there(j, k))
+            if (gap%gap(j) >= no_surface) cycle
+            x = merge(bodies%placement%wheel%origin(1), gap%x(j), bodies%angle_below_axle)
+            call bodies%rail_strip%at(x, gap%y(j) + 0.5_wp*(k - 2)*gap%dy, height(j, k), slope, there(j, k))
          end do
       end do
       do j = 1, gap%n
@@ -341,6 +342,28 @@ contains
          if (high > low) gap%alpha(j) = atan((height(j, high) - height(j, low))/(0.5_wp*(high - low)*gap%dy))
       end do
    end subroutine find_inclinations
+
+   !> How much more the rail is inclined at a place of contact than in the section below the axle [rad]; 0 where either is missing
+   real(wp) function turn_of_rail(bodies, x, y) result(turn)
+      type(pair_bodies), intent(inout) :: bodies
+      !> The place in track coordinates [mm]
+      real(wp), intent(in) :: x, y
+      !> Distance of the points whose heights are compared [mm]
+      real(wp), parameter :: step = 0.1_wp
+      real(wp) :: height(2, 2), place, slope
+      logical :: there(2, 2)
+      integer :: j, k
+
+      turn = 0.0_wp
+      if (.not. allocated(bodies%rail_strip)) return
+      do k = 1, 2
+         place = merge(bodies%placement%wheel%origin(1), x, k == 1)
+         do j = 1, 2
+            call bodies%rail_strip%at(place, y + (j - 1.5_wp)*step, height(j, k), slope, there(j, k))
+         end do
+      end do
+      if (all(there)) turn = atan((height(2, 2) - height(1, 2))/step) - atan((height(2, 1) - height(1, 1))/step)
+   end function turn_of_rail
 
    !> Distance of the undeformed bodies over a plane [mm], shifted so that its minimum is zero, and the approach
    subroutine variable_distance(bodies, plane, joined, grid, h, approach, strangers)

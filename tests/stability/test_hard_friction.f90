@@ -131,11 +131,11 @@ contains
             spec%motion = t
             spec%force = 1
             spec%kinematics%fx = -too_much(k)
-            call expect_refusal(suite, run, spec, "F=1, " // trim(label), "force")
+            call expect_refusal(suite, run, spec, "F=1, " // trim(label), "friction bound")
             spec%force = 2
             spec%kinematics%fx = 0.6_wp*too_much(k)*(1.0_wp + 1.0e-12_wp)
             spec%kinematics%fy = 0.8_wp*too_much(k)*(1.0_wp + 1.0e-12_wp)
-            call expect_refusal(suite, run, spec, "F=2, " // trim(label), "force")
+            call expect_refusal(suite, run, spec, "F=2, " // trim(label), "friction bound")
          end do
       end do
       ! the first component alone is within the limit, creepage in y beside it
