@@ -21,7 +21,8 @@ contains
    !> Pressures for a prescribed approach.
    !>
    !> The report ends as "converged" after one pass, without iterations; its residual stays unknown,
-   !> since these methods do not fulfil the contact conditions to any tolerance.
+   !> since these methods do not fulfil the contact conditions to any tolerance. Where the surfaces overlap and no
+   !> element gets a pressure it ends as "stagnated", with a warning.
    subroutine approximate_pressure(model, grid, gap, modulus, operator, pn, report, log)
       !> Member of pressure_model: kpec or analyn
       integer, intent(in) :: model
@@ -48,8 +49,13 @@ contains
          report%method = "ANALYN"
          call analyn_pressure(grid, gap, modulus, pn)
       end select
-      report%ended = ending%converged
       report%iterations = 0
+      report%ended = ending%converged
+      if (any(pn > 0.0_wp) .or. .not. any(gap < 0.0_wp)) return
+      ! an ellipse that is smaller than an element, or too flat for the method
+      report%ended = ending%stagnated
+      call log%warning("the surfaces overlap, and " // trim(report%method) // " finds no element in contact. " &
+         & // "Use smaller elements, or the full solution")
    end subroutine approximate_pressure
 
    !> KPEC with the factor by which the displacement equals the largest overlap

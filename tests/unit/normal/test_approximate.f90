@@ -28,6 +28,7 @@ program test_approximate
    call double_ellipse(suite)
    call mirrors(suite)
    call no_jumps(suite)
+   call missed_overlap(suite)
    call suite%finish()
 
 contains
@@ -70,6 +71,20 @@ contains
          call suite%check(maxval(abs(force(1:) - force(:n - 1))) < 1.0e-3_wp*force(0), trim(what))
       end do
    end subroutine no_jumps
+
+   !> Surfaces that overlap and get no pressure anywhere are told: here they are flatter than the least curvature of ANALYN
+   subroutine missed_overlap(suite)
+      type(test_suite), intent(inout) :: suite
+      type(potential_contact) :: grid
+      real(wp), allocatable :: pn(:, :)
+      integer :: warnings
+
+      grid = window(4, 6, 92.0_wp, 147.0_wp)
+      pn = pressure_of(pressure_model%analyn, grid, quadratic_gap(grid, 1.9e-6_wp, 8.9e-7_wp, 5.0e-3_wp), warnings)
+      call suite%check(any(pn > 0.0_wp) .or. warnings > 0, "no contact in spite of overlap is told")
+      pn = pressure_of(pressure_model%analyn, grid, quadratic_gap(grid, 1.9e-6_wp, 8.9e-7_wp, -5.0e-3_wp), warnings)
+      call suite%equal(warnings, 0, "surfaces that do not overlap are no reason for a warning")
+   end subroutine missed_overlap
 
    !> Mirrored surfaces have mirrored pressures, on grids of odd and even size that are coarse, with humps of equal height, and
    !> wherever rounding puts the smallest gap
