@@ -5,7 +5,7 @@ module contact_experiment_exports
    use contact_cases_pair_session, only : pair_session
    use contact_cases_spec, only : case_spec
    use contact_hdf5_case_file, only : hdf5_case_file
-   use contact_output_case_record, only : case_head
+   use contact_output_case_record, only : case_head, run_summary
    use contact_output_json_file, only : json_file
    use contact_output_vtk_files, only : vtk_files
    use contact_patch_result, only : patch_result
@@ -25,6 +25,9 @@ module contact_experiment_exports
       logical :: hdf5 = .false.
       !> Surfaces and subsurface blocks as VTK files with the collection EXPNAM.pvd?
       logical :: vtk = .false.
+   contains
+      !> Is anything asked for?
+      procedure :: any => any_asked
    end type export_request
 
    !> The files that are open; unallocated components were not asked for
@@ -44,51 +47,63 @@ module contact_experiment_exports
 
 contains
 
+   pure logical function any_asked(self)
+      class(export_request), intent(in) :: self
+      any_asked = allocated(self%json) .or. self%hdf5 .or. self%vtk
+   end function any_asked
+
    pure logical function wanted(self)
       class(export_files), intent(in) :: self
       wanted = allocated(self%json) .or. allocated(self%hdf5) .or. allocated(self%vtk)
    end function wanted
 
    !> Open what is asked for
-   subroutine open_files(self, request, results, experiment, version, error)
+   subroutine open_files(self, request, results, experiment, version, run, error)
       class(export_files), intent(inout) :: self
       type(export_request), intent(in) :: request
       !> Folder and name of the results, to which a suffix is added
       character(len=*), intent(in) :: results
       !> Name of the experiment, version of the program
       character(len=*), intent(in) :: experiment, version
+      !> What is planned
+      type(run_summary), intent(in) :: run
       type(error_type), allocatable, intent(out) :: error
 
       if (allocated(request%json)) then
          allocate(self%json)
          if (request%json == "-") then
-            call self%json%open_file("-", error)
+            call self%json%open_file("-", run%planned, error)
          else
-            call self%json%open_file(results // ".jsonl", error)
+            call self%json%open_file(results // ".jsonl", run%planned, error)
          end if
          if (allocated(error)) return
       end if
       if (request%hdf5) then
          allocate(self%hdf5)
-         call self%hdf5%open_file(results // ".h5", experiment, version, error)
+         call self%hdf5%open_file(results // ".h5", experiment, version, run, error)
          if (allocated(error)) return
       end if
       if (request%vtk) then
          allocate(self%vtk)
-         call self%vtk%open_collection(results, error)
+         call self%vtk%open_collection(results, run, error)
       end if
    end subroutine open_files
 
-   subroutine close_files(self, error)
+   !> Tell in all files how far the run has come, and close them
+   subroutine close_files(self, run, error)
       class(export_files), intent(inout) :: self
+      type(run_summary), intent(in) :: run
       type(error_type), allocatable, intent(out) :: error
 
       type(error_type), allocatable :: second
 
-      if (allocated(self%json)) call self%json%close_file(error)
-      if (allocated(self%hdf5)) call self%hdf5%close_file(second)
+      if (allocated(self%json)) then
+         call self%json%write_end(run)
+         call self%json%close_file(error)
+      end if
+      if (allocated(self%hdf5)) call self%hdf5%close_file(run, second)
       if (.not. allocated(error)) call move_alloc(second, error)
-      if (allocated(self%vtk)) call self%vtk%close_collection(second)
+      if (allocated(self%vtk)) call self%vtk%close_collection(run, second)
       if (.not. allocated(error)) call move_alloc(second, error)
    end subroutine close_files
 

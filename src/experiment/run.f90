@@ -25,7 +25,7 @@ module contact_experiment_run
    use contact_experiment_stopwatch, only : stopwatch
    use contact_input_experiment_file, only : experiment_reader, input_case
    use contact_input_problems, only : problem_text, severity
-   use contact_output_case_record, only : case_head
+   use contact_output_case_record, only : case_head, planned_text, run_summary
    use contact_output_finished_file, only : close_result, open_result
    use contact_output_mat_file, only : mat_file_name, write_mat_file
    use contact_output_report, only : timer_line, write_banner, write_case, write_case_line, write_closing, write_end, &
@@ -93,9 +93,10 @@ module contact_experiment_run
       type(numbered_slot), allocatable :: slots(:)
       !> Unit for errors, or no_unit
       integer :: complaints = no_unit
-      !> Numbers of cases read, of errors, and of cases by how they ended, members of case_state
+      !> Numbers of cases read and of errors
       integer :: cases = 0, errors = 0
-      integer :: ended(case_state%solved:case_state%refused) = 0
+      !> What is planned and what is done
+      type(run_summary) :: run
       !> Has no case asked for results so far?
       logical :: silent = .true.
       !> The first error; unallocated when there was none
@@ -137,8 +138,8 @@ contains
       end if
       call omp_set_num_threads(default_threads)
       call move_alloc(state%first_error, error)
-      if (settings%strict .and. .not. allocated(error) .and. state%ended(case_state%not_converged) > 0) &
-         & call fatal_error(error, integer_text(state%ended(case_state%not_converged)) // " of " // &
+      if (settings%strict .and. .not. allocated(error) .and. state%run%ended(case_state%not_converged) > 0) &
+         & call fatal_error(error, integer_text(state%run%ended(case_state%not_converged)) // " of " // &
          & counted(state%cases, "case") // " did not converge", error_kind%not_converged)
       if (state%errors > 1) call add_context(error, "first of " // integer_text(state%errors) // " errors")
    end subroutine run_experiment
@@ -264,15 +265,19 @@ contains
       end if
       version = ""
       if (allocated(settings%version)) version = settings%version
-      call state%exports%open_files(settings%exports, state%place%results, state%place%name, version, error)
+      ! counting means reading all of the input: where results are few and quick, that waits until somebody needs to know
+      if (settings%progress .or. settings%exports%any()) call count_planned(state)
+      call state%exports%open_files(settings%exports, state%place%results, state%place%name, version, state%run, error)
       if (allocated(error)) then
          call report_error(state, error)
+         state%run%reason = full_text(error)
+         call learn_planned(state)
          call close_out_file(state)
          return
       end if
       state%silent = .not. state%exports%wanted()
       call write_banner(state%log, settings%version)
-      if (settings%progress) call state%progress%begin(number_of_cases(state%place%input))
+      if (settings%progress) call state%progress%begin(state%run%planned)
       allocate(state%slots(4))
       do
          call state%reading%start()
@@ -282,6 +287,7 @@ contains
             ! a wrong digit may be the reason why the text behind it cannot be read
             if (allocated(this%problems%items)) call report_problems(state, this)
             call report_error(state, error)
+            state%run%reason = full_text(error)
             exit
          end if
          if (this%module_number == 0) then
@@ -296,11 +302,13 @@ contains
          call this%spec%limits%deadline%start()
          call compute_case(state, this, go_on)
          if (.not. go_on) exit
+         state%run%finished = state%run%finished + 1
          call keep_file_current(state)
          if (settings%screen == 0 .or. this%spec%flow_level == 0) call state%progress%show(state%cases)
       end do
       call state%progress%hide()
-      call state%exports%close_files(error)
+      call learn_planned(state)
+      call state%exports%close_files(state%run, error)
       if (allocated(error)) call report_error(state, error)
       call close_out_file(state)
       do k = 1, state%used
@@ -333,7 +341,7 @@ contains
       integer :: k
 
       if (state%log%screen /= 0) call state%progress%hide()
-      head = case_head(this%number, this%reid, this%cpid, this%module_number, this%first_line)
+      head = case_head(this%number, this%reid, this%cpid, this%module_number, this%first_line, state%run%finished + 1)
       call write_case_line(state%log, this%number, this%reid)
       call report_problems(state, this)
       go_on = this%problems%is_usable()
@@ -342,6 +350,8 @@ contains
             & integer_text(this%first_line) // ": its input cannot be used.")
          call refusal_of(this, reason)
          call head%status%refuse(reason)
+         head%finished = state%run%finished
+         state%run%reason = reason
          call count_case(state, head%status)
          if (state%exports%wanted()) call state%exports%write_failure(head)
          return
@@ -412,7 +422,7 @@ contains
       type(experiment_state), intent(inout) :: state
       type(case_status), intent(in) :: status
 
-      state%ended(status%state) = state%ended(status%state) + 1
+      state%run%ended(status%state) = state%run%ended(status%state) + 1
    end subroutine count_case
 
    !> Why the input of a case cannot be used: its first error
@@ -472,22 +482,34 @@ contains
       state%slots(k)%cpid = cpid
    end subroutine find_slot
 
-   !> Number of cases in the input as far as it can be read, for the progress line
-   integer function number_of_cases(file) result(n)
-      character(len=*), intent(in) :: file
+   !> Number of cases in the input, as far as it can be read
+   subroutine count_planned(state)
+      type(experiment_state), intent(inout) :: state
       type(experiment_reader) :: reader
       type(input_case) :: this
       type(error_type), allocatable :: error
 
-      n = 0
-      call reader%open_file(file, error)
+      state%run%planned = 0
+      call reader%open_file(state%place%input, error)
       do while (.not. allocated(error))
          call reader%next_case(this, error)
          if (allocated(error)) exit
-         if (this%module_number == 0) exit
-         n = n + 1
+         if (this%module_number == 0) return
+         state%run%planned = state%run%planned + 1
       end do
-   end function number_of_cases
+      ! the error stands in one more case
+      state%run%planned = state%run%planned + 1
+      state%run%readable = .false.
+   end subroutine count_planned
+
+   !> What was planned, if that was not counted yet
+   subroutine learn_planned(state)
+      type(experiment_state), intent(inout) :: state
+
+      if (state%run%planned > 0) return
+      state%run%planned = state%run%finished
+      if (allocated(state%run%reason)) call count_planned(state)
+   end subroutine learn_planned
 
    !> Write an error to the .out file and to the unit for errors, and remember the first
    subroutine report_error(state, error)
@@ -557,9 +579,10 @@ contains
       call state%writing%fill_line("Writing results", lines(4))
       call write_end(state%log, omp_get_max_threads(), lines)
       call state%log%line(" " // counted(state%cases, "case") // ": " // &
-         & integer_text(state%ended(case_state%solved)) // " solved, " // &
-         & integer_text(state%ended(case_state%not_converged)) // " not converged, " // &
-         & integer_text(state%ended(case_state%refused)) // " refused")
+         & integer_text(state%run%ended(case_state%solved)) // " solved, " // &
+         & integer_text(state%run%ended(case_state%not_converged)) // " not converged, " // &
+         & integer_text(state%run%ended(case_state%refused)) // " refused")
+      if (.not. state%run%is_complete()) call state%log%line(" Not complete: " // trim(planned_text(state%run)) // " finished")
       if (state%silent .and. state%cases > 0) call state%log%line( &
          & " No results were asked for: O, A and S are 0 in all cases.")
       call write_closing(state%log, state%errors > 0)

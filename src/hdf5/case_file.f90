@@ -6,7 +6,7 @@ module contact_hdf5_case_file
    use contact_cases_spec, only : case_spec
    use contact_hdf5_file, only : hdf5_file
    use contact_output_case_record, only : case_head, describe_border, describe_head, describe_pair, describe_patch, &
-      & describe_place, describe_solution, is_rolling, side_sign
+      & describe_place, describe_run, describe_solution, is_rolling, run_summary, side_sign
    use contact_output_input_record, only : describe_input
    use contact_patch_result, only : patch_result, subsurface_result
    use contact_profile_curve, only : profile_curve
@@ -31,19 +31,36 @@ module contact_hdf5_case_file
 
 contains
 
-   subroutine open_file(self, name, experiment, version, error)
+   subroutine open_file(self, name, experiment, version, run, error)
       class(hdf5_case_file), intent(inout) :: self
       !> File, experiment, version of the program
       character(len=*), intent(in) :: name, experiment, version
+      !> What is planned
+      type(run_summary), intent(in) :: run
       type(error_type), allocatable, intent(out) :: error
 
       call self%file%open_file(name, experiment, "contact " // version, error)
+      if (allocated(error)) return
+      call self%file%open_group("")
+      call describe_run(self%file, run)
+      call self%file%text("reason", "", "the run goes on, or was ended from outside")
+      call self%file%close_attributes()
+      call self%file%renew()
+      if (self%file%failed) call self%file%close_file(error)
    end subroutine open_file
 
-   subroutine close_file(self, error)
+   subroutine close_file(self, run, error)
       class(hdf5_case_file), intent(inout) :: self
+      !> How far the run has come
+      type(run_summary), intent(in) :: run
       type(error_type), allocatable, intent(out) :: error
 
+      if (self%file%is_open) then
+         call self%file%drop_attribute("reason")
+         call self%file%open_group("")
+         call describe_run(self%file, run)
+         call self%file%close_attributes()
+      end if
       call self%file%close_file(error)
    end subroutine close_file
 
@@ -53,7 +70,7 @@ contains
       type(case_head), intent(in) :: head
 
       call begin(self%file, head)
-      call self%file%end_case()
+      call self%file%end_case(head%finished)
    end subroutine write_failure
 
    !> A solved case of module 3
@@ -68,7 +85,7 @@ contains
       call describe_input(self%file, spec)
       call self%file%leave()
       call write_patch(self%file, head, 1, spec, contact)
-      call self%file%end_case()
+      call self%file%end_case(head%finished)
    end subroutine write_contact
 
    !> A solved case of module 1
@@ -99,7 +116,7 @@ contains
             call write_patch(self%file, head, k, spec, pair%patches(k)%contact, pair%patches(k))
          end if
       end do
-      call self%file%end_case()
+      call self%file%end_case(head%finished)
    end subroutine write_pair
 
    !> Begin a case with its row of /cases

@@ -15,7 +15,7 @@
 module contact_hdf5_file
    use, intrinsic :: ieee_arithmetic, only : ieee_quiet_nan, ieee_value
    use, intrinsic :: iso_c_binding, only : c_int, c_int64_t
-   use hdf5, only : h5acreate_f, h5awrite_f, h5d_compact_f, h5d_fill_time_never_f, h5dcreate_f, &
+   use hdf5, only : h5acreate_f, h5adelete_f, h5aexists_f, h5awrite_f, h5d_compact_f, h5d_fill_time_never_f, h5dcreate_f, &
       & h5dget_space_f, h5dset_extent_f, h5dwrite_f, h5eset_auto_f, h5f_acc_trunc_f, h5f_close_strong_f, h5f_libver_earliest_f, &
       & h5f_libver_v18_f, h5f_scope_local_f, h5fclose_f, h5fcreate_f, h5fflush_f, h5gcreate_f, h5idec_ref_f, h5lcreate_hard_f, &
       & h5olink_f, h5open_f, h5p_dataset_create_f, h5p_default_f, h5p_file_access_f, &
@@ -149,6 +149,10 @@ module contact_hdf5_file
       procedure :: block
       procedure :: open_group
       procedure :: close_group
+      !> Instead of close_group: the values become attributes of the file
+      procedure :: close_attributes
+      !> Bring the readable file up to date
+      procedure :: renew
       procedure :: number
       procedure :: numbers
       procedure :: count => whole_number
@@ -157,6 +161,9 @@ module contact_hdf5_file
       procedure, private :: find_kept
       procedure, private :: text_type
       procedure, private :: describe
+      procedure, private :: set_count
+      !> Remove an attribute of the file
+      procedure :: drop_attribute
       procedure, private :: check
       procedure, private :: release
    end type hdf5_file
@@ -214,9 +221,7 @@ contains
       call self%describe(self%file, "experiment", experiment)
       call self%describe(self%file, "program", version)
       call self%describe(self%file, "axes", "datasets of fields have the shape (my, mx) in C, h5py and NumPy")
-      call write_layout(self)
-      call renew_copy(self)
-      self%last_copy = clock()
+      call self%set_count("layout", layout)
       if (.not. self%failed) return
       call h5fclose_f(self%file, status)
       self%is_open = .false.
@@ -281,18 +286,67 @@ contains
       ignored = set_hint(int(properties, c_int64_t), 1_c_int)
    end subroutine set_no_attributes
 
-   !> Number of the layout as an attribute of the file
-   subroutine write_layout(self)
+   !> An integer as an attribute of the file; replaced when it is there
+   subroutine set_count(self, name, value)
       class(hdf5_file), intent(inout) :: self
+      character(len=*), intent(in) :: name
+      integer, intent(in) :: value
       integer(hid_t) :: attribute
       integer(hsize_t) :: one(1)
       integer :: status
 
+      if (self%failed) return
+      call self%drop_attribute(name)
       one = 1
-      call h5acreate_f(self%file, "layout", h5t_std_i32le, self%scalar, attribute, status)
-      call h5awrite_f(attribute, h5t_native_integer, layout, one, status)
+      call h5acreate_f(self%file, name, h5t_std_i32le, self%scalar, attribute, status)
+      call self%check(status)
+      call h5awrite_f(attribute, h5t_native_integer, value, one, status)
+      call self%check(status)
       call self%release(attribute)
-   end subroutine write_layout
+   end subroutine set_count
+
+   !> Remove an attribute of the file; nothing happens when it is not there
+   subroutine drop_attribute(self, name)
+      class(hdf5_file), intent(inout) :: self
+      character(len=*), intent(in) :: name
+      logical :: is_there
+      integer :: status
+
+      call h5aexists_f(self%file, name, is_there, status)
+      if (status >= 0 .and. is_there) call h5adelete_f(self%file, name, status)
+      call self%check(status)
+   end subroutine drop_attribute
+
+   !> The values of the group become attributes of the file
+   subroutine close_attributes(self)
+      class(hdf5_file), intent(inout) :: self
+      integer :: i
+
+      do i = 1, self%count_items
+         if (self%failed) return
+         associate (this => self%items(i))
+            if (this%kind == item_kind%text) then
+               call self%drop_attribute(trim(this%name))
+               call self%describe(self%file, trim(this%name), this%text)
+            else
+               call self%set_count(trim(this%name), nint(this%value))
+            end if
+         end associate
+      end do
+   end subroutine close_attributes
+
+   !> Bring the readable file up to date
+   subroutine renew(self)
+      class(hdf5_file), intent(inout) :: self
+      real(wp) :: before
+
+      before = clock()
+      call write_rows(self, self%cases)
+      call write_rows(self, self%patches)
+      call renew_copy(self)
+      self%last_copy = clock()
+      self%wait = max(shortest_wait, wait_per_copy*(self%last_copy - before))
+   end subroutine renew
 
    !> Write what is left and close
    subroutine close_file(self, error)
@@ -368,18 +422,15 @@ contains
    end subroutine begin_case
 
    !> End a case; the readable file has it now or soon
-   subroutine end_case(self)
+   subroutine end_case(self, finished)
       class(hdf5_file), intent(inout) :: self
-      real(wp) :: before
+      !> Cases of the run that are finished
+      integer, intent(in) :: finished
 
       call self%release(self%here)
-      before = clock()
-      if (before - self%last_copy < self%wait) return
-      call write_rows(self, self%cases)
-      call write_rows(self, self%patches)
-      call renew_copy(self)
-      self%last_copy = clock()
-      self%wait = max(shortest_wait, wait_per_copy*(self%last_copy - before))
+      if (clock() - self%last_copy < self%wait) return
+      call self%set_count("cases_finished", finished)
+      call self%renew()
    end subroutine end_case
 
    !> Time since some moment [s]

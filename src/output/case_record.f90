@@ -3,7 +3,7 @@
 !> Values are unfiltered, unlike those of the .out file. For a wheel on the left side of the track
 !> they are mirrored to that side here.
 module contact_output_case_record
-   use contact_base_case_status, only : case_status
+   use contact_base_case_status, only : case_state, case_status
    use contact_base_choices, only : motion
    use contact_base_kinds, only : wp
    use contact_base_solve_report, only : ending, solve_report
@@ -16,8 +16,25 @@ module contact_output_case_record
    implicit none (type, external)
    private
 
-   public :: case_head, describe_border, describe_head, describe_pair, describe_patch, describe_place, &
-      & describe_solution, is_rolling, side_sign
+   public :: case_head, describe_border, describe_head, describe_pair, describe_patch, describe_place, describe_run, &
+      & describe_solution, is_rolling, planned_text, run_summary, side_sign
+
+   !> How far a run has come
+   type :: run_summary
+      !> Cases of the input; where it cannot be read to its end, those up to there
+      integer :: planned = 0
+      !> Can the input be read to its end?
+      logical :: readable = .true.
+      !> Cases that are finished: solved, refused, or only taken note of
+      integer :: finished = 0
+      !> How they ended, by members of case_state
+      integer :: ended(case_state%solved:case_state%refused) = 0
+      !> Why the run ended before all cases were finished; unallocated when it did not, or not yet
+      character(len=:), allocatable :: reason
+   contains
+      !> Are all cases finished?
+      procedure :: is_complete
+   end type run_summary
 
    !> Which case this is and how it went
    type :: case_head
@@ -25,6 +42,8 @@ module contact_output_case_record
       integer :: number = 0, result_element = 0, contact_problem = 1, module_number = 3
       !> Line of the input at which the case begins
       integer :: line = 0
+      !> Cases of the run that are finished with this one
+      integer :: finished = 0
       !> How it ended
       type(case_status) :: status
       !> Elapsed time of the solution [s]
@@ -32,6 +51,39 @@ module contact_output_case_record
    end type case_head
 
 contains
+
+   pure logical function is_complete(self)
+      class(run_summary), intent(in) :: self
+      is_complete = self%readable .and. self%finished == self%planned .and. .not. allocated(self%reason)
+   end function is_complete
+
+   !> "6 of 12 cases", "6 of at least 12 cases", with blanks behind
+   pure function planned_text(run) result(text)
+      type(run_summary), intent(in) :: run
+      character(len=48) :: text
+
+      if (run%readable) then
+         write(text, '(I0, A, I0, A)') run%finished, " of ", run%planned, merge(" case ", " cases", run%planned == 1)
+      else
+         write(text, '(I0, A, I0, A)') run%finished, " of at least ", run%planned, merge(" case ", " cases", run%planned == 1)
+      end if
+   end function planned_text
+
+   !> How far the run has come; how its cases ended is told at its end
+   subroutine describe_run(record, run)
+      class(record_writer), intent(inout) :: record
+      type(run_summary), intent(in) :: run
+
+      call record%flag("complete", "are all cases of the input finished?", run%is_complete())
+      call record%count("cases_planned", "cases of the input; of one that cannot be read to its end those up to there", run%planned)
+      call record%flag("input_readable", "can the input be read to its end?", run%readable)
+      call record%count("cases_finished", "cases that are finished: solved, refused, or only taken note of", run%finished)
+      if (.not. (run%is_complete() .or. allocated(run%reason))) return
+      call record%count("solved", "cases that were solved", run%ended(case_state%solved))
+      call record%count("not_converged", "cases that did not converge", run%ended(case_state%not_converged))
+      call record%count("refused", "cases that were refused", run%ended(case_state%refused))
+      if (allocated(run%reason)) call record%text("reason", "why the run ended before all cases were finished", run%reason)
+   end subroutine describe_run
 
    !> -1 for a wheel on the left side of the track, otherwise 1
    pure real(wp) function side_sign(spec) result(s)

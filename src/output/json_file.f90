@@ -1,7 +1,8 @@
 !> Totals of every case as JSON lines: one object per case and line, RFC 8259 in UTF-8
 !>
 !> A number with a unit is an object with "value" and "unit"; what is no finite number is null. Lines
-!> are written whole, so a file that was cut short holds all cases but the last.
+!> are written whole, so a file that was cut short holds all cases but the last. Each line tells how many cases were planned,
+!> and the last one whether they are finished.
 module contact_output_json_file
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
    use contact_base_error, only : error_kind, error_type, fatal_error
@@ -9,7 +10,7 @@ module contact_output_json_file
    use contact_base_output_file, only : output_file
    use contact_cases_spec, only : case_spec
    use contact_output_case_record, only : case_head, describe_border, describe_head, describe_pair, describe_patch, &
-      & describe_place, describe_solution
+      & describe_place, describe_run, describe_solution, run_summary
    use contact_output_finished_file, only : close_result, open_result
    use contact_output_record, only : record_writer
    use contact_patch_result, only : patch_result
@@ -27,6 +28,8 @@ module contact_output_json_file
    type, extends(record_writer) :: json_file
       type(output_file), private :: file
       character(len=:), allocatable :: name
+      !> Number of cases of the input, which each line tells
+      integer, private :: planned = 0
       !> The line in the making: its first `length` characters
       character(len=:), allocatable, private :: line
       integer, private :: length = 0
@@ -35,6 +38,8 @@ module contact_output_json_file
    contains
       procedure :: open_file => open_json_file
       procedure :: close_file => close_json_file
+      !> The last line: how far the run has come
+      procedure :: write_end
       !> One line for a case without result, of module 3, and of module 1
       procedure :: write_failure
       procedure :: write_contact
@@ -46,6 +51,7 @@ module contact_output_json_file
       procedure :: count => write_count
       procedure :: text => write_text
       procedure :: flag => write_flag
+      procedure, private :: begin_line
       procedure, private :: key
       procedure, private :: add
       procedure, private :: add_quoted
@@ -55,12 +61,15 @@ module contact_output_json_file
 contains
 
    !> Open a file, or take the standard output when the name is "-"
-   subroutine open_json_file(self, name, error)
+   subroutine open_json_file(self, name, planned, error)
       class(json_file), intent(inout) :: self
       character(len=*), intent(in) :: name
+      !> Number of cases of the input
+      integer, intent(in) :: planned
       type(error_type), allocatable, intent(out) :: error
 
       self%name = name
+      self%planned = planned
       allocate(character(len=first_length) :: self%line)
       self%length = 0
       if (name == "-") then
@@ -80,14 +89,36 @@ contains
       call close_result(self%file, self%name, error)
    end subroutine close_json_file
 
-   !> A case that has no result
-   subroutine write_failure(self, head)
+   !> The last line: how far the run has come, as a case of number 0 without patches, which readers of cases pass over
+   subroutine write_end(self, run)
+      class(json_file), intent(inout) :: self
+      type(run_summary), intent(in) :: run
+
+      call self%add('{"case":0,"solved":false,"converged":true,"status":"end of run","patches":[]')
+      self%follows = .true.
+      call self%open_group("run")
+      call describe_run(self, run)
+      call self%close_group()
+      call self%end_line()
+   end subroutine write_end
+
+   !> Begin the line of a case
+   subroutine begin_line(self, head)
       class(json_file), intent(inout) :: self
       type(case_head), intent(in) :: head
 
       call self%add("{")
       self%follows = .false.
       call describe_head(self, head)
+      call self%count("cases_planned", "", self%planned)
+   end subroutine begin_line
+
+   !> A case that has no result
+   subroutine write_failure(self, head)
+      class(json_file), intent(inout) :: self
+      type(case_head), intent(in) :: head
+
+      call self%begin_line(head)
       call self%key("patches")
       call self%add("[]")
       call self%end_line()
@@ -100,9 +131,7 @@ contains
       type(case_spec), intent(in) :: spec
       type(patch_result), intent(in) :: contact
 
-      call self%add("{")
-      self%follows = .false.
-      call describe_head(self, head)
+      call self%begin_line(head)
       call self%key("patches")
       call self%add("[")
       call write_patch(self, 1, spec, contact)
@@ -118,9 +147,7 @@ contains
       type(pair_result), intent(in) :: pair
       integer :: k
 
-      call self%add("{")
-      self%follows = .false.
-      call describe_head(self, head)
+      call self%begin_line(head)
       call self%text("side", "", trim(merge("left ", "right", spec%wheel_rail%left)))
       call describe_pair(self, spec, pair)
       call self%key("patches")

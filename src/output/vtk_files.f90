@@ -10,7 +10,7 @@ module contact_output_vtk_files
    use contact_base_kinds, only : long, wp
    use contact_base_output_file, only : output_file
    use contact_cases_spec, only : case_spec
-   use contact_output_case_record, only : case_head, is_rolling, side_sign
+   use contact_output_case_record, only : case_head, is_rolling, planned_text, run_summary, side_sign
    use contact_output_finished_file, only : case_file_name, close_result, finished_file, open_result
    use contact_patch_result, only : patch_result, subsurface_result
    use contact_text_words, only : integer_text, replaced
@@ -27,6 +27,8 @@ module contact_output_vtk_files
       !> The file of the collection, and the place of its closing lines in it [bytes]
       type(output_file), private :: file
       integer(c_long), private :: last = 0
+      !> Number of cases of the input
+      integer, private :: planned = 0
    contains
       procedure :: open_collection
       procedure :: close_collection
@@ -52,34 +54,62 @@ module contact_output_vtk_files
       integer, allocatable :: lengths(:)
    end type vtk_grid
 
-   character(len=*), parameter :: closing = "  </Collection>" // new_line("a") // "</VTKFile>"
+   !> Length of the remark at the end of the collection, so that each covers the one before
+   integer, parameter :: remark_length = 80
 
 contains
 
    !> Begin the collection
-   subroutine open_collection(self, base, error)
+   subroutine open_collection(self, base, run, error)
       class(vtk_files), intent(inout) :: self
       !> Folder and name of the results
       character(len=*), intent(in) :: base
+      !> What is planned
+      type(run_summary), intent(in) :: run
       type(error_type), allocatable, intent(out) :: error
 
       self%base = base
+      self%planned = run%planned
       call open_result(self%file, base // ".pvd", base // ".pvd", error)
       if (allocated(error)) return
       call self%file%line('<?xml version="1.0"?>')
       call self%file%line('<VTKFile type="Collection" version="1.0">')
       call self%file%line("  <Collection>")
       self%last = self%file%place()
-      call self%file%line(closing)
-      call self%file%flush_now()
+      call tell_unfinished(self)
    end subroutine open_collection
 
-   subroutine close_collection(self, error)
+   !> Tell how far the run has come, and close
+   subroutine close_collection(self, run, error)
       class(vtk_files), intent(inout) :: self
+      type(run_summary), intent(in) :: run
       type(error_type), allocatable, intent(out) :: error
 
-      if (self%file%is_open()) call close_result(self%file, self%base // ".pvd", error)
+      if (.not. self%file%is_open()) return
+      call self%file%go_to(self%last)
+      call write_end(self, trim(merge("complete,    ", "not complete,", run%is_complete())) // " " // planned_text(run))
+      call close_result(self%file, self%base // ".pvd", error)
    end subroutine close_collection
+
+   !> The end of the collection while the run goes on
+   subroutine tell_unfinished(self)
+      type(vtk_files), intent(inout) :: self
+
+      call write_end(self, "not complete, " // integer_text(self%planned) // " cases were planned")
+      call self%file%flush_now()
+   end subroutine tell_unfinished
+
+   !> The closing lines with a remark
+   subroutine write_end(self, remark)
+      type(vtk_files), intent(in) :: self
+      character(len=*), intent(in) :: remark
+      character(len=remark_length) :: padded
+
+      padded = remark
+      call self%file%line("  </Collection>")
+      call self%file%line("  <!-- " // padded // " -->")
+      call self%file%line("</VTKFile>")
+   end subroutine write_end
 
    !> Add a file to the collection, which is complete again afterwards
    subroutine list_file(self, name, case_number, part)
@@ -91,8 +121,7 @@ contains
       call self%file%line('    <DataSet timestep="' // integer_text(case_number) // '" part="' // integer_text(part) // '" file="' &
          & // for_xml(name(index(name, "/", back=.true.) + 1:)) // '"/>')
       self%last = self%file%place()
-      call self%file%line(closing)
-      call self%file%flush_now()
+      call tell_unfinished(self)
    end subroutine list_file
 
    !> A text as XML wants it

@@ -172,7 +172,7 @@ class Run:
         self.status, self.error = run.returncode, run.stderr
         try:
             with open(results) as file:
-                self.cases = [json.loads(line) for line in file]
+                self.cases = [case for case in map(json.loads, file) if case["case"]]
             with open(os.path.join(folder, name + ".out")) as file:
                 self.out = file.read()
         except OSError:

@@ -78,7 +78,9 @@ class Run:
     def read_cases(self):
         for line in self.text(".jsonl").splitlines():
             try:
-                self.cases.append(json.loads(line, parse_constant=_refuse_constant))
+                case = json.loads(line, parse_constant=_refuse_constant)
+                if case["case"]:  # the last line tells how far the run has come
+                    self.cases.append(case)
             except ValueError as error:
                 raise Unreadable(f"{self.name}.jsonl: {error}: {line[:200]}") from error
 

@@ -100,7 +100,7 @@ def run(mutation):
                 continue
             with open(os.path.join(folder, name), errors="replace") as file:
                 for line in file:
-                    if any(word in line for word in ("ERROR", "Warning", "WARNING", '"failure"')) or PICTURE.match(line):
+                    if any(word in line for word in ("ERROR", "Warning", "WARNING", '"failure"', '"end of run"')) or PICTURE.match(line):
                         continue
                     if BAD.search(line):
                         return f"status {done.returncode}, {name}: {line.strip()[:160]}"

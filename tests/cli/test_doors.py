@@ -82,7 +82,7 @@ class Doors(unittest.TestCase):
             for name in sorted(os.listdir(self.folder)):
                 if name.endswith(".jsonl"):
                     with open(os.path.join(self.folder, name)) as file:
-                        records = [json.loads(line) for line in file]
+                        records = [case for case in map(json.loads, file) if case["case"]]
         return run, out, records
 
     def totals(self, text):

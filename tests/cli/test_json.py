@@ -35,7 +35,11 @@ def refuse(constant):
 
 
 def read(text):
-    return [json.loads(line, parse_constant=refuse) for line in text.splitlines()]
+    """The cases; the last line tells that there are no more"""
+    *cases, end = [json.loads(line, parse_constant=refuse) for line in text.splitlines()]
+    assert end["case"] == 0 and end["patches"] == [] and end["run"]["cases_finished"] <= end["run"]["cases_planned"], end
+    assert all(case["cases_planned"] == end["run"]["cases_planned"] for case in cases)
+    return cases
 
 
 class Json(unittest.TestCase):
