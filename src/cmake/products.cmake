@@ -53,6 +53,12 @@ endif()
 add_library(contact_static STATIC ${objects})
 set_target_properties(contact_static PROPERTIES LINKER_LANGUAGE Fortran OUTPUT_NAME contact)
 
+if(CONTACT_SHARED_ROOMS)
+  add_library(contact_all_rooms SHARED ${objects} $<TARGET_OBJECTS:contact_${program_room}>)
+  set_target_properties(contact_all_rooms PROPERTIES LINKER_LANGUAGE Fortran)
+  target_link_libraries(contact_all_rooms PRIVATE ${libraries})
+endif()
+
 # The program does not need the shared library, so it runs wherever it is copied to
 if(program_room)
   add_executable(contact_program ${program_file})

@@ -74,9 +74,16 @@ function(contact_use_rooms target)
   endforeach()
 endfunction()
 
+# Program and tests share one library of all rooms, so that one link serves all of them when a single file is new
+option(CONTACT_SHARED_ROOMS "Link program and tests with one shared library of all rooms (tests/planted)" OFF)
+
 # The same, and link it with these rooms and all below
 function(contact_link_rooms target)
   contact_use_rooms(${target} ${ARGN})
+  if(CONTACT_SHARED_ROOMS)
+    target_link_libraries(${target} PRIVATE contact_all_rooms)
+    return()
+  endif()
   set(closure)
   set(libraries)
   foreach(room IN LISTS ARGN)
