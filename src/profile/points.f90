@@ -10,7 +10,10 @@ module contact_profile_points
    private
 
    public :: drop_close_points, remove_zig_zags, keep_points, needs_mirror_z, needs_reversal, runs_backwards
-   public :: chord_lengths, find_loop, find_kinks, find_outlier, find_hole, turning_angles
+   public :: chord_lengths, find_loop, find_kinks, find_spike, find_outlier, find_hole, turning_angles
+
+   !> Tables with fewer points than this are drawn by hand, and may have any shape
+   integer, parameter :: few_points = 6
 
 contains
 
@@ -54,41 +57,67 @@ contains
       end do
    end function turning_angles
 
-   !> The first point that stands out of the line of its neighbours like a spike; 0 when there is none
+   !> The first point where the line goes out and comes back beside itself; 0 when there is none
    !>
-   !> Without it the way from the point before to the point behind is much shorter: to less than half, or the line turns to one
-   !> side there and to the other side at both neighbours. Corners, also coarse ones, have no such neighbours.
+   !> Without it the way from the point before to the point behind is shorter than half of either side of the spike: its angle is
+   !> below 29 degrees. Neither corners nor sections that overlap look like that.
+   pure integer function find_spike(y, z, height) result(first)
+      !> [mm]
+      real(wp), intent(in) :: y(:), z(:)
+      !> Least length of the spike [mm]
+      real(wp), intent(in) :: height
+      integer :: n
+
+      n = size(y)
+      first = 0
+      if (n < few_points) return
+      do first = 2, n - 1
+         if (is_spike(y(first - 1:first + 1), z(first - 1:first + 1), height)) return
+      end do
+      first = 0
+   end function find_spike
+
+   !> Is the second of three points the end of a spike?
+   pure logical function is_spike(y, z, height)
+      !> See find_spike
+      real(wp), intent(in) :: y(3), z(3), height
+      real(wp) :: shorter
+
+      shorter = min(hypot(y(2) - y(1), z(2) - z(1)), hypot(y(3) - y(2), z(3) - z(2)))
+      is_spike = shorter >= height .and. hypot(y(3) - y(1), z(3) - z(1)) < 0.5_wp*shorter
+   end function is_spike
+
+   !> The first point that stands out of the line of its neighbours; 0 when there is none
+   !>
+   !> It is a spike, or the line turns to one side there and to the other side at both neighbours. Corners, also coarse ones,
+   !> have no such neighbours.
    pure integer function find_outlier(y, z, height) result(first)
       !> [mm]
       real(wp), intent(in) :: y(:), z(:)
       !> Least distance from the line through the neighbours [mm]
       real(wp), intent(in) :: height
-      !> Least angles of the spike and of the line beside it [rad]
+      !> Least angles of the point and of the line beside it [rad]
       real(wp), parameter :: sharp = pi/3.0_wp, turned = pi/9.0_wp
-      real(wp) :: turn(size(y)), way(2), chord, distance
+      real(wp) :: turn(size(y)), shorter, chord, distance
       integer :: i, n
 
       n = size(y)
       first = 0
-      if (n < 6) return
+      if (n < few_points) return
       turn = turning_angles(y, z)
       do i = 2, n - 1
-         way = [hypot(y(i) - y(i - 1), z(i) - z(i - 1)), hypot(y(i + 1) - y(i), z(i + 1) - z(i))]
-         if (minval(way) < height) cycle
-         chord = hypot(y(i + 1) - y(i - 1), z(i + 1) - z(i - 1))
-         ! twice the area of the triangle over its base, or the shorter side where the base vanishes
-         distance = minval(way)
-         if (chord > 0.0_wp) distance = min(distance, abs((y(i + 1) - y(i - 1))*(z(i) - z(i - 1)) &
-            & - (z(i + 1) - z(i - 1))*(y(i) - y(i - 1)))/chord)
-         if (chord < 0.5_wp*minval(way)) distance = minval(way)
-         if (distance < height) cycle
-         if (chord >= 0.5_wp*minval(way)) then
-            if (abs(turn(i)) < sharp) cycle
-            if (any(-turn([max(2, i - 1), min(n - 1, i + 1)])*sign(1.0_wp, turn(i)) < turned)) cycle
-         end if
          first = i
-         return
+         if (is_spike(y(i - 1:i + 1), z(i - 1:i + 1), height)) return
+         if (abs(turn(i)) < sharp) cycle
+         if (any(-turn([max(2, i - 1), min(n - 1, i + 1)])*sign(1.0_wp, turn(i)) < turned)) cycle
+         ! twice the area of the triangle over its base, or the shorter side
+         shorter = min(hypot(y(i) - y(i - 1), z(i) - z(i - 1)), hypot(y(i + 1) - y(i), z(i + 1) - z(i)))
+         chord = hypot(y(i + 1) - y(i - 1), z(i + 1) - z(i - 1))
+         if (.not. chord > 0.0_wp) cycle
+         distance = abs((y(i + 1) - y(i - 1))*(z(i) - z(i - 1)) - (z(i + 1) - z(i - 1))*(y(i) - y(i - 1)))/chord
+         if (min(shorter, distance) >= height) return
       end do
+      first = 0
    end function find_outlier
 
    !> The first point behind which the next one is very far away, compared with the usual distance; 0 when there is none

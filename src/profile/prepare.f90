@@ -9,7 +9,7 @@ module contact_profile_prepare
    use contact_profile_curve, only : new_curve, profile_curve
    use contact_profile_miniprof, only : read_miniprof
    use contact_profile_points, only : chord_lengths, drop_close_points, find_hole, find_kinks, find_loop, find_outlier, &
-      & keep_points, needs_mirror_z, needs_reversal, remove_zig_zags, runs_backwards
+      & find_spike, keep_points, needs_mirror_z, needs_reversal, remove_zig_zags, runs_backwards
    use contact_profile_request, only : doubt, profile_file, profile_request, profile_side, smoothing_method
    use contact_profile_simpack, only : read_simpack
    use contact_text_lexer, only : input_lexer
@@ -132,9 +132,10 @@ contains
       z = file%z
       call refuse_units(file, request, error)
       if (allocated(error)) return
-      call doubt_points(file, request, log)
       call drop_close_points(y, z, file%nearest)
       call remove_zig_zags(y, z, request%zig_zag, zig_zags)
+      call doubt_points(file, request, y, z, log, error)
+      if (allocated(error)) return
       if (zig_zags > 0) then
          call log%warning(request%file // ": " // integer_text(zig_zags) // " zig-zag(s) removed.")
          call drop_close_points(y, z, file%nearest)
@@ -224,17 +225,27 @@ contains
          &millimetres as SCALEYZ", file=request%file, line=file%unit_line)
    end subroutine refuse_units
 
-   !> Warn of points that no wheel or rail has: a spike, or a hole between two points
-   subroutine doubt_points(file, request, log)
+   !> Points that no wheel or rail has: refuse a spike, warn of what else stands out, and of a hole between two points
+   subroutine doubt_points(file, request, y, z, log, error)
       type(profile_file), intent(in) :: file
       type(profile_request), intent(in) :: request
+      !> The points without zig-zags, in the unit of the file
+      real(wp), intent(in) :: y(:), z(:)
       type(log_type), intent(inout) :: log
+      type(error_type), allocatable, intent(out) :: error
       !> Height of a spike [mm]; length of a hole [mm], and relative to the usual distance of points
       real(wp), parameter :: spike = 1.0_wp, hole = 10.0_wp, hole_ratio = 20.0_wp
       real(wp) :: factor
       integer :: i
 
       factor = abs(request%scale)/file%units_per_mm
+      if (request%doubt > doubt%ignore .and. find_spike(factor*y, factor*z, spike) > 0) then
+         i = find_spike(factor*file%y, factor*file%z, spike)
+         if (i > 0) then
+            call refuse_spike(i)
+            return
+         end if
+      end if
       i = find_outlier(factor*file%y, factor*file%z, spike)
       if (i > 0) then
          call warn(i, " stands out of the line of its neighbours by more than " // real_text(spike) // " mm; the curve goes &
@@ -246,6 +257,19 @@ contains
          &from the next one, much farther than others; the curve between them is a guess.")
 
    contains
+
+      !> Refuse a profile with a spike
+      subroutine refuse_spike(i)
+         integer, intent(in) :: i
+         integer :: line
+
+         line = 0
+         if (allocated(file%line)) line = file%line(i)
+         call fatal_error(error, "point " // integer_text(i) // " at y = " // real_text(file%y(i)) // ", z = " // &
+            & real_text(file%z(i)) // " is the end of a spike: the line goes there and comes back beside itself, as no surface &
+            &does; expected a point near its neighbours, or ERRHND = -2 to take the points as they are", file=request%file, &
+            & line=line)
+      end subroutine refuse_spike
 
       !> Warn of a point
       subroutine warn(i, what)

@@ -7,7 +7,7 @@
 module contact_wheelrail_height
    use contact_base_case_status, only : case_status
    use contact_base_choices, only : force_control, motion
-   use contact_base_error, only : error_type, fatal_error
+   use contact_base_error, only : error_kind, error_type, fatal_error
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
    use contact_text_words, only : integer_text, real_text
@@ -27,6 +27,9 @@ module contact_wheelrail_height
 
    !> Steps of the force that are due to the grids, relative to the force
    real(wp), parameter :: small_step = 1.0e-4_wp
+
+   !> The deepest first trial [mm]
+   real(wp), parameter :: deepest_guess = 5.0_wp
 
    !> Forces below this value ask for a wheel that just touches [N]
    real(wp), parameter :: no_force = 1.0e-9_wp
@@ -128,8 +131,11 @@ contains
       touch = memory%here%touch
       ! friction decouples from the pressures for bodies that are alike
       separate = problem%template%motion /= motion%none .and. .not. problem%template%model%coupled()
-      guess = touch + penetration_guess(problem, memory, target)
-      if (spring > 0.0_wp) guess = min(guess, touch + target/spring)
+      guess = penetration_guess(problem, memory, target)
+      if (spring > 0.0_wp) guess = min(guess, target/spring)
+      call refuse_soft_bodies(memory%here%placement%wheel_radius, target, guess, error)
+      if (allocated(error)) return
+      guess = touch + min(guess, deepest_guess)
       if (problem%use_previous .and. memory%started .and. memory%z_ws > touch) guess = memory%z_ws
       if (memory%here%penetration > 0.0_wp) guess = touch + memory%here%penetration
       if (problem%geometry_only) then
@@ -324,6 +330,20 @@ contains
       modulus = problem%template%model%material%gg/(1.0_wp - problem%template%model%material%nu)
       ! a sphere with the mean of the curvatures
       pen = (0.75_wp*force*sqrt(2.0_wp*max(sqrt(a*b), 1.0e-8_wp))/modulus)**(2.0_wp/3.0_wp)
-      pen = min(max(pen, 1.0e-6_wp), 5.0_wp)
+      pen = max(pen, 1.0e-6_wp)
    end function penetration_guess
+
+   !> Refuse bodies so soft that the search would go on to contacts of the size of the wheel
+   subroutine refuse_soft_bodies(radius, force, penetration, error)
+      !> Of the wheel [mm]
+      real(wp), intent(in) :: radius
+      !> Prescribed force [N], and the penetration that Hertz's theory expects [mm]
+      real(wp), intent(in) :: force, penetration
+      type(error_type), allocatable, intent(out) :: error
+
+      if (penetration <= radius) return
+      call fatal_error(error, "a vertical force of " // real_text(force) // " N would press wheel and rail about " // &
+         & real_text(penetration) // " mm into each other by Hertz's theory, more than the radius of the wheel, " // &
+         & real_text(radius) // " mm; expected stiffer bodies (GG) or a smaller force", error_kind%input)
+   end subroutine refuse_soft_bodies
 end module contact_wheelrail_height

@@ -113,15 +113,23 @@ class Limits(unittest.TestCase):
         self.assertIn("Estimate of case 2 on one thread: about 160000 elements", told[0])
         self.assertIn("1960000 elements", told[2])
 
-    def test_soft_bodies_in_a_transient_case(self):
-        # the contact of a first trial would cover the whole wheel
+    def soft_rolling(self, modulus):
+        """The first step of the example with a soft wheel"""
         with open(os.path.join(SOURCE, "examples", "rolling_steps.inp")) as file:
-            text = file.read().replace("0.28 0.28 82000. 82000.", "0.28 0.28 1e-3 82000.", 1)
-        first = text[:text.index("1 MODULE", text.index("1 MODULE") + 5)]
-        done, lines = self.run_program(first + "0\n")
+            text = file.read().replace("0.28 0.28 82000. 82000.", f"0.28 0.28 {modulus} 82000.", 1)
+        return text[:text.index("1 MODULE", text.index("1 MODULE") + 5)] + "0\n"
+
+    def test_soft_bodies_in_a_transient_case(self):
+        # the contact of a first trial would cover much of the wheel
+        done, lines = self.run_program(self.soft_rolling("8.2"))
         self.assertLess(self.seconds, 60.0)
         self.assertNotEqual(lines[0]["status"], "solved")
         self.assertIn("NPOT_MAX", lines[0]["reason"])
+
+    def test_bodies_that_the_force_would_press_flat(self):
+        done, lines = self.run_program(self.soft_rolling("1e-3"))
+        self.assertEqual(lines[0]["status"], "refused")
+        self.assertIn("more than the radius of the wheel, 460 mm", lines[0]["reason"])
 
 
 if __name__ == "__main__":

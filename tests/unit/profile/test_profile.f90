@@ -380,8 +380,19 @@ contains
             else
                call suite%check(allocated(error), "an outlier is noticed")
             end if
+            if (k > 2 .or. j > 1) cycle
+            ! far out beside its neighbours: a spike, which is refused at every level but the last one
+            request%doubt = doubt%silent
+            call refused(suite, request, text, "is the end of a spike", n + 6, "a spike")
+            request%doubt = doubt%ignore
+            call read_profile(request, curve, log, error)
+            call suite%check(.not. allocated(error), "a spike is taken when asked for")
+            request%doubt = doubt%refuse
          end do
       end do
+      ! coarse sections that overlap look like a spike until the zig-zag is gone
+      call read_text(suite, rail_request("overlap.txt"), "-9 .2" // nl // "-6 .1" // nl // "-3 .02" // nl // "0 0" // nl // &
+         & "3 .02" // nl // "6 .1" // nl // "3.9 .05" // nl // "6.9 .13" // nl // "10.2 .3", curve, "overlap", warnings=2)
       ! a hole: the last points are far away; and coarse tables without any
       call read_text(suite, rail_request("hole.txt"), "-5 .1" // nl // "-4 .08" // nl // "-3 .05" // nl // "-2 .02" // &
          & nl // "-1 0" // &
