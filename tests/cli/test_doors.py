@@ -91,7 +91,7 @@ class Doors(unittest.TestCase):
         self.assertEqual(run.returncode, 0, run.stderr + out[-2000:])
         cases = re.split(r"\n Case +\d+.*\n", out)[1:]
         number = re.compile(r"-?\d+\.\d+(?:E[+-]\d+)?")
-        return [number.findall(case.split("Parallel run")[0]) for case in cases]
+        return [number.findall(re.split("Parallel run|Time spent", case)[0]) for case in cases]
 
 
 class StoredValues(Doors):

@@ -136,7 +136,8 @@ def ball_on_plane(digits, position, velocity):
     write_profile("ball.prr", 0, [(0.1*k, 100 - math.sqrt(100**2 - (0.1*k)**2)) for k in range(-999, 1000)])
     write_profile("plane.prw", 1, [(float(k), 0.0) for k in range(50, -51, -1)])
     return case(1, digits, iteration(1e-5), (0.4, 0.4), (0.28, 0.28, 200, 200), (0.2, 0.2, 1, "90d", 8, 4), (-1, 0, 0, 0),
-                ("'ball.prr'", 0, 1, 0), (0,)*6, (0, 0, 100), ("'plane.prw'", 0, 1, 0), position, velocity, (0, 0, 0, "5d", 0, 0), (0,)*6)
+                ("'ball.prr'", 0, 1, 0), (0,)*6, (0, 0, 100), ("'plane.prw'", 0, 1, 0), position, velocity, (0, 0, 0, "5d", 0,
+                    0), (0,)*6)
 
 
 def pair_shifted():
@@ -160,7 +161,8 @@ def pair_steady():
     yield ball_on_plane("1203100 0022035 0001321", (0, 0, 237, 0, 0.004, 0), (100, 0, 0, 0, 0, -0.996))
 
 
-SCENES = [simplified_theory, relaxing_cylinders, heated_sliding, heated_friction, yielding_line, yielding_ball, two_branches, loaded_square,
+SCENES = [simplified_theory, relaxing_cylinders, heated_sliding, heated_friction, yielding_line, yielding_ball, two_branches,
+          loaded_square,
           creep_force_curve, pair_shifted, pair_rolling, pair_steady]
 
 
@@ -190,7 +192,8 @@ def main(names):
             found = cases.get(number, {}).get(quantity)
             if found is None or not abs(found - value) <= allowed:
                 failures += 1
-                print("FAILED: %s, case %d, %s = %s instead of %s within %.2g" % (scene.__name__, number, quantity, found, value, allowed))
+                print("FAILED: %s, case %d, %s = %s instead of %s within %.2g" % (scene.__name__, number, quantity, found, value,
+                                                                                  allowed))
     print("%d published figures, %d failures" % (count, failures))
     return 1 if failures or not count else 0
 
