@@ -5,7 +5,7 @@
 !> gets it where it is given up.
 module contact_base_case_status
    use contact_base_kinds, only : wp
-   use contact_base_solve_report, only : failure_text, solve_report
+   use contact_base_solve_report, only : failure_text, size_text, solve_report
    implicit none (type, external)
    private
 
@@ -124,8 +124,8 @@ contains
       character(len=24) :: numbers(3)
 
       write(numbers(:2), '(G0.6)') requested, found
-      write(numbers(3), '(ES10.2E2)') found - requested
       numbers = adjustl(numbers)
+      numbers(3) = size_text(found - requested, 2)
       call self%miss(missed_iteration%force, "force, requested " // name // " " // trim(numbers(1)) // " N, found " // &
          & trim(numbers(2)) // " N, off by " // trim(numbers(3)) // " N: " // why)
    end subroutine miss_force

@@ -76,11 +76,13 @@ contains
       end if
    end subroutine add_context
 
-   !> Place, message and trail of an error in one text
+   !> Place, message and trail of an error in one text of one line: control characters, as of a name that a
+   !> damaged file gives, become question marks
    pure subroutine join_parts(error, text)
       type(error_type), intent(in) :: error
       character(len=:), allocatable, intent(out) :: text
       character(len=24) :: place
+      integer :: k
 
       text = ""
       if (allocated(error%file)) then
@@ -97,6 +99,9 @@ contains
       end if
       if (allocated(error%message)) text = text // error%message
       if (allocated(error%trail)) text = text // " (" // error%trail // ")"
+      do k = 1, len(text)
+         if (iachar(text(k:k)) < 32 .or. iachar(text(k:k)) == 127) text(k:k) = "?"
+      end do
    end subroutine join_parts
 
    !> Length of the text of an error

@@ -4,7 +4,7 @@ module contact_base_solve_report
    implicit none (type, external)
    private
 
-   public :: solve_report, ending, failure_text
+   public :: solve_report, ending, failure_text, size_text
 
    type :: ending_list
       !> Nothing was iterated (empty contact, skipped problem)
@@ -67,7 +67,7 @@ contains
       character(len=*), intent(in) :: name
       type(solve_report), intent(in) :: report
       character(len=len(name) + name_length + 80) :: text
-      character(len=10) :: numbers(2)
+      character(len=11) :: numbers(2)
       character(len=22) :: how
 
       select case (report%ended)
@@ -84,8 +84,23 @@ contains
       end select
       text = name // ", " // trim(report%method) // " " // how
       if (report%residual < 0.0_wp) return
-      write(numbers, '(ES10.1E2)') report%residual, report%tolerance
-      numbers = adjustl(numbers)
+      numbers(1) = size_text(report%residual, 1)
+      numbers(2) = size_text(report%tolerance, 1)
       text = trim(text) // ": relative residual " // trim(numbers(1)) // ", tolerance " // trim(numbers(2))
    end function failure_text
+
+   !> A number that may have any exponent, such as "1.6E-07"
+   pure function size_text(value, decimals) result(text)
+      real(wp), intent(in) :: value
+      !> 1 or 2
+      integer, intent(in) :: decimals
+      character(len=11) :: text
+      character(len=10) :: form
+      logical :: is_long
+
+      is_long = abs(value) >= 1.0e99_wp .or. (abs(value) < 1.0e-98_wp .and. abs(value) > 0.0_wp)
+      write(form, '("(ES11.", I0, "E", I0, ")")') decimals, merge(3, 2, is_long)
+      write(text, form) value
+      text = adjustl(text)
+   end function size_text
 end module contact_base_solve_report

@@ -23,7 +23,7 @@ function(contact_shared target)
   if(NOT APPLE AND NOT WIN32)
     target_link_options(${target} PRIVATE LINKER:--version-script=${map} LINKER:--as-needed LINKER:-Bsymbolic-functions
       LINKER:-z,nodelete)
-    if(NOT CONTACT_SANITIZE)
+    if(NOT CONTACT_SANITIZE AND NOT CONTACT_FUZZ)
       target_link_options(${target} PRIVATE LINKER:--no-undefined)
     endif()
   endif()

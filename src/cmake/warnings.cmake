@@ -3,6 +3,7 @@ option(CONTACT_WERROR "Treat compiler warnings as errors" OFF)
 option(CONTACT_NATIVE "Use all instructions of this machine (-march=native); not portable" OFF)
 set(CONTACT_SANITIZE "" CACHE STRING "Sanitizers, for instance address,undefined")
 option(CONTACT_COVERAGE "Count executed lines (gcov)" OFF)
+option(CONTACT_FUZZ "Report every branch that is taken to tests/fuzz, which is then driven by libFuzzer" OFF)
 
 add_library(contact_warnings INTERFACE)
 target_compile_options(contact_warnings INTERFACE
@@ -25,6 +26,9 @@ if(CONTACT_SANITIZE)
   target_compile_options(contact_warnings INTERFACE
     $<$<COMPILE_LANGUAGE:Fortran>:-fno-sanitize=null>)
   add_link_options(-fsanitize=${CONTACT_SANITIZE})
+endif()
+if(CONTACT_FUZZ)
+  target_compile_options(contact_warnings INTERFACE -fsanitize-coverage=trace-pc)
 endif()
 if(CONTACT_COVERAGE)
   target_compile_options(contact_warnings INTERFACE --coverage)

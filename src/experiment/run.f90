@@ -187,6 +187,7 @@ contains
          call find_slot(state, this%reid, this%cpid, k)
          call check_without_solving(state%slots(k)%problem_slot, this%spec, state, error)
          if (.not. allocated(error)) cycle
+         call place_error(state, this, error)
          call add_context(error, "case " // integer_text(this%number))
          call report_error(state, error)
          faulty = faulty + 1
@@ -390,6 +391,7 @@ contains
          if (allocated(error) .or. this%spec%solve) call count_case(state, head%status)
          if (allocated(error)) then
             if (state%exports%wanted()) call state%exports%write_failure(head)
+            call place_error(state, this, error)
             call add_context(error, "case " // integer_text(this%number))
             if (this%reid > 0) call add_context(error, "result element " // integer_text(this%reid))
             call report_error(state, error)
@@ -510,6 +512,17 @@ contains
       state%run%planned = state%run%finished
       if (allocated(state%run%reason)) call count_planned(state)
    end subroutine learn_planned
+
+   !> An error without a place belongs to its case as a whole: where that begins in the input
+   subroutine place_error(state, this, error)
+      type(experiment_state), intent(in) :: state
+      type(input_case), intent(in) :: this
+      type(error_type), intent(inout) :: error
+
+      if (allocated(error%file)) return
+      error%file = state%place%input
+      error%line = this%first_line
+   end subroutine place_error
 
    !> Write an error to the .out file and to the unit for errors, and remember the first
    subroutine report_error(state, error)

@@ -3,6 +3,8 @@
 #   install_missing    installs the compiler, tools and libraries that are not there
 #   install_octave     the same for GNU Octave, which tests of matlab/ need; goes on without it
 #   install_python_packages   the same for numpy, chromium and others, which only tests need; goes on without them
+#   install_valgrind   the same for valgrind, by which tests look for uninitialised values; goes on without it
+#   install_fuzzer     the same for libFuzzer, which only tests/fuzz/run.sh needs
 #   build PRESET [-DX] configures and builds into build/PRESET
 
 say() { printf '%s\n' "== $*"; }
@@ -161,6 +163,26 @@ install_python_packages() {
   PATH=$top/build/python/bin:$PATH
   export PATH
   has_python_packages || say "Packages of Python are missing; tests that need them will be skipped"
+}
+
+# A package of Debian, without asking for a password
+quiet_apt() {
+  command -v apt-get >/dev/null 2>&1 && { [ "$(id -u)" = 0 ] || sudo -n true 2>/dev/null; } || return 1
+  packages=$1
+  as_root apt-get update || say "apt-get update failed; trying with the package lists that are there"
+  as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends "$packages"
+}
+
+install_valgrind() {
+  command -v valgrind >/dev/null 2>&1 && return 0
+  say "Installing valgrind for the tests"
+  quiet_apt valgrind || say "valgrind could not be installed; tests that need it are skipped"
+}
+
+install_fuzzer() {
+  ls /usr/lib/llvm-*/lib/libFuzzer.a >/dev/null 2>&1 && return 0
+  say "Installing libFuzzer"
+  quiet_apt libfuzzer-14-dev || fail "libFuzzer is missing; ask for the package libfuzzer-14-dev or one of a later number"
 }
 
 # build PRESET [options of cmake]

@@ -1,0 +1,14 @@
+/* Input files, read and checked */
+#include "contact.h"
+#include "experiment.h"
+#include "fuzz.h"
+
+const char fuzz_name[] = "check";
+
+void fuzz_begin(void) {}
+
+void fuzz_text(const char *text, size_t length)
+{
+  fuzz_write("fuzz.inp", text, length);
+  run_experiment(CONTACT_CHECK);
+}

@@ -1,0 +1,8 @@
+/* An experiment in the folder of the target, run or checked in this process */
+#ifndef EXPERIMENT_H
+#define EXPERIMENT_H
+
+/* Read fuzz.inp with a mode of contact.h, under limits that keep a case within milliseconds, and judge message and report */
+void run_experiment(int mode);
+
+#endif

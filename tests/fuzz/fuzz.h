@@ -1,0 +1,51 @@
+/* What all targets of fuzzing share: a text is given to the library, and what comes back is judged.
+ *
+ * A target is one C file with fuzz_name, fuzz_begin and fuzz_text. It is linked with replay.c, which repeats a corpus and
+ * changes it by a fixed seed, or with guided.c, which lets libFuzzer choose by the branches that were taken. */
+#ifndef FUZZ_H
+#define FUZZ_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+/* Longest text that a target is given [bytes] */
+enum { fuzz_longest = 16384 };
+
+/* Name of the target, and of its folder of the corpus */
+extern const char fuzz_name[];
+/* Called once, in the folder of the target */
+void fuzz_begin(void);
+/* Give one text, null-terminated, to the library; ends in fuzz_fail when what comes back is wrong */
+void fuzz_text(const char *text, size_t length);
+
+/* Make an empty folder in memory, go there, copy the profiles of the examples to profiles/ with an eighth of their points */
+void fuzz_enter(void);
+/* Remove all files of that folder that fuzz_keep has not named */
+void fuzz_tidy(void);
+/* Remember all files that are there now */
+void fuzz_keep(void);
+/* One text to the library, and the files that it wrote removed */
+void fuzz_execute(const char *text, size_t length);
+
+/* Report what is wrong and end the process by SIGABRT */
+_Noreturn void fuzz_fail(const char *format, ...) __attribute__((format(printf, 1, 2)));
+/* What the library answered, on standard error when CONTACT_FUZZ_TELL is set: to see whether texts get far */
+void fuzz_tell(const char *format, ...) __attribute__((format(printf, 1, 2)));
+/* Write a file; a failure ends the process */
+void fuzz_write(const char *name, const char *text, size_t length);
+/* A message to a user must be there and be a text of one line */
+void fuzz_judge_message(const char *message, const char *what);
+/* No result of a report may be other than a finite number */
+void fuzz_judge_report(const char *name);
+
+/* Change a text in place: bytes, numbers, words, lines, pieces of another text.
+ *
+ * room   size of the buffer
+ * other  a text to take pieces from, NULL for none
+ * state  of the generator of random numbers, changed
+ * Returns the new length. */
+size_t fuzz_mutate(char *text, size_t length, size_t room, const char *other, size_t other_length, uint64_t *state);
+/* A random number from 0 to below limit */
+size_t fuzz_random(uint64_t *state, size_t limit);
+
+#endif
