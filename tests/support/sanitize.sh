@@ -1,0 +1,66 @@
+# What sh tests/run.sh --sanitize does; sourced by it with $top set to the checkout. Ends the shell.
+#
+# Each part runs whatever the ones before found, and the exit status is 0 when none found anything.
+
+failures=
+# part NAME COMMAND...
+part() {
+  say "$1"
+  shift
+  "$@" || failures="$failures
+  $*"
+}
+
+# Tests of a build by their names
+tests_of() { ctest --test-dir "$top/build/$1" -N -LE '^long$' | sed -n 's/^ *Test *#[0-9]*: //p' | sort; }
+
+# Why a test does not run under the sanitizers; nothing for one that should
+reason_of() {
+  case $1 in
+    memcheck_*) echo "is run by valgrind" ;;
+    capi_host_* | faults_*) echo "limits the memory or replaces calls of the system, which the sanitizers do too" ;;
+    capi_statics | capi_consumer) echo "looks at libraries as they are installed, without instruments" ;;
+    capi_memory | capi_many_rounds) echo "measures memory, of which the sanitizers keep what was freed" ;;
+    performance*) echo "judges times and requests for memory" ;;
+    octave_*) echo "Octave is not instrumented and cannot load the library; its scripts read files that other tests write too" ;;
+    report_browser) echo "tests the page in the browser" ;;
+    capi_*) echo "Python is not instrumented and cannot load the library; capi_robust and fuzz_calls make such calls" ;;
+  esac
+}
+
+export ASAN_OPTIONS=allocator_may_return_null=1 UBSAN_OPTIONS=print_stacktrace=1
+export LSAN_OPTIONS="suppressions=$top/tests/support/leaks.supp:print_suppressions=0"
+# programs of the tests that are timed get more time
+export CONTACT_SLOWER=20
+elsewhere='^(performance|performance_rail|octave_.*|report_browser|no_exports)$'
+
+build sanitize -DCONTACT_TESTS=ON
+part "Address and undefined-behaviour sanitizers, leaks" \
+  ctest --test-dir "$top/build/sanitize" --output-on-failure -j2 -LE '^long$' -E "$elsewhere"
+# a traced process cannot be searched for leaks
+part "The same for a traced program" \
+  env ASAN_OPTIONS=detect_leaks=0 ctest --test-dir "$top/build/sanitize" --output-on-failure -R '^no_exports$'
+
+(cd "$top" && cmake --preset sanitize-thread && cmake --build --preset sanitize-thread -j "$jobs") ||
+  fail "The build failed; its messages stand above."
+# units of libgfortran lock in both orders, with a try that the sanitizer does not see; it wants addresses without surprises
+part "Thread sanitizer" env TSAN_OPTIONS=detect_deadlocks=0 OMP_NUM_THREADS=8 \
+  setarch -R ctest --test-dir "$top/build/sanitize-thread" --output-on-failure -L '^threads$'
+
+build release -DCONTACT_TESTS=ON
+part "Valgrind" ctest --test-dir "$top/build/release" --output-on-failure -j2 -L '^memcheck$'
+
+say "Not run under the sanitizers"
+tests_of release >"$top/build/tests_of_release"
+tests_of sanitize | grep -vE "$elsewhere" >"$top/build/tests_of_sanitize"
+echo no_exports >>"$top/build/tests_of_sanitize"
+for name in $(sort "$top/build/tests_of_sanitize" | comm -23 "$top/build/tests_of_release" -); do
+  reason=$(reason_of "$name")
+  [ -n "$reason" ] || failures="$failures
+  $name: no reason is known why it does not run under the sanitizers"
+  printf '  %-40s %s\n' "$name" "$reason"
+done
+
+[ -z "$failures" ] || fail "Something was found by:$failures"
+say "Nothing was found"
+exit 0
