@@ -70,6 +70,8 @@ class Limits(unittest.TestCase):
         done, lines = self.run_program(case(60) + case(20) + "0\n", "--limit-memory=1")
         self.assertEqual([line["status"] for line in lines], ["refused", "solved"])
         self.assertIn("more than the limit of 1 MB", lines[0]["reason"])
+        _, lines = self.run_program(case(60) + case(20) + "0\n", "--limit-memory=800")
+        self.assertEqual([line["status"] for line in lines], ["solved", "solved"])
 
     def test_time_inside_a_solution(self):
         done, lines = self.run_program(endless(80) + case(10) + "0\n", "--limit-time", "0.5")

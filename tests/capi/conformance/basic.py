@@ -521,6 +521,43 @@ def case_number():
     check(os.path.isfile("caddon_re001_cp1.0011.mat"), "the next .mat file")
 
 
+def grids():
+    """Elements of another size: no coefficients that are kept, no previous case that is continued; Hertzian data of a window"""
+    def solve(ire, dx, dy, digits):
+        cntc.setpotcontact(ire, 1, 1, [22, 26, -11 * dx, -13 * dy, dx, dy])
+        cntc.setundeformeddistc(ire, 1, 1, [0.002, 0, 0.002, 0, 0, 0])
+        cntc.setflags(ire, 1, [CNTC[name] for name in digits], list(digits.values()))
+        return cntc.calculate(ire, 1, idebug=0), last_error(ire, 1)[1]
+
+    fresh = {"ic_inflcf": 2, "ic_pvtime": 2, "ic_iestim": 0, "ic_tang": 1}
+    for case, digits in (("C = 0", {"ic_inflcf": 0}), ("P = 0, I = 1", {"ic_pvtime": 0, "ic_iestim": 1})):
+        for number, (dx, dy, good) in enumerate(((0.4, 0.35, True), (0.41, 0.35, False), (0.39, 0.35, False), (0.4, 0.36, False),
+                                                 (0.4, 0.34, False)), 1):
+            start(number)
+            case_a(number)
+            same(solve(number, 0.4, 0.35, fresh)[0], 0, f"{case}: the first case")
+            code, told = solve(number, dx, dy, digits)
+            check((code == 0) == good, f"{case}, elements of {dx} x {dy}: code {code}, {told}")
+            check(good or "element" in told or "differs" in told, f"{case}, elements of {dx} x {dy}: {told}")
+            cntc.finalize(number)
+    for units, big in (("un_cntc", 1.0), ("un_si", 1e-3)):
+        start(1)
+        case_a(1, 1, units)
+        same(cntc.calculate(1, 1), 0, "an ellipse")
+        a1, b1, aa, bb, rho, cp, scale, bneg, bpos, aob = cntc.gethertzcontact(1, 1)
+        close([aa, bb, scale, bneg, bpos, aob], [4.25 * big, 7 * big, 21 / 17, 7 * big, 7 * big, 4.25 / 7], 1e-9, f"{units}: ellipse")
+        close([rho, cp], [2 / (a1 + b1), np.sqrt(aa * bb)], [1e-9 * rho, 1e-9], f"{units}: effective radius and size")
+        # pressure of an ellipse from its force and area
+        fn = cntc.getcontactforces(1, 1)[0]
+        close(cntc.getmaximumpressure(1, 1), 1.5 * fn / (np.pi * aa * bb), 0.01 * 675 / big**2, f"{units}: largest pressure")
+        cntc.setpotcontact(1, 1, 1, np.array([22, 26, -4.4, -4.5, 0.4, 0.35]) * [1, 1, big, big, big, big])
+        cntc.setundeformeddistc(1, 1, 1, np.array([0.002, 0, 0.002, 0, 0, 0]) / big)
+        same(cntc.calculate(1, 1), 0, "a window")
+        _, _, aa, bb, _, cp, _, _, _, _ = cntc.gethertzcontact(1, 1)
+        close(cp, np.sqrt(aa * bb), 1e-9, f"{units}: size in a window")
+        cntc.finalize(1)
+
+
 def replay():
     """Cases written as input give the same results in the program"""
     cntc.initlibrary(expnam="replay")
@@ -678,7 +715,7 @@ if __name__ == "__main__":
         if stale.endswith((".mat", ".out", ".inp", ".subs")):
             os.remove(stale)
     scenarios = (conventions, variations, materials, stresses, sensitivities, codes, wrong_counts, clamps, refusals, separate,
-                 continued, case_number, replay, second_run, timers, array_lengths, kalker, names)
+                 continued, case_number, replay, second_run, timers, array_lengths, kalker, names, grids)
     chosen = [scenario for scenario in scenarios if scenario.__name__ == sys.argv[-1]]
     if not chosen:
         raise SystemExit("usage: basic.py " + " | ".join(scenario.__name__ for scenario in scenarios))

@@ -210,7 +210,8 @@ def compare_results(name, expected, label):
         names, words = heading.split(), line.split()
         if len(names) > 1 and re.fullmatch(r"[A-Z][A-Z0-9_() ]*", heading.strip()):
             try:
-                printed.update(zip(names, map(float, words)))
+                for key, value in zip(names, map(float, words)):
+                    printed.setdefault(key, []).append(value)
             except ValueError:
                 pass
     recorded = {}
@@ -229,7 +230,9 @@ def compare_results(name, expected, label):
                 continue
             if key in printed:
                 told.add("out " + key)
-                close(printed[key], value, 6e-4 * abs(value) + 1e-9, f"{label}: {key} in the .out file")
+                # rail and wheel have the same names
+                nearest = min(printed[key], key=lambda number: abs(number - value))
+                close(nearest, value, 6e-4 * abs(value) + 1e-9, f"{label}: {key} in the .out file")
             key = RECORD.get(key, key.lower())
             if key in recorded and len(names.split()) > 2:
                 told.add("h5 " + key)
@@ -318,6 +321,11 @@ PAIR = {
         1435.0 * big, 0.0, 505.0 * big]),
                                  cntc.setwheelsetvelocity(ire, 2, [4.01, 0, 0, 0, 0, -4.35])), {"VS": [4.01, 0, 0, 0, 0, -4.35],
                                      "GAUGHT": [14, 0, 1435, 505]}),
+    "options of a profile": (lambda ire, big: cntc.setprofileinputfname(ire, profiles()[0], [0, 0, 0, -1, 1, 2],
+                                                                         [1.0, 0.4, 0.45, 2.7, 0.53, 0.11, 1.9 * big]),
+                             {"'": [0, 1.0, 0.4, -1], "ISMOOTH": [2, 2.7, 0.53, 0.11, 1.9], "ERRHND": [1, 0.45]}),
+    "options of a wheel": (lambda ire, big: cntc.setprofileinputfname(ire, profiles()[1], [1, 0, 0, -1, 0, 0], [0.999, 0.0]),
+                           {"'": [0, 0.999, 0.0, -1]}),
     "profile by values": (lambda ire, big: cntc.setprofileinputvalues(ire, np.array([[y, 40 - np.sqrt(1600 - y * y)]
                                                                                      for y in np.linspace(-30, 30, 241)]) * 1e-3,
                                                                       [0, 0, 0, 0], [1000.0, 0.0]), {"'": [0, 1000.0, 0.0]}),

@@ -43,6 +43,19 @@ program test_reader3
 
 contains
 
+   !> INISLP as the solvers see it
+   subroutine inislp_becomes(suite, text, expected)
+      type(test_suite), intent(inout) :: suite
+      character(len=*), intent(in) :: text
+      integer, intent(in) :: expected
+      type(case_spec) :: spec
+      type(problem_list) :: problems
+      type(error_type), allocatable :: error
+
+      call read_one("3=0400001|4=100 100 30 1 1e-5;" // text // " 0.4", spec, problems, error)
+      call suite%check(.not. allocated(error) .and. spec%iteration%inislp == expected, "INISLP = " // text)
+   end subroutine inislp_becomes
+
    !> A rolling case on a given grid, with changes
    !>
    !> Changes are "number=text" with bars between: line numbers 1...12 as below; semicolons begin new
@@ -268,6 +281,14 @@ contains
       call right(suite, "1=203103|3=0000001|12=0.01 0 0.01 0 0 0;1 0;1;3 0.0 0.5;2;1 1 5;1 2 7;3 0 0.5;3;2 2;1 2;3 4;1 0 1;" // &
          & "5;2;0 1;6;1 1 2;1 1 2;1;0.5;7;1 1;2;2;1;0.1;9;1 1 1;0;0;-0.5;0")
 
+      ! only the sign of INISLP has a meaning, and whether it is 0
+      call inislp_becomes(suite, "1", 1)
+      call inislp_becomes(suite, "0.3", 1)
+      call inislp_becomes(suite, "-0.3", -1)
+      call inislp_becomes(suite, "-1", -1)
+      call inislp_becomes(suite, "0", 0)
+      call inislp_becomes(suite, "0.0", 0)
+
       call read_one("2=0624029 2|3=3200001|4=100 100 30 1 1e-5 50;0.8 0.9 1.0 0.4|6=0.4 20. -0.1 500.;0.001 5.|" // &
          & "7=180d 0.1 1000. 0.2|8=0 2 2; 0 0d 1 90d; 0.3 0.3 1. 1.;5. 6. 7. 8.;20 450 .05 7.85-6;30 450 .05 7.85-6|" // &
          & "10=2 1 0 0 1 1|12=0.01 0 0.01 0 0 0;1 2 3 4", spec, problems, error)
@@ -364,6 +385,11 @@ contains
       call fails(suite, start // "0 0;1;0 0 1;0", "NZ = 0 is outside its range 1 to 9999 (subsurface block 1, case 1)")
       call fails(suite, start // "0 0;9;1 10000 1;0", "NY = 10000 is outside its range")
       call fails(suite, start // "0 0;3;0 1", "NX = 0 is outside its range")
+      call fails(suite, start // "0 0;3;1 0", "NY = 0 is outside its range")
+      call fails(suite, start // "0 0;9;0 1 1;0", "NX = 0 is outside its range")
+      call fails(suite, start // "0 0;9;1 0 1;0", "NY = 0 is outside its range")
+      call fails(suite, start // "0 0;9;1 1 0;0", "NZ = 0 is outside its range")
+      call fails(suite, start // "0 0;5;0;0.5;0", "NZ = 0 is outside its range")
       call wrong(suite, start // "0 0;2;0 1 5;1 1 5;1 0 1;0", "IXL = 0 is outside its range")
       call wrong(suite, start // "0 0;2;4 1 3;1 1 5;1 0 1;0", "IXH = 3 is outside its range 4 to 999999")
       call wrong(suite, start // "0 0;2;1 1 3;0 1 5;1 0 1;0", "IYL = 0")

@@ -58,6 +58,13 @@ contains
       call expand(block, grid, nx, ny, nz, position)
       call suite%close_to(position(1, :), [-1.0_wp, 3.0_wp, 3.0_wp, -1.0_wp, 3.0_wp, 3.0_wp], 0.0_wp, "free x")
       call suite%close_to(position(3, [1, 4]), [-1.0_wp, 1.0_wp], 0.0_wp, "free z, sorted")
+      deallocate(block%y)
+      call expand(block, grid, nx, ny, nz, position)
+      call suite%check(nx == 3 .and. ny == 0 .and. size(position, 2) == 0, "no list of y: an empty block")
+      block%selection = point_selection%lists
+      deallocate(block%ix)
+      call expand(block, grid, nx, ny, nz, position)
+      call suite%check(nx == 0 .and. ny == 2, "no list of columns: an empty block")
    end subroutine run
 
    !> Numbers and positions of the points of a block
