@@ -2,6 +2,7 @@
 module contact_base_memory
    use, intrinsic :: iso_fortran_env, only : int8
    use contact_base_error, only : error_kind, error_type, fatal_error
+   use contact_base_guard, only : expect_refusals
    use contact_base_kinds, only : long
    implicit none (type, external)
    private
@@ -31,7 +32,9 @@ contains
       integer :: status
 
       if (number <= little/bytes_each) return
+      call expect_refusals(.true.)
       allocate(probe(number*bytes_each), stat=status)
+      call expect_refusals(.false.)
       if (status == 0) then
          probe(1) = 0_int8
          deallocate(probe)

@@ -20,7 +20,7 @@ module contact_capi_calculate
 contains
 
    !> Solve what the settings say: a contact problem, or wheel and rail as a whole
-   subroutine cntc_calculate(ire, icp, ierror) bind(c)
+   subroutine cntc_calculate(ire, icp, ierror) bind(c, name="inside_cntc_calculate")
       integer(c_int), intent(in), optional :: ire, icp
       integer(c_int), intent(inout), optional :: ierror
 
@@ -28,7 +28,7 @@ contains
    end subroutine cntc_calculate
 
    !> The same for wheel and rail only
-   subroutine cntc_calculate1(ire, ierror) bind(c)
+   subroutine cntc_calculate1(ire, ierror) bind(c, name="inside_cntc_calculate1")
       integer(c_int), intent(in), optional :: ire
       integer(c_int), intent(inout), optional :: ierror
 
@@ -36,7 +36,7 @@ contains
    end subroutine cntc_calculate1
 
    !> The same for contact problems only
-   subroutine cntc_calculate3(ire, icp, ierror) bind(c)
+   subroutine cntc_calculate3(ire, icp, ierror) bind(c, name="inside_cntc_calculate3")
       integer(c_int), intent(in), optional :: ire, icp
       integer(c_int), intent(inout), optional :: ierror
 
@@ -52,14 +52,14 @@ contains
       type(case_status) :: status
       character(len=:), allocatable :: reason
       real(wp) :: cpu, wall
-      integer :: code, threads, link, estimate, k
+      integer :: code, threads, k
 
       call enter_calculation(this, allowed, problem, code)
       if (associated(problem)) then
          call forget_complaint(problem)
          ! a first case overrides these digits for itself only
-         link = problem%spec%digits%p
-         estimate = problem%spec%digits%i
+         problem%given_link = problem%spec%digits%p
+         problem%given_estimate = problem%spec%digits%i
          call say(1, this, "calculating...")
          threads = omp_get_max_threads()
          call omp_set_num_threads(threads_inside())
@@ -79,8 +79,8 @@ contains
          else
             call calculate_contact(this, problem, code)
          end if
-         problem%spec%digits%p = link
-         problem%spec%digits%i = estimate
+         problem%spec%digits%p = problem%given_link
+         problem%spec%digits%i = problem%given_estimate
          call problem%total%halt()
          call problem%watch%halt()
          if (problem%module_number == 1) call book_patches(problem, problem%watch%cpu - cpu, problem%watch%wall - wall)

@@ -27,7 +27,7 @@ module contact_capi_contact
 contains
 
    !> Potential contact area; in module 1 the contact search and discretisation
-   subroutine cntc_setpotcontact(ire, icp, ipotcn, nparam, params) bind(c)
+   subroutine cntc_setpotcontact(ire, icp, ipotcn, nparam, params) bind(c, name="inside_cntc_setpotcontact")
       integer(c_int), intent(in), optional :: ire, icp, ipotcn, nparam
       real(c_double), intent(in), optional :: params(*)
       type(library_problem), pointer :: problem
@@ -145,7 +145,7 @@ contains
    end function sizes_fit
 
    !> Hertzian geometry
-   subroutine cntc_sethertzcontact(ire, icp, ipotcn, nparam, params) bind(c)
+   subroutine cntc_sethertzcontact(ire, icp, ipotcn, nparam, params) bind(c, name="inside_cntc_sethertzcontact")
       integer(c_int), intent(in), optional :: ire, icp, ipotcn, nparam
       real(c_double), intent(in), optional :: params(*)
       type(library_problem), pointer :: problem
@@ -212,7 +212,7 @@ contains
    end subroutine cntc_sethertzcontact
 
    !> Undeformed distance
-   subroutine cntc_setundeformeddistc(ire, icp, ibase, nparam, prmudf) bind(c)
+   subroutine cntc_setundeformeddistc(ire, icp, ibase, nparam, prmudf) bind(c, name="inside_cntc_setundeformeddistc")
       integer(c_int), intent(in), optional :: ire, icp, ibase, nparam
       real(c_double), intent(in), optional :: prmudf(*)
       type(library_problem), pointer :: problem
@@ -277,7 +277,7 @@ contains
    end subroutine cntc_setundeformeddistc
 
    !> Prescribed approach (N = 0)
-   subroutine cntc_setpenetration(ire, icp, pen) bind(c)
+   subroutine cntc_setpenetration(ire, icp, pen) bind(c, name="inside_cntc_setpenetration")
       integer(c_int), intent(in), optional :: ire, icp
       real(c_double), intent(in), optional :: pen
       type(library_problem), pointer :: problem
@@ -296,7 +296,7 @@ contains
    end subroutine cntc_setpenetration
 
    !> Prescribed normal force (N = 1)
-   subroutine cntc_setnormalforce(ire, icp, fn) bind(c)
+   subroutine cntc_setnormalforce(ire, icp, fn) bind(c, name="inside_cntc_setnormalforce")
       integer(c_int), intent(in), optional :: ire, icp
       real(c_double), intent(in), optional :: fn
       type(library_problem), pointer :: problem
@@ -315,7 +315,7 @@ contains
    end subroutine cntc_setnormalforce
 
    !> Creepages and spin; in shifts displacements and a rotation, by the T-digit at the time of the call
-   subroutine cntc_setcreepages(ire, icp, vx, vy, phi) bind(c)
+   subroutine cntc_setcreepages(ire, icp, vx, vy, phi) bind(c, name="inside_cntc_setcreepages")
       integer(c_int), intent(in), optional :: ire, icp
       real(c_double), intent(in), optional :: vx, vy, phi
       type(library_problem), pointer :: problem
@@ -342,7 +342,7 @@ contains
    end subroutine cntc_setcreepages
 
    !> Extra term of the rigid slip, one value per element; what is missing is zero
-   subroutine cntc_setextrarigidslip(ire, icp, lenarr, wx, wy) bind(c)
+   subroutine cntc_setextrarigidslip(ire, icp, lenarr, wx, wy) bind(c, name="inside_cntc_setextrarigidslip")
       integer(c_int), intent(in), optional :: ire, icp, lenarr
       real(c_double), intent(in), optional :: wx(*), wy(*)
       type(library_problem), pointer :: problem
@@ -371,7 +371,7 @@ contains
    end subroutine cntc_setextrarigidslip
 
    !> Rolling velocity
-   subroutine cntc_setreferencevelocity(ire, icp, veloc) bind(c)
+   subroutine cntc_setreferencevelocity(ire, icp, veloc) bind(c, name="inside_cntc_setreferencevelocity")
       integer(c_int), intent(in), optional :: ire, icp
       real(c_double), intent(in), optional :: veloc
       type(library_problem), pointer :: problem

@@ -21,7 +21,7 @@ module contact_capi_fields
 contains
 
    !> One element field by its code
-   subroutine cntc_getfielddata(ire, icp, ifld, lenarr, fld) bind(c)
+   subroutine cntc_getfielddata(ire, icp, ifld, lenarr, fld) bind(c, name="inside_cntc_getfielddata")
       integer(c_int), intent(in), optional :: ire, icp, ifld, lenarr
       real(c_double), intent(inout), optional :: fld(*)
       type(library_problem), pointer :: problem
@@ -35,7 +35,7 @@ contains
    end subroutine cntc_getfielddata
 
    !> Pressures and shear tractions
-   subroutine cntc_gettractions(ire, icp, lenarr, pn, px, py) bind(c)
+   subroutine cntc_gettractions(ire, icp, lenarr, pn, px, py) bind(c, name="inside_cntc_gettractions")
       integer(c_int), intent(in), optional :: ire, icp, lenarr
       real(c_double), intent(inout), optional :: pn(*), px(*), py(*)
       type(library_problem), pointer :: problem
@@ -53,7 +53,7 @@ contains
    end subroutine cntc_gettractions
 
    !> Slip
-   subroutine cntc_getmicroslip(ire, icp, lenarr, sx, sy) bind(c)
+   subroutine cntc_getmicroslip(ire, icp, lenarr, sx, sy) bind(c, name="inside_cntc_getmicroslip")
       integer(c_int), intent(in), optional :: ire, icp, lenarr
       real(c_double), intent(inout), optional :: sx(*), sy(*)
       type(library_problem), pointer :: problem
@@ -70,7 +70,7 @@ contains
    end subroutine cntc_getmicroslip
 
    !> Displacement differences, the normal one first
-   subroutine cntc_getdisplacements(ire, icp, lenarr, un, ux, uy) bind(c)
+   subroutine cntc_getdisplacements(ire, icp, lenarr, un, ux, uy) bind(c, name="inside_cntc_getdisplacements")
       integer(c_int), intent(in), optional :: ire, icp, lenarr
       real(c_double), intent(inout), optional :: un(*), ux(*), uy(*)
       type(library_problem), pointer :: problem
@@ -159,7 +159,7 @@ contains
    end subroutine take_field
 
    !> States of the elements
-   subroutine cntc_getelementdivision(ire, icp, lenarr, eldiv) bind(c)
+   subroutine cntc_getelementdivision(ire, icp, lenarr, eldiv) bind(c, name="inside_cntc_getelementdivision")
       integer(c_int), intent(in), optional :: ire, icp, lenarr
       integer(c_int), intent(inout), optional :: eldiv(*)
       type(library_problem), pointer :: problem
@@ -183,7 +183,7 @@ contains
    end subroutine cntc_getelementdivision
 
    !> Largest pressure
-   subroutine cntc_getmaximumpressure(ire, icp, pnmax) bind(c)
+   subroutine cntc_getmaximumpressure(ire, icp, pnmax) bind(c, name="inside_cntc_getmaximumpressure")
       integer(c_int), intent(in), optional :: ire, icp
       real(c_double), intent(inout), optional :: pnmax
       type(library_problem), pointer :: problem
@@ -199,7 +199,7 @@ contains
    end subroutine cntc_getmaximumpressure
 
    !> Largest shear traction
-   subroutine cntc_getmaximumtraction(ire, icp, ptmax) bind(c)
+   subroutine cntc_getmaximumtraction(ire, icp, ptmax) bind(c, name="inside_cntc_getmaximumtraction")
       integer(c_int), intent(in), optional :: ire, icp
       real(c_double), intent(inout), optional :: ptmax
       type(library_problem), pointer :: problem
@@ -216,7 +216,7 @@ contains
    end subroutine cntc_getmaximumtraction
 
    !> Largest surface temperatures; 0 when they are not calculated
-   subroutine cntc_getmaximumtemperature(ire, icp, t1max, t2max) bind(c)
+   subroutine cntc_getmaximumtemperature(ire, icp, t1max, t2max) bind(c, name="inside_cntc_getmaximumtemperature")
       integer(c_int), intent(in), optional :: ire, icp
       real(c_double), intent(inout), optional :: t1max, t2max
       type(library_problem), pointer :: problem

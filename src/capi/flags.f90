@@ -31,7 +31,7 @@ module contact_capi_flags
 contains
 
    !> Control digits, units and settings of one problem, in the order of the list
-   subroutine cntc_setflags(ire, icp, lenflg, params, values) bind(c)
+   subroutine cntc_setflags(ire, icp, lenflg, params, values) bind(c, name="inside_cntc_setflags")
       integer(c_int), intent(in), optional :: ire, icp, lenflg, params(*), values(*)
       type(library_problem), pointer :: problem
       type(entry_type) :: this
@@ -195,7 +195,7 @@ contains
    end subroutine store_flag
 
    !> Control digits as they were given; other entries keep their content
-   subroutine cntc_getflags(ire, icp, lenflg, params, values) bind(c)
+   subroutine cntc_getflags(ire, icp, lenflg, params, values) bind(c, name="inside_cntc_getflags")
       integer(c_int), intent(in), optional :: ire, icp, lenflg, params(*)
       integer(c_int), intent(inout), optional :: values(*)
       type(library_problem), pointer :: problem
@@ -301,7 +301,7 @@ contains
    end function stepped_points_of
 
    !> Where a case comes from, for printing and .mat files
-   subroutine cntc_setmetadata(ire, icp, lenmta, params, values) bind(c)
+   subroutine cntc_setmetadata(ire, icp, lenmta, params, values) bind(c, name="inside_cntc_setmetadata")
       integer(c_int), intent(in), optional :: ire, icp, lenmta, params(*)
       real(c_double), intent(in), optional :: values(*)
       type(library_problem), pointer :: problem

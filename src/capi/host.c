@@ -7,15 +7,42 @@
 void contact_hold_floats(void);
 void contact_give_floats_back(void);
 int contact_is_child(void);
+void contact_note_call(void *problem, int stage);
+void contact_find_call(void **problem, int *stage);
 
-static _Thread_local fenv_t floats_of_host;
+/* The memory of these variables is there when a thread begins; of other models it would be asked for at their first use */
+#ifdef __ELF__
+#define OF_THREAD _Thread_local __attribute__((tls_model("initial-exec")))
+#else
+#define OF_THREAD _Thread_local
+#endif
+
+static OF_THREAD fenv_t floats_of_host;
+static OF_THREAD int floats_are_held;
 
 /* No operation of the library may end a host that has exceptions trapped; infinities and what is not a number are
  * looked for where they count. A call stays on its thread, and calls do not nest. */
-void contact_hold_floats(void) { feholdexcept(&floats_of_host); }
+void contact_hold_floats(void) { floats_are_held = feholdexcept(&floats_of_host) == 0; }
 
 /* The traps and flags as the host had them */
-void contact_give_floats_back(void) { fesetenv(&floats_of_host); }
+void contact_give_floats_back(void) {
+  if (floats_are_held) fesetenv(&floats_of_host);
+  floats_are_held = 0;
+}
+
+/* The problem that the thread is inside, and how far in it is, for the case that the call is left for want of memory */
+static OF_THREAD void *problem_of_call;
+static OF_THREAD int stage_of_call;
+
+void contact_note_call(void *problem, int stage) {
+  problem_of_call = problem;
+  stage_of_call = stage;
+}
+
+void contact_find_call(void **problem, int *stage) {
+  *problem = problem_of_call;
+  *stage = stage_of_call;
+}
 
 static int child = 0;
 

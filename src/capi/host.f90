@@ -4,7 +4,14 @@ module contact_capi_host
    implicit none (type, external)
    private
 
-   public :: find_current_folder, give_floats_back, hold_floats, is_forked
+   public :: call_stage, find_call, find_current_folder, give_floats_back, hold_floats, is_forked, note_call
+
+   type :: call_stage_list
+      !> Outside of all problems, counted as a user of one, alone in it, counted as a calculation
+      integer(c_int) :: outside = 0, user = 1, inside = 2, calculation = 3
+   end type call_stage_list
+   !> How far a thread is inside a problem
+   type(call_stage_list), parameter :: call_stage = call_stage_list()
 
    !> Letters of the longest name of a folder
    integer, parameter :: longest_path = 4096
@@ -16,6 +23,22 @@ module contact_capi_host
 
       subroutine give_floats_back() bind(c, name="contact_give_floats_back")
       end subroutine give_floats_back
+
+      !> Remember the problem that this thread is inside
+      subroutine note_call(problem, stage) bind(c, name="contact_note_call")
+         import :: c_int, c_ptr
+         !> Null outside of all problems
+         type(c_ptr), value :: problem
+         !> Member of call_stage
+         integer(c_int), value :: stage
+      end subroutine note_call
+
+      !> What was remembered of this thread
+      subroutine find_call(problem, stage) bind(c, name="contact_find_call")
+         import :: c_int, c_ptr
+         type(c_ptr), intent(out) :: problem
+         integer(c_int), intent(out) :: stage
+      end subroutine find_call
 
       function is_child() result(answer) bind(c, name="contact_is_child")
          import :: c_int

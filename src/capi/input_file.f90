@@ -31,7 +31,7 @@ module contact_capi_input_file
 contains
 
    !> Read the first case of a file, or a file of the Simpack user routine
-   subroutine cntc_readinpfile(ire, inp_type, c_fname, len_fname, ierror) bind(c)
+   subroutine cntc_readinpfile(ire, inp_type, c_fname, len_fname, ierror) bind(c, name="inside_cntc_readinpfile")
       integer(c_int), intent(in), optional :: ire, inp_type, len_fname
       character(kind=c_char), intent(in), optional :: c_fname(*)
       integer(c_int), intent(inout), optional :: ierror

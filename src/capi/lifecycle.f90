@@ -22,7 +22,7 @@ module contact_capi_lifecycle
 contains
 
    !> Unit numbers that files may use; only before initialisation, and not needed
-   subroutine cntc_setfileunits(nunits, iunits) bind(c)
+   subroutine cntc_setfileunits(nunits, iunits) bind(c, name="inside_cntc_setfileunits")
       integer(c_int), intent(in), optional :: nunits, iunits(*)
       type(entry_type) :: this
       logical :: accepted
@@ -35,7 +35,7 @@ contains
 
    !> Initialise: working folder, folder of results, name of the experiment
    subroutine cntc_initializefirst(ifcver, ierror, ioutput, c_wrkdir, c_outdir, c_expnam, len_wrkdir, len_outdir, &
-      & len_expnam) bind(c)
+      & len_expnam) bind(c, name="inside_cntc_initializefirst")
       integer(c_int), intent(inout), optional :: ifcver, ierror
       integer(c_int), intent(in), optional :: ioutput, len_wrkdir, len_outdir, len_expnam
       character(kind=c_char), intent(in), optional :: c_wrkdir(*), c_outdir(*), c_expnam(*)
@@ -52,7 +52,7 @@ contains
 
    !> The same under the name of an earlier release
    subroutine cntc_initializefirst_new(ifcver, ierror, ioutput, c_wrkdir, c_outdir, c_expnam, len_wrkdir, len_outdir, &
-      & len_expnam) bind(c)
+      & len_expnam) bind(c, name="inside_cntc_initializefirst_new")
       integer(c_int), intent(inout), optional :: ifcver, ierror
       integer(c_int), intent(in), optional :: ioutput, len_wrkdir, len_outdir, len_expnam
       character(kind=c_char), intent(in), optional :: c_wrkdir(*), c_outdir(*), c_expnam(*)
@@ -64,7 +64,7 @@ contains
    end subroutine cntc_initializefirst_new
 
    !> Make a result element of module 1 or 3; initialises the library when that was not done
-   subroutine cntc_initialize(ire, imodul, ifcver, ierror, c_outdir, len_outdir) bind(c)
+   subroutine cntc_initialize(ire, imodul, ifcver, ierror, c_outdir, len_outdir) bind(c, name="inside_cntc_initialize")
       integer(c_int), intent(in), optional :: ire, imodul, len_outdir
       integer(c_int), intent(inout), optional :: ifcver, ierror
       character(kind=c_char), intent(in), optional :: c_outdir(*)
@@ -91,7 +91,7 @@ contains
    end subroutine cntc_initialize
 
    !> Flags of the library as a whole
-   subroutine cntc_setglobalflags(lenflg, params, values) bind(c)
+   subroutine cntc_setglobalflags(lenflg, params, values) bind(c, name="inside_cntc_setglobalflags")
       integer(c_int), intent(in), optional :: lenflg, params(*), values(*)
       type(entry_type) :: this
       integer, allocatable :: codes(:), numbers(:)
@@ -121,14 +121,14 @@ contains
    end subroutine set_global_flag
 
    !> Number of calculations that may run at the same time
-   subroutine cntc_getmaxnumthreads(mxthrd) bind(c)
+   subroutine cntc_getmaxnumthreads(mxthrd) bind(c, name="inside_cntc_getmaxnumthreads")
       integer(c_int), intent(inout), optional :: mxthrd
 
       call give(most_threads(), mxthrd)
    end subroutine cntc_getmaxnumthreads
 
    !> Free a result element; the last one ends the run
-   subroutine cntc_finalize(ire) bind(c)
+   subroutine cntc_finalize(ire) bind(c, name="inside_cntc_finalize")
       integer(c_int), intent(in), optional :: ire
       type(entry_type) :: this
       logical :: removed, was_last
@@ -142,7 +142,7 @@ contains
    end subroutine cntc_finalize
 
    !> Free all result elements and close the files
-   subroutine cntc_finalizelast() bind(c)
+   subroutine cntc_finalizelast() bind(c, name="inside_cntc_finalizelast")
       type(entry_type) :: this
       logical :: stopped
 
@@ -165,7 +165,7 @@ contains
    !>
    !> Success and an empty text when nothing did since this was asked last, or when there is no such problem;
    !> success and a text for a warning.
-   function contact_last_error(ire, icp, message, message_length) result(code) bind(c)
+   function contact_last_error(ire, icp, message, message_length) result(code) bind(c, name="inside_contact_last_error")
       !> Result element, 0 for calls without one; contact patch, -1 for wheel and rail
       integer(c_int), value :: ire, icp
       !> Buffer, null if not wanted, and its size with the final null
@@ -181,7 +181,8 @@ contains
    end function contact_last_error
 
    !> How the last calculation of a problem ended, member of case_state; -1 when there was none
-   function contact_case_status(ire, icp, iteration, message, message_length) result(state) bind(c)
+   function contact_case_status(ire, icp, iteration, message, message_length) result(state) &
+      & bind(c, name="inside_contact_case_status")
       !> Result element; contact patch, -1 for wheel and rail
       integer(c_int), value :: ire, icp
       !> What did not converge, member of missed_iteration; absent (null) if not wanted

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Write the header, the Fortran interfaces and the Python tables of the library from interface.txt.
+"""Write the header, the doors, the Fortran interfaces and the Python tables of the library from interface.txt.
 
     python3 src/capi/make_interface.py            writes the files, run it after a change of the table
     python3 src/capi/make_interface.py --check    exit status 1 when a file is not what would be written
@@ -186,6 +186,17 @@ def python_tables(constants, routines, undocumented):
     return lines + ["}"]
 
 
+def c_doors(routines, undocumented):
+    """Text of doors.c: where result element, patch and error code stand among the arguments of each routine"""
+    lines = ["/* The routines that the library exports, see door.h; behind each name the places of ire, icp and ierror.",
+             f" * {ORIGIN} */", '#include "door.h"', ""]
+    for routine in [item for _, items in routines for item in items] + undocumented:
+        names = [argument.name for argument in routine.arguments]
+        places = ", ".join(str(names.index(name) if name in names else -1) for name in ("ire", "icp", "ierror"))
+        lines.append(f"DOOR{len(names)}({routine.name}, {places})")
+    return lines
+
+
 def split_text(words):
     """The words in pieces of at most 80 characters; all but the last end with a blank"""
     pieces = textwrap.wrap(" ".join(words), 80, break_on_hyphens=False)
@@ -202,6 +213,7 @@ def main():
         "include/caddon_flags.h": c_constants(constants),
         "include/caddon_flags.inc": fortran_constants(constants),
         "include/contact_addon.ifc": fortran_interfaces(routines),
+        "src/capi/doors.c": c_doors(routines, undocumented),
         "python/contact/_signatures.py": python_tables(constants, routines, undocumented),
     }
     stale = []

@@ -14,7 +14,7 @@ module contact_capi_messages
 
    public :: complain, warn, say, is_heard, set_debugging, library_log
    public :: keep_status, last_complaint, last_status, forget_complaint, set_last_error
-   public :: begin_setting, end_setting, first_refusal
+   public :: begin_setting, end_setting, first_refusal, refuse_for_ever
    public :: fits, count_fits
 
 contains
@@ -217,6 +217,23 @@ contains
       end if
       !$omp end critical (contact_registry)
    end subroutine end_setting
+
+   !> No setting heals the problem any more: calculations are refused until the result element is made anew
+   subroutine refuse_for_ever(problem, call_of, reason)
+      type(library_problem), intent(inout) :: problem
+      type(entry_type), intent(in) :: call_of
+      character(len=*), intent(in) :: reason
+
+      !$omp critical (contact_registry)
+      problem%setting = refused_setting()
+      allocate(problem%refused(1))
+      ! the name of no routine, so that no good value replaces it
+      problem%refused(1)%routine = "cntc_set"
+      problem%refused(1)%group = "all settings"
+      problem%refused(1)%code = library_code%other
+      problem%refused(1)%reason = trim(call_of%name) // ": " // reason
+      !$omp end critical (contact_registry)
+   end subroutine refuse_for_ever
 
    !> Take the refusals of a group from a list, and add the new one if there is one
    pure subroutine replace_refusal(list, new)

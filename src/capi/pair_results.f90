@@ -32,7 +32,7 @@ module contact_capi_pair_results
 contains
 
    !> Position of the wheelset, with the height that was found
-   subroutine cntc_getwheelsetposition(ire, lenarr, rvalues) bind(c)
+   subroutine cntc_getwheelsetposition(ire, lenarr, rvalues) bind(c, name="inside_cntc_getwheelsetposition")
       integer(c_int), intent(in), optional :: ire, lenarr
       real(c_double), intent(inout), optional :: rvalues(*)
       type(library_problem), pointer :: problem
@@ -47,7 +47,7 @@ contains
    end subroutine cntc_getwheelsetposition
 
    !> Velocity of the wheelset, with the pitch rate that was found
-   subroutine cntc_getwheelsetvelocity(ire, lenarr, rvalues) bind(c)
+   subroutine cntc_getwheelsetvelocity(ire, lenarr, rvalues) bind(c, name="inside_cntc_getwheelsetvelocity")
       integer(c_int), intent(in), optional :: ire, lenarr
       real(c_double), intent(inout), optional :: rvalues(*)
       type(library_problem), pointer :: problem
@@ -63,7 +63,7 @@ contains
    end subroutine cntc_getwheelsetvelocity
 
    !> Number of contact patches
-   subroutine cntc_getnumcontactpatches(ire, npatch) bind(c)
+   subroutine cntc_getnumcontactpatches(ire, npatch) bind(c, name="inside_cntc_getnumcontactpatches")
       integer(c_int), intent(in), optional :: ire
       integer(c_int), intent(inout), optional :: npatch
       type(library_problem), pointer :: problem
@@ -91,7 +91,7 @@ contains
    end function frames_of
 
    !> Where a patch is, in track, rail, wheel and wheelset, and where these are
-   subroutine cntc_getcontactlocation(ire, icp, lenarr, rvalues) bind(c)
+   subroutine cntc_getcontactlocation(ire, icp, lenarr, rvalues) bind(c, name="inside_cntc_getcontactlocation")
       integer(c_int), intent(in), optional :: ire, icp, lenarr
       real(c_double), intent(inout), optional :: rvalues(*)
       type(library_problem), pointer :: problem
@@ -172,7 +172,7 @@ contains
    end function pressure_centre
 
    !> Forces and moments of one patch, or of all of them with -1, in four systems of axes
-   subroutine cntc_getglobalforces(ire, icp, lenarr, rvalues) bind(c)
+   subroutine cntc_getglobalforces(ire, icp, lenarr, rvalues) bind(c, name="inside_cntc_getglobalforces")
       integer(c_int), intent(in), optional :: ire, icp, lenarr
       real(c_double), intent(inout), optional :: rvalues(*)
       type(library_problem), pointer :: problem

@@ -39,7 +39,7 @@ contains
    end subroutine begin
 
    !> Prescribed vertical force on the rail (N = 1)
-   subroutine cntc_setverticalforce(ire, fz) bind(c)
+   subroutine cntc_setverticalforce(ire, fz) bind(c, name="inside_cntc_setverticalforce")
       integer(c_int), intent(in), optional :: ire
       real(c_double), intent(in), optional :: fz
       type(library_problem), pointer :: problem
@@ -58,7 +58,7 @@ contains
    end subroutine cntc_setverticalforce
 
    !> Place of the rail in the track, deviations of the rail, springs of a massless rail
-   subroutine cntc_settrackdimensions(ire, ztrack, nparam, params) bind(c)
+   subroutine cntc_settrackdimensions(ire, ztrack, nparam, params) bind(c, name="inside_cntc_settrackdimensions")
       integer(c_int), intent(in), optional :: ire, ztrack, nparam
       real(c_double), intent(in), optional :: params(*)
       type(library_problem), pointer :: problem
@@ -180,7 +180,7 @@ contains
    end subroutine set_springs
 
    !> Dimensions of the wheelset
-   subroutine cntc_setwheelsetdimensions(ire, ewheel, nparam, params) bind(c)
+   subroutine cntc_setwheelsetdimensions(ire, ewheel, nparam, params) bind(c, name="inside_cntc_setwheelsetdimensions")
       integer(c_int), intent(in), optional :: ire, ewheel, nparam
       real(c_double), intent(in), optional :: params(*)
       type(library_problem), pointer :: problem
@@ -236,7 +236,7 @@ contains
    end subroutine note_dimensions
 
    !> Position of the wheelset; its height counts when no vertical force is prescribed
-   subroutine cntc_setwheelsetposition(ire, ewheel, nparam, params) bind(c)
+   subroutine cntc_setwheelsetposition(ire, ewheel, nparam, params) bind(c, name="inside_cntc_setwheelsetposition")
       integer(c_int), intent(in), optional :: ire, ewheel, nparam
       real(c_double), intent(in), optional :: params(*)
       type(library_problem), pointer :: problem
@@ -283,7 +283,7 @@ contains
    end function takes_values
 
    !> Velocity of the wheelset; on rollers the first value is the pitch rate of the roller
-   subroutine cntc_setwheelsetvelocity(ire, ewheel, nparam, params) bind(c)
+   subroutine cntc_setwheelsetvelocity(ire, ewheel, nparam, params) bind(c, name="inside_cntc_setwheelsetvelocity")
       integer(c_int), intent(in), optional :: ire, ewheel, nparam
       real(c_double), intent(in), optional :: params(*)
       type(library_problem), pointer :: problem
@@ -318,7 +318,7 @@ contains
    end subroutine cntc_setwheelsetvelocity
 
    !> Flexible deviations of the wheel and their rates
-   subroutine cntc_setwheelsetflexibility(ire, ewheel, nparam, params) bind(c)
+   subroutine cntc_setwheelsetflexibility(ire, ewheel, nparam, params) bind(c, name="inside_cntc_setwheelsetflexibility")
       integer(c_int), intent(in), optional :: ire, ewheel, nparam
       real(c_double), intent(in), optional :: params(*)
       type(library_problem), pointer :: problem

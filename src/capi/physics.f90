@@ -38,7 +38,7 @@ module contact_capi_physics
 contains
 
    !> Iteration limits and solver (G)
-   subroutine cntc_setsolverflags(ire, icp, gdigit, nints, iparam, nreals, rparam) bind(c)
+   subroutine cntc_setsolverflags(ire, icp, gdigit, nints, iparam, nreals, rparam) bind(c, name="inside_cntc_setsolverflags")
       integer(c_int), intent(in), optional :: ire, icp, gdigit, nints, iparam(*), nreals
       real(c_double), intent(in), optional :: rparam(*)
       type(library_problem), pointer :: problem
@@ -123,7 +123,7 @@ contains
    end subroutine set_solver
 
    !> Materials (M), or damping forces (M2, 10 higher)
-   subroutine cntc_setmaterialparameters(ire, icp, imeth, nparam, rparam) bind(c)
+   subroutine cntc_setmaterialparameters(ire, icp, imeth, nparam, rparam) bind(c, name="inside_cntc_setmaterialparameters")
       integer(c_int), intent(in), optional :: ire, icp, imeth, nparam
       real(c_double), intent(in), optional :: rparam(*)
       type(library_problem), pointer :: problem
@@ -268,7 +268,7 @@ contains
    end subroutine set_material
 
    !> Surface temperatures (H)
-   subroutine cntc_settemperaturedata(ire, icp, imeth, nparam, params) bind(c)
+   subroutine cntc_settemperaturedata(ire, icp, imeth, nparam, params) bind(c, name="inside_cntc_settemperaturedata")
       integer(c_int), intent(in), optional :: ire, icp, imeth, nparam
       real(c_double), intent(in), optional :: params(*)
       type(library_problem), pointer :: problem
@@ -301,7 +301,7 @@ contains
    end subroutine cntc_settemperaturedata
 
    !> Time step; every solution derives its own from step and velocity
-   subroutine cntc_settimestep(ire, icp, dt) bind(c)
+   subroutine cntc_settimestep(ire, icp, dt) bind(c, name="inside_cntc_settimestep")
       integer(c_int), intent(in), optional :: ire, icp
       real(c_double), intent(in), optional :: dt
       type(library_problem), pointer :: problem
@@ -315,7 +315,7 @@ contains
    end subroutine cntc_settimestep
 
    !> Rolling direction and step; for wheel and rail the step in elements
-   subroutine cntc_setrollingstepsize(ire, icp, chi, dq) bind(c)
+   subroutine cntc_setrollingstepsize(ire, icp, chi, dq) bind(c, name="inside_cntc_setrollingstepsize")
       integer(c_int), intent(in), optional :: ire, icp
       real(c_double), intent(in), optional :: chi, dq
       type(library_problem), pointer :: problem
@@ -342,7 +342,7 @@ contains
    end subroutine cntc_setrollingstepsize
 
    !> Friction law (L) and its variation (V)
-   subroutine cntc_setfrictionmethod(ire, icp, imeth, nparam, params) bind(c)
+   subroutine cntc_setfrictionmethod(ire, icp, imeth, nparam, params) bind(c, name="inside_cntc_setfrictionmethod")
       integer(c_int), intent(in), optional :: ire, icp, imeth, nparam
       real(c_double), intent(in), optional :: params(*)
       type(library_problem), pointer :: problem
@@ -490,7 +490,7 @@ contains
    end subroutine fill_set
 
    !> Prescribed tangential forces: relative ones (module 3), or the longitudinal force on the rail (module 1)
-   subroutine cntc_settangentialforces(ire, icp, fx, fy) bind(c)
+   subroutine cntc_settangentialforces(ire, icp, fx, fy) bind(c, name="inside_cntc_settangentialforces")
       integer(c_int), intent(in), optional :: ire, icp
       real(c_double), intent(in), optional :: fx, fy
       type(library_problem), pointer :: problem

@@ -3,10 +3,13 @@
 !> A problem is one contact patch of a result element (module 3), or a result element with all its
 !> patches (module 1). Everything is in internal units; conventions act at the door.
 module contact_capi_problem
+   use, intrinsic :: iso_c_binding, only : c_f_pointer, c_intptr_t, c_loc, c_ptr
+   use, intrinsic :: iso_fortran_env, only : int8
    use omp_lib, only : omp_destroy_lock, omp_init_lock, omp_lock_kind
    use contact_base_case_status, only : case_status
    use contact_base_choices, only : kernel_model, pressure_model, stress_choice
    use contact_base_constants, only : pi
+   use contact_base_guard, only : free_left_blocks, new_owner
    use contact_base_kinds, only : wp
    use contact_cases_slot, only : open_contact, open_pair, problem_slot, release_slot
    use contact_cases_spec, only : case_spec, friction_set
@@ -20,7 +23,8 @@ module contact_capi_problem
    implicit none (type, external)
    private
 
-   public :: library_problem, given_profile, refused_setting, new_problem, release_problem, most_patches
+   public :: library_problem, given_profile, refused_setting, new_problem, release_problem, abandon_results, abandon_problem, &
+      & most_patches
 
    !> Patches that can be addressed
    integer, parameter :: most_patches = 9
@@ -94,11 +98,22 @@ module contact_capi_problem
       !> How the last calculation ended, and whether there was one
       type(case_status) :: status
       logical :: was_calculated = .false.
-      !> One thread at a time
+      !> P and I as the caller gave them, while a calculation may have others
+      integer :: given_link = 2, given_estimate = 0
+      !> Owner of the memory that calculations allocate
+      integer :: owner = 0
+      !> One thread at a time. It and what follows stay where they are when all else is replaced
       integer(omp_lock_kind) :: lock
       !> Threads that are inside or wait, guarded by the registry
       integer :: users = 0
    end type library_problem
+
+   interface
+      subroutine c_free(block) bind(c, name="free")
+         import :: c_ptr
+         type(c_ptr), value :: block
+      end subroutine c_free
+   end interface
 
 contains
 
@@ -112,6 +127,7 @@ contains
       problem%ire = ire
       problem%icp = icp
       problem%module_number = module_number
+      problem%owner = new_owner()
       call omp_init_lock(problem%lock)
       call set_common_defaults(problem%spec)
       if (module_number == 1) then
@@ -133,6 +149,46 @@ contains
       deallocate(problem)
       nullify(problem)
    end subroutine release_problem
+
+   !> Begin a new sequence with the same settings, after a calculation that was left for want of memory
+   !>
+   !> What it was at work on is in no defined state; only its memory can be freed.
+   subroutine abandon_results(problem)
+      type(library_problem), intent(inout) :: problem
+
+      problem%problem_slot = problem_slot()
+      call free_left_blocks(problem%owner)
+      problem%owner = new_owner()
+      problem%coefficients = grid_frame()
+      problem%has_result = .false.
+      problem%spec%digits%p = problem%given_link
+      problem%spec%digits%i = problem%given_estimate
+      if (problem%module_number == 1) then
+         call open_pair(problem%problem_slot)
+         allocate(problem%pair_result%patches(0))
+      else
+         call open_contact(problem%problem_slot)
+      end if
+   end subroutine abandon_results
+
+   !> Put a problem as new in the place of one whose settings are in no defined state, after a setting that was left for
+   !> want of memory
+   !>
+   !> The old one cannot be freed; it is overwritten, up to the lock that others may wait for.
+   subroutine abandon_problem(problem)
+      type(library_problem), pointer, intent(in) :: problem
+      type(library_problem), pointer :: fresh
+      integer(int8), pointer :: old(:), new(:)
+      integer(c_intptr_t) :: length
+
+      fresh => new_problem(problem%ire, problem%icp, problem%module_number)
+      length = transfer(c_loc(problem%lock), length) - transfer(c_loc(problem), length)
+      call c_f_pointer(c_loc(problem), old, [length])
+      call c_f_pointer(c_loc(fresh), new, [length])
+      old = new
+      call omp_destroy_lock(fresh%lock)
+      call c_free(c_loc(fresh))
+   end subroutine abandon_problem
 
    !> Defaults of both modules
    subroutine set_common_defaults(spec)

@@ -54,7 +54,8 @@ module contact_capi_profile_values
 contains
 
    !> The same under the name of an earlier release
-   subroutine cntc_getprofilevalues_new(ire, itask, nints, iparam, nreals, rparam, lenarr, val) bind(c)
+   subroutine cntc_getprofilevalues_new(ire, itask, nints, iparam, nreals, rparam, lenarr, val) &
+      & bind(c, name="inside_cntc_getprofilevalues_new")
       integer(c_int), intent(in), optional :: ire, itask, nints, iparam(*), nreals, lenarr
       real(c_double), intent(in), optional :: rparam(*)
       real(c_double), intent(inout), optional :: val(*)
@@ -64,7 +65,8 @@ contains
    end subroutine cntc_getprofilevalues_new
 
    !> Points, arc lengths, inclinations of a profile, and whether there is one
-   subroutine cntc_getprofilevalues(ire, itask, nints, iparam, nreals, rparam, lenarr, val) bind(c)
+   subroutine cntc_getprofilevalues(ire, itask, nints, iparam, nreals, rparam, lenarr, val) &
+      & bind(c, name="inside_cntc_getprofilevalues")
       integer(c_int), intent(in), optional :: ire, itask, nints, iparam(*), nreals, lenarr
       real(c_double), intent(in), optional :: rparam(*)
       real(c_double), intent(inout), optional :: val(*)

@@ -37,7 +37,8 @@ module contact_capi_profiles
 contains
 
    !> A profile in a file
-   subroutine cntc_setprofileinputfname(ire, c_fname, len_fname, nints, iparam, nreals, rparam) bind(c)
+   subroutine cntc_setprofileinputfname(ire, c_fname, len_fname, nints, iparam, nreals, rparam) &
+      & bind(c, name="inside_cntc_setprofileinputfname")
       integer(c_int), intent(in), optional :: ire, len_fname, nints, iparam(*), nreals
       character(kind=c_char), intent(in), optional :: c_fname(*)
       real(c_double), intent(in), optional :: rparam(*)
@@ -68,7 +69,8 @@ contains
    end subroutine cntc_setprofileinputfname
 
    !> A profile as a table y1, z1, y2, z2, ...
-   subroutine cntc_setprofileinputvalues(ire, npoint, values, nints, iparam, nreals, rparam) bind(c)
+   subroutine cntc_setprofileinputvalues(ire, npoint, values, nints, iparam, nreals, rparam) &
+      & bind(c, name="inside_cntc_setprofileinputvalues")
       integer(c_int), intent(in), optional :: ire, npoint, nints, iparam(*), nreals
       real(c_double), intent(in), optional :: values(*), rparam(*)
       type(library_problem), pointer :: problem

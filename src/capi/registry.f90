@@ -2,11 +2,13 @@
 !>
 !> Whoever works on a problem goes through `enter` and `leave`: between them no other thread can change or free it.
 module contact_capi_registry
+   use, intrinsic :: iso_c_binding, only : c_loc, c_null_ptr
    use, intrinsic :: iso_fortran_env, only : output_unit
    use omp_lib, only : omp_get_max_threads, omp_get_num_threads, omp_set_lock, omp_test_lock, omp_unset_lock
+   use contact_base_guard, only : set_owner
    use contact_base_log, only : log_type
    use contact_capi_files, only : place_result, set_folders
-   use contact_capi_host, only : give_floats_back, hold_floats, is_forked
+   use contact_capi_host, only : call_stage, give_floats_back, hold_floats, is_forked, note_call
    use contact_capi_library, only : element_slot, entry_type, finalised, library, most_elements, running, units_given, virgin
    use contact_capi_messages, only : begin_setting, complain, end_setting, set_last_error
    use contact_capi_problem, only : library_problem, most_patches, new_problem, release_problem
@@ -18,6 +20,7 @@ module contact_capi_registry
    private
 
    public :: scope_type, scope, enter, enter_calculation, leave, leave_calculation
+   public :: forget_call, is_setting
    public :: start_library, stop_library, is_running, register_element, remove_element, record_units
    public :: set_threads, threads_inside, most_threads
 
@@ -160,7 +163,7 @@ contains
       call look_up(call_of, allowed, problem, found)
       if (associated(problem)) then
          call omp_set_lock(problem%lock)
-         call hold_floats()
+         call come_in(problem)
          call check_patch(call_of, problem, found)
          if (found /= library_code%success) then
             call leave(problem)
@@ -196,11 +199,15 @@ contains
          end if
       end if
       if (associated(problem)) then
-         call hold_floats()
+         call come_in(problem)
          call check_patch(call_of, problem, code)
          if (code == library_code%success) then
             call count_calculation(counted)
             if (.not. counted) code = library_code%not_allowed
+            if (counted) then
+               call note_call(c_loc(problem), call_stage%calculation)
+               call set_owner(problem%owner)
+            end if
          end if
          if (code /= library_code%success) call leave(problem)
       end if
@@ -244,6 +251,7 @@ contains
                      & element%module_number == 3), element%module_number)
                   slot%p%users = slot%p%users + 1
                   problem => slot%p
+                  call note_call(c_loc(slot%p), call_stage%user)
                end associate
             end if
          end associate
@@ -285,12 +293,21 @@ contains
       if (call_of%icp > size(problem%pair_result%patches)) code = library_code%no_patch
    end subroutine check_patch
 
+   !> The thread has the lock of the problem
+   subroutine come_in(problem)
+      type(library_problem), pointer, intent(in) :: problem
+
+      call note_call(c_loc(problem), call_stage%inside)
+      call hold_floats()
+   end subroutine come_in
+
    !> Let other threads into the problem
    subroutine leave(problem)
       type(library_problem), pointer, intent(inout) :: problem
 
       call end_setting(problem)
       call give_floats_back()
+      call note_call(c_loc(problem), call_stage%user)
       call omp_unset_lock(problem%lock)
       call forget_user(problem)
       nullify(problem)
@@ -302,8 +319,20 @@ contains
 
       !$omp critical (contact_registry)
       problem%users = problem%users - 1
+      call note_call(c_null_ptr, call_stage%outside)
       !$omp end critical (contact_registry)
    end subroutine forget_user
+
+   !> One user less, and one calculation less, after a call that was left
+   subroutine forget_call(problem, was_calculation)
+      type(library_problem), pointer, intent(in) :: problem
+      logical, intent(in) :: was_calculation
+
+      !$omp critical (contact_registry)
+      if (was_calculation) library%calculations = library%calculations - 1
+      !$omp end critical (contact_registry)
+      call forget_user(problem)
+   end subroutine forget_call
 
    !> The end of a calculation
    subroutine leave_calculation(problem)
@@ -311,6 +340,8 @@ contains
 
       !$omp critical (contact_registry)
       library%calculations = library%calculations - 1
+      call note_call(c_loc(problem), call_stage%inside)
+      call set_owner(0)
       ! The file can be read while the caller goes on
       call library%log%out%flush_now()
       !$omp end critical (contact_registry)

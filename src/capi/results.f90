@@ -26,7 +26,7 @@ module contact_capi_results
 contains
 
    !> Kinematic constants (1), material constants (2), friction law (3)
-   subroutine cntc_getparameters(ire, icp, itask, lenarr, values) bind(c)
+   subroutine cntc_getparameters(ire, icp, itask, lenarr, values) bind(c, name="inside_cntc_getparameters")
       integer(c_int), intent(in), optional :: ire, icp, itask, lenarr
       real(c_double), intent(inout), optional :: values(*)
       type(library_problem), pointer :: problem
@@ -117,7 +117,7 @@ contains
    end function friction_constants
 
    !> Rolling velocity
-   subroutine cntc_getreferencevelocity(ire, icp, veloc) bind(c)
+   subroutine cntc_getreferencevelocity(ire, icp, veloc) bind(c, name="inside_cntc_getreferencevelocity")
       integer(c_int), intent(in), optional :: ire, icp
       real(c_double), intent(inout), optional :: veloc
       type(library_problem), pointer :: problem
@@ -133,7 +133,7 @@ contains
    end subroutine cntc_getreferencevelocity
 
    !> The Hertz solution: a1, b1, aa, bb, rho, cp, scale, bneg, bpos, aob
-   subroutine cntc_gethertzcontact(ire, icp, lenarr, rvalues) bind(c)
+   subroutine cntc_gethertzcontact(ire, icp, lenarr, rvalues) bind(c, name="inside_cntc_gethertzcontact")
       integer(c_int), intent(in), optional :: ire, icp, lenarr
       real(c_double), intent(inout), optional :: rvalues(*)
       type(library_problem), pointer :: problem
@@ -168,7 +168,7 @@ contains
    end subroutine cntc_gethertzcontact
 
    !> Numbers of elements of the current grid
-   subroutine cntc_getnumelements(ire, icp, mx, my) bind(c)
+   subroutine cntc_getnumelements(ire, icp, mx, my) bind(c, name="inside_cntc_getnumelements")
       integer(c_int), intent(in), optional :: ire, icp
       integer(c_int), intent(inout), optional :: mx, my
       type(library_problem), pointer :: problem
@@ -187,7 +187,7 @@ contains
    end subroutine cntc_getnumelements
 
    !> Sides of the elements: of the current grid, or as set for wheel and rail
-   subroutine cntc_getgriddiscretization(ire, icp, dx, dy) bind(c)
+   subroutine cntc_getgriddiscretization(ire, icp, dx, dy) bind(c, name="inside_cntc_getgriddiscretization")
       integer(c_int), intent(in), optional :: ire, icp
       real(c_double), intent(inout), optional :: dx, dy
       type(library_problem), pointer :: problem
@@ -213,7 +213,7 @@ contains
    end subroutine cntc_getgriddiscretization
 
    !> The current grid: mx, my, centre of the first element, sides of the elements
-   subroutine cntc_getpotcontact(ire, icp, lenarr, rvalues) bind(c)
+   subroutine cntc_getpotcontact(ire, icp, lenarr, rvalues) bind(c, name="inside_cntc_getpotcontact")
       integer(c_int), intent(in), optional :: ire, icp, lenarr
       real(c_double), intent(inout), optional :: rvalues(*)
       type(library_problem), pointer :: problem
@@ -241,7 +241,7 @@ contains
    end subroutine cntc_getpotcontact
 
    !> Approach, prescribed or found
-   subroutine cntc_getpenetration(ire, icp, pen) bind(c)
+   subroutine cntc_getpenetration(ire, icp, pen) bind(c, name="inside_cntc_getpenetration")
       integer(c_int), intent(in), optional :: ire, icp
       real(c_double), intent(inout), optional :: pen
       type(library_problem), pointer :: problem
@@ -261,7 +261,7 @@ contains
    end subroutine cntc_getpenetration
 
    !> Creepages or shifts, prescribed or found
-   subroutine cntc_getcreepages(ire, icp, vx, vy, phi) bind(c)
+   subroutine cntc_getcreepages(ire, icp, vx, vy, phi) bind(c, name="inside_cntc_getcreepages")
       integer(c_int), intent(in), optional :: ire, icp
       real(c_double), intent(inout), optional :: vx, vy, phi
       type(library_problem), pointer :: problem
@@ -294,7 +294,7 @@ contains
    end subroutine cntc_getcreepages
 
    !> Normal force, tangential forces, moment about the normal, without damping
-   subroutine cntc_getcontactforces(ire, icp, fn, tx, ty, mz) bind(c)
+   subroutine cntc_getcontactforces(ire, icp, fn, tx, ty, mz) bind(c, name="inside_cntc_getcontactforces")
       integer(c_int), intent(in), optional :: ire, icp
       real(c_double), intent(inout), optional :: fn, tx, ty, mz
       type(library_problem), pointer :: problem
@@ -317,7 +317,7 @@ contains
    end subroutine cntc_getcontactforces
 
    !> Areas of contact, adhesion and slip
-   subroutine cntc_getcontactpatchareas(ire, icp, carea, harea, sarea) bind(c)
+   subroutine cntc_getcontactpatchareas(ire, icp, carea, harea, sarea) bind(c, name="inside_cntc_getcontactpatchareas")
       integer(c_int), intent(in), optional :: ire, icp
       real(c_double), intent(inout), optional :: carea, harea, sarea
       type(library_problem), pointer :: problem
@@ -341,7 +341,7 @@ contains
    end subroutine cntc_getcontactpatchareas
 
    !> Sensitivities: rows Fn, Fx, Fy, Mz, columns approach, creepages, spin; the first four by four entries
-   subroutine cntc_getsensitivities(ire, icp, lenout, lenin, sens) bind(c)
+   subroutine cntc_getsensitivities(ire, icp, lenout, lenin, sens) bind(c, name="inside_cntc_getsensitivities")
       integer(c_int), intent(in), optional :: ire, icp, lenout, lenin
       real(c_double), intent(inout), optional :: sens(*)
       type(library_problem), pointer :: problem
@@ -374,7 +374,7 @@ contains
    end subroutine cntc_getsensitivities
 
    !> Processor and elapsed time of calculations since the last reset
-   subroutine cntc_getcalculationtime(ire, icp, tcpu, twall) bind(c)
+   subroutine cntc_getcalculationtime(ire, icp, tcpu, twall) bind(c, name="inside_cntc_getcalculationtime")
       integer(c_int), intent(in), optional :: ire, icp
       real(c_double), intent(inout), optional :: tcpu, twall
       type(library_problem), pointer :: problem
@@ -394,7 +394,7 @@ contains
    end subroutine cntc_getcalculationtime
 
    !> Count the time of calculations from zero again
-   subroutine cntc_resetcalculationtime(ire, icp) bind(c)
+   subroutine cntc_resetcalculationtime(ire, icp) bind(c, name="inside_cntc_resetcalculationtime")
       integer(c_int), intent(in), optional :: ire, icp
       type(library_problem), pointer :: problem
       type(entry_type) :: this

@@ -1,7 +1,8 @@
 !> The C interface: an experiment run by a host program, see include/contact.h
 module contact_capi_run
-   use, intrinsic :: iso_c_binding, only : c_associated, c_char, c_double, c_f_pointer, c_int, c_ptr, c_size_t
-   use contact_base_error, only : error_type, fatal_error, full_text
+   use, intrinsic :: iso_c_binding, only : c_associated, c_char, c_double, c_f_pointer, c_int, c_loc, c_ptr, c_size_t
+   use contact_base_error, only : error_kind, error_type, fatal_error, full_text
+   use contact_base_guard, only : do_guarded, guard_end
    use contact_base_kinds, only : long
    use contact_capi_arguments, only : give_message
    use contact_capi_host, only : give_floats_back, hold_floats
@@ -18,6 +19,18 @@ module contact_capi_run
    integer(c_int), parameter :: all_outputs = 7
    !> Failures by their cause start here, so that 1 stays free for a wrong call
    integer(c_int), parameter :: wrong_call = 1, first_failure = 10
+
+   !> A call of contact_run_limited
+   type :: run_request
+      type(c_ptr) :: experiment
+      integer(c_int) :: mode
+      type(c_ptr) :: output_dir
+      integer(c_int) :: threads, outputs, strict
+      real(c_double) :: seconds, megabytes, elements
+      type(c_ptr) :: message
+      integer(c_int) :: message_length
+      integer(c_int) :: status = 0
+   end type run_request
 
    interface
       !> Length of a null-terminated text
@@ -84,6 +97,50 @@ contains
       type(c_ptr), value :: message
       integer(c_int), value :: message_length
       integer(c_int) :: status
+      type(run_request), target :: request
+      integer :: cause
+
+      request = run_request(experiment, mode, output_dir, threads, outputs, strict, seconds, megabytes, elements, message, &
+         & message_length)
+      call do_guarded(run_request_inside, c_loc(request), 0, cause)
+      status = request%status
+      if (cause == guard_end%done) return
+      call give_floats_back()
+      status = first_failure + int(error_kind%memory, c_int)
+      call do_guarded(tell_want_of_memory, c_loc(request), 0, cause)
+   end function contact_run_limited
+
+   !> Why a run was left
+   subroutine tell_want_of_memory(data) bind(c)
+      !> A run_request
+      type(c_ptr), value :: data
+      type(run_request), pointer :: request
+
+      call c_f_pointer(data, request)
+      call give_message("there is not enough memory for the run", request%message, request%message_length)
+   end subroutine tell_want_of_memory
+
+   !> Run what a request says
+   subroutine run_request_inside(data) bind(c)
+      !> A run_request
+      type(c_ptr), value :: data
+      type(run_request), pointer :: request
+
+      call c_f_pointer(data, request)
+      associate (r => request)
+         call run_unguarded(r%experiment, r%mode, r%output_dir, r%threads, r%outputs, r%strict, r%seconds, r%megabytes, &
+            & r%elements, r%message, r%message_length, r%status)
+      end associate
+   end subroutine run_request_inside
+
+   !> The run itself
+   subroutine run_unguarded(experiment, mode, output_dir, threads, outputs, strict, seconds, megabytes, elements, message, &
+      & message_length, status)
+      !> As for contact_run_limited
+      type(c_ptr), intent(in) :: experiment, output_dir, message
+      integer(c_int), intent(in) :: mode, threads, outputs, strict, message_length
+      real(c_double), intent(in) :: seconds, megabytes, elements
+      integer(c_int), intent(out) :: status
       type(run_settings) :: settings
       type(error_type), allocatable :: error
 
@@ -124,7 +181,7 @@ contains
       else
          call give_message("", message, message_length)
       end if
-   end function contact_run_limited
+   end subroutine run_unguarded
 
    !> A null-terminated text as a Fortran one, "" for a null pointer
    subroutine take_text(pointer, text)

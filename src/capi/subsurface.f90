@@ -42,7 +42,7 @@ contains
    !> A block of points; blocks of its number and above are forgotten, number 0 forgets all
    !>
    !> Points may be private to a patch of wheel and rail.
-   subroutine subs_addblock(ire, icp, iblk, isubs, npx, npy, npz, xparam, yparam, zparam) bind(c)
+   subroutine subs_addblock(ire, icp, iblk, isubs, npx, npy, npz, xparam, yparam, zparam) bind(c, name="inside_subs_addblock")
       integer(c_int), intent(in), optional :: ire, icp, iblk, isubs, npx, npy, npz
       real(c_double), intent(in), optional :: xparam(*), yparam(*), zparam(*)
       type(library_problem), pointer :: problem
@@ -171,7 +171,7 @@ contains
    end function whole
 
    !> Displacements and stresses in the blocks of points, after a calculation
-   subroutine subs_calculate(ire, icp, ierror) bind(c)
+   subroutine subs_calculate(ire, icp, ierror) bind(c, name="inside_subs_calculate")
       integer(c_int), intent(in), optional :: ire, icp
       integer(c_int), intent(inout), optional :: ierror
       type(library_problem), pointer :: problem
@@ -184,6 +184,8 @@ contains
          call forget_complaint(problem)
          threads = omp_get_max_threads()
          call omp_set_num_threads(threads_inside())
+         problem%given_link = problem%spec%digits%p
+         problem%given_estimate = problem%spec%digits%i
          call problem%stresses%start()
          k = first_refusal(problem, "subs_addBlock")
          if (k > 0) then
@@ -269,7 +271,7 @@ contains
    end subroutine find_file
 
    !> Numbers of points of a block, -1 when there is none
-   subroutine subs_getblocksize(ire, icp, iblk, nx, ny, nz) bind(c)
+   subroutine subs_getblocksize(ire, icp, iblk, nx, ny, nz) bind(c, name="inside_subs_getblocksize")
       integer(c_int), intent(in), optional :: ire, icp, iblk
       integer(c_int), intent(inout), optional :: nx, ny, nz
       type(library_problem), pointer :: problem
@@ -302,7 +304,7 @@ contains
    end function has_block
 
    !> Columns of the results of a block
-   subroutine subs_getresults(ire, icp, iblk, lenarr, ncol, icol, values) bind(c)
+   subroutine subs_getresults(ire, icp, iblk, lenarr, ncol, icol, values) bind(c, name="inside_subs_getresults")
       integer(c_int), intent(in), optional :: ire, icp, iblk, lenarr, ncol, icol(*)
       real(c_double), intent(inout), optional :: values(*)
       type(library_problem), pointer :: problem

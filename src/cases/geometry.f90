@@ -4,6 +4,7 @@ module contact_cases_geometry
    use contact_base_choices, only : normal_control
    use contact_base_constants, only : excluded_distance, excluded_threshold
    use contact_base_error, only : error_kind, error_type, fatal_error
+   use contact_base_guard, only : expect_refusals
    use contact_base_kinds, only : long, wp
    use contact_cases_spec, only : geometry_spec, grid_spec
    use contact_grid_potential_contact, only : potential_contact
@@ -241,7 +242,9 @@ contains
       type(error_type), allocatable, intent(out) :: error
       integer :: status
 
+      call expect_refusals(.true.)
       allocate(h(grid%mx, grid%my), stat=status)
+      call expect_refusals(.false.)
       if (status /= 0) then
          call fatal_error(error, "no memory for " // integer_text(grid%mx) // " x " // integer_text(grid%my) &
             & // " elements", kind=error_kind%memory)

@@ -2,6 +2,7 @@
 get_property(rooms GLOBAL PROPERTY contact_rooms)
 get_property(program_room GLOBAL PROPERTY contact_program_room)
 get_property(program_file GLOBAL PROPERTY contact_program_file)
+set(program_start ${PROJECT_SOURCE_DIR}/src/cli/start.c)
 list(REMOVE_ITEM rooms "" ${program_room})
 
 set(objects)
@@ -61,7 +62,7 @@ endif()
 
 # The program does not need the shared library, so it runs wherever it is copied to
 if(program_room)
-  add_executable(contact_program ${program_file})
+  add_executable(contact_program ${program_file} ${program_start})
   set_target_properties(contact_program PROPERTIES
     OUTPUT_NAME contact
     Fortran_MODULE_DIRECTORY ${CONTACT_MODULE_ROOT}/program)

@@ -7,10 +7,12 @@
 !> end the run before that case is computed. A case that cannot be solved and a .mat or .subs file that
 !> cannot be written are reported, and the run goes on. After any of them the run counts as failed.
 module contact_experiment_run
+   use, intrinsic :: iso_c_binding, only : c_f_pointer, c_loc, c_ptr
    use omp_lib, only : omp_get_max_threads, omp_set_num_threads
    use contact_base_case_status, only : case_state, case_status
    use contact_base_choices, only : heat_source, kernel_model
    use contact_base_error, only : add_context, error_kind, error_type, fatal_error, full_text
+   use contact_base_guard, only : do_guarded, free_left_blocks, guard_end, new_owner
    use contact_base_kinds, only : wp
    use contact_base_limits, only : case_limits, wall_clock
    use contact_base_log, only : log_type
@@ -104,17 +106,30 @@ module contact_experiment_run
       type(stopwatch) :: total, reading, solving, writing
       !> When the report was handed to the system last, see wall_clock
       real(wp) :: last_flush = 0.0_wp
+      !> The case in hand, if there is one
+      type(case_head) :: head
+      logical :: in_case = .false.
    end type experiment_state
+
+   !> What guarded work is told
+   type :: guarded_run
+      type(experiment_state), pointer :: state
+      type(run_settings), pointer :: settings
+      !> Why the work was left, member of guard_end
+      integer :: cause = guard_end%done
+   end type guarded_run
 
 contains
 
    !> Run or check one experiment; the error is the first of all that were met
    subroutine run_experiment(settings, error)
-      type(run_settings), intent(in) :: settings
+      type(run_settings), target, intent(in) :: settings
       type(error_type), allocatable, intent(out) :: error
-      type(experiment_state) :: state
-      integer :: default_threads
+      type(experiment_state), pointer :: state
+      type(guarded_run), target :: run
+      integer :: default_threads, owner, cause
 
+      allocate(state)
       default_threads = omp_get_max_threads()
       if (settings%threads > 0) call omp_set_num_threads(settings%threads)
       state%log%screen = settings%screen
@@ -131,10 +146,16 @@ contains
       if (.not. allocated(error)) call state%reader%open_file(state%place%input, error)
       if (allocated(error)) then
          call report_error(state, error)
-      else if (settings%check_only) then
-         call check_all_cases(state)
       else
-         call compute_all_cases(state, settings)
+         run%state => state
+         run%settings => settings
+         owner = new_owner()
+         call do_guarded(work_on_cases, c_loc(run), owner, run%cause)
+      end if
+      if (run%cause /= guard_end%done) then
+         call do_guarded(end_early, c_loc(run), owner, cause)
+         if (.not. allocated(state%first_error)) call fatal_error(state%first_error, "there is not enough memory", &
+            & error_kind%memory)
       end if
       call omp_set_num_threads(default_threads)
       call move_alloc(state%first_error, error)
@@ -142,7 +163,60 @@ contains
          & call fatal_error(error, integer_text(state%run%ended(case_state%not_converged)) // " of " // &
          & counted(state%cases, "case") // " did not converge", error_kind%not_converged)
       if (state%errors > 1) call add_context(error, "first of " // integer_text(state%errors) // " errors")
+      if (run%cause == guard_end%done) then
+         deallocate(state)
+      else
+         ! what the work was changing cannot be deallocated
+         call free_left_blocks(owner)
+      end if
    end subroutine run_experiment
+
+   !> Check or compute the cases
+   subroutine work_on_cases(data) bind(c)
+      !> A guarded_run
+      type(c_ptr), value :: data
+      type(guarded_run), pointer :: run
+
+      call c_f_pointer(data, run)
+      if (run%settings%check_only) then
+         call check_all_cases(run%state)
+      else
+         call compute_all_cases(run%state, run%settings)
+      end if
+   end subroutine work_on_cases
+
+   !> Say that there is no memory for the case in hand, and close the files
+   !>
+   !> The sessions of the cases are in no defined state; files, log and counts are.
+   subroutine end_early(data) bind(c)
+      !> A guarded_run
+      type(c_ptr), value :: data
+      type(guarded_run), pointer :: run
+      type(error_type), allocatable :: error
+      character(len=:), allocatable :: reason
+
+      call c_f_pointer(data, run)
+      associate (state => run%state)
+         reason = "there is not enough memory"
+         if (run%cause == guard_end%gave_up) reason = "a run-time library gave up, most likely for want of memory"
+         if (state%in_case) then
+            reason = reason // " for case " // integer_text(state%head%number)
+            if (state%head%result_element > 0) reason = reason // ", result element " // integer_text(state%head%result_element)
+         end if
+         call fatal_error(error, reason, error_kind%memory)
+         call report_error(state, error)
+         state%run%reason = reason
+         if (run%settings%check_only .or. .not. state%log%out%is_open()) return
+         call state%progress%hide()
+         if (state%in_case) then
+            call state%head%status%refuse(reason)
+            state%head%finished = state%run%finished
+            call count_case(state, state%head%status)
+            if (state%exports%wanted()) call state%exports%write_failure(state%head)
+         end if
+         call close_all_files(state)
+      end associate
+   end subroutine end_early
 
    !> A name must be left after the folder and the suffix
    subroutine check_place(state, error)
@@ -301,21 +375,32 @@ contains
          if (this%spec%output_level > 0 .or. this%spec%mat_file > 0 .or. this%spec%digits%s > 0) state%silent = .false.
          this%spec%limits = settings%limits
          call this%spec%limits%deadline%start()
+         state%head = case_head(this%number, this%reid, this%cpid, this%module_number, this%first_line, state%run%finished + 1)
+         state%in_case = .true.
          call compute_case(state, this, go_on)
+         state%in_case = .false.
          if (.not. go_on) exit
          state%run%finished = state%run%finished + 1
          call keep_file_current(state)
          if (settings%screen == 0 .or. this%spec%flow_level == 0) call state%progress%show(state%cases)
       end do
       call state%progress%hide()
-      call learn_planned(state)
-      call state%exports%close_files(state%run, error)
-      if (allocated(error)) call report_error(state, error)
-      call close_out_file(state)
+      call close_all_files(state)
       do k = 1, state%used
          call release_slot(state%slots(k)%problem_slot)
       end do
    end subroutine compute_all_cases
+
+   !> Close the files of other programs and the report
+   subroutine close_all_files(state)
+      type(experiment_state), intent(inout) :: state
+      type(error_type), allocatable :: error
+
+      call learn_planned(state)
+      call state%exports%close_files(state%run, error)
+      if (allocated(error)) call report_error(state, error)
+      call close_out_file(state)
+   end subroutine close_all_files
 
    !> Hand the report to the system now and then, so that a long run can be watched
    subroutine keep_file_current(state)
@@ -342,7 +427,7 @@ contains
       integer :: k
 
       if (state%log%screen /= 0) call state%progress%hide()
-      head = case_head(this%number, this%reid, this%cpid, this%module_number, this%first_line, state%run%finished + 1)
+      head = state%head
       call write_case_line(state%log, this%number, this%reid)
       call report_problems(state, this)
       go_on = this%problems%is_usable()

@@ -159,7 +159,8 @@ contains
             end do
          end do
       end do
-      !$omp end do
+      ! no barrier: a thread may have left, see base/guard.c
+      !$omp end do nowait
       call plan%release()
       call period_plan%release()
    end subroutine share_of_layers

@@ -5,6 +5,7 @@
 !> the first word that cannot be read as the next optional value ends the group silently.
 module contact_text_lexer
    use contact_base_error, only : error_kind, error_type, fatal_error
+   use contact_base_guard, only : expect_refusals
    use contact_base_kinds, only : long, wp
    use contact_text_words, only : columns_of, integer_text, to_angle, to_integer, to_real, word_state
    implicit none (type, external)
@@ -107,7 +108,9 @@ contains
       if (length > 1000000000_long) then
          call fatal_error(error, "the file is larger than 1 GB", error_kind%file, file)
       else if (length >= 0) then
+         call expect_refusals(.true.)
          allocate(character(len=length) :: text, stat=status)
+         call expect_refusals(.false.)
          if (status /= 0) then
             call fatal_error(error, "no memory for the text of the file", error_kind%memory, file)
          else if (length > 0) then

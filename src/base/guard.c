@@ -1,0 +1,596 @@
+/* Requests for memory that are refused, and run-time libraries that would end the process.
+ *
+ * Compiled Fortran does not look at the result of malloc where it allocates by assignment, and its run-time library, that
+ * of OpenMP and FFTW end the process when they get no memory. None of this may happen to a host, so the calls of malloc
+ * and its relatives, exit and abort of this code and of those libraries lead here:
+ *
+ *  - a small request that the system refuses is served from a reserve. The computation goes on and is right;
+ *  - a larger one of our own code leaves everything up to the guard of the call, contact_guard, which says so;
+ *  - so does a run-time library that wants to end the process.
+ *
+ * Outside of a guard nothing changes, so that a host that uses the same run-time libraries sees no difference. What was
+ * left keeps its memory; blocks of more than `recorded` bytes are noted with their owner and can be freed by it.
+ *
+ * The calls are led here by writing to the tables of imported addresses (GOT) of the loaded objects, when this one is
+ * loaded. On systems other than Linux with ELF on x86-64 or AArch64, and under sanitizers, nothing is led anywhere:
+ * guards do nothing there. */
+#define _GNU_SOURCE
+#include <setjmp.h>
+#include <stdatomic.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define WATCHED 0
+#elif defined(__linux__) && defined(__ELF__) && (defined(__x86_64__) || defined(__aarch64__))
+#define WATCHED 1
+#else
+#define WATCHED 0
+#endif
+
+/* How a guard ends: the work was done; no memory; a run-time library gave up. As guard_end in guard.f90 */
+enum { done = 0, no_memory = 1, gave_up = 2 };
+
+int contact_guard(void (*work)(void *), void *data, int owner);
+void contact_guard_free(int owner);
+int contact_guard_new_owner(void);
+void contact_guard_set_owner(int owner);
+void contact_guard_expect(int refusals);
+void contact_guard_whole_process(void);
+int contact_guard_is_watched(void);
+int contact_guard_reserve_used(void);
+
+static _Atomic int owners = 0;
+
+/* A number for whoever owns blocks of memory */
+int contact_guard_new_owner(void) { return atomic_fetch_add(&owners, 1) + 1; }
+
+#if !WATCHED
+
+int contact_guard(void (*work)(void *), void *data, int owner) {
+  (void)owner;
+  work(data);
+  return done;
+}
+void contact_guard_free(int owner) { (void)owner; }
+void contact_guard_set_owner(int owner) { (void)owner; }
+void contact_guard_expect(int refusals) { (void)refusals; }
+void contact_guard_whole_process(void) {}
+int contact_guard_is_watched(void) { return 0; }
+int contact_guard_reserve_used(void) { return 0; }
+
+#else
+
+#include <elf.h>
+#include <errno.h>
+#include <link.h>
+#include <malloc.h>
+#include <pthread.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+/* ---- what a thread is doing ---- */
+
+/* A guard that was entered */
+struct guard {
+  jmp_buf place;
+  struct guard *outer;
+  int criticals, cause;
+};
+
+/* Critical sections of OpenMP do not nest deeper in this code */
+enum { most_criticals = 8 };
+
+static _Thread_local __attribute__((tls_model("initial-exec"))) struct {
+  struct guard *guard;
+  /* To whom blocks belong; does the code look at refusals itself? */
+  int owner, expects;
+  /* Critical sections that the thread is in */
+  int criticals;
+  void **critical[most_criticals];
+} guarded_thread;
+#define me guarded_thread
+
+/* All threads of the process are ours, with or without a guard */
+static int whole_process = 0, watched = 0;
+
+/* The functions that the calls would reach; taken before anything is led here */
+static struct {
+  void *(*malloc)(size_t);
+  void *(*calloc)(size_t, size_t);
+  void *(*realloc)(void *, size_t);
+  void *(*memalign)(size_t, size_t);
+  int (*posix_memalign)(void **, size_t, size_t);
+  void *(*aligned_alloc)(size_t, size_t);
+  void (*free)(void *);
+  size_t (*usable_size)(void *);
+  char *(*strdup)(const char *);
+  char *(*strndup)(const char *, size_t);
+  void (*exit)(int);
+  void (*abort)(void);
+  void (*parallel)(void (*)(void *), void *, unsigned, unsigned);
+  void (*sections)(void (*)(void *), void *, unsigned, unsigned, unsigned);
+  void (*enter)(void **);
+  void (*leave)(void **);
+} real;
+
+/* ---- the reserve: first fit over a fixed piece of memory ---- */
+
+enum { unit = 64, reserve_size = 8 << 20, largest_piece = 1 << 20 };
+
+struct piece {
+  size_t size; /* with this head; a multiple of unit */
+  _Atomic int used;
+};
+
+static _Alignas(4096) unsigned char reserve[reserve_size];
+static atomic_flag reserve_lock = ATOMIC_FLAG_INIT;
+static size_t reserve_place = 0;
+static _Atomic int reserve_pieces = 0, reserve_uses = 0;
+
+/* Requests that the reserve has served */
+int contact_guard_reserve_used(void) { return reserve_uses; }
+
+static inline int in_reserve(const void *p) { return (uintptr_t)p - (uintptr_t)reserve < reserve_size; }
+
+static struct piece *piece_of(void *p) { return (struct piece *)((unsigned char *)p - unit); }
+
+static void *take_from_reserve(size_t n, size_t align) {
+  void *found = NULL;
+  if (n > largest_piece || align > 4096) return NULL;
+  const size_t wanted = unit + (n + unit - 1)/unit*unit;
+  while (atomic_flag_test_and_set_explicit(&reserve_lock, memory_order_acquire)) continue;
+  struct piece *first = (struct piece *)reserve;
+  if (first->size == 0) first->size = reserve_size;
+  size_t at = reserve_place, walked = 0;
+  while (walked < 2*(size_t)reserve_size) {
+    struct piece *piece = (struct piece *)(reserve + at);
+    if (!piece->used) {
+      /* free pieces that follow join this one */
+      while (at + piece->size < reserve_size) {
+        struct piece *next = (struct piece *)(reserve + at + piece->size);
+        if (next->used) break;
+        piece->size += next->size;
+      }
+      const size_t shift = (align - (size_t)((uintptr_t)(reserve + at + unit)%align))%align;
+      if (piece->size >= wanted + shift) {
+        if (shift > 0) {
+          const size_t rest = piece->size - shift;
+          piece->size = shift;
+          at += shift;
+          piece = (struct piece *)(reserve + at);
+          piece->size = rest;
+        }
+        if (piece->size > wanted) {
+          struct piece *next = (struct piece *)(reserve + at + wanted);
+          next->size = piece->size - wanted;
+          next->used = 0;
+          piece->size = wanted;
+        }
+        piece->used = 1;
+        found = reserve + at + unit;
+        break;
+      }
+    }
+    walked += piece->size;
+    at += piece->size;
+    if (at >= reserve_size) at = 0;
+  }
+  reserve_place = at;
+  atomic_flag_clear_explicit(&reserve_lock, memory_order_release);
+  if (found) {
+    reserve_pieces++;
+    reserve_uses++;
+  }
+  return found;
+}
+
+static void give_to_reserve(void *p) {
+  piece_of(p)->used = 0;
+  reserve_pieces--;
+}
+
+/* ---- blocks with owners ---- */
+
+/* Larger blocks [bytes] are noted; two blocks with the same place in the table are not, and stay when they are left */
+enum { recorded = 16 << 10, table_size = 4096 };
+static struct {
+  _Atomic(void *) block;
+  int owner;
+} table[table_size];
+
+static inline unsigned place_of(const void *p) {
+  return (unsigned)(((uintptr_t)p >> 4)*UINT64_C(0x9E3779B97F4A7C15) >> 52)%table_size;
+}
+
+static void note(void *p, int owner) {
+  const unsigned k = place_of(p);
+  void *nothing = NULL;
+  if (owner != 0 && atomic_compare_exchange_strong(&table[k].block, &nothing, p)) table[k].owner = owner;
+}
+
+/* The owner of a block that is about to be freed; 0 if it was not noted */
+static inline int forget(void *p) {
+  const unsigned k = place_of(p);
+  if (atomic_load_explicit(&table[k].block, memory_order_relaxed) != p || p == NULL) return 0;
+  const int owner = table[k].owner;
+  table[k].owner = 0;
+  atomic_store(&table[k].block, NULL);
+  return owner;
+}
+
+/* Free the blocks of an owner that left them behind; nobody may use them any more */
+void contact_guard_free(int owner) {
+  if (owner == 0) return;
+  for (unsigned k = 0; k < table_size; k++) {
+    void *p = table[k].block;
+    if (p == NULL || table[k].owner != owner) continue;
+    forget(p);
+    real.free(p);
+  }
+}
+
+/* Blocks that this thread asks for belong to this owner from now on; 0 for nobody */
+void contact_guard_set_owner(int owner) { me.owner = owner; }
+
+/* The code that follows looks at the result of what it allocates itself (1), or it does not (0) */
+void contact_guard_expect(int refusals) { me.expects = refusals; }
+
+/* ---- guards ---- */
+
+/* Do the work. When it cannot go on for want of memory, it is left where it is and the cause is returned */
+int contact_guard(void (*work)(void *), void *data, int owner) {
+  struct guard guard;
+  const int owner_before = me.owner;
+  guard.outer = me.guard;
+  guard.criticals = me.criticals;
+  guard.cause = done;
+  if (_setjmp(guard.place) == 0) {
+    me.guard = &guard;
+    if (owner != 0) me.owner = owner;
+    work(data);
+  }
+  me.guard = guard.outer;
+  me.owner = owner_before;
+  me.expects = 0;
+  return guard.cause;
+}
+
+/* Leave everything up to the innermost guard of this thread; critical sections are opened */
+static _Noreturn void leave_all(int cause) {
+  struct guard *guard = me.guard;
+  while (me.criticals > guard->criticals) {
+    me.criticals--;
+    if (me.criticals < most_criticals) real.leave(me.critical[me.criticals]);
+  }
+  guard->cause = cause;
+  longjmp(guard->place, 1);
+}
+
+/* ---- requests that were refused ---- */
+
+static void *serve(size_t n, size_t align, int own) {
+  if (me.guard == NULL && !whole_process) return NULL;
+  void *p = take_from_reserve(n, align);
+  if (p == NULL && own && me.guard != NULL && !me.expects) leave_all(no_memory);
+  if (p == NULL) errno = ENOMEM;
+  return p;
+}
+
+static void *request(size_t n, int own) {
+  void *p = real.malloc(n);
+  if (p == NULL) return serve(n, 16, own);
+  if (own && n >= recorded) note(p, me.owner);
+  return p;
+}
+
+static void *cleared(size_t count, size_t size, int own) {
+  void *p = real.calloc(count, size);
+  if (p == NULL) {
+    size_t n;
+    if (__builtin_mul_overflow(count, size, &n)) n = SIZE_MAX;
+    p = serve(n, 16, own);
+    if (p != NULL) memset(p, 0, n);
+  } else if (own && count*size >= recorded) {
+    note(p, me.owner);
+  }
+  return p;
+}
+
+static void release(void *p) {
+  if (in_reserve(p)) {
+    give_to_reserve(p);
+    return;
+  }
+  forget(p);
+  real.free(p);
+}
+
+static void *resized(void *p, size_t n, int own) {
+  if (p == NULL) return request(n, own);
+  size_t old;
+  if (in_reserve(p)) {
+    old = piece_of(p)->size - unit;
+    if (n <= old && n > 0) return p;
+    if (n == 0) {
+      release(p);
+      return NULL;
+    }
+  } else {
+    const int owner = forget(p);
+    void *q = real.realloc(p, n);
+    if (q != NULL || n == 0) {
+      if (q != NULL && own && n >= recorded) note(q, owner != 0 ? owner : me.owner);
+      return q;
+    }
+    note(p, owner);
+    if (me.guard == NULL && !whole_process) return NULL;
+    old = real.usable_size(p);
+  }
+  void *q = in_reserve(p) ? request(n, own) : serve(n, 16, own);
+  if (q == NULL) return NULL;
+  memcpy(q, p, old < n ? old : n);
+  release(p);
+  return q;
+}
+
+static void *own_malloc(size_t n) { return request(n, 1); }
+static void *own_calloc(size_t count, size_t size) { return cleared(count, size, 1); }
+static void *own_realloc(void *p, size_t n) { return resized(p, n, 1); }
+static void *other_malloc(size_t n) { return request(n, 0); }
+static void *other_calloc(size_t count, size_t size) { return cleared(count, size, 0); }
+static void *other_realloc(void *p, size_t n) { return resized(p, n, 0); }
+
+static void *other_memalign(size_t align, size_t n) {
+  void *p = real.memalign(align, n);
+  return p != NULL ? p : serve(n, align, 0);
+}
+
+static void *other_aligned_alloc(size_t align, size_t n) {
+  void *p = real.aligned_alloc(align, n);
+  return p != NULL ? p : serve(n, align, 0);
+}
+
+static int other_posix_memalign(void **p, size_t align, size_t n) {
+  const int error = real.posix_memalign(p, align, n);
+  if (error != ENOMEM) return error;
+  void *q = serve(n, align, 0);
+  if (q == NULL) return error;
+  *p = q;
+  return 0;
+}
+
+static char *copied(char *copy, const char *text, size_t n) {
+  if (copy != NULL) return copy;
+  copy = serve(n + 1, 1, 0);
+  if (copy == NULL) return NULL;
+  memcpy(copy, text, n);
+  copy[n] = 0;
+  return copy;
+}
+
+static char *other_strdup(const char *text) { return copied(real.strdup(text), text, strlen(text)); }
+static char *other_strndup(const char *text, size_t n) { return copied(real.strndup(text, n), text, strnlen(text, n)); }
+
+/* ---- ends of the process ---- */
+
+static void other_exit(int status) {
+  if (me.guard != NULL) leave_all(gave_up);
+  real.exit(status);
+}
+
+static void other_abort(void) {
+  if (me.guard != NULL) leave_all(gave_up);
+  real.abort();
+}
+
+/* ---- OpenMP: threads of a team, critical sections ---- */
+
+struct team {
+  void (*work)(void *);
+  void *data;
+  int owner;
+  _Atomic int cause;
+};
+
+/* Each thread of a team has a guard of its own; regions have no barriers inside that a thread could miss */
+static void be_member(void *data) {
+  struct team *team = data;
+  const int cause = contact_guard(team->work, team->data, team->owner);
+  if (cause != done) team->cause = cause;
+}
+
+static void own_parallel(void (*work)(void *), void *data, unsigned threads, unsigned flags) {
+  if (me.guard == NULL) {
+    real.parallel(work, data, threads, flags);
+    return;
+  }
+  struct team team = {work, data, me.owner, done};
+  real.parallel(be_member, &team, threads, flags);
+  if (team.cause != done) leave_all(team.cause);
+}
+
+static void own_sections(void (*work)(void *), void *data, unsigned threads, unsigned count, unsigned flags) {
+  if (me.guard == NULL) {
+    real.sections(work, data, threads, count, flags);
+    return;
+  }
+  struct team team = {work, data, me.owner, done};
+  real.sections(be_member, &team, threads, count, flags);
+  if (team.cause != done) leave_all(team.cause);
+}
+
+static void own_enter(void **name) {
+  real.enter(name);
+  if (me.criticals < most_criticals) me.critical[me.criticals] = name;
+  me.criticals++;
+}
+
+static void own_leave(void **name) {
+  me.criticals--;
+  real.leave(name);
+}
+
+/* ---- leading the calls here ---- */
+
+extern void GOMP_parallel(void (*)(void *), void *, unsigned, unsigned) __attribute__((weak));
+extern void GOMP_parallel_sections(void (*)(void *), void *, unsigned, unsigned, unsigned) __attribute__((weak));
+extern void GOMP_critical_name_start(void **) __attribute__((weak));
+extern void GOMP_critical_name_end(void **) __attribute__((weak));
+
+typedef void (*function)(void);
+
+/* What a call is led to: from our own code, from other libraries (null: it stays) */
+struct detour {
+  const char *name;
+  function real, own, other;
+};
+
+struct detours {
+  struct detour list[16];
+  int count;
+  /* Every loaded library but those of the system? An address in our own object */
+  int all;
+};
+
+#define DETOUR(name, own, other) {#name, (function)name, (function)(own), (function)(other)}
+
+/* Libraries that end the process, or whose memory we free */
+static const char *const libraries[] = {"libgfortran.", "libgomp.", "libfftw3.", "libhdf5", "libopenblas.", "liblapack.",
+  "libblas.", "libquadmath."};
+/* Libraries of the system, which look at what they get */
+static const char *const system_libraries[] = {"libc.", "ld-linux", "linux-vdso", "libpthread.", "libdl.", "libm."};
+
+static int begins_with_one(const char *name, const char *const *list, size_t count) {
+  for (size_t k = 0; k < count; k++)
+    if (strncmp(name, list[k], strlen(list[k])) == 0) return 1;
+  return 0;
+}
+#define ONE_OF(name, list) begins_with_one(name, list, sizeof list/sizeof *list)
+
+static int contains(const struct dl_phdr_info *info, const void *address) {
+  for (int k = 0; k < info->dlpi_phnum; k++) {
+    const ElfW(Phdr) *part = &info->dlpi_phdr[k];
+    if (part->p_type == PT_LOAD && (uintptr_t)address - (info->dlpi_addr + part->p_vaddr) < part->p_memsz) return 1;
+  }
+  return 0;
+}
+
+/* Write an address into a table that may be write-protected */
+static void write_slot(const struct dl_phdr_info *info, function *slot, function to) {
+  const uintptr_t page = (uintptr_t)sysconf(_SC_PAGESIZE), start = (uintptr_t)slot & ~(page - 1);
+  int is_protected = 0;
+  for (int k = 0; k < info->dlpi_phnum; k++) {
+    const ElfW(Phdr) *part = &info->dlpi_phdr[k];
+    const uintptr_t end = (info->dlpi_addr + part->p_vaddr + part->p_memsz) & ~(page - 1);
+    if (part->p_type == PT_GNU_RELRO && start >= ((info->dlpi_addr + part->p_vaddr) & ~(page - 1)) && start < end) is_protected = 1;
+  }
+  if (is_protected && mprotect((void *)start, page, PROT_READ | PROT_WRITE) != 0) return;
+  *slot = to;
+  if (is_protected) mprotect((void *)start, page, PROT_READ);
+}
+
+static int is_import(unsigned type) {
+#ifdef __x86_64__
+  return type == R_X86_64_JUMP_SLOT || type == R_X86_64_GLOB_DAT;
+#else
+  return type == R_AARCH64_JUMP_SLOT || type == R_AARCH64_GLOB_DAT;
+#endif
+}
+
+static int redirect(struct dl_phdr_info *info, size_t size, void *data) {
+  const struct detours *detours = data;
+  const char *name = info->dlpi_name ? info->dlpi_name : "", *base = strrchr(name, '/');
+  const int own = contains(info, (const void *)&watched);
+  const ElfW(Dyn) *entry = NULL;
+  const ElfW(Rela) *tables[2] = {NULL, NULL};
+  size_t bytes[2] = {0, 0};
+  const ElfW(Sym) *symbols = NULL;
+  const char *strings = NULL;
+  (void)size;
+
+  base = base ? base + 1 : name;
+  if (!own && ONE_OF(base, system_libraries)) return 0;
+  if (!own && !detours->all && !ONE_OF(base, libraries)) return 0;
+  for (int k = 0; k < info->dlpi_phnum; k++)
+    if (info->dlpi_phdr[k].p_type == PT_DYNAMIC) entry = (const ElfW(Dyn) *)(info->dlpi_addr + info->dlpi_phdr[k].p_vaddr);
+  if (entry == NULL) return 0;
+  for (; entry->d_tag != DT_NULL; entry++) {
+    const uintptr_t value = entry->d_un.d_ptr, address = value < info->dlpi_addr ? value + info->dlpi_addr : value;
+    if (entry->d_tag == DT_JMPREL) tables[0] = (const ElfW(Rela) *)address;
+    if (entry->d_tag == DT_PLTRELSZ) bytes[0] = entry->d_un.d_val;
+    if (entry->d_tag == DT_RELA) tables[1] = (const ElfW(Rela) *)address;
+    if (entry->d_tag == DT_RELASZ) bytes[1] = entry->d_un.d_val;
+    if (entry->d_tag == DT_SYMTAB) symbols = (const ElfW(Sym) *)address;
+    if (entry->d_tag == DT_STRTAB) strings = (const char *)address;
+    if (entry->d_tag == DT_PLTREL && entry->d_un.d_val != DT_RELA) return 0;
+  }
+  if (symbols == NULL || strings == NULL) return 0;
+  for (int t = 0; t < 2; t++) {
+    for (size_t k = 0; tables[t] != NULL && k < bytes[t]/sizeof(ElfW(Rela)); k++) {
+      const ElfW(Rela) *import = &tables[t][k];
+      if (!is_import((unsigned)ELF64_R_TYPE(import->r_info))) continue;
+      const char *symbol = strings + symbols[ELF64_R_SYM(import->r_info)].st_name;
+      for (int d = 0; d < detours->count; d++) {
+        const struct detour *detour = &detours->list[d];
+        const function to = own ? detour->own : detour->other;
+        if (to == NULL || strcmp(symbol, detour->name) != 0) continue;
+        function *slot = (function *)(info->dlpi_addr + import->r_offset);
+        /* a second copy of this code in the process has been here, or somebody else */
+        if (*slot != detour->real && !contains(info, (const void *)*slot)) continue;
+        write_slot(info, slot, to);
+      }
+    }
+  }
+  return 0;
+}
+
+/* Lead the calls here, once */
+static void watch(int all) {
+  struct detours detours = {{
+    DETOUR(malloc, own_malloc, other_malloc), DETOUR(calloc, own_calloc, other_calloc), DETOUR(realloc, own_realloc, other_realloc),
+    DETOUR(memalign, NULL, other_memalign), DETOUR(posix_memalign, NULL, other_posix_memalign),
+    DETOUR(aligned_alloc, NULL, other_aligned_alloc), DETOUR(free, release, release),
+    DETOUR(strdup, NULL, other_strdup), DETOUR(strndup, NULL, other_strndup), DETOUR(exit, NULL, other_exit), DETOUR(abort, NULL, other_abort),
+    DETOUR(GOMP_parallel, own_parallel, NULL), DETOUR(GOMP_parallel_sections, own_sections, NULL),
+    DETOUR(GOMP_critical_name_start, own_enter, NULL), DETOUR(GOMP_critical_name_end, own_leave, NULL)}, 15, all};
+  if (watched) return;
+  watched = 1;
+  real.malloc = malloc;
+  real.calloc = calloc;
+  real.realloc = realloc;
+  real.memalign = memalign;
+  real.posix_memalign = posix_memalign;
+  real.aligned_alloc = aligned_alloc;
+  real.free = free;
+  real.usable_size = malloc_usable_size;
+  real.strdup = strdup;
+  real.strndup = strndup;
+  real.exit = exit;
+  real.abort = abort;
+  real.parallel = GOMP_parallel;
+  real.sections = GOMP_parallel_sections;
+  real.enter = GOMP_critical_name_start;
+  real.leave = GOMP_critical_name_end;
+  dl_iterate_phdr(redirect, &detours);
+}
+
+/* Every thread of this process is ours: the program. Called before the first library is initialised */
+void contact_guard_whole_process(void) {
+  whole_process = 1;
+  watch(1);
+}
+
+/* A child has one thread; it must not find the reserve locked by another one */
+static void free_lock(void) { atomic_flag_clear(&reserve_lock); }
+
+__attribute__((constructor)) static void begin(void) {
+  watch(0);
+  pthread_atfork(NULL, NULL, free_lock);
+}
+
+int contact_guard_is_watched(void) { return watched; }
+
+#endif

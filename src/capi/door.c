@@ -1,0 +1,95 @@
+/* What happens at every door of the library: the routine runs under a guard, and when it was left for want of memory the
+ * caller gets an error, whatever the thread held is given back, and the library can be used on */
+#include <omp.h>
+#include <stddef.h>
+#include "door.h"
+
+int contact_guard(void (*work)(void *), void *data, int owner);
+void contact_call_failed(int cause, const char *name, const int *ire, const int *icp, int *ierror);
+
+/* Of any error, as CNTC_err_other; for callers who could not be told more */
+enum { other_error = -99 };
+
+struct call {
+  contact_routine routine;
+  int count;
+  void **a;
+};
+
+typedef void *p;
+
+static void go(void *data) {
+  const struct call *call = data;
+  const contact_routine f = call->routine;
+  void **a = call->a;
+  switch (call->count) {
+  case 0: f(); break;
+  case 1: ((void (*)(p))f)(a[0]); break;
+  case 2: ((void (*)(p, p))f)(a[0], a[1]); break;
+  case 3: ((void (*)(p, p, p))f)(a[0], a[1], a[2]); break;
+  case 4: ((void (*)(p, p, p, p))f)(a[0], a[1], a[2], a[3]); break;
+  case 5: ((void (*)(p, p, p, p, p))f)(a[0], a[1], a[2], a[3], a[4]); break;
+  case 6: ((void (*)(p, p, p, p, p, p))f)(a[0], a[1], a[2], a[3], a[4], a[5]); break;
+  case 7: ((void (*)(p, p, p, p, p, p, p))f)(a[0], a[1], a[2], a[3], a[4], a[5], a[6]); break;
+  case 8: ((void (*)(p, p, p, p, p, p, p, p))f)(a[0], a[1], a[2], a[3], a[4], a[5], a[6], a[7]); break;
+  case 9: ((void (*)(p, p, p, p, p, p, p, p, p))f)(a[0], a[1], a[2], a[3], a[4], a[5], a[6], a[7], a[8]); break;
+  default: ((void (*)(p, p, p, p, p, p, p, p, p, p))f)(a[0], a[1], a[2], a[3], a[4], a[5], a[6], a[7], a[8], a[9]);
+  }
+}
+
+struct failure {
+  int cause;
+  const char *name;
+  void *ire, *icp, *ierror;
+};
+
+static void report(void *data) {
+  const struct failure *failure = data;
+  contact_call_failed(failure->cause, failure->name, failure->ire, failure->icp, failure->ierror);
+}
+
+void contact_call(const char *name, contact_routine routine, int count, void **arguments, int ire, int icp, int ierror) {
+  struct call call = {routine, count, arguments};
+  const int threads = omp_get_max_threads();
+  const int cause = contact_guard(go, &call, 0);
+  if (cause == 0) return;
+  struct failure failure = {cause, name, ire < 0 ? NULL : arguments[ire], icp < 0 ? NULL : arguments[icp],
+    ierror < 0 ? NULL : arguments[ierror]};
+  omp_set_num_threads(threads);
+  if (failure.ierror != NULL) *(int *)failure.ierror = other_error;
+  contact_guard(report, &failure, 0);
+}
+
+/* The two questions that are functions */
+int inside_contact_last_error(int ire, int icp, char *message, int length);
+int contact_last_error(int ire, int icp, char *message, int length);
+int inside_contact_case_status(int ire, int icp, int *iteration, char *message, int length);
+int contact_case_status(int ire, int icp, int *iteration, char *message, int length);
+
+struct question {
+  int ire, icp, *iteration;
+  char *message;
+  int length, answer;
+};
+
+static void ask_error(void *data) {
+  struct question *q = data;
+  q->answer = inside_contact_last_error(q->ire, q->icp, q->message, q->length);
+}
+
+int contact_last_error(int ire, int icp, char *message, int length) {
+  struct question question = {ire, icp, NULL, message, length, other_error};
+  if (contact_guard(ask_error, &question, 0) != 0 && message != NULL && length > 0) message[0] = 0;
+  return question.answer;
+}
+
+static void ask_status(void *data) {
+  struct question *q = data;
+  q->answer = inside_contact_case_status(q->ire, q->icp, q->iteration, q->message, q->length);
+}
+
+int contact_case_status(int ire, int icp, int *iteration, char *message, int length) {
+  struct question question = {ire, icp, iteration, message, length, -1};
+  if (contact_guard(ask_status, &question, 0) != 0 && message != NULL && length > 0) message[0] = 0;
+  return question.answer;
+}
