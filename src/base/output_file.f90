@@ -38,11 +38,14 @@ module contact_base_output_file
    end type output_file
 
    interface
-      function fopen(name, mode) result(stream) bind(c, name="fopen")
-         import :: c_char, c_ptr
+      function open_stream(name, mode, reason, length) result(stream) bind(c, name="contact_open_stream")
+         import :: c_char, c_int, c_ptr
          character(kind=c_char), intent(in) :: name(*), mode(*)
+         !> Why it was not opened, null-terminated, and its length
+         character(kind=c_char), intent(out) :: reason(*)
+         integer(c_int), value :: length
          type(c_ptr) :: stream
-      end function fopen
+      end function open_stream
 
       function fdopen(descriptor, mode) result(stream) bind(c, name="fdopen")
          import :: c_char, c_int, c_ptr
@@ -125,20 +128,17 @@ contains
       character(len=*), intent(in) :: name
       !> Why the file could not be opened, one sentence; unallocated when it was
       character(len=:), allocatable, intent(out) :: reason
-      character(len=200) :: message
-      integer :: status, unit
+      character(kind=c_char, len=1) :: message(400)
+      integer :: i
 
       ! e: a process that the host starts does not inherit the file
-      self%stream = fopen(name // c_null_char, "wbe" // c_null_char)
+      self%stream = open_stream(name // c_null_char, "wbe" // c_null_char, message, int(size(message), c_int))
       if (self%is_open()) return
-      ! the run-time library has the sentence
-      message = ""
-      open(newunit=unit, file=name, action="write", iostat=status, iomsg=message)
-      if (status == 0) then
-         close(unit, iostat=status)
-         message = "the system refuses to open it"
-      end if
-      reason = trim(message)
+      reason = ""
+      do i = 1, size(message)
+         if (message(i) == c_null_char) exit
+         reason = reason // message(i)
+      end do
    end subroutine open_file
 
    subroutine open_standard_output(self)
