@@ -451,8 +451,8 @@ struct detour {
 struct detours {
   struct detour list[16];
   int count;
-  /* Every loaded library but those of the system? An address in our own object */
-  int all;
+  /* First letters of the names */
+  const char *letters;
 };
 
 #define DETOUR(name, own, other) {#name, (function)name, (function)(own), (function)(other)}
@@ -460,8 +460,6 @@ struct detours {
 /* Libraries that end the process, or whose memory we free */
 static const char *const libraries[] = {"libgfortran.", "libgomp.", "libfftw3.", "libhdf5", "libopenblas.", "liblapack.",
   "libblas.", "libquadmath."};
-/* Libraries of the system, which look at what they get */
-static const char *const system_libraries[] = {"libc.", "ld-linux", "linux-vdso", "libpthread.", "libdl.", "libm."};
 
 static int begins_with_one(const char *name, const char *const *list, size_t count) {
   for (size_t k = 0; k < count; k++)
@@ -478,18 +476,16 @@ static int contains(const struct dl_phdr_info *info, const void *address) {
   return 0;
 }
 
-/* Write an address into a table that may be write-protected */
-static void write_slot(const struct dl_phdr_info *info, function *slot, function to) {
-  const uintptr_t page = (uintptr_t)sysconf(_SC_PAGESIZE), start = (uintptr_t)slot & ~(page - 1);
-  int is_protected = 0;
+/* Addresses that are write-protected once the object is loaded: start and length, 0 if there are none */
+static void find_protected(const struct dl_phdr_info *info, uintptr_t *start, size_t *length) {
+  const uintptr_t page = (uintptr_t)sysconf(_SC_PAGESIZE);
+  *length = 0;
   for (int k = 0; k < info->dlpi_phnum; k++) {
     const ElfW(Phdr) *part = &info->dlpi_phdr[k];
-    const uintptr_t end = (info->dlpi_addr + part->p_vaddr + part->p_memsz) & ~(page - 1);
-    if (part->p_type == PT_GNU_RELRO && start >= ((info->dlpi_addr + part->p_vaddr) & ~(page - 1)) && start < end) is_protected = 1;
+    if (part->p_type != PT_GNU_RELRO) continue;
+    *start = (info->dlpi_addr + part->p_vaddr) & ~(page - 1);
+    *length = ((info->dlpi_addr + part->p_vaddr + part->p_memsz) & ~(page - 1)) - *start;
   }
-  if (is_protected && mprotect((void *)start, page, PROT_READ | PROT_WRITE) != 0) return;
-  *slot = to;
-  if (is_protected) mprotect((void *)start, page, PROT_READ);
 }
 
 static int is_import(unsigned type) {
@@ -509,11 +505,13 @@ static int redirect(struct dl_phdr_info *info, size_t size, void *data) {
   size_t bytes[2] = {0, 0};
   const ElfW(Sym) *symbols = NULL;
   const char *strings = NULL;
+  uintptr_t protected = 0;
+  size_t length = 0;
+  int is_open = 0;
   (void)size;
 
   base = base ? base + 1 : name;
-  if (!own && ONE_OF(base, system_libraries)) return 0;
-  if (!own && !detours->all && !ONE_OF(base, libraries)) return 0;
+  if (!own && !ONE_OF(base, libraries)) return 0;
   for (int k = 0; k < info->dlpi_phnum; k++)
     if (info->dlpi_phdr[k].p_type == PT_DYNAMIC) entry = (const ElfW(Dyn) *)(info->dlpi_addr + info->dlpi_phdr[k].p_vaddr);
   if (entry == NULL) return 0;
@@ -528,11 +526,13 @@ static int redirect(struct dl_phdr_info *info, size_t size, void *data) {
     if (entry->d_tag == DT_PLTREL && entry->d_un.d_val != DT_RELA) return 0;
   }
   if (symbols == NULL || strings == NULL) return 0;
+  find_protected(info, &protected, &length);
   for (int t = 0; t < 2; t++) {
     for (size_t k = 0; tables[t] != NULL && k < bytes[t]/sizeof(ElfW(Rela)); k++) {
       const ElfW(Rela) *import = &tables[t][k];
       if (!is_import((unsigned)ELF64_R_TYPE(import->r_info))) continue;
       const char *symbol = strings + symbols[ELF64_R_SYM(import->r_info)].st_name;
+      if (strchr(detours->letters, symbol[0]) == NULL) continue;
       for (int d = 0; d < detours->count; d++) {
         const struct detour *detour = &detours->list[d];
         const function to = own ? detour->own : detour->other;
@@ -540,22 +540,27 @@ static int redirect(struct dl_phdr_info *info, size_t size, void *data) {
         function *slot = (function *)(info->dlpi_addr + import->r_offset);
         /* a second copy of this code in the process has been here, or somebody else */
         if (*slot != detour->real && !contains(info, (const void *)*slot)) continue;
-        write_slot(info, slot, to);
+        if ((uintptr_t)slot - protected < length && !is_open) {
+          if (mprotect((void *)protected, length, PROT_READ | PROT_WRITE) != 0) return 0;
+          is_open = 1;
+        }
+        *slot = to;
       }
     }
   }
+  if (is_open) mprotect((void *)protected, length, PROT_READ);
   return 0;
 }
 
 /* Lead the calls here, once */
-static void watch(int all) {
+static void watch(void) {
   struct detours detours = {{
     DETOUR(malloc, own_malloc, other_malloc), DETOUR(calloc, own_calloc, other_calloc), DETOUR(realloc, own_realloc, other_realloc),
     DETOUR(memalign, NULL, other_memalign), DETOUR(posix_memalign, NULL, other_posix_memalign),
     DETOUR(aligned_alloc, NULL, other_aligned_alloc), DETOUR(free, release, release),
     DETOUR(strdup, NULL, other_strdup), DETOUR(strndup, NULL, other_strndup), DETOUR(exit, NULL, other_exit), DETOUR(abort, NULL, other_abort),
     DETOUR(GOMP_parallel, own_parallel, NULL), DETOUR(GOMP_parallel_sections, own_sections, NULL),
-    DETOUR(GOMP_critical_name_start, own_enter, NULL), DETOUR(GOMP_critical_name_end, own_leave, NULL)}, 15, all};
+    DETOUR(GOMP_critical_name_start, own_enter, NULL), DETOUR(GOMP_critical_name_end, own_leave, NULL)}, 15, "mcrpafseG"};
   if (watched) return;
   watched = 1;
   real.malloc = malloc;
@@ -580,14 +585,14 @@ static void watch(int all) {
 /* Every thread of this process is ours: the program. Called before the first library is initialised */
 void contact_guard_whole_process(void) {
   whole_process = 1;
-  watch(1);
+  watch();
 }
 
 /* A child has one thread; it must not find the reserve locked by another one */
 static void free_lock(void) { atomic_flag_clear(&reserve_lock); }
 
 __attribute__((constructor)) static void begin(void) {
-  watch(0);
+  watch();
   pthread_atfork(NULL, NULL, free_lock);
 }
 
