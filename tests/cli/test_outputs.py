@@ -1,0 +1,143 @@
+#!/usr/bin/env python3
+"""What the files of results say, against what it is made of: bounds of tractions, times, names of files that fail.
+
+The environment tells CONTACT_PROGRAM and CONTACT_SOURCE.
+"""
+import math
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+PROGRAM = os.environ["CONTACT_PROGRAM"]
+SOURCE = os.environ["CONTACT_SOURCE"]
+LAYER = """3
+203100
+022420
+0001501
+999 100 30 1 1e-7
+{load} -0.002 0.0003 0.0001
+0.3 0.3
+0 0.25 1000
+0.28 0.28 82000 82000
+4000 0.02 {limit} {slope}
+1
+16 18 -2.0 -2.25 0.25 0.25
+1 1
+0.01 0 0.01 0 0 0
+0
+"""
+
+
+class Outputs(unittest.TestCase):
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(scratch.cleanup)
+        self.folder = scratch.name
+
+    def run_text(self, text, *options):
+        with open(os.path.join(self.folder, "x.inp"), "w", encoding="utf-8") as file:
+            file.write(text)
+        self.run = subprocess.run([PROGRAM, "--quiet", *options, "2", "x"], cwd=self.folder, stdin=subprocess.DEVNULL,
+                                  capture_output=True, text=True, timeout=120)
+        with open(os.path.join(self.folder, "x.out"), encoding="utf-8") as file:
+            return file.read()
+
+    def elements(self, number=1):
+        """Columns of a .mat file by their names"""
+        with open(os.path.join(self.folder, f"x.{number:04d}.mat"), encoding="utf-8") as file:
+            lines = file.read().splitlines()
+        names = lines[12].replace("%", " ").split()
+        return [dict(zip(names, map(float, line.split()))) for line in lines[13:]]
+
+    def test_bound_of_an_interfacial_layer(self):
+        """Tractions stop at friction or at the yield limit, whichever is less; both occur"""
+        for limit, slope in ((60.0, 0.0), (60.0, 3000.0)):
+            self.run_text(LAYER.format(load=2000, limit=limit, slope=slope).replace("0001501", "0011501"))
+            rows = [row for row in self.elements() if row["IGS"] > 0]
+            states = {row["IGS"] for row in rows}
+            self.assertTrue({2, 3} <= states, states)
+            for row in rows:
+                bound = min(0.3*row["PN"], row["TAUCRT"])
+                self.assertAlmostEqual(row["MU"], 0.3)
+                self.assertGreaterEqual(row["TAUCRT"], limit*(1 - 1e-6))
+                self.assertLessEqual((row["PX"]**2 + row["PY"]**2)**0.5, bound*(1 + 1e-4) + 1e-3)
+
+    def test_table_of_elements(self):
+        """The table of the .out file, column by column from the .mat file and from geometry"""
+        out = self.run_text(LAYER.format(load=2000, limit=60.0, slope=0.0).replace("0001501", "0011651"))
+        elements = {int(row["I"]): row for row in self.elements()}
+        approach = float(re.search(r"APPROACH +PMAX.*\n +(.*)", out).group(1).split()[3])
+        found, iy = 0, 0
+        for line in out[out.index("H-PEN        PN      TRCBND"):].splitlines()[1:]:
+            row = re.match(r" Y = +(\S+) +ROW +(\d+) OF", line)
+            if row:
+                iy = int(row.group(2))
+                self.assertAlmostEqual(float(row.group(1)), -2.25 + 0.25*(iy - 0.5), places=4)
+                continue
+            words = line.split()
+            if line.startswith((" Parallel", " Time", "|")):
+                break
+            if len(words) != 9:
+                continue
+            x, gap, pn, bound, size, direction, slip, rigid_x, rigid_y = map(float, words)
+            ix = round((x + 2.0)/0.25 + 0.5)
+            self.assertAlmostEqual(x, -2.0 + 0.25*(ix - 0.5), places=4)
+            element = elements.get(ix + 16*(iy - 1))
+            y = -2.25 + 0.25*(iy - 0.5)
+            self.assertAlmostEqual(gap, 0.01*(x*x + y*y) - approach, delta=2e-4)
+            # creepages -0.002 and 0.0003 with spin 0.0001
+            self.assertAlmostEqual(rigid_x, -0.002 - 0.0001*y, delta=6e-6)
+            self.assertAlmostEqual(rigid_y, 0.0003 + 0.0001*x, delta=6e-6)
+            if element is None or element["IGS"] == 0:
+                self.assertEqual((pn, bound, size, slip), (0, 0, 0, 0), line)
+                continue
+            found += 1
+            traction = (element["PX"]**2 + element["PY"]**2)**0.5
+            for value, expected in ((pn, element["PN"]), (bound, min(0.3*element["PN"], element["TAUCRT"])), (size, traction),
+                                    (slip, element["SREL"])):
+                self.assertAlmostEqual(value, expected, delta=5.1e-3*abs(expected) + 1e-9, msg=line)
+            if traction > 1e-3:
+                angle = math.degrees(math.atan2(element["PY"], element["PX"]))
+                self.assertLess(abs((direction - angle + 180) % 360 - 180), 0.15, line)
+        self.assertEqual(found, sum(row["IGS"] > 0 for row in elements.values()))
+
+    def test_times(self):
+        """The table of times: parts within the whole, the whole within what was waited for"""
+        text = LAYER.format(load=2000, limit=60.0, slope=0.0).replace("16 18 -2.0 -2.25 0.25 0.25",
+                                                                      "160 180 -2.0 -2.25 0.025 0.025")
+        started = time.monotonic()
+        out = self.run_text(text.replace("0 0.25 1000", "0 0.025 1000"))
+        waited = time.monotonic() - started
+        rows = {name.strip(): (int(calls), float(processor), float(elapsed))
+                for name, calls, processor, elapsed in re.findall(r"^\|([^|]+)\| +(\d+) \| +([\d.]+) \| +[\d.]+ \| +([\d.]+) \|",
+                                                                  out, re.M)}
+        self.assertLessEqual({"Total", "Reading input", "Solving cases", "Writing results"}, set(rows))
+        self.assertLessEqual(rows["Total"][2], waited + 0.1)
+        self.assertGreaterEqual(rows["Total"][2], 0.3*waited - 0.1)
+        self.assertLessEqual(sum(rows[name][2] for name in rows if name != "Total"), rows["Total"][2] + 0.2)
+        self.assertEqual(rows["Solving cases"][0], 1)
+
+    def test_a_file_that_cannot_be_written_is_named(self):
+        stresses = LAYER.format(load=2000, limit=0.0, slope=0.0).replace("203100", "203103").replace("0.01 0 0.01 0 0 0\n",
+            "0.01 0 0.01 0 0 0\n1 1\n1\n2 0 0.5\n0\n")
+        os.mkdir(os.path.join(self.folder, "x.0001.subs"))
+        self.run_text(stresses)
+        self.assertEqual(self.run.returncode, 1)
+        self.assertIn(".subs", self.run.stderr)
+        self.assertIn("writing the .subs file", self.run.stderr)
+
+    def test_control_characters_are_not_echoed(self):
+        """A message about a word has no control characters of it"""
+        for word in ("\x01\x02bad", "b\x1b[31mad", "bad\x7f"):
+            self.run_text(LAYER.format(load=2000, limit=0.0, slope=0.0).replace("999 100", word + " 100"))
+            self.assertEqual(self.run.returncode, 1)
+            self.assertIn("ad", self.run.stderr)
+            self.assertFalse(re.search(r"[\x00-\x08\x0b-\x1f\x7f]", self.run.stderr), repr(self.run.stderr))
+
+
+if __name__ == "__main__":
+    sys.exit(unittest.main())
