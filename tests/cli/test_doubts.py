@@ -105,6 +105,16 @@ class Border(Program):
             self.assertEqual(patches[0]["border"]["reached"], f"the border of the potential contact ({', '.join(sides)})")
             better = self.enough("44 44 0 0 0.1 0.1", told[0])
             self.assertEqual(self.alarms(ball(better))[0], [], better)
+            # the window that was asked for and the contact of radius 1.72, with some elements beside it
+            columns, rows, x, y = better.split()[1:5]
+            ends = [float(x), float(y), float(x) + 0.1*int(columns), float(y) + 0.1*int(rows)]
+            for side, name in enumerate(("x low", "y low", "x high", "y high")):
+                window = [first[0], first[1], first[0] + 4.4, first[1] + 4.4][side]
+                if name in sides:
+                    self.assertGreater(abs(ends[side]), 1.7, better)
+                    self.assertLess(abs(ends[side]), 2.6, better)
+                else:
+                    self.assertAlmostEqual(ends[side], window, delta=1e-6, msg=better)
 
     def test_a_larger_grid_is_named_once(self):
         """Later cases on the same grid say the same words, so that they count as one warning"""

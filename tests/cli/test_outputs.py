@@ -11,6 +11,7 @@ import sys
 import tempfile
 import time
 import unittest
+import unittest.mock
 
 PROGRAM = os.environ["CONTACT_PROGRAM"]
 SOURCE = os.environ["CONTACT_SOURCE"]
@@ -129,6 +130,31 @@ class Outputs(unittest.TestCase):
         self.assertEqual(self.run.returncode, 1)
         self.assertIn(".subs", self.run.stderr)
         self.assertIn("writing the .subs file", self.run.stderr)
+
+    def test_a_page_is_whole_or_not_there(self):
+        """What stands in the place of a page stays until the new page is complete"""
+        sys.path.insert(0, os.path.join(SOURCE, "python"))
+        try:
+            from contact.report import page
+        except ImportError as reason:
+            self.skipTest(str(reason))
+        self.run_text(LAYER.format(load=2000, limit=0.0, slope=0.0), "--hdf5")
+        target = os.path.join(self.folder, "x.html")
+        with open(target, "w", encoding="utf-8") as file:
+            file.write("old")
+
+        def refuse(*_):
+            raise OSError("no")
+        with unittest.mock.patch.object(page.os, "replace", refuse), self.assertRaises(OSError):
+            page.write_page(os.path.join(self.folder, "x.h5"))
+        with open(target, encoding="utf-8") as file:
+            self.assertEqual(file.read(), "old")
+        self.assertEqual(page.write_page(os.path.join(self.folder, "x.h5")), target)
+        with open(target, encoding="utf-8") as file:
+            text = file.read()
+        self.assertTrue(text.rstrip().endswith("</html>"))
+        self.assertGreater(len(text), 20000)
+        self.assertEqual([name for name in os.listdir(self.folder) if name.endswith(".tmp")], [])
 
     def test_control_characters_are_not_echoed(self):
         """A message about a word has no control characters of it"""

@@ -218,6 +218,7 @@ def compare_results(name, expected, label):
     with h5py.File(f"program/{name}.h5") as file:
         file.visititems(lambda path, item: recorded.update({path.split("/")[-1]: item[()]})
                         if "/inputs/" in path and isinstance(item, h5py.Dataset) else None)
+    check("D_TURN" not in " ".join(lines) or "pair" not in name, f"{label}: D_TURN is told only where it was chosen")
     for key, values in OF_BODIES.get(label, {}).items():
         close(recorded[key], values, 1e-9 * np.abs(values), f"{label}: {key} of both bodies in the HDF5 file")
     for k, line in enumerate(lines):
@@ -324,6 +325,8 @@ PAIR = {
     "options of a profile": (lambda ire, big: cntc.setprofileinputfname(ire, profiles()[0], [0, 0, 0, -1, 1, 2],
                                                                          [1.0, 0.4, 0.45, 2.7, 0.53, 0.11, 1.9 * big]),
                              {"'": [0, 1.0, 0.4, -1], "ISMOOTH": [2, 2.7, 0.53, 0.11, 1.9], "ERRHND": [1, 0.45]}),
+    "file name with backslashes": (lambda ire, big: cntc.setprofileinputfname(ire, profiles()[0].replace("/", "\\"), [0], [1.0, 0.0]),
+                                   {"'": [0, 1.0, 0.0]}),
     "options of a wheel": (lambda ire, big: cntc.setprofileinputfname(ire, profiles()[1], [1, 0, 0, -1, 0, 0], [0.999, 0.0]),
                            {"'": [0, 0.999, 0.0, -1]}),
     "profile by values": (lambda ire, big: cntc.setprofileinputvalues(ire, np.array([[y, 40 - np.sqrt(1600 - y * y)]
