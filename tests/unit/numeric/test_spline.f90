@@ -17,6 +17,7 @@ program test_spline
    call convergence(suite)
    call filters(suite)
    call kinks(suite)
+   call mirrored(suite)
    call local(suite)
    call small(suite)
    call basis(suite)
@@ -37,6 +38,42 @@ contains
          s(i) = s(i - 1) + step*(0.6_wp + 0.4_wp*sin(7.0_wp*i))
       end do
    end function uneven
+
+   !> Smoothing looks in both directions alike: the mirror image of a curve gets the mirror image of its spline, also at
+   !> kinks and with uneven weights
+   subroutine mirrored(suite)
+      type(test_suite), intent(inout) :: suite
+      integer, parameter :: n = 40
+      real(wp) :: s(n), f(n, 1), weights(n)
+      logical :: is_kink(n)
+      type(cubic_spline), allocatable :: one(:), other(:)
+      logical :: solved(2)
+      real(wp) :: there, worst(2)
+      integer :: i, kind
+
+      s = uneven(n, 1.0_wp)
+      f(:, 1) = [(sin(0.7_wp*s(i)) + 0.3_wp*abs(s(i) - s(15)) + 0.05_wp*(-1)**i, i=1, n)]
+      weights = [(1.0_wp + 0.5_wp*cos(3.0_wp*i), i=1, n)]
+      is_kink = .false.
+      is_kink([15, 16, 27]) = .true.
+      do kind = 1, 2
+         worst(kind) = 0.0_wp
+         if (kind == 1) then
+            call smoothing_splines(s, f, weights, 0.3_wp, one, solved(1), is_kink)
+            call smoothing_splines(-s(n:1:-1), f(n:1:-1, :), weights(n:1:-1), 0.3_wp, other, solved(2), is_kink(n:1:-1))
+         else
+            call natural_splines(s, f, one, is_kink)
+            call natural_splines(-s(n:1:-1), f(n:1:-1, :), other, is_kink(n:1:-1))
+            solved = .true.
+         end if
+         call suite%check(all(solved), "solved")
+         do i = 1, 400
+            there = s(1) + (s(n) - s(1))*(i - 0.5_wp)/400.0_wp
+            worst(kind) = max(worst(kind), abs(one(1)%value(there) - other(1)%value(-there)))
+         end do
+      end do
+      call suite%close_to(worst, [0.0_wp, 0.0_wp], 1.0e-10_wp, "mirror images of smoothed and of natural splines")
+   end subroutine mirrored
 
    !> The piece is the last one that starts at or before a place, however unevenly pieces are long
    subroutine pieces(suite)
