@@ -271,10 +271,10 @@ static void judge(struct routine *this, struct value *values)
   }
 }
 
-/* A wheel that is placed deep in its rail asks for no more than 2500 elements, until the text says otherwise */
+/* A wheel that is placed deep in its rail asks for no more than 400 elements, until the text says otherwise */
 static void limit_elements(int ire)
 {
-  int whole = -1, one = 1, flag = CNTC_ic_npomax, most = 2500;
+  int whole = -1, one = 1, flag = CNTC_ic_npomax, most = 400;
   cntc_setflags(&ire, &whole, &one, &flag, &most);
 }
 
