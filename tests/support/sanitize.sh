@@ -19,12 +19,12 @@ reason_of() {
   case $1 in
     memcheck_*) echo "is run by valgrind" ;;
     capi_host_* | faults_*) echo "limits the memory or replaces calls of the system, which the sanitizers do too" ;;
-    capi_statics | capi_consumer) echo "looks at libraries as they are installed, without instruments" ;;
+    capi_statics | capi_consumer) echo "looks at the library as it is installed, without instruments" ;;
     capi_memory | capi_many_rounds) echo "measures memory, of which the sanitizers keep what was freed" ;;
     performance*) echo "judges times and requests for memory" ;;
     octave_*) echo "Octave is not instrumented and cannot load the library; its scripts read files that other tests write too" ;;
     report_browser) echo "tests the page in the browser" ;;
-    capi_*) echo "Python is not instrumented and cannot load the library; capi_robust and fuzz_calls make such calls" ;;
+    capi_wheel | capi_types) echo "tests the package of Python, not the library" ;;
   esac
 }
 
