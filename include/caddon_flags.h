@@ -84,7 +84,7 @@ enum caddon_flags {
   CNTC_inp_spck = 1990, /* input of the user subroutine of Simpack */
   CNTC_inp_gensys = 1992, /* not available */
   /* Codes of errors */
-  CNTC_err_allow = -12, /* not allowed: too many result elements or calculations at a time */
+  CNTC_err_allow = -12, /* not allowed: too many result elements at a time */
   CNTC_err_search = -25, /* the contact search failed */
   CNTC_err_ftot = -26, /* the balance of total forces failed */
   CNTC_err_broydn = -26, /* older name of CNTC_err_ftot */

@@ -175,7 +175,7 @@ MAGIC_NUMBERS = {
     "inp_spck": 1990,  # input of the user subroutine of Simpack
     "inp_gensys": 1992,  # not available
     # Codes of errors
-    "err_allow": -12,  # not allowed: too many result elements or calculations at a time
+    "err_allow": -12,  # not allowed: too many result elements at a time
     "err_search": -25,  # the contact search failed
     "err_ftot": -26,  # the balance of total forces failed
     "err_broydn": -26,  # older name of CNTC_err_ftot

@@ -4,7 +4,8 @@ module contact_capi_host
    implicit none (type, external)
    private
 
-   public :: call_stage, find_call, find_current_folder, give_floats_back, hold_floats, is_forked, note_call
+   public :: begin_turn, call_stage, end_turn, find_call, find_current_folder, give_floats_back, hold_floats, is_forked, &
+      & note_call
 
    type :: call_stage_list
       !> Outside of all problems, counted as a user of one, alone in it, counted as a calculation
@@ -23,6 +24,16 @@ module contact_capi_host
 
       subroutine give_floats_back() bind(c, name="contact_give_floats_back")
       end subroutine give_floats_back
+
+      !> Wait for the turn of this thread to calculate
+      subroutine begin_turn(most) bind(c, name="contact_begin_turn")
+         import :: c_int
+         !> Calculations that may run at the same time
+         integer(c_int), value :: most
+      end subroutine begin_turn
+
+      subroutine end_turn() bind(c, name="contact_end_turn")
+      end subroutine end_turn
 
       !> Remember the problem that this thread is inside
       subroutine note_call(problem, stage) bind(c, name="contact_note_call")

@@ -40,8 +40,8 @@ module contact_capi_library
       integer :: phase = virgin
       type(element_slot) :: elements(most_elements)
       integer :: active_elements = 0
-      !> Calculations that are running now, largest number of threads seen, threads inside a problem
-      integer :: calculations = 0, most_threads = 1, threads = 1
+      !> Largest number of threads seen, threads inside a problem
+      integer :: most_threads = 1, threads = 1
       !> Amount of messages about calls; timer table 0 none, 1 overview, 2 everything
       integer :: debugging = 0, timer_level = 1
       type(log_type) :: log

@@ -2,13 +2,13 @@
 !>
 !> Whoever works on a problem goes through `enter` and `leave`: between them no other thread can change or free it.
 module contact_capi_registry
-   use, intrinsic :: iso_c_binding, only : c_loc, c_null_ptr
+   use, intrinsic :: iso_c_binding, only : c_int, c_loc, c_null_ptr
    use, intrinsic :: iso_fortran_env, only : output_unit
    use omp_lib, only : omp_get_max_threads, omp_get_num_threads, omp_set_lock, omp_test_lock, omp_unset_lock
    use contact_base_guard, only : set_owner
    use contact_base_log, only : log_type
    use contact_capi_files, only : place_result, set_folders
-   use contact_capi_host, only : call_stage, give_floats_back, hold_floats, is_forked, note_call
+   use contact_capi_host, only : begin_turn, call_stage, end_turn, give_floats_back, hold_floats, is_forked, note_call
    use contact_capi_library, only : element_slot, entry_type, finalised, library, most_elements, running, units_given, virgin
    use contact_capi_messages, only : begin_setting, complain, end_setting, set_last_error
    use contact_capi_problem, only : library_problem, most_patches, new_problem, release_problem
@@ -181,14 +181,14 @@ contains
       is_setting = index(call_of%name, "cntc_set") == 1 .or. index(call_of%name, "subs_add") == 1
    end function is_setting
 
-   !> The same for a calculation, which does not wait for another thread
+   !> The same for a calculation: it does not wait for another thread in the same problem, but for its turn when as many
+   !> calculations run as there may be
    subroutine enter_calculation(call_of, allowed, problem, code)
       type(entry_type), intent(in) :: call_of
       type(scope_type), intent(in) :: allowed
       type(library_problem), pointer, intent(out) :: problem
       !> Member of library_code
       integer, intent(out) :: code
-      logical :: counted
 
       call look_up(call_of, allowed, problem, code)
       if (associated(problem)) then
@@ -202,28 +202,14 @@ contains
          call come_in(problem)
          call check_patch(call_of, problem, code)
          if (code == library_code%success) then
-            call count_calculation(counted)
-            if (.not. counted) code = library_code%not_allowed
-            if (counted) then
-               call note_call(c_loc(problem), call_stage%calculation)
-               call set_owner(problem%owner)
-            end if
+            call begin_turn(int(most_threads(), c_int))
+            call note_call(c_loc(problem), call_stage%calculation)
+            call set_owner(problem%owner)
          end if
          if (code /= library_code%success) call leave(problem)
       end if
       if (code /= library_code%success) call complain(call_of, trim(code_text(code)), code)
    end subroutine enter_calculation
-
-   !> One calculation more, if there are threads for it
-   subroutine count_calculation(counted)
-      logical, intent(out) :: counted
-
-      !$omp critical (contact_registry)
-      call see_threads()
-      counted = library%calculations < library%most_threads
-      if (counted) library%calculations = library%calculations + 1
-      !$omp end critical (contact_registry)
-   end subroutine count_calculation
 
    !> Callers may raise the number of threads at any time
    subroutine see_threads()
@@ -328,9 +314,7 @@ contains
       type(library_problem), pointer, intent(in) :: problem
       logical, intent(in) :: was_calculation
 
-      !$omp critical (contact_registry)
-      if (was_calculation) library%calculations = library%calculations - 1
-      !$omp end critical (contact_registry)
+      if (was_calculation) call end_turn()
       call forget_user(problem)
    end subroutine forget_call
 
@@ -338,10 +322,10 @@ contains
    subroutine leave_calculation(problem)
       type(library_problem), pointer, intent(inout) :: problem
 
-      !$omp critical (contact_registry)
-      library%calculations = library%calculations - 1
+      call end_turn()
       call note_call(c_loc(problem), call_stage%inside)
       call set_owner(0)
+      !$omp critical (contact_registry)
       ! The file can be read while the caller goes on
       call library%log%out%flush_now()
       !$omp end critical (contact_registry)

@@ -15,7 +15,7 @@ module contact_control_library_codes
       integer :: success = 0
       !> The problem is in use by another thread
       integer :: in_use = 305
-      !> More result elements or calculations at once than can be
+      !> More result elements at once than can be
       integer :: not_allowed = -12
       integer :: search = -25, total_force = -26, normal = -27, tangential = -28, tolerance = -29
       integer :: no_patch = -31, profile = -32, friction = -33, discretisation = -34, input_file = -39, other = -99
@@ -104,7 +104,7 @@ contains
       select case (code)
       case (library_code%success); text = "success"
       case (library_code%in_use); text = "the problem is in use by another thread"
-      case (library_code%not_allowed); text = "more result elements or calculations at once than are possible"
+      case (library_code%not_allowed); text = "more result elements at once than are possible"
       case (library_code%search); text = "the contact search failed"
       case (library_code%total_force); text = "the iteration for the total force failed"
       case (library_code%normal); text = "the normal problem did not converge"

@@ -16,6 +16,7 @@ KNOWN = {
     "floats_of_host": "one per thread",
     "floats_are_held": "one per thread",
     "problem_of_call": "one per thread",
+    "turns": "guarded by its lock",
     "stage_of_call": "one per thread",
     "guarded_thread": "one per thread",
     "owners": "counted atomically",

@@ -1,6 +1,7 @@
 /* What callers may do without harm: codes of wrong calls, many rounds without growth, threads.
  *
- * usage: robust codes | rounds COUNT | threads | messages | pairs FOLDER_OF_PROFILES */
+ * usage: robust codes | rounds COUNT | threads | messages | pairs FOLDER_OF_PROFILES | turns | mixed FOLDER_OF_PROFILES COUNT */
+#define _GNU_SOURCE
 #include <caddon_flags.h>
 #include <contact.h>
 #include <contact_addon.h>
@@ -9,6 +10,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 /* Exported, in no header */
@@ -401,6 +403,125 @@ static void messages(void) {
   cntc_finalizelast();
 }
 
+/* More callers than calculations may run: each waits for its turn, nobody for long, and nothing is refused */
+enum { callers = 6, rounds_of_caller = 30 };
+static _Atomic int done_by[callers], in_line, first_end[callers], somebody_ended;
+static double of_callers[callers][4];
+static int code_of_caller[callers];
+
+static void *queue(void *number) {
+  const int caller = *(int *)number;
+  int k, code;
+  in_line++;
+  while (in_line < callers) continue;
+  for (k = 0; k < rounds_of_caller; k++) {
+    code = calculate(caller + 1, 1);
+    if (code != 0) code_of_caller[caller] = code;
+    done_by[caller]++;
+  }
+  if (somebody_ended++ == 0)
+    for (k = 0; k < callers; k++) first_end[k] = done_by[k];
+  forces(caller + 1, 1, of_callers[caller]);
+  return NULL;
+}
+
+static void turns(void) {
+  pthread_t thread[callers];
+  int number[callers], k, most, status = 7;
+  double alone_force[4];
+
+  for (k = 0; k < callers; k++) start(k + 1, 3), set_up(k + 1, 1, 25, 1e-3);
+  start(99, 3), set_up(99, 1, 25, 1e-3);
+  for (k = 0; k < rounds_of_caller; k++) calculate(99, 1);
+  forces(99, 1, alone_force);
+  cntc_getmaxnumthreads(&most);
+  check(most < callers, "the test needs OMP_NUM_THREADS below the number of callers");
+  for (k = 0; k < callers; k++) {
+    number[k] = k;
+    pthread_create(&thread[k], NULL, queue, &number[k]);
+  }
+  for (k = 0; k < callers; k++) pthread_join(thread[k], NULL);
+  for (k = 0; k < callers; k++) {
+    same(code_of_caller[k], 0, "a caller who waits gets results");
+    check(memcmp(of_callers[k], alone_force, sizeof alone_force) == 0, "and the same as alone");
+    check(first_end[k] >= rounds_of_caller / 2, "nobody is left behind");
+  }
+  /* a child has nobody to wait for */
+  const pid_t child = fork();
+  if (child == 0) {
+    alarm(60);
+    _exit(calculate(99, 1));
+  }
+  waitpid(child, &status, 0);
+  same(status, 0, "a forked process calculates");
+  cntc_finalizelast();
+}
+
+/* Cases of both modules, different for each worker; what they gave as one number per case */
+enum { mixed_workers = 8 };
+static int mixed_cases;
+static unsigned long long *mixed_alone, *mixed_together;
+
+static unsigned long long digest(const double *values, int n) {
+  const unsigned char *bytes = (const unsigned char *)values;
+  unsigned long long sum = 1469598103934665603ull;
+  for (size_t k = 0; k < (size_t)n * sizeof *values; k++) sum = (sum ^ bytes[k]) * 1099511628211ull;
+  return sum;
+}
+
+/* Worker k has result elements 2k + 1 (module 3) and 2k + 2 (module 1) */
+static void mix(int worker, unsigned long long *list) {
+  int ire = 2 * worker + 1, pair = ire + 1, one = 1, whole = -1, length = totals, six = 6, k, code, n = 15 * 15;
+  double values[4 + 3 * 15 * 15], position[6] = {0.0, 0.0, 0.0, 0.0, 0.002, 0.0}, rolled[places][totals];
+  unsigned seed = (unsigned)worker + 1;
+  roll_all(pair - 1, rolled);
+  for (k = 0; k < mixed_cases; k++) {
+    memset(values, 0, sizeof values);
+    if (k % 8 == 7) {
+      position[1] = 4.0 * rand_r(&seed) / RAND_MAX - 2.0;
+      cntc_setwheelsetposition(&pair, &one, &six, position);
+      code = calculate(pair, -1);
+      cntc_getglobalforces(&pair, &whole, &length, values);
+    } else {
+      set_up(ire, 1, 7 + 2 * (k % 5), 1e-4 + 5e-3 * rand_r(&seed) / RAND_MAX);
+      code = calculate(ire, 1);
+      forces(ire, 1, values);
+      cntc_gettractions(&ire, &one, &n, values + 4, values + 4 + n, values + 4 + 2 * n);
+    }
+    list[k] = code == 0 ? digest(values, 4 + 3 * n) : (unsigned long long)code;
+  }
+}
+
+static void *mix_together(void *number) {
+  const int worker = *(int *)number;
+  mix(worker, mixed_together + (size_t)worker * (size_t)mixed_cases);
+  return NULL;
+}
+
+static void mixed(void) {
+  pthread_t thread[mixed_workers];
+  int number[2 * mixed_workers], k, bad = 0;
+  const int n = mixed_workers * mixed_cases;
+  mixed_alone = calloc((size_t)n, sizeof *mixed_alone), mixed_together = calloc((size_t)n, sizeof *mixed_together);
+  for (k = 0; k < 2 * mixed_workers; k++) number[k] = k + 1, start(k + 1, k % 2 ? 1 : 3);
+  for (k = 0; k < mixed_workers; k++) mix(k, mixed_alone + (size_t)k * (size_t)mixed_cases);
+  for (k = 0; k < 2 * mixed_workers; k++) cntc_finalize(&number[k]);
+  for (k = 0; k < 2 * mixed_workers; k++) start(k + 1, k % 2 ? 1 : 3);
+  for (k = 0; k < mixed_workers; k++) {
+    number[k] = k;
+    pthread_create(&thread[k], NULL, mix_together, &number[k]);
+  }
+  for (k = 0; k < mixed_workers; k++) pthread_join(thread[k], NULL);
+  for (k = 0; k < n; k++) {
+    bad += mixed_alone[k] != mixed_together[k];
+    check(mixed_alone[k] > 1000, "each case has a result");
+  }
+  same(bad, 0, "cases that differ between eight threads and one");
+  printf("%d threads, %d cases each\n", mixed_workers, mixed_cases);
+  free(mixed_alone), free(mixed_together);
+  cntc_finalizelast();
+}
+
 int main(int argc, char **argv) {
   const char *what = argc > 1 ? argv[1] : "";
   if (!strcmp(what, "codes")) codes();
@@ -409,6 +530,9 @@ int main(int argc, char **argv) {
   if (!strcmp(what, "messages")) messages();
   profiles = argc > 2 ? argv[2] : ".";
   if (!strcmp(what, "pairs")) pairs();
+  if (!strcmp(what, "turns")) turns();
+  mixed_cases = argc > 3 ? atoi(argv[3]) : 200;
+  if (!strcmp(what, "mixed")) mixed();
   printf("%d checks, %d failed\n", checks, failed);
   return failed || !checks;
 }
