@@ -1,17 +1,25 @@
 """Every routine of the library with arguments that nobody should give: null pointers, numbers out of range, not a
 number, lengths that do not fit. The process must survive, memory behind the arrays must stay as it is, and a
-good case must still be solved afterwards.
+good case must still be solved afterwards. No call may take longer than a minute, and memory may not grow.
 
-The list of routines is src/capi/interface.txt. usage: hostile.py ROUNDS [SEED]
+The list of routines is src/capi/interface.txt. With more than one thread all of them call at the same time, on the same
+result elements. usage: hostile.py ROUNDS [SEED [THREADS]]
 """
 import ctypes
 import math
 import os
 import random
 import re
+import signal
 import sys
+import tempfile
+import threading
 
 ROOM, GUARD = 64, 16
+# [s]; the signal ends the process
+LONGEST_CALL = 60
+# Memory may be larger in the last quarter than in the one before it by so much [kB]
+GROWTH = 20000
 MARK = 123456789
 
 
@@ -77,6 +85,7 @@ def call(generator, name, with_null):
                 array[len(array) - k] = MARK
             arrays.append(array)
             arguments.append(array)
+    signal.alarm(LONGEST_CALL)
     getattr(LIBRARY, name)(*arguments)
     for array in arrays:
         if any(array[len(array) - k] != MARK for k in range(1, GUARD + 1)):
@@ -133,9 +142,58 @@ def good_case():
     return error.value, [f.value for f in force]
 
 
+def ask(generator):
+    """The functions that are not in the table: what went wrong, how a case ended, a run of an experiment"""
+    buffer = generator.choice([None, ctypes.create_string_buffer(40)])
+    length = generator.choice([-2147483648, -1, 0, 1, 5, 40])
+    ire, icp = generator.choice(INTEGERS), generator.choice(INTEGERS)
+    choice = generator.randrange(3)
+    if choice == 0:
+        LIBRARY.contact_last_error(ire, icp, buffer, length)
+    elif choice == 1:
+        LIBRARY.contact_case_status(ire, icp, generator.choice([None, ctypes.byref(ctypes.c_int())]), buffer, length)
+    else:
+        name = generator.choice([None, b"", b"/", b"nothing_here", b"\xff\xfe", b"a" * 5000, b"."])
+        LIBRARY.contact_run_limited(name, generator.choice([2, 3, *INTEGERS[:3]]), generator.choice([None, b"", EMPTY.name.encode()]),
+                                    generator.choice([-1, 0, 1, 2]), generator.choice([0, 1, 7, 8, -1]), 0,
+                                    *(ctypes.c_double(generator.choice(REALS)) for _ in range(3)), buffer, length)
+
+
+EMPTY = tempfile.TemporaryDirectory()
+
+
+def resident():
+    """Memory of the process [kB], 0 where the system does not tell"""
+    try:
+        with open("/proc/self/statm", encoding="ascii") as file:
+            return int(file.read().split()[1]) * os.sysconf("SC_PAGESIZE") // 1024
+    except OSError:
+        return 0
+
+
+def attack(generator, rounds, alone, sizes):
+    """Random calls, with something that can be solved from time to time"""
+    names = sorted(ROUTINES)
+    for k in range(rounds):
+        if k % 100 == 0:
+            set_rolling(1)
+            set_wheel(2)
+        if k % 20 == 0:
+            call(generator, "cntc_calculate", 0.0)
+        if k % 10 == 0:
+            ask(generator)
+        name = generator.choice(names)
+        # threads that free each other's elements again and again would compute nothing
+        if alone or not name.startswith("cntc_finalize") or k % 50 == 0:
+            call(generator, name, 0.1 if k % 4 == 0 else 0.0)
+        sizes.append(resident() if k % 10 == 0 else sizes[-1])
+
+
 def main():
     rounds, seed = int(sys.argv[1]), int(sys.argv[2]) if len(sys.argv) > 2 else 1
+    threads = int(sys.argv[3]) if len(sys.argv) > 3 else 1
     generator = random.Random(seed)
+    sizes = [0]
     if len(ROUTINES) != 70:
         sys.exit(f"{len(ROUTINES)} routines are known, not 70")
     print(f"seed {seed}")
@@ -147,14 +205,17 @@ def main():
         code, before = good_case()
         if code != 0:
             sys.exit(f"the good case ends with {code}")
-    for k in range(rounds):
-        if k % 100 == 0:
-            # from time to time something that can be solved
-            set_rolling(1)
-            set_wheel(2)
-        if k % 20 == 0:
-            call(generator, "cntc_calculate", 0.0)
-        call(generator, generator.choice(names), 0.1 if k % 4 == 0 else 0.0)
+    if threads == 1:
+        attack(generator, rounds, True, sizes)
+    else:
+        at_work = [threading.Thread(target=attack, args=(random.Random(seed + k), rounds, False, [0])) for k in range(threads)]
+        for thread in at_work:
+            thread.start()
+        for thread in at_work:
+            thread.join()
+    quarter = rounds // 4
+    if threads == 1 and rounds >= 4000 and max(sizes[3 * quarter:]) > max(sizes[2 * quarter:3 * quarter]) + GROWTH:
+        sys.exit(f"memory grows: {sizes[::quarter]} kB")
     code, after = good_case()
     if code != 0 or any(abs(a - b) > 1e-9 * abs(b) for a, b in zip(after, before)):
         sys.exit(f"the good case changed from {before} to {after}, code {code}")
