@@ -28,6 +28,16 @@ t.px = s.px + 1;
 d = diffcase(t, s);
 check_near(d.px, ones(19), 1e-12, 'difference of tractions');
 check_error(@() diffcase(s, rmfield(setfield(s,'mx',18),'h')), 'different sizes');
+for name = {'xl','yl','dx','dy'}
+   % a thousandth of an element over the whole grid is a difference, less is none
+   for part = [ 3e-2 1e-5 ]
+      t = s;
+      t.(name{1}) = s.(name{1}) + part*s.dx/(1 + 18*(name{1}(1)=='d'));
+      lastwarn('');
+      diffcase(s, t);
+      check(~isempty(strfind(lastwarn(), 'different places'))==(part>1e-3), ['grids that differ in ' name{1}]);
+   end
+end
 check_error(@() loadcase('cattaneo', 7), 'there are no results of case 7');
 check_error(@() loadcase('nosuch'), 'there are no results');
 
