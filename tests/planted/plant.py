@@ -53,7 +53,7 @@ NOT_THESE_FILES = re.compile(r"private/(draw_|finish_colors|set_colors|is_black|
 # Tests with other processes, sockets, clocks or threads
 SENSITIVE = re.compile("host|server|threads|limits|command_line|rounds|messages|timers|robust|vtk")
 # Tests that follow many values from one end to the other
-VALUES = re.compile("settings|outputs|linked|published")
+VALUES = re.compile("settings|outputs|linked|published|grids|doubts|capi_python_package")
 LIBRARIES = ["lib/libcontact_all_rooms.so", "lib/libcontact.so", "bin/contact_addon_linux64.so"]  # of links what they lead to
 MEMORY = 12 << 30
 
@@ -370,7 +370,7 @@ class Store:
 
         def cost(name):
             kind = self.tests[name]["label"]
-            likely = 12 if VALUES.search(name) else {"unit": 4, "regression": 3, "analytic": 2, "property": 2, "campaign": 0.5,
+            likely = 60 if VALUES.search(name) else {"unit": 4, "regression": 3, "analytic": 2, "property": 2, "campaign": 0.5,
                                                      "stability": 0.5}.get(kind, 1)
             return (self.outcome[name]["seconds"] + 0.3)/(likely + 4*caught[fault.file, name] + 2*caught[room, name]
                                                           + 0.2*caught["all", name])
