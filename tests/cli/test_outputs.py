@@ -131,6 +131,19 @@ class Outputs(unittest.TestCase):
         self.assertIn(".subs", self.run.stderr)
         self.assertIn("writing the .subs file", self.run.stderr)
 
+    def test_where_contact_angles_are_taken(self):
+        """--contact-angle takes two words, and nothing else"""
+        for option, status in ((["--contact-angle=contact"], 0), (["--contact-angle", "established"], 0),
+                               (["--contact-angle=there"], 2),
+                               (["--contact-angle="], 2)):
+            run = subprocess.run([PROGRAM, "--quiet", "--output-dir", self.folder, *option, "3", os.path.join(SOURCE, "examples",
+                "manchester")],
+                                 cwd=self.folder, stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=60)
+            self.assertEqual(run.returncode == 0, status == 0, (option, run.stderr))
+            if status:
+                self.assertIn("contact", run.stderr)
+                self.assertIn("established", run.stderr)
+
     def test_a_page_is_whole_or_not_there(self):
         """What stands in the place of a page stays until the new page is complete"""
         sys.path.insert(0, os.path.join(SOURCE, "python"))
