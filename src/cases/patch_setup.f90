@@ -179,10 +179,6 @@ contains
       type(patch_problem), intent(inout) :: problem
       type(log_type), intent(inout) :: log
       type(error_type), allocatable, intent(out) :: error
-      !> Part of the force by which the sum over the elements may differ without a word
-      real(wp), parameter :: rough = 0.1_wp
-      character(len=12) :: percent
-      real(wp) :: total
 
       problem%pressure = spec%pressure
       ! a sheet belongs to the bodies: the normal problem is the same
@@ -210,17 +206,39 @@ contains
          if (allocated(problem%given_pressure)) deallocate(problem%given_pressure)
          return
       end select
-      total = sum(problem%given_pressure)*problem%grid%dx*problem%grid%dy
-      if (abs(total - problem%fn) <= rough*problem%fn) return
-      if (.not. total > 0.0_wp) then
+      call carry_force(problem%grid, problem%fn, problem%given_pressure, log, error)
+   end subroutine set_pressures
+
+   !> Scale pressures by formula, taken at the centres of elements, such that their sum is the force of the formula.
+   !>
+   !> Of the two ways to make total and pressures agree this one has the smaller error in the tangential forces
+   !> (doc/theory/approximate_normal.md), and a prescribed force is carried in full, as by the full solution.
+   subroutine carry_force(grid, fn, pn, log, error)
+      type(potential_contact), intent(in) :: grid
+      !> Normal force [N]
+      real(wp), intent(in) :: fn
+      !> Pressures [N/mm2], shape (mx, my)
+      real(wp), intent(inout) :: pn(:, :)
+      type(log_type), intent(inout) :: log
+      type(error_type), allocatable, intent(out) :: error
+      !> Part of the force by which the sum may differ without a word, and below which there is no contact to speak of
+      real(wp), parameter :: rough = 0.1_wp, nothing = 1.0e-3_wp
+      character(len=12) :: percent
+      real(wp) :: total
+
+      if (.not. fn > 0.0_wp) return
+      total = sum(pn)*grid%dx*grid%dy
+      if (.not. total > nothing*fn) then
          call fatal_error(error, "the pressures by formula (B = 2, 3, 4) are zero at the centres of all elements: the grid " // &
             & "is too coarse, or SCALE too large, for a contact that carries FN", error_kind%input)
          return
       end if
-      write(percent, '(I0)') nint(100*min(total/problem%fn, 1.0e6_wp))
+      pn = pn*(fn/total)
+      if (abs(total - fn) <= rough*fn) return
+      write(percent, '(I0)') nint(100*min(total/fn, 1.0e6_wp))
       call log%warning("the grid is too coarse or too small for pressures by formula: at the centres of its elements they " // &
-         & "add up to " // trim(percent) // " % of FN")
-   end subroutine set_pressures
+         & "add up to " // trim(percent) // " % of FN. They are scaled to carry FN")
+   end subroutine carry_force
 
    !> Simplified theory for the tangential problem, if the material model asks for it
    subroutine set_simplified_theory(spec, result, problem, log, error)
