@@ -20,7 +20,7 @@ module contact_normal_conjugate_gradient
    implicit none (type, external)
    private
 
-   public :: normal_problem, normal_workspace, pressure_displacement, release_normal, solve_normal
+   public :: approach_scale, normal_problem, normal_workspace, pressure_displacement, release_normal, solve_normal
 
    !> Data of a normal problem on a window; constant during the solution
    type :: normal_problem
@@ -282,11 +282,11 @@ contains
       report%ended = ending%iteration_limit
       do it = 1, problem%maxgs + 1
          call residuals(problem, level, p, pen, worst)
-         scale = max(abs(pen - h_min), tiny(scale))
          if (.not. worst <= huge(worst)) then
             report%ended = ending%diverged
             exit
          end if
+         scale = approach_scale(pen, h_min, worst)
          report%residual = worst/scale
          if (present(log)) then
             if (log%shows(6)) then
@@ -425,8 +425,16 @@ contains
       approach = pen
       if (problem%force_prescribed) approach = sum(problem%h + u, p > 0.0_wp)/count(p > 0.0_wp)
       quality = max(maxval(abs(problem%h + u - approach), p > 0.0_wp), maxval(approach - problem%h - u))
-      quality = quality/max(abs(approach - minval(problem%h)), tiny(quality))
+      quality = quality/approach_scale(approach, minval(problem%h), quality)
    end function estimate_quality
+
+   !> What violations of the contact conditions are compared with [mm]: the approach, as far as numbers tell it
+   pure real(wp) function approach_scale(pen, h_min, violation) result(scale)
+      !> Approach, smallest undeformed distance, and the violation [mm]
+      real(wp), intent(in) :: pen, h_min, violation
+
+      scale = max(abs(pen - h_min), epsilon(scale)*max(abs(h_min), violation), tiny(scale))
+   end function approach_scale
 
    !> Directions of zero total force on the free set, when the force is prescribed; zero elsewhere
    subroutine project(problem, free, v)
@@ -469,6 +477,8 @@ contains
       if (problem%force_prescribed) then
          h_max = maxval(problem%h, problem%h < excluded_threshold)
          p = max(0.0_wp, h_min + 0.3_wp*max(h_max - h_min, 1.0e-10_wp) - problem%h)
+         ! a level so far away that nothing can be added to it
+         if (.not. any(p > 0.0_wp)) call lowest_element(problem, p)
          p = p*(problem%fn/(sum(p)*problem%dx*problem%dy))
          return
       end if

@@ -4,6 +4,7 @@ module contact_patch_derived
    use contact_base_kinds, only : wp
    use contact_base_solve_report, only : solve_report
    use contact_grid_element_division, only : bounding_box, contact_box, element
+   use contact_normal_conjugate_gradient, only : approach_scale
    use contact_patch_problem, only : patch_problem, patch_state
    use contact_patch_result, only : patch_result
    use contact_patch_workspace, only : patch_workspace, prepare_window
@@ -270,7 +271,6 @@ contains
       end do
       ! the displacements are those without the factors between parts
       if (.not. problem%solves_for_pressure() .or. allocated(problem%parts)) return
-      result%residual = max(result%tangential%residual, &
-         & worst/max(abs(result%pen - minval(result%h)), tiny(worst)))
+      result%residual = max(result%tangential%residual, worst/approach_scale(result%pen, minval(result%h), worst))
    end subroutine coupled_residual
 end module contact_patch_derived

@@ -250,7 +250,7 @@ contains
       report%ended = self%ended
       report%iterations = self%passes
       report%passes = self%passes
-      report%residual = self%change/max(self%size, tiny(self%size))
+      report%residual = self%change/max(self%size, epsilon(self%size)*self%change, tiny(self%size))
       report%tolerance = merge(temperature_tolerance, speed_tolerance, &
          & problem%friction%driver == friction_driver%temperature)
    end subroutine report_iteration

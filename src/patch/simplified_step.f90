@@ -119,7 +119,7 @@ contains
       type(traction_fields), intent(in) :: before
       type(bounding_box), intent(in) :: box
       real(wp), intent(inout) :: p(:, :, :)
-      real(wp), parameter :: rounding = 1.0e-9_wp
+      real(wp), parameter :: rounding = 1.0e-9_wp, limit = 1.0e8_wp
       real(wp) :: distance(2), share(2), weight
       integer :: whole(2), ix, iy, jx, jy, k, l
 
@@ -127,6 +127,8 @@ contains
       distance = 0.0_wp
       if (problem%motion == motion%transient_rolling) distance = problem%dq*[cos(problem%chi)/problem%grid%dx, &
          & sin(problem%chi)/problem%grid%dy]
+      ! what comes from beyond the window is free of tractions, from however far
+      distance = max(-limit, min(limit, distance))
       whole = floor(distance + rounding)
       share = max(0.0_wp, distance - whole)
       where (share < rounding) share = 0.0_wp

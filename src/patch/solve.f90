@@ -11,6 +11,7 @@ module contact_patch_solve
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
    use contact_base_solve_report, only : ending, solve_report
+   use contact_normal_conjugate_gradient, only : approach_scale
    use contact_patch_damping, only : damping_forces
    use contact_patch_derived, only : derive, remember_friction, reset_result
    use contact_patch_heat, only : derive_temperatures
@@ -124,7 +125,7 @@ contains
 
       call shear_lift(problem, state, workspace)
       change = maxval(abs(workspace%lift - workspace%un), problem%h < excluded_threshold)
-      scale = max(abs(result%pen - minval(problem%h)), maxval(abs(workspace%lift)), tiny(scale))
+      scale = max(approach_scale(result%pen, minval(problem%h), change), maxval(abs(workspace%lift)))
       level = merge(0, 1, result%outer_iterations >= problem%maxout - 1)
       if (log%shows(level)) then
          write(line, '(I3,A,2ES12.3)') result%outer_iterations, ", Panag/Out: |Uk - Uk-1|,    Eps |Uk| :", change, &

@@ -115,7 +115,7 @@ contains
       end if
       do i = 1, n
          xi = data%direction*(x(i) - middle)
-         if (d <= half .and. xi > 2.0_wp*d - half) then
+         if (xi > 2.0_wp*min(d, half) - half) then
             p(i, 1) = data%direction*f(i, 1)*mu*peak_pressure(data)
             p(i, 2) = f(i, 2)*mu*peak_pressure(data)
             slip(i, :) = 0.0_wp

@@ -155,7 +155,7 @@ contains
          best = huge(best)
          best_creep = solution%creep
          longest = 1.0_wp
-         if (problem%n_forces > 0) longest = min(1.0_wp, creep_range/max(norm2(correction), tiny(longest)))
+         if (problem%n_forces > 0) longest = creep_range/max(creep_range, norm2(correction))
          do attempt = 1, size(lengths)
             alpha = longest*lengths(attempt)
             call step_and_project(problem, solution%p, alpha, workspace%step, workspace%trial)

@@ -19,6 +19,9 @@ import tempfile
 from collections import Counter
 
 PROGRAM = os.environ["CONTACT_PROGRAM"]
+#: Cases that once trapped in a debug build: distances so large that nothing can be added to them, steps of 1e10 elements,
+#: strips that slide wholly, no slip velocity to compare with, a scale of nothing for the residual
+KNOWN = (100016, 100028, 100029, 100181, 200048, 200052, 200177, 300020)
 PATIENCE = 10.0 * float(os.environ.get("CONTACT_SLOWER", "1"))
 BAD = re.compile(r"(?<![A-Za-z'\"/.-])[-+]?(NaN|Infinity|Inf)(?![a-z'\"])")
 
@@ -106,7 +109,9 @@ def run(seed):
         except subprocess.TimeoutExpired:
             return False, "does not end in time"
         if done.returncode not in (0, 1) or "Backtrace" in done.stderr or done.returncode == 1 and not done.stderr.strip():
-            return False, f"ends with {done.returncode}: {done.stderr[-300:]}"
+            places = re.findall(r"in (\S+)\n\s+at (\S+)", done.stderr)
+            where = " < ".join(f"{name} {place}" for name, place in places[:5]) or done.stderr[-300:]
+            return False, f"ends with {done.returncode}: {where}"
         with open(os.path.join(folder, "x.out"), errors="replace") as file:
             out = file.read()
         with open(os.path.join(folder, "x.jsonl"), errors="replace") as file:
@@ -125,14 +130,14 @@ def main():
     count = int(sys.argv[1]) if len(sys.argv) > 1 else 150
     seed = int(sys.argv[2]) if len(sys.argv) > 2 else 1
     ends, failures = Counter(), 0
-    seeds = [100000*seed + k for k in range(count)]
+    seeds = [*KNOWN, *(100000*seed + k for k in range(count))]
     with concurrent.futures.ThreadPoolExecutor(int(os.environ.get("CONTACT_JOBS", "2"))) as pool:
         for number, (right, how) in zip(seeds, pool.map(run, seeds)):
             ends[how if right else "wrong"] += 1
             if not right:
                 failures += 1
                 print(f"FAILED case {number}: {how}")
-    print(f"{count} cases, seed {seed}: " + ", ".join(f"{number} {how}" for how, number in sorted(ends.items())))
+    print(f"{len(seeds)} cases, seed {seed}: " + ", ".join(f"{number} {how}" for how, number in sorted(ends.items())))
     return 1 if failures else 0
 
 
