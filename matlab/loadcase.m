@@ -16,6 +16,8 @@ function [ varargout ] = loadcase( expnam, icase, ipatch )
 %   config            module 1: configuration, 0/1 wheel on rail, 4/5 on roller, left/right; module 3: 0
 %   h_digit, d_digit  control digits HEAT and, in module 1, DISCNS
 %   meta, mater, fric, kincns   structs of positions, materials, friction and kinematics
+%   meta.status       how the case ended: 'solved' or 'not converged'; '' in files of other programs
+%   meta.reason       which iteration missed its tolerance, and by how much; '' for solved cases
 %   mx, my            numbers of elements along and across the rolling direction
 %   xl, yl, dx, dy    lower left corner of the grid and size of the elements [mm]
 %   x_offset, y_offset  empty; when set, plot3d moves the grid by these amounts [mm]

@@ -4,7 +4,7 @@ function [ patches ] = hdf5_patches( expnam, icase )
 %   patches   cell array, empty when there is no file or no such case
 
    patches = {};
-   parts = [{'inputs','markers','totals'}, patch_names(1:99)];
+   parts = [{'inputs','markers','totals','status'}, patch_names(1:99)];
    c = hdf5_case(expnam, icase, parts);
    if (isempty(c))
       return
@@ -16,10 +16,25 @@ function [ patches ] = hdf5_patches( expnam, icase )
    names = names(isfield(c, names));
    for i = 1 : numel(names)
       patches{i} = patch_struct(c, c.(names{i}), i, numel(names));
+      [patches{i}.meta.status, patches{i}.meta.reason] = case_status(c);
       patches{i}.meta.icase = icase;
    end
 
 end % function hdf5_patches
+
+%------------------------------------------------------------------------------------------------------
+
+function [ status, reason ] = case_status( c )
+% How a case ended; the group of a case that did tells nothing
+
+   status = 'solved';
+   reason = '';
+   if (isfield(c, 'status'))
+      status = char(c.status.status);
+      reason = sprintf('%s: %s', char(c.status.iteration), char(c.status.reason));
+   end
+
+end % function case_status
 
 %------------------------------------------------------------------------------------------------------
 

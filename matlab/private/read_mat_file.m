@@ -1,7 +1,7 @@
 function [ s ] = read_mat_file( fname, icase )
 % READ_MAT_FILE  Contents of one .mat file as the struct described in LOADCASE.
 
-   rows = read_table(fname);
+   [rows, comments] = read_table(fname);
    if (size(rows,1)<6)
       error('loadcase: "%s" ends before the table of elements.', fname);
    end
@@ -15,6 +15,7 @@ function [ s ] = read_mat_file( fname, icase )
 
    s = struct('config',rows(4,9), 'h_digit',rows(6,2));
    s.meta   = read_meta(rows, fmt);
+   [s.meta.status, s.meta.reason] = read_status(comments{1});
    s.mater  = read_material(rows(5,:));
    s.fric   = read_friction(rows(6,:));
    s.kincns = struct('t_digit',rows(5,1), 'chi',rows(4,7), 'dq',rows(4,8), 'veloc',rows(6,3));
@@ -44,6 +45,23 @@ function [ meta ] = read_meta( rows, fmt )
    meta.format   = fmt;
 
 end % function read_meta
+
+%------------------------------------------------------------------------------------------------------
+
+function [ status, reason ] = read_status( line )
+% How the case ended, behind the names of the first line; '' in files of other programs
+
+   status = '';
+   reason = '';
+   found  = regexp(line, 'STATUS: ([a-z ]*[a-z])( \(\w+\): (.*))?$', 'tokens', 'once');
+   if (~isempty(found))
+      status = found{1};
+   end
+   if (numel(found)>1)
+      reason = regexprep(found{2}, '^ \((\w+)\): ', '$1: ');
+   end
+
+end % function read_status
 
 %------------------------------------------------------------------------------------------------------
 

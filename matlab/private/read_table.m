@@ -1,8 +1,11 @@
-function [ table ] = read_table( fname )
+function [ table, comments ] = read_table( fname )
 % READ_TABLE  Numbers of a text file with comment lines (%) and the same number of columns on each line.
+%
+%   comments   cell array of the comment lines, at least one
 
    lines = read_lines(fname, 'read_table');
    keep  = ~cellfun('isempty', regexp(lines, '^\s*[^%\s]', 'once'));
+   comments = [lines(~keep), {''}];
    lines = lines(keep);
    if (isempty(lines))
       table = [];

@@ -213,7 +213,7 @@ contains
       if (problem%spec%mat_file < 1) return
       write(name, '("caddon_re", I3.3, "_cp", I1, ".", I0.4, ".mat")') problem%ire, problem%icp, problem%cases
       call find_result_file(trim(name), path)
-      call write_mat_file(path, problem%spec, problem%result, error, place_of(problem))
+      call write_mat_file(path, problem%spec, problem%result, problem%result%status, error, place_of(problem))
       if (allocated(error)) call complain(this, full_text(error))
    end subroutine write_results
 

@@ -537,7 +537,8 @@ contains
 
       call write_case(state%log, this%spec, result)
       if (this%spec%mat_file >= 1) then
-         call write_mat_file(mat_file_name(state%place%results, this%number, this%reid, 0), this%spec, result, error)
+         call write_mat_file(mat_file_name(state%place%results, this%number, this%reid, 0), this%spec, result, result%status, &
+            & error)
          if (allocated(error)) call report_error(state, error)
       end if
       if (this%spec%digits%s < 1 .or. .not. allocated(result%subsurface)) return

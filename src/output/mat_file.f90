@@ -1,7 +1,9 @@
 !> The .mat file: tractions, displacements and slip per element as a table of numbers
 !>
-!> Loaders skip lines that start with % and need the same number of columns on all others.
+!> Loaders skip lines that start with % and need the same number of columns on all others. Some count 13 lines instead, so
+!> that what other programs do not know, the status, stands behind the names of the first line.
 module contact_output_mat_file
+   use contact_base_case_status, only : case_status
    use contact_base_choices, only : friction_model, material_model, motion
    use contact_base_error, only : add_context, error_type
    use contact_base_kinds, only : wp
@@ -70,10 +72,12 @@ contains
    end function mat_file_name
 
    !> Write the file of a solved case; under its name it is complete or does not exist
-   subroutine write_mat_file(file_name, spec, result, error, place)
+   subroutine write_mat_file(file_name, spec, result, status, error, place)
       character(len=*), intent(in) :: file_name
       type(case_spec), intent(in) :: spec
       type(patch_result), intent(in) :: result
+      !> How the case ended, with all its patches
+      type(case_status), intent(in) :: status
       type(error_type), allocatable, intent(out) :: error
       !> For a patch of wheel-rail contact
       type(mat_place), intent(in), optional :: place
@@ -83,17 +87,18 @@ contains
       if (present(place)) here = place
       call file%start(file_name, error)
       if (allocated(error)) return
-      call write_header(file, spec, result, here)
+      call write_header(file, spec, result, status, here)
       call write_elements(file, spec, result)
       call file%finish(error)
       call add_context(error, "writing the .mat file")
    end subroutine write_mat_file
 
    !> Six pairs of a line with names and a line with values, then the names of the table columns
-   subroutine write_header(file, spec, result, place)
+   subroutine write_header(file, spec, result, status, place)
       type(finished_file), intent(in) :: file
       type(case_spec), intent(in) :: spec
       type(patch_result), intent(in) :: result
+      type(case_status), intent(in) :: status
       type(mat_place), intent(in) :: place
       character(len=width) :: lines(13)
       real(wp), allocatable :: values(:)
@@ -130,7 +135,13 @@ contains
       lines(12) = two_integers(spec%friction_law, spec%digits%h) // reals([values, zeros(columns - 2 - size(values))])
       lines(13) = name_line([character(len=11) :: "   I  IGS", "H", "MU", "PN", "PX", "PY", "UN", "UX", "UY", &
          & merge("SREL", "SHFT", rolling), more])
-      do i = 1, size(lines)
+      if (status%is_solved()) then
+         call file%line(trim(lines(1)) // "   STATUS: " // trim(status%word()))
+      else
+         call file%line(trim(lines(1)) // "   STATUS: " // trim(status%word()) // " (" // trim(status%iteration_word()) // "): " &
+            & // status%reason)
+      end if
+      do i = 2, size(lines)
          call file%line(trim(lines(i)))
       end do
    end subroutine write_header

@@ -33,11 +33,11 @@ contains
             if (spec%mat_file >= 1) then
                if (spec%wheel_rail%left) then
                   mirror = mirrored(in_element_coordinates(patch))
-                  call write_mat_file(mat_file_name(base, case_number, result_element, k), spec, mirror, error, &
-                     & place_of(spec, result, patch, k, time))
+                  call write_mat_file(mat_file_name(base, case_number, result_element, k), spec, mirror, &
+                     & result%status, error, place_of(spec, result, patch, k, time))
                else
                   call write_mat_file(mat_file_name(base, case_number, result_element, k), spec, &
-                     & in_element_coordinates(patch), error, place_of(spec, result, patch, k, time))
+                     & in_element_coordinates(patch), result%status, error, place_of(spec, result, patch, k, time))
                end if
                if (allocated(error)) return
             end if

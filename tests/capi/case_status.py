@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""One status of a case: .out, JSON, HDF5, the page, the library and its Python package tell the same.
+"""One status of a case: .out, .mat, JSON, HDF5, the page, the library and its Python package tell the same.
 
 A table of cases for both modules that end in every way; the program computes all of them, the library and the Python
 objects those of module 1 from the same input file, and those of module 3 with the same numbers. Also --strict, the
 counts at the end, and totals as sums of tractions where a force is missed.
 """
 import ctypes
+import glob
 import json
 import os
 import re
@@ -140,6 +141,15 @@ def by_program(name, text, state, missed):
         same(row, [state, ITERATIONS[missed], float(state != 2), float(state == 0)], f"{name}: columns of the HDF5 file")
         same((in_file, on_page), (reason, reason), f"{name}: the reason in the HDF5 file and for the page")
         same(word, WORDS[state], f"{name}: status for the page")
+    tables = sorted(glob.glob(glob.escape(name) + ".0001*.mat"))
+    check(bool(tables) == (state == 0 or state == 1 and "away" not in name), f"{name}: .mat files {tables}")
+    expected = WORDS[state] + (f" ({missed}): {reason}" if state else "")
+    for table in tables:
+        with open(table) as file:
+            same(file.readline().rstrip("\n").partition("STATUS: ")[2], expected, f"{table}: the status in the first line")
+        rows = np.loadtxt(table, comments="%")
+        check(rows.shape[1] == 11 and rows[0, -1] == 2410 and np.isfinite(rows).all(), f"{table}: still a table")
+        same(np.loadtxt(table, skiprows=13).shape[0], rows.shape[0] - 6, f"{table}: elements begin in line 14")
     strict = run("2", name, "--strict", "--quiet")
     same(strict.returncode, {0: 0, 1: 2, 2: 1}[state], f"{name}: exit status with --strict")
     return reason

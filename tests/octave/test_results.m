@@ -20,6 +20,19 @@ slip = (s.eldiv==2);
 check_near(hypot(s.px(slip),s.py(slip)), s.trcbnd(slip), 1e-4, 'traction at the bound where it slips');
 check_near(s.h(10,10:12), 0.01*s.x(10:12).^2 + 0.01*s.y(10)^2, 1e-8, 'undeformed distance is a parabola');
 
+% --- how the case ended, for scripts of ours; other readers skip that line
+check(strcmp(s.meta.status,'solved') && isempty(s.meta.reason), 'the case is solved');
+plain = load('-ascii', 'cattaneo.0002.mat');
+check(size(plain,2)==11 && isequal(plain(1,end),2410), 'the file loads as a table');
+text = regexprep(fileread('cattaneo.0002.mat'), 'STATUS: solved', 'STATUS: not converged (outer): residual 9.0E-02');
+f = fopen('cattaneo.0099.mat', 'w');   fwrite(f, text);   fclose(f);
+t = loadcase('cattaneo', 99);
+check(strcmp(t.meta.status,'not converged') && strcmp(t.meta.reason,'outer: residual 9.0E-02'), 'a case that did not converge');
+f = fopen('cattaneo.0099.mat', 'w');   fwrite(f, strrep(text, 'STATUS', 'other'));   fclose(f);
+t = loadcase('cattaneo', 99);
+check(isempty(t.meta.status), 'a file of another program');
+delete('cattaneo.0099.mat');
+
 % --- differences
 d = diffcase(s, loadcase('cattaneo', 2));
 check(all(d.px(:)==0) && isequal(d.eldiv,s.eldiv), 'a case differs by nothing from itself');

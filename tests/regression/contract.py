@@ -77,6 +77,8 @@ def check_mat(path):
     wrong = []
     if [line[0] == "%" for line in lines[:13]] != [True, False] * 6 + [True] or any(line[0] == "%" for line in lines[13:]):
         return ["%s: six pairs of names and values and the names of a table are expected" % path]
+    if not re.search(r" FMT   STATUS: (solved|not converged \((normal|tangential|outer|force|time)\): .+)$", lines[0]):
+        wrong.append("%s: the first line does not end with the status" % path)
     rows = []
     for k, line in enumerate(lines):
         if line[0] != "%":

@@ -47,7 +47,7 @@ contains
                spec%rolling%veloc = 5000.0_wp
                result%chi = 3.14_wp
                result%h(1, 1) = excluded_distance
-               call write_mat_file("sample.mat", spec, result, error)
+               call write_mat_file("sample.mat", spec, result, result%status, error)
                call suite%check(.not. allocated(error), "the file is written")
                call read_lines("sample.mat", lines)
                call suite%equal(size(lines), 13 + merge(120, result%ncon, level == 2), "number of lines")
@@ -79,7 +79,7 @@ contains
       call suite%check(index(lines(13)%text, "SREL") > 0, "relative slip in rolling")
 
       spec%motion = 1
-      call write_mat_file("sample.mat", spec, result, error)
+      call write_mat_file("sample.mat", spec, result, result%status, error)
       call read_lines("sample.mat", lines)
       values = numbers_on(lines(8)%text)
       call suite%close_to(values(7:8), [0.0_wp, 1.0_wp], 1.0e-12_wp, "CHI and DQ have no meaning in shifts")
@@ -87,7 +87,7 @@ contains
 
       result%division = 0
       spec%mat_file = 1
-      call write_mat_file("sample.mat", spec, result, error)
+      call write_mat_file("sample.mat", spec, result, result%status, error)
       call read_lines("sample.mat", lines)
       call suite%equal(size(lines), 13, "no contact: no elements")
    end subroutine check_contents
@@ -100,7 +100,7 @@ contains
       logical :: there
 
       call fill_sample(spec, result, 12, 10)
-      call write_mat_file("no_such_folder/sample.mat", spec, result, error)
+      call write_mat_file("no_such_folder/sample.mat", spec, result, result%status, error)
       call suite%check(allocated(error), "a missing folder is an error")
       if (allocated(error)) call suite%equal(error%kind, error_kind%file, "kind of the error")
       inquire(file="sample.mat.tmp", exist=there)
@@ -123,7 +123,7 @@ contains
       allocate(result%tau_c(12, 10), source=570.0_wp)
       allocate(result%uplx(12, 10), result%uply(12, 10), source=-0.25_wp)
       result%uplx(2, 1) = 0.5_wp
-      call write_mat_file("plastic.mat", spec, result, error)
+      call write_mat_file("plastic.mat", spec, result, result%status, error)
       call suite%check(.not. allocated(error), "plasticity: the file is written")
       call read_lines("plastic.mat", lines)
       do i = 1, size(lines)
