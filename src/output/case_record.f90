@@ -12,7 +12,7 @@ module contact_output_case_record
    use contact_grid_element_division, only : element
    use contact_output_record, only : record_writer
    use contact_patch_result, only : patch_result
-   use contact_wheelrail_result, only : pair_patch, pair_result
+   use contact_wheelrail_result, only : moment_about_elements, pair_patch, pair_result
    implicit none (type, external)
    private
 
@@ -174,7 +174,8 @@ contains
       call record%number("fn", "N", "normal force", contact%fn)
       call record%number("fx", "N", "longitudinal force on body 1", contact%fx)
       call record%number("fy", "N", "lateral force on body 1", s*contact%fy)
-      call record%number("mz", "N mm", "moment about the normal through the origin, on body 1", s*contact%mz)
+      call record%number("mz", "N mm", "moment about the normal through the origin, on body 1; wheel on rail: through the " &
+         & // "contact reference", s*contact%mz)
       call record%number("fx_rel", "-", "FX over friction coefficient times FN", contact%fx_rel)
       call record%number("fy_rel", "-", "FY over friction coefficient times FN", s*contact%fy_rel)
       call record%number("mu_scal", "-", "friction coefficient of the relative forces", contact%mu_scal)
@@ -236,6 +237,11 @@ contains
       call record%number("xcp_w", "mm", "contact reference, longitudinal, wheel profile", patch%x_wheel)
       call record%number("ycp_w", "mm", "contact reference, lateral, wheel profile", s*patch%y_wheel)
       call record%number("zcp_w", "mm", "contact reference, vertical, wheel profile", patch%z_wheel)
+      if (spec%motion == motion%shift .or. spec%motion == motion%transient_rolling) then
+         ! steps share the elements, not the contact reference
+         call record%number("mz_elem", "N mm", "moment about the normal through the origin of the elements, MN of the .out file", &
+            & s*moment_about_elements(patch, patch%contact%fx, patch%contact%fy, patch%contact%mz))
+      end if
       if (.not. allocated(patch%curve)) return
       ! FN, FX and FY are plain sums of the tractions then
       call record%number("bar_fn", "N", "normal force of a curved patch, axes of the contact reference", patch%force(3))

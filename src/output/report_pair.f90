@@ -21,7 +21,7 @@ module contact_output_report_pair
       & write_solution_line, write_statistics
    use contact_output_report_subsurface, only : write_subsurface
    use contact_patch_result, only : patch_result
-   use contact_wheelrail_result, only : in_element_coordinates, pair_patch, pair_result
+   use contact_wheelrail_result, only : in_element_coordinates, moment_about_elements, pair_patch, pair_result
    implicit none (type, external)
    private
 
@@ -549,7 +549,7 @@ contains
       conformal = spec%wheel_rail%search%location == contact_location%conformal
       totals = without_noise(spec, patch%contact)
       ! the moment is about the origin of the elements
-      totals%mz = totals%mz + patch%grid_reference(1)*totals%fy - patch%grid_reference(2)*totals%fx
+      totals%mz = moment_about_elements(patch, totals%fx, totals%fy, totals%mz)
       if (spec%output_level >= 2) then
          call log%result("")
          call log%result(" TOTAL FORCES, TORSIONAL MOMENT, ELASTIC ENERGY, FRICTIONAL POWER")

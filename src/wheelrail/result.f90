@@ -11,7 +11,7 @@ module contact_wheelrail_result
    implicit none (type, external)
    private
 
-   public :: pair_result, pair_patch, profile_points, in_element_coordinates, mirrored
+   public :: pair_result, pair_patch, profile_points, in_element_coordinates, mirrored, moment_about_elements
 
    !> One contact patch of the pair
    type :: pair_patch
@@ -110,6 +110,15 @@ contains
          contact%grid%yl = contact%grid%yl + s
       end associate
    end function in_element_coordinates
+
+   !> Moment about the normal through the origin of the elements, from that about the contact reference
+   pure real(wp) function moment_about_elements(patch, fx, fy, mz) result(moment)
+      type(pair_patch), intent(in) :: patch
+      !> Tangential forces [N] and the moment about the contact reference [N mm]
+      real(wp), intent(in) :: fx, fy, mz
+
+      moment = mz + patch%grid_reference(1)*fy - patch%grid_reference(2)*fx
+   end function moment_about_elements
 
    !> The mirror image of a patch: rows in reversed order, lateral components with the other sign. Totals and stresses
    !> below the surface stay
