@@ -38,7 +38,14 @@ enum {
   CONTACT_WRITE_VTK = 4   /* <experiment>.pvd and others: surfaces and stresses for ParaView */
 };
 
-/* The same as contact_run, with more files: outputs is 0 or a sum of CONTACT_WRITE_... */
+/* Where our computation differs from the established program by choice; add it to the outputs that are wanted */
+enum {
+  CONTACT_MOVING_HEAT = 8,      /* surface temperatures by moving sources, as --heat moving-source */
+  CONTACT_ANGLE_AT_CONTACT = 16 /* contact angles on rails that vary along the track, as --contact-angle contact */
+};
+
+/* The same as contact_run, with more: outputs is 0 or a sum of CONTACT_WRITE_..., CONTACT_MOVING_HEAT and
+ * CONTACT_ANGLE_AT_CONTACT */
 int contact_run_with(const char *experiment, int mode, const char *output_dir, int threads,
                      int outputs, char *message, int message_length);
 

@@ -1,6 +1,7 @@
 !> The C interface: an experiment run by a host program, see include/contact.h
 module contact_capi_run
    use, intrinsic :: iso_c_binding, only : c_associated, c_char, c_double, c_f_pointer, c_int, c_loc, c_ptr, c_size_t
+   use contact_base_choices, only : heat_source
    use contact_base_error, only : error_kind, error_type, fatal_error, full_text
    use contact_base_guard, only : do_guarded, guard_end
    use contact_base_kinds, only : long
@@ -14,9 +15,9 @@ module contact_capi_run
 
    !> What a host may ask for, as in the header
    integer(c_int), parameter :: mode_run = 2, mode_check = 3
-   !> Bits that ask for more files, and all of them together
-   integer, parameter :: json_bit = 0, hdf5_bit = 1, vtk_bit = 2
-   integer(c_int), parameter :: all_outputs = 7
+   !> Bits that ask for more files, for other ways to compute, and all of them together
+   integer, parameter :: json_bit = 0, hdf5_bit = 1, vtk_bit = 2, heat_bit = 3, angle_bit = 4
+   integer(c_int), parameter :: all_outputs = 31
    !> Failures by their cause start here, so that 1 stays free for a wrong call
    integer(c_int), parameter :: wrong_call = 1, first_failure = 10
 
@@ -87,7 +88,7 @@ contains
       type(c_ptr), value :: output_dir
       !> Number of threads, 0 for the default
       integer(c_int), value :: threads
-      !> Files beside the usual ones, a sum of bits as in the header
+      !> Files beside the usual ones and ways to compute, a sum of bits as in the header
       integer(c_int), value :: outputs
       !> Not 0: a case that does not converge is a failure
       integer(c_int), value :: strict
@@ -155,6 +156,8 @@ contains
       if (btest(outputs, json_bit)) settings%exports%json = ""
       settings%exports%hdf5 = btest(outputs, hdf5_bit)
       settings%exports%vtk = btest(outputs, vtk_bit)
+      if (btest(outputs, heat_bit)) settings%heat_source = heat_source%moving
+      if (btest(outputs, angle_bit)) settings%angle_below_axle = .false.
       if (len_trim(settings%experiment) == 0) then
          call fatal_error(error, "contact_run: the name of the experiment is missing")
       else if (mode /= mode_run .and. mode /= mode_check) then
@@ -162,7 +165,8 @@ contains
       else if (threads < 0) then
          call fatal_error(error, "contact_run: the number of threads is negative")
       else if (outputs < 0 .or. outputs > all_outputs) then
-         call fatal_error(error, "contact_run_with: the outputs are not a sum of CONTACT_WRITE_JSON, _HDF5 and _VTK")
+         call fatal_error(error, "contact_run_with: the outputs are not a sum of CONTACT_WRITE_JSON, _HDF5, _VTK, " // &
+            & "CONTACT_MOVING_HEAT and CONTACT_ANGLE_AT_CONTACT")
       else if (.not. all([seconds, megabytes, elements] >= 0.0_c_double &
          & .and. [seconds, megabytes, elements] < 1.0e12_c_double)) then
          call fatal_error(error, "contact_run_limited: a limit is negative, not a number, or 1e12 and more; 0 stands for none")
