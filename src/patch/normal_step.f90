@@ -7,6 +7,7 @@ module contact_patch_normal_step
    use contact_base_solve_report, only : ending
    use contact_grid_element_division, only : element
    use contact_grid_picture, only : trace_picture
+   use contact_normal_active_sets, only : solve_by_active_sets
    use contact_normal_approximate, only : approximate_pressure
    use contact_normal_conjugate_gradient, only : solve_normal
    use contact_patch_problem, only : patch_problem, patch_state
@@ -66,6 +67,9 @@ contains
             if (problem%pressure == pressure_model%full) then
                call log%trace(4, " NORM")
                call solve_normal(normal, workspace%window, workspace%normal_work, state%now%pn, result%pen, result%normal, log)
+               ! conjugate gradients count on symmetry, which bodies with a memory have not
+               if (result%normal%ended == ending%stagnated .and. allocated(problem%model%memory)) &
+                  & call solve_by_active_sets(normal, workspace%window, state%now%pn, result%pen, result%normal)
             else
                ! overlap of the surfaces instead of their distance; excluded elements stay excluded
                where (normal%h < excluded_threshold) normal%h = normal%h - problem%pen
