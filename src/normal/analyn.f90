@@ -16,8 +16,9 @@ module contact_normal_analyn
 
    public :: analyn_pressure
 
-   !> Smallest curvature that is told from the unevenness of profiles [1/mm], a radius of 5 m; as in CONTACT
-   real(wp), parameter :: least_curvature = 1.0e-4_wp
+   !> Smallest curvature that is told from the unevenness of profiles [1/mm], a radius of 5 m, as in CONTACT; of bodies that
+   !> are flatter themselves, this part of their largest curvature at the deepest place
+   real(wp), parameter :: least_curvature = 1.0e-4_wp, least_share = 0.1_wp
    !> Gaps that differ by less than this part of the overlap count as equal [-]: of two elements that are mirror images of
    !> each other rounding makes one the deeper one
    real(wp), parameter :: equally_small = 1.0e-9_wp
@@ -48,29 +49,34 @@ contains
       real(wp), intent(out) :: pn(:, :)
       type(hertz_contact) :: hertz
       type(low_place) :: here
-      real(wp) :: overlap, tolerance, depth, half_length, highest
+      real(wp) :: overlap, tolerance, depth, half_length, highest, sharpest, least
       integer :: ix, iy, first, last
 
       pn = 0.0_wp
       if (size(gap) == 0) return
       tolerance = equally_small*abs(minval(gap))
       overlap = -huge(overlap)
+      sharpest = 0.0_wp
       do iy = 1, grid%my
          last = 0
          do
             call next_run(gap(:, iy), tolerance, first, last)
             if (first == 0) exit
-            here = lowest_place(grid, gap, iy, first, last)
+            here = lowest_place(grid, gap, iy, first, last, 0.0_wp)
+            if (-here%lowest > overlap + tolerance) sharpest = 0.0_wp
+            if (-here%lowest > overlap - tolerance) sharpest = max(sharpest, here%a1, here%b1)
             overlap = max(overlap, -here%lowest)
          end do
       end do
       if (.not. overlap > least_overlap) return
+      least = least_curvature
+      if (sharpest > 0.0_wp) least = min(least, least_share*sharpest)
       do iy = 1, grid%my
          last = 0
          do
             call next_run(gap(:, iy), tolerance, first, last)
             if (first == 0) exit
-            here = lowest_place(grid, gap, iy, first, last)
+            here = lowest_place(grid, gap, iy, first, last, least)
             if (.not. here%lowest < 0.0_wp) cycle
             hertz = hertz_by_curvatures(hertz_load(normal_control%approach, pen=overlap, modulus=modulus), here%a1, here%b1)
             depth = 1.0_wp - (here%lowest + overlap)/(here%b1*hertz%bb**2)
@@ -112,11 +118,13 @@ contains
    end subroutine next_run
 
    !> Mean position, gap and curvatures of a run
-   pure type(low_place) function lowest_place(grid, gap, iy, first, last) result(mean)
+   pure type(low_place) function lowest_place(grid, gap, iy, first, last, least) result(mean)
       type(potential_contact), intent(in) :: grid
       real(wp), intent(in) :: gap(:, :)
       !> Row, first and last element of the run
       integer, intent(in) :: iy, first, last
+      !> Lower bound of the curvatures [1/mm]
+      real(wp), intent(in) :: least
       real(wp) :: x, lowest
       integer :: ix
 
@@ -124,8 +132,8 @@ contains
          call lowest_point(grid, gap(:, iy), ix, x, lowest)
          mean%x = mean%x + x
          mean%lowest = mean%lowest + lowest
-         mean%a1 = mean%a1 + max(curvature_along(grid, gap(:, iy), ix), least_curvature)
-         mean%b1 = mean%b1 + max(curvature_across(grid, gap(ix, :), iy), least_curvature)
+         mean%a1 = mean%a1 + max(curvature_along(grid, gap(:, iy), ix), least)
+         mean%b1 = mean%b1 + max(curvature_across(grid, gap(ix, :), iy), least)
       end do
       if (first == last) return
       mean = low_place(mean%x/(last - first + 1), mean%lowest/(last - first + 1), mean%a1/(last - first + 1), &

@@ -22,6 +22,7 @@ program test_approximate
 
    call suite%start("approximate normal methods")
    call quadratic_surfaces(suite)
+   call sizes_of_bodies(suite)
    call rolled_profile(suite)
    call degenerate_gaps(suite)
    call warning_at_edge(suite)
@@ -239,6 +240,30 @@ contains
          end do
       end do
    end subroutine quadratic_surfaces
+
+   !> Large and small bodies: with all lengths times a factor pressures stay, also where curvatures are below 1e-4 per mm
+   subroutine sizes_of_bodies(suite)
+      type(test_suite), intent(inout) :: suite
+      real(wp), parameter :: factors(4) = [1.0e-3_wp, 10.0_wp, 1.0e3_wp, 1.0e6_wp], ratios(3) = [0.3_wp, 1.0_wp, 15.0_wp]
+      type(potential_contact) :: grid
+      real(wp), allocatable :: pn(:, :), other(:, :)
+      character(len=60) :: what
+      integer :: k, m, j
+
+      do m = 1, size(methods)
+         do j = 1, size(ratios)
+            grid = window(24, 25, 6.0_wp, 6.0_wp)
+            pn = pressure_of(methods(m), grid, quadratic_gap(grid, 2.5e-3_wp, ratios(j)*2.5e-3_wp, 0.03_wp))
+            do k = 1, size(factors)
+               write(what, '(2a, f6.2, a, es8.1)') trim(name_of(m)), ", curvature ratio", ratios(j), ", lengths times", factors(k)
+               grid = window(24, 25, 6.0_wp*factors(k), 6.0_wp*factors(k))
+               other = pressure_of(methods(m), grid, quadratic_gap(grid, 2.5e-3_wp/factors(k), ratios(j)*2.5e-3_wp/factors(k), &
+                  & 0.03_wp*factors(k)))
+               call suite%close_to(other, pn, 1.0e-9_wp*maxval(pn), trim(what))
+            end do
+         end do
+      end do
+   end subroutine sizes_of_bodies
 
    !> A wheel on a worn rail, not symmetric: mirrored surfaces give mirrored pressures, and moduli scale
    subroutine rolled_profile(suite)
