@@ -13,8 +13,8 @@ module contact_patch_yield
 
    !> Softening ends at this part of the initial limit [-]
    real(wp), parameter :: lowest_share = 0.1_wp
-   !> Slopes below this value count as zero [N/mm3]
-   real(wp), parameter :: no_slope = 1.0e-6_wp
+   !> Slopes below this part of the stiffness of an element, G/DX, count as zero [-]; for steel about 1e-6 N/mm3
+   real(wp), parameter :: no_slope = 1.0e-11_wp
 
 contains
 
@@ -32,7 +32,7 @@ contains
       allocate(tangential%yield)
       associate (yield => tangential%yield)
          yield%lowest = lowest_share*problem%initial_yield_limit
-         if (abs(problem%yield_slope) >= no_slope) yield%slope = problem%yield_slope
+         if (abs(problem%yield_slope) >= no_slope*problem%model%material%gg/problem%grid%dx) yield%slope = problem%yield_slope
          if (tangential%steady) then
             allocate(yield%limit(tangential%mx, tangential%my), source=problem%initial_yield_limit)
          else

@@ -168,7 +168,8 @@ contains
 
    !> Relative residual of the contact conditions and of the prescribed forces
    !>
-   !> sqrt(|p - P_g(p - r S)|^2/|g|^2 + |sum p - target|^2/(sum g)^2)
+   !> sqrt(|p - P_g(p - r S)|^2/|g|^2 + |sum p - target|^2/(sum g)^2), g in the first term the lower of the bound of friction
+   !> and the yield limit where that changes
    pure real(wp) function true_residual(problem, p, slip, r) result(residual)
       type(tangential_problem), intent(in) :: problem
       real(wp), intent(in) :: p(:, :, :), slip(:, :, :)
@@ -177,7 +178,9 @@ contains
       real(wp), allocatable :: before(:, :)
       type(yield_point) :: point
       integer :: ix, iy, k
-      real(wp) :: z(2), length, total, scale, sum_g
+      !> Limits far below the bound of friction count as this part of it: no more figures are left in p - r S
+      real(wp), parameter :: least_share = 1.0e-4_wp
+      real(wp) :: z(2), length, total, scale, sum_g, acts
 
       if (problem%hardens()) before = limits_before(problem, p, slip, r)
       total = 0.0_wp
@@ -195,7 +198,9 @@ contains
                z = z*(problem%bound(ix, iy)/length)
             end if
             total = total + sum((p(ix, iy, :) - z)**2)
-            scale = scale + problem%bound(ix, iy)**2
+            acts = problem%bound(ix, iy)
+            if (allocated(before)) acts = max(min(acts, before(ix, iy)), least_share*acts)
+            scale = scale + acts**2
             sum_g = sum_g + problem%bound(ix, iy)
          end do
       end do
