@@ -15,6 +15,7 @@ module contact_capi_flags
    use contact_control_flags, only : accepted_value, flag, flag_table, highest_of, put_digit, row_of_flag
    use contact_control_units, only : convention_code, find_convention, inward, quantity
    use contact_patch_border, only : border_code
+   use contact_patch_result, only : patch_result
    use contact_text_words, only : columns_of, integer_text
    implicit none (type, external)
    private
@@ -228,6 +229,7 @@ contains
       type(library_problem), intent(in) :: problem
       integer, intent(in) :: icp, code
       logical :: is_pair, is_part
+      integer :: other
 
       is_pair = problem%module_number == 1
       is_part = is_pair .and. icp > 0
@@ -245,8 +247,8 @@ contains
          case (flag%own_angle)
             number = 0
             if (is_pair) number = merge(0, 1, spec%wheel_rail%search%angle_below_axle)
-         case (flag%own_border); number = border_of(problem, icp)
-         case (flag%own_stepped); number = stepped_points_of(problem, icp)
+         case (flag%own_border); call look_at_patches(problem, icp, number, other)
+         case (flag%own_stepped); call look_at_patches(problem, icp, other, number)
          case default; number = digit_value(spec%digits, trim(flag_table(row_of_flag(code))%digit))
          end select
          if (.not. is_part) return
@@ -260,45 +262,37 @@ contains
       end associate
    end function flag_value
 
-   !> Where contact is cut off, of one patch or of all of them: a sum of bits, see border_code
-   integer function border_of(problem, icp) result(bits)
+   !> Of one patch or of all of them: where contact is cut off, a sum of bits, see border_code; and the points of the last
+   !> subs_calculate near the surface and off the centres of elements
+   subroutine look_at_patches(problem, icp, border, stepped)
       type(library_problem), intent(in) :: problem
       !> Patch of module 1, or less than 1 for all
       integer, intent(in) :: icp
+      integer, intent(out) :: border, stepped
       integer :: k
 
-      bits = 0
+      border = 0
+      stepped = 0
       if (.not. problem%has_result) return
       if (problem%module_number /= 1) then
-         bits = border_code(problem%result%border)
+         call add(problem%result, .false.)
          return
       end if
       do k = 1, size(problem%pair_result%patches)
-         if (icp <= 0 .or. icp == k) bits = ior(bits, border_code(problem%pair_result%patches(k)%contact%border, &
-            & problem%spec%wheel_rail%left))
+         if (icp <= 0 .or. icp == k) call add(problem%pair_result%patches(k)%contact, problem%spec%wheel_rail%left)
       end do
-   end function border_of
 
-   !> Points of the last subs_calculate near the surface and off the centres of elements
-   integer function stepped_points_of(problem, icp) result(n)
-      type(library_problem), intent(in) :: problem
-      !> Patch of module 1, or less than 1 for all
-      integer, intent(in) :: icp
-      integer :: k
+   contains
 
-      n = 0
-      if (.not. problem%has_result) return
-      if (problem%module_number /= 1) then
-         if (allocated(problem%result%subsurface)) n = sum(problem%result%subsurface%stepped)
-         return
-      end if
-      do k = 1, size(problem%pair_result%patches)
-         if (icp > 0 .and. icp /= k) cycle
-         associate (contact => problem%pair_result%patches(k)%contact)
-            if (allocated(contact%subsurface)) n = n + sum(contact%subsurface%stepped)
-         end associate
-      end do
-   end function stepped_points_of
+      !> Include a patch, of a wheel on the left side or not
+      subroutine add(contact, left)
+         type(patch_result), intent(in) :: contact
+         logical, intent(in) :: left
+
+         border = ior(border, border_code(contact%border, left))
+         if (allocated(contact%subsurface)) stepped = stepped + sum(contact%subsurface%stepped)
+      end subroutine add
+   end subroutine look_at_patches
 
    !> Where a case comes from, for printing and .mat files
    subroutine cntc_setmetadata(ire, icp, lenmta, params, values) bind(c, name="inside_cntc_setmetadata")

@@ -1,10 +1,12 @@
 !> Cases of callers written as an input file of the program (flag 2002)
 module contact_capi_input_dump
+   use contact_base_error, only : error_type
    use contact_capi_files, only : find_result_file, input_dump, open_input_dump, relate_to_results
    use contact_capi_library, only : entry_type
    use contact_capi_messages, only : complain
    use contact_capi_problem, only : given_profile, library_problem
    use contact_cases_spec, only : case_spec
+   use contact_output_finished_file, only : finished_file
    use contact_output_input_case, only : write_contact_case, write_pair_case
    use contact_wheelrail_spec, only : profile_spec
    implicit none (type, external)
@@ -84,7 +86,10 @@ contains
       type(given_profile), intent(inout) :: given
       character(len=40) :: name
       character(len=:), allocatable :: path
-      integer :: unit, status, k
+      character(len=50) :: point
+      type(finished_file) :: file
+      type(error_type), allocatable :: error
+      integer :: k
 
       if (.not. allocated(profile%points)) then
          call relate_to_results(profile%name)
@@ -94,12 +99,15 @@ contains
          write(name, '("caddon_re", I3.3, ".", I0.4, ".", A, ".txt")') this%ire, number, body
          given%written_as = trim(name)
          call find_result_file(given%written_as, path)
-         open(newunit=unit, file=path, status="replace", action="write", iostat=status)
-         if (status == 0) then
-            write(unit, '(2ES25.16)', iostat=status) (profile%points(:, k), k=1, size(profile%points, 2))
-            close(unit)
+         call file%start(path, error)
+         if (.not. allocated(error)) then
+            do k = 1, size(profile%points, 2)
+               write(point, '(2ES25.16)') profile%points(:, k)
+               call file%line(point)
+            end do
+            call file%finish(error)
          end if
-         if (status /= 0) call complain(this, "the file " // path // &
+         if (allocated(error)) call complain(this, "the file " // path // &
             & " for the profile in the input file cannot be written")
       end if
       profile%name = given%written_as

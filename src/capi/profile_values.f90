@@ -13,6 +13,7 @@ module contact_capi_profile_values
    use contact_cases_pair_session, only : load_profile
    use contact_control_library_codes, only : library_code
    use contact_control_units, only : orientation, outward, quantity
+   use contact_output_finished_file, only : finished_file
    use contact_profile_curve, only : profile_curve
    use contact_profile_request, only : profile_side
    use contact_profile_surface, only : profile_surface, surface_cut
@@ -398,14 +399,17 @@ contains
       type(entry_type), intent(in) :: this
       type(profile_surface), intent(in) :: surface
       character(len=:), allocatable :: path
-      integer :: unit, status, g, i
+      type(finished_file) :: file
+      type(error_type), allocatable :: error
+      integer :: g, i
 
       call find_result_file(surface_file, path)
-      open(newunit=unit, file=path, status="replace", action="write", iostat=status)
-      if (status == 0) then
-         write(unit, '(A)', iostat=status) "% Surface of a variable profile: lines v = 0, 1, ..., cubic B-splines along u", &
-            & "% A group has lines that exist over the same range of u: y(i,j), z(i,j) [mm] is coefficient i of line v(j)."
-         write(unit, '(A, I0, A)', iostat=status) "spl2d.is_wheel = ", merge(1, 0, surface%side == profile_side%wheel), ";"
+      call file%start(path, error)
+      if (.not. allocated(error)) then
+         call file%line("% Surface of a variable profile: lines v = 0, 1, ..., cubic B-splines along u")
+         call file%line("% A group has lines that exist over the same range of u: y(i,j), z(i,j) [mm] is coefficient i " // &
+            & "of line v(j).")
+         call file%line("spl2d.is_wheel = " // integer_text(merge(1, 0, surface%side == profile_side%wheel)) // ";")
          call put_row("spl2d.u_range", surface%u_range)
          do g = 1, size(surface%groups)
             associate (group => surface%groups(g))
@@ -416,9 +420,9 @@ contains
                call put_table("spl2d.group(" // integer_text(g) // ").z", transpose(group%z))
             end associate
          end do
-         close(unit)
+         call file%finish(error)
       end if
-      if (status /= 0) call complain(this, "the file " // path // " cannot be written")
+      if (allocated(error)) call complain(this, "the file " // path // " cannot be written")
 
    contains
 
@@ -432,13 +436,15 @@ contains
       subroutine put_table(name, table)
          character(len=*), intent(in) :: name
          real(wp), intent(in) :: table(:, :)
+         character(len=24*size(table, 2)) :: row
          integer :: k
 
-         if (status == 0) write(unit, '(2A)', iostat=status) name, " = ["
+         call file%line(name // " = [")
          do k = 1, size(table, 1)
-            if (status == 0) write(unit, '(*(ES24.16))', iostat=status) table(k, :)
+            write(row, '(*(ES24.16))') table(k, :)
+            call file%line(row)
          end do
-         if (status == 0) write(unit, '(A)', iostat=status) "];"
+         call file%line("];")
       end subroutine put_table
    end subroutine write_surface
 end module contact_capi_profile_values

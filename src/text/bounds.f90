@@ -92,9 +92,9 @@ module contact_text_bounds
       & number_bounds("MEMDST", "mm", 0.0_wp, far, .false., "a distance; particles leave the contact sooner"), &
       & number_bounds("MEM_S0", "mm/s", 0.0_wp, fast, .false., "a speed; a thousand km/s"), &
       & number_bounds("FREF", "-", 0.0_wp, 1.0e6_wp, .false., "friction does not push; from 100 on nothing slips"), &
-      & number_bounds("TREF", "degC", -273.15_wp, 1.0e5_wp, .false., "from absolute zero to hotter than the sun"), &
+      & number_bounds("TREF", "degC", -273.15_wp, 1.0e5_wp, .false., "absolute zero; far above what any material bears"), &
       & number_bounds("DFHEAT", "-", -1.0e6_wp, 1.0e6_wp, .false., "a change of FREF"), &
-      & number_bounds("DTHEAT", "degC", 0.0_wp, 1.0e5_wp, .true., "the law would jump; hotter than the sun"), &
+      & number_bounds("DTHEAT", "degC", 0.0_wp, 1.0e5_wp, .true., "the law would jump; far above what any material bears"), &
       & number_bounds("NVF", "integer", 1.0_wp, 10.0_wp, .false., "as many control points as the format has"), &
       & number_bounds("SVF", "mm", -far_along, far_along, .false., "a million km of track"), &
       & number_bounds("ALPHA", "rad", -two_turns, two_turns, .false., "an inclination; degrees need a d: 60d")]
@@ -120,10 +120,10 @@ module contact_text_bounds
       & number_bounds("CDAMP", "s", 0.0_wp, 1.0e10_wp, .false., "damping does not drive"), &
       & number_bounds("DFNMAX", "N/s", 0.0_wp, rigid, .false., "a limit of a rate"), &
       & number_bounds("DFTMAX", "N/s", 0.0_wp, rigid, .false., "a limit of a rate"), &
-      & number_bounds("BKTEMP", "degC", -273.15_wp, 1.0e5_wp, .false., "from absolute zero to hotter than the sun"), &
+      & number_bounds("BKTEMP", "degC", -273.15_wp, 1.0e5_wp, .false., "absolute zero; far above what any material bears"), &
       & number_bounds("HEATCP", "J/kg-C", 1.0e-5_wp, 1.0e10_wp, .false., "water has 4200"), &
       & number_bounds("LAMBDA", "W/mm-C", 1.0e-5_wp, 1.0e10_wp, .false., "foam has 3e-5, diamond 2"), &
-      & number_bounds("DENS", "kg/mm3", 1.0e-12_wp, 1.0e3_wp, .false., "from a vacuum to a dwarf star"), &
+      & number_bounds("DENS", "kg/mm3", 1.0e-12_wp, 1.0e3_wp, .false., "far below any gas, far above any solid"), &
       & number_bounds("BETAPL", "-", 0.0_wp, 1.0_wp, .false., "a part of the plastic work")]
 
    type(number_bounds), parameter :: grid_rows(*) = [ &

@@ -18,15 +18,6 @@ program test_further_choices
 
 contains
 
-   !> Fields that are equal within a tolerance
-   subroutine same(field, expected, tolerance, what)
-      real(wp), intent(in) :: field(:, :), expected(:, :)
-      real(wp), intent(in) :: tolerance
-      character(len=*), intent(in) :: what
-
-      call suite%close_to(maxval(abs(field - expected)), 0.0_wp, tolerance, what)
-   end subroutine same
-
    !> Two humps side by side: factors 1 leave one problem, factors 0 make two
    subroutine parts()
       type(test_case) :: one, two, alone
@@ -55,16 +46,16 @@ contains
          if (k == 3) call suite%close_to(gap, 0.0_wp, 1.0e-10_wp, "two parts: no gap in the contact area")
          if (k < 3) call suite%check(gap > 1.0e-4_wp, "two parts: displacements without the factors overlap")
          call suite%check(index(two%result%effects, "parts") > 0, "two parts: they are named")
-         if (k == 3) call same(two%result%pn, one%result%pn, 1.0e-8_wp*one%result%pmax, "factors 1: one problem")
+         if (k == 3) call suite%close_to(two%result%pn, one%result%pn, 1.0e-8_wp*one%result%pmax, "factors 1: one problem")
          if (k > 1) cycle
          alone%spec = one%spec
          alone%spec%geometry%pl(5:8) = alone%spec%geometry%pl(1:4)
          call alone%run(suite, "left part")
-         call same(two%result%pn(:, :15), alone%result%pn(:, :15), 1.0e-8_wp*one%result%pmax, "factors 0: left part")
+         call suite%close_to(two%result%pn(:, :15), alone%result%pn(:, :15), 1.0e-8_wp*one%result%pmax, "factors 0: left part")
          alone%spec = one%spec
          alone%spec%geometry%pl(1:4) = alone%spec%geometry%pl(5:8)
          call alone%run(suite, "right part")
-         call same(two%result%pn(:, 19:), alone%result%pn(:, 19:), 1.0e-8_wp*one%result%pmax, "factors 0: right part")
+         call suite%close_to(two%result%pn(:, 19:), alone%result%pn(:, 19:), 1.0e-8_wp*one%result%pmax, "factors 0: right part")
       end do
       call suite%check(fn(1) > fn(2) .and. fn(2) > fn(3), "more interaction, less force")
       call one%release()
@@ -102,14 +93,14 @@ contains
                end do
             end associate
             call extra%run(suite, "extra term")
-            call same(weighed%result%px, extra%result%px, 1.0e-6_wp*extra%result%pmax, "part of the spin: px")
-            call same(weighed%result%py, extra%result%py, 1.0e-6_wp*extra%result%pmax, "part of the spin: py")
+            call suite%close_to(weighed%result%px, extra%result%px, 1.0e-6_wp*extra%result%pmax, "part of the spin: px")
+            call suite%close_to(weighed%result%py, extra%result%py, 1.0e-6_wp*extra%result%pmax, "part of the spin: py")
             call suite%check(index(weighed%result%effects, "part of the spin") > 0, "part of the spin: it is named")
             ! without spin nothing is cancelled
             call none%run(suite, "no spin")
             weighed%spec%kinematics%cphi = 0.0_wp
             call weighed%run(suite, "part of no spin")
-            call same(weighed%result%px, none%result%px, 1.0e-12_wp*none%result%pmax, "part of no spin: px")
+            call suite%close_to(weighed%result%px, none%result%px, 1.0e-12_wp*none%result%pmax, "part of no spin: px")
             deallocate(extra%spec%extra_slip)
          end do
       end do
@@ -195,9 +186,9 @@ contains
          back%spec%kinematics%cphi = -5.0e-4_wp
          call ahead%run(suite, "memory, rolling ahead")
          call back%run(suite, "memory, rolling backwards")
-         call same(back%result%pn(n:1:-1, :), ahead%result%pn, 1.0e-6_wp*ahead%result%pmax, "memory backwards: pn")
-         call same(-back%result%px(n:1:-1, :), ahead%result%px, 1.0e-6_wp*ahead%result%pmax, "memory backwards: px")
-         call same(back%result%py(n:1:-1, :), ahead%result%py, 1.0e-6_wp*ahead%result%pmax, "memory backwards: py")
+         call suite%close_to(back%result%pn(n:1:-1, :), ahead%result%pn, 1.0e-6_wp*ahead%result%pmax, "memory backwards: pn")
+         call suite%close_to(-back%result%px(n:1:-1, :), ahead%result%px, 1.0e-6_wp*ahead%result%pmax, "memory backwards: px")
+         call suite%close_to(back%result%py(n:1:-1, :), ahead%result%py, 1.0e-6_wp*ahead%result%pmax, "memory backwards: py")
          ! pressures build up on the side that the contact moves to
          call suite%check(ahead%result%my*back%result%my < 0.0_wp, "memory backwards: the load lies on the other side")
          call ahead%release()

@@ -25,15 +25,6 @@ program test_thin_sheet
 
 contains
 
-   !> Fields that are equal within a tolerance
-   subroutine same(field, expected, tolerance, what)
-      real(wp), intent(in) :: field(:, :), expected(:, :)
-      real(wp), intent(in) :: tolerance
-      character(len=*), intent(in) :: what
-
-      call suite%close_to(maxval(abs(field - expected)), 0.0_wp, tolerance, what)
-   end subroutine same
-
    !> Pressed paraboloid with a sheet
    function sheet_case(flxz, n) result(spec)
       !> [mm3/N]; 0: no sheet
@@ -174,7 +165,7 @@ contains
          sheet%spec = sheet_case(1.0e-10_wp, 15)
          call choose(sheet%spec, k)
          call sheet%run(suite, trim(kinds(k)) // ", no sheet to speak of")
-         call same(sheet%result%pn, plain%result%pn, 1.0e-6_wp*plain%result%pmax, trim(kinds(k)) // &
+         call suite%close_to(sheet%result%pn, plain%result%pn, 1.0e-6_wp*plain%result%pmax, trim(kinds(k)) // &
             & ": without flexibility there is no sheet")
          sheet%spec = sheet_case(large, 15)
          call choose(sheet%spec, k)
@@ -182,7 +173,7 @@ contains
          sheet%spec%kinematics%pen = 0.5_wp
          call sheet%run(suite, trim(kinds(k)) // ", soft sheet")
          ! the bodies yield by some 1e-2 mm per N/mm2
-         call same(sheet%result%pn, max(0.0_wp, 0.5_wp - sheet%result%h)/large, 3.0e-5_wp*0.4_wp/large, &
+         call suite%close_to(sheet%result%pn, max(0.0_wp, 0.5_wp - sheet%result%h)/large, 3.0e-5_wp*0.4_wp/large, &
             & trim(kinds(k)) // ": Winkler foundation")
          call suite%check(index(sheet%result%effects, "elastic thin sheet") > 0, trim(kinds(k)) // ": the sheet is named")
       end do

@@ -28,8 +28,9 @@ module contact_test_harness
       procedure :: check => check_condition
       procedure, private :: close_scalar
       procedure, private :: close_array
-      !> Real numbers, scalar or rank 1, within a tolerance; NaN is never close
-      generic :: close_to => close_scalar, close_array
+      procedure, private :: close_field
+      !> Real numbers, scalar, rank 1 or 2, within a tolerance; NaN is never close
+      generic :: close_to => close_scalar, close_array, close_field
       procedure, private :: equal_integer
       procedure, private :: equal_text
       !> Integers or texts, exactly
@@ -102,6 +103,17 @@ contains
       end do
       call count_check(self, .true., what, "")
    end subroutine close_array
+
+   !> The same for fields of one shape
+   subroutine close_field(self, actual, expected, tolerance, what, relative)
+      class(test_suite), intent(inout) :: self
+      real(wp), intent(in) :: actual(:, :), expected(:, :)
+      real(wp), intent(in) :: tolerance
+      character(len=*), intent(in) :: what
+      logical, intent(in), optional :: relative
+
+      call self%close_array(reshape(actual, [size(actual)]), reshape(expected, [size(expected)]), tolerance, what, relative)
+   end subroutine close_field
 
    !> Claim that two integers are equal
    subroutine equal_integer(self, actual, expected, what)
