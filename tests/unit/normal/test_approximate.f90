@@ -244,7 +244,7 @@ contains
    !> Large and small bodies: with all lengths times a factor pressures stay, also where curvatures are below 1e-4 per mm
    subroutine sizes_of_bodies(suite)
       type(test_suite), intent(inout) :: suite
-      real(wp), parameter :: factors(4) = [1.0e-3_wp, 10.0_wp, 1.0e3_wp, 1.0e6_wp], ratios(3) = [0.3_wp, 1.0_wp, 15.0_wp]
+      real(wp), parameter :: factors(4) = [1.0e-3_wp, 10.0_wp, 1.0e3_wp, 1.0e6_wp], ratios(3) = [0.3_wp, 1.0_wp, 8.0_wp]
       type(potential_contact) :: grid
       real(wp), allocatable :: pn(:, :), other(:, :)
       character(len=60) :: what
