@@ -198,7 +198,7 @@ static void give_to_reserve(void *p) {
 enum { recorded = 16 << 10, table_size = 4096 };
 static struct {
   _Atomic(void *) block;
-  int owner;
+  _Atomic int owner;
 } table[table_size];
 
 static inline unsigned place_of(const void *p) {

@@ -67,13 +67,6 @@ module contact_base_output_file
          integer(c_size_t) :: written
       end function fwrite
 
-      function fputc(letter, stream) result(status) bind(c, name="fputc")
-         import :: c_int, c_ptr
-         integer(c_int), value :: letter
-         type(c_ptr), value :: stream
-         integer(c_int) :: status
-      end function fputc
-
       function fflush(stream) result(status) bind(c, name="fflush")
          import :: c_int, c_ptr
          type(c_ptr), value :: stream
@@ -152,10 +145,11 @@ contains
    subroutine line(self, text)
       class(output_file), intent(in) :: self
       character(len=*), intent(in) :: text
-      integer(c_int) :: ignored
+      character(len=len(text) + 1) :: whole
 
-      call self%text_bytes(text)
-      if (self%is_open()) ignored = fputc(iachar(new_line("a"), c_int), self%stream)
+      ! in one call, so that lines of two threads do not mix
+      whole = text // new_line("a")
+      call self%text_bytes(whole)
    end subroutine line
 
    subroutine text_bytes(self, text)
