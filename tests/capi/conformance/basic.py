@@ -524,7 +524,7 @@ def case_number():
 def grids():
     """Elements of another size: no coefficients that are kept, no previous case that is continued; Hertzian data of a window"""
     def solve(ire, dx, dy, digits):
-        cntc.setpotcontact(ire, 1, 1, [22, 26, -11 * dx, -13 * dy, dx, dy])
+        cntc.setpotcontact(ire, 1, 1, [22, 26, -4.4, -4.55, dx, dy])
         cntc.setundeformeddistc(ire, 1, 1, [0.002, 0, 0.002, 0, 0, 0])
         cntc.setflags(ire, 1, [CNTC[name] for name in digits], list(digits.values()))
         return cntc.calculate(ire, 1, idebug=0), last_error(ire, 1)[1]

@@ -214,6 +214,12 @@ def compare_results(name, expected, label):
                     printed.setdefault(key, []).append(value)
             except ValueError:
                 pass
+    for k, line in enumerate(lines):
+        # one row for each set of friction
+        if re.match(r" +(ALPHA|SVF) ", line) and "rows" in expected:
+            close([[float(word) for word in row.split()] for row in lines[k + 1:k + 1 + len(expected["rows"])]], expected["rows"],
+                  6e-4 * np.abs(expected["rows"]), f"{label}: rows of friction in the .out file")
+            told.add("rows")
     recorded = {}
     with h5py.File(f"program/{name}.h5") as file:
         file.visititems(lambda path, item: recorded.update({path.split("/")[-1]: item[()]})
@@ -226,8 +232,10 @@ def compare_results(name, expected, label):
             for row, values in zip(lines[k + 1:k + 3], (expected["BKTEMP 1"], expected["BKTEMP 2"])):
                 close([float(word) for word in row.split()], values, 6e-4 * np.abs(values), f"{label}: heat in the .out file")
     for names, values in expected.items():
+        if names == "rows":
+            check("rows" in told, f"{label}: a table of friction")
         for key, value in zip(names.lstrip("~").split(), np.atleast_1d(values)):
-            if "," in names or names[:-1] == "BKTEMP ":
+            if "," in names or names[:-1] == "BKTEMP " or names == "rows":
                 continue
             if key in printed:
                 told.add("out " + key)
@@ -309,13 +317,14 @@ PAIR = {
                                                                        2.1 * big, 3.1 * big, 0.4 * big, 0.011, 0.012, 0.013]),
                  {"DXWHL DYWHL DZWHL DROLLW DYAWW DPITCHW": [0.11, 0.3, 0.012, 1.1e-3, 1.2e-3, 1.3e-3],
                   "VXWHL VYWHL VZWHL VROLLW VYAWW VPITCHW": [2.1, 3.1, 0.4, 0.011, 0.012, 0.013]}),
-    "friction by angle": (lambda ire, big: cntc.setfrictionmethod(ire, -1, 10, [2, -0.2, 0.1, 0.1, 0.1, 0.4, 0.4]), {"NVF": [2]}),
+    "friction by angle": (lambda ire, big: cntc.setfrictionmethod(ire, -1, 10, [2, -0.2, 0.1, 0.1, 0.1, 0.4, 0.4]), {"NVF": [2],
+        "rows": [[-0.2, 0.1, 0.1], [0.1, 0.4, 0.4]]}),
     "friction by angle and slip": (lambda ire, big: cntc.setfrictionmethod(ire, -1, 12, [
         2, -0.2, 0.2, 0.11, 101 * big, 0.05, 51 * big, 0.002 * big, 11 * big,
         0.2, 0.3, 0.12, 102 * big, 0.06, 52 * big, 0.002 * big, 11 * big]),
         {"": [0.2, 0.3, 0.12, 102, 0.06, 52], "MEMDST MEM_S0": [0.002, 11]}),
     "friction by place": (lambda ire, big: cntc.setfrictionmethod(ire, -1, 20, [2, -100.0 * big, 0.1, 0.1, 100.0 * big, 0.4, 0.4]),
-                          {"": [100, 0.4, 0.4]}),
+                          {"": [100, 0.4, 0.4], "rows": [[-100, 0.1, 0.1], [100, 0.4, 0.4]]}),
     "damping": (lambda ire, big: cntc.setmaterialparameters(ire, -1, 12, [1.1e-3, 1.2e-3, 1.3e9, 1.4e9]),
                 {"CDAMPN CDAMPT DFNMAX DFTMAX": [1.1e-3, 1.2e-3, 1.3e9, 1.4e9]}),
     "roller": (lambda ire, big: (cntc.setflags(ire, -1, CNTC["ic_config"], 4), cntc.settrackdimensions(ire, 1, [14.0 * big, 0.0,
@@ -325,7 +334,8 @@ PAIR = {
     "options of a profile": (lambda ire, big: cntc.setprofileinputfname(ire, profiles()[0], [0, 0, 0, -1, 1, 2],
                                                                          [1.0, 0.4, 0.45, 2.7, 0.53, 0.11, 1.9 * big]),
                              {"'": [0, 1.0, 0.4, -1], "ISMOOTH": [2, 2.7, 0.53, 0.11, 1.9], "ERRHND": [1, 0.45]}),
-    "file name with backslashes": (lambda ire, big: cntc.setprofileinputfname(ire, profiles()[0].replace("/", "\\"), [0], [1.0, 0.0]),
+    "file name with backslashes": (lambda ire, big: cntc.setprofileinputfname(ire, profiles()[0].replace("/", "\\"), [0], [1.0,
+        0.0]),
                                    {"'": [0, 1.0, 0.0]}),
     "options of a wheel": (lambda ire, big: cntc.setprofileinputfname(ire, profiles()[1], [1, 0, 0, -1, 0, 0], [0.999, 0.0]),
                            {"'": [0, 0.999, 0.0, -1]}),
@@ -382,6 +392,8 @@ def pair_settings():
             cntc.finalize(1)
             rows = rows_of_pair(name + ".inp")
             for names, values in expected.items():
+                if names == "rows":
+                    continue
                 check(any((row_names.startswith(names) or names == "") and len(row) >= len(values)
                           and np.allclose(row[:len(values)], values, rtol=1e-9, atol=1e-12) for row_names, row in rows),
                       f"{label}, {units}: {names} {values} in {rows}")
