@@ -308,7 +308,10 @@ PAIR = {
                  {"S|X Y FZ|Z ROLL YAW PITCH": [5.1, 1.9, 10000, -1.1e-4, 4.7e-3, 0.21]}),
     "position of a roller rig": (lambda ire, big: (
         cntc.setflags(ire, -1, CNTC["ic_config"], 4), cntc.setwheelsetposition(ire, 1, [5.1 * big, 1.9 * big, 0, -1.1e-4, 4.7e-3, 0.21]),
-        cntc.setflags(ire, -1, CNTC["ic_config"], 1)), {"S|X Y FZ|Z ROLL YAW PITCH": [5.1, 1.9, 10000, -1.1e-4, 4.7e-3, 0.21]}),
+        cntc.settrackdimensions(ire, 1, [14.0 * big, 0.0, 1435.0 * big, 0.0, 505.0 * big]),
+        cntc.setwheelsetvelocity(ire, 2, [4.01, 0, 0, 0, 0, -4.35]), cntc.calculate(ire, -1, idebug=0),
+        cntc.setflags(ire, -1, CNTC["ic_config"], 1), cntc.settrackdimensions(ire, 1, [14.0 * big, 0.0, 1435.0 * big, 0.0, 0.0]),
+        cntc.setwheelsetvelocity(ire, 2, [2000 * big, 0, 0, 0, 0, -4.35])), {"S|X Y FZ|Z ROLL YAW PITCH": [5.1, 1.9, 10000, -1.1e-4, 4.7e-3, 0.21]}),
     "height": (lambda ire, big: (cntc.setflags(ire, -1, CNTC["ic_norm"], 0), cntc.setwheelsetposition(ire, 1, [0, 2.0 * big,
         -0.091 * big, 0, 4.8e-3, 0])),
                {"S|X Y FZ|Z ROLL YAW PITCH": [0, 2.0, -0.091, 0, 4.8e-3, 0]}),
