@@ -307,11 +307,13 @@ PAIR = {
     "position": (lambda ire, big: cntc.setwheelsetposition(ire, 1, [5.1 * big, 1.9 * big, 0, -1.1e-4, 4.7e-3, 0.21]),
                  {"S|X Y FZ|Z ROLL YAW PITCH": [5.1, 1.9, 10000, -1.1e-4, 4.7e-3, 0.21]}),
     "position of a roller rig": (lambda ire, big: (
-        cntc.setflags(ire, -1, CNTC["ic_config"], 4), cntc.setwheelsetposition(ire, 1, [5.1 * big, 1.9 * big, 0, -1.1e-4, 4.7e-3, 0.21]),
+        cntc.setflags(ire, -1, CNTC["ic_config"], 4), cntc.setwheelsetposition(ire, 1, [5.1 * big, 1.9 * big, 0, -1.1e-4, 4.7e-3,
+                                                                                        0.21]),
         cntc.settrackdimensions(ire, 1, [14.0 * big, 0.0, 1435.0 * big, 0.0, 505.0 * big]),
         cntc.setwheelsetvelocity(ire, 2, [4.01, 0, 0, 0, 0, -4.35]), cntc.calculate(ire, -1, idebug=0),
         cntc.setflags(ire, -1, CNTC["ic_config"], 1), cntc.settrackdimensions(ire, 1, [14.0 * big, 0.0, 1435.0 * big, 0.0, 0.0]),
-        cntc.setwheelsetvelocity(ire, 2, [2000 * big, 0, 0, 0, 0, -4.35])), {"S|X Y FZ|Z ROLL YAW PITCH": [5.1, 1.9, 10000, -1.1e-4, 4.7e-3, 0.21]}),
+        cntc.setwheelsetvelocity(ire, 2, [2000 * big, 0, 0, 0, 0, -4.35])), {"S|X Y FZ|Z ROLL YAW PITCH": [5.1, 1.9, 10000, -1.1e-4,
+            4.7e-3, 0.21]}),
     "height": (lambda ire, big: (cntc.setflags(ire, -1, CNTC["ic_norm"], 0), cntc.setwheelsetposition(ire, 1, [0, 2.0 * big,
         -0.091 * big, 0, 4.8e-3, 0])),
                {"S|X Y FZ|Z ROLL YAW PITCH": [0, 2.0, -0.091, 0, 4.8e-3, 0]}),
@@ -406,7 +408,11 @@ def pair_settings():
         largest = np.abs(forces["un_cntc"]).max()
         for units in UNITS:
             close(forces[units], forces["un_cntc"], 1e-4 * largest, f"{label}: forces in {units}")
-        totals = program_cases(f"pair{number}_un_cntc")[-1]["totals"]
+        last = program_cases(f"pair{number}_un_cntc")[-1]
+        totals, effects = last["totals"], last["patches"][0]["effects"]
+        for words, labels in (("by inclination", ("friction by angle", "friction by angle and slip")), ("by position",
+            ("friction by place",))):
+            same(words in effects, label in labels, f"{label}: {effects}")
         compare_results(f"pair{number}_un_cntc", expected, label)
         if label != "damping":
             close([totals[key]["value"] for key in ("fx_tr", "fy_tr", "fz_tr")], forces["un_cntc"], 1e-4 * largest,
