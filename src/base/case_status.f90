@@ -124,7 +124,7 @@ contains
       character(len=24) :: numbers(3)
 
       write(numbers(:2), '(G0.6)') requested, found
-      numbers = adjustl(numbers)
+      numbers(:2) = adjustl(numbers(:2))
       numbers(3) = size_text(found - requested, 2)
       call self%miss(missed_iteration%force, "force, requested " // name // " " // trim(numbers(1)) // " N, found " // &
          & trim(numbers(2)) // " N, off by " // trim(numbers(3)) // " N: " // why)

@@ -98,6 +98,7 @@ contains
          call suite%check(case%result%elastic_energy > 0.0_wp .and. case%result%normal%passes == 0, trim(name_of(m)) &
             & // " on " // trim(shape_name(shape_)) // ": energy without a pass of a solver")
       end do
+      call case%release()
    end subroutine against_full
 
    !> SDEC: prescribed force, no energy, and Hertz's tangential problem where both halves are alike
@@ -121,6 +122,7 @@ contains
       call suite%close_to([case%result%fx, case%result%fy, case%result%mz], expected, 1.0e-6_wp, "SDEC with equal halves")
       call suite%close_to(case%result%fn, 20.0_wp, 0.0_wp, "SDEC: force")
       call suite%close_to(case%result%elastic_energy, 0.0_wp, 0.0_wp, "SDEC: no energy")
+      call case%release()
    end subroutine double_ellipse
 
    !> Dissimilar bodies: the approximate pressures see the displacements by friction
@@ -138,6 +140,7 @@ contains
          call suite%check(case%result%outer_iterations > 1 .and. case%result%outer_iterations < 30, &
             & "dissimilar, " // trim(name_of(m)) // ": the outer iteration ends")
       end do
+      call case%release()
    end subroutine coupled
 
    !> Methods take turns in sequences of every kind, also with simplified theory and prescribed forces
@@ -176,6 +179,7 @@ contains
             end do
          end do
       end do
+      call case%release()
    end subroutine sequences
 
    !> What no method can do is refused
@@ -203,6 +207,7 @@ contains
       case%spec%kinematics%pen = -0.1_wp
       call case%run(suite, "no contact")
       call suite%check(case%result%ncon == 0 .and. abs(case%result%fn) <= 0.0_wp, "KPEC without contact")
+      call case%release()
    end subroutine refusals
 
    subroutine refuse(suite, case, what)
@@ -252,6 +257,7 @@ contains
       plain = [case%result%fn, case%result%fx, case%result%fy]
       call suite%check(.not. allocated(case%result%damping), "no damping, no damping force")
       call suite%close_to(plain, second, 0.0_wp, "damping leaves the elastic forces alone")
+      call case%release()
    end subroutine damping_in_sequences
 
    !> One step of a sequence under a force

@@ -85,12 +85,14 @@ contains
       set%fkin = 0.3_wp
       do kind = motion%shift, motion%steady_rolling
          do n = 0, 2
+            call plain%release()
             plain = rolling_case(kind)
             if (kind == motion%shift) plain%spec%kinematics%cphi = 1.0e-4_wp
             if (n == 1) call forces(plain%spec, -0.6_wp)
             if (n == 2) call forces(plain%spec, -0.5_wp, 0.3_wp)
             call plain%run(suite, "Coulomb")
             do k = 1, size(laws)
+               call case%release()
                case = test_case(plain%spec)
                call give_law(case, laws(k), set)
                case%spec%friction%memdst = 0.01_wp*(k - 1)
@@ -102,6 +104,7 @@ contains
          end do
       end do
       set%dfheat = 0.0_wp
+      call case%release()
       case = test_case(plain%spec)
       call give_law(case, friction_model%temperature, set)
       call give_heat(case)
@@ -109,6 +112,8 @@ contains
       call suite%close_to([case%result%px], [plain%result%px], 1.0e-6_wp*plain%result%pmax, "no change with temperature")
       call suite%check(.not. allocated(plain%result%friction), "Coulomb friction is not iterated")
       call suite%check(.not. allocated(plain%result%temp1), "no temperatures unless asked for")
+      call plain%release()
+      call case%release()
    end subroutine no_strength
 
    !> Equal parameters in every row are one set
@@ -119,11 +124,13 @@ contains
 
       choice = [friction_model%coulomb, laws, friction_model%temperature]
       do k = 1, size(choice)
+         call one%release()
          one = rolling_case(motion%steady_rolling)
          call give_law(one, choice(k), falling())
          one%spec%friction%memdst = 0.05_wp
          call give_heat(one)
          call one%run(suite, "one set")
+         call many%release()
          many = test_case(one%spec)
          many%spec%friction%sets = spread(one%spec%friction%sets(1), 1, 15)
          call many%run(suite, "a set per row")
@@ -131,6 +138,8 @@ contains
          call suite%close_to(many%result%mu_scal, 1.0_wp, 0.0_wp, "forces relative to FN")
          call suite%close_to(many%result%fx_rel, 0.3_wp*one%result%fx_rel, 1.0e-9_wp, "relative forces")
       end do
+      call one%release()
+      call many%release()
    end subroutine rows_of_one_kind
 
    !> On return the coefficients are those of the slip, and tractions in slip are on their bound
@@ -145,6 +154,7 @@ contains
       do kind = motion%transient_rolling, motion%steady_rolling
          do n = 0, 2
             do k = 1, size(laws)
+               call case%release()
                case = rolling_case(kind)
                call give_law(case, laws(k), falling())
                if (n == 1) call forces(case%spec, -0.55_wp)
@@ -169,6 +179,7 @@ contains
             end do
          end do
       end do
+      call case%release()
    end subroutine fixed_point
 
    !> Reflection of rows, lateral creepage, spin and of the parameters
@@ -196,6 +207,8 @@ contains
          call suite%close_to([b%mu(:, 15:1:-1)], [a%mu], 1.0e-5_wp, "coefficients are even")
          call suite%close_to([b%temp1(:, 15:1:-1)], [a%temp1], 1.0e-3_wp*maxval(a%temp1), "temperatures are even")
       end associate
+      call one%release()
+      call two%release()
    end subroutine mirror_in_y
 
    !> Rolling the other way, with all of it: memory, temperature
@@ -205,6 +218,7 @@ contains
       integer :: k
 
       do k = 1, 2
+         call one%release()
          one = rolling_case(motion%steady_rolling)
          call give_law(one, merge(friction_model%exponential, friction_model%temperature, k == 1), falling())
          one%spec%friction%sets%tref = 30.0_wp
@@ -212,6 +226,7 @@ contains
          one%spec%friction%memdst = 0.03_wp
          call give_heat(one)
          call one%run(suite, "forward")
+         call two%release()
          two = test_case(one%spec)
          two%spec%rolling%chi = pi
          two%spec%kinematics%cksi = -one%spec%kinematics%cksi
@@ -224,6 +239,8 @@ contains
             call suite%close_to([b%temp2(18:1:-1, :)], [a%temp2], 1.0e-3_wp*maxval(a%temp2), "temperatures")
          end associate
       end do
+      call one%release()
+      call two%release()
    end subroutine mirror_in_x
 
    !> Newton-Krylov and the classical methods find the same, in every motion
@@ -233,6 +250,7 @@ contains
       integer :: kind, method
 
       do kind = motion%shift, motion%steady_rolling
+         call one%release()
          one = rolling_case(kind)
          call give_law(one, friction_model%rational, falling())
          if (kind == motion%shift) then
@@ -242,6 +260,7 @@ contains
          end if
          call one%run(suite, "Newton-Krylov")
          do method = solver_choice%convex_gs, solver_choice%gauss_seidel
+            call two%release()
             two = test_case(one%spec)
             two%spec%solver = method
             two%spec%iteration%omegah = 0.7_wp
@@ -250,6 +269,8 @@ contains
             call suite%close_to([two%result%px], [one%result%px], 2.0e-5_wp*one%result%pmax, "methods agree")
          end do
       end do
+      call one%release()
+      call two%release()
    end subroutine methods_agree
 
    !> Friction per row is seen in its rows
@@ -269,6 +290,7 @@ contains
          call suite%close_to(hypot(r%px(9, :), r%py(9, :)), (0.1_wp + 0.02_wp*[(iy, iy=1, 15)])*r%pn(9, :), &
             & 1.0e-7_wp*r%pmax, "traction of each row")
       end associate
+      call case%release()
    end subroutine rows_act
 
    !> Friction that drops with temperature as fast as one likes needs a few passes
@@ -284,6 +306,7 @@ contains
       set%tref = 25.0_wp
       do k = 0, 2
          set%dtheat = 30.0_wp/10**k
+         call case%release()
          case = rolling_case(motion%steady_rolling)
          case%spec%kinematics%cksi = 0.05_wp
          call give_law(case, friction_model%temperature, set)
@@ -299,6 +322,7 @@ contains
                & merge(1.0e-3_wp, 2.0e-2_wp, k < 2), "coefficients belong to the temperatures")
          end associate
       end do
+      call case%release()
    end subroutine steep_temperature
 
    !> Bulk temperatures without motion, interface temperature without slip, more of both by friction
@@ -312,6 +336,7 @@ contains
       call case%run(suite, "no motion")
       call suite%close_to([case%result%temp1], spread(20.0_wp, 1, 270), 0.0_wp, "bulk temperature 1")
       call suite%close_to([case%result%temp2], spread(60.0_wp, 1, 270), 0.0_wp, "bulk temperature 2")
+      call case%release()
       case = rolling_case(motion%steady_rolling)
       call give_heat(case)
       case%spec%kinematics%cksi = 0.0_wp
@@ -327,6 +352,7 @@ contains
       call case%run(suite, "sliding four times as fast")
       call suite%close_to(case%result%temp1(9, 8) - 40.0_wp, 2.0_wp*(cold - 40.0_wp), 1.0e-6_wp*cold, &
          & "heat by friction grows with the root of the velocity")
+      call case%release()
    end subroutine temperatures
 
    !> No friction at all, no contact, full sliding
@@ -339,11 +365,13 @@ contains
       set%fstat = 0.0_wp
       set%fkin = 0.0_wp
       do k = 1, size(laws)
+         call case%release()
          case = rolling_case(motion%steady_rolling)
          call give_law(case, laws(k), set)
          call give_heat(case)
          call case%run(suite, "no friction")
          call suite%check(all(abs(case%result%px) <= 0.0_wp), "no traction")
+         call case%release()
          case = rolling_case(motion%transient_rolling)
          call give_law(case, laws(k), falling())
          case%spec%kinematics%cksi = 10.0_wp
@@ -358,6 +386,7 @@ contains
          call case%run(suite, "no contact")
          call suite%equal(case%result%ncon, 0, "no contact")
       end do
+      call case%release()
    end subroutine slides_away
 
    !> An iteration that is cut short says so and returns finite results
@@ -375,6 +404,7 @@ contains
       call suite%equal(case%result%friction%ended, ending%iteration_limit, "the limit is reported")
       call suite%equal(case%result%tangential%passes, 2, "two passes are MAXIN - 10")
       call suite%check(all(ieee_is_finite(case%result%px)), "finite results")
+      call case%release()
    end subroutine too_few_passes
 
    subroutine refusals(suite)
@@ -384,16 +414,20 @@ contains
       case = rolling_case(motion%steady_rolling)
       call give_law(case, friction_model%temperature, falling())
       call refused(suite, case, "friction by temperature without temperatures")
+      call case%release()
       case = rolling_case(motion%transient_rolling)
       call give_heat(case)
       call refused(suite, case, "temperatures in transient rolling")
+      call case%release()
       case = rolling_case(motion%steady_rolling)
       case%spec%friction%sets = spread(falling(), 1, 14)
       call refused(suite, case, "14 sets for 15 rows")
+      call case%release()
       case = rolling_case(motion%steady_rolling)
       call give_heat(case)
       case%spec%heat%lambda(2) = 0.0_wp
       call refused(suite, case, "a conductivity of zero")
+      call case%release()
    end subroutine refusals
 
    subroutine refused(suite, case, what)
