@@ -50,7 +50,7 @@ function [ varargout ] = loadcase( expnam, icase, ipatch )
       patches = mat_patches(expnam, icase, ipatch);
    end
    if (isempty(patches))
-      patches = hdf5_patches(expnam, icase);
+      patches = guarded(expnam, 'loadcase', @() hdf5_patches(expnam, icase));
       if (ipatch>0)
          patches = patches(ipatch : min(ipatch,numel(patches)));
       end
@@ -86,7 +86,7 @@ function [ patches ] = mat_patches( expnam, icase, ipatch )
    if (isempty(fname))
       return
    end
-   patches = {read_mat_file(fname, icase)};
+   patches = {guarded(fname, 'loadcase', @() read_mat_file(fname, icase))};
    if (ipatch>0)
       return
    end
@@ -96,7 +96,7 @@ function [ patches ] = mat_patches( expnam, icase, ipatch )
       if (isempty(fname))
          error('loadcase: patch %d of %d of case %d of "%s" has no .mat file.', k, patches{1}.meta.npatch, icase, expnam);
       end
-      patches{k} = read_mat_file(fname, icase);
+      patches{k} = guarded(fname, 'loadcase', @() read_mat_file(fname, icase));
    end
 
 end % function mat_patches

@@ -34,9 +34,9 @@ function [ varargout ] = loadstrs( expnam, icase, ipatch )
       fname = subs_file(expnam, icase, ipatch);
    end
    if (~isempty(fname))
-      blocks = read_blocks(fname);
+      blocks = guarded(fname, 'loadstrs', @() read_blocks(fname));
    else
-      [blocks, fname] = hdf5_blocks(expnam, icase, max(1,ipatch));
+      [blocks, fname] = guarded(expnam, 'loadstrs', @() hdf5_blocks(expnam, icase, max(1,ipatch)));
    end
    if (isempty(blocks))
       require_file('', 'loadstrs', expnam, icase);
@@ -84,6 +84,9 @@ function [ blocks ] = read_blocks( fname )
    while (first<=size(table,1))
       nx = table(first,1);  ny = table(first,2);  nz = table(first,3);
       np = nx*ny*nz;
+      if (any([nx ny nz]<1) || any([nx ny nz]~=fix([nx ny nz])))
+         error('loadstrs: "%s" is damaged: block %d has no sensible numbers of points.', fname, numel(blocks)+1);
+      end
       if (first+np>size(table,1))
          error('loadstrs: "%s" ends inside block %d.', fname, numel(blocks)+1);
       end

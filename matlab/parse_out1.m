@@ -8,6 +8,7 @@ function [ sol ] = parse_out1( fname )
 % Values of a case are rows with one column per case; values of contact patches are arrays with one row per
 % patch and one column per case. NaN stands where the file has nothing, e.g. for patches that do not exist.
 %
+%   sol.complete  false when the file says that cases are missing, or ends in their midst; then there is a warning
 %   sol.icase     numbers of the cases
 %   sol.config    0, 1: left and right wheel on rail; 4, 5: the same on roller
 %   sol.ws_pos    wheelset: s (for rollers x), y, z [mm], roll, yaw, pitch [rad]
@@ -29,9 +30,19 @@ function [ sol ] = parse_out1( fname )
 %
 % See also: parse_out3, loadcase.
 
-   out = read_out(with_extension(fname, '.out'), 'parse_out1');
+   fname = with_extension(fname, '.out');
+   sol = guarded(fname, 'parse_out1', @() parse_lines(read_out(fname, 'parse_out1')));
+
+end % function parse_out1
+
+%------------------------------------------------------------------------------------------------------
+
+function [ sol ] = parse_lines( out )
+% Results from the lines of the file
+
    n   = out.ncase;
    m   = max([1, out.patch_of]);
+   sol.complete = out.complete;
    sol.icase    = out.icase;
    sol.config   = find_config(out);
    out.in_module1 = ~isnan(sol.config);
@@ -72,7 +83,7 @@ function [ sol ] = parse_out1( fname )
    sol.cp_stat  = rows(out, 'NPOT   NCON', m, stat, stat);
    sol.cp_subs  = collect_subs(out, m);
 
-end % function parse_out1
+end % function parse_lines
 
 %------------------------------------------------------------------------------------------------------
 

@@ -8,6 +8,7 @@ function [ sol ] = parse_out3( fname )
 % All results are rows with one value per case, NaN where the file has none (module 1 cases, cases that could
 % not be solved, output with O = 0 or 1):
 %
+%   sol.complete  false when the file says that cases are missing, or ends in their midst; then there is a warning
 %   sol.icase   numbers of the cases
 %   sol.kincns  chi [rad] (rolling) or dt [s] (shifts), dq [mm], veloc [mm/s]
 %   sol.creep   cksi, ceta [-] or shift distances [mm], cphi [rad/mm] or [rad]; pen: approach [mm]
@@ -22,8 +23,18 @@ function [ sol ] = parse_out3( fname )
 %
 % See also: parse_out1, loadcase.
 
-   out = read_out(with_extension(fname, '.out'), 'parse_out3');
+   fname = with_extension(fname, '.out');
+   sol = guarded(fname, 'parse_out3', @() parse_lines(read_out(fname, 'parse_out3')));
+
+end % function parse_out3
+
+%------------------------------------------------------------------------------------------------------
+
+function [ sol ] = parse_lines( out )
+% Results from the lines of the file
+
    n   = out.ncase;
+   sol.complete = out.complete;
    sol.icase  = out.icase;
    sol.kincns = empty_arrays({'chi','dt','dq','veloc'}, 1, n);
    sol.creep  = empty_arrays({'cksi','ceta','cphi','pen'}, 1, n);
@@ -65,4 +76,4 @@ function [ sol ] = parse_out3( fname )
    end
    sol.subs = collect_subs(out, 1);
 
-end % function parse_out3
+end % function parse_lines

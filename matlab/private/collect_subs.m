@@ -18,6 +18,9 @@ function [ subs ] = collect_subs( out, npatch )
    nblock = 1;
    for k = blocks
       nblock = max(nblock, sscanf(out.lines{k}, ' SUBSURFACE STRESSES BLOCK %d', 1));
+      if (nblock>1000)
+         error('line %d has no number of a block', k);
+      end
    end
    for n = 1 : numel(names)
       for part = {'val','x','y','z'}

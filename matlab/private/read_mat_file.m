@@ -12,6 +12,10 @@ function [ s ] = read_mat_file( fname, icase )
       error('loadcase: "%s" has format %d, older than 2320; run the case again.', fname, fmt);
    end
    elements = rows(7:end,:);
+   if (size(rows,2)<11 || any(~isfinite(rows(4,1:6))) || any(rows(4,1:2)<1) || any(rows(4,1:2)~=fix(rows(4,1:2))) ...
+         || prod(rows(4,1:2))>1e8 || any(rows(4,5:6)<=0))
+      error('loadcase: "%s" is damaged: line 8 has no sensible MX, MY, XL, YL, DX, DY.', fname);
+   end
 
    s = struct('config',rows(4,9), 'h_digit',rows(6,2));
    s.meta   = read_meta(rows, fmt);
@@ -124,6 +128,13 @@ function [ s ] = read_elements( s, table, fname )
    number = [];
    if (~isempty(table))
       number = table(:,1);
+   end
+   if (any(number~=fix(number)) || numel(unique(number))~=numel(number) || ~all(isfinite(table(:))))
+      error('loadcase: "%s" is damaged: numbers of elements that are no integers or come twice, or values that are not finite.', ...
+            fname);
+   end
+   if (~isempty(table) && any(table(:,2)~=fix(table(:,2)) | table(:,2)<0 | table(:,2)>3))
+      error('loadcase: "%s" is damaged: an element state is none of 0, 1, 2, 3.', fname);
    end
    if (any(number<1 | number>s.mx*s.my))
       error('loadcase: "%s" has an element that is not in the grid of %d x %d.', fname, s.mx, s.my);

@@ -2,6 +2,7 @@ function [ out ] = read_out( fname, caller )
 % READ_OUT  Lines of an .out file, with the case (and contact patch) that each of them belongs to.
 %
 %   out.lines    the lines, a cell array
+%   out.complete false when the file says that cases are missing; when it is of this program also when its end is missing
 %   out.ncase    number of cases
 %   out.icase    numbers of the cases as printed
 %   out.case_of  for each line: position in the list of cases, 0 ahead of the first
@@ -13,6 +14,16 @@ function [ out ] = read_out( fname, caller )
    end
 
    out.lines   = lines;
+   ours = ~isempty(find_text(lines(1:min(end,6)), 'open source'));
+   out.complete = isempty(find_text(lines, ' Not complete: ')) && (~ours || ~isempty(find_text(lines, ' CONTACT ended ')));
+   if (~out.complete)
+      told = find_text(lines, ' Not complete: ');
+      what = 'it ends in the midst of a run';
+      if (~isempty(told))
+         what = strtrim(lines{told(end)});
+      end
+      warning('%s: "%s" does not hold all cases: %s.', caller, fname, what);
+   end
    starts      = find(~cellfun('isempty', regexp(lines, '^ Case +\d+', 'once')));
    out.ncase   = numel(starts);
    out.icase   = zeros(1, out.ncase);
@@ -29,7 +40,11 @@ function [ out ] = read_out( fname, caller )
    for i = 1 : numel(patches)
       k = patches(i) : ends(i);
       k = k(out.case_of(k)==out.case_of(patches(i)));
-      out.patch_of(k) = sscanf(lines{patches(i)}, ' ----- DATA FOR CONTACT PATCH %d', 1);
+      number = sscanf(lines{patches(i)}, ' ----- DATA FOR CONTACT PATCH %d', 1);
+      if (isempty(number) || number<1 || number>1000)
+         error('%s: "%s" is damaged: line %d has no number of a contact patch.', caller, fname, patches(i));
+      end
+      out.patch_of(k) = number;
    end
 
 end % function read_out

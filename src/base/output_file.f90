@@ -19,6 +19,8 @@ module contact_base_output_file
       procedure :: is_open
       !> Open a file for writing; what it held is gone
       procedure :: open_file
+      !> Go on with a file: what it holds behind a place is cut off
+      procedure :: open_again
       !> Take the standard output; closing leaves it open for others
       procedure :: open_standard_output
       !> Write a text and the end of the line
@@ -99,6 +101,13 @@ module contact_base_output_file
          integer(c_int) :: status
       end function fseek
 
+      function c_truncate(name, length) result(status) bind(c, name="truncate")
+         import :: c_char, c_int, c_long
+         character(kind=c_char), intent(in) :: name(*)
+         integer(c_long), value :: length
+         integer(c_int) :: status
+      end function c_truncate
+
       function c_remove(name) result(status) bind(c, name="unlink")
          import :: c_char, c_int
          character(kind=c_char), intent(in) :: name(*)
@@ -133,6 +142,23 @@ contains
          reason = reason // message(i)
       end do
    end subroutine open_file
+
+   subroutine open_again(self, name, place, done)
+      class(output_file), intent(inout) :: self
+      character(len=*), intent(in) :: name
+      !> Bytes that are kept
+      integer(c_long), intent(in) :: place
+      !> Is the file open now?
+      logical, intent(out) :: done
+
+      character(kind=c_char, len=1) :: message(400)
+
+      done = c_truncate(name // c_null_char, place) == 0
+      if (.not. done) return
+      self%stream = open_stream(name // c_null_char, "r+be" // c_null_char, message, int(size(message), c_int))
+      done = self%is_open()
+      call self%go_to(place)
+   end subroutine open_again
 
    subroutine open_standard_output(self)
       class(output_file), intent(inout) :: self

@@ -18,7 +18,7 @@ module contact_cases_border_warning
    implicit none (type, external)
    private
 
-   public :: border_words, warn_of_border
+   public :: border_words, is_same, warn_of_border
 
    !> Elements along each side of the grid on which the extent of the contact is estimated
    integer, parameter :: coarse = 40

@@ -61,6 +61,8 @@ module contact_cli_arguments
       type(case_limits) :: limits
       !> Exit with a status of its own when a case does not converge?
       logical :: strict = .false.
+      !> Go on with a run that has ended too early?
+      logical :: resume = .false.
       logical :: quiet = .false., help = .false., version = .false.
    end type command
 
@@ -92,7 +94,11 @@ contains
             write(output_unit, '(A)') "CONTACT is open source: no licence is needed, and mode 1 has nothing to do."
             return
          end if
-         if (.not. allocated(asked%experiment)) call ask_experiment(asked, error)
+         if (asked%resume .and. asked%mode == mode%check) then
+            call fatal_error(error, "--resume goes on with a computation, mode 2; a check, mode 3, has nothing to go on with")
+         else if (.not. allocated(asked%experiment)) then
+            call ask_experiment(asked, error)
+         end if
       end if
       if (allocated(error)) then
          flush(output_unit)
@@ -117,6 +123,7 @@ contains
       settings%check_only = asked%mode == mode%check
       settings%threads = asked%threads
       settings%strict = asked%strict
+      settings%resume = asked%resume
       settings%limits = asked%limits
       settings%exports%hdf5 = asked%hdf5
       settings%exports%vtk = asked%vtk
@@ -221,6 +228,8 @@ contains
          return
       case ("--strict")
          asked%strict = .true.
+      case ("--resume")
+         asked%resume = .true.
       case ("--hdf5")
          asked%hdf5 = .true.
       case ("--vtk")
@@ -236,7 +245,7 @@ contains
       case default
          call fatal_error(error, "there is no option '" // name // &
             & "'; the options are --help, --version, --output-dir DIR, --threads N, --heat NAME, --hdf5, " // &
-            & "--json, --vtk, --limit-time S, --limit-memory MB, --limit-elements N, --strict and --quiet")
+            & "--json, --vtk, --limit-time S, --limit-memory MB, --limit-elements N, --resume, --strict and --quiet")
          return
       end select
       if (equals > 0) call fatal_error(error, "the option " // name // " takes no value")
@@ -386,6 +395,7 @@ contains
          & "  --vtk             write contact surfaces and subsurface blocks as VTK files, listed in EXPNAM.pvd", &
          & "  --limit-time S    give up a case after S seconds, and go on with the next", &
          & "  --limit-memory MB, --limit-elements N  refuse cases that need more memory or elements", &
+         & "  --resume          go on with a run that was interrupted, or ended at an error of the input that is mended now", &
          & "  --strict          exit with status 2 when a case did not converge", &
          & "  --quiet           write nothing but errors to the screen", &
          & "  --help            this text", &

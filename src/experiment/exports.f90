@@ -4,6 +4,7 @@ module contact_experiment_exports
    use contact_base_kinds, only : wp
    use contact_cases_pair_session, only : pair_session
    use contact_cases_spec, only : case_spec
+   use contact_experiment_journal, only : checkpoint
    use contact_hdf5_case_file, only : hdf5_case_file
    use contact_output_case_record, only : case_head, run_summary
    use contact_output_json_file, only : json_file
@@ -15,7 +16,10 @@ module contact_experiment_exports
    implicit none (type, external)
    private
 
-   public :: export_request, export_files
+   public :: export_request, export_files, number_of_exports
+
+   !> Kinds of files
+   integer, parameter :: number_of_exports = 3
 
    !> What is asked for
    type :: export_request
@@ -37,7 +41,8 @@ module contact_experiment_exports
       type(vtk_files), allocatable :: vtk
    contains
       procedure :: open_files
-      procedure :: close_files
+      procedure :: close_file
+      procedure :: take_ends
       !> Is anything asked for?
       procedure :: wanted
       procedure :: write_failure
@@ -58,7 +63,7 @@ contains
    end function wanted
 
    !> Open what is asked for
-   subroutine open_files(self, request, results, experiment, version, run, error)
+   subroutine open_files(self, request, results, experiment, version, run, error, from)
       class(export_files), intent(inout) :: self
       type(export_request), intent(in) :: request
       !> Folder and name of the results, to which a suffix is added
@@ -68,7 +73,13 @@ contains
       !> What is planned
       type(run_summary), intent(in) :: run
       type(error_type), allocatable, intent(out) :: error
+      !> Go on from there
+      type(checkpoint), intent(in), optional :: from
 
+      if (present(from)) then
+         call go_on(self, request, results, run, from, error)
+         return
+      end if
       if (allocated(request%json)) then
          allocate(self%json)
          if (request%json == "-") then
@@ -89,23 +100,57 @@ contains
       end if
    end subroutine open_files
 
-   !> Tell in all files how far the run has come, and close them
-   subroutine close_files(self, run, error)
+   !> Open the files that are there and go on with them; the HDF5 file is open already
+   subroutine go_on(self, request, results, run, from, error)
+      type(export_files), intent(inout) :: self
+      type(export_request), intent(in) :: request
+      character(len=*), intent(in) :: results
+      type(run_summary), intent(in) :: run
+      type(checkpoint), intent(in) :: from
+      type(error_type), allocatable, intent(out) :: error
+
+      if (allocated(request%json)) then
+         allocate(self%json)
+         call self%json%open_file(results // ".jsonl", run%planned, error, from%json)
+         if (allocated(error)) return
+      end if
+      if (allocated(self%hdf5)) then
+         call self%hdf5%go_on(from%rows(1), from%rows(2), run, error)
+         if (allocated(error)) return
+      end if
+      if (request%vtk) then
+         allocate(self%vtk)
+         call self%vtk%open_collection(results, run, error, from%vtk)
+      end if
+   end subroutine go_on
+
+   !> Where the files end now
+   subroutine take_ends(self, here)
+      class(export_files), intent(in) :: self
+      type(checkpoint), intent(inout) :: here
+
+      if (allocated(self%json)) here%json = self%json%place()
+      if (allocated(self%hdf5)) here%rows = [self%hdf5%rows(patch=.false.), self%hdf5%rows(patch=.true.)]
+      if (allocated(self%vtk)) here%vtk = self%vtk%place()
+   end subroutine take_ends
+
+   !> Tell in a file how far the run has come, and close it
+   subroutine close_file(self, which, run, error)
       class(export_files), intent(inout) :: self
+      !> 1...number_of_exports; nothing happens for one that was not asked for
+      integer, intent(in) :: which
       type(run_summary), intent(in) :: run
       type(error_type), allocatable, intent(out) :: error
 
-      type(error_type), allocatable :: second
-
-      if (allocated(self%json)) then
+      if (which == 1 .and. allocated(self%json)) then
          call self%json%write_end(run)
          call self%json%close_file(error)
+      else if (which == 2 .and. allocated(self%hdf5)) then
+         call self%hdf5%close_file(run, error)
+      else if (which == 3 .and. allocated(self%vtk)) then
+         call self%vtk%close_collection(run, error)
       end if
-      if (allocated(self%hdf5)) call self%hdf5%close_file(run, second)
-      if (.not. allocated(error)) call move_alloc(second, error)
-      if (allocated(self%vtk)) call self%vtk%close_collection(run, second)
-      if (.not. allocated(error)) call move_alloc(second, error)
-   end subroutine close_files
+   end subroutine close_file
 
    !> A case without result
    subroutine write_failure(self, head)

@@ -22,6 +22,11 @@ module contact_hdf5_case_file
       type(hdf5_file), private :: file
    contains
       procedure :: open_file
+      !> Open a file to go on with it; its rows of cases or patches; go on behind some of them, or give it up again
+      procedure :: open_again
+      procedure :: rows
+      procedure :: go_on
+      procedure :: abandon
       procedure :: close_file
       !> A case without result, of module 3, and of module 1
       procedure :: write_failure
@@ -40,14 +45,63 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       call self%file%open_file(name, experiment, "contact " // version, error)
-      if (allocated(error)) return
-      call self%file%open_group("")
-      call describe_run(self%file, run)
-      call self%file%text("reason", "", "the run goes on, or was ended from outside")
-      call self%file%close_attributes()
-      call self%file%renew()
-      if (self%file%failed) call self%file%close_file(error)
+      if (.not. allocated(error)) call tell_start(self%file, run, error)
    end subroutine open_file
+
+   !> The run begins
+   subroutine tell_start(file, run, error)
+      type(hdf5_file), intent(inout) :: file
+      type(run_summary), intent(in) :: run
+      type(error_type), allocatable, intent(out) :: error
+
+      call file%open_group("")
+      call describe_run(file, run)
+      call file%text("reason", "", "the run goes on, or was ended from outside")
+      call file%close_attributes()
+      call file%renew()
+      if (file%failed) call file%close_file(error)
+   end subroutine tell_start
+
+   subroutine open_again(self, name, error)
+      class(hdf5_case_file), intent(inout) :: self
+      character(len=*), intent(in) :: name
+      type(error_type), allocatable, intent(out) :: error
+
+      call self%file%open_again(name, error)
+   end subroutine open_again
+
+   subroutine abandon(self)
+      class(hdf5_case_file), intent(inout) :: self
+      type(error_type), allocatable :: ignored
+
+      self%file%failed = .true.
+      call self%file%close_file(ignored)
+   end subroutine abandon
+
+   subroutine go_on(self, cases, patches, run, error)
+      class(hdf5_case_file), intent(inout) :: self
+      !> Rows that stay
+      integer, intent(in) :: cases, patches
+      !> What is planned
+      type(run_summary), intent(in) :: run
+      type(error_type), allocatable, intent(out) :: error
+      character(len=*), parameter :: told_at_the_end(3) = [character(len=13) :: "solved", "not_converged", "refused"]
+      integer :: k
+
+      call self%file%cut(cases, patches, name_of)
+      do k = 1, size(told_at_the_end)
+         call self%file%drop_attribute(trim(told_at_the_end(k)))
+      end do
+      call tell_start(self%file, run, error)
+   end subroutine go_on
+
+   !> Number of rows so far
+   pure integer function rows(self, patch)
+      class(hdf5_case_file), intent(in) :: self
+      !> Of patches, or of cases?
+      logical, intent(in) :: patch
+      rows = self%file%rows(patch)
+   end function rows
 
    subroutine close_file(self, run, error)
       class(hdf5_case_file), intent(inout) :: self
@@ -124,7 +178,8 @@ contains
       type(hdf5_file), intent(inout) :: file
       type(case_head), intent(in) :: head
 
-      call file%begin_case(trim(case_name(head)), integer_text(head%result_element) // "." // integer_text(head%contact_problem))
+      call file%begin_case(trim(name_of(head%number, head%result_element, head%contact_problem)), &
+         & integer_text(head%result_element) // "." // integer_text(head%contact_problem))
       call file%begin_row(patch=.false.)
       call file%open_group("", columns=.true.)
       call describe_head(file, head)
@@ -142,14 +197,14 @@ contains
    end subroutine begin
 
    !> Name of the group of a case: case_0001, with result elements re001_case_0001
-   function case_name(head) result(name)
-      type(case_head), intent(in) :: head
+   function name_of(case_number, result_element, contact_problem) result(name)
+      integer, intent(in) :: case_number, result_element, contact_problem
       character(len=48) :: name
 
-      write(name, '(A, I0.4)') "case_", head%number
-      if (head%result_element > 0) write(name, '(A, I0.3, A, I0.4)') "re", head%result_element, "_case_", head%number
-      if (head%contact_problem > 1) name = trim(name) // "_cp" // integer_text(head%contact_problem)
-   end function case_name
+      write(name, '(A, I0.4)') "case_", case_number
+      if (result_element > 0) write(name, '(A, I0.3, A, I0.4)') "re", result_element, "_case_", case_number
+      if (contact_problem > 1) name = trim(name) // "_cp" // integer_text(contact_problem)
+   end function name_of
 
    !> One contact patch
    subroutine write_patch(file, head, number, spec, contact, place, mirror)

@@ -16,10 +16,13 @@ module contact_hdf5_file
    use, intrinsic :: ieee_arithmetic, only : ieee_quiet_nan, ieee_value
    use, intrinsic :: iso_c_binding, only : c_int, c_int64_t
    use hdf5, only : h5acreate_f, h5adelete_f, h5aexists_f, h5awrite_f, h5d_compact_f, h5d_fill_time_never_f, h5dcreate_f, &
-      & h5dget_space_f, h5dset_extent_f, h5dwrite_f, h5eset_auto_f, h5f_acc_trunc_f, h5f_close_strong_f, h5f_libver_earliest_f, &
+      & h5dget_space_f, h5dopen_f, h5dread_f, h5dset_extent_f, h5dwrite_f, h5eset_auto_f, h5f_acc_rdwr_f, &
+      & h5f_acc_trunc_f, h5f_close_strong_f, h5f_libver_earliest_f, h5fopen_f, h5gget_obj_info_idx_f, h5gn_members_f, &
+      & h5gopen_f, h5ldelete_f, h5lexists_f, h5sget_simple_extent_dims_f, &
       & h5f_libver_v18_f, h5f_scope_local_f, h5fclose_f, h5fcreate_f, h5fflush_f, h5gcreate_f, h5idec_ref_f, h5lcreate_hard_f, &
-      & h5olink_f, h5open_f, h5p_dataset_create_f, h5p_default_f, h5p_file_access_f, &
+      & h5olink_f, h5open_f, h5p_dataset_create_f, h5p_file_access_f, &
       & h5p_file_create_f, h5p_group_create_f, h5pcopy_f, h5pcreate_f, h5pset_chunk_f, h5pset_deflate_f, h5pset_fclose_degree_f, &
+      & h5pset_fletcher32_f, &
       & h5pset_fill_time_f, h5pset_fill_value_f, h5pset_istore_k_f, h5pset_layout_f, &
       & h5pset_libver_bounds_f, h5pset_link_phase_change_f, h5pset_obj_track_times_f, h5pset_shuffle_f, h5s_scalar_f, &
       & h5s_select_set_f, h5s_unlimited_f, h5screate_f, h5screate_simple_f, h5sselect_hyperslab_f, &
@@ -134,6 +137,10 @@ module contact_hdf5_file
       real(wp), private :: last_copy = 0.0_wp, wait = shortest_wait
    contains
       procedure :: open_file
+      !> Go on with a file, its rows of /cases and /patches
+      procedure :: open_again
+      procedure :: rows
+      procedure :: cut
       procedure :: close_file
       !> Begin and end a case
       procedure :: begin_case
@@ -177,6 +184,171 @@ contains
       !> Name of the experiment, and of the program that writes
       character(len=*), intent(in) :: experiment, version
       type(error_type), allocatable, intent(out) :: error
+
+      call open_under(self, name, .false., error)
+      if (allocated(error)) return
+      call start_table(self%cases, "cases")
+      call start_table(self%patches, "patches")
+      call self%describe(self%file, "title", "results of CONTACT")
+      call self%describe(self%file, "experiment", experiment)
+      call self%describe(self%file, "program", version)
+      call self%describe(self%file, "axes", "datasets of fields have the shape (my, mx) in C, h5py and NumPy")
+      call self%set_count("layout", layout)
+
+   contains
+
+      subroutine start_table(table, group)
+         type(column_table), intent(inout) :: table
+         character(len=*), intent(in) :: group
+         integer :: status
+
+         call h5gcreate_f(self%file, group, table%group, status)
+         call self%check(status)
+         allocate(table%columns(64), table%pending(most_rows, 64))
+      end subroutine start_table
+   end subroutine open_file
+
+   !> Go on with a file of results: a copy of it becomes the one that is written
+   subroutine open_again(self, name, error)
+      class(hdf5_file), intent(inout) :: self
+      character(len=*), intent(in) :: name
+      type(error_type), allocatable, intent(out) :: error
+      integer :: status
+
+      call copy_bytes(name, name // unfinished, status)
+      if (status == 0) call open_under(self, name, .true., error)
+      if (allocated(error)) return
+      if (status == 0) then
+         call open_table(self, "cases", self%cases)
+         call open_table(self, "patches", self%patches)
+         if (.not. self%failed) return
+         call h5fclose_f(self%file, status)
+         self%is_open = .false.
+      end if
+      call remove_file(name // unfinished)
+      call fatal_error(error, "the file cannot be read to go on with it", error_kind%file, name)
+   end subroutine open_again
+
+   !> The columns of a table that is there
+   subroutine open_table(self, group, table)
+      class(hdf5_file), intent(inout) :: self
+      character(len=*), intent(in) :: group
+      type(column_table), intent(inout) :: table
+      character(len=name_length) :: name
+      integer(hsize_t) :: most(1), rows(1)
+      integer(hid_t) :: space
+      integer :: k, kind, n, status
+
+      call h5gopen_f(self%file, group, table%group, status)
+      call self%check(status)
+      call h5gn_members_f(self%file, group, n, status)
+      call self%check(status)
+      if (self%failed) return
+      allocate(table%columns(max(64, n)), table%pending(most_rows, max(64, n)))
+      do k = 1, n
+         call h5gget_obj_info_idx_f(self%file, group, k - 1, name, kind, status)
+         call self%check(status)
+         if (self%failed) return
+         table%columns(k)%name = name
+         call h5dopen_f(table%group, trim(name), table%columns(k)%id, status)
+         call self%check(status)
+         if (self%failed) return
+         table%used = k
+         call h5dget_space_f(table%columns(k)%id, space, status)
+         call h5sget_simple_extent_dims_f(space, rows, most, status)
+         call self%check(status)
+         call self%release(space)
+         if (k > 1 .and. table%written /= rows(1)) self%failed = .true.
+         table%written = int(rows(1))
+      end do
+   end subroutine open_table
+
+   !> Number of rows of a table
+   pure integer function rows(self, patch)
+      class(hdf5_file), intent(in) :: self
+      !> Of that of patches, or of cases?
+      logical, intent(in) :: patch
+
+      rows = self%cases%written + self%cases%waiting
+      if (patch) rows = self%patches%written + self%patches%waiting
+   end function rows
+
+   !> Leave out what was written behind some rows
+   subroutine cut(self, cases, patches, name_of)
+      class(hdf5_file), intent(inout) :: self
+      !> Rows that stay
+      integer, intent(in) :: cases, patches
+      interface
+         !> Name of the group of a case
+         function name_of(case_number, result_element, contact_problem) result(name)
+            integer, intent(in) :: case_number, result_element, contact_problem
+            character(len=48) :: name
+         end function name_of
+      end interface
+      character(len=48) :: name
+      real(wp), allocatable :: columns(:, :)
+      integer :: k, status
+      logical :: is_there
+
+      if (self%cases%written > cases) then
+         allocate(columns(self%cases%written, 3))
+         call read_column(self, self%cases, "case", columns(:, 1))
+         call read_column(self, self%cases, "result_element", columns(:, 2))
+         call read_column(self, self%cases, "contact_problem", columns(:, 3))
+         do k = cases + 1, self%cases%written
+            if (self%failed) return
+            name = name_of(nint(columns(k, 1)), nint(columns(k, 2)), nint(columns(k, 3)))
+            call h5lexists_f(self%file, trim(name), is_there, status)
+            if (status >= 0 .and. is_there) call h5ldelete_f(self%file, trim(name), status)
+            call self%check(status)
+         end do
+      end if
+      call cut_table(self%cases, cases)
+      call cut_table(self%patches, patches)
+
+   contains
+
+      subroutine cut_table(table, rows)
+         type(column_table), intent(inout) :: table
+         integer, intent(in) :: rows
+         integer(hsize_t) :: total(1)
+
+         total = rows
+         do k = 1, table%used
+            if (table%written == rows) exit
+            call h5dset_extent_f(table%columns(k)%id, total, status)
+            call self%check(status)
+         end do
+         table%written = rows
+      end subroutine cut_table
+   end subroutine cut
+
+   !> A column of a table
+   subroutine read_column(self, table, name, values)
+      class(hdf5_file), intent(inout) :: self
+      type(column_table), intent(in) :: table
+      character(len=*), intent(in) :: name
+      !> As many as there are rows on disk
+      real(wp), intent(out), contiguous :: values(:)
+      integer(hsize_t) :: total(1)
+      integer :: k, status
+
+      values = 0.0_wp
+      total = size(values)
+      status = -1
+      do k = 1, table%used
+         if (table%columns(k)%name == name) call h5dread_f(table%columns(k)%id, h5t_native_double, values, total, status)
+      end do
+      call self%check(status)
+   end subroutine read_column
+
+   !> Make a file under its name in the making, or open the one that is there
+   subroutine open_under(self, name, again, error)
+      class(hdf5_file), intent(inout) :: self
+      !> Name in the end
+      character(len=*), intent(in) :: name
+      logical, intent(in) :: again
+      type(error_type), allocatable, intent(out) :: error
       integer(hid_t) :: access, creation
       integer :: status
 
@@ -192,7 +364,11 @@ contains
       call h5pset_libver_bounds_f(access, h5f_libver_earliest_f, h5f_libver_v18_f, status)
       call h5pcreate_f(h5p_file_create_f, creation, status)
       call h5pset_istore_k_f(creation, 8, status)
-      call h5fcreate_f(name // unfinished, h5f_acc_trunc_f, self%file, status, creation, access)
+      if (again) then
+         call h5fopen_f(name // unfinished, h5f_acc_rdwr_f, self%file, status, access)
+      else
+         call h5fcreate_f(name // unfinished, h5f_acc_trunc_f, self%file, status, creation, access)
+      end if
       call self%check(status)
       call self%release(creation)
       call self%release(access)
@@ -215,30 +391,13 @@ contains
       call h5pcopy_f(self%small, self%bare, status)
       call set_no_attributes(self%bare)
       allocate(self%items(100), self%kept(50))
-      call start_table(self%cases, "cases")
-      call start_table(self%patches, "patches")
-      call self%describe(self%file, "title", "results of CONTACT")
-      call self%describe(self%file, "experiment", experiment)
-      call self%describe(self%file, "program", version)
-      call self%describe(self%file, "axes", "datasets of fields have the shape (my, mx) in C, h5py and NumPy")
-      call self%set_count("layout", layout)
+      self%last_copy = clock()
       if (.not. self%failed) return
       call h5fclose_f(self%file, status)
       self%is_open = .false.
       call remove_file(name // unfinished)
       call fatal_error(error, "the file cannot be written", error_kind%file, name)
-
-   contains
-
-      subroutine start_table(table, group)
-         type(column_table), intent(inout) :: table
-         character(len=*), intent(in) :: group
-
-         call h5gcreate_f(self%file, group, table%group, status)
-         call self%check(status)
-         allocate(table%columns(64), table%pending(most_rows, 64))
-      end subroutine start_table
-   end subroutine open_file
+   end subroutine open_under
 
    !> Keep the library from ending itself when the process exits: after a write that failed it would write again, and crash the host
    subroutine leave_exit_alone()
@@ -444,36 +603,45 @@ contains
    !> Bring the file up to date and copy it; the copy takes the name of the results when it is complete
    subroutine renew_copy(self)
       class(hdf5_file), intent(inout) :: self
-      integer, parameter :: piece = 2**20
-      character(len=:), allocatable :: buffer, reason
-      type(output_file) :: copy
-      integer :: source, status
-      integer(long) :: left
-      logical :: complete
+      integer :: status
 
       if (self%failed) return
       call h5fflush_f(self%file, h5f_scope_local_f, status)
       call self%check(status)
       if (self%failed) return
-      inquire(file=self%name // unfinished, size=left)
-      open(newunit=source, file=self%name // unfinished, access="stream", action="read", status="old", iostat=status)
-      if (status == 0) then
-         call copy%open_file(self%name // incomplete, reason)
-         do while (status == 0 .and. left > 0)
-            allocate(character(len=int(min(left, int(piece, long)))) :: buffer)
-            read(source, iostat=status) buffer
-            call copy%bytes(buffer)
-            left = left - len(buffer)
-            deallocate(buffer)
-         end do
-         close(source)
-         call copy%close_file(complete)
-         if (allocated(reason) .or. .not. complete) status = 1
-      end if
+      call copy_bytes(self%name // unfinished, self%name // incomplete, status)
       if (status == 0) status = move_file(self%name // incomplete, self%name)
       if (status /= 0) call remove_file(self%name // incomplete)
       call self%check(-abs(status))
    end subroutine renew_copy
+
+   !> Copy a file
+   subroutine copy_bytes(from, to, status)
+      character(len=*), intent(in) :: from, to
+      !> 0 when all of it has arrived
+      integer, intent(out) :: status
+      integer, parameter :: piece = 2**20
+      character(len=:), allocatable :: buffer, reason
+      type(output_file) :: copy
+      integer :: source
+      integer(long) :: left
+      logical :: complete
+
+      inquire(file=from, size=left)
+      open(newunit=source, file=from, access="stream", action="read", status="old", iostat=status)
+      if (status /= 0) return
+      call copy%open_file(to, reason)
+      do while (status == 0 .and. left > 0)
+         allocate(character(len=int(min(left, int(piece, long)))) :: buffer)
+         read(source, iostat=status) buffer
+         call copy%bytes(buffer)
+         left = left - len(buffer)
+         deallocate(buffer)
+      end do
+      close(source)
+      call copy%close_file(complete)
+      if (allocated(reason) .or. .not. complete) status = 1
+   end subroutine copy_bytes
 
    !> Go into a new group of the case
    subroutine enter(self, name)
@@ -684,7 +852,14 @@ contains
          kind = h5t_ieee_f64le
          dims = size(this%values, kind=hsize_t)
          call h5screate_simple_f(1, dims, space, status)
-         if (size(this%values)*8 >= large) properties = h5p_default_f
+         if (size(this%values)*8 >= large) then
+            ! too large for a head, whose checksum would cover them
+            call h5pcreate_f(h5p_dataset_create_f, properties, status)
+            call h5pset_obj_track_times_f(properties, .false., status)
+            call h5pset_chunk_f(properties, 1, min(dims, int(most_of_a_chunk, hsize_t)), status)
+            call h5pset_fletcher32_f(properties, status)
+            call self%check(status)
+         end if
       case (item_kind%whole)
          kind = h5t_std_i32le
       case (item_kind%flag)
@@ -694,6 +869,7 @@ contains
       end select
       call h5dcreate_f(group, trim(this%name), kind, space, data, status, dcpl_id=properties)
       call self%check(status)
+      if (all(properties /= [self%bare, self%small])) call self%release(properties)
       select case (this%kind)
       case (item_kind%real_number)
          call h5dwrite_f(data, h5t_native_double, this%value, dims, status)
@@ -856,6 +1032,7 @@ contains
          call h5pcreate_f(h5p_dataset_create_f, properties, status)
          call h5pset_obj_track_times_f(properties, .false., status)
          call h5pset_chunk_f(properties, 1, chunk, status)
+         call h5pset_fletcher32_f(properties, status)
          call h5pset_fill_value_f(properties, h5t_native_double, ieee_value(0.0_wp, ieee_quiet_nan), status)
          call h5screate_simple_f(1, dims, space, status, most)
          call h5dcreate_f(table%group, trim(this%name), h5t_ieee_f64le, space, new%id, status, dcpl_id=properties)

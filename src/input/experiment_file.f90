@@ -58,6 +58,8 @@ module contact_input_experiment_file
       procedure :: open_file => open_experiment
       !> Take a text that is in memory already
       procedure :: open_text => open_experiment_text
+      !> Back to the beginning of the text
+      procedure :: rewind => rewind_experiment
       !> The next case
       procedure :: next_case
       !> Replace the stored input of the case that was read last
@@ -89,6 +91,18 @@ contains
       call self%lexer%open_text(text, name)
       allocate(self%stores(4))
    end subroutine open_experiment_text
+
+   !> Back to the beginning of the text, with an empty memory
+   subroutine rewind_experiment(self)
+      class(experiment_reader), intent(inout) :: self
+
+      self%lexer%line = 0
+      self%module_number = 0
+      self%current = 0
+      self%count = 0
+      deallocate(self%stores)
+      allocate(self%stores(4))
+   end subroutine rewind_experiment
 
    !> The next case, with its module number 0 at the end
    !>

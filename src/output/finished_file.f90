@@ -1,12 +1,12 @@
 !> Files that exist only when complete: written under a temporary name, renamed at the end
 module contact_output_finished_file
-   use, intrinsic :: iso_c_binding, only : c_char, c_int, c_null_char
+   use, intrinsic :: iso_c_binding, only : c_char, c_int, c_long, c_null_char
    use contact_base_error, only : error_kind, error_type, fatal_error
    use contact_base_output_file, only : output_file, remove_file
    implicit none (type, external)
    private
 
-   public :: case_file_name, close_result, finished_file, move_file, open_result
+   public :: case_file_name, close_result, finished_file, move_file, open_result, open_result_again
 
    !> A file in the making
    type, extends(output_file) :: finished_file
@@ -97,6 +97,19 @@ contains
       call file%open_file(path, reason)
       if (allocated(reason)) call fatal_error(error, "the file cannot be written: " // reason, error_kind%file, name)
    end subroutine open_result
+
+   !> Go on with a file of results behind a place, or say why not
+   subroutine open_result_again(file, name, place, error)
+      class(output_file), intent(inout) :: file
+      character(len=*), intent(in) :: name
+      !> Bytes that are kept
+      integer(c_long), intent(in) :: place
+      type(error_type), allocatable, intent(out) :: error
+      logical :: done
+
+      call file%open_again(name, place, done)
+      if (.not. done) call fatal_error(error, "the file cannot be written to go on with it", error_kind%file, name)
+   end subroutine open_result_again
 
    !> Close a file of results and say whether all of it arrived
    subroutine close_result(file, name, error)

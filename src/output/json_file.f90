@@ -6,12 +6,12 @@
 module contact_output_json_file
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
    use contact_base_error, only : error_kind, error_type, fatal_error
-   use contact_base_kinds, only : wp
+   use contact_base_kinds, only : long, wp
    use contact_base_output_file, only : output_file
    use contact_cases_spec, only : case_spec
    use contact_output_case_record, only : case_head, describe_border, describe_head, describe_pair, describe_patch, &
       & describe_place, describe_run, describe_solution, run_summary
-   use contact_output_finished_file, only : close_result, open_result
+   use contact_output_finished_file, only : close_result, open_result, open_result_again
    use contact_output_record, only : record_writer
    use contact_patch_result, only : patch_result
    use contact_wheelrail_result, only : pair_result
@@ -38,6 +38,7 @@ module contact_output_json_file
    contains
       procedure :: open_file => open_json_file
       procedure :: close_file => close_json_file
+      procedure :: place
       !> The last line: how far the run has come
       procedure :: write_end
       !> One line for a case without result, of module 3, and of module 1
@@ -61,12 +62,14 @@ module contact_output_json_file
 contains
 
    !> Open a file, or take the standard output when the name is "-"
-   subroutine open_json_file(self, name, planned, error)
+   subroutine open_json_file(self, name, planned, error, place)
       class(json_file), intent(inout) :: self
       character(len=*), intent(in) :: name
       !> Number of cases of the input
       integer, intent(in) :: planned
       type(error_type), allocatable, intent(out) :: error
+      !> Go on behind so many bytes
+      integer(long), intent(in), optional :: place
 
       self%name = name
       self%planned = planned
@@ -75,10 +78,18 @@ contains
       if (name == "-") then
          call self%file%open_standard_output()
          if (.not. self%file%is_open()) call fatal_error(error, "it cannot be written", error_kind%file, "standard output")
+      else if (present(place)) then
+         call open_result_again(self%file, name, place, error)
       else
          call open_result(self%file, name, name, error)
       end if
    end subroutine open_json_file
+
+   !> Bytes of the lines so far
+   integer(long) function place(self)
+      class(json_file), intent(in) :: self
+      place = self%file%place()
+   end function place
 
    subroutine close_json_file(self, error)
       class(json_file), intent(inout) :: self

@@ -11,7 +11,7 @@ module contact_output_vtk_files
    use contact_base_output_file, only : output_file
    use contact_cases_spec, only : case_spec
    use contact_output_case_record, only : case_head, is_rolling, planned_text, run_summary, side_sign
-   use contact_output_finished_file, only : case_file_name, close_result, finished_file, open_result
+   use contact_output_finished_file, only : case_file_name, close_result, finished_file, open_result, open_result_again
    use contact_patch_result, only : patch_result, subsurface_result
    use contact_text_words, only : integer_text, replaced
    use contact_wheelrail_result, only : pair_patch, pair_result
@@ -32,6 +32,7 @@ module contact_output_vtk_files
    contains
       procedure :: open_collection
       procedure :: close_collection
+      procedure :: place
       !> The files of a solved case of module 3, and of module 1
       procedure :: write_contact
       procedure :: write_pair
@@ -60,16 +61,25 @@ module contact_output_vtk_files
 contains
 
    !> Begin the collection
-   subroutine open_collection(self, base, run, error)
+   subroutine open_collection(self, base, run, error, place)
       class(vtk_files), intent(inout) :: self
       !> Folder and name of the results
       character(len=*), intent(in) :: base
       !> What is planned
       type(run_summary), intent(in) :: run
       type(error_type), allocatable, intent(out) :: error
+      !> Go on behind so many bytes
+      integer(long), intent(in), optional :: place
 
       self%base = base
       self%planned = run%planned
+      if (present(place)) then
+         call open_result_again(self%file, base // ".pvd", place, error)
+         if (allocated(error)) return
+         self%last = place
+         call tell_unfinished(self)
+         return
+      end if
       call open_result(self%file, base // ".pvd", base // ".pvd", error)
       if (allocated(error)) return
       call self%file%line('<?xml version="1.0"?>')
@@ -78,6 +88,12 @@ contains
       self%last = self%file%place()
       call tell_unfinished(self)
    end subroutine open_collection
+
+   !> Bytes of the list so far, without its end
+   integer(long) function place(self)
+      class(vtk_files), intent(in) :: self
+      place = self%last
+   end function place
 
    !> Tell how far the run has come, and close
    subroutine close_collection(self, run, error)

@@ -42,6 +42,8 @@ module contact_profile_store
       logical :: watches_files = .true.
       !> Files that were read, for tests and timing
       integer :: loads = 0
+      !> Hash of all files that were read, in their order
+      integer(long) :: history = 0
       type(store_entry), allocatable, private :: entries(:)
       integer(long), private :: clock = 0
    contains
@@ -94,6 +96,7 @@ contains
       allocate(profile)
       call load_profile(request, profile, log, error)
       self%loads = self%loads + 1
+      self%history = modulo(31_long*self%history + fingerprint, 2147483647_long)
       if (allocated(error)) then
          deallocate(profile)
          return

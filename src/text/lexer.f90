@@ -11,7 +11,7 @@ module contact_text_lexer
    implicit none (type, external)
    private
 
-   public :: input_lexer, input_value, printable
+   public :: add_to_hash, empty_hash, input_lexer, input_value, printable
 
    !> One value of a group
    type :: input_value
@@ -47,6 +47,7 @@ module contact_text_lexer
       procedure :: count_lines
       procedure :: line_text
       procedure :: fingerprint
+      procedure :: hash_lines
       procedure, private :: next_line
       procedure, private :: parse
       procedure, private :: refuse_word
@@ -67,6 +68,8 @@ module contact_text_lexer
    !> What separates words: blank, tab, comma, equals sign, and control characters
    character(len=*), parameter :: separators = " ,=" // achar(9) // carriage_return // achar(11) // achar(12) // achar(0)
    character(len=*), parameter :: quote = "'", comment = "%"
+   !> Hash of no text
+   integer(long), parameter :: empty_hash = 2166136261_long
    !> Longest part of a line that messages repeat
    integer, parameter :: longest_echo = 80
 
@@ -183,15 +186,37 @@ contains
    !> A number that differs, almost certainly, when the text does (FNV-1a with 32 bits, and the length)
    pure integer(long) function fingerprint(self) result(hash)
       class(input_lexer), intent(in) :: self
-      integer(long), parameter :: offset = 2166136261_long, prime = 16777619_long, mask = 4294967295_long
-      integer :: i
 
-      hash = offset
-      do i = 1, len(self%text)
-         hash = iand(ieor(hash, int(iachar(self%text(i:i)), long))*prime, mask)
-      end do
+      hash = empty_hash
+      call add_to_hash(self%text, hash)
       hash = ieor(hash, int(len(self%text), long))
    end function fingerprint
+
+   !> Go on with the hash of a text: FNV-1a with 32 bits
+   pure subroutine add_to_hash(text, hash)
+      character(len=*), intent(in) :: text
+      !> Begins with empty_hash
+      integer(long), intent(inout) :: hash
+      integer(long), parameter :: prime = 16777619_long, mask = 4294967295_long
+      integer :: i
+
+      do i = 1, len(text)
+         hash = iand(ieor(hash, int(iachar(text(i:i)), long))*prime, mask)
+      end do
+   end subroutine add_to_hash
+
+   !> Go on with the hash of the text over some lines, without the ends of lines
+   pure subroutine hash_lines(self, first, last, hash)
+      class(input_lexer), intent(in) :: self
+      integer, intent(in) :: first, last
+      !> As for add_to_hash
+      integer(long), intent(inout) :: hash
+      integer :: k
+
+      do k = first, min(last, size(self%first))
+         call add_to_hash(self%text(self%first(k):self%last(k)), hash)
+      end do
+   end subroutine hash_lines
 
    !> Are there no more words?
    logical function at_end(self)

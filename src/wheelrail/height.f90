@@ -60,7 +60,8 @@ contains
       z = problem%spec%wheelset%z
       if (height_is_unknown) then
          z = 0.0_wp
-         if (memory%started) z = memory%z_ws
+         ! a case that starts anew does not depend on those before it
+         if (memory%started .and. problem%use_previous) z = memory%z_ws
       end if
       call measure(problem, memory%here, z)
       memory%here%lowest_for_regions = -huge(z)

@@ -97,7 +97,7 @@ contains
       real(wp) :: on_wheel(3), z, radius, on_roller
       integer :: i
 
-      z = merge(memory%z_ws, 0.0_wp, memory%started)
+      z = merge(memory%z_ws, 0.0_wp, memory%started .and. problem%use_previous)
       call measure(problem, memory%here, z)
       if (memory%here%touch - z > out_of_sight) return
       associate (gap => memory%here%gap, placement => memory%here%placement)

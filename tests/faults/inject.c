@@ -1,10 +1,11 @@
 /* A library to preload: the n-th call of one kind fails. Calls that touch a file below a folder fail as on a bad or full
- * disk, requests for memory as when there is none.
+ * disk, requests for memory as when there is none; or the process ends there, as by kill -9.
  *
- * INJECT_CALL     write | close | rename | memory: which calls are counted; pwrite and writev count as write, and malloc,
- *                 calloc, realloc and their relatives that align as memory
+ * INJECT_CALL     write | close | rename | open | fsync | any | memory: which calls are counted; pwrite and writev count as write,
+ *                 fopen as open, and malloc, calloc, realloc and their relatives that align as memory; any: all that touch files
  * INJECT_AT       number of the call that fails; 0 for none
- * INJECT_ERROR    number of the error (errno)
+ * INJECT_ERROR    number of the error (errno); -1: the process ends instead, a write after half of its bytes; -2: a write takes half
+ *                 of its bytes and tells so, which is no error
  * INJECT_FOLDER   files below this folder are meant
  * INJECT_FOR_EVER if set, all later calls fail too
  * INJECT_COUNT    name of a file that receives the number of calls at the end
@@ -12,17 +13,23 @@
  *
  * A program that is linked with it, or finds inject_memory by dlsym, sets the counting of memory itself:
  * inject_memory(n, for_ever, size) begins to count, inject_counted() tells how many were counted.
+ *
+ * The streams of the C library call write and close of their own: fopen for writing makes streams that call those here.
  */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <errno.h>
 #include <fcntl.h>
+#include <stdarg.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/types.h>
 #include <sys/uio.h>
 #include <unistd.h>
+
+enum { end_of_process = -1, half_a_write = -2 };
 
 static long calls, failing;
 static int error, for_ever;
@@ -45,20 +52,33 @@ __attribute__((constructor)) static void begin(void) {
   }
 }
 
-/* Is this the call that fails? */
-static int fails(const char *what, int file, const char *path) {
+/* Is this file or path meant? */
+static int is_meant(int file, const char *path) {
   char name[4096], link[64];
-  if (kind == NULL || folder == NULL || strcmp(kind, what) != 0) return 0;
+  if (kind == NULL || folder == NULL) return 0;
   if (path == NULL) {
     snprintf(link, sizeof link, "/proc/self/fd/%d", file);
     const ssize_t length = readlink(link, name, sizeof name - 1);
     if (length < 0) return 0;
     name[length] = 0;
-    path = name;
+    return strncmp(name, folder, strlen(folder)) == 0;
   }
-  if (strncmp(path, folder, strlen(folder)) != 0) return 0;
+  if (path[0] != '/') {
+    char here[2048];
+    if (getcwd(here, sizeof here) == NULL) return 0;
+    char whole[sizeof here + 2050];
+    snprintf(whole, sizeof whole, "%s/%.2047s", here, path);
+    return strncmp(whole, folder, strlen(folder)) == 0;
+  }
+  return strncmp(path, folder, strlen(folder)) == 0;
+}
+
+/* Is this the call that fails? The process may end here */
+static int fails(const char *what, int file, const char *path) {
+  if (kind == NULL || (strcmp(kind, what) != 0 && strcmp(kind, "any") != 0) || !is_meant(file, path)) return 0;
   const long number = __atomic_add_fetch(&calls, 1, __ATOMIC_RELAXED);
   if (failing == 0 || number < failing || (number > failing && !for_ever)) return 0;
+  if (error == end_of_process && strcmp(what, "write") != 0) _exit(137);
   errno = error;
   return 1;
 }
@@ -107,20 +127,34 @@ int posix_memalign(void **block, size_t align, size_t size) {
 
 #define REAL(name) ((__typeof__(&name))dlsym(RTLD_NEXT, #name))
 
+/* Of how many bytes is the failing write made? -1: it fails */
+static ssize_t part(size_t size) { return error == end_of_process || error == half_a_write ? (ssize_t)((size + 1) / 2) : -1; }
+
+static ssize_t after_part(ssize_t done) {
+  if (error == end_of_process) _exit(137);
+  return done;
+}
+
 ssize_t write(int file, const void *data, size_t size) {
-  return fails("write", file, NULL) ? -1 : REAL(write)(file, data, size);
+  if (!fails("write", file, NULL)) return REAL(write)(file, data, size);
+  return part(size) < 0 ? -1 : after_part(REAL(write)(file, data, part(size)));
 }
 
 ssize_t pwrite(int file, const void *data, size_t size, off_t place) {
-  return fails("write", file, NULL) ? -1 : REAL(pwrite)(file, data, size, place);
+  if (!fails("write", file, NULL)) return REAL(pwrite)(file, data, size, place);
+  return part(size) < 0 ? -1 : after_part(REAL(pwrite)(file, data, part(size), place));
 }
 
 ssize_t pwrite64(int file, const void *data, size_t size, off64_t place) {
-  return fails("write", file, NULL) ? -1 : REAL(pwrite64)(file, data, size, place);
+  if (!fails("write", file, NULL)) return REAL(pwrite64)(file, data, size, place);
+  return part(size) < 0 ? -1 : after_part(REAL(pwrite64)(file, data, part(size), place));
 }
 
 ssize_t writev(int file, const struct iovec *parts, int count) {
-  return fails("write", file, NULL) ? -1 : REAL(writev)(file, parts, count);
+  if (!fails("write", file, NULL)) return REAL(writev)(file, parts, count);
+  if (part(1) < 0) return -1;
+  struct iovec first = {parts[0].iov_base, part(parts[0].iov_len)};
+  return after_part(REAL(writev)(file, &first, 1));
 }
 
 int close(int file) {
@@ -130,11 +164,68 @@ int close(int file) {
   return fail ? -1 : status;
 }
 
+int fsync(int file) { return fails("fsync", file, NULL) ? -1 : REAL(fsync)(file); }
+
 int rename(const char *old, const char *new) { return fails("rename", -1, new) ? -1 : REAL(rename)(old, new); }
+
+#define MODE_OF(flags) va_list list; va_start(list, flags); \
+  const mode_t mode = (flags & O_CREAT) ? (mode_t)va_arg(list, int) : 0; va_end(list)
+
+int open(const char *path, int flags, ...) {
+  MODE_OF(flags);
+  return fails("open", -1, path) ? -1 : REAL(open)(path, flags, mode);
+}
+
+int open64(const char *path, int flags, ...) {
+  MODE_OF(flags);
+  return fails("open", -1, path) ? -1 : REAL(open64)(path, flags, mode);
+}
+
+/* Streams that write by the calls above */
+static int number_of(void *cookie) { return (int)(intptr_t)cookie - 1; }
+
+static ssize_t stream_read(void *cookie, char *data, size_t size) { return read(number_of(cookie), data, size); }
+
+static ssize_t stream_write(void *cookie, const char *data, size_t size) {
+  size_t done = 0;
+  while (done < size) {
+    const ssize_t now = write(number_of(cookie), data + done, size - done);
+    if (now < 0) return (ssize_t)done;
+    done += (size_t)now;
+  }
+  return (ssize_t)done;
+}
+
+static int stream_seek(void *cookie, off64_t *place, int from) {
+  const off64_t now = lseek64(number_of(cookie), *place, from);
+  if (now < 0) return -1;
+  *place = now;
+  return 0;
+}
+
+static int stream_close(void *cookie) { return close(number_of(cookie)); }
+
+static FILE *open_stream(const char *path, const char *mode, FILE *(*real)(const char *, const char *)) {
+  if (strpbrk(mode, "wa+") == NULL || !is_meant(-1, path)) return real(path, mode);
+  int flags = strchr(mode, '+') ? O_RDWR : O_WRONLY;
+  if (mode[0] == 'w') flags |= O_CREAT | O_TRUNC;
+  if (mode[0] == 'a') flags |= O_CREAT | O_APPEND;
+  if (strchr(mode, 'e')) flags |= O_CLOEXEC;
+  if (strchr(mode, 'x')) flags |= O_EXCL;
+  const int file = open(path, flags, 0666);
+  if (file < 0) return NULL;
+  const cookie_io_functions_t functions = {stream_read, stream_write, stream_seek, stream_close};
+  return fopencookie((void *)(intptr_t)(file + 1), mode, functions);
+}
+
+FILE *fopen(const char *path, const char *mode) { return open_stream(path, mode, REAL(fopen)); }
+
+FILE *fopen64(const char *path, const char *mode) { return open_stream(path, mode, REAL(fopen64)); }
 
 __attribute__((destructor)) static void end(void) {
   const char *name = count_file;
   if (name == NULL) return;
+  kind = NULL;
   count_file = NULL;
   if (counting) calls = memory_calls;
   counting = 0;

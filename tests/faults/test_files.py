@@ -1,102 +1,103 @@
 #!/usr/bin/env python3
-"""One write, close or rename fails, at every place of a small run: success with right files, or an error and nothing half-written.
+"""A call that touches a file fails, or the process is killed there, at every place of a small run.
 
-usage: test_files.py LIBRARY_TO_PRELOAD
+usage: test_files.py LIBRARY_TO_PRELOAD [STEP]
+
+After a failure: success with right files, or an error, and nothing half-written that could be taken for whole. After a kill: every file can be
+read, and holds all cases up to the last but one or two. Every STEP-th place is tried, 37 if not told otherwise.
 """
 import errno
-import json
-import os
 import pathlib
 import re
 import shutil
-import subprocess
 import sys
+import time
 import xml.etree.ElementTree
 
 try:
-    import h5py
-    import numpy as np
+    import runs
 except ImportError as reason:
     print(f"SKIPPED: {reason}")
     sys.exit(77)
 
-PROGRAM = os.environ["CONTACT_PROGRAM"]
+ROOM = pathlib.Path.cwd()
+#: Kinds of runs: example, cases of it that are kept, options
+KINDS = {
+    "all files": ("cattaneo", 2, runs.ALL_FILES),
+    "report only": ("cattaneo", 2, ()),
+    "stresses": ("subsurface", 1, ("--vtk",)),
+    "sequence": ("catt_to_cart", 4, ("--json",)),
+    "wheel on rail": ("single_wheel", 2, ("--json", "--vtk")),
+    "wheel on rail, HDF5": ("single_wheel", 2, ("--hdf5",)),
+}
+#: What fails: call, errno, all later ones too; -1 ends the process, -2 is a write of half of its bytes, which is no failure
+FAULTS = [(call, error, for_ever)
+          for call, errors in (("write", (errno.EIO, errno.ENOSPC)), ("close", (errno.EIO,)), ("rename", (errno.EACCES,)),
+                               ("open", (errno.EMFILE,)), ("fsync", (errno.EIO,)))
+          for error in errors for for_ever in ((False, True) if error in (errno.ENOSPC, errno.EMFILE) else (False,))]
+FAULTS += [("write", errno.EINTR, False), ("write", -2, False), ("any", -1, False)]
 
-def experiment(folder):
-    """Two cases with a .mat file and stresses"""
-    text = pathlib.Path(os.environ["CONTACT_SOURCE"], "examples", "cattaneo.inp").read_text(encoding="utf-8")
-    pathlib.Path(folder, "small.inp").write_text(text, encoding="utf-8")
+
+def shortened(text, cases):
+    """The first cases of an input"""
+    lines, found = text.split("\n"), 0
+    for k, line in enumerate(lines):
+        if re.match(r"\s*[13](\s+\d+)*\s+(MODULE|%)", line) or re.match(r"[13]\s*$", line):
+            found += 1
+            if found > cases:
+                return "\n".join(lines[:k] + ["0 MODULE", ""])
+    return text
 
 
-def run(folder, preload, **inject):
-    """Exit status and messages of a run into an empty folder"""
+def prepare(folder, kind):
+    """The input of a kind of run in an empty folder; its name and options"""
+    name, cases, options = KINDS[kind]
     shutil.rmtree(folder, ignore_errors=True)
-    folder.mkdir()
-    experiment(folder)
-    settings = {name: str(value) for name, value in inject.items() if value is not None}
-    environment = dict(os.environ, LD_PRELOAD=preload, INJECT_FOLDER=str(folder) + "/", OMP_NUM_THREADS="1", **settings)
-    ended = subprocess.run([PROGRAM, "--quiet", "--json", "--hdf5", "--vtk", "--output-dir", str(folder), "2", "small"], cwd=folder, env=environment,
-                           stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=60)
-    return ended.returncode, ended.stdout + ended.stderr
+    runs.example(folder, name)
+    file = folder / f"{name}.inp"
+    text = shortened(file.read_text(), cases)
+    file.write_text(text)
+    return name, options
 
 
-def without_times(text):
-    """A report without its times"""
-    text = re.sub(rb"(?m)^\|.*$", b"", text)
-    return re.sub(rb'"seconds": *[^,}]*', b"", text)
-
-
-def values(file):
-    """All data of an HDF5 file but times"""
-    found = {}
-
-    def visit(name, item):
-        if isinstance(item, h5py.Dataset) and not name.endswith("seconds"):
-            found[name] = item[()]
-    with h5py.File(file) as data:
-        data.visititems(visit)
-    return found
-
-
-def wrong_file(good, file):
-    """What is wrong with a file that claims to be whole, or nothing"""
-    if file.suffix == ".h5":
-        old, new = values(good), values(file)
-        if old.keys() != new.keys():
-            return f"{len(new)} of {len(old)} data"
-        return next((name for name in old if not np.array_equal(old[name], new[name], equal_nan=old[name].dtype.kind == "f")), "")
-    return "" if without_times(good.read_bytes()) == without_times(file.read_bytes()) else "contents"
+def run(folder, kind, preload, **inject):
+    """Exit status and messages of a run into an empty folder"""
+    name, options = prepare(folder, kind)
+    settings = {key: str(value) for key, value in inject.items() if value is not None}
+    return runs.run(folder, name, *options, environment=dict(LD_PRELOAD=preload, INJECT_FOLDER=str(folder) + "/", **settings), timeout=60)
 
 
 def half_written(file):
     """Is this file, which stands there after an error, unreadable?"""
     try:
         if file.suffix == ".h5":
-            values(file)
+            runs.read_all(file)
+        elif file.suffix in (".vts", ".mat", ".subs"):
+            runs.check_whole(file)
         elif file.suffix == ".jsonl":
             for line in file.read_text(encoding="utf-8").splitlines():
-                json.loads(line)
+                runs.json.loads(line)
         elif file.suffix == ".pvd":
             xml.etree.ElementTree.parse(file)
-    except (OSError, ValueError, xml.etree.ElementTree.ParseError) as reason:
-        return str(reason)
+    except (OSError, ValueError, AssertionError, KeyError, xml.etree.ElementTree.ParseError) as reason:
+        return repr(reason)
     return ""
 
 
-def check_place(good, folder, preload, call, place, number, for_ever):
-    """Complaints about one place"""
-    code, text = run(folder, preload, INJECT_CALL=call, INJECT_AT=place, INJECT_ERROR=number, INJECT_FOR_EVER=for_ever)
-    if code < 0 or code > 2:
-        return [f"ended with {code}: {text[-300:]}"]
-    names = {file.name for file in folder.iterdir()}
+def after_kill(folder):
+    """What is wrong with the files of a run that was killed"""
+    try:
+        runs.finished_cases(folder)
+    except (OSError, ValueError, AssertionError, KeyError, xml.etree.ElementTree.ParseError) as reason:
+        return [repr(reason)]
+    return []
+
+
+def after_failure(good, folder, code, text):
+    """Complaints about the files of a run in which a call has failed"""
+    names = {file.name for file in folder.iterdir() if file.is_file()}
     if code == 0:
-        whole = {file.name for file in good.iterdir()}
-        bad = [f"{name} is missing" for name in sorted(whole - names)] + [f"{name} is left" for name in sorted(names - whole)]
-        for name in sorted(whole & names):
-            what = wrong_file(good / name, folder / name)
-            if what:
-                bad.append(f"{name}, {what}, in spite of success")
-        return bad
+        return runs.differences(good, folder)
     bad = [] if "ERROR" in text else [f"no message with exit status {code}"]
     bad += [f"{name} is left" for name in sorted(names) if name.endswith((".tmp", ".part"))]
     for name in sorted(names):
@@ -109,28 +110,41 @@ def check_place(good, folder, preload, call, place, number, for_ever):
 
 
 def main():
-    """All places once, some of them for ever"""
-    preload = sys.argv[1]
-    here = pathlib.Path.cwd()
-    good, folder, count_file = here / "good", here / "bad", here / "count"
-    failed = checks = 0
-    for call in ("write", "close", "rename"):
-        code, text = run(good, preload, INJECT_CALL=call, INJECT_COUNT=count_file)
-        assert code == 0, text
-        count = int(count_file.read_text(encoding="utf-8"))
-        assert count > 2, f"{count} calls of {call} are too few to be true"
-        code, text = run(folder, preload, INJECT_CALL=call)
-        again = [wrong_file(file, folder / file.name) for file in good.iterdir()]
-        assert code == 0 and not any(again), f"two runs differ: {again}"
-        for place in range(1, count + 1):
-            kinds = [(errno.EIO, None)] + ([(errno.ENOSPC, 1)] if call == "write" and place % 4 == 1 else [])
-            for number, for_ever in kinds:
-                checks += 1
-                for complaint in check_place(good, folder, preload, call, place, number, for_ever):
-                    failed += 1
-                    print(f"FAILED {call} {place} of {count}{' and all later ones' if for_ever else ''}: {complaint}")
-    print(f"{checks} faults, {failed} complaints")
-    return 1 if failed else 0
+    """All kinds, all faults"""
+    preload, step = sys.argv[1], int(sys.argv[2]) if len(sys.argv) > 2 else 37
+    good, folder, count_file = ROOM / "good", ROOM / "bad", ROOM / "count"
+    table, complaints, started, turn = {}, 0, time.time(), 0
+    for kind in KINDS:
+        for call, error, for_ever in FAULTS:
+            code, text = run(good, kind, preload, INJECT_CALL=call, INJECT_COUNT=count_file)
+            assert code == 0, text
+            count = int(count_file.read_text(encoding="utf-8"))
+            row = table.setdefault((kind, call), [count, 0, 0, 0])
+            for place in range(1, count + 1):
+                turn += 1
+                if turn % step:
+                    continue
+                code, text = run(folder, kind, preload, INJECT_CALL=call, INJECT_AT=place, INJECT_ERROR=error,
+                                 INJECT_FOR_EVER=1 if for_ever else None)
+                row[1] += 1
+                if error == -1:
+                    # the number of writes depends on time: the last places may not be reached
+                    bad = after_kill(folder) if code in (0, 137) else [f"not killed: {code}"]
+                elif code not in (0, 1) or (error == -2 and code):
+                    bad = [f"ended with {code}: {text[-300:]}"]
+                else:
+                    row[2] += code == 0
+                    bad = after_failure(good, folder, code, text)
+                row[3] += len(bad) > 0
+                complaints += len(bad)
+                for complaint in bad:
+                    print(f"FAILED {kind}, {call} {place} of {count}, error {error}{' and later' if for_ever else ''}: {complaint}",
+                          flush=True)
+    print("| run | call | places | faults | of these no failure of the run | complaints |\n|---|---|---|---|---|---|")
+    for (kind, call), row in table.items():
+        print(f"| {kind} | {call} | " + " | ".join(str(value) for value in row) + " |")
+    print(f"{sum(row[1] for row in table.values())} faults, {complaints} complaints, {time.time() - started:.0f} s")
+    return 1 if complaints else 0
 
 
 if __name__ == "__main__":

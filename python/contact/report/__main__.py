@@ -5,7 +5,7 @@ import argparse
 import sys
 
 from .page import write_page
-from .read import MissingResults, find_results
+from .read import MissingResults, find_results, told_of_run
 from .server import DEFAULT_PORT, serve
 
 
@@ -24,7 +24,11 @@ def main(arguments: list[str] | None = None) -> int:
         if asked.serve is not None:
             serve(asked.serve, asked.port)
         else:
-            print(write_page(find_results(asked.experiment), asked.output))
+            name = find_results(asked.experiment)
+            print(write_page(name, asked.output))
+            warning = told_of_run(name)
+            if warning:
+                print("contact report: %s" % warning, file=sys.stderr)
     except (MissingResults, OSError) as reason:
         print("contact report: %s" % reason, file=sys.stderr)
         return 1

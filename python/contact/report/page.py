@@ -41,7 +41,14 @@ def write_page(path: str, target: str | None = None) -> str:
     target = target or os.path.splitext(path)[0] + ".html"
     text = page_of(path)
     temporary = target + ".tmp"
-    with open(temporary, "w", encoding="utf-8") as file:
-        file.write(text)
-    os.replace(temporary, target)
+    try:
+        with open(temporary, "w", encoding="utf-8") as file:
+            file.write(text)
+        os.replace(temporary, target)
+    except OSError as reason:
+        try:
+            os.remove(temporary)
+        except OSError:
+            pass
+        raise OSError("%s could not be written: %s" % (target, reason.strerror)) from None
     return target

@@ -55,10 +55,12 @@ def _plain(value: Any) -> Any:
 
 
 class _Reader:
-    def __init__(self, file: Any) -> None:
+    def __init__(self, file: Any, size: int) -> None:
         import h5py
         self.h5py = h5py
         self.file = file
+        # no compression makes more of a byte than deflate can
+        self._most = 2000 * size + 1000000
         self.blobs = Blobs()
         self.inputs: list[dict[str, Any]] = []
         self._input_numbers: dict[tuple[Any, ...], int] = {}
@@ -69,11 +71,17 @@ class _Reader:
     def address(self, item: Any) -> int:
         return int(self.h5py.h5o.get_info(item.id).addr)
 
+    def data(self, item: Any) -> Any:
+        """Contents of a dataset; a damaged one may claim to be of any size"""
+        if item.size * item.dtype.itemsize > self._most:
+            raise ValueError("%s claims to hold %d values" % (item.name, item.size))
+        return item[()]
+
     def values(self, group: Any) -> dict[str, Any]:
         """Values of a group; groups that several cases share are read once"""
         at = self.address(group)
         if at not in self._groups:
-            self._groups[at] = {name: _plain(item[()]) for name, item in group.items()}
+            self._groups[at] = {name: _plain(self.data(item)) for name, item in group.items()}
         return self._groups[at]
 
     def meaning(self, key: tuple[Any, ...], item: Any) -> tuple[str, str]:
@@ -86,15 +94,17 @@ class _Reader:
         """Values of a group of inputs with unit and description"""
         at = -self.address(group)
         if at not in self._groups:
-            self._groups[at] = {name: [_plain(item[()]), *self.meaning((kind, name), item)] for name, item in group.items()}
+            self._groups[at] = {name: [_plain(self.data(item)), *self.meaning((kind, name), item)] for name, item in group.items()}
         return self._groups[at]
 
     def columns(self, name: str) -> tuple[dict[str, Any], dict[str, dict[str, str]]]:
         """Columns of a table and what they are"""
         table, meta = {}, {}
         for column, item in self.file[name].items():
-            table[column] = item[...]
+            table[column] = self.data(item)
             meta[column] = {"unit": _plain(item.attrs.get("units", b"")), "title": _plain(item.attrs.get("long_name", b""))}
+        if len({values.shape for values in table.values()}) > 1:
+            raise ValueError("the columns of /%s have different lengths" % name)
         return table, meta
 
     def input_of(self, case: Any) -> int:
@@ -122,12 +132,12 @@ class _Reader:
             units[name] = self.meaning(("fields", name, rolling), item)[0]
             at = self.address(item)
             if name == "h":
-                gap = item[...] - pen
+                gap = self.data(item) - pen
                 if abs(gap).max() < 1e6:
                     fields["gap"] = self.blobs.add(gap)
                 continue
             if at not in self._fields:
-                self._fields[at] = self.blobs.add(item[...])
+                self._fields[at] = self.blobs.add(self.data(item))
             fields[name] = self._fields[at]
         found = {"number": number, "totals": totals, "grid": grid, "fields": fields, "units": units,
                  "solver": self.values(group["solver"]),
@@ -139,15 +149,15 @@ class _Reader:
         if "curve" in group:
             import numpy as np
             curve = group["curve"]
-            found["curveBlob"] = self.blobs.add(np.concatenate([curve[name][...] for name in ("y", "z", "angle")]))
+            found["curveBlob"] = self.blobs.add(np.concatenate([self.data(curve[name]) for name in ("y", "z", "angle")]))
         return found
 
     def block(self, group: Any) -> dict[str, Any]:
         """Points below the surface, x fastest in the arrays"""
-        points = {axis: _plain(group["points"][axis][...]) for axis in "xyz"}
+        points = {axis: _plain(self.data(group["points"][axis])) for axis in "xyz"}
         count = len(points["x"]) * len(points["y"]) * len(points["z"])
         names = SHOWN_STRESSES + (MORE_STRESSES if count <= MOST_POINTS else ())
-        return {**points, "fields": {name: self.blobs.add(group[name][...]) for name in names if name in group}}
+        return {**points, "fields": {name: self.blobs.add(self.data(group[name])) for name in names if name in group}}
 
 
 def _case_name(head: dict[str, Any]) -> str:
@@ -161,56 +171,83 @@ def read_experiment(path: str) -> tuple[dict[str, Any], list[dict[str, str]]]:
     """What the page shows of an .h5 file: a description of all cases, and arrays by number"""
     try:
         import h5py
-        import numpy as np
+        import numpy  # noqa: F401
     except ImportError as reason:
         raise MissingResults("the Python packages numpy and h5py are needed to read results (%s); "
                              "python3 -m pip install numpy h5py, or apt-get install python3-h5py" % reason) from None
     try:
-        file = h5py.File(path, "r")
-    except OSError as reason:
-        raise MissingResults("%s cannot be read: %s" % (path, reason)) from None
-    with file:
-        if int(file.attrs.get("layout", 0)) != LAYOUT:
-            raise MissingResults("%s is no result of contact --hdf5, or of another version of it" % path)
-        reader = _Reader(file)
-        case_rows, case_meta = reader.columns("cases")
-        patch_rows, patch_meta = reader.columns("patches")
-        count = len(next(iter(case_rows.values()))) if case_rows else 0
-        rows_of: dict[tuple[int, int, int], list[int]] = {}
-        if patch_rows:
-            for row, key in enumerate(zip(*(patch_rows[name].astype(int) for name in ("result_element", "contact_problem", "case")))):
-                rows_of.setdefault(key, []).append(row)
-        cases = []
-        for row in range(count):
-            head = {name: column[row] for name, column in case_rows.items()}
-            ident = {name: int(head[name]) for name in ("case", "result_element", "contact_problem", "module")}
-            group = file[_case_name(ident)]
-            label = str(ident["case"])
-            if ident["result_element"]:
-                label = "%d:%s" % (ident["result_element"], label)
-            case = {"label": label, "number": ident["case"], "module": ident["module"], "solved": bool(head["solved"]),
-                    "converged": bool(head["converged"]), "status": "solved", "seconds": _plain(head["seconds"]), "inputs": reader.input_of(group),
-                    "totals": {name: _plain(head[name]) for name in case_rows
-                               if ident["module"] == 1 and name not in ("case", "line", "solved", "converged", "status_code", "missed", "seconds")},
-                    "patches": []}
-            if "status" in group:
-                case.update(reader.values(group["status"]))
-            elif "failure" in group:  # files of earlier versions
-                case.update(status="refused", reason=reader.values(group["failure"])["reason"])
-            elif not case["converged"]:
-                case.update(status="not converged", reason="look at the residuals before using this case")
-            if "markers" in group:
-                case["markers"] = reader.values(group["markers"])
-                case["profiles"] = {body: reader.blobs.add(np.stack([item["y"][...], item["z"][...]], axis=1))
-                                    for body, item in group["profiles"].items()}
-            for place in rows_of.get((ident["result_element"], ident["contact_problem"], ident["case"]), []):
-                totals = {name: _plain(column[place]) for name, column in patch_rows.items()}
-                totals = {name: value for name, value in totals.items() if value is not None}
-                number = int(totals["patch"])
-                case["patches"].append(reader.patch(group["patch_%d" % number], number, totals))
-            cases.append(case)
-        data = {"experiment": _plain(file.attrs["experiment"]), "program": _plain(file.attrs["program"]),
-                "columns": {**case_meta, **patch_meta}, "inputs": reader.inputs, "cases": cases}
+        with h5py.File(path, "r") as file:
+            return _read(file, path)
+    except MissingResults:
+        raise
+    except Exception as reason:  # h5py and NumPy have many kinds of them for a damaged file
+        what = " ".join(str(reason).split()) or type(reason).__name__
+        raise MissingResults("%s cannot be read, it is damaged or no HDF5 file: %s" % (path, what)) from None
+
+
+def _run_of(file: Any) -> dict[str, Any] | None:
+    """How far the run has come; None in files of earlier versions"""
+    if "complete" not in file.attrs:
+        return None
+    found = {name: _plain(file.attrs[name]) for name in ("complete", "cases_planned", "input_readable", "cases_finished")}
+    return {**found, "reason": _plain(file.attrs.get("reason", b""))}
+
+
+def told_of_run(path: str) -> str:
+    """A sentence about results that are not complete; nothing about complete ones"""
+    import h5py
+    with h5py.File(path, "r") as file:
+        run = _run_of(file)
+    if run is None or run["complete"]:
+        return ""
+    return "%s is not complete: %d of %s%d cases are finished; %s" % (
+        path, run["cases_finished"], "" if run["input_readable"] else "at least ", run["cases_planned"], run["reason"])
+
+
+def _read(file: Any, path: str) -> tuple[dict[str, Any], list[dict[str, str]]]:
+    """The same of an open file"""
+    import numpy as np
+    if int(file.attrs.get("layout", 0)) != LAYOUT:
+        raise MissingResults("%s is no result of contact --hdf5, or of another version of it" % path)
+    reader = _Reader(file, os.path.getsize(path))
+    case_rows, case_meta = reader.columns("cases")
+    patch_rows, patch_meta = reader.columns("patches")
+    count = len(next(iter(case_rows.values()))) if case_rows else 0
+    rows_of: dict[tuple[int, int, int], list[int]] = {}
+    if patch_rows:
+        for row, key in enumerate(zip(*(patch_rows[name].astype(int) for name in ("result_element", "contact_problem", "case")))):
+            rows_of.setdefault(key, []).append(row)
+    cases = []
+    for row in range(count):
+        head = {name: column[row] for name, column in case_rows.items()}
+        ident = {name: int(head[name]) for name in ("case", "result_element", "contact_problem", "module")}
+        group = file[_case_name(ident)]
+        label = str(ident["case"])
+        if ident["result_element"]:
+            label = "%d:%s" % (ident["result_element"], label)
+        case = {"label": label, "number": ident["case"], "module": ident["module"], "solved": bool(head["solved"]),
+                "converged": bool(head["converged"]), "status": "solved", "seconds": _plain(head["seconds"]), "inputs": reader.input_of(group),
+                "totals": {name: _plain(head[name]) for name in case_rows
+                           if ident["module"] == 1 and name not in ("case", "line", "solved", "converged", "status_code", "missed", "seconds")},
+                "patches": []}
+        if "status" in group:
+            case.update(reader.values(group["status"]))
+        elif "failure" in group:  # files of earlier versions
+            case.update(status="refused", reason=reader.values(group["failure"])["reason"])
+        elif not case["converged"]:
+            case.update(status="not converged", reason="look at the residuals before using this case")
+        if "markers" in group:
+            case["markers"] = reader.values(group["markers"])
+            case["profiles"] = {body: reader.blobs.add(np.stack([reader.data(item["y"]), reader.data(item["z"])], axis=1))
+                                for body, item in group["profiles"].items()}
+        for place in rows_of.get((ident["result_element"], ident["contact_problem"], ident["case"]), []):
+            totals = {name: _plain(column[place]) for name, column in patch_rows.items()}
+            totals = {name: value for name, value in totals.items() if value is not None}
+            number = int(totals["patch"])
+            case["patches"].append(reader.patch(group["patch_%d" % number], number, totals))
+        cases.append(case)
+    data = {"experiment": _plain(file.attrs["experiment"]), "program": _plain(file.attrs["program"]),
+            "run": _run_of(file), "columns": {**case_meta, **patch_meta}, "inputs": reader.inputs, "cases": cases}
     return data, reader.blobs.items
 
 

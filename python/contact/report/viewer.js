@@ -737,6 +737,9 @@ function chooseCurves() {
 function start() {
   byId("title").textContent = data.experiment;
   byId("about").textContent = `${data.cases.length} case${data.cases.length === 1 ? "" : "s"} \u00b7 ${data.program}`;
+  if (data.run && !data.run.complete)
+    byId("about").textContent += ` \u00b7 NOT COMPLETE: ${data.run.cases_finished} of ${data.run.input_readable ? "" : "at least "}`
+      + `${data.run.cases_planned} cases finished; ${data.run.reason}`;
   byId("slider").max = data.cases.length - 1;
   if (!data.cases.length) { byId("where").textContent = "no cases"; return; }
   tableOfCases(); 
