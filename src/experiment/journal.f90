@@ -144,14 +144,14 @@ contains
    !> The run has ended
    subroutine finish(self, complete)
       class(journal_file), intent(inout) :: self
-      !> Are all cases finished? Then nothing is left to go on with
+      !> Are all cases finished? Then, as without any finished case, there is nothing to go on with
       logical, intent(in) :: complete
       logical :: ignored
 
       if (.not. allocated(self%name)) return
       call self%save_line()
       call self%file%close_file(ignored)
-      if (complete) call remove_file(self%name)
+      if (complete .or. self%now%cases == 0) call remove_file(self%name)
    end subroutine finish
 
    !> A line with its hash behind it
