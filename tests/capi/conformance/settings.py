@@ -409,7 +409,7 @@ def pair_settings():
         for units in UNITS:
             close(forces[units], forces["un_cntc"], 1e-4 * largest, f"{label}: forces in {units}")
         last = program_cases(f"pair{number}_un_cntc")[-1]
-        totals, effects = last["totals"], last["patches"][0]["effects"]
+        totals, effects = last["totals"], " ".join(patch["effects"] for patch in last["patches"])
         for words, labels in (("by inclination", ("friction by angle", "friction by angle and slip")), ("by position",
             ("friction by place",))):
             same(words in effects, label in labels, f"{label}: {effects}")
