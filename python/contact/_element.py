@@ -161,6 +161,13 @@ class Patch:
     border: tuple[str, ...]
 
     @property
+    def elements_across(self) -> int:
+        """Elements across the contact in its narrower direction, 0 without contact; fewer than 5 are a rough result."""
+        touching = self.state > 0
+        across = [int(touching.sum(axis=axis).max(initial=0)) for axis in (0, 1) if touching.shape[axis] >= 3]
+        return min(across, default=0)
+
+    @property
     def max_pressure(self) -> float:
         """Largest pressure [F/L2]."""
         return float(self.pn.max(initial=0.0))
@@ -195,6 +202,13 @@ def warn_of_border(patch: Patch, what: str) -> None:
     if patch.border:
         warnings.warn(f"{what} reaches {', '.join(patch.border)}: it is cut off, and pressures and forces are those of a "
                       "smaller contact area", ContactWarning, stacklevel=3)
+
+
+def warn_of_few_elements(patch: Patch, what: str) -> None:
+    """Warn of contact that is only a few elements wide; the caller's caller is named"""
+    if 0 < patch.elements_across < 5:
+        warnings.warn(f"{what} is only {patch.elements_across} elements wide: its area, forces and pressures are rough; take "
+                      "smaller elements", ContactWarning, stacklevel=3)
 
 
 @dataclass(frozen=True)

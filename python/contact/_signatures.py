@@ -141,6 +141,7 @@ MAGIC_NUMBERS = {
     "own_border": 9002,  # read only, where contact is cut off: sum of 1 x low, 2 x high, 4 y low, 8 y high side of the grid; 16 inner, 32 outer end of the rail profile; 64 inner, 128 outer end of the wheel profile; 256 a hidden part of a profile
     "own_stepped": 9003,  # read only, points of subs_calculate nearer to the surface than DX/4 and off the centres of elements
     "own_angle": 9004,  # contact angles on rails that vary along the track: 0 as the established program, of the section below the axle; 1 of wheel and rail where they touch
+    "own_across": 9005,  # read only, elements across the contact in its narrower direction, 0 without contact; fewer than 5 are a rough result
     # Data that go along into the .mat files
     "mt_tim": 2011,  # time [s]
     "mt_xr": 2012,  # contact point on the rail, x [L]

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import cntc
-from ._element import Element, Field, Patch, Stresses, fail_if, read_patch, read_stresses, warn_of_border
+from ._element import Element, Field, Patch, Stresses, fail_if, read_patch, read_stresses, warn_of_border, warn_of_few_elements
 
 
 @dataclass(frozen=True)
@@ -169,6 +169,7 @@ class Problem(Element):
         border = self._calculate(initiation)
         patch = read_patch(self.number, 1)
         warn_of_border(patch, "contact")
+        warn_of_few_elements(patch, "contact")
         return Result(**patch.__dict__, border_elements=border, status=self._status, reason=self._reason)
 
     def stresses(self, block: int = 1) -> Stresses:

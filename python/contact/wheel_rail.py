@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import cntc
-from ._element import Element, Field, Patch, Stresses, fail_if, read_patch, read_stresses, warn_of_border
+from ._element import Element, Field, Patch, Stresses, fail_if, read_patch, read_stresses, warn_of_border, warn_of_few_elements
 
 # Values of the flag own_angle
 _ANGLES = {"established": 0, "contact": 1}
@@ -230,6 +230,7 @@ class WheelRail(Element):
         patches = tuple(self._patch(icp) for icp in range(1, cntc.getnumcontactpatches(number) + 1))
         for icp, patch in enumerate(patches, 1):
             warn_of_border(patch, f"contact patch {icp}")
+            warn_of_few_elements(patch, f"contact patch {icp}")
         values = cntc.getglobalforces(number, -1).reshape(4, 2, 3)
         forces = Forces(*(Wrench(force, moment) for force, moment in values))
         return WheelRailResult(patches, forces, cntc.getwheelsetposition(number), cntc.getwheelsetvelocity(number),

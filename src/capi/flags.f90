@@ -15,6 +15,7 @@ module contact_capi_flags
    use contact_control_flags, only : accepted_value, flag, flag_table, highest_of, put_digit, row_of_flag
    use contact_control_units, only : convention_code, find_convention, inward, quantity
    use contact_patch_border, only : border_code
+   use contact_patch_resolution, only : least_across
    use contact_patch_result, only : patch_result
    use contact_text_words, only : columns_of, integer_text
    implicit none (type, external)
@@ -93,7 +94,7 @@ contains
          if (code == flag%mater) call refuse(": the material is set by cntc_setMaterialParameters")
          if (code == flag%frclaw) call refuse(": the friction law is set by cntc_setFrictionMethod")
          if (code == flag%heat) call refuse(": temperatures are set by cntc_setTemperatureData")
-         if (code == flag%own_border .or. code == flag%own_stepped) call refuse(": this is a result, it cannot be set")
+         if (any(code == [flag%own_border, flag%own_stepped, flag%own_across])) call refuse(": this is a result, it cannot be set")
          return
       end if
       call accepted_value(flag_table(row), number, problem%module_number, stored, accepted)
@@ -229,7 +230,7 @@ contains
       type(library_problem), intent(in) :: problem
       integer, intent(in) :: icp, code
       logical :: is_pair, is_part
-      integer :: other
+      integer :: other(2)
 
       is_pair = problem%module_number == 1
       is_part = is_pair .and. icp > 0
@@ -247,8 +248,9 @@ contains
          case (flag%own_angle)
             number = 0
             if (is_pair) number = merge(0, 1, spec%wheel_rail%search%angle_below_axle)
-         case (flag%own_border); call look_at_patches(problem, icp, number, other)
-         case (flag%own_stepped); call look_at_patches(problem, icp, other, number)
+         case (flag%own_border); call look_at_patches(problem, icp, number, other(1), other(2))
+         case (flag%own_stepped); call look_at_patches(problem, icp, other(1), number, other(2))
+         case (flag%own_across); call look_at_patches(problem, icp, other(1), other(2), number)
          case default; number = digit_value(spec%digits, trim(flag_table(row_of_flag(code))%digit))
          end select
          if (.not. is_part) return
@@ -262,17 +264,18 @@ contains
       end associate
    end function flag_value
 
-   !> Of one patch or of all of them: where contact is cut off, a sum of bits, see border_code; and the points of the last
-   !> subs_calculate near the surface and off the centres of elements
-   subroutine look_at_patches(problem, icp, border, stepped)
+   !> Of one patch or of all of them: where contact is cut off, a sum of bits, see border_code; the points of the last
+   !> subs_calculate near the surface and off the centres of elements; elements across where contact is narrowest, 0 without contact
+   subroutine look_at_patches(problem, icp, border, stepped, across)
       type(library_problem), intent(in) :: problem
       !> Patch of module 1, or less than 1 for all
       integer, intent(in) :: icp
-      integer, intent(out) :: border, stepped
+      integer, intent(out) :: border, stepped, across
       integer :: k
 
       border = 0
       stepped = 0
+      across = 0
       if (.not. problem%has_result) return
       if (problem%module_number /= 1) then
          call add(problem%result, .false.)
@@ -288,7 +291,10 @@ contains
       subroutine add(contact, left)
          type(patch_result), intent(in) :: contact
          logical, intent(in) :: left
+         integer :: narrowest
 
+         narrowest = least_across(contact%division)
+         if (across == 0 .or. (narrowest > 0 .and. narrowest < across)) across = narrowest
          border = ior(border, border_code(contact%border, left))
          if (allocated(contact%subsurface)) stepped = stepped + sum(contact%subsurface%stepped)
       end subroutine add

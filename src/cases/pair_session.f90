@@ -7,6 +7,7 @@ module contact_cases_pair_session
    use contact_base_log, only : log_type
    use contact_base_memory, only : bytes_per_element, require_memory
    use contact_cases_border_warning, only : warn_of_border
+   use contact_cases_resolution_warning, only : warn_of_few_elements
    use contact_cases_effects, only : name_effects
    use contact_cases_elastic_setup, only : kept_table, set_model, update_table
    use contact_cases_friction_setup, only : parameters_of, set_friction, set_thermal
@@ -89,6 +90,7 @@ contains
       do k = 1, size(result%patches)
          associate (contact => result%patches(k)%contact, search => spec%wheel_rail%search)
             if (spec%solve) call warn_of_border(spec, session%memory%slot(k)%problem, contact, log, k)
+            if (spec%solve) call warn_of_few_elements(contact, "DS", log, k)
             if (spec%solve .and. max(contact%grid%dx/search%dx, contact%grid%dy/search%ds) > 1.5_wp) call log%warning("the &
                &elements of patch " // integer_text(k) // " have sides of " // real_text(contact%grid%dx) // " x " // &
                & real_text(contact%grid%dy) // " mm instead of DX x DS = " // real_text(search%dx) // " x " // &

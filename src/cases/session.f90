@@ -13,6 +13,7 @@ module contact_cases_session
    use contact_grid_element_division, only : element
    use contact_grid_potential_contact, only : fit_field, potential_contact
    use contact_normal_estimate, only : elliptic_pressure
+   use contact_cases_resolution_warning, only : warn_of_few_elements
    use contact_patch_border, only : find_border
    use contact_patch_moments, only : clear_moment, link_moments
    use contact_patch_problem, only : patch_problem, patch_state
@@ -91,6 +92,7 @@ contains
       ! given pressures are known everywhere: a grid that holds them all cuts nothing off
       if (allocated(session%problem%given_pressure) .and. spec%grid%scale >= 1.0_wp) result%border%side = .false.
       call warn_of_border(spec, session%problem, result, log, advised=session%advised)
+      call warn_of_few_elements(result, "DY", log)
       call name_effects(spec, session%problem, result)
       if (allocated(result%subsurface)) deallocate(result%subsurface)
       if (spec%stress == stress_choice%none) return

@@ -6,7 +6,7 @@ module contact_hdf5_case_file
    use contact_cases_spec, only : case_spec
    use contact_hdf5_file, only : hdf5_file
    use contact_output_case_record, only : case_head, describe_border, describe_head, describe_pair, describe_patch, &
-      & describe_place, describe_run, describe_solution, is_rolling, run_summary, side_sign
+      & describe_resolution, describe_place, describe_run, describe_solution, is_rolling, run_summary, side_sign
    use contact_output_input_record, only : describe_input
    use contact_patch_result, only : patch_result, subsurface_result
    use contact_profile_curve, only : profile_curve
@@ -231,6 +231,7 @@ contains
       if (present(place)) call describe_place(file, spec, place)
       call file%close_group()
       call describe_border(file, spec, contact)
+      call describe_resolution(file, contact)
       call describe_solution(file, spec, contact)
       if (allocated(contact%effects)) then
          call file%open_group("effects")

@@ -11,13 +11,14 @@ module contact_output_case_record
    use contact_cases_spec, only : case_spec
    use contact_grid_element_division, only : element
    use contact_output_record, only : record_writer
+   use contact_patch_resolution, only : elements_across, is_coarse
    use contact_patch_result, only : patch_result
    use contact_wheelrail_result, only : moment_about_elements, pair_patch, pair_result
    implicit none (type, external)
    private
 
    public :: case_head, describe_border, describe_head, describe_pair, describe_patch, describe_place, describe_run, &
-      & describe_solution, is_rolling, planned_text, run_summary, side_sign
+      & describe_resolution, describe_solution, is_rolling, planned_text, run_summary, side_sign
 
    !> How far a run has come
    type :: run_summary
@@ -264,6 +265,20 @@ contains
       call record%number("pressure", "N/mm2", "largest pressure there", contact%border%pressure)
       call record%close_group()
    end subroutine describe_border
+
+   !> How many elements wide contact is where these are too few; nothing where they are enough
+   subroutine describe_resolution(record, contact)
+      class(record_writer), intent(inout) :: record
+      type(patch_result), intent(in) :: contact
+      integer :: across(2)
+
+      if (.not. is_coarse(contact)) return
+      across = max(1, elements_across(contact%division))
+      call record%open_group("coarse")
+      call record%count("along_x", "most elements in contact in a row along x", across(1))
+      call record%count("along_y", "most elements in contact in a column along y", across(2))
+      call record%close_group()
+   end subroutine describe_resolution
 
    !> Which methods ended the solution of a patch, and how well
    subroutine describe_solution(record, spec, contact)

@@ -10,7 +10,7 @@ module contact_output_json_file
    use contact_base_output_file, only : output_file
    use contact_cases_spec, only : case_spec
    use contact_output_case_record, only : case_head, describe_border, describe_head, describe_pair, describe_patch, &
-      & describe_place, describe_run, describe_solution, run_summary
+      & describe_resolution, describe_place, describe_run, describe_solution, run_summary
    use contact_output_finished_file, only : close_result, open_result, open_result_again
    use contact_output_record, only : record_writer
    use contact_patch_result, only : patch_result
@@ -190,6 +190,7 @@ contains
       if (present(pair)) call describe_place(self, spec, pair%patches(number))
       call self%close_group()
       call describe_border(self, spec, contact)
+      call describe_resolution(self, contact)
       call describe_solution(self, spec, contact)
       call self%add("}")
       self%follows = .true.

@@ -77,6 +77,8 @@ module contact_patch_problem
       real(wp) :: yield_slope = 0.0_wp
       !> Tolerance and iteration limits
       real(wp) :: eps = 1.0e-5_wp
+      !> Part of `eps` that pressures are solved to. Below 1 in a search that asks how they change by less than `eps`
+      real(wp) :: pressure_eps = 1.0_wp
       integer :: maxgs = 999, maxin = 20, maxnr = 25, maxout = 1
       !> When the time is up
       type(deadline_type) :: deadline

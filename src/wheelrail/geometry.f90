@@ -50,6 +50,8 @@ module contact_wheelrail_geometry
       real(wp) :: lowest_for_regions = -huge(1.0_wp)
       !> Penetration that carries the prescribed force [mm]: of the last search of this case, or 0
       real(wp) :: penetration = 0.0_wp
+      !> Part of EPS that the pressures of the present trial are solved to
+      real(wp) :: pressure_eps = 1.0_wp
       !> Lateral deflection of the rail [mm] and pitch rate of the wheelset [rad/s]: prescribed, or the present trial
       real(wp) :: deflection = 0.0_wp, pitch_rate = 0.0_wp
       !> Top of the canted rail and its gauge point [mm]

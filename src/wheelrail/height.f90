@@ -31,6 +31,9 @@ module contact_wheelrail_height
    !> The deepest first trial [mm]
    real(wp), parameter :: deepest_guess = 5.0_wp
 
+   !> A trial after one that missed the force by less than so many times EPS solves pressures to that part of EPS
+   real(wp), parameter :: near_by = 20.0_wp, sharper = 0.05_wp
+
    !> Forces below this value ask for a wheel that just touches [N]
    real(wp), parameter :: no_force = 1.0e-9_wp
 
@@ -126,6 +129,8 @@ contains
       character(len=:), allocatable :: why
       character(len=8) :: missed
       real(wp) :: force, first_guess, guess, touch, bottom, slope, miss, last_miss
+      !> What the last trial missed the force by, relative to it
+      real(wp) :: off
       logical :: separate
       integer :: round, trials
 
@@ -149,6 +154,7 @@ contains
       bottom = touch
       trials = 0
       last_miss = huge(last_miss)
+      off = huge(off)
       do round = 1, rounds_apart
          if (.not. separate) exit
          call search(with_friction=.false., most_trials=problem%template%maxnr/2 - trials)
@@ -242,13 +248,17 @@ contains
          logical, intent(in) :: with_friction
 
          call log%hold()
+         ! pressures within EPS of the last ones would be taken for those of this height
+         memory%here%pressure_eps = merge(sharper, 1.0_wp, off > problem%template%eps .and. off < near_by*problem%template%eps)
          call evaluate(problem, memory, z, with_friction, log, error)
          trials = trials + 1
+         memory%here%pressure_eps = 1.0_wp
          if (allocated(error)) then
             call log%speak()
             return
          end if
          force = vertical_force(memory) + spring*(z - touch)
+         off = abs(force - target)/target
          slope = vertical_slope(memory) + spring
          call trace_trial(log, result%force_evaluations + trials, z, force, slope)
       end subroutine try_height

@@ -45,6 +45,7 @@ contains
       slot%plane = patch_frame(rail, here%placement, slot%region)
       call move_alloc(slot%problem%h, h)
       slot%problem = problem%template
+      slot%problem%pressure_eps = here%pressure_eps
       if (allocated(slot%curve)) deallocate(slot%curve)
       slot%reference = [lattice_x(problem, here, slot%region%x), rail%s_at(slot%region%y) - here%profile_origin]
       if (keeps_lattice(problem)) then

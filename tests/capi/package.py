@@ -286,6 +286,12 @@ def doubts():
         same((stresses.von_mises.shape, told), ((2, 44, 44), []), "centres of all elements")
         same(np.allclose(stresses.x, result.x), True, "places of the centres")
         raises(ValueError, lambda: problem.add_block(None, [0.0], [0.0]), "both", "half of the centres")
+        problem.set_grid(7, 7, 1.2, 1.2, -4.2, -4.2)
+        problem.set_distance(lambda x, y: 0.5 * (x**2 + y**2))
+        result, told = warned(problem.solve)
+        across = cntc.getflags(problem.number, 1, cntc.CNTC["own_across"])
+        same((result.elements_across, across.tolist()), (3, [3]), "elements across")
+        same([text.split(":")[0] for text in told], ["contact is only 3 elements wide"], "warning of few elements")
     rows = np.array([[float(word) for word in line.split()[:2]] for line in open(os.path.join(PROFILES, "60E1.prr"), encoding="utf-8")
                      if re.match(r"\s*[-0-9.]+\s+[-0-9.]+\s*$", line)])
     for side in ("right", "left"):

@@ -228,6 +228,59 @@ class Border(Program):
         self.assertIn("x low, x high, y low, y high", described["cases"][0]["patches"][0]["border"])
 
 
+class FewElements(Program):
+    """Contact of a few elements has a rough area and force, whatever its residual: FZ was off by a factor of four on two elements"""
+
+    def told(self, text):
+        cases, warnings, _ = self.run_text(text)
+        told = [line for line in warnings if "elements wide at most" in line]
+        patches = [patch for case in cases for patch in case["patches"]]
+        self.assertEqual(len(told), sum("coarse" in patch for patch in patches), told)
+        return told, patches
+
+    def test_contact_problem(self):
+        # a radius of 1.719: elements of 1.2 and 0.9 give 3 and 4 of them across, of 0.6 six
+        for side, n, wide in ((1.2, 7, "3 x 3"), (0.9, 8, "4 x 4"), (0.6, 11, "")):
+            told, patches = self.told(ball(f"1\n{n} {n} {-0.5*n*side} {-0.5*n*side} {side} {side}", dx=side))
+            self.assertEqual(len(told), 1 if wide else 0, side)
+            if not wide:
+                continue
+            self.assertIn(f"contact is {wide} elements wide at most", told[0])
+            self.assertEqual([patches[0]["coarse"]["along_x"], patches[0]["coarse"]["along_y"]], [int(wide[0])]*2)
+            # what is recommended is enough
+            better = float(re.search(r"DX = (\S+),", told[0]).group(1))
+            n = math.ceil(5.0/better)
+            told, patches = self.told(ball(f"1\n{n} {n} {-0.5*n*better} {-0.5*n*better} {better} {better}", dx=better))
+            self.assertEqual(told, [])
+            self.assertAlmostEqual(patches[0]["totals"]["pmax"]["value"], hertz_pressure(), delta=0.05*hertz_pressure())
+
+    def test_rows_stand_for_plane_strain(self):
+        self.assertEqual(self.told(ball("1\n40 1 -2 -5 0.1 10", shape="1 1\n0.5 0 0 0 0 0"))[0], [])
+        self.assertEqual(len(self.told(ball("1\n6 1 -6 -5 2 10", shape="1 1\n0.5 0 0 0 0 0", dx=2.0))[0]), 1)
+
+    def test_wheel_on_rail(self):
+        with open(os.path.join(EXAMPLES, "wheel_on_rail.inp"), encoding="utf-8") as file:
+            first = " 1 MODULE" + file.read().split(" 1 MODULE")[1]
+        os.symlink(os.path.join(EXAMPLES, "profiles"), os.path.join(self.folder, "profiles"))
+        self.assertEqual(self.told(first)[0], [])
+        told, _ = self.told(first.replace("0.25 0.25 1.0 90d", "4.0 1.0 1.0 90d"))
+        self.assertEqual(len(told), 1)
+        self.assertRegex(told[0], r"contact patch 1: contact is [34] x \d+ elements .* DX = \S+, DS = 1.00 mm")
+
+    def test_in_the_hdf5_file(self):
+        try:
+            import h5py
+        except ImportError:
+            self.skipTest("h5py is not installed")
+        self.run_text(ball("1\n7 7 -4.2 -4.2 1.2 1.2", dx=1.2), "--hdf5")
+        with h5py.File(os.path.join(self.folder, "run.h5")) as file:
+            self.assertEqual(file["case_0001/patch_1/coarse/along_y"][()], 3)
+        sys.path.insert(0, os.path.join(SOURCE, "python"))
+        from contact.report.read import read_experiment
+        described, _ = read_experiment(os.path.join(self.folder, "run.h5"))
+        self.assertEqual(described["cases"][0]["patches"][0]["coarse"], [3, 3])
+
+
 class Stresses(Program):
     def stepped(self, points):
         _, warnings, _ = self.run_text(ball("1\n44 44 -2.2 -2.2 0.1 0.1", s=3, points=points))

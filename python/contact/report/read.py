@@ -142,7 +142,8 @@ class _Reader:
         found = {"number": number, "totals": totals, "grid": grid, "fields": fields, "units": units,
                  "solver": self.values(group["solver"]),
                  "effects": self.values(group["effects"])["names"] if "effects" in group else "",
-                 "border": self.values(group["border"])["reached"] if "border" in group else ""}
+                 "border": self.values(group["border"])["reached"] if "border" in group else "",
+                 "coarse": [int(value) for value in self.values(group["coarse"]).values()] if "coarse" in group else []}
         if "subsurface" in group:
             blocks = group["subsurface"]
             found["blocks"] = [self.block(blocks["block_%d" % (k + 1)]) for k in range(len(blocks))]

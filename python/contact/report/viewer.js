@@ -667,6 +667,7 @@ function tellTotals() {
   if (c.status !== "solved") note(c.status[0].toUpperCase() + c.status.slice(1) + (c.solved ? ":" : ", no result:"), c.reason, true);
   if (p) {
     if (p.border) note("Contact is cut off", `at ${p.border}: pressures and forces are those of a smaller contact area.`, true);
+    if (p.coarse.length) note("Few elements", `contact is ${p.coarse.join(" x ")} elements wide at most: its area, forces and pressures are rough.`, true);
     note("Effects:", p.effects || "none");
     for (const problem of ["normal", "tangential", "friction"]) {
       const s = p.solver[problem + "_method"] || p.solver[problem + "_ended"] ? p.solver : null;

@@ -1,0 +1,88 @@
+!> How many elements contact is wide
+!>
+!> The border of contact follows elements. A contact of a few of them has an uncertain area, force and pressure, however well
+!> its equations are solved.
+module contact_patch_resolution
+   use contact_base_kinds, only : wp
+   use contact_grid_element_division, only : element
+   use contact_patch_result, only : patch_result
+   implicit none (type, external)
+   private
+
+   public :: enough_elements, elements_across, least_across, is_coarse, enough_sides
+
+   !> Contact that is narrower than so many elements is coarse: by Hertz's theory force and area are off by some ten per cent
+   integer, parameter :: enough_elements = 5
+   !> Elements across of a grid that is recommended
+   integer, parameter :: advised = 10
+   !> Directions of a grid with fewer elements stand for plane strain
+   integer, parameter :: has_direction = 3
+
+contains
+
+   !> Most elements in contact in a row along x, and in a column along y; 0 without contact and where the grid has no direction
+   pure function elements_across(division) result(across)
+      !> Element states, shape (mx, my)
+      integer, intent(in) :: division(:, :)
+      integer :: across(2)
+      integer :: column(size(division, 1))
+      integer :: ix, iy, row
+
+      across = 0
+      column = 0
+      do iy = 1, size(division, 2)
+         row = 0
+         do ix = 1, size(division, 1)
+            if (division(ix, iy) <= element%exterior) cycle
+            row = row + 1
+            column(ix) = column(ix) + 1
+         end do
+         across(1) = max(across(1), row)
+      end do
+      if (size(column) > 0) across(2) = maxval(column)
+      where (shape(division) < has_direction) across = 0
+   end function elements_across
+
+   !> The same in the narrower direction
+   pure integer function least_across(division) result(least)
+      !> Element states, shape (mx, my)
+      integer, intent(in) :: division(:, :)
+      integer :: across(2)
+
+      across = elements_across(division)
+      least = minval(across, mask=across > 0)
+      if (all(across == 0)) least = 0
+   end function least_across
+
+   !> Is contact narrower than enough elements?
+   pure logical function is_coarse(result)
+      !> Solved
+      type(patch_result), intent(in) :: result
+      integer :: least
+
+      is_coarse = .false.
+      if (result%ncon == 0) return
+      ! so many elements do not fit into narrow contact
+      if (result%ncon >= enough_elements*max(result%grid%mx, result%grid%my)) return
+      least = least_across(result%division)
+      is_coarse = least > 0 .and. least < enough_elements
+   end function is_coarse
+
+   !> Sides of elements of which about ten would be as wide as the contact, with two digits; those of the grid where these do
+   pure function enough_sides(result) result(sides)
+      type(patch_result), intent(in) :: result
+      !> [mm]
+      real(wp) :: sides(2)
+      integer :: across(2), k
+      real(wp) :: unit
+
+      sides = [result%grid%dx, result%grid%dy]
+      across = elements_across(result%division)
+      do k = 1, 2
+         if (across(k) == 0 .or. across(k) >= enough_elements) cycle
+         sides(k) = sides(k)*across(k)/advised
+         unit = 10.0_wp**(floor(log10(sides(k))) - 1)
+         sides(k) = anint(sides(k)/unit)*unit
+      end do
+   end function enough_sides
+end module contact_patch_resolution
