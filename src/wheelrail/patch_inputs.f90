@@ -175,11 +175,18 @@ contains
       !> Is the grid another one now?
       logical, intent(out) :: grown
       integer :: more(2, 2), side
+      real(wp) :: y(2)
 
-      associate (grid => slot%problem%grid)
+      associate (grid => slot%problem%grid, plane => slot%plane, region => slot%region)
          more(1, :) = merge(1, 0, [any(overlap(1, :)), any(overlap(grid%mx, :))])
          more(2, :) = merge(1, 0, [any(overlap(:, 1)), any(overlap(:, grid%my))])
          if (.not. rows_too) more(2, :) = 0
+         ! what lies beyond the middle of the outermost elements is that of another patch
+         if (plane%origin(1) + grid%x(1) < region%others_x(1)) more(1, 1) = 0
+         if (plane%origin(1) + grid%x(grid%mx) > region%others_x(2)) more(1, 2) = 0
+         y = plane%origin(2) + cos(plane%roll())*[grid%y(1), grid%y(grid%my)]
+         if (minval(y) < region%others_y(1)) more(2, merge(1, 2, y(1) < y(2))) = 0
+         if (maxval(y) > region%others_y(2)) more(2, merge(2, 1, y(1) < y(2))) = 0
          do side = 1, 2
             ! by small steps, as the overlap of a neighbouring patch must stay outside
             more(:, side) = more(:, side)*(1 + [grid%mx, grid%my]/32)

@@ -35,6 +35,8 @@ module contact_wheelrail_regions
       real(wp) :: gap = 0.0_wp
       !> Lateral positions of the deepest points of the stretches of interpenetration that it was joined of [mm]
       real(wp), allocatable :: seeds(:)
+      !> Where the overlap of other regions begins, x and y in track coordinates [mm]: a grid does not grow beyond it
+      real(wp) :: others_x(2) = [-huge(1.0_wp), huge(1.0_wp)], others_y(2) = [-huge(1.0_wp), huge(1.0_wp)]
       !> Do the bodies interpenetrate?
       logical :: touches = .false.
       !> Parts of a blended patch with their bounds; of size 1 otherwise
@@ -98,7 +100,29 @@ contains
          call turn_regions(search, regions)
       end if
       call avoid_vertical(regions)
+      call leave_room(regions)
    end subroutine find_regions
+
+   !> Tell every region where others begin: overlap that belongs to two patches would carry its load twice
+   pure subroutine leave_room(regions)
+      type(contact_region), intent(inout) :: regions(:)
+      integer :: i, j
+
+      do i = 1, size(regions)
+         do j = 1, size(regions)
+            if (i == j) cycle
+            associate (me => regions(i), other => regions(j)%box)
+               if (side_by_side(me%box, other)) then
+                  if (other%x(1) > me%x) me%others_x(2) = min(me%others_x(2), other%x(1))
+                  if (other%x(2) < me%x) me%others_x(1) = max(me%others_x(1), other%x(2))
+               else
+                  if (other%y(1) > me%y) me%others_y(2) = min(me%others_y(2), other%y(1))
+                  if (other%y(2) < me%y) me%others_y(1) = max(me%others_y(1), other%y(2))
+               end if
+            end associate
+         end do
+      end do
+   end subroutine leave_room
 
    !> One region per stretch of interpenetration, or per spot where it falls apart along the track; the nearest misses
    subroutine preliminary_regions(gap, g, weight_power, regions, misses)

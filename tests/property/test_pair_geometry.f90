@@ -121,7 +121,7 @@ contains
          pair%track%raily0 = side*750.0_wp
          pair%track%cant = 0.0_wp
          ! the search has a mesh of 0.3 mm
-         pair%search%ds = 0.5_wp
+         pair%search%ds = 0.25_wp
          pair%search%dx = 0.5_wp
       end associate
    end function flank_case
