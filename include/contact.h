@@ -44,8 +44,12 @@ enum {
   CONTACT_ANGLE_AT_CONTACT = 16 /* contact angles on rails that vary along the track, as --contact-angle contact */
 };
 
-/* The same as contact_run, with more: outputs is 0 or a sum of CONTACT_WRITE_..., CONTACT_MOVING_HEAT and
- * CONTACT_ANGLE_AT_CONTACT */
+/* The input comes from a stranger: ordinary files below the folder of the experiment only, and the limits of
+ * `contact --confine` where no others are given; add it to the outputs that are wanted */
+enum { CONTACT_CONFINE = 32 };
+
+/* The same as contact_run, with more: outputs is 0 or a sum of CONTACT_WRITE_..., CONTACT_MOVING_HEAT,
+ * CONTACT_ANGLE_AT_CONTACT and CONTACT_CONFINE */
 int contact_run_with(const char *experiment, int mode, const char *output_dir, int threads,
                      int outputs, char *message, int message_length);
 

@@ -25,6 +25,10 @@ module contact_base_error
       integer :: limit = 7
       !> The time that was allowed ran out
       integer :: time = 8
+      !> Another run is at work on the same files
+      integer :: locked = 9
+      !> The run was asked to end before its last case
+      integer :: interrupted = 10
    end type error_kind_list
    !> Names of the kinds of failure
    type(error_kind_list), parameter :: error_kind = error_kind_list()

@@ -4,10 +4,16 @@
 module contact_base_limits
    use contact_base_error, only : error_kind, error_type, fatal_error
    use contact_base_kinds, only : long, wp
+   use contact_base_output_file, only : output_budget
    implicit none (type, external)
    private
 
-   public :: case_limits, deadline_type, wall_clock
+   public :: case_limits, deadline_type, fill_limits, wall_clock
+
+   !> What a confined run may take where nobody says otherwise: time of a case and of the run [s], memory of a case and size of
+   !> all files [bytes], elements
+   real(wp), parameter :: confined_seconds = 600.0_wp, confined_run_seconds = 3600.0_wp
+   integer(long), parameter :: confined_bytes = 4000000000_long, confined_output = 1000000000_long, confined_elements = 1000000_long
 
    !> When the time of a case is up
    type :: deadline_type
@@ -18,6 +24,8 @@ module contact_base_limits
    contains
       !> The time begins to run
       procedure :: start
+      !> Time that is left [s], huge for any
+      procedure :: left
       !> Is the time up?
       procedure :: has_passed
       !> An error when the time is up
@@ -31,12 +39,30 @@ module contact_base_limits
       integer(long) :: bytes = huge(1_long)
       !> Elements of the potential contact area, of each patch in wheel-rail contact
       integer(long) :: elements = huge(1_long)
+      !> What all files of the run may take together; null for any size
+      type(output_budget), pointer :: output => null()
+      !> Are files read and written only if they are ordinary ones below the folder of the experiment?
+      logical :: confined = .false.
    contains
       !> Refuse more elements or more memory than allowed
       procedure :: check
    end type case_limits
 
 contains
+
+   !> The limits of a confined run, where none are set
+   pure subroutine fill_limits(limits, run_seconds, output_bytes)
+      type(case_limits), intent(inout) :: limits
+      !> Time of the run [s], size of all its files [bytes], huge for any
+      real(wp), intent(inout) :: run_seconds
+      integer(long), intent(inout) :: output_bytes
+
+      if (limits%deadline%seconds >= huge(1.0_wp)) limits%deadline%seconds = confined_seconds
+      if (limits%bytes >= huge(1_long)) limits%bytes = confined_bytes
+      if (limits%elements >= huge(1_long)) limits%elements = confined_elements
+      if (run_seconds >= huge(1.0_wp)) run_seconds = confined_run_seconds
+      if (output_bytes >= huge(1_long)) output_bytes = confined_output
+   end subroutine fill_limits
 
    !> Elapsed time since a fixed moment [s]
    real(wp) function wall_clock() result(seconds)
@@ -52,6 +78,13 @@ contains
       self%at = huge(1.0_wp)
       if (self%seconds < huge(1.0_wp)) self%at = wall_clock() + self%seconds
    end subroutine start
+
+   real(wp) function left(self) result(seconds)
+      class(deadline_type), intent(in) :: self
+
+      seconds = huge(1.0_wp)
+      if (self%at < huge(1.0_wp)) seconds = self%at - wall_clock()
+   end function left
 
    logical function has_passed(self) result(passed)
       class(deadline_type), intent(in) :: self

@@ -6,15 +6,33 @@
 module contact_base_output_file
    use, intrinsic :: iso_c_binding, only : c_associated, c_char, c_double, c_int, c_long, c_loc, c_null_char, c_null_ptr, &
       & c_ptr, c_size_t
+   use contact_base_kinds, only : long
+   use contact_base_system, only : close_descriptor, open_output
    implicit none (type, external)
    private
 
-   public :: output_file, remove_file
+   public :: output_budget, output_file, remove_file
+
+   !> How much several files may take together
+   type :: output_budget
+      !> Bytes allowed, and bytes left of them; negative once more was asked for, and nothing is written any more
+      integer(long) :: allowed = huge(1_long), left = huge(1_long)
+   contains
+      !> Take bytes, if they are there
+      procedure :: take
+      !> Was more asked for than is allowed?
+      procedure :: is_exceeded
+   end type output_budget
+
+   !> What a file counts for beside its bytes: about the block that it takes on a disk
+   integer(long), parameter :: bytes_per_file = 4096
 
    !> A file that is open, or not
    type :: output_file
       private
       type(c_ptr) :: stream = c_null_ptr
+      !> What its bytes are taken from; null for no limit
+      type(output_budget), pointer :: budget => null()
    contains
       procedure :: is_open
       !> Open a file for writing; what it held is gone
@@ -23,6 +41,8 @@ module contact_base_output_file
       procedure :: open_again
       !> Take the standard output; closing leaves it open for others
       procedure :: open_standard_output
+      !> From now on take what is written from a budget
+      procedure :: charge_to
       !> Write a text and the end of the line
       procedure :: line
       !> Write a text, or numbers as they stand in memory, without end of line
@@ -40,15 +60,6 @@ module contact_base_output_file
    end type output_file
 
    interface
-      function open_stream(name, mode, reason, length) result(stream) bind(c, name="contact_open_stream")
-         import :: c_char, c_int, c_ptr
-         character(kind=c_char), intent(in) :: name(*), mode(*)
-         !> Why it was not opened, null-terminated, and its length
-         character(kind=c_char), intent(out) :: reason(*)
-         integer(c_int), value :: length
-         type(c_ptr) :: stream
-      end function open_stream
-
       function fdopen(descriptor, mode) result(stream) bind(c, name="fdopen")
          import :: c_char, c_int, c_ptr
          integer(c_int), value :: descriptor
@@ -101,13 +112,6 @@ module contact_base_output_file
          integer(c_int) :: status
       end function fseek
 
-      function c_truncate(name, length) result(status) bind(c, name="truncate")
-         import :: c_char, c_int, c_long
-         character(kind=c_char), intent(in) :: name(*)
-         integer(c_long), value :: length
-         integer(c_int) :: status
-      end function c_truncate
-
       function c_remove(name) result(status) bind(c, name="unlink")
          import :: c_char, c_int
          character(kind=c_char), intent(in) :: name(*)
@@ -120,44 +124,88 @@ module contact_base_output_file
 
 contains
 
+   !> A file that would exceed what is left is cut off there, and no other file gets the rest
+   logical function take(self, bytes) result(granted)
+      class(output_budget), intent(inout) :: self
+      integer(long), intent(in) :: bytes
+
+      granted = bytes <= self%left
+      self%left = merge(self%left - bytes, -1_long, granted)
+   end function take
+
+   pure logical function is_exceeded(self)
+      class(output_budget), intent(in) :: self
+      is_exceeded = self%left < 0
+   end function is_exceeded
+
+   subroutine charge_to(self, budget)
+      class(output_file), intent(inout) :: self
+      !> Null for no limit
+      type(output_budget), pointer, intent(in) :: budget
+      logical :: ignored
+
+      self%budget => budget
+      if (associated(budget)) ignored = budget%take(bytes_per_file)
+   end subroutine charge_to
+
+   !> May so many bytes be written to the file?
+   logical function may_write(file, bytes)
+      class(output_file), intent(in) :: file
+      integer(long), intent(in) :: bytes
+
+      may_write = file%is_open()
+      if (may_write .and. associated(file%budget)) may_write = file%budget%take(bytes)
+   end function may_write
+
    pure logical function is_open(self)
       class(output_file), intent(in) :: self
       is_open = c_associated(self%stream)
    end function is_open
 
-   subroutine open_file(self, name, reason)
+   subroutine open_file(self, name, reason, confined)
       class(output_file), intent(inout) :: self
       character(len=*), intent(in) :: name
       !> Why the file could not be opened, one sentence; unallocated when it was
       character(len=:), allocatable, intent(out) :: reason
-      character(kind=c_char, len=1) :: message(400)
-      integer :: i
+      !> Only an ordinary file, and no link to one? Default no
+      logical, intent(in), optional :: confined
 
-      ! e: a process that the host starts does not inherit the file
-      self%stream = open_stream(name // c_null_char, "wbe" // c_null_char, message, int(size(message), c_int))
-      if (self%is_open()) return
-      reason = ""
-      do i = 1, size(message)
-         if (message(i) == c_null_char) exit
-         reason = reason // message(i)
-      end do
+      call open_stream(self, name, "w" // c_null_char, reason, confined)
    end subroutine open_file
 
-   subroutine open_again(self, name, place, done)
+   !> Open the stream of a file, a new one or behind what is kept
+   subroutine open_stream(self, name, mode, reason, confined, keep)
+      class(output_file), intent(inout) :: self
+      !> Name; mode of the stream, null-terminated
+      character(len=*), intent(in) :: name, mode
+      character(len=:), allocatable, intent(out) :: reason
+      logical, intent(in), optional :: confined
+      !> As for open_output
+      integer(c_long), intent(in), optional :: keep
+      integer(c_int) :: descriptor
+      logical :: is_confined
+
+      is_confined = .false.
+      if (present(confined)) is_confined = confined
+      call open_output(name, is_confined, descriptor, reason, keep)
+      if (allocated(reason)) return
+      self%stream = fdopen(descriptor, mode)
+      if (self%is_open()) return
+      call close_descriptor(descriptor)
+      reason = "there is no memory for it"
+   end subroutine open_stream
+
+   subroutine open_again(self, name, place, reason, confined)
       class(output_file), intent(inout) :: self
       character(len=*), intent(in) :: name
       !> Bytes that are kept
       integer(c_long), intent(in) :: place
-      !> Is the file open now?
-      logical, intent(out) :: done
+      !> As for open_file
+      character(len=:), allocatable, intent(out) :: reason
+      logical, intent(in), optional :: confined
 
-      character(kind=c_char, len=1) :: message(400)
-
-      done = c_truncate(name // c_null_char, place) == 0
-      if (.not. done) return
-      self%stream = open_stream(name // c_null_char, "r+be" // c_null_char, message, int(size(message), c_int))
-      done = self%is_open()
-      call self%go_to(place)
+      call open_stream(self, name, "r+" // c_null_char, reason, confined, place)
+      if (self%is_open()) call self%go_to(place)
    end subroutine open_again
 
    subroutine open_standard_output(self)
@@ -180,18 +228,28 @@ contains
 
    subroutine text_bytes(self, text)
       class(output_file), intent(in) :: self
+      character(len=*), intent(in) :: text
+
+      if (len(text) == 0) return
+      if (may_write(self, len(text, long))) call write_text(self, text)
+   end subroutine text_bytes
+
+   subroutine write_text(file, text)
+      !> An open file
+      class(output_file), intent(in) :: file
       character(len=*), intent(in), target :: text
       integer(c_size_t) :: ignored
 
-      if (self%is_open() .and. len(text) > 0) ignored = fwrite(c_loc(text), 1_c_size_t, len(text, c_size_t), self%stream)
-   end subroutine text_bytes
+      ignored = fwrite(c_loc(text), 1_c_size_t, len(text, c_size_t), file%stream)
+   end subroutine write_text
 
    subroutine real_bytes(self, values)
       class(output_file), intent(in) :: self
       real(c_double), intent(in), target, contiguous :: values(:)
       integer(c_size_t) :: ignored
 
-      if (self%is_open() .and. size(values) > 0) &
+      if (size(values) == 0) return
+      if (may_write(self, 8*size(values, kind=long))) &
          & ignored = fwrite(c_loc(values), 8_c_size_t, size(values, kind=c_size_t), self%stream)
    end subroutine real_bytes
 
@@ -227,8 +285,10 @@ contains
 
       complete = .true.
       if (.not. self%is_open()) return
+      failed = .false.
+      if (associated(self%budget)) failed = self%budget%is_exceeded()
       ! flushed first: errors of both calls count
-      failed = fflush(self%stream) /= 0
+      failed = fflush(self%stream) /= 0 .or. failed
       failed = ferror(self%stream) /= 0 .or. failed
       failed = fclose(self%stream) /= 0 .or. failed
       complete = .not. failed

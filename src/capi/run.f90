@@ -5,6 +5,7 @@ module contact_capi_run
    use contact_base_error, only : error_kind, error_type, fatal_error, full_text
    use contact_base_guard, only : do_guarded, guard_end
    use contact_base_kinds, only : long
+   use contact_base_limits, only : fill_limits
    use contact_capi_arguments, only : give_message
    use contact_capi_host, only : give_floats_back, hold_floats
    use contact_experiment_run, only : run_experiment, run_settings
@@ -15,9 +16,9 @@ module contact_capi_run
 
    !> What a host may ask for, as in the header
    integer(c_int), parameter :: mode_run = 2, mode_check = 3
-   !> Bits that ask for more files, for other ways to compute, and all of them together
-   integer, parameter :: json_bit = 0, hdf5_bit = 1, vtk_bit = 2, heat_bit = 3, angle_bit = 4
-   integer(c_int), parameter :: all_outputs = 31
+   !> Bits that ask for more files, for other ways to compute, for a confined run, and all of them together
+   integer, parameter :: json_bit = 0, hdf5_bit = 1, vtk_bit = 2, heat_bit = 3, angle_bit = 4, confine_bit = 5
+   integer(c_int), parameter :: all_outputs = 63
    !> Failures by their cause start here, so that 1 stays free for a wrong call
    integer(c_int), parameter :: wrong_call = 1, first_failure = 10
 
@@ -158,6 +159,8 @@ contains
       settings%exports%vtk = btest(outputs, vtk_bit)
       if (btest(outputs, heat_bit)) settings%heat_source = heat_source%moving
       if (btest(outputs, angle_bit)) settings%angle_below_axle = .false.
+      settings%limits%confined = btest(outputs, confine_bit)
+      if (settings%limits%confined) call fill_limits(settings%limits, settings%run_deadline%seconds, settings%output_bytes)
       if (len_trim(settings%experiment) == 0) then
          call fatal_error(error, "contact_run: the name of the experiment is missing")
       else if (mode /= mode_run .and. mode /= mode_check) then
@@ -166,7 +169,7 @@ contains
          call fatal_error(error, "contact_run: the number of threads is negative")
       else if (outputs < 0 .or. outputs > all_outputs) then
          call fatal_error(error, "contact_run_with: the outputs are not a sum of CONTACT_WRITE_JSON, _HDF5, _VTK, " // &
-            & "CONTACT_MOVING_HEAT and CONTACT_ANGLE_AT_CONTACT")
+            & "CONTACT_MOVING_HEAT, CONTACT_ANGLE_AT_CONTACT and CONTACT_CONFINE")
       else if (.not. all([seconds, megabytes, elements] >= 0.0_c_double &
          & .and. [seconds, megabytes, elements] < 1.0e12_c_double)) then
          call fatal_error(error, "contact_run_limited: a limit is negative, not a number, or 1e12 and more; 0 stands for none")

@@ -155,6 +155,10 @@ contains
          if (folder(len(folder):) /= "/") file = "/" // file
          file = folder // file
       end if
-      call text%open_file(file, error)
+      if (spec%limits%confined) then
+         call text%open_file(file, error, folder)
+      else
+         call text%open_file(file, error)
+      end if
    end subroutine open_coefficients
 end module contact_cases_elastic_setup

@@ -181,10 +181,10 @@ contains
       real(wp), parameter :: at_axle = 0.999_wp
 
       associate (problem => session%problem)
-         call load_profile(session%profiles, spec%wheel_rail%rail_profile, profile_side%rail, folder, problem%rail, &
-            & problem%rail_surface, log, error)
+         call load_profile(session%profiles, spec%wheel_rail%rail_profile, profile_side%rail, folder, &
+            & problem%rail, problem%rail_surface, log, error, spec%limits%confined)
          if (.not. allocated(error)) call load_profile(session%profiles, spec%wheel_rail%wheel_profile, profile_side%wheel, &
-            & folder, problem%wheel, problem%wheel_surface, log, error)
+            & folder, problem%wheel, problem%wheel_surface, log, error, spec%limits%confined)
          if (allocated(error)) return
          associate (height => spec%wheel_rail%track%gaught, z => problem%rail%z%nodes())
             if (spec%wheel_rail%new_rail_profile .and. height > maxval(z) - minval(z)) call log%warning("GAUGHT = " // &
@@ -277,7 +277,7 @@ contains
    end subroutine set_pair
 
    !> Take a profile from the store, which reads it when it is new or has changed
-   subroutine load_profile(profiles, profile, side, folder, curve, surface, log, error)
+   subroutine load_profile(profiles, profile, side, folder, curve, surface, log, error, confined)
       type(profile_store), intent(inout) :: profiles
       type(profile_spec), intent(in) :: profile
       !> Member of profile_side
@@ -288,6 +288,8 @@ contains
       type(profile_surface), allocatable, intent(inout) :: surface
       type(log_type), intent(inout) :: log
       type(error_type), allocatable, intent(out) :: error
+      !> Must the file be below the folder? Default no
+      logical, intent(in), optional :: confined
       type(prepared_profile), pointer :: prepared
       type(profile_request) :: wanted
       character(len=5) :: body
@@ -301,6 +303,9 @@ contains
          wanted%points = profile%points
       else if (wanted%file(:1) /= "/" .and. len(folder) > 0) then
          wanted%file = folder // "/" // wanted%file
+      end if
+      if (present(confined)) then
+         if (confined) wanted%below = folder
       end if
       wanted%side = side
       wanted%mirror_y = profile%mirror_y

@@ -4,8 +4,9 @@ module contact_cli_arguments
    use contact_base_choices, only : heat_source
    use contact_base_error, only : error_kind, error_type, fatal_error
    use contact_base_kinds, only : long, wp
-   use contact_base_limits, only : case_limits
+   use contact_base_limits, only : case_limits, fill_limits
    use contact_cli_command_line, only : take_word
+   use contact_cli_process, only : exit_status_of_signal, forget_signals, stop_by_signal, watch_signals
    use contact_cli_report, only : is_report, run_report
    use contact_cli_versions, only : contact_version, write_versions
    use contact_experiment_progress, only : is_terminal
@@ -57,8 +58,11 @@ module contact_cli_arguments
       integer :: heat_source = heat_source%established
       !> Contact angles as in the established program?
       logical :: angle_below_axle = .true.
-      !> What a case may take
+      !> What a case may take, and whether the run is confined to its folder
       type(case_limits) :: limits
+      !> What the run may take: time [s], and bytes of its files
+      real(wp) :: run_seconds = huge(1.0_wp)
+      integer(long) :: output_bytes = huge(1_long)
       !> Exit with a status of its own when a case does not converge?
       logical :: strict = .false.
       !> Go on with a run that has ended too early?
@@ -111,11 +115,12 @@ contains
 
    !> Run the experiment; errors have been written when this returns
    subroutine run(asked, status)
-      type(command), intent(in) :: asked
+      type(command), intent(inout) :: asked
       !> Exit status
       integer, intent(out) :: status
       type(run_settings) :: settings
       type(error_type), allocatable :: error
+      logical :: interrupted
 
       settings%experiment = asked%experiment
       if (allocated(asked%output_folder)) settings%output_folder = asked%output_folder
@@ -125,6 +130,10 @@ contains
       settings%strict = asked%strict
       settings%resume = asked%resume
       settings%limits = asked%limits
+      if (asked%limits%confined) call fill_limits(settings%limits, asked%run_seconds, asked%output_bytes)
+      settings%run_deadline%seconds = asked%run_seconds
+      settings%output_bytes = asked%output_bytes
+      settings%stop_asked => stop_by_signal
       settings%exports%hdf5 = asked%hdf5
       settings%exports%vtk = asked%vtk
       settings%heat_source = asked%heat_source
@@ -135,10 +144,13 @@ contains
          settings%progress = is_terminal()
       end if
       settings%complaints = error_unit
-      call run_experiment(settings, error)
+      call watch_signals()
+      call run_experiment(settings, error, interrupted)
+      call forget_signals()
       status = success
       if (.not. allocated(error)) return
       status = merge(unconverged, failure, error%kind == error_kind%not_converged)
+      if (interrupted) status = exit_status_of_signal()
    end subroutine run
 
    !> Sort the words of the command line into options and positional arguments
@@ -223,7 +235,9 @@ contains
          if (value /= "contact" .and. value /= "established") call fatal_error(error, "the contact angle, '" // value // &
             & "', is not known; established and contact are")
          return
-      case ("--limit-time", "--limit-memory", "--limit-elements")
+      case ("--confine")
+         asked%limits%confined = .true.
+      case ("--limit-time", "--limit-memory", "--limit-elements", "--limit-run-time", "--limit-output")
          call take_limit()
          return
       case ("--strict")
@@ -245,7 +259,8 @@ contains
       case default
          call fatal_error(error, "there is no option '" // name // &
             & "'; the options are --help, --version, --output-dir DIR, --threads N, --heat NAME, --hdf5, " // &
-            & "--json, --vtk, --limit-time S, --limit-memory MB, --limit-elements N, --resume, --strict and --quiet")
+            & "--json, --vtk, --confine, --limit-time S, --limit-run-time S, --limit-memory MB, --limit-elements N, " // &
+            & "--limit-output MB, --resume, --strict and --quiet")
          return
       end select
       if (equals > 0) call fatal_error(error, "the option " // name // " takes no value")
@@ -270,6 +285,10 @@ contains
             asked%limits%deadline%seconds = number
          case ("--limit-memory")
             asked%limits%bytes = int(1.0e6_wp*number, long)
+         case ("--limit-run-time")
+            asked%run_seconds = number
+         case ("--limit-output")
+            asked%output_bytes = int(1.0e6_wp*number, long)
          case default
             asked%limits%elements = int(number, long)
          end select
@@ -396,11 +415,16 @@ contains
          & "  --limit-time S    give up a case after S seconds, and go on with the next", &
          & "  --limit-memory MB, --limit-elements N  refuse cases that need more memory or elements", &
          & "  --resume          go on with a run that was interrupted, or ended at an error of the input that is mended now", &
+         & "  --limit-run-time S, --limit-output MB  end the run after this time, or when its files take more", &
+         & "  --confine         for input from strangers: read and write ordinary files below the folder of the", &
+         & "                    experiment only, with limits of 600 s and 3600 s, 4000 MB, 1000000 elements,", &
+         & "                    1000 MB of output where no others are given", &
          & "  --strict          exit with status 2 when a case did not converge", &
          & "  --quiet           write nothing but errors to the screen", &
          & "  --help            this text", &
          & "  --version         versions of program, compiler and libraries", &
          & "", &
-         & "The exit status is 0 when all went well, 1 after any error, and with --strict 2 when a case did not converge."
+         & "The exit status is 0 when all went well, 1 after any error, and with --strict 2 when a case did not converge,", &
+         & "and 128 + n when signal n ended the run after the case in hand."
    end subroutine write_help
 end module contact_cli_arguments

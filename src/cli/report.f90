@@ -3,7 +3,7 @@ module contact_cli_report
    use, intrinsic :: iso_c_binding, only : c_char, c_null_char, c_size_t
    use, intrinsic :: iso_fortran_env, only : error_unit
    use contact_cli_command_line, only : take_word
-   use contact_text_words, only : replaced
+   use contact_cli_process, only : become, set_variable, word_type
    implicit none (type, external)
    private
 
@@ -16,8 +16,16 @@ module contact_cli_report
    character(len=*), parameter :: usual_places(3) = [character(len=26) :: "/../share/contact/python", "/../../../python", &
       & "/../../python"]
    !> Runs the package from the folder that is the first argument, or from where Python has it when that is empty
-   character(len=*), parameter :: start = "import sys; place = sys.argv.pop(1); sys.path[:1] = [place] if place else []; " &
-      & // "from contact.report.__main__ import main; sys.exit(main())"
+   character(len=*), parameter :: start = "import sys" // new_line("a") &
+      & // "place = sys.argv.pop(1)" // new_line("a") &
+      & // "sys.path[:1] = [place] if place else []" // new_line("a") &
+      & // "try:" // new_line("a") &
+      & // "    from contact.report.__main__ import main" // new_line("a") &
+      & // "except ModuleNotFoundError as missing:" // new_line("a") &
+      & // "    sys.exit('contact report: the Python package contact.report is not found (%s). It is in the folder python of " &
+      & // "the sources and is\ninstalled with the program; name its folder by the environment variable " // variable &
+      & // ", or: python3 -m pip install SOURCES/python' % missing)" // new_line("a") &
+      & // "sys.exit(main())"
 
    interface
       !> readlink of the C library
@@ -42,34 +50,28 @@ contains
       is_report = word == "report"
    end function is_report
 
-   !> Do what `contact report ...` asks for; the result is the exit status
+   !> Do what `contact report ...` asks for: Python takes the place of this program, so that whoever ends it ends the page server.
+   !> Returns an exit status only when there is no Python
    integer function run_report() result(status)
-      character(len=:), allocatable :: command, place, program_name, word
+      character(len=:), allocatable :: place, program_name
+      type(word_type), allocatable :: words(:)
       integer :: k
 
       call find_program(program_name)
       call find_package(program_name, place)
-      status = 1
-      if (run_quietly("command -v python3") /= 0) then
-         write(error_unit, '(A)') "contact report: Python 3 is not found; install it together with NumPy and h5py " &
-            & // "(apt-get install python3-h5py)"
-         return
-      end if
-      if (len(place) == 0) then
-         if (run_quietly("python3 -c " // quoted("import sys; sys.path[:1] = []; import contact.report")) /= 0) then
-            write(error_unit, '(A)') "contact report: the Python package contact.report is not found. It is in the folder " &
-               & // "python of the sources and is", "installed with the program; name its folder by the environment " &
-               & // "variable " // variable // ", or: python3 -m pip install SOURCES/python"
-            return
-         end if
-      end if
-      command = "python3 -c " // quoted(start) // " " // quoted(place)
-      if (len(program_name) > 0) command = "CONTACT_PROGRAM=" // quoted(program_name) // " exec " // command
+      if (len(program_name) > 0) call set_variable("CONTACT_PROGRAM", program_name)
+      allocate(words(command_argument_count() + 3))
+      words(1)%text = "python3"
+      words(2)%text = "-c"
+      words(3)%text = start
+      words(4)%text = place
       do k = 2, command_argument_count()
-         call take_word(k, word)
-         command = command // " " // quoted(word)
+         call take_word(k, words(k + 3)%text)
       end do
-      call execute_command_line(command, exitstat=status)
+      call become(words)
+      write(error_unit, '(A)') "contact report: Python 3 is not found; install it together with NumPy and h5py " &
+         & // "(apt-get install python3-h5py)"
+      status = 1
    end function run_report
 
    !> Folder that holds the package, "" when there is none
@@ -111,18 +113,4 @@ contains
       call get_command_argument(0, buffer)
       if (index(buffer, "/") > 0) path = trim(buffer)
    end subroutine find_program
-
-   !> Exit status of a command whose output nobody wants
-   integer function run_quietly(command) result(status)
-      character(len=*), intent(in) :: command
-      call execute_command_line(command // " > /dev/null 2>&1", exitstat=status)
-   end function run_quietly
-
-   !> A word as the shell leaves it alone
-   pure function quoted(word) result(safe)
-      character(len=*), intent(in) :: word
-      character(len=len(replaced(word, "'", "'\''")) + 2) :: safe
-
-      safe = "'" // replaced(word, "'", "'\''") // "'"
-   end function quoted
 end module contact_cli_report

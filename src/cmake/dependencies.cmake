@@ -1,5 +1,5 @@
 # The compiler and the outside libraries, with the targets by which rooms name them after LIBRARIES:
-# FFTW3::fftw3 (fft), LAPACK::LAPACK (numeric), hdf5_fortran (cli)
+# FFTW3::fftw3 (fft), hdf5_fortran (hdf5, cli)
 if(NOT CMAKE_Fortran_COMPILER_ID STREQUAL "GNU" OR CMAKE_Fortran_COMPILER_VERSION VERSION_LESS 12)
   message(FATAL_ERROR "CONTACT is built with gfortran 12 or newer, found "
     "${CMAKE_Fortran_COMPILER_ID} ${CMAKE_Fortran_COMPILER_VERSION}; "
@@ -7,7 +7,6 @@ if(NOT CMAKE_Fortran_COMPILER_ID STREQUAL "GNU" OR CMAKE_Fortran_COMPILER_VERSIO
 endif()
 find_package(OpenMP REQUIRED COMPONENTS Fortran)
 find_package(FFTW3 REQUIRED)
-find_package(LAPACK REQUIRED)
 find_package(HDF5 REQUIRED COMPONENTS Fortran)
 
 # HDF5 with its Fortran modules

@@ -102,17 +102,6 @@ install(EXPORT contact NAMESPACE contact:: FILE contact-targets.cmake
 file(RELATIVE_PATH pc_prefix
   ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
 set(pc_private "-lfftw3")
-foreach(file IN LISTS LAPACK_LIBRARIES)
-  if(file MATCHES "^-")
-    string(APPEND pc_private " ${file}")
-  elseif(TARGET ${file})
-    continue()
-  else()
-    get_filename_component(name ${file} NAME_WE)
-    string(REGEX REPLACE "^lib" "" name ${name})
-    string(APPEND pc_private " -l${name}")
-  endif()
-endforeach()
 # HDF5 often lies in a folder of its own, which linkers do not look into
 string(JOIN " " hdf5_private ${HDF5_Fortran_LIBRARIES})
 string(APPEND pc_private " ${hdf5_private}")

@@ -2,6 +2,7 @@
 module contact_experiment_exports
    use contact_base_error, only : error_type
    use contact_base_kinds, only : wp
+   use contact_base_limits, only : case_limits
    use contact_cases_pair_session, only : pair_session
    use contact_cases_spec, only : case_spec
    use contact_experiment_journal, only : checkpoint
@@ -63,7 +64,7 @@ contains
    end function wanted
 
    !> Open what is asked for
-   subroutine open_files(self, request, results, experiment, version, run, error, from)
+   subroutine open_files(self, request, results, experiment, version, run, limits, error, from)
       class(export_files), intent(inout) :: self
       type(export_request), intent(in) :: request
       !> Folder and name of the results, to which a suffix is added
@@ -72,20 +73,22 @@ contains
       character(len=*), intent(in) :: experiment, version
       !> What is planned
       type(run_summary), intent(in) :: run
+      !> As for open_result
+      type(case_limits), intent(in) :: limits
       type(error_type), allocatable, intent(out) :: error
       !> Go on from there
       type(checkpoint), intent(in), optional :: from
 
       if (present(from)) then
-         call go_on(self, request, results, run, from, error)
+         call go_on(self, request, results, run, from, limits, error)
          return
       end if
       if (allocated(request%json)) then
          allocate(self%json)
          if (request%json == "-") then
-            call self%json%open_file("-", run%planned, error)
+            call self%json%open_file("-", run%planned, limits, error)
          else
-            call self%json%open_file(results // ".jsonl", run%planned, error)
+            call self%json%open_file(results // ".jsonl", run%planned, limits, error)
          end if
          if (allocated(error)) return
       end if
@@ -96,22 +99,23 @@ contains
       end if
       if (request%vtk) then
          allocate(self%vtk)
-         call self%vtk%open_collection(results, run, error)
+         call self%vtk%open_collection(results, run, limits, error)
       end if
    end subroutine open_files
 
    !> Open the files that are there and go on with them; the HDF5 file is open already
-   subroutine go_on(self, request, results, run, from, error)
+   subroutine go_on(self, request, results, run, from, limits, error)
       type(export_files), intent(inout) :: self
       type(export_request), intent(in) :: request
       character(len=*), intent(in) :: results
       type(run_summary), intent(in) :: run
       type(checkpoint), intent(in) :: from
+      type(case_limits), intent(in) :: limits
       type(error_type), allocatable, intent(out) :: error
 
       if (allocated(request%json)) then
          allocate(self%json)
-         call self%json%open_file(results // ".jsonl", run%planned, error, from%json)
+         call self%json%open_file(results // ".jsonl", run%planned, limits, error, from%json)
          if (allocated(error)) return
       end if
       if (allocated(self%hdf5)) then
@@ -120,7 +124,7 @@ contains
       end if
       if (request%vtk) then
          allocate(self%vtk)
-         call self%vtk%open_collection(results, run, error, from%vtk)
+         call self%vtk%open_collection(results, run, limits, error, from%vtk)
       end if
    end subroutine go_on
 

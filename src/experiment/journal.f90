@@ -83,17 +83,19 @@ contains
    end function journal_name
 
    !> Begin the file of a run
-   subroutine start(self, results, settings)
+   subroutine start(self, results, settings, confined)
       class(journal_file), intent(inout) :: self
       !> Folder and name of the results
       character(len=*), intent(in) :: results
       type(journal_settings), intent(in) :: settings
+      !> As for open_file of output_file
+      logical, intent(in) :: confined
       character(len=:), allocatable :: reason
       character(len=300) :: text
 
       self%name = journal_name(results)
       self%letters = ""
-      call self%file%open_file(self%name, reason)
+      call self%file%open_file(self%name, reason, confined)
       call self%file%line(heading)
       associate (s => settings)
          write(text, '(A, 1X, 3(L1, 1X), I0, 1X, L1, ES25.16E3, 2(1X, I0))') trim(s%version), s%json, s%hdf5, s%vtk, &
@@ -104,19 +106,21 @@ contains
    end subroutine start
 
    !> Go on with the file behind a line that was read
-   subroutine go_on(self, results, place, from)
+   subroutine go_on(self, results, place, from, confined)
       class(journal_file), intent(inout) :: self
       !> Folder and name of the results
       character(len=*), intent(in) :: results
       !> End of the line [bytes], and what it says
       integer(long), intent(in) :: place
       type(checkpoint), intent(in) :: from
-      logical :: ignored
+      !> As for open_file of output_file
+      logical, intent(in) :: confined
+      character(len=:), allocatable :: ignored
 
       self%name = journal_name(results)
       self%letters = ""
       self%now = from
-      call self%file%open_again(self%name, place, ignored)
+      call self%file%open_again(self%name, place, ignored, confined)
    end subroutine go_on
 
    !> A case is finished: what `now` says holds

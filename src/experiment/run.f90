@@ -14,7 +14,7 @@ module contact_experiment_run
    use contact_base_error, only : add_context, error_kind, error_type, fatal_error, full_text
    use contact_base_guard, only : do_guarded, free_left_blocks, guard_end, new_owner
    use contact_base_kinds, only : long, wp
-   use contact_base_limits, only : case_limits, wall_clock
+   use contact_base_limits, only : case_limits, deadline_type, wall_clock
    use contact_base_log, only : log_type
    use contact_base_output_file, only : remove_file
    use contact_cases_border_warning, only : is_same
@@ -26,6 +26,7 @@ module contact_experiment_run
    use contact_experiment_exports, only : export_files, export_request, number_of_exports
    use contact_experiment_journal, only : advised, case_letter, checkpoint, is_advised, journal_file, journal_name, &
       & journal_settings, letter_of, read_journal
+   use contact_experiment_lock, only : experiment_lock
    use contact_experiment_place, only : experiment_place, locate_experiment
    use contact_experiment_progress, only : is_terminal, progress_line
    use contact_experiment_stopwatch, only : stopwatch
@@ -45,13 +46,22 @@ module contact_experiment_run
    implicit none (type, external)
    private
 
-   public :: no_unit, run_experiment, run_settings
+   public :: no_unit, run_experiment, run_settings, stop_question
 
    !> Stands for no unit; 0 is the standard error stream of gfortran
    integer, parameter :: no_unit = -1
 
    !> Cases that are estimated to take more time [s] or memory [bytes] are announced: by a check, and before they are computed
    real(wp), parameter :: told_seconds = 1.0_wp, told_bytes = 1.0e8_wp, large_seconds = 10.0_wp, large_bytes = 1.0e9_wp
+
+   abstract interface
+      !> Is the run to end after the case in hand? It is asked between two cases
+      subroutine stop_question(reason)
+         implicit none (type, external)
+         !> Why, such as "signal TERM"; unallocated: go on
+         character(len=:), allocatable, intent(out) :: reason
+      end subroutine stop_question
+   end interface
 
    !> What is to be run and where messages go
    type :: run_settings
@@ -71,8 +81,13 @@ module contact_experiment_run
       integer :: complaints = no_unit
       !> May a progress line be shown on the terminal?
       logical :: progress = .false.
-      !> What each case may take
+      !> What each case may take, and whether the run is confined to its folder
       type(case_limits) :: limits
+      !> What the whole run may take: time, and bytes of all files
+      type(deadline_type) :: run_deadline
+      integer(long) :: output_bytes = huge(1_long)
+      !> Whom to ask between two cases whether the run is to end; null for nobody
+      procedure(stop_question), pointer, nopass :: stop_asked => null()
       !> Is a case that does not converge a failure of the run?
       logical :: strict = .false.
       !> Files for other programs beside the usual ones
@@ -105,6 +120,7 @@ module contact_experiment_run
    type :: experiment_state
       type(experiment_place) :: place
       type(experiment_reader) :: reader
+      type(experiment_lock) :: lock
       type(log_type) :: log
       type(progress_line) :: progress
       type(export_files) :: exports
@@ -117,16 +133,23 @@ module contact_experiment_run
       integer :: cases = 0, errors = 0
       !> What is planned and what is done
       type(run_summary) :: run
+      !> Has somebody asked the run to end?
+      logical :: interrupted = .false.
       !> Has no case asked for results so far?
       logical :: silent = .true.
       !> The first error; unallocated when there was none
       type(error_type), allocatable :: first_error
       type(stopwatch) :: total, reading, solving, writing
+      !> What each case may take and the run may still write
+      type(case_limits) :: limits
+      type(deadline_type) :: deadline
+      !> Size of the HDF5 file as it was counted last
+      integer(long) :: hdf5_bytes = 0
       !> What `--resume` goes on from, and the last line of the input that its hash knows
       type(journal_file) :: journal
       integer :: hashed = 0
-      !> When the report was handed to the system last, see wall_clock
-      real(wp) :: last_flush = 0.0_wp
+      !> When the journal was handed to the system last, see wall_clock
+      real(wp) :: last_save = 0.0_wp
       !> The case in hand, if there is one
       type(case_head) :: head
       logical :: in_case = .false.
@@ -143,9 +166,11 @@ module contact_experiment_run
 contains
 
    !> Run or check one experiment; the error is the first of all that were met
-   subroutine run_experiment(settings, error)
+   subroutine run_experiment(settings, error, interrupted)
       type(run_settings), target, intent(in) :: settings
       type(error_type), allocatable, intent(out) :: error
+      !> Did settings%stop_asked end it?
+      logical, intent(out), optional :: interrupted
       type(experiment_state), pointer :: state
       type(guarded_run), target :: run
       integer :: default_threads, owner, cause
@@ -164,7 +189,8 @@ contains
          & state%place%name // "'")
 
       call check_place(state, error)
-      if (.not. allocated(error)) call state%reader%open_file(state%place%input, error)
+      call set_limits(state, settings)
+      if (.not. allocated(error)) call open_input(state, state%reader, error)
       if (allocated(error)) then
          call report_error(state, error)
       else
@@ -178,6 +204,9 @@ contains
          if (.not. allocated(state%first_error)) call fatal_error(state%first_error, "there is not enough memory", &
             & error_kind%memory)
       end if
+      call state%lock%release()
+      if (associated(state%limits%output)) deallocate(state%limits%output)
+      if (present(interrupted)) interrupted = state%interrupted
       call omp_set_num_threads(default_threads)
       call move_alloc(state%first_error, error)
       if (settings%strict .and. .not. allocated(error) .and. state%run%ended(case_state%not_converged) > 0) &
@@ -197,10 +226,16 @@ contains
       !> A guarded_run
       type(c_ptr), value :: data
       type(guarded_run), pointer :: run
+      type(error_type), allocatable :: error
 
       call c_f_pointer(data, run)
       if (run%settings%check_only) then
          call check_all_cases(run%state)
+         return
+      end if
+      call run%state%lock%take(run%state%place, error)
+      if (allocated(error)) then
+         call report_error(run%state, error)
       else
          call compute_all_cases(run%state, run%settings)
       end if
@@ -239,6 +274,66 @@ contains
       end associate
    end subroutine end_early
 
+   !> The limits of the run, whose time begins
+   subroutine set_limits(state, settings)
+      type(experiment_state), intent(inout) :: state
+      type(run_settings), intent(in) :: settings
+
+      state%limits = settings%limits
+      if (settings%output_bytes < huge(1_long)) then
+         allocate(state%limits%output)
+         state%limits%output%allowed = settings%output_bytes
+         state%limits%output%left = settings%output_bytes
+      end if
+      state%deadline = settings%run_deadline
+      call state%deadline%start()
+   end subroutine set_limits
+
+   !> Open the input; that of a confined run is an ordinary file in the folder of the experiment
+   subroutine open_input(state, reader, error)
+      type(experiment_state), intent(in) :: state
+      type(experiment_reader), intent(inout) :: reader
+      type(error_type), allocatable, intent(out) :: error
+
+      if (state%limits%confined) then
+         call reader%open_file(state%place%input, error, state%place%folder)
+      else
+         call reader%open_file(state%place%input, error)
+      end if
+   end subroutine open_input
+
+   !> An error when the run is to end before its next case
+   subroutine look_for_end(state, settings, error)
+      type(experiment_state), intent(inout) :: state
+      type(run_settings), intent(in) :: settings
+      type(error_type), allocatable, intent(out) :: error
+      character(len=:), allocatable :: reason
+
+      if (associated(settings%stop_asked)) then
+         call settings%stop_asked(reason)
+         if (allocated(reason)) then
+            state%interrupted = .true.
+            call fatal_error(error, "the run was ended by " // reason // " before case " // integer_text(state%cases), &
+               & error_kind%interrupted)
+            return
+         end if
+      end if
+      call state%deadline%watch("by the run as a whole", error)
+   end subroutine look_for_end
+
+   !> An error when the files of the run have reached their limit; the report has room for it
+   subroutine look_for_excess(state, error)
+      type(experiment_state), intent(inout) :: state
+      type(error_type), allocatable, intent(out) :: error
+
+      if (.not. associated(state%limits%output)) return
+      if (.not. state%limits%output%is_exceeded()) return
+      call state%log%out%charge_to(null())
+      call fatal_error(error, "the results would take more than the limit of " // &
+         & integer_text(int(min(state%limits%output%allowed/1000000_long, int(huge(1), long)))) // " MB (--limit-output)", &
+         & error_kind%limit)
+   end subroutine look_for_excess
+
    !> A name must be left after the folder and the suffix
    subroutine check_place(state, error)
       type(experiment_state), intent(in) :: state
@@ -273,6 +368,7 @@ contains
             exit
          end if
          state%cases = state%cases + 1
+         this%spec%limits%confined = state%limits%confined
          call report_problems(state, this)
          if (this%problems%is_usable()) call add_cost(state, this, total)
          if (.not. this%problems%is_usable()) then
@@ -358,7 +454,13 @@ contains
       allocate(state%slots(4))
       asked = settings
       is_done = .false.
-      if (asked%resume) call find_point(state, asked, point, is_done, error)
+      if (asked%resume) then
+         call find_point(state, asked, point, is_done, error)
+         ! limits are those that the run had before, where no others are given
+         state%limits%deadline = asked%limits%deadline
+         state%limits%bytes = asked%limits%bytes
+         state%limits%elements = asked%limits%elements
+      end if
       if (.not. allocated(error) .and. point%active) call catch_up(state, asked, point, error)
       if (allocated(error)) then
          if (allocated(state%exports%hdf5)) call state%exports%hdf5%abandon()
@@ -383,13 +485,26 @@ contains
             exit
          end if
          state%cases = state%cases + 1
+         call look_for_end(state, settings, error)
+         if (allocated(error)) then
+            state%cases = state%cases - 1
+            call report_error(state, error)
+            state%run%reason = full_text(error)
+            exit
+         end if
          call complete_spec(state, asked, this)
          state%head = case_head(this%number, this%reid, this%cpid, this%module_number, this%first_line, state%run%finished + 1)
          state%in_case = .true.
          call compute_case(state, this, go_on)
          state%in_case = .false.
          if (.not. go_on) exit
-         call keep_file_current(state)
+         call keep_files_current(state)
+         call look_for_excess(state, error)
+         if (allocated(error)) then
+            call report_error(state, error)
+            state%run%reason = full_text(error)
+            exit
+         end if
          if (settings%screen == 0 .or. this%spec%flow_level == 0) call state%progress%show(state%cases)
       end do
       if (state%log%out%is_open()) call close_all_files(state)
@@ -407,7 +522,8 @@ contains
       this%spec%heat%source = asked%heat_source
       if (allocated(this%spec%wheel_rail)) this%spec%wheel_rail%search%angle_below_axle = asked%angle_below_axle
       if (this%spec%output_level > 0 .or. this%spec%mat_file > 0 .or. this%spec%digits%s > 0) state%silent = .false.
-      this%spec%limits = asked%limits
+      this%spec%limits = state%limits
+      this%spec%limits%deadline%seconds = min(this%spec%limits%deadline%seconds, state%deadline%left())
       call this%spec%limits%deadline%start()
    end subroutine complete_spec
 
@@ -423,7 +539,7 @@ contains
       version = ""
       if (allocated(asked%version)) version = asked%version
       if (point%active) then
-         call open_result_again(state%log%out, state%place%results // ".out", point%at%out, error)
+         call open_result_again(state%log%out, state%place%results // ".out", point%at%out, error, state%limits)
       else
          ! a journal of an earlier run knows nothing of what is written now
          call remove_file(journal_name(state%place%results))
@@ -433,10 +549,11 @@ contains
          ! counting means reading all of the input: where results are few and quick, that waits until somebody needs to know
          if (asked%progress .or. asked%exports%any()) call count_planned(state)
          if (point%active) then
-            call state%exports%open_files(asked%exports, state%place%results, state%place%name, version, state%run, error, &
-               & point%at)
+            call state%exports%open_files(asked%exports, state%place%results, state%place%name, version, state%run, &
+               & state%limits, error, point%at)
          else
-            call state%exports%open_files(asked%exports, state%place%results, state%place%name, version, state%run, error)
+            call state%exports%open_files(asked%exports, state%place%results, state%place%name, version, state%run, &
+               & state%limits, error)
          end if
       end if
       done = .not. allocated(error)
@@ -446,12 +563,13 @@ contains
          return
       end if
       if (point%active) then
-         call state%journal%go_on(state%place%results, point%place, point%at)
+         call state%journal%go_on(state%place%results, point%place, point%at, state%limits%confined)
          return
       end if
       state%silent = .not. state%exports%wanted()
       call write_banner(state%log, asked%version)
-      call state%journal%start(state%place%results, settings_of(asked))
+      if (allocated(state%lock%doubt)) call state%log%warning(state%lock%doubt)
+      call state%journal%start(state%place%results, settings_of(asked), state%limits%confined)
    end subroutine open_all_files
 
    !> Tell in all files how far the run has come, and close them
@@ -761,17 +879,24 @@ contains
       complete = status == 0 .and. index(tail, " CONTACT ended ") > 0 .and. index(tail, " Not complete: ") == 0
    end function says_complete
 
-   !> Hand the report to the system after each case, but not more often than costs nothing: this is what a killed run loses
-   subroutine keep_file_current(state)
+   !> Hand what is written to the system, so that it outlives this process; in a run with a limit count the HDF5 file
+   subroutine keep_files_current(state)
       type(experiment_state), intent(inout) :: state
-      !> [s]
+      !> What a killed run computes anew when it is resumed [s]
       real(wp), parameter :: interval = 0.002_wp
+      logical :: ignored
 
-      if (wall_clock() - state%last_flush < interval) return
       call state%log%out%flush_now()
-      call state%journal%save_line()
-      state%last_flush = wall_clock()
-   end subroutine keep_file_current
+      if (wall_clock() - state%last_save >= interval) then
+         call state%journal%save_line()
+         state%last_save = wall_clock()
+      end if
+      if (.not. associated(state%limits%output) .or. .not. allocated(state%exports%hdf5)) return
+      associate (bytes => state%exports%hdf5%bytes_so_far())
+         if (bytes > state%hdf5_bytes) ignored = state%limits%output%take(bytes - state%hdf5_bytes)
+         state%hdf5_bytes = max(bytes, state%hdf5_bytes)
+      end associate
+   end subroutine keep_files_current
 
    !> Check, solve and write one case
    subroutine compute_case(state, this, go_on)
@@ -1035,7 +1160,7 @@ contains
       type(experiment_state), intent(inout) :: state
       type(error_type), allocatable, intent(out) :: error
 
-      call open_result(state%log%out, state%place%results // ".out", state%place%results // ".out", error)
+      call open_result(state%log%out, state%place%results // ".out", state%place%results // ".out", error, state%limits)
    end subroutine open_out_file
 
    !> Timers and closing lines, and the end of the .out file
@@ -1044,6 +1169,8 @@ contains
       type(error_type), allocatable :: error
       type(timer_line) :: lines(4)
 
+      ! the end is told in any case
+      call state%log%out%charge_to(null())
       call state%total%halt()
       call state%total%fill_line("Total", lines(1))
       call state%reading%fill_line("Reading input", lines(2))

@@ -2,7 +2,7 @@
 module contact_hdf5_case_file
    use contact_base_choices, only : motion
    use contact_base_error, only : error_type
-   use contact_base_kinds, only : wp
+   use contact_base_kinds, only : long, wp
    use contact_cases_spec, only : case_spec
    use contact_hdf5_file, only : hdf5_file
    use contact_output_case_record, only : case_head, describe_border, describe_head, describe_pair, describe_patch, &
@@ -28,6 +28,8 @@ module contact_hdf5_case_file
       procedure :: go_on
       procedure :: abandon
       procedure :: close_file
+      !> Size of the file in the making [bytes]
+      procedure :: bytes_so_far
       !> A case without result, of module 3, and of module 1
       procedure :: write_failure
       procedure :: write_contact
@@ -117,6 +119,12 @@ contains
       end if
       call self%file%close_file(error)
    end subroutine close_file
+
+   integer(long) function bytes_so_far(self) result(bytes)
+      class(hdf5_case_file), intent(in) :: self
+
+      bytes = self%file%bytes_so_far()
+   end function bytes_so_far
 
    !> A case that has no result: a row of /cases, and why
    subroutine write_failure(self, head)

@@ -160,6 +160,8 @@ module contact_hdf5_file
       procedure :: close_attributes
       !> Bring the readable file up to date
       procedure :: renew
+      !> Size of the file in the making [bytes]
+      procedure :: bytes_so_far
       procedure :: number
       procedure :: numbers
       procedure :: count => whole_number
@@ -493,6 +495,13 @@ contains
          end associate
       end do
    end subroutine close_attributes
+
+   integer(long) function bytes_so_far(self) result(bytes)
+      class(hdf5_file), intent(in) :: self
+
+      inquire(file=self%name // unfinished, size=bytes)
+      bytes = max(bytes, 0_long)
+   end function bytes_so_far
 
    !> Bring the readable file up to date
    subroutine renew(self)

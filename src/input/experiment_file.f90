@@ -72,12 +72,14 @@ module contact_input_experiment_file
 contains
 
    !> Read a file from the disk
-   subroutine open_experiment(self, file, error)
+   subroutine open_experiment(self, file, error, below)
       class(experiment_reader), intent(out) :: self
       character(len=*), intent(in) :: file
       type(error_type), allocatable, intent(out) :: error
+      !> Folder below which the file must be; absent: anywhere
+      character(len=*), intent(in), optional :: below
 
-      call self%lexer%open_file(file, error)
+      call self%lexer%open_file(file, error, below)
       allocate(self%stores(4))
    end subroutine open_experiment
 

@@ -22,8 +22,8 @@ module contact_numeric_anderson
       real(wp), allocatable, private :: df(:, :), dg(:, :)
       !> Last f and g, and the present f, shape (n)
       real(wp), allocatable, private :: f(:), g(:), present_f(:)
-      !> For the fit of weights: matrix, right-hand side and weights, scratch of LAPACK
-      real(wp), allocatable, private :: a(:, :), b(:), work(:)
+      !> For the fit of weights: orthogonal columns and their triangle, what is left of f and its parts along them, weights
+      real(wp), allocatable, private :: a(:, :), r(:, :), rest(:), y(:), b(:)
       integer, allocatable, private :: pivots(:)
       !> Length of a plain step, in (0, 1]
       real(wp), private :: length = 1.0_wp
@@ -35,20 +35,6 @@ module contact_numeric_anderson
       procedure :: advance
    end type anderson_iteration
 
-   interface
-      !> LAPACK: least squares by a complete orthogonal factorisation; columns may depend on each other
-      subroutine dgelsy(m, n, nrhs, a, lda, b, ldb, jpvt, rcond, rank, work, lwork, info)
-         import :: wp
-         implicit none (type, external)
-         integer, intent(in) :: m, n, nrhs, lda, ldb, lwork
-         real(wp), intent(inout) :: a(lda, *), b(ldb, *)
-         integer, intent(inout) :: jpvt(*)
-         real(wp), intent(in) :: rcond
-         integer, intent(out) :: rank, info
-         real(wp), intent(inout) :: work(*)
-      end subroutine dgelsy
-   end interface
-
 contains
 
    subroutine start(self, n, depth)
@@ -58,10 +44,10 @@ contains
 
       if (allocated(self%f)) then
          if (size(self%f) /= n .or. self%depth /= depth) deallocate(self%f, self%g, self%present_f, self%df, self%dg, &
-            & self%a, self%b, self%work, self%pivots)
+            & self%a, self%r, self%rest, self%y, self%b, self%pivots)
       end if
       if (.not. allocated(self%f)) allocate(self%f(n), self%g(n), self%present_f(n), self%df(n, depth), self%dg(n, depth), &
-         & self%a(n, depth), self%b(max(n, depth)), self%work(4*depth + 1 + 64*(depth + 1)), self%pivots(depth))
+         & self%a(n, depth), self%r(depth, depth), self%rest(n), self%y(depth), self%b(depth), self%pivots(depth))
       self%depth = depth
       self%used = 0
       self%next_column = 1
@@ -106,19 +92,72 @@ contains
    end subroutine advance
 
    !> Weights w that make |f - df w| smallest, as the first values of b
+   !>
+   !> Columns of df are made orthogonal one after the other, the longest that is left first (modified Gram-Schmidt).
    subroutine fit(self)
       class(anderson_iteration), intent(inout) :: self
-      integer :: n, rank, info
+      integer :: j, k, rank, longest
+      real(wp) :: length
       !> Directions that are known less accurately than this are left out
       real(wp), parameter :: smallest = 1.0e-10_wp
 
-      n = size(self%f)
       self%a(:, :self%used) = self%df(:, :self%used)
-      self%b(:n) = self%f
-      self%b(n + 1:) = 0.0_wp
-      self%pivots = 0
-      call dgelsy(n, self%used, 1, self%a, n, self%b, size(self%b), self%pivots, smallest, rank, self%work, size(self%work), &
-         & info)
-      if (info /= 0) self%b(:self%used) = 0.0_wp
+      self%rest = self%f
+      do k = 1, self%used
+         self%pivots(k) = k
+      end do
+      rank = 0
+      do k = 1, self%used
+         longest = k
+         length = norm2(self%a(:, k))
+         do j = k + 1, self%used
+            if (norm2(self%a(:, j)) <= length) cycle
+            longest = j
+            length = norm2(self%a(:, j))
+         end do
+         if (k > 1) then
+            if (length <= smallest*self%r(1, 1)) exit
+         else if (.not. length > 0.0_wp) then
+            exit
+         end if
+         if (longest /= k) call exchange(self, k, longest)
+         rank = k
+         self%r(k, k) = length
+         self%a(:, k) = self%a(:, k)/length
+         do j = k + 1, self%used
+            self%r(k, j) = dot_product(self%a(:, k), self%a(:, j))
+            self%a(:, j) = self%a(:, j) - self%r(k, j)*self%a(:, k)
+         end do
+         self%y(k) = dot_product(self%a(:, k), self%rest)
+         self%rest = self%rest - self%y(k)*self%a(:, k)
+      end do
+      self%b = 0.0_wp
+      do k = rank, 1, -1
+         self%y(k) = self%y(k)/self%r(k, k)
+         self%y(:k - 1) = self%y(:k - 1) - self%r(:k - 1, k)*self%y(k)
+         self%b(self%pivots(k)) = self%y(k)
+      end do
    end subroutine fit
+
+   !> Exchange two columns that are not done yet
+   subroutine exchange(self, k, j)
+      class(anderson_iteration), intent(inout) :: self
+      integer, intent(in) :: k, j
+      real(wp) :: kept
+      integer :: i
+
+      do i = 1, size(self%a, 1)
+         kept = self%a(i, k)
+         self%a(i, k) = self%a(i, j)
+         self%a(i, j) = kept
+      end do
+      do i = 1, k - 1
+         kept = self%r(i, k)
+         self%r(i, k) = self%r(i, j)
+         self%r(i, j) = kept
+      end do
+      i = self%pivots(k)
+      self%pivots(k) = self%pivots(j)
+      self%pivots(j) = i
+   end subroutine exchange
 end module contact_numeric_anderson

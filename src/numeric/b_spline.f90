@@ -1,32 +1,13 @@
 !> Cubic B-splines: basis, interpolation at given sites, smoothing with a penalty on the third derivative
 module contact_numeric_b_spline
    use contact_base_kinds, only : wp
+   use contact_numeric_banded, only : solve_band, solve_positive_band
    use contact_numeric_spline, only : cubic_spline, piece_of
    implicit none (type, external)
    private
 
    public :: basis_values, knot_interval, interpolation_knots, interpolate_sites, not_a_knot_splines
    public :: smooth_b_splines, pieces_from_b_spline
-
-   interface
-      !> LAPACK: solution of a system with a general band matrix
-      subroutine dgbsv(n, kl, ku, nrhs, ab, ldab, ipiv, b, ldb, info)
-         import :: wp
-         implicit none (type, external)
-         integer, intent(in) :: n, kl, ku, nrhs, ldab, ldb
-         real(wp), intent(inout) :: ab(ldab, *), b(ldb, *)
-         integer, intent(out) :: ipiv(*), info
-      end subroutine dgbsv
-      !> LAPACK: factors of a symmetric positive definite band matrix and the solution of a system
-      subroutine dpbsv(uplo, n, kd, nrhs, ab, ldab, b, ldb, info)
-         import :: wp
-         implicit none (type, external)
-         character, intent(in) :: uplo
-         integer, intent(in) :: n, kd, nrhs, ldab, ldb
-         real(wp), intent(inout) :: ab(ldab, *), b(ldb, *)
-         integer, intent(out) :: info
-      end subroutine dpbsv
-   end interface
 
 contains
 
@@ -117,13 +98,12 @@ contains
       !> False when sites and knots do not fit
       logical, intent(out) :: solved
       real(wp), allocatable :: band(:, :)
-      integer, allocatable :: pivots(:)
       real(wp) :: b(4)
       integer, parameter :: width = 3
-      integer :: n, i, j, k, info
+      integer :: n, i, j, k
 
       n = size(sites)
-      allocate(band(3*width + 1, n), pivots(n))
+      allocate(band(3*width + 1, n))
       band = 0.0_wp
       do i = 1, n
          j = knot_interval(t, sites(i))
@@ -133,8 +113,7 @@ contains
             if (abs(i - (j - 4 + k)) <= width) band(2*width + 1 + i - (j - 4 + k), j - 4 + k) = b(k)
          end do
       end do
-      call dgbsv(n, width, width, size(values, 2), band, 3*width + 1, pivots, values, n, info)
-      solved = info == 0
+      call solve_band(band, width, values, solved)
    end subroutine interpolate_sites
 
    !> Interpolating splines without extra conditions at the ends, one per function; sections of
@@ -251,7 +230,7 @@ contains
       real(wp), allocatable :: t(:), breaks(:), band(:, :), c(:, :)
       logical, allocatable :: is_straight(:)
       real(wp) :: row(4), stiffness
-      integer :: n, i, j, k, info
+      integer :: n, i, j, k
 
       call section_knots(s, spacing, breaks, t, is_straight, is_kink)
       n = size(t) - 4
@@ -278,8 +257,7 @@ contains
             call add_square(band, j, third_derivative(t, j), lambda*(t(j + 1) - t(j)))
          end if
       end do
-      call dpbsv("U", n, 3, size(f, 2), band, 4, c, n, info)
-      solved = info == 0
+      call solve_positive_band(band, c, solved)
       if (.not. solved) return
       allocate(splines(size(f, 2)))
       do k = 1, size(splines)

@@ -4,6 +4,7 @@
 !> set up the systems are our own; the systems are solved by LAPACK. doc/theory/profiles.md.
 module contact_numeric_spline
    use contact_base_kinds, only : wp
+   use contact_numeric_banded, only : solve_positive_band
    implicit none (type, external)
    private
 
@@ -26,18 +27,6 @@ module contact_numeric_spline
       !> Values at all ends of pieces
       procedure :: nodes => spline_nodes
    end type cubic_spline
-
-   interface
-      !> LAPACK: factors of a symmetric positive definite band matrix and the solution of a system
-      subroutine dpbsv(uplo, n, kd, nrhs, ab, ldab, b, ldb, info)
-         import :: wp
-         implicit none (type, external)
-         character, intent(in) :: uplo
-         integer, intent(in) :: n, kd, nrhs, ldab, ldb
-         real(wp), intent(inout) :: ab(ldab, *), b(ldb, *)
-         integer, intent(out) :: info
-      end subroutine dpbsv
-   end interface
 
 contains
 
@@ -148,7 +137,7 @@ contains
    !> Natural splines through all points, several functions at once
    !>
    !> The equations of `smoothing_splines` without smoothing. Sections of varying profiles are made of thousands of
-   !> them: one elimination that carries all functions along takes a third of the time that the system of LAPACK takes.
+   !> them: one elimination that carries all functions along takes a third of the time that a system of each one takes.
    pure subroutine natural_splines(s, f, splines, is_kink)
       !> Places of the points [mm], strictly increasing, at least two
       real(wp), intent(in) :: s(:)
@@ -218,7 +207,7 @@ contains
       real(wp), allocatable :: band(:, :), b(:, :), a(:, :), q(:, :)
       real(wp) :: h(size(s) - 1), strength(size(s))
       logical :: free(size(s))
-      integer :: n, j, k, info
+      integer :: n, j, k
 
       n = size(s)
       h = s(2:) - s(:n - 1)
@@ -245,8 +234,7 @@ contains
          if (free(j - 1)) band(2, j) = h(j - 1) + strength(j - 1)*q(0, j - 1)*q(-1, j) + strength(j)*q(1, j - 1)*q(0, j)
          if (free(max(1, j - 2))) band(1, j) = strength(j - 1)*q(1, j - 2)*q(-1, j)
       end do
-      call dpbsv("U", n, 2, size(f, 2), band, 3, b, n, info)
-      solved = info == 0
+      call solve_positive_band(band, b, solved)
       if (.not. solved) return
 
       a = f

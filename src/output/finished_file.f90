@@ -2,6 +2,7 @@
 module contact_output_finished_file
    use, intrinsic :: iso_c_binding, only : c_char, c_int, c_long, c_null_char
    use contact_base_error, only : error_kind, error_type, fatal_error
+   use contact_base_limits, only : case_limits
    use contact_base_output_file, only : output_file, remove_file
    implicit none (type, external)
    private
@@ -61,15 +62,17 @@ contains
    end function case_file_name
 
    !> Open a temporary file in the folder of the final one
-   subroutine start_file(self, name, error)
+   subroutine start_file(self, name, error, limits)
       class(finished_file), intent(inout) :: self
       !> Final name
       character(len=*), intent(in) :: name
       type(error_type), allocatable, intent(out) :: error
+      !> As for open_result
+      type(case_limits), intent(in), optional :: limits
 
       self%name = name
       self%temporary = name // ".tmp"
-      call open_result(self, self%temporary, name, error)
+      call open_result(self, self%temporary, name, error, limits)
    end subroutine start_file
 
    !> Close and rename; when writing failed anywhere the temporary file is removed and the error says so
@@ -87,28 +90,39 @@ contains
    end subroutine finish_file
 
    !> Open a file of results, or say why not
-   subroutine open_result(file, path, name, error)
+   subroutine open_result(file, path, name, error, limits)
       class(output_file), intent(inout) :: file
       !> Name to open, and name for the message
       character(len=*), intent(in) :: path, name
       type(error_type), allocatable, intent(out) :: error
+      !> Is the run confined, and how much may it write? Absent: no and any
+      type(case_limits), intent(in), optional :: limits
       character(len=:), allocatable :: reason
 
-      call file%open_file(path, reason)
+      if (present(limits)) then
+         call file%open_file(path, reason, limits%confined)
+         if (.not. allocated(reason)) call file%charge_to(limits%output)
+      else
+         call file%open_file(path, reason)
+      end if
       if (allocated(reason)) call fatal_error(error, "the file cannot be written: " // reason, error_kind%file, name)
    end subroutine open_result
 
    !> Go on with a file of results behind a place, or say why not
-   subroutine open_result_again(file, name, place, error)
+   subroutine open_result_again(file, name, place, error, limits)
       class(output_file), intent(inout) :: file
       character(len=*), intent(in) :: name
       !> Bytes that are kept
       integer(c_long), intent(in) :: place
       type(error_type), allocatable, intent(out) :: error
-      logical :: done
+      !> As for open_result
+      type(case_limits), intent(in) :: limits
+      character(len=:), allocatable :: reason
 
-      call file%open_again(name, place, done)
-      if (.not. done) call fatal_error(error, "the file cannot be written to go on with it", error_kind%file, name)
+      call file%open_again(name, place, reason, limits%confined)
+      if (.not. allocated(reason)) call file%charge_to(limits%output)
+      if (allocated(reason)) call fatal_error(error, "the file cannot be written to go on with it: " // reason, &
+         & error_kind%file, name)
    end subroutine open_result_again
 
    !> Close a file of results and say whether all of it arrived

@@ -7,6 +7,7 @@ module contact_output_json_file
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
    use contact_base_error, only : error_kind, error_type, fatal_error
    use contact_base_kinds, only : long, wp
+   use contact_base_limits, only : case_limits
    use contact_base_output_file, only : output_file
    use contact_cases_spec, only : case_spec
    use contact_output_case_record, only : case_head, describe_border, describe_head, describe_pair, describe_patch, &
@@ -62,11 +63,13 @@ module contact_output_json_file
 contains
 
    !> Open a file, or take the standard output when the name is "-"
-   subroutine open_json_file(self, name, planned, error, place)
+   subroutine open_json_file(self, name, planned, limits, error, place)
       class(json_file), intent(inout) :: self
       character(len=*), intent(in) :: name
       !> Number of cases of the input
       integer, intent(in) :: planned
+      !> As for open_result
+      type(case_limits), intent(in) :: limits
       type(error_type), allocatable, intent(out) :: error
       !> Go on behind so many bytes
       integer(long), intent(in), optional :: place
@@ -78,10 +81,11 @@ contains
       if (name == "-") then
          call self%file%open_standard_output()
          if (.not. self%file%is_open()) call fatal_error(error, "it cannot be written", error_kind%file, "standard output")
+         call self%file%charge_to(limits%output)
       else if (present(place)) then
-         call open_result_again(self%file, name, place, error)
+         call open_result_again(self%file, name, place, error, limits)
       else
-         call open_result(self%file, name, name, error)
+         call open_result(self%file, name, name, error, limits)
       end if
    end subroutine open_json_file
 

@@ -85,7 +85,7 @@ contains
       type(finished_file) :: file
 
       if (present(place)) here = place
-      call file%start(file_name, error)
+      call file%start(file_name, error, spec%limits)
       if (allocated(error)) return
       call write_header(file, spec, result, status, here)
       call write_elements(file, spec, result)

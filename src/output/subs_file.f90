@@ -52,7 +52,7 @@ contains
       integer :: i
 
       if (.not. allocated(result%subsurface)) return
-      call file%start(file_name, error)
+      call file%start(file_name, error, spec%limits)
       if (allocated(error)) return
       do i = 1, size(result%subsurface)
          call write_block(file, result%subsurface(i), spec%subsurface%matfil >= with_tensor)

@@ -8,6 +8,7 @@ module contact_output_vtk_files
    use contact_base_choices, only : motion
    use contact_base_error, only : add_context, error_kind, error_type, fatal_error
    use contact_base_kinds, only : long, wp
+   use contact_base_limits, only : case_limits
    use contact_base_output_file, only : output_file
    use contact_cases_spec, only : case_spec
    use contact_output_case_record, only : case_head, is_rolling, planned_text, run_summary, side_sign
@@ -61,12 +62,14 @@ module contact_output_vtk_files
 contains
 
    !> Begin the collection
-   subroutine open_collection(self, base, run, error, place)
+   subroutine open_collection(self, base, run, limits, error, place)
       class(vtk_files), intent(inout) :: self
       !> Folder and name of the results
       character(len=*), intent(in) :: base
       !> What is planned
       type(run_summary), intent(in) :: run
+      !> As for open_result
+      type(case_limits), intent(in) :: limits
       type(error_type), allocatable, intent(out) :: error
       !> Go on behind so many bytes
       integer(long), intent(in), optional :: place
@@ -74,13 +77,13 @@ contains
       self%base = base
       self%planned = run%planned
       if (present(place)) then
-         call open_result_again(self%file, base // ".pvd", place, error)
+         call open_result_again(self%file, base // ".pvd", place, error, limits)
          if (allocated(error)) return
          self%last = place
          call tell_unfinished(self)
          return
       end if
-      call open_result(self%file, base // ".pvd", base // ".pvd", error)
+      call open_result(self%file, base // ".pvd", base // ".pvd", error, limits)
       if (allocated(error)) return
       call self%file%line('<?xml version="1.0"?>')
       call self%file%line('<VTKFile type="Collection" version="1.0">')
@@ -252,7 +255,7 @@ contains
             call put(grid, "temperature 1 [degC]", 1, reshape(contact%temp1, [mx*my]))
             call put(grid, "temperature 2 [degC]", 1, reshape(contact%temp2, [mx*my]))
          end if
-         call finish_grid(grid, name, reshape(points, [size(points)]), error)
+         call finish_grid(grid, name, reshape(points, [size(points)]), error, spec%limits)
       end associate
    end subroutine write_surface
 
@@ -291,7 +294,7 @@ contains
       call put(grid, "sigma 3 [N/mm2]", 1, block%sigma3)
       call put(grid, "displacement [mm]", 3, reshape(displacement, [3*n]))
       call put(grid, "stress, axes of the patch [N/mm2]", 6, reshape(tensor, [6*n]))
-      call finish_grid(grid, name, reshape(points, [size(points)]), error)
+      call finish_grid(grid, name, reshape(points, [size(points)]), error, spec%limits)
    end subroutine write_block
 
    !> A point of a patch in track coordinates; as it is in module 3
@@ -385,11 +388,13 @@ contains
    end subroutine put
 
    !> Points, and the file
-   subroutine finish_grid(grid, name, points, error)
+   subroutine finish_grid(grid, name, points, error, limits)
       type(vtk_grid), intent(inout) :: grid
       character(len=*), intent(in) :: name
       real(wp), intent(in) :: points(:)
       type(error_type), allocatable, intent(out) :: error
+      !> As for open_result
+      type(case_limits), intent(in) :: limits
       integer :: first, k
 
       grid%head = grid%head // trim(merge("</CellData> ", "</PointData>", grid%on_cells)) // new_line("a") // "<Points>" &
@@ -397,7 +402,7 @@ contains
       call put(grid, "Points", 3, points)
       grid%head = grid%head // "</Points>" // new_line("a") // "</Piece>" // new_line("a") // "</StructuredGrid>" &
          & // new_line("a") // '<AppendedData encoding="raw">' // new_line("a") // "_"
-      call grid%file%start(name, error)
+      call grid%file%start(name, error, limits)
       if (allocated(error)) return
       call grid%file%bytes(grid%head)
       first = 0

@@ -72,7 +72,7 @@ contains
          file%z = request%points(2, :)
       else
          call refuse_extension(request, error)
-         if (.not. allocated(error)) call text%open_file(request%file, error)
+         if (.not. allocated(error)) call text%open_file(request%file, error, request%below)
          if (allocated(error)) return
          select case (extension_of(request%file))
          case ("prr", "prw")

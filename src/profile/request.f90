@@ -28,6 +28,8 @@ module contact_profile_request
    type :: profile_request
       !> Name of the file as it is to be opened
       character(len=:), allocatable :: file
+      !> Folder below which the file must be, "" for the current one; unallocated: anywhere
+      character(len=:), allocatable :: below
       !> Points in place of a file, y and z in the rows, shape (2, n); unallocated: the file is read
       real(wp), allocatable :: points(:, :)
       !> Member of profile_side

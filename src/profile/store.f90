@@ -152,7 +152,7 @@ contains
          call read_profile(request, profile%curve, log, error)
          return
       end if
-      call text%open_file(request%file, error)
+      call text%open_file(request%file, error, request%below)
       if (.not. allocated(error)) call read_slices_file(text, request%side, list, error)
       if (allocated(error)) return
       allocate(curves(size(list%slices)))
@@ -194,14 +194,14 @@ contains
          end do
          return
       end if
-      call text%open_file(request%file, error)
+      call text%open_file(request%file, error, request%below)
       if (allocated(error)) return
       fingerprint = text%fingerprint()
       if (.not. is_slices_file(request)) return
       call read_slices_file(text, request%side, list, error)
       if (allocated(error)) return
       do k = 1, size(list%slices)
-         call slice%open_file(list%slices(k)%file, error)
+         call slice%open_file(list%slices(k)%file, error, request%below)
          call add_context(error, "slice " // integer_text(k) // " of " // request%file)
          if (allocated(error)) return
          fingerprint = modulo(31_long*fingerprint + slice%fingerprint(), modulus)

@@ -4,9 +4,11 @@
 !> mandatory values are there; optional values stand on the line of the last mandatory one, and
 !> the first word that cannot be read as the next optional value ends the group silently.
 module contact_text_lexer
+   use, intrinsic :: iso_c_binding, only : c_int
    use contact_base_error, only : error_kind, error_type, fatal_error
    use contact_base_guard, only : expect_refusals
    use contact_base_kinds, only : long, wp
+   use contact_base_system, only : close_descriptor, open_input, read_input
    use contact_text_words, only : columns_of, integer_text, to_angle, to_integer, to_real, word_state
    implicit none (type, external)
    private
@@ -76,59 +78,57 @@ module contact_text_lexer
 contains
 
    !> Read a file into memory
-   !>
-   !> One at a time: Fortran connects a file to one unit only, and threads that share a profile would be refused it.
-   subroutine open_file(self, file, error)
+   subroutine open_file(self, file, error, below)
       class(input_lexer), intent(out) :: self
       character(len=*), intent(in) :: file
       type(error_type), allocatable, intent(out) :: error
+      !> Folder below which the file must be; absent: anywhere
+      character(len=*), intent(in), optional :: below
       character(len=:), allocatable :: text
 
-      !$omp critical (contact_file_reading)
-      call read_whole(file, text, error)
-      !$omp end critical (contact_file_reading)
+      call read_whole(file, text, error, below)
       if (allocated(error)) return
       call self%open_text(text, file)
    end subroutine open_file
 
    !> All bytes of a file
-   subroutine read_whole(file, text, error)
+   subroutine read_whole(file, text, error, below)
       character(len=*), intent(in) :: file
       character(len=:), allocatable, intent(out) :: text
       type(error_type), allocatable, intent(out) :: error
-      character(len=200) :: reason
-      integer :: unit, status
-      integer(long) :: length
+      character(len=*), intent(in), optional :: below
+      !> Longest file [MB], and in a confined run
+      integer(long), parameter :: longest = 1000, longest_confined = 100
+      character(len=:), allocatable :: reason
+      integer(c_int) :: descriptor
+      integer :: status
+      integer(long) :: length, done, allowed
 
-      reason = ""
-      open(newunit=unit, file=file, access="stream", form="unformatted", status="old", action="read", &
-         & iostat=status, iomsg=reason)
-      if (status /= 0) then
-         call fatal_error(error, "the file cannot be opened: " // trim(reason), error_kind%file, file)
+      call open_input(file, descriptor, length, reason, below)
+      if (allocated(reason)) then
+         call fatal_error(error, "the file cannot be opened: " // reason, error_kind%file, file)
          return
       end if
-      inquire(unit=unit, size=length)
-      if (length > 1000000000_long) then
-         call fatal_error(error, "the file is larger than 1 GB", error_kind%file, file)
-      else if (length >= 0) then
+      allowed = merge(longest_confined, longest, present(below))
+      if (length > 1000000_long*allowed) then
+         call fatal_error(error, "the file is larger than " // integer_text(int(allowed)) // " MB", error_kind%file, file)
+      else
          call expect_refusals(.true.)
          allocate(character(len=length) :: text, stat=status)
          call expect_refusals(.false.)
          if (status /= 0) then
             call fatal_error(error, "no memory for the text of the file", error_kind%memory, file)
-         else if (length > 0) then
-            read(unit, iostat=status, iomsg=reason) text
+         else
+            call read_input(descriptor, text, done, reason)
+            if (allocated(reason)) then
+               call fatal_error(error, "the file cannot be read: " // reason, error_kind%file, file)
+            else if (done < length) then
+               ! it became shorter meanwhile
+               text = text(:done)
+            end if
          end if
-      else
-         status = 1
-         reason = "its length is not known"
       end if
-      close(unit)
-      if (allocated(error)) return
-      if (status /= 0) then
-         call fatal_error(error, "the file cannot be read: " // trim(reason) // " (status " // &
-            & integer_text(status) // ")", error_kind%file, file)
-      end if
+      call close_descriptor(descriptor)
    end subroutine read_whole
 
    !> Take a text that is in memory already

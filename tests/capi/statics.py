@@ -12,6 +12,7 @@ import sys
 SKIPPED = 77
 KNOWN = {
     "__contact_capi_library_MOD_library": "the problems of the callers; every access is inside `contact_registry` or atomic",
+    "caught": "of the program only: the signal that ends the run",
     "child": "set once, in a forked process that has one thread",
     "floats_of_host": "one per thread",
     "floats_are_held": "one per thread",
@@ -32,7 +33,6 @@ KNOWN = {
     ".gomp_critical_user_contact_registry": "lock of the registry",
     ".gomp_critical_user_contact_printing": "lock of the .out file of the library",
     ".gomp_critical_user_contact_fft_planner": "lock of FFTW's planner",
-    ".gomp_critical_user_contact_file_reading": "lock of reading files",
 }
 # Tables of types that compiled code reads and nothing writes
 CONSTANT = re.compile(r"_MOD___(vtab|def_init)_")

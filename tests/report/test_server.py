@@ -3,17 +3,20 @@
 
 Skipped (exit status 77) without h5py. The environment tells CONTACT_PROGRAM and CONTACT_SOURCE.
 """
+import contextlib
 import http.client
 import json
 import os
 import re
 import shutil
+import socket
 import subprocess
 import sys
 import tempfile
 import threading
 import time
 import unittest
+from random import Random
 
 try:
     import h5py  # noqa: F401
@@ -25,6 +28,7 @@ PROGRAM = os.environ["CONTACT_PROGRAM"]
 SOURCE = os.environ["CONTACT_SOURCE"]
 sys.path.insert(0, os.path.join(SOURCE, "python"))
 from contact.report import MissingResults, read_experiment  # noqa: E402
+from contact.report import server  # noqa: E402
 from contact.report.server import Server  # noqa: E402
 
 
@@ -196,6 +200,178 @@ class Serving(unittest.TestCase):
         time.sleep(0.1)
         self.assertEqual(self.ask("POST", "/check?name=cattaneo")[0], 200)
         self.assertEqual(self.messages()[-1], ("end", 0))
+
+    def test_runs_are_confined(self):
+        with open(os.path.join(SOURCE, "examples", "wheel_on_rail.inp")) as source:
+            text = source.read()
+        os.mkdir(os.path.join(self.folder, "profiles"))
+        for name in re.findall(r"profiles/\w+\.\w+", text):
+            shutil.copy(os.path.join(SOURCE, "examples", name), os.path.join(self.folder, "profiles"))
+        with open(os.path.join(self.folder, "inside.inp"), "w") as file:
+            file.write(text)
+        outside = os.path.join(os.path.dirname(self.folder), "outside", "profiles")
+        shutil.copytree(os.path.join(self.folder, "profiles"), outside)
+        with open(os.path.join(self.folder, "away.inp"), "w") as file:
+            file.write(text.replace("profiles/", "../outside/profiles/"))
+        for name, status in (("inside", 0), ("away", 1)):
+            self.assertEqual(self.ask("POST", "/check?name=" + name)[0], 200)
+            told = self.messages()
+            self.assertEqual(told[-1], ("end", status), told)
+        self.assertTrue(any("not below the folder" in str(text) for _, text in told))
+        os.symlink(os.path.join(self.folder, "other.txt"), os.path.join(self.folder, "cattaneo.h5"))
+        self.assertEqual(self.ask("GET", "/result?name=cattaneo")[0], 404)
+
+    def test_requests_have_their_time(self):
+        before = server.REQUEST_TIME
+        server.REQUEST_TIME = 1.0
+        self.addCleanup(setattr, server, "REQUEST_TIME", before)
+        with socket.create_connection(("127.0.0.1", self.server.server_port), timeout=20) as connection:
+            start = time.monotonic()
+            connection.settimeout(0.1)
+            with contextlib.suppress(ConnectionError):
+                while time.monotonic() - start < 5:   # drops, which end with the time of the whole request
+                    connection.sendall(b"G")
+                    with contextlib.suppress(TimeoutError):
+                        if not connection.recv(1):
+                            break
+            self.assertLess(time.monotonic() - start, 4)
+
+
+class Hostile(unittest.TestCase):
+    """The server as a process of its own, under requests that nobody's browser sends"""
+
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(scratch.cleanup)
+        self.folder = scratch.name
+        shutil.copy(os.path.join(SOURCE, "examples", "cattaneo.inp"), self.folder)
+        self.server = subprocess.Popen([PROGRAM, "report", "--serve", self.folder, "--port", "0"], stdin=subprocess.DEVNULL,
+                                       stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=self.environment())
+        self.addCleanup(self.end)
+        told = self.server.stdout.readline()
+        self.port = int(re.search(r":(\d+)/", told)[1])
+        self.own = b"Host: 127.0.0.1:%d\r\n" % self.port
+
+    @staticmethod
+    def environment():
+        return dict(os.environ, CONTACT_PYTHON=os.path.join(SOURCE, "python"))
+
+    def end(self):
+        if self.server.poll() is None:
+            self.server.kill()
+        self.server.communicate()
+
+    def send(self, data, seconds=5.0, shut=False):
+        """The answer to some bytes, b"" for none"""
+        with socket.create_connection(("127.0.0.1", self.port), timeout=seconds) as connection:
+            try:
+                connection.sendall(data)
+                if shut:
+                    connection.shutdown(socket.SHUT_WR)
+                answer = b""
+                while len(answer) < 1000000:
+                    more = connection.recv(65536)
+                    if not more:
+                        break
+                    answer += more
+                    if b"\r\n\r\n" in answer and b"event-stream" not in answer:
+                        break
+            except ConnectionError:
+                return b""
+            except TimeoutError:
+                self.fail("no answer and no end of the connection after %r" % data[:80])
+        return answer
+
+    def good(self):
+        start, answer = time.monotonic(), b""
+        while not answer and time.monotonic() - start < 5:   # connections that ended are counted for a moment
+            answer = self.send(b"GET /files HTTP/1.1\r\n" + self.own + b"Connection: close\r\n\r\n")
+        self.assertTrue(answer.startswith(b"HTTP/1.1 200"), answer[:100])
+
+    def ended_well(self):
+        self.good()
+        self.server.terminate()
+        _, told = self.server.communicate(timeout=10)
+        self.assertEqual(self.server.returncode, 0)
+        self.assertNotIn("Traceback", told)
+        self.assertEqual(told, "")
+
+    def test_hostile_requests(self):
+        own = self.own
+        requests = [
+            b"POST /run?name=cattaneo HTTP/1.1\r\n" + own + "Content-Length: \u00b2\r\n\r\n".encode("latin-1"),
+            b"POST /run?name=cattaneo HTTP/1.1\r\n" + own + b"Content-Length: -1\r\n\r\n",
+            b"POST /run?name=cattaneo HTTP/1.1\r\n" + own + b"Content-Length: 99999999999999999999\r\n\r\n",
+            b"POST /run?name=cattaneo HTTP/1.1\r\n" + own + b"Content-Length: 1\r\nContent-Length: 0\r\n\r\n",
+            b"POST /run?name=cattaneo HTTP/1.1\r\n" + own + b"Transfer-Encoding: chunked\r\n\r\n0\r\n\r\n",
+            b"POST /run HTTP/1.1\r\n" + own + b"Content-Length: 70000\r\n\r\n" + b"x" * 70000,
+            b"GET http://[ HTTP/1.1\r\n" + own + b"\r\n", b"GET //[ HTTP/1.1\r\n" + own + b"\r\n",
+            b"GET /result?name=%00 HTTP/1.1\r\n" + own + b"\r\n", b"GET /result?name=../../etc/passwd HTTP/1.1\r\n" + own + b"\r\n",
+            b"GET /../../etc/passwd HTTP/1.1\r\n" + own + b"\r\n", b"GET /\0 HTTP/1.1\r\n" + own + b"\r\n",
+            b"GET /?" + b"a=1&" * 10000 + b" HTTP/1.1\r\n" + own + b"\r\n", b"GET /" + b"a" * 70000 + b" HTTP/1.1\r\n" + own + b"\r\n",
+            b"GET /\r\n", b"GET\r\n", b"\r\n", b"\0\0\0\0\r\n\r\n", b"GET / HTTP/9.9\r\n\r\n", b"GET / HTTP/1.1\r\n\r\n",
+            b"BREW /pot HTTP/1.1\r\n" + own + b"\r\n", b"HEAD / HTTP/1.1\r\n" + own + b"\r\n", b"PUT / HTTP/1.1\r\n" + own + b"\r\n",
+            b"GET / HTTP/1.1\r\n" + own + b"A: b\r\n" * 200 + b"\r\n", b"GET / HTTP/1.1\r\n" + own + b"A: " + b"b" * 70000 + b"\r\n\r\n",
+            b"GET / HTTP/1.1\r\nHost: evil.example\r\n\r\n", b"GET / HTTP/1.1\r\n" + own + own + b"\r\n",
+            b"GET / HTTP/1.1\r\n" + own + b"Origin: http://127.0.0.1.evil.example\r\n\r\n",
+            b"\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03" + bytes(200),
+        ]
+        for request in requests:
+            answer = self.send(request, shut=True)
+            status = re.match(rb"HTTP/1\.[01] (\d+)", answer)
+            if status:
+                self.assertIn(int(status[1]), (400, 403, 404, 413, 414, 431, 501, 505), (request[:80], answer[:80]))
+            self.assertNotIn(b"root:", answer)
+        random = Random(14)
+        seeds = [b"GET /files HTTP/1.1\r\n" + own + b"\r\n", b"POST /check?name=cattaneo HTTP/1.1\r\n" + own + b"Content-Length: 3\r\n\r\nabc",
+                 b"GET /result?name=cattaneo HTTP/1.1\r\n" + own + b"Origin: http://127.0.0.1\r\n\r\n"]
+        for _ in range(300):
+            data = bytearray(random.choice(seeds))
+            for _ in range(random.randint(1, 6)):
+                at = random.randrange(len(data))
+                kind = random.randrange(4)
+                if kind == 0:
+                    data[at] = random.randrange(256)
+                elif kind == 1:
+                    del data[at:at + random.randint(1, 20)]
+                elif kind == 2:
+                    data[at:at] = bytes(random.randrange(256) for _ in range(random.randint(1, 20)))
+                else:
+                    data[at:at] = data[random.randrange(len(data)):][:40]
+                data = data or bytearray(b"\n")
+            answer = self.send(bytes(data), shut=True)
+            status = re.match(rb"HTTP/1\.[01] (\d+)", answer)
+            self.assertTrue(status is None or int(status[1]) in (200, 400, 403, 404, 409, 411, 413, 414, 431, 501, 505), answer[:80])
+        self.ended_well()
+
+    def test_slow_and_many(self):
+        with contextlib.ExitStack() as open_ones:
+            slow = [open_ones.enter_context(socket.create_connection(("127.0.0.1", self.port))) for _ in range(200)]
+            for connection in slow:
+                with contextlib.suppress(ConnectionError):
+                    connection.sendall(b"GET / HT")
+            self.assertIsNone(self.server.poll())
+        self.good()
+        self.ended_well()
+
+    def test_ends_with_its_process(self):
+        self.good()
+        self.server.terminate()
+        self.assertEqual(self.server.wait(10), 0)
+        with self.assertRaises(OSError):
+            socket.create_connection(("127.0.0.1", self.port), timeout=1)
+
+    def test_ports(self):
+        for port in ("99999", "-1", "x", "", "\u00b2"):
+            run = subprocess.run([PROGRAM, "report", "--serve", self.folder, "--port", port], stdin=subprocess.DEVNULL, env=self.environment(),
+                                 stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=60)
+            self.assertEqual(run.returncode, 2, run.stderr)
+            self.assertIn("ports are the numbers", run.stderr)
+            self.assertNotIn("Traceback", run.stderr)
+        run = subprocess.run([PROGRAM, "report", "--serve", self.folder, "--port", str(self.port)], stdin=subprocess.DEVNULL,
+                             env=self.environment(), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=60)
+        self.assertEqual(run.returncode, 1)
+        self.assertIn("in use", run.stderr)
 
 
 if __name__ == "__main__":

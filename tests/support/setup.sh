@@ -68,7 +68,7 @@ install_missing() {
   say "Installing what is missing"
   if command -v apt-get >/dev/null 2>&1; then
     packages="gfortran gcc libc6-dev make cmake ninja-build pkg-config python3
-      libfftw3-dev libopenblas-dev liblapack-dev libhdf5-dev"
+      libfftw3-dev libhdf5-dev"
     apt="env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends"
     # The lists of a fresh machine are empty, those of an old one out of date
     as_root apt-get update ||
@@ -76,25 +76,25 @@ install_missing() {
     as_root $apt $packages && { choose_compiler || as_root $apt gfortran-12; }
   elif command -v dnf >/dev/null 2>&1; then
     packages="gcc-gfortran gcc make cmake ninja-build pkgconf-pkg-config python3
-      fftw-devel openblas-devel lapack-devel hdf5-devel"
+      fftw-devel hdf5-devel"
     as_root dnf install -y $packages
   elif command -v zypper >/dev/null 2>&1; then
     packages="gcc-fortran gcc make cmake ninja pkg-config python3
-      fftw3-devel openblas-devel lapack-devel hdf5-devel"
+      fftw3-devel hdf5-devel"
     as_root zypper --non-interactive install $packages
   elif command -v pacman >/dev/null 2>&1; then
-    packages="gcc-fortran gcc make cmake ninja pkgconf python fftw openblas lapack hdf5"
+    packages="gcc-fortran gcc make cmake ninja pkgconf python fftw hdf5"
     as_root pacman -Sy --needed --noconfirm $packages
   elif command -v apk >/dev/null 2>&1; then
     packages="gfortran gcc musl-dev make cmake samurai pkgconf python3
-      fftw-dev openblas-dev lapack-dev hdf5-dev"
+      fftw-dev hdf5-dev"
     as_root apk add $packages
   elif command -v brew >/dev/null 2>&1; then
-    brew install gcc cmake ninja pkg-config python3 fftw openblas lapack hdf5
+    brew install gcc cmake ninja pkg-config python3 fftw hdf5
   else
     fail "No package manager found (apt-get, dnf, zypper, pacman, apk, brew). Please install:
 gfortran >= 12, a C compiler, cmake >= 3.22, ninja or make, pkg-config, python3 and the
-development files of FFTW 3, LAPACK/BLAS and HDF5 with its Fortran interface."
+development files of FFTW 3 and HDF5 with its Fortran interface."
   fi || fail "The package manager could not install what is missing; its messages stand above."
   everything_there || fail "Packages were installed, but a build cannot be configured yet. To see
 why: cmake --preset release (in $top)"

@@ -9,6 +9,13 @@ from .read import MissingResults, find_results, told_of_run
 from .server import DEFAULT_PORT, serve
 
 
+def port_number(text: str) -> int:
+    """A number that a port can have"""
+    if text.isascii() and text.isdigit() and int(text) < 65536:
+        return int(text)
+    raise argparse.ArgumentTypeError("%r is no port; ports are the numbers from 0 to 65535" % text)
+
+
 def main(arguments: list[str] | None = None) -> int:
     parser = argparse.ArgumentParser(prog="contact report", description=(
         "Results of an experiment as one HTML file, or a page on this machine on which experiments are checked, run and seen."))
@@ -16,7 +23,7 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("-o", "--output", metavar="FILE", help="name of the HTML file; default EXPNAM.html")
     parser.add_argument("--serve", nargs="?", const=".", metavar="FOLDER",
                         help="serve the .inp files of a folder (default: this one) on the loopback address")
-    parser.add_argument("--port", type=int, default=DEFAULT_PORT, help="port of the server, 0 for any free one (default %(default)s)")
+    parser.add_argument("--port", type=port_number, default=DEFAULT_PORT, help="port of the server, 0 for any free one (default %(default)s)")
     asked = parser.parse_args(arguments)
     if (asked.experiment is None) == (asked.serve is None):
         parser.error("name an experiment, or ask for --serve")

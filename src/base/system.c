@@ -1,0 +1,220 @@
+/* What Fortran has no words for: files opened only if they are of the right kind, locks, folders; see system.f90.
+ *
+ * A descriptor is 0 or more; failures are negative numbers, given in system.f90 too. */
+#define _GNU_SOURCE
+#include <dirent.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <sys/syscall.h>
+#include <time.h>
+#include <unistd.h>
+#ifdef __linux__
+#include <linux/openat2.h>
+#endif
+
+enum { REFUSED = -1, OF_ANOTHER_KIND = -2, OUTSIDE = -3, HELD = -4 };
+
+int contact_open_input(const char *folder, const char *name, int confined, long long *length, int *cause);
+long long contact_read(int file, char *buffer, long long length, int *cause);
+int contact_open_output(const char *name, int confined, long keep, int *cause);
+void contact_close(int file);
+void contact_explain(int cause, char *text, int length);
+int contact_lock(const char *name, char *holder, int length, int *cause);
+void contact_unlock(int file, const char *name);
+void contact_clean(const char *folder, const char *start, int (*is_ours)(const char *rest, int length));
+
+/* The next part of a path, or NULL at its end; `place` goes on behind it */
+static const char *part_of(const char **place, char *part, size_t size) {
+  const char *from = *place + strspn(*place, "/");
+  const size_t length = strcspn(from, "/");
+  if (length == 0 || length >= size) return NULL;
+  memcpy(part, from, length);
+  part[length] = 0;
+  *place = from + length;
+  return part;
+}
+
+/* Does a path, relative to some folder, lead out of it by its names alone? */
+static int leads_out(const char *name) {
+  char part[256];
+  if (name[0] == '/') return 1;
+  for (const char *place = name; part_of(&place, part, sizeof part) != NULL;)
+    if (strcmp(part, "..") == 0) return 1;
+  return 0;
+}
+
+/* Open a file below a folder without following any symbolic link */
+static int walk(int folder, const char *name, int flags) {
+  char part[256];
+  int at = dup(folder);
+  const char *place = name;
+  while (at >= 0 && part_of(&place, part, sizeof part) != NULL) {
+    const int last = place[strspn(place, "/")] == 0;
+    const int next = openat(at, part, (last ? flags : O_RDONLY | O_DIRECTORY | O_CLOEXEC) | O_NOFOLLOW);
+    const int cause = errno;
+    close(at);
+    errno = cause;
+    if (last || next < 0) return next;
+    at = next;
+  }
+  if (at >= 0) close(at);
+  errno = ENOENT;
+  return -1;
+}
+
+/* Open a file below a folder; links may lead anywhere below it, and nowhere else */
+static int open_below(const char *folder, const char *name, int flags) {
+  const int at = open(folder[0] ? folder : ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (at < 0) return -1;
+  int file = -1;
+  errno = ENOSYS;
+#if defined(SYS_openat2) && defined(RESOLVE_BENEATH)
+  struct open_how how = {.flags = (unsigned)flags, .resolve = RESOLVE_BENEATH | RESOLVE_NO_MAGICLINKS};
+  file = (int)syscall(SYS_openat2, at, name, &how, sizeof how);
+#endif
+  /* an older kernel, or one that does not let us */
+  if (file < 0 && (errno == ENOSYS || errno == EPERM)) file = walk(at, name, flags);
+  const int cause = errno;
+  close(at);
+  errno = cause;
+  return file;
+}
+
+/* Open an ordinary file for reading. Nothing else is waited for or read: a FIFO blocks, a device has no end.
+ * `folder` and `name` together are the path; a confined file is below the folder. */
+int contact_open_input(const char *folder, const char *name, int confined, long long *length, int *cause) {
+  const int flags = O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC;
+  struct stat status;
+  *cause = 0;
+  if (confined && leads_out(name)) return OUTSIDE;
+  const int file = confined ? open_below(folder, name, flags) : open(name, flags);
+  if (file < 0) {
+    *cause = errno;
+    return confined && (errno == EXDEV || errno == ELOOP) ? OUTSIDE : errno == ENXIO ? OF_ANOTHER_KIND : REFUSED;
+  }
+  if (fstat(file, &status) != 0 || !S_ISREG(status.st_mode)) {
+    close(file);
+    return OF_ANOTHER_KIND;
+  }
+  *length = (long long)status.st_size;
+  return file;
+}
+
+/* Read from a file until the buffer is full or the file ends; tells how much was read, or -1 */
+long long contact_read(int file, char *buffer, long long length, int *cause) {
+  long long done = 0;
+  while (done < length) {
+    const ssize_t more = read(file, buffer + done, (size_t)(length - done));
+    if (more == 0) break;
+    if (more < 0 && errno == EINTR) continue;
+    if (more < 0) {
+      *cause = errno;
+      return -1;
+    }
+    done += more;
+  }
+  return done;
+}
+
+/* Open a file for writing; what it held is gone. A FIFO that nobody reads is not waited for. Confined: an ordinary file,
+ * and no link to one. */
+int contact_open_output(const char *name, int confined, long keep, int *cause) {
+  struct stat status;
+  const int access = keep < 0 ? O_WRONLY | O_CREAT : O_RDWR;
+  const int flags = access | O_NONBLOCK | O_NOCTTY | O_CLOEXEC | (confined ? O_NOFOLLOW : 0);
+  const int file = open(name, flags, 0666);
+  *cause = errno;
+  if (file < 0) return errno == ENXIO || (confined && errno == ELOOP) ? OF_ANOTHER_KIND : REFUSED;
+  if (fstat(file, &status) != 0 || (confined && !S_ISREG(status.st_mode))) {
+    close(file);
+    return OF_ANOTHER_KIND;
+  }
+  if (S_ISREG(status.st_mode) && ftruncate(file, keep < 0 ? 0 : keep) != 0) {
+    *cause = errno;
+    close(file);
+    return REFUSED;
+  }
+  fcntl(file, F_SETFL, fcntl(file, F_GETFL) & ~O_NONBLOCK);
+  return file;
+}
+
+void contact_close(int file) { close(file); }
+
+/* The system's sentence for an errno */
+void contact_explain(int cause, char *text, int length) {
+  char buffer[256];
+#ifdef __GLIBC__
+  const char *sentence = strerror_r(cause, buffer, sizeof buffer);
+#else
+  const char *sentence = strerror_r(cause, buffer, sizeof buffer) == 0 ? buffer : "unknown error";
+#endif
+  memset(text, ' ', (size_t)length);
+  const size_t used = strlen(sentence);
+  memcpy(text, sentence, used < (size_t)length ? used : (size_t)length);
+}
+
+/* Take the lock of an experiment: a file that the system keeps locked for us until it is closed, or this process ends in
+ * whatever way. A file that is left behind locks nobody out. Tells who holds the lock when another one does. */
+int contact_lock(const char *name, char *holder, int length, int *cause) {
+  char text[256] = "", host[128] = "", since[32] = "";
+  memset(holder, ' ', (size_t)length);
+  for (int trial = 0; trial < 100; trial++) {
+    struct stat ours, there;
+    const int flags = O_NONBLOCK | O_NOFOLLOW | O_CLOEXEC;
+    int file = open(name, O_RDWR | O_CREAT | flags, 0666);
+    if (file < 0 && errno == EACCES) file = open(name, O_RDONLY | flags);
+    *cause = errno;
+    if (file < 0) return REFUSED;
+    if (fstat(file, &ours) != 0 || !S_ISREG(ours.st_mode)) {
+      close(file);
+      return OF_ANOTHER_KIND;
+    }
+    if (flock(file, LOCK_EX | LOCK_NB) != 0) {
+      *cause = errno;
+      const ssize_t used = errno == EWOULDBLOCK ? pread(file, text, sizeof text - 1, 0) : 0;
+      close(file);
+      if (*cause != EWOULDBLOCK) return REFUSED;
+      for (ssize_t k = 0; k < used && k < length; k++)
+        if (text[k] >= ' ' && text[k] < 127) holder[k] = text[k];
+      return HELD;
+    }
+    /* whoever had it before may have taken the file away after we opened it */
+    if (stat(name, &there) != 0 || there.st_ino != ours.st_ino || there.st_dev != ours.st_dev) {
+      close(file);
+      continue;
+    }
+    const time_t now = time(NULL);
+    struct tm local;
+    gethostname(host, sizeof host - 1);
+    if (localtime_r(&now, &local) != NULL) strftime(since, sizeof since, "%Y-%m-%d %H:%M:%S", &local);
+    const int used = snprintf(text, sizeof text, "process %ld on %s since %s\n", (long)getpid(), host, since);
+    /* only for the message of others */
+    if (ftruncate(file, 0) != 0 || pwrite(file, text, (size_t)used, 0) != used) *cause = errno;
+    return file;
+  }
+  *cause = EBUSY;
+  return REFUSED;
+}
+
+/* Give the lock back; the file goes first, while nobody else can have it */
+void contact_unlock(int file, const char *name) {
+  unlink(name);
+  flock(file, LOCK_UN);
+  close(file);
+}
+
+/* Delete the files of a folder whose names begin like this, and have a rest that is ours */
+void contact_clean(const char *folder, const char *start, int (*is_ours)(const char *rest, int length)) {
+  const size_t skipped = strlen(start);
+  DIR *entries = opendir(folder[0] ? folder : ".");
+  if (entries == NULL) return;
+  for (struct dirent *entry = readdir(entries); entry != NULL; entry = readdir(entries)) {
+    const char *rest = entry->d_name + skipped;
+    if (strncmp(entry->d_name, start, skipped) == 0 && is_ours(rest, (int)strlen(rest))) unlinkat(dirfd(entries), entry->d_name, 0);
+  }
+  closedir(entries);
+}

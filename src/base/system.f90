@@ -1,0 +1,223 @@
+!> What Fortran has no words for: files opened only if they are of the right kind, locks, leftovers of ended runs
+!>
+!> The work is done in system.c. Descriptors are those of the system.
+module contact_base_system
+   use, intrinsic :: iso_c_binding, only : c_char, c_funloc, c_funptr, c_int, c_long, c_long_long, c_loc, c_null_char, c_ptr
+   use contact_base_kinds, only : long
+   implicit none (type, external)
+   private
+
+   public :: close_descriptor, lock_experiment, lock_state, open_input, open_output, read_input, remove_leftovers, unlock_experiment
+
+   !> How the attempt to take a lock ended
+   type :: lock_state_list
+      integer :: ours = 0
+      !> Another run has it
+      integer :: held = 1
+      !> The folder or its file system has no locks for us
+      integer :: impossible = 2
+   end type lock_state_list
+   !> Names of these states
+   type(lock_state_list), parameter :: lock_state = lock_state_list()
+
+   !> Results of system.c in place of a descriptor
+   integer(c_int), parameter :: of_another_kind = -2, outside = -3, held = -4
+   !> Longest sentence of the system, and longest description of the holder of a lock
+   integer, parameter :: longest_sentence = 120, longest_holder = 200
+
+   abstract interface
+      !> Is the rest of a name that of a file which may be deleted? Not 0: yes
+      function name_test(rest, length) result(answer) bind(c)
+         import :: c_char, c_int
+         implicit none (type, external)
+         integer(c_int), value :: length
+         character(kind=c_char), intent(in) :: rest(length)
+         integer(c_int) :: answer
+      end function name_test
+   end interface
+
+   interface
+      function contact_open_input(folder, name, confined, length, cause) result(file) bind(c)
+         import :: c_char, c_int, c_long_long
+         character(kind=c_char), intent(in) :: folder(*), name(*)
+         integer(c_int), value :: confined
+         integer(c_long_long), intent(out) :: length
+         integer(c_int), intent(out) :: cause
+         integer(c_int) :: file
+      end function contact_open_input
+
+      function contact_read(file, buffer, length, cause) result(done) bind(c)
+         import :: c_int, c_long_long, c_ptr
+         integer(c_int), value :: file
+         type(c_ptr), value :: buffer
+         integer(c_long_long), value :: length
+         integer(c_int), intent(out) :: cause
+         integer(c_long_long) :: done
+      end function contact_read
+
+      function contact_open_output(name, confined, keep, cause) result(file) bind(c)
+         import :: c_char, c_int, c_long
+         character(kind=c_char), intent(in) :: name(*)
+         integer(c_int), value :: confined
+         integer(c_long), value :: keep
+         integer(c_int), intent(out) :: cause
+         integer(c_int) :: file
+      end function contact_open_output
+
+      subroutine close_descriptor(file) bind(c, name="contact_close")
+         import :: c_int
+         integer(c_int), value :: file
+      end subroutine close_descriptor
+
+      subroutine contact_explain(cause, text, length) bind(c)
+         import :: c_char, c_int
+         integer(c_int), value :: cause, length
+         character(kind=c_char), intent(out) :: text(*)
+      end subroutine contact_explain
+
+      function contact_lock(name, holder, length, cause) result(file) bind(c)
+         import :: c_char, c_int
+         character(kind=c_char), intent(in) :: name(*)
+         character(kind=c_char), intent(out) :: holder(*)
+         integer(c_int), value :: length
+         integer(c_int), intent(out) :: cause
+         integer(c_int) :: file
+      end function contact_lock
+
+      !> Give a lock back; the name is null-terminated
+      subroutine unlock_experiment(file, name) bind(c, name="contact_unlock")
+         import :: c_char, c_int
+         integer(c_int), value :: file
+         character(kind=c_char), intent(in) :: name(*)
+      end subroutine unlock_experiment
+
+      subroutine contact_clean(folder, start, is_ours) bind(c)
+         import :: c_char, c_funptr
+         character(kind=c_char), intent(in) :: folder(*), start(*)
+         type(c_funptr), value :: is_ours
+      end subroutine contact_clean
+   end interface
+
+contains
+
+   !> Open an ordinary file for reading; anything else, such as a FIFO or a device, is refused without waiting for it
+   subroutine open_input(name, file, length, reason, below)
+      character(len=*), intent(in) :: name
+      !> Descriptor, to be given back by `close_descriptor`
+      integer(c_int), intent(out) :: file
+      !> Length of the file [bytes]
+      integer(long), intent(out) :: length
+      !> Why the file is not opened, one sentence; unallocated when it is
+      character(len=:), allocatable, intent(out) :: reason
+      !> Folder, "" for the current one, below which the file must be, also behind symbolic links; absent: anywhere
+      character(len=*), intent(in), optional :: below
+      integer(c_long_long) :: bytes
+      integer(c_int) :: cause
+      integer :: skipped
+
+      bytes = 0
+      if (present(below)) then
+         file = outside
+         skipped = len(below)
+         if (name(:min(skipped, len(name))) == below) then
+            if (skipped > 0) skipped = skipped + max(0, verify(name(skipped + 1:) // ".", "/") - 1)
+            file = contact_open_input(below // c_null_char, name(skipped + 1:) // c_null_char, 1_c_int, bytes, cause)
+         end if
+      else
+         file = contact_open_input(c_null_char, name // c_null_char, 0_c_int, bytes, cause)
+      end if
+      length = int(bytes, long)
+      if (file >= 0) return
+      if (file == outside) then
+         reason = "it is not below the folder of the experiment; a confined run follows no '..', no absolute name and no link " &
+            & // "that leaves it"
+      else
+         call explain(file, cause, reason)
+      end if
+   end subroutine open_input
+
+   !> Why a file was not opened
+   subroutine explain(file, cause, reason)
+      !> What came in place of a descriptor, and the errno
+      integer(c_int), intent(in) :: file, cause
+      character(len=:), allocatable, intent(out) :: reason
+      character(len=longest_sentence) :: sentence
+
+      if (file == of_another_kind) then
+         reason = "it is no ordinary file but a folder, link, FIFO, socket or device"
+      else
+         call contact_explain(cause, sentence, int(len(sentence), c_int))
+         reason = trim(sentence)
+      end if
+   end subroutine explain
+
+   !> Read an open file from where it stands
+   subroutine read_input(file, text, done, reason)
+      integer(c_int), intent(in) :: file
+      character(len=*), intent(inout), target :: text
+      !> Bytes that were read, fewer than the text has when the file ended before
+      integer(long), intent(out) :: done
+      !> Why it cannot be read; unallocated when it was
+      character(len=:), allocatable, intent(out) :: reason
+      integer(c_int) :: cause
+
+      done = int(contact_read(file, c_loc(text), len(text, c_long_long), cause), long)
+      if (done < 0) call explain(-1_c_int, cause, reason)
+   end subroutine read_input
+
+   !> Open a file for writing; what it held is gone, or what it holds behind a place
+   subroutine open_output(name, confined, file, reason, keep)
+      character(len=*), intent(in) :: name
+      !> Only an ordinary file, and no link to one?
+      logical, intent(in) :: confined
+      integer(c_int), intent(out) :: file
+      !> Why it is not opened, one sentence; unallocated when it is
+      character(len=:), allocatable, intent(out) :: reason
+      !> Bytes that are kept of a file that is there; absent: a new file
+      integer(c_long), intent(in), optional :: keep
+      integer(c_long) :: kept
+      integer(c_int) :: cause
+
+      kept = -1_c_long
+      if (present(keep)) kept = keep
+      file = contact_open_output(name // c_null_char, merge(1_c_int, 0_c_int, confined), kept, cause)
+      if (file < 0) call explain(file, cause, reason)
+   end subroutine open_output
+
+   !> Take the lock of an experiment, which the system gives back when this process ends in whatever way
+   subroutine lock_experiment(name, file, state, what)
+      !> Name of the file that is locked
+      character(len=*), intent(in) :: name
+      !> Descriptor of the lock, for `unlock_experiment`
+      integer(c_int), intent(out) :: file
+      !> Member of lock_state
+      integer, intent(out) :: state
+      !> Who has the lock, or why there is none; unallocated when it is ours
+      character(len=:), allocatable, intent(out) :: what
+      character(len=longest_holder) :: holder
+      integer(c_int) :: cause
+
+      file = contact_lock(name // c_null_char, holder, int(len(holder), c_int), cause)
+      if (file >= 0) then
+         state = lock_state%ours
+      else if (file == held) then
+         state = lock_state%held
+         what = trim(holder)
+         if (len(what) == 0) what = "a process that did not give its name"
+      else
+         state = lock_state%impossible
+         call explain(file, cause, what)
+      end if
+   end subroutine lock_experiment
+
+   !> Delete files that an ended run has left behind
+   subroutine remove_leftovers(folder, start, is_leftover)
+      !> "" for the current folder
+      character(len=*), intent(in) :: folder
+      !> With what their names begin
+      character(len=*), intent(in) :: start
+      procedure(name_test) :: is_leftover
+
+      call contact_clean(folder // c_null_char, start // c_null_char, c_funloc(is_leftover))
+   end subroutine remove_leftovers
+end module contact_base_system

@@ -1,0 +1,85 @@
+/* The process of the program: signals, streams that are not there, variables that upset the run-time library. Nothing of this
+ * is in the library, whose host has ideas of its own. */
+#include <errno.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <string.h>
+#include <unistd.h>
+
+void contact_fill_streams(void);
+void contact_watch_signals(void);
+void contact_forget_signals(void);
+int contact_caught_signal(void);
+
+/* The signal that ends the run after the case in hand, 0 for none */
+static volatile sig_atomic_t caught = 0;
+
+/* The first signal of a user or a queue waits for the case, the second one does not */
+static void end_soon(int number) {
+  static const char message[] = "\ncontact: the run ends after the case in hand; a second signal ends it at once\n";
+  const int before = errno;
+  if (caught && caught != SIGPIPE && caught != SIGXCPU) _exit(128 + number);
+  caught = number;
+  if (write(STDERR_FILENO, message, sizeof message - 1) < 0) errno = before;
+  errno = before;
+}
+
+/* These come again and again */
+static void end_soon_and_go_on(int number) {
+  if (!caught) caught = number;
+}
+
+static void handle(int number, void (*handler)(int)) {
+  struct sigaction action, before;
+  memset(&action, 0, sizeof action);
+  action.sa_handler = handler;
+  action.sa_flags = SA_RESTART;
+  sigemptyset(&action.sa_mask);
+  /* what whoever started us ignores stays ignored: nohup, jobs in the background */
+  if (sigaction(number, NULL, &before) == 0 && before.sa_handler != SIG_IGN) sigaction(number, &action, NULL);
+}
+
+void contact_watch_signals(void) {
+  handle(SIGTERM, end_soon);
+  handle(SIGINT, end_soon);
+  handle(SIGHUP, end_soon);
+  handle(SIGPIPE, end_soon_and_go_on);
+  handle(SIGXCPU, end_soon_and_go_on);
+  /* a file that may not grow: the write fails and is reported */
+  handle(SIGXFSZ, SIG_IGN);
+}
+
+/* The run is over: from now on a signal does what it always does */
+void contact_forget_signals(void) {
+  static const int all[] = {SIGTERM, SIGINT, SIGHUP, SIGPIPE, SIGXCPU, SIGXFSZ};
+  for (unsigned k = 0; k < sizeof all / sizeof *all; k++) {
+    struct sigaction now;
+    if (sigaction(all[k], NULL, &now) == 0 && (now.sa_handler == end_soon || now.sa_handler == end_soon_and_go_on))
+      signal(all[k], SIG_DFL);
+  }
+}
+
+int contact_caught_signal(void) { return caught; }
+
+/* Streams that whoever started us has closed: files of results would get their numbers, and messages would be written into
+ * them. Reading and writing them fails. */
+void contact_fill_streams(void) {
+  for (int k = 0; k <= 2; k++)
+    if (fcntl(k, F_GETFD) < 0 && open("/dev/null", k == 0 ? O_WRONLY : O_RDONLY) != k) return;
+}
+
+#ifdef __ELF__
+/* Runs before the run-time library of Fortran looks at its variables: some of them end the program before it has begun
+ * (GFORTRAN_STDERR_UNIT=6), others change every number that is written (GFORTRAN_OPTIONAL_PLUS). */
+static void forget_variables(int count, char **words, char **variables) {
+  static const char prefix[] = "GFORTRAN_";
+  char **kept = variables;
+  (void)count;
+  (void)words;
+  for (; *variables != NULL; variables++)
+    if (strncmp(*variables, prefix, sizeof prefix - 1) != 0) *kept++ = *variables;
+  *kept = NULL;
+}
+
+__attribute__((section(".preinit_array"), used)) static void (*const before_all)(int, char **, char **) = forget_variables;
+#endif

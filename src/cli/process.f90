@@ -1,0 +1,101 @@
+!> The process of the program, see process.c: signals, streams, and another program in its place
+module contact_cli_process
+   use, intrinsic :: iso_c_binding, only : c_char, c_int, c_loc, c_null_char, c_null_ptr, c_ptr
+   implicit none (type, external)
+   private
+
+   public :: become, exit_status_of_signal, fill_streams, forget_signals, set_variable, stop_by_signal, watch_signals, word_type
+
+   !> A word of a command line
+   type :: word_type
+      character(len=:), allocatable :: text
+   end type word_type
+
+   interface
+      !> Give the standard streams that are closed a file of their own; first of all
+      subroutine fill_streams() bind(c, name="contact_fill_streams")
+      end subroutine fill_streams
+
+      !> From now on signals end the run after the case in hand
+      subroutine watch_signals() bind(c, name="contact_watch_signals")
+      end subroutine watch_signals
+
+      !> From now on signals do what they always do
+      subroutine forget_signals() bind(c, name="contact_forget_signals")
+      end subroutine forget_signals
+
+      function caught_signal() result(number) bind(c, name="contact_caught_signal")
+         import :: c_int
+         integer(c_int) :: number
+      end function caught_signal
+
+      function execvp(file, words) result(status) bind(c, name="execvp")
+         import :: c_char, c_int, c_ptr
+         character(kind=c_char), intent(in) :: file(*)
+         type(c_ptr), intent(in) :: words(*)
+         integer(c_int) :: status
+      end function execvp
+
+      function setenv(name, value, overwrite) result(status) bind(c, name="setenv")
+         import :: c_char, c_int
+         character(kind=c_char), intent(in) :: name(*), value(*)
+         integer(c_int), value :: overwrite
+         integer(c_int) :: status
+      end function setenv
+   end interface
+
+contains
+
+   !> For run_experiment: has a signal come?
+   subroutine stop_by_signal(reason)
+      !> "signal TERM"; unallocated when none came
+      character(len=:), allocatable, intent(out) :: reason
+      integer :: number
+
+      number = int(caught_signal())
+      select case (number)
+      case (0)
+      case (1)
+         reason = "signal HUP"
+      case (2)
+         reason = "signal INT"
+      case (13)
+         reason = "signal PIPE"
+      case (15)
+         reason = "signal TERM"
+      case default
+         reason = "signal XCPU"
+      end select
+   end subroutine stop_by_signal
+
+   !> Exit status of a program that a signal has ended, as shells give it
+   integer function exit_status_of_signal() result(status)
+      integer, parameter :: first = 128
+      status = first + int(caught_signal())
+   end function exit_status_of_signal
+
+   !> Set a variable of the environment
+   subroutine set_variable(name, value)
+      character(len=*), intent(in) :: name, value
+      integer(c_int) :: ignored
+
+      ignored = setenv(name // c_null_char, value // c_null_char, 1_c_int)
+   end subroutine set_variable
+
+   !> Run another program in place of this one, in the same process; returns only when it is not found
+   subroutine become(words)
+      !> Its name, looked for on the search path, and its arguments
+      type(word_type), intent(in) :: words(:)
+      type(word_type), target :: ended(size(words))
+      type(c_ptr) :: pointers(size(words) + 1)
+      integer(c_int) :: ignored
+      integer :: k
+
+      do k = 1, size(words)
+         ended(k)%text = words(k)%text // c_null_char
+         pointers(k) = c_loc(ended(k)%text)
+      end do
+      pointers(size(pointers)) = c_null_ptr
+      ignored = execvp(ended(1)%text, pointers)
+   end subroutine become
+end module contact_cli_process
