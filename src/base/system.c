@@ -120,8 +120,8 @@ long long contact_read(int file, char *buffer, long long length, int *cause) {
   return done;
 }
 
-/* Open a file for writing; what it held is gone. A FIFO that nobody reads is not waited for. Confined: an ordinary file,
- * and no link to one. */
+/* Open a file for writing; what it held is gone, or with keep >= 0 what it holds behind so many bytes. A FIFO that nobody
+ * reads is not waited for. Confined: an ordinary file, and no link to one. */
 int contact_open_output(const char *name, int confined, long keep, int *cause) {
   struct stat status;
   const int access = keep < 0 ? O_WRONLY | O_CREAT : O_RDWR;

@@ -14,7 +14,7 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "con
 from checks import SOURCE, check, finish, same
 
 PROGRAM = os.environ["CONTACT_PROGRAM"]
-JSON, MOVING_HEAT, ANGLE_AT_CONTACT, NOTHING = 1, 8, 16, 32
+JSON, MOVING_HEAT, ANGLE_AT_CONTACT, NOTHING = 1, 8, 16, 64
 SLICES = """0.0 1.0   OFFSET SCALE
 4   NSLC
 0 0 0   NFEAT NKINK NACCEL
