@@ -58,6 +58,7 @@ function [ CNTC ] = cntc_getmagicnumbers( )
 %   CNTC.own_border   read only, where contact is cut off: sum of 1 x low, 2 x high, 4 y low, 8 y high side of the grid; 16 inner, 32 outer end of the rail profile; 64 inner, 128 outer end of the wheel profile; 256 a hidden part of a profile
 %   CNTC.own_stepped  read only, points of subs_calculate nearer to the surface than DX/4 and off the centres of elements
 %   CNTC.own_angle    contact angles on rails that vary along the track: 0 as the established program, of the section below the axle; 1 of wheel and rail where they touch
+%   CNTC.own_across   read only, elements across the contact in its narrower direction, 0 without contact; fewer than 5 are a rough result
 %
 % Data that go along into the .mat files
 %
@@ -100,7 +101,7 @@ function [ CNTC ] = cntc_getmagicnumbers( )
 %
 % Codes of errors
 %
-%   CNTC.err_allow    not allowed: too many result elements or calculations at a time
+%   CNTC.err_allow    not allowed: too many result elements at a time
 %   CNTC.err_search   the contact search failed
 %   CNTC.err_ftot     the balance of total forces failed
 %   CNTC.err_broydn   older name of CNTC_err_ftot
@@ -157,6 +158,7 @@ function [ CNTC ] = cntc_getmagicnumbers( )
    CNTC.own_border = 9002;
    CNTC.own_stepped = 9003;
    CNTC.own_angle = 9004;
+   CNTC.own_across = 9005;
    CNTC.mt_tim = 2011;
    CNTC.mt_xr = 2012;
    CNTC.mt_yr = 2013;

@@ -93,11 +93,11 @@ contains
 
    !> Weights w that make |f - df w| smallest, as the first values of b
    !>
-   !> Columns of df are made orthogonal one after the other, the longest that is left first (modified Gram-Schmidt).
+   !> Columns of df are made orthogonal one after the other, the longest that is left first (modified Gram-Schmidt, twice).
    subroutine fit(self)
       class(anderson_iteration), intent(inout) :: self
-      integer :: j, k, rank, longest
-      real(wp) :: length
+      integer :: i, j, k, rank, longest
+      real(wp) :: length, rest
       !> Directions that are known less accurately than this are left out
       real(wp), parameter :: smallest = 1.0e-10_wp
 
@@ -121,6 +121,14 @@ contains
             exit
          end if
          if (longest /= k) call exchange(self, k, longest)
+         ! a second time, because what is left of nearly dependent columns is mostly rounding
+         do i = 1, k - 1
+            rest = dot_product(self%a(:, i), self%a(:, k))
+            self%r(i, k) = self%r(i, k) + rest
+            self%a(:, k) = self%a(:, k) - rest*self%a(:, i)
+         end do
+         length = norm2(self%a(:, k))
+         if (.not. length > 0.0_wp) exit
          rank = k
          self%r(k, k) = length
          self%a(:, k) = self%a(:, k)/length

@@ -73,6 +73,8 @@ contains
       self%name = name
       self%temporary = name // ".tmp"
       call open_result(self, self%temporary, name, error, limits)
+      ! it may be there, empty, when there is no memory for its stream
+      if (allocated(error)) call remove_file(self%temporary)
    end subroutine start_file
 
    !> Close and rename; when writing failed anywhere the temporary file is removed and the error says so
