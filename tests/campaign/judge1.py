@@ -409,7 +409,7 @@ def cut(scene, tools, run, cases, findings):
     case = part["cases"][0]
     del part["cases"][1:]
     patches = cases[0][2]
-    margin = 10.0 + 3.0 * max(math.sqrt(2.0 * 460.0 * patch["pen"]) for patch in patches)
+    margin = 10.0 + 3.0 * max(math.sqrt(2.0 * 460.0 * max(patch["pen"], 0.0)) for patch in patches)
     low, high = min(p["ycp_r"] for p in patches) - margin, max(p["ycp_r"] for p in patches) + margin
     placed = geometry1.Placed(part, case, 0.0)
     whole = profiles.points(rail)
