@@ -458,8 +458,7 @@ struct detours {
 #define DETOUR(name, own, other) {#name, (function)name, (function)(own), (function)(other)}
 
 /* Libraries that end the process, or whose memory we free */
-static const char *const libraries[] = {"libgfortran.", "libgomp.", "libfftw3.", "libhdf5", "libopenblas.", "liblapack.",
-  "libblas.", "libquadmath."};
+static const char *const libraries[] = {"libgfortran.", "libgomp.", "libfftw3.", "libhdf5", "libquadmath."};
 
 static int begins_with_one(const char *name, const char *const *list, size_t count) {
   for (size_t k = 0; k < count; k++)

@@ -4,7 +4,7 @@ module contact_base_guard
    implicit none (type, external)
    private
 
-   public :: do_guarded, expect_refusals, free_left_blocks, guard_end, guarded_work, new_owner, set_owner
+   public :: do_guarded, end_text, expect_refusals, free_left_blocks, guard_end, guarded_work, new_owner, set_owner
 
    type :: guard_end_list
       !> The work was done
@@ -73,6 +73,16 @@ contains
 
       cause = int(contact_guard(c_funloc(work), data, int(owner, c_int)))
    end subroutine do_guarded
+
+   !> Why guarded work was left, with blanks behind
+   pure function end_text(cause) result(text)
+      !> Member of guard_end
+      integer, intent(in) :: cause
+      character(len=64) :: text
+
+      text = "there is not enough memory"
+      if (cause == guard_end%gave_up) text = "a run-time library gave up, most likely for want of memory"
+   end function end_text
 
    !> A number for an owner of blocks of memory
    integer function new_owner()

@@ -3,7 +3,7 @@ module contact_capi_run
    use, intrinsic :: iso_c_binding, only : c_associated, c_char, c_double, c_f_pointer, c_int, c_loc, c_ptr, c_size_t
    use contact_base_choices, only : heat_source
    use contact_base_error, only : error_kind, error_type, fatal_error, full_text
-   use contact_base_guard, only : do_guarded, guard_end
+   use contact_base_guard, only : do_guarded, end_text, guard_end
    use contact_base_kinds, only : long
    use contact_base_limits, only : fill_limits
    use contact_capi_arguments, only : give_message
@@ -119,7 +119,7 @@ contains
       type(run_request), pointer :: request
 
       call c_f_pointer(data, request)
-      call give_message("there is not enough memory for the run", request%message, request%message_length)
+      call give_message(trim(end_text(guard_end%no_memory)) // " for the run", request%message, request%message_length)
    end subroutine tell_want_of_memory
 
    !> Run what a request says

@@ -12,7 +12,7 @@ module contact_experiment_run
    use contact_base_case_status, only : case_state, case_status
    use contact_base_choices, only : estimate_choice, heat_source, kernel_model, time_link
    use contact_base_error, only : add_context, error_kind, error_type, fatal_error, full_text
-   use contact_base_guard, only : do_guarded, free_left_blocks, guard_end, new_owner
+   use contact_base_guard, only : do_guarded, end_text, free_left_blocks, guard_end, new_owner
    use contact_base_kinds, only : long, wp
    use contact_base_limits, only : case_limits, deadline_type, wall_clock
    use contact_base_log, only : log_type
@@ -201,7 +201,7 @@ contains
       end if
       if (run%cause /= guard_end%done) then
          call do_guarded(end_early, c_loc(run), owner, cause)
-         if (.not. allocated(state%first_error)) call fatal_error(state%first_error, "there is not enough memory", &
+         if (.not. allocated(state%first_error)) call fatal_error(state%first_error, trim(end_text(run%cause)), &
             & error_kind%memory)
       end if
       call state%lock%release()
@@ -253,8 +253,7 @@ contains
 
       call c_f_pointer(data, run)
       associate (state => run%state)
-         reason = "there is not enough memory"
-         if (run%cause == guard_end%gave_up) reason = "a run-time library gave up, most likely for want of memory"
+         reason = trim(end_text(run%cause))
          if (state%in_case) then
             reason = reason // " for case " // integer_text(state%head%number)
             if (state%head%result_element > 0) reason = reason // ", result element " // integer_text(state%head%result_element)
@@ -476,8 +475,7 @@ contains
          if (allocated(error)) then
             ! a wrong digit may be the reason why the text behind it cannot be read
             if (allocated(this%problems%items)) call report_problems(state, this)
-            call report_error(state, error)
-            state%run%reason = full_text(error)
+            call give_up(state, error)
             exit
          end if
          if (this%module_number == 0) then
@@ -488,8 +486,7 @@ contains
          call look_for_end(state, settings, error)
          if (allocated(error)) then
             state%cases = state%cases - 1
-            call report_error(state, error)
-            state%run%reason = full_text(error)
+            call give_up(state, error)
             exit
          end if
          call complete_spec(state, asked, this)
@@ -501,8 +498,7 @@ contains
          call keep_files_current(state)
          call look_for_excess(state, error)
          if (allocated(error)) then
-            call report_error(state, error)
-            state%run%reason = full_text(error)
+            call give_up(state, error)
             exit
          end if
          if (settings%screen == 0 .or. this%spec%flow_level == 0) call state%progress%show(state%cases)
@@ -558,8 +554,7 @@ contains
       end if
       done = .not. allocated(error)
       if (allocated(error)) then
-         call report_error(state, error)
-         state%run%reason = full_text(error)
+         call give_up(state, error)
          return
       end if
       if (point%active) then
@@ -1096,6 +1091,15 @@ contains
       state%run%planned = state%run%finished
       if (allocated(state%run%reason)) call count_planned(state)
    end subroutine learn_planned
+
+   !> Tell the error that ends the run before all cases are finished
+   subroutine give_up(state, error)
+      type(experiment_state), intent(inout) :: state
+      type(error_type), intent(in) :: error
+
+      call report_error(state, error)
+      state%run%reason = full_text(error)
+   end subroutine give_up
 
    !> An error without a place belongs to its case as a whole: where that begins in the input
    subroutine place_error(state, this, error)
