@@ -10,150 +10,42 @@ module contact_experiment_run
    use, intrinsic :: iso_c_binding, only : c_f_pointer, c_loc, c_ptr
    use omp_lib, only : omp_get_max_threads, omp_set_num_threads
    use contact_base_case_status, only : case_state, case_status
-   use contact_base_choices, only : estimate_choice, heat_source, kernel_model, time_link
+   use contact_base_choices, only : kernel_model
    use contact_base_error, only : add_context, error_kind, error_type, fatal_error, full_text
    use contact_base_guard, only : do_guarded, end_text, free_left_blocks, guard_end, new_owner
    use contact_base_kinds, only : long, wp
-   use contact_base_limits, only : case_limits, deadline_type, wall_clock
-   use contact_base_log, only : log_type
+   use contact_base_limits, only : wall_clock
    use contact_base_output_file, only : remove_file
-   use contact_cases_border_warning, only : is_same
    use contact_cases_estimate, only : case_cost, cost_text, estimate_cost
-   use contact_cases_pair_session, only : check_files, solve_pair_case
-   use contact_cases_session, only : check_case, solve_case
+   use contact_cases_pair_session, only : check_files
+   use contact_cases_session, only : check_case
    use contact_cases_slot, only : open_contact, open_pair, problem_slot, release_slot
    use contact_cases_spec, only : case_spec
-   use contact_experiment_exports, only : export_files, export_request, number_of_exports
-   use contact_experiment_journal, only : advised, case_letter, checkpoint, is_advised, journal_file, journal_name, &
-      & journal_settings, letter_of, read_journal
-   use contact_experiment_lock, only : experiment_lock
-   use contact_experiment_place, only : experiment_place, locate_experiment
-   use contact_experiment_progress, only : is_terminal, progress_line
-   use contact_experiment_stopwatch, only : stopwatch
+   use contact_experiment_exports, only : number_of_exports
+   use contact_experiment_journal, only : journal_name
+   use contact_experiment_place, only : locate_experiment
+   use contact_experiment_resume, only : catch_up, find_point, note_case, resume_point, settings_of
+   use contact_experiment_state, only : complete_spec, counted, experiment_state, find_slot, no_unit, run_settings, &
+      & solve_one, stop_question
    use contact_input_experiment_file, only : experiment_reader, input_case
    use contact_input_problems, only : problem_text, severity
-   use contact_output_case_record, only : case_head, planned_text, run_summary
+   use contact_output_case_record, only : case_head, planned_text
    use contact_output_finished_file, only : close_result, open_result, open_result_again
    use contact_output_mat_file, only : mat_file_name, write_mat_file
+   use contact_output_pair_files, only : write_pair_files
    use contact_output_report, only : timer_line, write_banner, write_case, write_case_line, write_closing, write_end, &
       & write_subsurface
-   use contact_output_pair_files, only : write_pair_files
    use contact_output_report_pair, only : write_pair
    use contact_output_subs_file, only : subs_file_name, write_subs_file
    use contact_patch_result, only : patch_result
-   use contact_text_lexer, only : empty_hash
-   use contact_text_words, only : columns_of, integer_text
+   use contact_text_words, only : integer_text
    implicit none (type, external)
    private
 
    public :: no_unit, run_experiment, run_settings, stop_question
 
-   !> Stands for no unit; 0 is the standard error stream of gfortran
-   integer, parameter :: no_unit = -1
-
    !> Cases that are estimated to take more time [s] or memory [bytes] are announced: by a check, and before they are computed
    real(wp), parameter :: told_seconds = 1.0_wp, told_bytes = 1.0e8_wp, large_seconds = 10.0_wp, large_bytes = 1.0e9_wp
-
-   abstract interface
-      !> Is the run to end after the case in hand? It is asked between two cases
-      subroutine stop_question(reason)
-         implicit none (type, external)
-         !> Why, such as "signal TERM"; unallocated: go on
-         character(len=:), allocatable, intent(out) :: reason
-      end subroutine stop_question
-   end interface
-
-   !> What is to be run and where messages go
-   type :: run_settings
-      !> Name of the experiment, with or without folder and suffix .inp
-      character(len=:), allocatable :: experiment
-      !> Folder of the results; unallocated or "" for the folder of the input
-      character(len=:), allocatable :: output_folder
-      !> Version for the banner; unallocated to leave it out
-      character(len=:), allocatable :: version
-      !> Only read and check the cases? Then no file is written
-      logical :: check_only = .false.
-      !> Number of threads, 0 for the default
-      integer :: threads = 0
-      !> Unit for the log on the screen, 0 for none
-      integer :: screen = 0
-      !> Unit for errors, or no_unit
-      integer :: complaints = no_unit
-      !> May a progress line be shown on the terminal?
-      logical :: progress = .false.
-      !> What each case may take, and whether the run is confined to its folder
-      type(case_limits) :: limits
-      !> What the whole run may take: time, and bytes of all files
-      type(deadline_type) :: run_deadline
-      integer(long) :: output_bytes = huge(1_long)
-      !> Whom to ask between two cases whether the run is to end; null for nobody
-      procedure(stop_question), pointer, nopass :: stop_asked => null()
-      !> Is a case that does not converge a failure of the run?
-      logical :: strict = .false.
-      !> Files for other programs beside the usual ones
-      type(export_request) :: exports
-      !> How temperatures are computed, member of heat_source
-      integer :: heat_source = heat_source%established
-      !> Contact angles on rails that vary along the track: of the section below the axle, as in the established program?
-      logical :: angle_below_axle = .true.
-      !> Go on with a run that has ended before all cases were finished?
-      logical :: resume = .false.
-   end type run_settings
-
-   !> Where to go on with a run
-   type :: resume_point
-      !> Are there finished cases to go on behind?
-      logical :: active = .false.
-      type(checkpoint) :: at
-      !> End of its line in the journal [bytes]
-      integer(long) :: place = 0
-      !> How the finished cases ended, see case_letter
-      character(len=:), allocatable :: letters
-   end type resume_point
-
-   !> The problem of one result element and contact patch
-   type, extends(problem_slot) :: numbered_slot
-      integer :: reid = 0, cpid = 1
-   end type numbered_slot
-
-   !> Everything that a run keeps from case to case
-   type :: experiment_state
-      type(experiment_place) :: place
-      type(experiment_reader) :: reader
-      type(experiment_lock) :: lock
-      type(log_type) :: log
-      type(progress_line) :: progress
-      type(export_files) :: exports
-      !> Slots 1...used are in use
-      integer :: used = 0
-      type(numbered_slot), allocatable :: slots(:)
-      !> Unit for errors, or no_unit
-      integer :: complaints = no_unit
-      !> Numbers of cases read and of errors
-      integer :: cases = 0, errors = 0
-      !> What is planned and what is done
-      type(run_summary) :: run
-      !> Has somebody asked the run to end?
-      logical :: interrupted = .false.
-      !> Has no case asked for results so far?
-      logical :: silent = .true.
-      !> The first error; unallocated when there was none
-      type(error_type), allocatable :: first_error
-      type(stopwatch) :: total, reading, solving, writing
-      !> What each case may take and the run may still write
-      type(case_limits) :: limits
-      type(deadline_type) :: deadline
-      !> Size of the HDF5 file as it was counted last
-      integer(long) :: hdf5_bytes = 0
-      !> What `--resume` goes on from, and the last line of the input that its hash knows
-      type(journal_file) :: journal
-      integer :: hashed = 0
-      !> When the journal was handed to the system last, see wall_clock
-      real(wp) :: last_save = 0.0_wp
-      !> The case in hand, if there is one
-      type(case_head) :: head
-      logical :: in_case = .false.
-   end type experiment_state
 
    !> What guarded work is told
    type :: guarded_run
@@ -428,16 +320,6 @@ contains
          & integer_text(this%number) // " on one thread: " // trim(cost_text(cost)))
    end subroutine add_cost
 
-   !> "1 case", "2 cases"
-   pure function counted(n, what) result(text)
-      integer, intent(in) :: n
-      character(len=*), intent(in) :: what
-      character(len=columns_of(n) + 1 + len(what) + merge(0, 1, n == 1)) :: text
-
-      text = integer_text(n) // " " // what
-      if (n /= 1) text(len(text):) = "s"
-   end function counted
-
    !> Solve the cases one after the other and write the results
    subroutine compute_all_cases(state, settings)
       type(experiment_state), intent(inout) :: state
@@ -509,20 +391,6 @@ contains
       end do
    end subroutine compute_all_cases
 
-   !> What the run, not the input, says about a case
-   subroutine complete_spec(state, asked, this)
-      type(experiment_state), intent(inout) :: state
-      type(run_settings), intent(in) :: asked
-      type(input_case), intent(inout) :: this
-
-      this%spec%heat%source = asked%heat_source
-      if (allocated(this%spec%wheel_rail)) this%spec%wheel_rail%search%angle_below_axle = asked%angle_below_axle
-      if (this%spec%output_level > 0 .or. this%spec%mat_file > 0 .or. this%spec%digits%s > 0) state%silent = .false.
-      this%spec%limits = state%limits
-      this%spec%limits%deadline%seconds = min(this%spec%limits%deadline%seconds, state%deadline%left())
-      call this%spec%limits%deadline%start()
-   end subroutine complete_spec
-
    !> Open the files of a run, or go on with those that are there
    subroutine open_all_files(state, asked, point, done)
       type(experiment_state), intent(inout) :: state
@@ -584,295 +452,6 @@ contains
       ! files that could not be completed can be, when there is room again
       call state%journal%finish(state%run%is_complete() .and. state%errors == errors)
    end subroutine close_all_files
-
-   !> With what a run was asked for, as far as results depend on it
-   function settings_of(asked) result(settings)
-      type(run_settings), intent(in) :: asked
-      type(journal_settings) :: settings
-
-      settings%version = "-"
-      if (allocated(asked%version)) settings%version = asked%version
-      settings%json = allocated(asked%exports%json)
-      if (settings%json) settings%json = asked%exports%json /= "-"
-      settings%hdf5 = asked%exports%hdf5
-      settings%vtk = asked%exports%vtk
-      settings%heat_source = asked%heat_source
-      settings%angle_below_axle = asked%angle_below_axle
-      if (asked%limits%deadline%seconds < huge(1.0_wp)) settings%seconds = asked%limits%deadline%seconds
-      if (asked%limits%bytes < huge(1_long)) settings%bytes = asked%limits%bytes
-      if (asked%limits%elements < huge(1_long)) settings%elements = asked%limits%elements
-   end function settings_of
-
-   !> Find out where to go on with a run, and with what it was asked for
-   subroutine find_point(state, asked, point, is_done, error)
-      type(experiment_state), intent(inout) :: state
-      !> On return with what the run was asked for
-      type(run_settings), intent(inout) :: asked
-      type(resume_point), intent(out) :: point
-      !> Is there nothing left to do?
-      logical, intent(out) :: is_done
-      type(error_type), allocatable, intent(out) :: error
-      type(error_type), allocatable :: unreadable
-      type(journal_settings) :: before
-      integer(long) :: ends(3)
-      integer :: rows(2)
-      logical :: found
-
-      is_done = .false.
-      associate (results => state%place%results)
-         ends = [length_of(results // ".out"), length_of(results // ".jsonl"), length_of(results // ".pvd")]
-         call read_journal(results, ends, [huge(1), huge(1)], before, found, point%at, point%place, point%letters)
-         if (.not. found) then
-            is_done = says_complete(results // ".out")
-            if (is_done) then
-               call state%log%line(" " // results // ".out is complete: there is nothing to resume")
-            else
-               call state%log%line(" There are no results of " // state%place%name // " to go on with: an ordinary run")
-            end if
-            return
-         end if
-         call adopt(before, asked, error)
-         if (allocated(error)) return
-         if (before%hdf5 .and. point%at%cases > 0) then
-            allocate(state%exports%hdf5)
-            call state%exports%hdf5%open_again(results // ".h5", unreadable)
-            rows = 0
-            if (.not. allocated(unreadable)) rows = [state%exports%hdf5%rows(patch=.false.), state%exports%hdf5%rows(patch=.true.)]
-            call read_journal(results, ends, rows, before, found, point%at, point%place, point%letters)
-         end if
-         point%active = point%at%cases > 0
-         if (point%active) then
-            call state%log%line(" " // results // ": " // counted(point%at%cases, "case") // &
-               & " finished before; the run goes on with the next one")
-         else
-            call state%log%line(" No finished case of " // state%place%name // " stands in all its files: an ordinary run")
-            if (allocated(state%exports%hdf5)) then
-               call state%exports%hdf5%abandon()
-               deallocate(state%exports%hdf5)
-            end if
-         end if
-      end associate
-   end subroutine find_point
-
-   !> Take what a run was asked for before; refuse what does not go with it
-   subroutine adopt(before, asked, error)
-      type(journal_settings), intent(in) :: before
-      type(run_settings), intent(inout) :: asked
-      type(error_type), allocatable, intent(out) :: error
-      type(journal_settings) :: now
-      character(len=:), allocatable :: what
-
-      now = settings_of(asked)
-      what = ""
-      if (now%version /= before%version) what = "by version " // trim(before%version) // ", this is " // trim(now%version)
-      if (allocated(asked%exports%json)) then
-         if (asked%exports%json == "-") what = "into files; --json=- does not go with --resume"
-         if (now%json .and. .not. before%json) what = "without --json"
-      end if
-      if (now%hdf5 .and. .not. before%hdf5) what = "without --hdf5"
-      if (now%vtk .and. .not. before%vtk) what = "without --vtk"
-      if (now%heat_source /= before%heat_source .and. now%heat_source /= heat_source%established) &
-         & what = "with another kind of temperatures (--heat)"
-      if (before%angle_below_axle .and. .not. now%angle_below_axle) what = "with another kind of contact angles (--contact-angle)"
-      if (len(what) > 0) then
-         call fatal_error(error, "the run was made " // what // ": it cannot be resumed like this; run it anew without --resume")
-         return
-      end if
-      if (before%json) asked%exports%json = ""
-      asked%exports%hdf5 = before%hdf5
-      asked%exports%vtk = before%vtk
-      asked%heat_source = before%heat_source
-      asked%angle_below_axle = before%angle_below_axle
-      if (before%seconds > 0.0_wp .and. .not. now%seconds > 0.0_wp) asked%limits%deadline%seconds = before%seconds
-      if (before%bytes > 0 .and. now%bytes == 0) asked%limits%bytes = before%bytes
-      if (before%elements > 0 .and. now%elements == 0) asked%limits%elements = before%elements
-   end subroutine adopt
-
-   !> Bring the memory of all contact problems to where it was, without writing
-   !>
-   !> A case that starts anew (P = 2, I = 0) depends on none before it: of each contact problem the last one that has done so is
-   !> solved again, and all behind it. Of those before only the files are read, so that nothing is told twice.
-   subroutine catch_up(state, asked, point, error)
-      type(experiment_state), intent(inout) :: state
-      type(run_settings), intent(in) :: asked
-      type(resume_point), intent(in) :: point
-      type(error_type), allocatable, intent(out) :: error
-      type(input_case) :: this
-      type(log_type) :: quiet
-      integer, allocatable :: first(:)
-      integer :: j, k
-      character(len=1) :: letter
-      logical :: was_advised
-
-      call first_to_solve(state, point, first, error)
-      if (allocated(error)) return
-      state%silent = .not. asked%exports%any()
-      do j = 1, point%at%cases
-         call state%reader%next_case(this, error)
-         if (allocated(error)) return
-         call complete_spec(state, asked, this)
-         letter = point%letters(j:j)
-         call is_advised(letter, was_advised)
-         call find_slot(state, this%reid, this%cpid, k)
-         if (j >= first(place_of(k, this%module_number))) then
-            if (letter == case_letter%time) this%spec%limits%deadline%seconds = tiny(1.0_wp)
-            call this%spec%limits%deadline%start()
-            call solve_one(state, state%slots(k), this, quiet, error)
-         else if (this%module_number == 1) then
-            call open_pair(state%slots(k)%problem_slot)
-            call check_files(state%slots(k)%pair, this%spec, state%place%folder, quiet, error)
-         else if (was_advised .or. this%spec%kernel == kernel_model%tabulated) then
-            call open_contact(state%slots(k)%problem_slot)
-            call check_case(state%slots(k)%session, this%spec, quiet, state%slots(k)%result, error, state%place%folder)
-            if (was_advised) state%slots(k)%session%advised = state%slots(k)%session%problem%grid
-         end if
-         ! what went wrong then goes wrong again, and was told
-         if (allocated(error)) deallocate(error)
-         call remember_files(state, state%slots(k), this%module_number)
-      end do
-      if (state%journal%now%files /= point%at%files) then
-         call fatal_error(error, "a profile or another file that the finished cases have read is not what it was: they cannot &
-            &be continued; run the experiment anew without --resume", error_kind%file)
-         return
-      end if
-      state%hashed = state%reader%lexer%line
-      state%cases = point%at%cases
-      state%run%finished = point%at%cases
-      state%run%ended = point%at%ended
-      state%errors = point%at%errors
-      state%log%warnings = point%at%warnings
-      if (state%errors > 0) call fatal_error(state%first_error, "there were errors before the run was resumed, see " // &
-         & state%place%results // ".out")
-   end subroutine catch_up
-
-   !> First case of each contact problem that must be solved again, by place_of; huge for none
-   subroutine first_to_solve(state, point, first, error)
-      type(experiment_state), intent(inout) :: state
-      type(resume_point), intent(in) :: point
-      integer, allocatable, intent(out) :: first(:)
-      type(error_type), allocatable, intent(out) :: error
-      type(experiment_reader) :: reader
-      type(input_case) :: this
-      integer(long) :: hash
-      integer, allocatable :: longer(:)
-      integer :: j, k
-      character(len=1) :: letter
-      logical :: ignored, is_there
-
-      allocate(first(0))
-      reader = state%reader
-      call reader%rewind()
-      do j = 1, point%at%cases
-         call reader%next_case(this, error)
-         is_there = .not. allocated(error)
-         if (is_there) is_there = this%module_number /= 0 .and. this%problems%is_usable()
-         if (.not. is_there) exit
-         call find_slot(state, this%reid, this%cpid, k)
-         k = place_of(k, this%module_number)
-         if (k > size(first)) then
-            allocate(longer(k + 1), source=huge(1))
-            longer(:size(first)) = first
-            call move_alloc(longer, first)
-         end if
-         letter = point%letters(j:j)
-         call is_advised(letter, ignored)
-         first(k) = min(first(k), j)
-         if (this%spec%link == time_link%initiate .and. this%spec%estimate == estimate_choice%fresh &
-            & .and. any(letter == [case_letter%solved, case_letter%not_converged])) first(k) = j
-      end do
-      hash = empty_hash
-      call reader%lexer%hash_lines(1, reader%lexer%line, hash)
-      if (is_there .and. hash == point%at%input) return
-      if (allocated(error)) deallocate(error)
-      call fatal_error(error, "the input was changed where it was computed already, up to case " // &
-         & integer_text(point%at%cases) // ": only what stands behind it may change; run it anew without --resume", &
-         & file=state%place%input)
-   end subroutine first_to_solve
-
-   !> Index of what a slot remembers of a module
-   pure integer function place_of(slot, module_number) result(k)
-      integer, intent(in) :: slot, module_number
-      k = 2*slot - merge(1, 0, module_number == 1)
-   end function place_of
-
-   !> Take note of the files that a case has read
-   subroutine remember_files(state, slot, module_number)
-      type(experiment_state), intent(inout) :: state
-      type(numbered_slot), intent(in) :: slot
-      integer, intent(in) :: module_number
-
-      if (module_number == 1) then
-         if (.not. associated(slot%pair)) return
-         call add(slot%pair%profiles%history)
-         if (allocated(slot%pair%coefficients%table)) call add(slot%pair%coefficients%table%fingerprint)
-      else if (associated(slot%session)) then
-         if (allocated(slot%session%problem%model%tabulated)) call add(slot%session%problem%model%tabulated%fingerprint)
-      end if
-
-   contains
-
-      subroutine add(fingerprint)
-         integer(long), intent(in) :: fingerprint
-
-         associate (hash => state%journal%now%files)
-            hash = modulo(31_long*hash + modulo(fingerprint, 2147483647_long), 2147483647_long)
-         end associate
-      end subroutine add
-   end subroutine remember_files
-
-   !> A case is finished: how it ended, and where all files end now
-   subroutine note_case(state, this, status, slot)
-      type(experiment_state), intent(inout) :: state
-      type(input_case), intent(in) :: this
-      type(case_status), intent(in) :: status
-      type(numbered_slot), intent(in) :: slot
-      character(len=1) :: letter
-
-      state%run%finished = state%run%finished + 1
-      letter = letter_of(status, this%spec%solve)
-      if (this%module_number /= 1) then
-         if (is_same(slot%session%advised, slot%session%problem%grid)) letter = advised(letter)
-      end if
-      call remember_files(state, slot, this%module_number)
-      associate (now => state%journal%now, lexer => state%reader%lexer)
-         call lexer%hash_lines(state%hashed + 1, lexer%line, now%input)
-         state%hashed = lexer%line
-         now%cases = state%run%finished
-         now%out = state%log%out%place()
-         call state%exports%take_ends(now)
-         now%errors = state%errors
-         now%warnings = state%log%warnings
-         now%ended = state%run%ended
-      end associate
-      call state%journal%note(letter)
-   end subroutine note_case
-
-   !> Length of a file [bytes], 0 when there is none
-   integer(long) function length_of(file) result(length)
-      character(len=*), intent(in) :: file
-
-      inquire(file=file, size=length)
-      length = max(0_long, length)
-   end function length_of
-
-   !> Does a report end as that of a complete run?
-   logical function says_complete(file) result(complete)
-      character(len=*), intent(in) :: file
-      integer(long), parameter :: enough = 300
-      character(len=:), allocatable :: tail
-      integer(long) :: length
-      integer :: unit, status
-
-      complete = .false.
-      length = length_of(file)
-      if (length == 0) return
-      allocate(character(len=int(min(enough, length))) :: tail)
-      open(newunit=unit, file=file, access="stream", action="read", status="old", iostat=status)
-      if (status /= 0) return
-      read(unit, pos=length - len(tail) + 1, iostat=status) tail
-      close(unit)
-      complete = status == 0 .and. index(tail, " CONTACT ended ") > 0 .and. index(tail, " Not complete: ") == 0
-   end function says_complete
 
    !> Hand what is written to the system, so that it outlives this process; in a run with a limit count the HDF5 file
    subroutine keep_files_current(state)
@@ -979,23 +558,6 @@ contains
       end associate
    end subroutine compute_case
 
-   !> Solve a case of either module
-   subroutine solve_one(state, slot, this, log, error)
-      type(experiment_state), intent(in) :: state
-      type(numbered_slot), intent(inout) :: slot
-      type(input_case), intent(in) :: this
-      type(log_type), intent(inout) :: log
-      type(error_type), allocatable, intent(out) :: error
-
-      if (this%module_number == 1) then
-         call open_pair(slot%problem_slot)
-         call solve_pair_case(slot%pair, this%spec, state%place%folder, log, slot%pair_result, error)
-      else
-         call open_contact(slot%problem_slot)
-         call solve_case(slot%session, this%spec, log, slot%result, error, state%place%folder)
-      end if
-   end subroutine solve_one
-
    !> Count a case by how it ended
    subroutine count_case(state, status)
       type(experiment_state), intent(inout) :: state
@@ -1040,27 +602,6 @@ contains
          if (allocated(error)) call report_error(state, error)
       end if
    end subroutine write_results
-
-   !> Index of the slot of a result element and patch, which is made when it is new
-   subroutine find_slot(state, reid, cpid, k)
-      type(experiment_state), intent(inout) :: state
-      integer, intent(in) :: reid, cpid
-      integer, intent(out) :: k
-      type(numbered_slot), allocatable :: longer(:)
-
-      do k = 1, state%used
-         if (state%slots(k)%reid == reid .and. state%slots(k)%cpid == cpid) return
-      end do
-      if (state%used == size(state%slots)) then
-         allocate(longer(2*state%used))
-         longer(:state%used) = state%slots
-         call move_alloc(longer, state%slots)
-      end if
-      state%used = state%used + 1
-      k = state%used
-      state%slots(k)%reid = reid
-      state%slots(k)%cpid = cpid
-   end subroutine find_slot
 
    !> Number of cases in the input, as far as it can be read
    subroutine count_planned(state)

@@ -1,0 +1,182 @@
+!> What is asked of a run, and everything that it keeps from case to case
+module contact_experiment_state
+   use contact_base_choices, only : heat_source
+   use contact_base_error, only : error_type
+   use contact_base_kinds, only : long, wp
+   use contact_base_limits, only : case_limits, deadline_type
+   use contact_base_log, only : log_type
+   use contact_cases_pair_session, only : solve_pair_case
+   use contact_cases_session, only : solve_case
+   use contact_cases_slot, only : open_contact, open_pair, problem_slot
+   use contact_experiment_exports, only : export_files, export_request
+   use contact_experiment_journal, only : journal_file
+   use contact_experiment_lock, only : experiment_lock
+   use contact_experiment_place, only : experiment_place
+   use contact_experiment_progress, only : progress_line
+   use contact_experiment_stopwatch, only : stopwatch
+   use contact_input_experiment_file, only : experiment_reader, input_case
+   use contact_output_case_record, only : case_head, run_summary
+   use contact_text_words, only : columns_of, integer_text
+   implicit none (type, external)
+   private
+
+   public :: complete_spec, counted, experiment_state, find_slot, no_unit, numbered_slot, run_settings, solve_one, &
+      & stop_question
+
+   !> Stands for no unit; 0 is the standard error stream of gfortran
+   integer, parameter :: no_unit = -1
+
+   abstract interface
+      !> Is the run to end after the case in hand? It is asked between two cases
+      subroutine stop_question(reason)
+         implicit none (type, external)
+         !> Why, such as "signal TERM"; unallocated: go on
+         character(len=:), allocatable, intent(out) :: reason
+      end subroutine stop_question
+   end interface
+
+   !> What is to be run and where messages go
+   type :: run_settings
+      !> Name of the experiment, with or without folder and suffix .inp
+      character(len=:), allocatable :: experiment
+      !> Folder of the results; unallocated or "" for the folder of the input
+      character(len=:), allocatable :: output_folder
+      !> Version for the banner; unallocated to leave it out
+      character(len=:), allocatable :: version
+      !> Only read and check the cases? Then no file is written
+      logical :: check_only = .false.
+      !> Number of threads, 0 for the default
+      integer :: threads = 0
+      !> Unit for the log on the screen, 0 for none
+      integer :: screen = 0
+      !> Unit for errors, or no_unit
+      integer :: complaints = no_unit
+      !> May a progress line be shown on the terminal?
+      logical :: progress = .false.
+      !> What each case may take, and whether the run is confined to its folder
+      type(case_limits) :: limits
+      !> What the whole run may take: time, and bytes of all files
+      type(deadline_type) :: run_deadline
+      integer(long) :: output_bytes = huge(1_long)
+      !> Whom to ask between two cases whether the run is to end; null for nobody
+      procedure(stop_question), pointer, nopass :: stop_asked => null()
+      !> Is a case that does not converge a failure of the run?
+      logical :: strict = .false.
+      !> Files for other programs beside the usual ones
+      type(export_request) :: exports
+      !> How temperatures are computed, member of heat_source
+      integer :: heat_source = heat_source%established
+      !> Contact angles on rails that vary along the track: of the section below the axle, as in the established program?
+      logical :: angle_below_axle = .true.
+      !> Go on with a run that has ended before all cases were finished?
+      logical :: resume = .false.
+   end type run_settings
+
+   !> The problem of one result element and contact patch
+   type, extends(problem_slot) :: numbered_slot
+      integer :: reid = 0, cpid = 1
+   end type numbered_slot
+
+   !> Everything that a run keeps from case to case
+   type :: experiment_state
+      type(experiment_place) :: place
+      type(experiment_reader) :: reader
+      type(experiment_lock) :: lock
+      type(log_type) :: log
+      type(progress_line) :: progress
+      type(export_files) :: exports
+      !> Slots 1...used are in use
+      integer :: used = 0
+      type(numbered_slot), allocatable :: slots(:)
+      !> Unit for errors, or no_unit
+      integer :: complaints = no_unit
+      !> Numbers of cases read and of errors
+      integer :: cases = 0, errors = 0
+      !> What is planned and what is done
+      type(run_summary) :: run
+      !> Has somebody asked the run to end?
+      logical :: interrupted = .false.
+      !> Has no case asked for results so far?
+      logical :: silent = .true.
+      !> The first error; unallocated when there was none
+      type(error_type), allocatable :: first_error
+      type(stopwatch) :: total, reading, solving, writing
+      !> What each case may take and the run may still write
+      type(case_limits) :: limits
+      type(deadline_type) :: deadline
+      !> Size of the HDF5 file as it was counted last
+      integer(long) :: hdf5_bytes = 0
+      !> What `--resume` goes on from, and the last line of the input that its hash knows
+      type(journal_file) :: journal
+      integer :: hashed = 0
+      !> When the journal was handed to the system last, see wall_clock
+      real(wp) :: last_save = 0.0_wp
+      !> The case in hand, if there is one
+      type(case_head) :: head
+      logical :: in_case = .false.
+   end type experiment_state
+
+contains
+
+   !> Index of the slot of a result element and patch, which is made when it is new
+   subroutine find_slot(state, reid, cpid, k)
+      type(experiment_state), intent(inout) :: state
+      integer, intent(in) :: reid, cpid
+      integer, intent(out) :: k
+      type(numbered_slot), allocatable :: longer(:)
+
+      do k = 1, state%used
+         if (state%slots(k)%reid == reid .and. state%slots(k)%cpid == cpid) return
+      end do
+      if (state%used == size(state%slots)) then
+         allocate(longer(2*state%used))
+         longer(:state%used) = state%slots
+         call move_alloc(longer, state%slots)
+      end if
+      state%used = state%used + 1
+      k = state%used
+      state%slots(k)%reid = reid
+      state%slots(k)%cpid = cpid
+   end subroutine find_slot
+
+   !> Solve a case of either module
+   subroutine solve_one(state, slot, this, log, error)
+      type(experiment_state), intent(in) :: state
+      type(numbered_slot), intent(inout) :: slot
+      type(input_case), intent(in) :: this
+      type(log_type), intent(inout) :: log
+      type(error_type), allocatable, intent(out) :: error
+
+      if (this%module_number == 1) then
+         call open_pair(slot%problem_slot)
+         call solve_pair_case(slot%pair, this%spec, state%place%folder, log, slot%pair_result, error)
+      else
+         call open_contact(slot%problem_slot)
+         call solve_case(slot%session, this%spec, log, slot%result, error, state%place%folder)
+      end if
+   end subroutine solve_one
+
+   !> What the run, not the input, says about a case
+   subroutine complete_spec(state, asked, this)
+      type(experiment_state), intent(inout) :: state
+      type(run_settings), intent(in) :: asked
+      type(input_case), intent(inout) :: this
+
+      this%spec%heat%source = asked%heat_source
+      if (allocated(this%spec%wheel_rail)) this%spec%wheel_rail%search%angle_below_axle = asked%angle_below_axle
+      if (this%spec%output_level > 0 .or. this%spec%mat_file > 0 .or. this%spec%digits%s > 0) state%silent = .false.
+      this%spec%limits = state%limits
+      this%spec%limits%deadline%seconds = min(this%spec%limits%deadline%seconds, state%deadline%left())
+      call this%spec%limits%deadline%start()
+   end subroutine complete_spec
+
+   !> "1 case", "2 cases"
+   pure function counted(n, what) result(text)
+      integer, intent(in) :: n
+      character(len=*), intent(in) :: what
+      character(len=columns_of(n) + 1 + len(what) + merge(0, 1, n == 1)) :: text
+
+      text = integer_text(n) // " " // what
+      if (n /= 1) text(len(text):) = "s"
+   end function counted
+end module contact_experiment_state
