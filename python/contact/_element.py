@@ -197,6 +197,12 @@ def read_patch(ire: int, icp: int) -> Patch:
                  tuple(name for bit, name in enumerate(_SIDES) if border >> bit & 1))
 
 
+def buried_ends(ire: int) -> tuple[str, ...]:
+    """Ends of the wheel's profile that stand within the rail where no patch is: bits after those of the sides"""
+    border = int(cntc.getflags(ire, -1, [CNTC["own_border"]])[0])
+    return tuple(name for bit, name in enumerate(("inner", "outer"), len(_SIDES)) if border >> bit & 1)
+
+
 def warn_of_border(patch: Patch, what: str) -> None:
     """Warn of contact that is cut off; the caller's caller is named"""
     if patch.border:

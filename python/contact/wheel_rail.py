@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import os
+import warnings
 from dataclasses import dataclass
 from typing import Sequence
 
@@ -9,7 +10,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import cntc
-from ._element import Element, Field, Patch, Stresses, fail_if, read_patch, read_stresses, warn_of_border, warn_of_few_elements
+from ._element import (Element, Field, Patch, Stresses, buried_ends, fail_if, read_patch, read_stresses, warn_of_border,
+                       warn_of_few_elements)
+from .errors import ContactWarning
 
 # Values of the flag own_angle
 _ANGLES = {"established": 0, "contact": 1}
@@ -81,6 +84,9 @@ class WheelRailResult:
     status, reason
         How the case ended: ``"solved"``, or ``"not converged"`` and what was missed, of which a
         :class:`NotConvergedWarning` tells as well.
+    buried
+        Ends of the wheel's profile, ``"inner"`` or ``"outer"``, that stand within the rail where no patch is: an edge that
+        touches there carries no load in this result. A :class:`ContactWarning` tells of them as well.
     """
 
     patches: tuple[WheelRailPatch, ...]
@@ -89,6 +95,7 @@ class WheelRailResult:
     wheelset_velocity: Field
     status: str = "solved"
     reason: str = ""
+    buried: tuple[str, ...] = ()
 
 
 class WheelRail(Element):
@@ -233,8 +240,12 @@ class WheelRail(Element):
             warn_of_few_elements(patch, f"contact patch {icp}")
         values = cntc.getglobalforces(number, -1).reshape(4, 2, 3)
         forces = Forces(*(Wrench(force, moment) for force, moment in values))
+        buried = buried_ends(number)
+        if buried:
+            warnings.warn(f"the {' and the '.join(buried)} end of the wheel profile stands within the rail where no contact patch is: "
+                          "an edge that touches there carries no load here", ContactWarning, stacklevel=2)
         return WheelRailResult(patches, forces, cntc.getwheelsetposition(number), cntc.getwheelsetvelocity(number),
-                               self._status, self._reason)
+                               self._status, self._reason, buried)
 
     def _patch(self, icp: int) -> WheelRailPatch:
         """Results of one patch, copied"""

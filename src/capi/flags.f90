@@ -271,6 +271,8 @@ contains
       !> Patch of module 1, or less than 1 for all
       integer, intent(in) :: icp
       integer, intent(out) :: border, stepped, across
+      !> Bit of the inner end of the wheel's profile that stands within the rail; the next one is that of the outer end
+      integer, parameter :: first_buried = 9
       integer :: k
 
       border = 0
@@ -283,6 +285,11 @@ contains
       end if
       do k = 1, size(problem%pair_result%patches)
          if (icp <= 0 .or. icp == k) call add(problem%pair_result%patches(k)%contact, problem%spec%wheel_rail%left)
+      end do
+      if (icp > 0) return
+      ! ends belong to no patch
+      do k = 1, size(problem%pair_result%buried)
+         if (problem%pair_result%buried(k)%depth > 0.0_wp) border = ibset(border, first_buried + k - 1)
       end do
 
    contains

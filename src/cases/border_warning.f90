@@ -15,10 +15,17 @@ module contact_cases_border_warning
    use contact_patch_solve, only : solve_patch
    use contact_patch_workspace, only : patch_workspace, release_workspace
    use contact_text_words, only : integer_text, real_text
+   use contact_wheelrail_result, only : buried_end, pair_result
    implicit none (type, external)
    private
 
-   public :: border_words, is_same, warn_of_border
+   public :: border_words, buried_words, is_same, warn_of_border, warn_of_buried_ends
+
+   !> Names of the ends of profiles by their y in a right-hand pair; the inner one is that towards the middle of the track
+   character(len=5), parameter :: end_names(2) = ["inner", "outer"]
+
+   !> Longest text of `buried_words`
+   integer, parameter :: buried_length = 160
 
    !> Elements along each side of the grid on which the extent of the contact is estimated
    integer, parameter :: coarse = 40
@@ -68,14 +75,53 @@ contains
       is_same = a%mx == b%mx .and. a%my == b%my .and. all(abs([a%xl - b%xl, a%yl - b%yl, a%dx - b%dx, a%dy - b%dy]) <= 0.0_wp)
    end function is_same
 
+   !> Warn of ends of the wheel's profile that stand within the rail where no patch is
+   subroutine warn_of_buried_ends(spec, pair, log)
+      type(case_spec), intent(in) :: spec
+      type(pair_result), intent(in) :: pair
+      type(log_type), intent(inout) :: log
+      character(len=buried_length) :: words
+      integer :: k
+
+      do k = 1, size(pair%buried)
+         if (.not. pair%buried(k)%depth > 0.0_wp) cycle
+         words = buried_words(spec, pair%buried(k), k)
+         call log%warning(trim(words) // ". An edge that touches there carries load in reality, none here: take a profile of the &
+            &wheel that goes on beyond it, or another position")
+      end do
+   end subroutine warn_of_buried_ends
+
+   !> A coordinate to a hundredth of a millimetre
+   pure function place_text(value) result(text)
+      !> [mm]
+      real(wp), intent(in) :: value
+      character(len=len(real_text(0.01_wp*nint(100.0_wp*value)))) :: text
+
+      text = real_text(0.01_wp*nint(100.0_wp*value))
+   end function place_text
+
+   !> Where an end of the wheel's profile stands within the rail
+   function buried_words(spec, buried, number) result(words)
+      type(case_spec), intent(in) :: spec
+      type(buried_end), intent(in) :: buried
+      !> 1: the inner end, 2: the outer one
+      integer, intent(in) :: number
+      character(len=buried_length) :: words
+      real(wp) :: y
+
+      y = buried%place(2)
+      if (spec%wheel_rail%left) y = -y
+      words = "the " // end_names(number) // " end of the wheel profile stands " // real_text(buried%depth) // " mm within the &
+         &rail where no contact patch is, at x = " // place_text(buried%place(1)) // ", y = " // place_text(y) // ", z = " // &
+         & place_text(buried%place(3)) // " mm"
+   end function buried_words
+
    !> Sides and ends in words; blank when there are none
-   !>
-   !> The inner end of a profile is the one towards the middle of the track, on either side of it.
    subroutine border_words(spec, border, words)
       type(case_spec), intent(in) :: spec
       type(border_contact), intent(in) :: border
       character(len=:), allocatable, intent(out) :: words
-      character(len=5), parameter :: end_names(2) = ["inner", "outer"], body_names(2) = ["rail ", "wheel"]
+      character(len=5), parameter :: body_names(2) = ["rail ", "wheel"]
       character(len=300) :: text
       logical :: side(4)
       integer :: body, k, length

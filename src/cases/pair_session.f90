@@ -6,7 +6,7 @@ module contact_cases_pair_session
    use contact_base_kinds, only : long, wp
    use contact_base_log, only : log_type
    use contact_base_memory, only : bytes_per_element, require_memory
-   use contact_cases_border_warning, only : warn_of_border
+   use contact_cases_border_warning, only : warn_of_border, warn_of_buried_ends
    use contact_cases_resolution_warning, only : warn_of_few_elements
    use contact_cases_effects, only : name_effects
    use contact_cases_elastic_setup, only : kept_table, set_model, update_table
@@ -87,6 +87,7 @@ contains
          return
       end if
       if (spec%output_level >= 4) call keep_profiles(session, result)
+      call warn_of_buried_ends(spec, result, log)
       do k = 1, size(result%patches)
          associate (contact => result%patches(k)%contact, search => spec%wheel_rail%search)
             if (spec%solve) call warn_of_border(spec, session%memory%slot(k)%problem, contact, log, k)

@@ -73,7 +73,7 @@ module contact_control_flags
       & flag_row(flag%ncase, "  ", 0, huge(1)), &
       & flag_row(flag%own_heat, "  ", 0, 1), &
       & flag_row(flag%own_angle, "  ", 0, 1), &
-      & flag_row(flag%own_border, "  ", 0, 511, out_of_range%refused, .false., .true.), &
+      & flag_row(flag%own_border, "  ", 0, 2047, out_of_range%refused, .false., .true.), &
       & flag_row(flag%own_stepped, "  ", 0, huge(1), out_of_range%refused, .false., .true.), &
       & flag_row(flag%own_across, "  ", 0, huge(1), out_of_range%refused, .false., .true.)]
 

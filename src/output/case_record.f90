@@ -7,7 +7,7 @@ module contact_output_case_record
    use contact_base_choices, only : motion
    use contact_base_kinds, only : wp
    use contact_base_solve_report, only : ending, solve_report
-   use contact_cases_border_warning, only : border_words
+   use contact_cases_border_warning, only : border_words, buried_words
    use contact_cases_spec, only : case_spec
    use contact_grid_element_division, only : element
    use contact_output_record, only : record_writer
@@ -130,7 +130,9 @@ contains
       class(record_writer), intent(inout) :: record
       type(case_spec), intent(in) :: spec
       type(pair_result), intent(in) :: pair
+      character(len=5), parameter :: names(2) = ["inner", "outer"]
       real(wp) :: s
+      integer :: k
 
       s = side_sign(spec)
       call record%open_group("totals", columns=.true.)
@@ -159,6 +161,13 @@ contains
       call record%number("dz_defl", "mm", "vertical deflection of the rail", pair%dz_defl)
       call record%number("smallest_gap", "mm", "smallest vertical gap, negative: overlap", pair%smallest_gap)
       call record%count("force_trials", "heights tried in a search for the vertical force, at most", pair%most_trials)
+      call record%close_group()
+      if (.not. any(pair%buried%depth > 0.0_wp)) return
+      call record%open_group("buried")
+      do k = 1, size(pair%buried)
+         if (pair%buried(k)%depth > 0.0_wp) call record%text(names(k), "an end of the wheel profile within the rail, which &
+            &carries no load here", trim(buried_words(spec, pair%buried(k), k)))
+      end do
       call record%close_group()
    end subroutine describe_pair
 

@@ -1,21 +1,24 @@
-!> Contact that ends where a profile ends
+!> Contact that ends where a profile ends, and ends of profiles that touch where no patch is
 !>
 !> Beyond the last point of a profile nothing is known: contact that would go on there is cut off, and its pressures are those
-!> of a sharp edge.
+!> of a sharp edge. The search follows places where surfaces can share a tangent plane. The edge at which the wheel's profile
+!> ends needs none: ahead of the axle or behind it the edge of a yawed wheel may stand within the rail where no patch is.
 module contact_wheelrail_profile_ends
-   use contact_base_constants, only : excluded_threshold
+   use contact_base_choices, only : force_control
+   use contact_base_constants, only : excluded_threshold, pi
    use contact_base_kinds, only : wp
    use contact_grid_element_division, only : element
    use contact_patch_result, only : border_contact
    use contact_profile_curve, only : profile_curve
    use contact_wheelrail_frame, only : frame
-   use contact_wheelrail_geometry, only : pair_geometry
-   use contact_wheelrail_memory, only : patch_slot
+   use contact_wheelrail_geometry, only : pair_geometry, rail_at
+   use contact_wheelrail_memory, only : pair_memory, patch_slot
    use contact_wheelrail_problem, only : pair_problem
+   use contact_wheelrail_result, only : buried_end
    implicit none (type, external)
    private
 
-   public :: mark_profile_ends
+   public :: find_buried_ends, mark_profile_ends
 
    !> Undeformed distances above this value stand for a surface that is missing [mm]; those above excluded_threshold for
    !> elements that may not touch, whatever the surfaces do
@@ -49,9 +52,9 @@ contains
                   if (next >= 1 .and. next <= grid%my) then
                      if (h(ix, next) < missing .or. h(ix, next) > excluded_threshold) cycle
                   end if
-                  if (.not. known) call find_ends(problem, here, ends)
+                  if (.not. known) call find_ends(problem, here, slot%plane%origin(1), ends)
                   known = .true.
-                  distance = norm2(ends - spread(spread(point_of(slot, next), 2, 2), 3, 2), dim=1)
+                  distance = norm2(ends - in_sections(here, point_of(slot, ix, next)), dim=1)
                   found = minloc(distance)
                   if (distance(found(1), found(2)) <= nearest*grid%dy) then
                      border%surface_end(found(1), found(2)) = .true.
@@ -67,20 +70,233 @@ contains
       end associate
    end subroutine mark_profile_ends
 
-   !> Lateral position and height of the ends in track coordinates [mm]: (y z, low and high end, rail and wheel)
-   subroutine find_ends(problem, here, ends)
+   !> Ends of the wheel's profile that stand within the rail outside of all patches
+   !>
+   !> The circle of each end is sampled as far as it may reach below the top of the rail, and finely around its deepest point.
+   subroutine find_buried_ends(problem, memory, buried)
+      type(pair_problem), intent(in) :: problem
+      !> With patches that are solved
+      type(pair_memory), intent(in) :: memory
+      !> Ends of the lower and the higher y
+      type(buried_end), intent(out) :: buried(2)
+      !> Angle to both sides [rad], steps on a prismatic rail and on one that varies [mm], points to refine, and how often
+      real(wp), parameter :: furthest = pi/6.0_wp, fine = 1.0_wp, coarse = 5.0_wp
+      integer, parameter :: parts = 10, rounds = 3
+      !> Sections of a rail that varies may be higher than the one at the wheelset [mm]
+      real(wp), parameter :: higher = 20.0_wp
+      !> Less depth is rounding [mm]
+      real(wp), parameter :: least = 1.0e-5_wp
+      type(profile_curve) :: rail
+      real(wp) :: end(2), radius, middle, half, step, top, y_range(2), angle, reach
+      integer :: i, k, n, round
+
+      associate (here => memory%here, wheel => memory%here%placement%wheel, r0 => memory%here%placement%wheel_radius)
+         rail = section_at(problem, here, 0.0_wp)
+         top = minval(rail%z%nodes())
+         y_range = rail%y_range()
+         step = fine
+         if (allocated(problem%rail_surface)) then
+            top = top - higher
+            y_range = [-huge(1.0_wp), huge(1.0_wp)]
+            step = coarse
+         end if
+         do k = 1, 2
+            end = end_of(problem%wheel, k)
+            radius = r0 + end(2)
+            ! heights are those of the axle at this end, and the radius times the cosine of the angle from the lowest point
+            middle = atan2(wheel%axes(3, 1), wheel%axes(3, 3))
+            reach = hypot(wheel%axes(3, 1), wheel%axes(3, 3))*radius
+            half = (top - (wheel%origin(3) + wheel%axes(3, 2)*end(1) - wheel%axes(3, 3)*r0))/reach
+            if (half >= 1.0_wp) cycle
+            half = min(furthest, acos(max(half, 0.0_wp)))
+            if (.not. passes(y_range)) cycle
+            n = ceiling(half*radius/step)
+            buried(k)%depth = -huge(1.0_wp)
+            angle = middle
+            call look_around(half/max(n, 1), n)
+            do round = 1, rounds
+               middle = angle
+               call look_around(half/max(n, 1)/parts**round, parts)
+            end do
+            if (buried(k)%depth < least) then
+               buried(k)%depth = 0.0_wp
+            else
+               do i = 1, memory%used
+                  if (holds(memory%slot(i), buried(k)%place)) buried(k)%depth = 0.0_wp
+               end do
+            end if
+         end do
+      end associate
+
+   contains
+
+      !> Does the circle come to where the rail is?
+      pure logical function passes(y_range)
+         !> Of the rail [mm]
+         real(wp), intent(in) :: y_range(2)
+         real(wp) :: y(3), place(3)
+         integer :: m
+
+         do m = -1, 1
+            place = on_circle(middle + m*half)
+            y(m + 2) = place(2)
+         end do
+         passes = maxval(y) > y_range(1) .and. minval(y) < y_range(2)
+      end function passes
+
+      pure function on_circle(angle) result(place)
+         !> From the lowest point of the wheel [rad]
+         real(wp), intent(in) :: angle
+         real(wp) :: place(3)
+
+         place = memory%here%placement%wheel%to_parent([radius*sin(angle), end(1), &
+            & radius*cos(angle) - memory%here%placement%wheel_radius])
+      end function on_circle
+
+      !> Remember the deepest of some points to both sides of the middle
+      subroutine look_around(step, count)
+         !> [rad]
+         real(wp), intent(in) :: step
+         integer, intent(in) :: count
+         real(wp) :: place(3), depth
+         integer :: m
+
+         do m = -count, count
+            place = on_circle(middle + m*step)
+            if (allocated(problem%rail_surface)) rail = section_at(problem, memory%here, place(1))
+            depth = depth_within(rail, in_rail_section(memory%here, place))
+            if (depth <= buried(k)%depth) cycle
+            buried(k) = buried_end(depth, place)
+            angle = middle + m*step
+         end do
+      end subroutine look_around
+   end subroutine find_buried_ends
+
+   !> How far a point is below the surface of a section of the rail [mm]; negative above it, and where there is no surface above
+   pure function depth_within(rail, point) result(depth)
+      type(profile_curve), intent(in) :: rail
+      !> y and z [mm]
+      real(wp), intent(in) :: point(2)
+      real(wp) :: depth
+      !> Newton steps to the nearest point, from a chord
+      integer, parameter :: steps = 4
+      real(wp) :: s, y(2), z(2), t, distance, least, nearest, y_s, z_s, side
+      integer :: i
+      logical :: found
+
+      depth = -huge(depth)
+      call rail%find(point(1), s, found)
+      if (.not. found) return
+      depth = point(2) - rail%z%value(s)
+      if (depth <= 0.0_wp) return
+      least = huge(least)
+      nearest = s
+      associate (nodes => rail%y%s)
+         y(2) = rail%y%value(nodes(1))
+         z(2) = rail%z%value(nodes(1))
+         do i = 2, size(nodes)
+            y(1) = y(2)
+            z(1) = z(2)
+            y(2) = rail%y%value(nodes(i))
+            z(2) = rail%z%value(nodes(i))
+            t = (point(1) - y(1))*(y(2) - y(1)) + (point(2) - z(1))*(z(2) - z(1))
+            t = t/max(tiny(t), (y(2) - y(1))**2 + (z(2) - z(1))**2)
+            t = max(0.0_wp, min(1.0_wp, t))
+            distance = hypot(point(1) - y(1) - t*(y(2) - y(1)), point(2) - z(1) - t*(z(2) - z(1)))
+            if (distance >= least) cycle
+            least = distance
+            nearest = nodes(i - 1) + t*(nodes(i) - nodes(i - 1))
+         end do
+         do i = 1, steps
+            call rail%point(nearest, y(1), z(1), y_s, z_s)
+            nearest = nearest + ((point(1) - y(1))*y_s + (point(2) - z(1))*z_s)/max(tiny(t), y_s**2 + z_s**2)
+            nearest = max(nodes(1), min(nodes(size(nodes)), nearest))
+         end do
+      end associate
+      call rail%point(nearest, y(1), z(1), y_s, z_s)
+      ! the solid is to the right of the curve, below it where y rises; a point to its left is beneath an overhang
+      side = (point(2) - z(1))*y_s - (point(1) - y(1))*z_s
+      depth = sign(min(least, hypot(point(1) - y(1), point(2) - z(1))), side)
+   end function depth_within
+
+   !> Is a point in the part of the surfaces above which a patch has elements?
+   pure logical function holds(slot, point)
+      type(patch_slot), intent(in) :: slot
+      !> In track coordinates [mm]
+      real(wp), intent(in) :: point(3)
+      real(wp) :: local(3)
+
+      local = slot%plane%to_local(point)
+      associate (grid => slot%problem%grid)
+         holds = abs(local(1) - grid%xl - 0.5_wp*grid%mx*grid%dx) <= (0.5_wp*grid%mx + 1.0_wp)*grid%dx
+         if (.not. holds) return
+         if (allocated(slot%curve)) then
+            holds = any(hypot(slot%curve%y - point(2), slot%curve%z - point(3)) <= 2.0_wp*grid%dy)
+         else
+            holds = abs(local(2) - grid%yl - 0.5_wp*grid%my*grid%dy) <= (0.5_wp*grid%my + 1.0_wp)*grid%dy
+         end if
+      end associate
+   end function holds
+
+   !> Ends of the sections of rail and wheel, each in the coordinates of `in_sections` [mm]: (y z, low and high end, rail and wheel)
+   subroutine find_ends(problem, here, x, ends)
       type(pair_problem), intent(in) :: problem
       type(pair_geometry), intent(in) :: here
+      !> Where the section of a rail that varies is taken, in track coordinates [mm]
+      real(wp), intent(in) :: x
       real(wp), intent(out) :: ends(2, 2, 2)
-      real(wp) :: point(3)
+      type(profile_curve) :: rail
       integer :: k
 
+      rail = section_at(problem, here, x)
       do k = 1, 2
-         ends(:, k, 1) = end_of(here%rail_in_track, k)
-         point = here%placement%wheel%to_parent([0.0_wp, end_of(problem%wheel, k)])
-         ends(:, k, 2) = point(2:3)
+         ends(:, k, 1) = end_of(rail, k)
+         ends(:, k, 2) = end_of(problem%wheel, k)
       end do
    end subroutine find_ends
+
+   !> The section of the rail where it is now, in track coordinates: springs have lowered it since the gap was measured
+   function section_at(problem, here, x) result(rail)
+      type(pair_problem), intent(in) :: problem
+      type(pair_geometry), intent(in) :: here
+      !> In track coordinates; does not matter to a prismatic rail [mm]
+      real(wp), intent(in) :: x
+      type(profile_curve) :: rail
+
+      if (allocated(problem%rail_surface) .or. problem%force == force_control%massless_rail) then
+         rail = rail_at(problem, here%placement, x)
+      else
+         rail = here%rail_in_track
+      end if
+   end function section_at
+
+   !> A point of the track in the sections of rail and wheel through it, twice each [mm]: (y z, both ends, rail and wheel)
+   pure function in_sections(here, point) result(sections)
+      type(pair_geometry), intent(in) :: here
+      !> In track coordinates [mm]
+      real(wp), intent(in) :: point(3)
+      real(wp) :: sections(2, 2, 2)
+      real(wp) :: local(3)
+
+      sections(:, :, 1) = spread(in_rail_section(here, point), 2, 2)
+      local = here%placement%wheel%to_local(point)
+      associate (r0 => here%placement%wheel_radius)
+         sections(:, :, 2) = spread([local(2), hypot(local(1), local(3) + r0) - r0], 2, 2)
+      end associate
+   end function in_sections
+
+   !> A point of the track in the rail's section: a roller is seen in the half plane through its axle
+   pure function in_rail_section(here, point) result(section)
+      type(pair_geometry), intent(in) :: here
+      !> In track coordinates [mm]
+      real(wp), intent(in) :: point(3)
+      real(wp) :: section(2)
+
+      section = point(2:3)
+      associate (r => here%placement%roller_radius)
+         if (r > 0.0_wp) section(2) = r - hypot(point(1), r - point(3))
+      end associate
+   end function in_rail_section
 
    !> y and z of an end of a profile [mm]
    pure function end_of(curve, k) result(point)
@@ -99,23 +315,21 @@ contains
       point = [y(i), z(i)]
    end function end_of
 
-   !> Lateral position and height of a row of elements on the reference surface, in track coordinates [mm]
-   pure function point_of(slot, iy) result(point)
+   !> Centre of an element on the reference surface, in track coordinates [mm]
+   pure function point_of(slot, ix, iy) result(point)
       type(patch_slot), intent(in) :: slot
-      !> May lie one row outside the grid
-      integer, intent(in) :: iy
-      real(wp) :: point(2)
-      real(wp) :: place(3)
+      !> Column and row; the row may lie one outside the grid
+      integer, intent(in) :: ix, iy
+      real(wp) :: point(3)
       type(frame) :: row
       integer :: inside
 
       if (allocated(slot%curve)) then
          inside = min(max(iy, 1), slot%problem%grid%my)
          row = slot%curve%row_axes(inside)
-         place = row%to_parent([0.0_wp, (iy - inside)*slot%problem%grid%dy, 0.0_wp])
+         point = row%to_parent([slot%problem%grid%x(ix), (iy - inside)*slot%problem%grid%dy, 0.0_wp])
       else
-         place = slot%plane%to_parent([0.0_wp, slot%problem%grid%y(iy), 0.0_wp])
+         point = slot%plane%to_parent([slot%problem%grid%x(ix), slot%problem%grid%y(iy), 0.0_wp])
       end if
-      point = place(2:3)
    end function point_of
 end module contact_wheelrail_profile_ends

@@ -11,7 +11,7 @@ module contact_wheelrail_result
    implicit none (type, external)
    private
 
-   public :: pair_result, pair_patch, profile_points, in_element_coordinates, mirrored, moment_about_elements
+   public :: buried_end, pair_result, pair_patch, profile_points, in_element_coordinates, mirrored, moment_about_elements
 
    !> One contact patch of the pair
    type :: pair_patch
@@ -50,6 +50,14 @@ module contact_wheelrail_result
       real(wp), allocatable :: s(:), x(:), y(:), z(:)
    end type profile_points
 
+   !> An end of the wheel's profile that stands within the rail where no patch is
+   type :: buried_end
+      !> Depth below the surface of the rail [mm]; 0: none
+      real(wp) :: depth = 0.0_wp
+      !> Where it is deepest, in track coordinates [mm]
+      real(wp) :: place(3) = 0.0_wp
+   end type buried_end
+
    !> The pair
    type :: pair_result
       !> How the case ended: its patches, and the searches for prescribed forces
@@ -73,6 +81,8 @@ module contact_wheelrail_result
       real(wp) :: wheel_offset = 0.0_wp
       !> Contact patches, field side first; of size zero without contact
       type(pair_patch), allocatable :: patches(:)
+      !> Ends of the wheel's profile within the rail, which carry no load here: those of the lower and the higher y
+      type(buried_end) :: buried(2)
       !> Profiles as used; filled when the output level asks for them
       type(profile_points) :: rail_profile, wheel_profile
       !> Evaluations of the total force, and how far it is from the prescribed one [N]

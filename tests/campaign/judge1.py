@@ -88,7 +88,7 @@ def judged(scene, tools):
             curves = None
         if curves:
             placed = geometry1.Placed(scene, case, totals["z_ws"], (totals.get("dy_defl", 0.0), totals.get("dz_defl", 0.0)), curves)
-            places(scene, case, placed, totals, patches, findings)
+            places(scene, case, placed, record, totals, patches, findings)
             motion(scene, case, placed, totals, patches, findings)
             distance(scene, run, number, placed, patches, findings)
     trials(scene, run, findings)
@@ -181,7 +181,7 @@ def sums(scene, case, run, number, totals, patches, findings):
                           abs(abs(value) - abs(totals[name])) / (size * arm), 1e-6)
 
 
-def places(scene, case, placed, totals, patches, findings):
+def places(scene, case, placed, record, totals, patches, findings):
     """The smallest gap, places and angles of the patches, by points on both surfaces"""
     ds, digits = scene["grid"][1], scene["digits"]
     touch = placed.smallest()
@@ -191,6 +191,11 @@ def places(scene, case, placed, totals, patches, findings):
     depth = -touch[0]
     if depth <= 0.0:
         findings.append(judge.finding("gap", "a patch, but the bodies do not overlap", touch[0], 0.0))
+        return
+    if not 1e-6 < touch[1] < placed.wheel.length - 1e-6:
+        # an edge touches where no tangent plane is shared; the program has no patch there, or one that is cut off, and says so
+        if not ("buried" in record or any("wheel profile" in patch.get("border", {}).get("reached", "") for patch in record["patches"])):
+            findings.append(judge.finding("gap", "an end of the wheel's profile stands within the rail, and nothing is said", depth, 0.0))
         return
     steep = max(abs(math.tan(patch["deltcp_tr"])) for patch in patches)
     slack = 2e-5 * (1.0 + min(steep, 20.0))  # of the sampled curves, vertically [mm]

@@ -258,6 +258,31 @@ def several():
     same(run("3", "several", "--strict").returncode, 0, "a check has no cases that did not converge")
 
 
+def buried_end():
+    """An end of the wheel's profile within a guard rail, where no patch is: the library and Python tell it as the program does"""
+    corners = [(-80.0, 40.0), (-79.0, -20.0), (-51.0, -20.0), (-50.0, 30.0), (-38.0, 30.0), (-36.0, 10.0)]
+    rail = [(1 - t) * np.array(a) + t * np.array(b) for a, b in zip(corners, corners[1:]) for t in np.linspace(0, 0.95, 20)]
+    y = np.arange(-35.0, 35.1, 0.5)
+    rail += list(np.column_stack((y, y**2 / 600.0)))
+    y = np.arange(-48.0, 60.1, 0.5)
+    for yaw, ends, bits in ((0.03, ("inner",), 512), (0.0, (), 0)):
+        with contact.WheelRail() as pair:
+            pair.set_flags(ic_tang=0, ic_norm=0)
+            pair.set_grid(0.5, 0.5)
+            pair.set_rail(np.array(rail))
+            pair.set_wheel(np.column_stack((y, -y**2 / 20000.0)))
+            pair.set_rail_position(750.0, 0.0)
+            pair.set_wheelset(1500.0, 0.0, 460.0)
+            pair.set_position(z=0.05, yaw=yaw)
+            with warnings.catch_warnings(record=True) as heard:
+                warnings.simplefilter("always")
+                result = pair.solve()
+            told = [str(w.message) for w in heard if "end of the wheel profile stands within the rail" in str(w.message)]
+            same(result.buried, ends, f"yaw {yaw}: ends within the rail in Python")
+            same(len(told), len(ends), f"yaw {yaw}: warnings of them")
+            same(int(cntc.getflags(pair.number, -1, [cntc.CNTC["own_border"]])[0]), bits, f"yaw {yaw}: bits of the library")
+
+
 os.chdir(tempfile.mkdtemp())
 os.symlink(os.path.join(SOURCE, "examples", "profiles"), "profiles")
 for module, name, text, state, missed, code in TABLE:
@@ -268,4 +293,5 @@ for module, name, text, state, missed, code in TABLE:
     else:
         by_library1(name, path + ".inp", state, missed, code, reason)
 several()
+buried_end()
 finish()

@@ -211,6 +211,13 @@ class Border(Program):
             self.assertIn(f"contact patch 1: contact reaches the {end} profile", told[0])
             self.assertGreater(patches[0]["border"]["pressure"]["value"], 1500.0)
 
+    def test_ends_ahead_of_the_axle(self):
+        """Under yaw contact on the flank lies beside the axle, and the end of the profile is not where it is below the axle"""
+        for location, y, yaw in (("2", 7.0, 0.05), ("2", 7.0, -0.05), ("5", 7.0, 0.05), ("5", 8.0, 0.08)):
+            text = self.first_case_on_a_short_profile("S1002.prw", lambda y: y >= -36.0, False, location)
+            _, patches = self.alarms(text.replace("0.0 0.0 60000. 0.0 0.0 0.0", f"0.0 {y} 60000. 0.0 {yaw} 0.0"))
+            self.assertEqual([patch["border"]["reached"] for patch in patches], ["the inner end of the wheel profile"])
+
     def test_end_in_the_hdf5_file(self):
         try:
             import h5py
@@ -226,6 +233,88 @@ class Border(Program):
         from contact.report.read import read_experiment
         described, _ = read_experiment(os.path.join(self.folder, "run.h5"))
         self.assertIn("x low, x high, y low, y high", described["cases"][0]["patches"][0]["border"])
+
+
+class EndsAheadOfTheAxle(Program):
+    """The edge at which the wheel's profile ends touches a guard rail where a yawed wheel comes near it, far from all patches"""
+    RADIUS, ROLLER, SIDE = 460.0, 500.0, 750.0
+    TOP, WALL = -20.0, ((-51.0, -20.0), (-50.0, 30.0))  # of the guard rail [mm]
+
+    def pair(self, end, yaw, left=False, roller=False, location=2, height=0.05, outside=False):
+        """Input of a barrel-shaped wheel from `end` on above a crowned rail with a guard rail on its inner or outer side"""
+        rail = [(-80.0, 40.0), (-79.0, self.TOP), *self.WALL, (-45.0, 32.0), (-38.0, 30.0), (-36.0, 10.0)]
+        rail = [(a[0] + (b[0] - a[0])*k/20, a[1] + (b[1] - a[1])*k/20) for a, b in zip(rail, rail[1:]) for k in range(20)]
+        rail += [(0.5*k, (0.5*k)**2/600.0) for k in range(-70, 71)]
+        wheel = [(0.5*k, -(0.5*k)**2/20000.0) for k in range(int(2*end), 121)]  # steps of 0.5 mm
+        if outside:
+            rail, wheel = ([(-y, z) for y, z in reversed(points)] for points in (rail, wheel))
+        for name, points in (("rail.txt", rail), ("wheel.txt", reversed(wheel))):
+            with open(os.path.join(self.folder, name), "w", encoding="utf-8") as file:
+                file.write("".join(f"{y:.6f} {z:.6f}\n" for y, z in points))
+        sign = -1.0 if left else 1.0
+        config = (0 if left else 1) + (4 if roller else 0)
+        return f""" 1 MODULE
+ {config}203000    C-P-B-T-N-F-S
+ 00{location}2033    V-L-D-C-M-Z-E
+ 0001201    H-G-I-A-O-W-R
+ 999 100 30 1 1e-5
+ 0.3 0.3
+ 0.28 0.28 82000. 82000.
+ 0.5 0.5 1.0 90d 8.0 4.0
+ -1 {sign*self.SIDE} 0.0 {self.ROLLER if roller else 0.0}
+ 'rail.txt' 0 1.0 0.0
+ 0.0 0.0 0.0 0.0 0.0 0.0
+ {2.0*self.SIDE} 0.0 {self.RADIUS}
+ 'wheel.txt' 0 1.0 0.0
+ 0.0 0.0 {height} 0.0 {yaw} 0.0
+ {20000.0/self.ROLLER if roller else 20000.0} 0.0 0.0 0.0 0.0 {-20000.0/self.RADIUS}
+"""
+
+    def depth(self, end, yaw, height, roller):
+        """Largest depth of the wheel's edge below wall and top of the guard rail, and its x: by points on the circle"""
+        (y0, z0), (y1, z1) = self.WALL
+        best = (0.0, 0.0)
+        radius = self.RADIUS - end**2/20000.0
+        for k in range(-4000, 4001):
+            angle = 1.3e-4*k
+            across = self.SIDE + end
+            x = math.cos(yaw)*radius*math.sin(angle) - math.sin(yaw)*across
+            y = math.sin(yaw)*radius*math.sin(angle) + math.cos(yaw)*across - self.SIDE
+            z = height - self.RADIUS + radius*math.cos(angle)
+            if roller:
+                z = self.ROLLER - math.hypot(x, self.ROLLER - z)
+            to_wall = ((y1 - y)*(z1 - z0) - (z1 - z)*(y1 - y0))/math.hypot(y1 - y0, z1 - z0)
+            best = max(best, (min(to_wall, z - self.TOP), x))
+        return best
+
+    def test_where_it_stands(self):
+        for yaw, left, roller, location, outside in (
+                (0.03, False, False, 2, False), (-0.03, False, False, 2, False), (0.03, True, False, 2, False),
+                (0.03, False, True, 2, False), (-0.03, True, True, 2, False), (0.03, False, False, 2, True),
+                (0.03, False, False, 4, False), (-0.03, False, False, 5, False)):
+            with self.subTest(yaw=yaw, left=left, roller=roller, location=location, outside=outside):
+                end = -49.5 if roller else -48.0
+                cases, warnings, _ = self.run_text(self.pair(end, yaw, left, roller, location, outside=outside))
+                name = "outer" if outside else "inner"
+                depth, place = self.depth(end, -yaw if left else yaw, 0.05, roller)
+                told = [line for line in warnings if "within the rail where no contact patch is" in line]
+                self.assertEqual(len(told), 1, warnings)
+                found = re.search(r"the (\w+) end of the wheel profile stands (\S+) mm within .* at x = (\S+), y = (\S+), z", told[0])
+                self.assertEqual(found.group(1), name)
+                self.assertIn(found.group(0), " Warning: " + cases[0]["buried"][name])
+                if not outside:
+                    self.assertGreater(depth, 0.0)
+                    self.assertAlmostEqual(float(found.group(2)), depth, delta=2e-3)
+                    self.assertAlmostEqual(float(found.group(3)), place, delta=1.0)
+                    self.assertGreater(abs(place), 30.0)
+                    self.assertEqual(float(found.group(4).rstrip(",")) < 0.0, left)
+
+    def test_nothing_is_told_where_it_stays_apart(self):
+        for end, yaw in ((-48.0, 0.005), (-44.0, 0.03), (-48.0, 0.0)):
+            cases, warnings, _ = self.run_text(self.pair(end, yaw))
+            self.assertEqual(self.depth(end, yaw, 0.05, False)[0], 0.0)
+            self.assertNotIn("buried", cases[0])
+            self.assertEqual(warnings, [])
 
 
 class FewElements(Program):
