@@ -14,13 +14,17 @@ extern "C" {
 
 /* ---- Begin and end ---- */
 
-/* Numbers of Fortran units that the library might use. Recorded, not needed: it asks the run-time
- * library for free units. */
+/* Numbers of Fortran units that the library might use. Recorded, not needed: it asks the run-
+ * time library for free units. */
 void cntc_setfileunits(const int *nunits, const int *iunits);
 
-/* Start a run, once for all result elements. ifcver: version of the interface; ioutput: 1 sends the
- * log to the standard output as well; wrkdir: folder of input files; outdir: folder of results;
- * expnam: name of the .out file. A blank text or length 0 leaves the default. */
+/* Start a run, once for all result elements. A blank text or length 0 leaves the default.
+ *   ifcver: version of the interface
+ *   ierror: 0, or a negative code
+ *   ioutput: 1 sends the log to the standard output as well
+ *   c_wrkdir: folder of input files; default: the current one
+ *   c_outdir: folder of results; default: the current one
+ *   c_expnam: name of the .out file; default: contact_addon */
 void cntc_initializefirst(int *ifcver, int *ierror, const int *ioutput, const char *c_wrkdir,
                           const char *c_outdir, const char *c_expnam, const int *len_wrkdir,
                           const int *len_outdir, const int *len_expnam);
@@ -30,260 +34,431 @@ void cntc_initializefirst_new(int *ifcver, int *ierror, const int *ioutput, cons
                               const char *c_outdir, const char *c_expnam, const int *len_wrkdir,
                               const int *len_outdir, const int *len_expnam);
 
-/* Create result element ire (1..999) for module imodul: 1 wheel/rail contact, 3 basic contact. */
+/* Create a result element.
+ *   ire: number of the result element, 1 to 999
+ *   imodul: 1: wheel and rail; 3: basic contact
+ *   c_outdir: folder of results, if the run has not been started yet; default: the current one
+ *   ifcver: version of the interface
+ *   ierror: 0, or a negative code CNTC_err_* */
 void cntc_initialize(const int *ire, const int *imodul, int *ifcver, int *ierror,
                      const char *c_outdir, const int *len_outdir);
 
-/* Set flags that hold for the whole library: CNTC_if_idebug, CNTC_if_openmp. */
+/* Set flags of the library as a whole.
+ *   params: codes CNTC_if_idebug, CNTC_if_openmp; 0 is skipped
+ *   values: one value for each */
 void cntc_setglobalflags(const int *lenflg, const int *params, const int *values);
 
 /* Largest number of calculations that may run at the same time. */
 void cntc_getmaxnumthreads(int *mxthrd);
 
-/* Free a result element; after the last one the run ends. */
+/* Release a result element; with the last one the run ends.
+ *   ire: number of the result element */
 void cntc_finalize(const int *ire);
 
-/* Free all result elements and close the files. */
+/* Release all result elements and close the files. */
 void cntc_finalizelast(void);
 
-/* ---- Settings of both modules; icp is -1 in wheel/rail contact and 1..9 in basic contact ---- */
+/* ---- Settings of both modules; icp is -1 for wheel and rail, 1 to 9 in basic contact ---- */
 
-/* Set flags and control digits; 0 in params skips an entry. */
+/* Set flags and control digits.
+ *   params: codes CNTC_if_*, CNTC_ic_* and CNTC_own_*; 0 is skipped
+ *   values: one value for each */
 void cntc_setflags(const int *ire, const int *icp, const int *lenflg, const int *params,
                    const int *values);
 
-/* Data that go along into the .mat files, CNTC_mt_*. */
+/* Set data that go along into the .mat files.
+ *   params: codes CNTC_mt_*; 0 is skipped
+ *   values: one value for each: time [s], positions [L], numbers */
 void cntc_setmetadata(const int *ire, const int *icp, const int *lenmta, const int *params,
                       const double *values);
 
-/* Solution methods and their parameters, by the G digit; 6 sets those of the sensitivities. */
+/* Set solution methods and their parameters by the G digit.
+ *   gdigit    iparam; rparam
+ *   0         maxgs, maxin, maxnr, maxout; eps                                    default solvers
+ *   1         none                                                                keep all
+ *   2, 3      maxgs, maxin, maxnr, maxout, inislp; eps, omegah, omegas, omgslp    ConvexGS, SteadyGS
+ *   4         maxgs, maxin, maxnr, maxout, inislp; eps, omgslp                    friction that changes with slip
+ *   5         maxgs, maxin, maxnr, maxout, kdowfb;
+ *             eps, fdecay, betath, d_ifc, d_lin, d_cns, d_slp, pow_s              GDsteady
+ *   6         mxsens; epsens                                                      sensitivities */
 void cntc_setsolverflags(const int *ire, const int *icp, const int *gdigit, const int *nints,
                          const int *iparam, const int *nreals, const double *rparam);
 
-/* Material by the M digit, or 10 + M2 for damping. rparam begins with nu1, nu2 [-], G1, G2 [F/L2].
- * */
+/* Set the material by the M digit, or damping by 10 + the M2 digit.
+ *   imeth     rparam; up to 7 it begins with nu1, nu2 [-], G1, G2 [F/L2], shown as ..
+ *   0         ..                                          elastic
+ *   1         .., fg1, fg2 [-], tc1, tc2 [T]              viscoelastic
+ *   2         .., flx [L3/F], k0_mf, alfamf, betamf [-]   Fastsim, one flexibility
+ *   3, 5      .., k0_mf, alfamf, betamf [-]               Fastsim with three flexibilities, modified FaStrip
+ *   4         .., gg3 [F/L2], laythk [L], tau_c0 [F/L2], k_tau [F/L3]   layer that may yield
+ *   6, 7      ..                                          FaStrip as published; with the correction of full sliding
+ *   10, 11    none                                        no damping, damping as before
+ *   12        cdampn, cdampt [T], dfnmax, dftmax [F/T]    damping
+ *   With flag CNTC_ic_bound = 1, set before, 0 to 7 take one value more, the last: the flexibility of a
+ *   thin sheet [L3/F]. */
 void cntc_setmaterialparameters(const int *ire, const int *icp, const int *imeth, const int *nparam,
                                 const double *rparam);
 
-/* Thermal data by the H digit: per body temperature [degrees C], heat capacity [J/(kg K)],
- * conductivity [W/(L K)], density [kg/L3]; at the end the share of plastic work that heats [-]. */
+/* Set thermal data by the H digit.
+ *   imeth: 0: no temperatures; 1: data as before; 3: new data
+ *   params: for imeth = 3: of body 1, then of body 2: temperature [degC], heat capacity [J/(kg
+ *       degC)], conductivity [W/(L degC)], density [kg/L3]; at the end the part of plastic work
+ *       that heats [-] */
 void cntc_settemperaturedata(const int *ire, const int *icp, const int *imeth, const int *nparam,
                              const double *params);
 
-/* Time step dt [T] of shifts. */
+/* Set the time step of shifts.
+ *   dt: time step [T] */
 void cntc_settimestep(const int *ire, const int *icp, const double *dt);
 
-/* Rolling direction chi [A] and step dq: [L] in basic contact, ratio to dx in wheel/rail contact.
- * */
+/* Set rolling direction and step.
+ *   chi: rolling direction [A], basic contact
+ *   dq: rolling step: in basic contact [L], for wheel and rail relative to the size of elements
+ *       [-] */
 void cntc_setrollingstepsize(const int *ire, const int *icp, const double *chi, const double *dq);
 
-/* Friction law, imeth = 10 V + L with the digits V and L. */
+/* Set the friction law, imeth = 10 V + L.
+ *   L         params
+ *   0         fstat, fkin [-]                                        Coulomb; both become the smaller one
+ *   1         none                                                   as before
+ *   2, 3, 4   fkin, coef1 [-], sabsh1 [V], coef2 [-], sabsh2 [V], memdst [L], mem_s0 [V]
+ *                                                                    falls with slip: linear, rational, exponential
+ *   5         fstat [-], polach_a [-], polach_b [1/V]                exponential, after Polach
+ *   6         fref [-], tref [degC], dfheat [-], dtheat [degC], memdst [L], mem_s0 [V]      falls with temperature
+ *   For V = 1 and 2 (wheel and rail) params are n, then n times an angle [A] or a position [L] with the values above. */
 void cntc_setfrictionmethod(const int *ire, const int *icp, const int *imeth, const int *nparam,
                             const double *params);
 
-/* Grid: in basic contact 1..4 for mx, my and the extent [L]; in wheel/rail contact 0 or -1 for dx,
- * ds [L] and the distances and angle that separate patches. */
+/* Set the grid.
+ *   ipotcn    params
+ *   wheel and rail:
+ *   0         dx, ds [L], unused
+ *   -1        dx, ds [L], a_sep [A], d_sep, d_comb [L], and if wanted d_turn [L], g_miss [L]
+ *   basic contact:
+ *   1         mx, my, xl, yl, dx, dy [L]             lower left corner, sizes of elements
+ *   2         mx, my, xl, yl, xh, yh [L]             lower left and upper right corner
+ *   3         mx, my, xc1, yc1, dx, dy [L]           centre of the first element, sizes
+ *   4         mx, my, xc1, yc1, xcm, ycm [L]         centres of the first and last element */
 void cntc_setpotcontact(const int *ire, const int *icp, const int *ipotcn, const int *nparam,
                         const double *params);
 
-/* Tangential forces: relative to fstat Fn in basic contact [-], longitudinal force [F] in
- * wheel/rail. */
+/* Prescribe tangential forces.
+ *   fx, fy: basic contact: relative to fstat * fn [-]; wheel and rail (icp = -1): longitudinal
+ *       force on the rail fx [F], fy unused */
 void cntc_settangentialforces(const int *ire, const int *icp, const double *fx, const double *fy);
 
-/* Settings from an input file of wheel/rail contact, kind CNTC_inp_*. */
+/* Take the settings of wheel and rail from the first case of an input file.
+ *   inp_type: CNTC_inp_modul1 or CNTC_inp_spck
+ *   c_fname: name of the file
+ *   ierror: 0, or a negative code CNTC_err_* */
 void cntc_readinpfile(const int *ire, const int *inp_type, const char *c_fname,
                       const int *len_fname, int *ierror);
 
 /* ---- Settings of basic contact ---- */
 
-/* Rolling velocity [V]. */
+/* Set the rolling velocity (basic contact).
+ *   veloc: velocity [V] */
 void cntc_setreferencevelocity(const int *ire, const int *icp, const double *veloc);
 
-/* Hertzian geometry -1..-6: mx, my, curvatures [1/L] or semi-axes [L], scale of the grid [-]. */
+/* Set a Hertzian geometry and its grid (basic contact).
+ *   ipotcn    params
+ *   -1        mx, my, a1, b1 [1/L], scale [-]        curvatures
+ *   -2        mx, my, a1 [1/L], aob [-], scale       curvature and ratio of the axes
+ *   -3        mx, my, aa, bb [L], scale              half-axes
+ *   -4        mx, my, a1 [1/L], bb [L], scale        rectangle: curvature, half-width
+ *   -5        mx, my, aa, bb [L], scale              rectangle: half-lengths
+ *   -6        mx, my, aa, bneg, bpos [L], scale      two halves of ellipses (set B = 4 yourself) */
 void cntc_sethertzcontact(const int *ire, const int *icp, const int *ipotcn, const int *nparam,
                           const double *params);
 
-/* Approach of the bodies [L]; sets N = 0. */
+/* Prescribe the approach of the bodies (basic contact); sets N = 0.
+ *   pen: approach [L] */
 void cntc_setpenetration(const int *ire, const int *icp, const double *pen);
 
-/* Normal force [F]; sets N = 1. */
+/* Prescribe the normal force (basic contact); sets N = 1.
+ *   fn: normal force [F] */
 void cntc_setnormalforce(const int *ire, const int *icp, const double *fn);
 
-/* Undeformed distance [L]: 1 quadratic, 2 circular in x with heights, 3 sines plus quadratic, 9
- * given per element, x running fastest. Comes after cntc_setpotcontact. */
+/* Set the undeformed distance (basic contact), after cntc_setpotcontact.
+ *   ibase     prmudf
+ *   1         b1 ... b6 of b1 x2 + b2 xy + b3 y2 + b4 x + b5 y + b6
+ *   2         nn, xm, rm, y1, dy1, then nn heights [L]   circular along x with a profile across
+ *   3         b1 ... b8 of b1 sin(b2(x-b3)) - b4 sin(b5(x-b6)) + x2/b7 + y2/b8
+ *   9         distance of each element [L], along x first */
 void cntc_setundeformeddistc(const int *ire, const int *icp, const int *ibase, const int *nparam,
                              const double *prmudf);
 
-/* Creepages [-], [-], [A/L]; shifts [L], [L], [A] when T = 1, which has to be set before. */
+/* Set creepages, in shifts the shift (basic contact); set T before.
+ *   vx, vy: longitudinal and lateral creepage [-], in shifts (T = 1) distances [L]
+ *   phi: spin [A/L], in shifts rotation [A] */
 void cntc_setcreepages(const int *ire, const int *icp, const double *vx, const double *vy,
                        const double *phi);
 
-/* Extra term of the rigid slip per element [-]; in shifts [mm]. */
+/* Set the extra term of the rigid slip (basic contact).
+ *   wx, wy: values for each element [-], in shifts [mm] */
 void cntc_setextrarigidslip(const int *ire, const int *icp, const int *lenarr, const double *wx,
                             const double *wy);
 
-/* ---- Settings of wheel/rail contact ---- */
+/* ---- Settings of wheel and rail ---- */
 
-/* Vertical force on the contact [F]; sets N = 1. */
+/* Prescribe the vertical force of wheel on rail; sets N = 1.
+ *   fz: vertical force [F] */
 void cntc_setverticalforce(const int *ire, const double *fz);
 
-/* Profile of rail or wheel from a file. iparam: kind (0 rail, 1 wheel, -1 by extension), unused,
- * mirror y, mirror z, errors, smoothing method; rparam: factor to mm, smoothing, fraction that may
- * be left out, angles of zigzag and kinks [rad], width of kinks [L]. */
+/* Set the profile of wheel or rail by the name of a file.
+ *   c_fname: name of the file, relative to the folder of input files
+ *   iparam: itype, unused, mirrory, mirrorz, errhndl, ismooth; itype: 0 rail, 1 wheel, -1 by the
+ *       extension
+ *   rparam: factor to mm (-1 by the units), smoothing [-] or [mm], maxomit [-], zigthrs,
+ *       kinkhigh, kinklow [rad], kinkwid [L] */
 void cntc_setprofileinputfname(const int *ire, const char *c_fname, const int *len_fname,
                                const int *nints, const int *iparam, const int *nreals,
                                const double *rparam);
 
-/* The same from a table y1, z1, y2, z2, ... */
+/* Set the profile of wheel or rail by its points.
+ *   npoint: number of points
+ *   values: y1, z1, y2, z2, ...
+ *   iparam, rparam: as in cntc_setprofileinputfname */
 void cntc_setprofileinputvalues(const int *ire, const int *npoint, const double *values,
                                 const int *nints, const int *iparam, const int *nreals,
                                 const double *rparam);
 
-/* Track by the Z digit: 1 gauge and cant, 2 deviations, 3 both, 32 and 33 springs. */
+/* Set the track by the Z digit.
+ *   ztrack    params
+ *   0         none                                              as before
+ *   1         gaught [L]; then, for gaught > 0, gaugsq [-], gaugwd [L], else raily0, railz0 [L];
+ *             cant [A], nomradr [L], and if wanted curv [1/L]
+ *   2         dyrail, dzrail [L], drollr [A], vyrail, vzrail [V], vrollr [A/T]
+ *   3         those of 1 and 2
+ *   32, 33    kyrail [F/L], fyrail [F], kzrail [F/L], fzrail [F], and if wanted dystep0 [L] */
 void cntc_settrackdimensions(const int *ire, const int *ztrack, const int *nparam,
                              const double *params);
 
-/* Flange back distance, its position, nominal radius, position of the tape circle [L]. */
+/* Set the dimensions of the wheelset.
+ *   ewheel: 3, 5: new dimensions; 0, 1, 2, 4: as before
+ *   params: fbdist, fbpos, nomradw, and if wanted ytape [L] */
 void cntc_setwheelsetdimensions(const int *ire, const int *ewheel, const int *nparam,
                                 const double *params);
 
-/* s, y, z [L], roll, yaw, pitch [A]. */
+/* Set the position of the wheelset.
+ *   ewheel: 1 to 5
+ *   params: s, y, z [L], roll, yaw, pitch [A] */
 void cntc_setwheelsetposition(const int *ire, const int *ewheel, const int *nparam,
                               const double *params);
 
-/* vs, vy, vz [V], roll, yaw, pitch rate [A/T]; on rollers the rate of the roller comes first. */
+/* Set the velocity of the wheelset.
+ *   ewheel: 2 to 5
+ *   params: vs, vy, vz [V], vroll, vyaw, vpitch [A/T]; on rollers the first value is the
+ *       roller's rate [A/T] */
 void cntc_setwheelsetvelocity(const int *ire, const int *ewheel, const int *nparam,
                               const double *params);
 
-/* Deviations of the wheel from the rigid wheelset: positions [L], [A] and velocities [V], [A/T]. */
+/* Set deviations of the wheel from the rigid wheelset.
+ *   ewheel: 4, 5: new deviations; others: none
+ *   params: dx, dy, dz [L], droll, dyaw, dpitch [A], vx, vy, vz [V], vroll, vyaw, vpitch [A/T] */
 void cntc_setwheelsetflexibility(const int *ire, const int *ewheel, const int *nparam,
                                  const double *params);
 
 /* ---- Calculation ---- */
 
-/* Solve. ierror: 0, a negative CNTC_err_*, or in basic contact the number of contact elements on
- * the border of the grid. */
+/* Solve a contact problem.
+ *   ierror: 0; negative: an error, CNTC_err_*; positive: elements in contact at the border of
+ *       the grid (basic contact) */
 void cntc_calculate(const int *ire, const int *icp, int *ierror);
 
 /* ---- Results ---- */
 
-/* Control digits as they stand. */
+/* Get flags and control digits.
+ *   params: codes CNTC_if_*, CNTC_ic_* and CNTC_own_*
+ *   values: one value for each */
 void cntc_getflags(const int *ire, const int *icp, const int *lenflg, const int *params,
                    int *values);
 
-/* 1 kinematics, 2 material, 3 friction. */
+/* Get parameters of kinematics, material or friction.
+ *   itask     values
+ *   1         veloc [V], chi [A], dq [L], spinxo, spinyo [L], tau_c0 [F/L2]
+ *   2         gg1, gg2, gg [F/L2], poiss1, poiss2, poiss, ak [-], flx1, flx2, flx3 [L3/F], k0_mf, alfamf, betamf,
+ *             k_eff [-], gg3 [F/L2], laythk [L], tau_c0 [F/L2], k_tau [F/L3], cdampn, cdampt [T], dfnmax, dftmax [F/T]
+ *   3         lmeth, nvf, memdst [mm], mem_s0 [mm/s], nvf times alpha [rad] or [mm], fstat, fkin [-] */
 void cntc_getparameters(const int *ire, const int *icp, const int *itask, const int *lenarr,
                         double *values);
 
-/* Profiles as the library sees them: -1 state, 0 number of points, 1, 2 y and z, 3 gauge, 4 arc
- * length, 5 angle, 6 to 8 lines on a surface. */
+/* Get a profile as the library sees it.
+ *   itask     val
+ *   -1        state: 0 or CNTC_err_profil, and its detail
+ *   0         number of points
+ *   1, 2      y, then z of all points, in profile or track coordinates [mm]
+ *   3         for rails y, z of the highest point, offsets y, z, y, z of the gauge point [L]
+ *   4, 5      arc length [mm], inclination [A] of the points
+ *   6, 7, 8   x, then y, then z along a line with constant u, v or y on a varying profile [mm]
+ *   9         writes the surface of a varying profile to dump_spl2d.m
+ *   iparam: itype: 0 rail, 1 wheel; isampl: -1 points of the input, 0 of the spline, 1 equal
+ *       distances, n > 1 n steps between points of the spline
+ *   rparam: distance of points [mm], and for varying profiles: position [mm] or [rad], first and
+ *       last place on the line */
 void cntc_getprofilevalues(const int *ire, const int *itask, const int *nints, const int *iparam,
                            const int *nreals, const double *rparam, const int *lenarr, double *val);
 
-/* The same, for callers of releases that had both. */
+/* The same as cntc_getprofilevalues, for callers of releases that had both. */
 void cntc_getprofilevalues_new(const int *ire, const int *itask, const int *nints,
                                const int *iparam, const int *nreals, const double *rparam,
                                const int *lenarr, double *val);
 
-/* s, y, z [L], roll, yaw, pitch [A]. */
+/* Get the position of the wheelset.
+ *   rvalues: s, y, z [L], roll, yaw, pitch [A]; z as solved when the vertical force is
+ *       prescribed */
 void cntc_getwheelsetposition(const int *ire, const int *lenarr, double *rvalues);
 
-/* vs, vy, vz [V], roll, yaw, pitch rate [A/T]. */
+/* Get the velocity of the wheelset.
+ *   rvalues: vs, vy, vz [V], vroll, vyaw, vpitch [A/T] */
 void cntc_getwheelsetvelocity(const int *ire, const int *lenarr, double *rvalues);
 
-/* Number of contact patches. */
+/* Get the number of contact patches of wheel and rail.
+ *   npatch: number of patches */
 void cntc_getnumcontactpatches(const int *ire, int *npatch);
 
-/* Contact reference point in the systems of track, rail, wheel and wheelset, 38 values [L], [A]. */
+/* Get the place of a contact patch of wheel and rail.
+ *   rvalues
+ *   1-4       contact reference x, y, z [L] and its angle [A] in track coordinates
+ *   5-9       x, y, z, s [L], angle [A] in rail coordinates; 10-14 the same in wheel coordinates
+ *   15, 16    centre of pressure x, y in track coordinates [L]
+ *   18, 19    deflections of the rail dy, dz [L]
+ *   21-25     wheel marker x, y, z [L], roll, yaw [A]; 26-28 rail marker y, z [L], roll [A]; track coordinates
+ *   30-33     contact reference x, y, z [L], angle [A] in wheelset coordinates
+ *   34-38     wheel marker x, y, z [L], roll, yaw [A] in wheelset coordinates */
 void cntc_getcontactlocation(const int *ire, const int *icp, const int *lenarr, double *rvalues);
 
-/* Rolling velocity [V]. */
+/* Get the rolling velocity.
+ *   veloc: velocity [V] */
 void cntc_getreferencevelocity(const int *ire, const int *icp, double *veloc);
 
-/* Curvatures, semi-axes, effective radius, scale, sides of the axis, ratio: 10 values. */
+/* Get the numbers of a Hertzian geometry (basic contact).
+ *   rvalues: curvatures a1, b1 [1/L], semi-axes aa, bb, effective radius rho, cp [L], scale [-],
+ *       sides of the axis bneg, bpos [L], ratio aob [-] */
 void cntc_gethertzcontact(const int *ire, const int *icp, const int *lenarr, double *rvalues);
 
-/* Size of the grid. */
+/* Get the size of the grid.
+ *   mx, my: numbers of elements along x and y */
 void cntc_getnumelements(const int *ire, const int *icp, int *mx, int *my);
 
-/* Sides of an element [L]. */
+/* Get the sizes of elements.
+ *   dx, dy: sizes [L] */
 void cntc_getgriddiscretization(const int *ire, const int *icp, double *dx, double *dy);
 
-/* mx, my, centre of the first element [L], sides of an element [L]. */
+/* Get the grid.
+ *   rvalues: numbers of elements mx, my, centre of the first element xc1, yc1 [L], sizes of
+ *       elements dx, dy [L] */
 void cntc_getpotcontact(const int *ire, const int *icp, const int *lenarr, double *rvalues);
 
-/* Approach [L]. */
+/* Get the approach of the bodies.
+ *   pen: approach [L] */
 void cntc_getpenetration(const int *ire, const int *icp, double *pen);
 
-/* Creepages [-], [-], [A/L], or shifts [L], [L], [A]. */
+/* Get creepages, in shifts the shift.
+ *   vx, vy: creepages [-], in shifts [L]
+ *   phi: spin [A/L], in shifts [A] */
 void cntc_getcreepages(const int *ire, const int *icp, double *vx, double *vy, double *phi);
 
-/* Forces [F] and spin moment [F L] in the directions of the contact. */
+/* Get forces in the directions of the contact.
+ *   fn: normal force [F]
+ *   tx, ty: tangential forces [F]
+ *   mz: moment about the normal [F L] */
 void cntc_getcontactforces(const int *ire, const int *icp, double *fn, double *tx, double *ty,
                            double *mz);
 
-/* Forces and moments in the systems of track, wheelset, rail and wheel, 24 values [F], [F L]; sum
- * of the patches with icp = -1. */
+/* Get forces and moments of wheel and rail; with icp = -1 the sum of all patches.
+ *   rvalues in threes, forces Fx, Fy, Fz [F] and moments Mx, My, Mz [F L]:
+ *   1-6       track directions, about the rail marker; 7-12 wheelset directions, about the wheel marker
+ *   13-18     rail directions, about the rail marker; 19-24 wheel directions, about the wheel marker
+ *   They act on the rail, in Simpack units on the wheel. */
 void cntc_getglobalforces(const int *ire, const int *icp, const int *lenarr, double *rvalues);
 
-/* Areas of contact, adhesion and slip [L2]. */
+/* Get the areas of contact, adhesion and slip.
+ *   carea, harea, sarea: areas [L2] */
 void cntc_getcontactpatchareas(const int *ire, const int *icp, double *carea, double *harea,
                                double *sarea);
 
-/* Per element 0 exterior, 1 adhesion, 2 slip, 3 plastic. */
+/* Get the state of each element.
+ *   eldiv: 0 exterior, 1 adhesion, 2 slip, 3 plastic */
 void cntc_getelementdivision(const int *ire, const int *icp, const int *lenarr, int *eldiv);
 
-/* Largest pressure [F/L2]. */
+/* Get the largest pressure.
+ *   pnmax: pressure [F/L2] */
 void cntc_getmaximumpressure(const int *ire, const int *icp, double *pnmax);
 
-/* Largest tangential traction [F/L2]. */
+/* Get the largest tangential traction.
+ *   ptmax: traction [F/L2] */
 void cntc_getmaximumtraction(const int *ire, const int *icp, double *ptmax);
 
-/* Largest surface temperatures [degrees C]. */
+/* Get the largest surface temperatures.
+ *   t1max, t2max: of bodies 1 and 2 [degC] */
 void cntc_getmaximumtemperature(const int *ire, const int *icp, double *t1max, double *t2max);
 
-/* One field CNTC_fld_*, x running fastest. */
+/* Get one field for each element.
+ *   ifld: CNTC_fld_*
+ *   fld: value of each element, in the unit of the field */
 void cntc_getfielddata(const int *ire, const int *icp, const int *ifld, const int *lenarr,
                        double *fld);
 
-/* Tractions [F/L2], normal first. */
+/* Get the tractions of each element.
+ *   pn, px, py: normal and tangential tractions [F/L2] */
 void cntc_gettractions(const int *ire, const int *icp, const int *lenarr, double *pn, double *px,
                        double *py);
 
-/* Micro-slip [-]; shift distance in mm when T is 0 or 1. */
+/* Get the slip of each element.
+ *   sx, sy: relative slip velocities [-], in shifts distances [mm] */
 void cntc_getmicroslip(const int *ire, const int *icp, const int *lenarr, double *sx, double *sy);
 
-/* Displacement differences [L], normal first. */
+/* Get the displacement differences of each element.
+ *   un, ux, uy: normal and tangential differences [L] */
 void cntc_getdisplacements(const int *ire, const int *icp, const int *lenarr, double *un,
                            double *ux, double *uy);
 
-/* Derivatives of Fn, Fx, Fy, Mz by approach and creepages, columns one after the other; Fx and Fy
- * relative to fstat Fn. */
+/* Get derivatives of forces by approach and creepages.
+ *   lenout, lenin: numbers of rows and columns
+ *   sens: rows: Fn [F], Fx, Fy relative to fstat * Fn [-], Mz [F L]; columns, one after the
+ *       other: approach [L], creepages and spin; zero where not computed, flag CNTC_ic_sens
+ *       tells what is */
 void cntc_getsensitivities(const int *ire, const int *icp, const int *lenout, const int *lenin,
                            double *sens);
 
-/* Time of the calculations since the last reset [s]. */
+/* Get the time of the calculations.
+ *   tcpu, twall: processor and wall clock time since the last reset [s] */
 void cntc_getcalculationtime(const int *ire, const int *icp, double *tcpu, double *twall);
 
-/* Set the time to zero. */
+/* Set the time of the calculations to zero. */
 void cntc_resetcalculationtime(const int *ire, const int *icp);
 
 /* ---- Stresses below the surface ---- */
 
-/* Block iblk of points, chosen by ISUBS 1, 2, 3, 5, 6, 7, 9; blocks from iblk on are forgotten, 0
- * forgets all. z [L] is the depth; explicit coordinates in [L]. */
+/* Add a block of points below the surface.
+ *   iblk: number of the block; blocks from there on are forgotten, 0 forgets all
+ *   isubs     xparam; yparam; zparam, depths below the surface
+ *   1         none; none; nz, zl, dz [L]                                     all element centres
+ *   2         ixl, ixinc, ixh; iyl, iyinc, iyh; nz, zl, dz                   ranges of elements
+ *   3         numbers of columns; numbers of rows; nz, zl, dz                lists of elements
+ *   5, 6, 7   as 1, 2, 3 with zparam a list of depths [L]
+ *   9         coordinates x; y; z [L] */
 void subs_addblock(const int *ire, const int *icp, const int *iblk, const int *isubs,
                    const int *npx, const int *npy, const int *npz, const double *xparam,
                    const double *yparam, const double *zparam);
 
-/* Displacements and stresses in all blocks, after cntc_calculate. */
+/* Compute displacements and stresses below the surface, after cntc_calculate.
+ *   ierror: 0; negative: an error, CNTC_err_*; 305: another thread works on the problem */
 void subs_calculate(const int *ire, const int *icp, int *ierror);
 
-/* Size of a block, -1 when there is none. */
+/* Get the numbers of points of a block.
+ *   iblk: number of the block
+ *   nx, ny, nz: numbers of points, -1 when there is no such block */
 void subs_getblocksize(const int *ire, const int *icp, const int *iblk, int *nx, int *ny, int *nz);
 
-/* Columns of the results one after the other: 1-3 place [L], 4-6 displacement [L], 7-9 hydrostatic,
- * von Mises and Tresca stress, 10-12 principal stresses, 13-21 tensor by columns [F/L2]. */
+/* Get results below the surface.
+ *   iblk: number of the block
+ *   lenarr: number of points
+ *   icol: columns wanted: 1-3 x, y, z [L]; 4-6 ux, uy, uz [L]; 7-9 hydrostatic, von Mises,
+ *       Tresca stress; 10-12 principal stresses; 13-21 tensor xx, yx, zx, xy, yy, zy, xz, yz, zz
+ *       [F/L2]
+ *   values: the columns one after the other */
 void subs_getresults(const int *ire, const int *icp, const int *iblk, const int *lenarr,
                      const int *ncol, const int *icol, double *values);
 

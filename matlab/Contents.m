@@ -26,22 +26,45 @@
 %   write_simpack   - write a Simpack file.
 %   write_miniprof  - write a Miniprof file.
 %
-% The library: begin and flags.
+% The library: begin and end.
 %
 %   cntc_buildmex               - build the gateway by which Octave reaches the library.
 %   cntc_initlibrary            - load the library and begin a run.
-%   cntc_getmagicnumbers        - struct with the numbers of flags, fields, and so on.
-%   cntc_initialize             - create a result element.
 %   cntc_managelicense          - no licence is needed; returns 0.
+%   cntc_getmagicnumbers        - struct with the numbers that stand for flags, fields, and so on.
+%   cntc_closelibrary           - release all result elements, close the files and unload the library.
+%   cntc_initialize             - create a result element.
 %   cntc_setglobalflags         - set flags of the library as a whole.
+%   cntc_finalize               - release a result element; with the last one the run ends.
+%
+% The library: settings of both modules.
+%
+%   cntc_setmaterialproperties  - set elastic bodies; short for cntc_setmaterialparameters with M = 0.
 %   cntc_setflags               - set flags and control digits.
-%   cntc_getflags               - get flags and control digits.
 %   cntc_setmetadata            - set data that go along into the .mat files.
 %   cntc_setsolverflags         - set solution methods and their parameters by the G digit.
-%   cntc_readinpfile            - take the settings of wheel and rail from an input file.
+%   cntc_setmaterialparameters  - set the material by the M digit, or damping by 10 + the M2 digit.
+%   cntc_settemperaturedata     - set thermal data by the H digit.
+%   cntc_settimestep            - set the time step of shifts.
+%   cntc_setrollingstepsize     - set rolling direction and step.
+%   cntc_setfrictionmethod      - set the friction law, imeth = 10 V + L.
+%   cntc_setpotcontact          - set the grid.
+%   cntc_settangentialforces    - prescribe tangential forces.
+%   cntc_readinpfile            - take the settings of wheel and rail from the first case of an input file.
 %
-% The library: profiles, track, wheelset.
+% The library: settings of basic contact.
 %
+%   cntc_setreferencevelocity   - set the rolling velocity (basic contact).
+%   cntc_sethertzcontact        - set a Hertzian geometry and its grid (basic contact).
+%   cntc_setpenetration         - prescribe the approach of the bodies (basic contact); sets N = 0.
+%   cntc_setnormalforce         - prescribe the normal force (basic contact); sets N = 1.
+%   cntc_setundeformeddistc     - set the undeformed distance (basic contact), after cntc_setpotcontact.
+%   cntc_setcreepages           - set creepages, in shifts the shift (basic contact); set T before.
+%   cntc_setextrarigidslip      - set the extra term of the rigid slip (basic contact).
+%
+% The library: settings of wheel and rail.
+%
+%   cntc_setverticalforce       - prescribe the vertical force of wheel on rail; sets N = 1.
 %   cntc_setprofileinputfname   - set the profile of wheel or rail by the name of a file.
 %   cntc_setprofileinputvalues  - set the profile of wheel or rail by its points.
 %   cntc_settrackdimensions     - set the track by the Z digit.
@@ -50,60 +73,39 @@
 %   cntc_setwheelsetvelocity    - set the velocity of the wheelset.
 %   cntc_setwheelsetflexibility - set deviations of the wheel from the rigid wheelset.
 %
-% The library: material, friction, kinematics.
-%
-%   cntc_setmaterialparameters  - set the material by the M digit, or damping by 10 + the M2 digit.
-%   cntc_setmaterialproperties  - set elastic bodies.
-%   cntc_settemperaturedata     - set thermal data by the H digit.
-%   cntc_setfrictionmethod      - set the friction law, imeth = 10 V + L.
-%   cntc_settimestep            - set the time step of shifts.
-%   cntc_setreferencevelocity   - set the rolling velocity (module 3).
-%   cntc_setrollingstepsize     - set rolling direction and step.
-%   cntc_setcreepages           - set creepages, in shifts the shift (module 3); set T before.
-%   cntc_setextrarigidslip      - set the extra term of the rigid slip (module 3).
-%
-% The library: geometry and loads.
-%
-%   cntc_sethertzcontact        - set a Hertzian geometry and its grid (module 3).
-%   cntc_setpotcontact          - set the grid.
-%   cntc_setundeformeddistc     - set the undeformed distance (module 3), after cntc_setpotcontact.
-%   cntc_setpenetration         - prescribe the approach of the bodies (module 3); sets N = 0.
-%   cntc_setnormalforce         - prescribe the normal force (module 3); sets N = 1.
-%   cntc_setverticalforce       - prescribe the vertical force of wheel on rail; sets N = 1.
-%   cntc_settangentialforces    - prescribe tangential forces.
-%
 % The library: calculation.
 %
 %   cntc_calculate              - solve a contact problem.
 %
 % The library: results.
 %
-%   cntc_getcpresults           - get all results of one contact patch in the form of loadcase.
+%   cntc_getcpresults           - get all results of one contact patch in the form of loadcase, for plot2d and plot3d.
+%   cntc_getflags               - get flags and control digits.
 %   cntc_getparameters          - get parameters of kinematics, material or friction.
 %   cntc_getprofilevalues       - get a profile as the library sees it.
 %   cntc_getwheelsetposition    - get the position of the wheelset.
 %   cntc_getwheelsetvelocity    - get the velocity of the wheelset.
 %   cntc_getnumcontactpatches   - get the number of contact patches of wheel and rail.
 %   cntc_getcontactlocation     - get the place of a contact patch of wheel and rail.
-%   cntc_getglobalforces        - get forces and moments of wheel and rail.
 %   cntc_getreferencevelocity   - get the rolling velocity.
-%   cntc_gethertzcontact        - get the numbers of a Hertzian geometry (module 3).
+%   cntc_gethertzcontact        - get the numbers of a Hertzian geometry (basic contact).
 %   cntc_getnumelements         - get the size of the grid.
 %   cntc_getgriddiscretization  - get the sizes of elements.
 %   cntc_getpotcontact          - get the grid.
-%   cntc_getcontactforces       - get forces in the directions of the contact.
 %   cntc_getpenetration         - get the approach of the bodies.
 %   cntc_getcreepages           - get creepages, in shifts the shift.
-%   cntc_getcontactpatchareas   - get the areas of contact, adhesion, slip and plasticity.
+%   cntc_getcontactforces       - get forces in the directions of the contact.
+%   cntc_getglobalforces        - get forces and moments of wheel and rail; with icp = -1 the sum of all patches.
+%   cntc_getcontactpatchareas   - get the areas of contact, adhesion and slip.
+%   cntc_getelementdivision     - get the state of each element.
 %   cntc_getmaximumpressure     - get the largest pressure.
 %   cntc_getmaximumtraction     - get the largest tangential traction.
 %   cntc_getmaximumtemperature  - get the largest surface temperatures.
-%   cntc_getsensitivities       - get derivatives of forces by approach and creepages.
-%   cntc_getelementdivision     - get the state of each element.
 %   cntc_getfielddata           - get one field for each element.
 %   cntc_gettractions           - get the tractions of each element.
-%   cntc_getdisplacements       - get the displacement differences of each element.
 %   cntc_getmicroslip           - get the slip of each element.
+%   cntc_getdisplacements       - get the displacement differences of each element.
+%   cntc_getsensitivities       - get derivatives of forces by approach and creepages.
 %   cntc_getcalculationtime     - get the time of the calculations.
 %   cntc_resetcalculationtime   - set the time of the calculations to zero.
 %
@@ -113,8 +115,3 @@
 %   subs_calculate              - compute displacements and stresses below the surface, after cntc_calculate.
 %   subs_getblocksize           - get the numbers of points of a block.
 %   subs_getresults             - get results below the surface.
-%
-% The library: end.
-%
-%   cntc_finalize               - release a result element; with the last one the run ends.
-%   cntc_closelibrary           - release all result elements, close the files and unload the library.

@@ -3,9 +3,12 @@ function [ ierror ] = cntc_calculate( ire, icp, idebug )
 %
 %   ierror = cntc_calculate( ire, icp, idebug )
 %
-%   ire, icp   result element (default 1) and contact problem: -1 (default) for wheel and rail, 1 to 9 in module 3
-%   idebug   1: tell error codes; 2: also remarks; 0: silent (default: that of cntc_initlibrary)
-%   ierror   0; negative: an error, CNTC.err_...; positive: elements in contact at the border of the grid (module 3)
+%   ire, icp  result element (default 1) and contact patch or problem; -1 (default): wheel and rail as a whole
+%   ierror    0; negative: an error, CNTC.err_*; positive: elements in contact at the border of the grid (basic
+%             contact)
+%   idebug    1: tell error codes; 2: also remarks; 0: silent (default: that of cntc_initlibrary)
+%
+% Made by src/capi/make_interface.py from src/capi/interface.txt; change those.
 
    if (nargin<1)
       ire = [];

@@ -3,9 +3,11 @@ function cntc_finalize( ire )
 %
 %   cntc_finalize( ire )
 %
-%   ire      number of the result element (default 1)
+%   ire       number of the result element (default 1)
 %
 % See also: cntc_closelibrary.
+%
+% Made by src/capi/make_interface.py from src/capi/interface.txt; change those.
 
    if (nargin<1 || isempty(ire))
       ire = 1;

@@ -3,8 +3,10 @@ function [ tcpu, twall ] = cntc_getcalculationtime( ire, icp )
 %
 %   [tcpu, twall] = cntc_getcalculationtime( ire, icp )
 %
-%   ire, icp   result element and contact patch or problem (default 1, 1)
-%   tcpu, twall   processor and wall clock time since the last reset [s]
+%   ire, icp     result element and contact patch or problem (default 1, 1)
+%   tcpu, twall  processor and wall clock time since the last reset [s]
+%
+% Made by src/capi/make_interface.py from src/capi/interface.txt; change those.
 
    if (nargin<1)
       ire = [];

@@ -3,10 +3,12 @@ function [ fn, tx, ty, mz ] = cntc_getcontactforces( ire, icp )
 %
 %   [fn, tx, ty, mz] = cntc_getcontactforces( ire, icp )
 %
-%   ire, icp   result element and contact patch or problem (default 1, 1)
-%   fn       normal force [F]
-%   tx, ty   tangential forces [F]
-%   mz       moment about the normal [F L]
+%   ire, icp  result element and contact patch or problem (default 1, 1)
+%   fn        normal force [F]
+%   tx, ty    tangential forces [F]
+%   mz        moment about the normal [F L]
+%
+% Made by src/capi/make_interface.py from src/capi/interface.txt; change those.
 
    if (nargin<1)
       ire = [];

@@ -3,9 +3,11 @@ function [ vx, vy, phi ] = cntc_getcreepages( ire, icp )
 %
 %   [vx, vy, phi] = cntc_getcreepages( ire, icp )
 %
-%   ire, icp   result element and contact patch or problem (default 1, 1)
-%   vx, vy   creepages [-], in shifts [L]
-%   phi      spin [A/L], in shifts [A]
+%   ire, icp  result element and contact patch or problem (default 1, 1)
+%   vx, vy    creepages [-], in shifts [L]
+%   phi       spin [A/L], in shifts [A]
+%
+% Made by src/capi/make_interface.py from src/capi/interface.txt; change those.
 
    if (nargin<1)
       ire = [];

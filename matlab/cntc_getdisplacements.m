@@ -3,9 +3,11 @@ function [ un, ux, uy ] = cntc_getdisplacements( ire, icp )
 %
 %   [un, ux, uy] = cntc_getdisplacements( ire, icp )
 %
-%   ire, icp   result element and contact patch or problem (default 1, 1)
-%   un, ux, uy   (my,mx) arrays [L]
-%   0 when there is no grid yet.
+%   ire, icp    result element and contact patch or problem (default 1, 1)
+%   un, ux, uy  normal and tangential differences [L]
+%   Values of elements are (my,mx) arrays; 0 when there is no grid yet.
+%
+% Made by src/capi/make_interface.py from src/capi/interface.txt; change those.
 
    if (nargin<1)
       ire = [];

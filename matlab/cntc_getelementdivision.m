@@ -3,9 +3,11 @@ function [ eldiv ] = cntc_getelementdivision( ire, icp )
 %
 %   eldiv = cntc_getelementdivision( ire, icp )
 %
-%   ire, icp   result element and contact patch or problem (default 1, 1)
-%   eldiv    (my,mx) array: 0 exterior, 1 adhesion, 2 slip, 3 plastic
-%   0 when there is no grid yet.
+%   ire, icp  result element and contact patch or problem (default 1, 1)
+%   eldiv     0 exterior, 1 adhesion, 2 slip, 3 plastic
+%   Values of elements are (my,mx) arrays; 0 when there is no grid yet.
+%
+% Made by src/capi/make_interface.py from src/capi/interface.txt; change those.
 
    if (nargin<1)
       ire = [];

@@ -3,10 +3,14 @@ function [ fld ] = cntc_getfielddata( ire, icp, ifld )
 %
 %   fld = cntc_getfielddata( ire, icp, ifld )
 %
-%   ire, icp   result element and contact patch or problem (default 1, 1)
-%   ifld     CNTC.fld_... of cntc_getmagicnumbers (default: fld_pn)
-%   fld      (my,mx) array
-%   0 when there is no grid yet.
+%   ire, icp  result element and contact patch or problem (default 1, 1)
+%   ifld      CNTC.fld_* (default CNTC.fld_pn)
+%   fld       value of each element, in the unit of the field
+%   Values of elements are (my,mx) arrays; 0 when there is no grid yet.
+%
+% See also: cntc_getmagicnumbers.
+%
+% Made by src/capi/make_interface.py from src/capi/interface.txt; change those.
 
    if (nargin<1)
       ire = [];
@@ -16,8 +20,7 @@ function [ fld ] = cntc_getfielddata( ire, icp, ifld )
    end
    [ire, icp] = cntc_ids(ire, icp, 'patch', 'cntc_getfielddata');
    if (nargin<3 || isempty(ifld))
-      CNTC = cntc_getmagicnumbers();
-      ifld = CNTC.fld_pn;
+      ifld = 5;   % CNTC.fld_pn
    end
    [mx, my] = cntc_getnumelements(ire, icp);
    if (mx*my<=0)

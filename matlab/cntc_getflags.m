@@ -3,11 +3,13 @@ function [ values ] = cntc_getflags( ire, icp, params )
 %
 %   values = cntc_getflags( ire, icp, params )
 %
-%   ire, icp   result element (default 1) and contact patch or problem; -1 (default): wheel and rail as a whole
-%   params   codes, CNTC.if_... and CNTC.ic_...
-%   values   one value for each, in a column
+%   ire, icp  result element (default 1) and contact patch or problem; -1 (default): wheel and rail as a whole
+%   params    codes CNTC.if_*, CNTC.ic_* and CNTC.own_*
+%   values    one value for each
 %
 % See also: cntc_setflags.
+%
+% Made by src/capi/make_interface.py from src/capi/interface.txt; change those.
 
    if (nargin<1)
       ire = [];

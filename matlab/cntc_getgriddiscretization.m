@@ -3,8 +3,10 @@ function [ dx, dy ] = cntc_getgriddiscretization( ire, icp )
 %
 %   [dx, dy] = cntc_getgriddiscretization( ire, icp )
 %
-%   ire, icp   result element and contact patch or problem (default 1, 1)
-%   dx, dy   sizes [L]
+%   ire, icp  result element and contact patch or problem (default 1, 1)
+%   dx, dy    sizes [L]
+%
+% Made by src/capi/make_interface.py from src/capi/interface.txt; change those.
 
    if (nargin<1)
       ire = [];

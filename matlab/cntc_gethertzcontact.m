@@ -1,10 +1,13 @@
-function [ values ] = cntc_gethertzcontact( ire, icp )
-% CNTC_GETHERTZCONTACT  Get the numbers of a Hertzian geometry (module 3).
+function [ rvalues ] = cntc_gethertzcontact( ire, icp )
+% CNTC_GETHERTZCONTACT  Get the numbers of a Hertzian geometry (basic contact).
 %
-%   values = cntc_gethertzcontact( ire, icp )
+%   rvalues = cntc_gethertzcontact( ire, icp )
 %
-%   ire, icp   result element and contact patch or problem (default 1, 1)
-%   values   a1, b1 [1/L], aa, bb [L], rho, cp [L], scale [-], bneg, bpos [L], aob [-]
+%   ire, icp  result element and contact patch or problem (default 1, 1)
+%   rvalues   curvatures a1, b1 [1/L], semi-axes aa, bb, effective radius rho, cp [L], scale [-], sides of the axis
+%             bneg, bpos [L], ratio aob [-]
+%
+% Made by src/capi/make_interface.py from src/capi/interface.txt; change those.
 
    if (nargin<1)
       ire = [];
@@ -13,7 +16,7 @@ function [ values ] = cntc_gethertzcontact( ire, icp )
       icp = [];
    end
    [ire, icp] = cntc_ids(ire, icp, 'patch', 'cntc_gethertzcontact');
-   values = cntc_call('cntc_gethertzcontact', ire, icp, 10, zeros(10,1));
+   rvalues = cntc_call('cntc_gethertzcontact', ire, icp, 10, zeros(10,1));
    cntc_tell('cntc_gethertzcontact', ire, icp);
 
 end % function cntc_gethertzcontact

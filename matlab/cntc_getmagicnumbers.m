@@ -115,7 +115,7 @@ function [ CNTC ] = cntc_getmagicnumbers( )
 %   CNTC.err_input    the input file is unusable
 %   CNTC.err_other    anything else
 %
-% Made by matlab/make_tables.py from src/capi/interface.txt; change those.
+% Made by src/capi/make_interface.py from src/capi/interface.txt; change those.
 
    CNTC.FLAGS_DIM = 25;
    CNTC.if_units = 1933;

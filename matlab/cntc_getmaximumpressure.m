@@ -1,10 +1,12 @@
-function [ pmax ] = cntc_getmaximumpressure( ire, icp )
+function [ pnmax ] = cntc_getmaximumpressure( ire, icp )
 % CNTC_GETMAXIMUMPRESSURE  Get the largest pressure.
 %
-%   pmax = cntc_getmaximumpressure( ire, icp )
+%   pnmax = cntc_getmaximumpressure( ire, icp )
 %
-%   ire, icp   result element and contact patch or problem (default 1, 1)
-%   pmax     pressure [F/L2]
+%   ire, icp  result element and contact patch or problem (default 1, 1)
+%   pnmax     pressure [F/L2]
+%
+% Made by src/capi/make_interface.py from src/capi/interface.txt; change those.
 
    if (nargin<1)
       ire = [];
@@ -13,7 +15,7 @@ function [ pmax ] = cntc_getmaximumpressure( ire, icp )
       icp = [];
    end
    [ire, icp] = cntc_ids(ire, icp, 'patch', 'cntc_getmaximumpressure');
-   pmax = cntc_call('cntc_getmaximumpressure', ire, icp, []);
+   pnmax = cntc_call('cntc_getmaximumpressure', ire, icp, []);
    cntc_tell('cntc_getmaximumpressure', ire, icp);
 
 end % function cntc_getmaximumpressure

@@ -3,8 +3,10 @@ function [ t1max, t2max ] = cntc_getmaximumtemperature( ire, icp )
 %
 %   [t1max, t2max] = cntc_getmaximumtemperature( ire, icp )
 %
-%   ire, icp   result element and contact patch or problem (default 1, 1)
-%   t1max, t2max   of bodies 1 and 2 [degC]
+%   ire, icp      result element and contact patch or problem (default 1, 1)
+%   t1max, t2max  of bodies 1 and 2 [degC]
+%
+% Made by src/capi/make_interface.py from src/capi/interface.txt; change those.
 
    if (nargin<1)
       ire = [];

@@ -3,8 +3,10 @@ function [ ptmax ] = cntc_getmaximumtraction( ire, icp )
 %
 %   ptmax = cntc_getmaximumtraction( ire, icp )
 %
-%   ire, icp   result element and contact patch or problem (default 1, 1)
-%   ptmax    traction [F/L2]
+%   ire, icp  result element and contact patch or problem (default 1, 1)
+%   ptmax     traction [F/L2]
+%
+% Made by src/capi/make_interface.py from src/capi/interface.txt; change those.
 
    if (nargin<1)
       ire = [];

@@ -3,9 +3,11 @@ function [ sx, sy ] = cntc_getmicroslip( ire, icp )
 %
 %   [sx, sy] = cntc_getmicroslip( ire, icp )
 %
-%   ire, icp   result element and contact patch or problem (default 1, 1)
-%   sx, sy   (my,mx) arrays of relative slip velocities [-], in shifts distances [mm]
-%   0 when there is no grid yet.
+%   ire, icp  result element and contact patch or problem (default 1, 1)
+%   sx, sy    relative slip velocities [-], in shifts distances [mm]
+%   Values of elements are (my,mx) arrays; 0 when there is no grid yet.
+%
+% Made by src/capi/make_interface.py from src/capi/interface.txt; change those.
 
    if (nargin<1)
       ire = [];

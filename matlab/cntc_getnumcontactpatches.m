@@ -3,8 +3,10 @@ function [ npatch ] = cntc_getnumcontactpatches( ire )
 %
 %   npatch = cntc_getnumcontactpatches( ire )
 %
-%   ire      result element of a wheel-rail problem (default 1)
-%   npatch   number of patches
+%   ire       result element of a wheel-rail problem (default 1)
+%   npatch    number of patches
+%
+% Made by src/capi/make_interface.py from src/capi/interface.txt; change those.
 
    if (nargin<1)
       ire = [];

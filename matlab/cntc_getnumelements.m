@@ -3,8 +3,10 @@ function [ mx, my ] = cntc_getnumelements( ire, icp )
 %
 %   [mx, my] = cntc_getnumelements( ire, icp )
 %
-%   ire, icp   result element and contact patch or problem (default 1, 1)
-%   mx, my   numbers of elements in x- and y-direction
+%   ire, icp  result element and contact patch or problem (default 1, 1)
+%   mx, my    numbers of elements along x and y
+%
+% Made by src/capi/make_interface.py from src/capi/interface.txt; change those.
 
    if (nargin<1)
       ire = [];

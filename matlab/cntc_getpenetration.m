@@ -3,8 +3,10 @@ function [ pen ] = cntc_getpenetration( ire, icp )
 %
 %   pen = cntc_getpenetration( ire, icp )
 %
-%   ire, icp   result element and contact patch or problem (default 1, 1)
-%   pen      approach [L]
+%   ire, icp  result element and contact patch or problem (default 1, 1)
+%   pen       approach [L]
+%
+% Made by src/capi/make_interface.py from src/capi/interface.txt; change those.
 
    if (nargin<1)
       ire = [];

@@ -3,8 +3,10 @@ function [ veloc ] = cntc_getreferencevelocity( ire, icp )
 %
 %   veloc = cntc_getreferencevelocity( ire, icp )
 %
-%   ire, icp   result element and contact patch or problem (default 1, 1)
-%   veloc    velocity [V]
+%   ire, icp  result element and contact patch or problem (default 1, 1)
+%   veloc     velocity [V]
+%
+% Made by src/capi/make_interface.py from src/capi/interface.txt; change those.
 
    if (nargin<1)
       ire = [];

@@ -3,10 +3,12 @@ function [ sens ] = cntc_getsensitivities( ire, icp, lenout, lenin )
 %
 %   sens = cntc_getsensitivities( ire, icp, lenout, lenin )
 %
-%   ire, icp   result element and contact patch or problem (default 1, 1)
-%   lenout, lenin   numbers of rows and columns (default 4, 4)
-%   sens     rows: Fn [F], Fx, Fy relative to fstat * Fn [-], Mz [F L]; columns: approach [L], creepages and spin
-%            Zero where not computed; flag CNTC.ic_sens tells what is computed.
+%   ire, icp       result element and contact patch or problem (default 1, 1)
+%   lenout, lenin  numbers of rows and columns (default 4, 4)
+%   sens           rows: Fn [F], Fx, Fy relative to fstat * Fn [-], Mz [F L]; columns, one after the other: approach
+%                  [L], creepages and spin; zero where not computed, flag CNTC.ic_sens tells what is
+%
+% Made by src/capi/make_interface.py from src/capi/interface.txt; change those.
 
    if (nargin<1)
       ire = [];

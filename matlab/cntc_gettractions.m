@@ -3,9 +3,11 @@ function [ pn, px, py ] = cntc_gettractions( ire, icp )
 %
 %   [pn, px, py] = cntc_gettractions( ire, icp )
 %
-%   ire, icp   result element and contact patch or problem (default 1, 1)
-%   pn, px, py   (my,mx) arrays [F/L2]
-%   0 when there is no grid yet.
+%   ire, icp    result element and contact patch or problem (default 1, 1)
+%   pn, px, py  normal and tangential tractions [F/L2]
+%   Values of elements are (my,mx) arrays; 0 when there is no grid yet.
+%
+% Made by src/capi/make_interface.py from src/capi/interface.txt; change those.
 
    if (nargin<1)
       ire = [];

@@ -1,16 +1,18 @@
-function [ values ] = cntc_getwheelsetposition( ire )
+function [ rvalues ] = cntc_getwheelsetposition( ire )
 % CNTC_GETWHEELSETPOSITION  Get the position of the wheelset.
 %
-%   values = cntc_getwheelsetposition( ire )
+%   rvalues = cntc_getwheelsetposition( ire )
 %
-%   ire      result element of a wheel-rail problem (default 1)
-%   values   s, y, z [L], roll, yaw, pitch [A]; z as solved when the vertical force is prescribed
+%   ire       result element of a wheel-rail problem (default 1)
+%   rvalues   s, y, z [L], roll, yaw, pitch [A]; z as solved when the vertical force is prescribed
+%
+% Made by src/capi/make_interface.py from src/capi/interface.txt; change those.
 
    if (nargin<1)
       ire = [];
    end
    ire = cntc_ids(ire);
-   values = cntc_call('cntc_getwheelsetposition', ire, 6, zeros(6,1));
+   rvalues = cntc_call('cntc_getwheelsetposition', ire, 6, zeros(6,1));
    cntc_tell('cntc_getwheelsetposition', ire, -1);
 
 end % function cntc_getwheelsetposition

@@ -1,12 +1,14 @@
 function [ ierror ] = cntc_readinpfile( ire, inp_type, fname )
-% CNTC_READINPFILE  Take the settings of wheel and rail from an input file.
+% CNTC_READINPFILE  Take the settings of wheel and rail from the first case of an input file.
 %
 %   ierror = cntc_readinpfile( ire, inp_type, fname )
 %
-%   ire      result element of a wheel-rail problem (default 1)
-%   inp_type CNTC.inp_modul1 or CNTC.inp_spck
-%   fname    name of the file
-%   ierror   0, or a negative code
+%   ire       result element of a wheel-rail problem (default 1)
+%   inp_type  CNTC.inp_modul1 or CNTC.inp_spck
+%   fname     name of the file
+%   ierror    0, or a negative code CNTC.err_*
+%
+% Made by src/capi/make_interface.py from src/capi/interface.txt; change those.
 
    if (nargin<1)
       ire = [];

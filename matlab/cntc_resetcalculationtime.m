@@ -3,7 +3,9 @@ function cntc_resetcalculationtime( ire, icp )
 %
 %   cntc_resetcalculationtime( ire, icp )
 %
-%   ire, icp   result element and contact patch or problem (default 1, 1)
+%   ire, icp  result element and contact patch or problem (default 1, 1)
+%
+% Made by src/capi/make_interface.py from src/capi/interface.txt; change those.
 
    if (nargin<1)
       ire = [];
@@ -13,5 +15,6 @@ function cntc_resetcalculationtime( ire, icp )
    end
    [ire, icp] = cntc_ids(ire, icp, 'patch', 'cntc_resetcalculationtime');
    cntc_call('cntc_resetcalculationtime', ire, icp);
+   cntc_tell('cntc_resetcalculationtime', ire, icp);
 
 end % function cntc_resetcalculationtime

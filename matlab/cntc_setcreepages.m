@@ -1,11 +1,13 @@
 function cntc_setcreepages( ire, icp, vx, vy, phi )
-% CNTC_SETCREEPAGES  Set creepages, in shifts the shift (module 3); set T before.
+% CNTC_SETCREEPAGES  Set creepages, in shifts the shift (basic contact); set T before.
 %
 %   cntc_setcreepages( ire, icp, vx, vy, phi )
 %
-%   ire, icp   result element and contact patch or problem (default 1, 1)
-%   vx, vy   longitudinal and lateral creepage [-], in shifts (T = 1) distances [L]
-%   phi      spin [A/L], in shifts rotation [A]
+%   ire, icp  result element and contact patch or problem (default 1, 1)
+%   vx, vy    longitudinal and lateral creepage [-], in shifts (T = 1) distances [L]
+%   phi       spin [A/L], in shifts rotation [A]
+%
+% Made by src/capi/make_interface.py from src/capi/interface.txt; change those.
 
    if (nargin<1)
       ire = [];

@@ -1,10 +1,13 @@
 function cntc_setextrarigidslip( ire, icp, wx, wy )
-% CNTC_SETEXTRARIGIDSLIP  Set the extra term of the rigid slip (module 3).
+% CNTC_SETEXTRARIGIDSLIP  Set the extra term of the rigid slip (basic contact).
 %
 %   cntc_setextrarigidslip( ire, icp, wx, wy )
 %
-%   ire, icp   result element and contact patch or problem (default 1, 1)
-%   wx, wy   values for each element as (my,mx) arrays [-], in shifts [mm]
+%   ire, icp  result element and contact patch or problem (default 1, 1)
+%   wx, wy    values for each element [-], in shifts [mm]
+%   Values of elements are (my,mx) arrays.
+%
+% Made by src/capi/make_interface.py from src/capi/interface.txt; change those.
 
    if (nargin<1)
       ire = [];

@@ -3,11 +3,13 @@ function cntc_setflags( ire, icp, params, values )
 %
 %   cntc_setflags( ire, icp, params, values )
 %
-%   ire, icp   result element (default 1) and contact problem: -1 (default) for wheel and rail, 1 to 9 in module 3
-%   params   codes, CNTC.if_... and CNTC.ic_... of cntc_getmagicnumbers; 0 is skipped
-%   values   one value for each
+%   ire, icp  result element (default 1) and contact patch or problem; -1 (default): wheel and rail as a whole
+%   params    codes CNTC.if_*, CNTC.ic_* and CNTC.own_*; 0 is skipped
+%   values    one value for each
 %
 % See also: cntc_getmagicnumbers, cntc_getflags.
+%
+% Made by src/capi/make_interface.py from src/capi/interface.txt; change those.
 
    if (nargin<1)
       ire = [];

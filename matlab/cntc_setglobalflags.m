@@ -3,10 +3,12 @@ function cntc_setglobalflags( params, values )
 %
 %   cntc_setglobalflags( params, values )
 %
-%   params   codes: CNTC.if_idebug, CNTC.if_openmp; 0 is skipped
-%   values   one value for each
+%   params    codes CNTC.if_idebug, CNTC.if_openmp; 0 is skipped
+%   values    one value for each
 %
 % See also: cntc_getmagicnumbers.
+%
+% Made by src/capi/make_interface.py from src/capi/interface.txt; change those.
 
    if (numel(params)~=numel(values))
       error('cntc_setglobalflags: there are %d params and %d values.', numel(params), numel(values));

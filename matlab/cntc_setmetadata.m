@@ -3,9 +3,13 @@ function cntc_setmetadata( ire, icp, params, values )
 %
 %   cntc_setmetadata( ire, icp, params, values )
 %
-%   ire, icp   result element (default 1) and contact problem: -1 (default) for wheel and rail, 1 to 9 in module 3
-%   params   codes, CNTC.mt_...; 0 is skipped
-%   values   one value for each: time [s], positions [L], numbers
+%   ire, icp  result element (default 1) and contact patch or problem; -1 (default): wheel and rail as a whole
+%   params    codes CNTC.mt_*; 0 is skipped
+%   values    one value for each: time [s], positions [L], numbers
+%
+% See also: cntc_getmagicnumbers.
+%
+% Made by src/capi/make_interface.py from src/capi/interface.txt; change those.
 
    if (nargin<1)
       ire = [];

@@ -1,10 +1,12 @@
 function cntc_setnormalforce( ire, icp, fn )
-% CNTC_SETNORMALFORCE  Prescribe the normal force (module 3); sets N = 1.
+% CNTC_SETNORMALFORCE  Prescribe the normal force (basic contact); sets N = 1.
 %
 %   cntc_setnormalforce( ire, icp, fn )
 %
-%   ire, icp   result element and contact patch or problem (default 1, 1)
-%   fn       normal force [F]
+%   ire, icp  result element and contact patch or problem (default 1, 1)
+%   fn        normal force [F]
+%
+% Made by src/capi/make_interface.py from src/capi/interface.txt; change those.
 
    if (nargin<1)
       ire = [];

@@ -1,10 +1,12 @@
 function cntc_setpenetration( ire, icp, pen )
-% CNTC_SETPENETRATION  Prescribe the approach of the bodies (module 3); sets N = 0.
+% CNTC_SETPENETRATION  Prescribe the approach of the bodies (basic contact); sets N = 0.
 %
 %   cntc_setpenetration( ire, icp, pen )
 %
-%   ire, icp   result element and contact patch or problem (default 1, 1)
-%   pen      approach [L]
+%   ire, icp  result element and contact patch or problem (default 1, 1)
+%   pen       approach [L]
+%
+% Made by src/capi/make_interface.py from src/capi/interface.txt; change those.
 
    if (nargin<1)
       ire = [];

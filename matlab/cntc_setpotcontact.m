@@ -3,16 +3,18 @@ function cntc_setpotcontact( ire, icp, ipotcn, params )
 %
 %   cntc_setpotcontact( ire, icp, ipotcn, params )
 %
-%   ire, icp   result element (default 1) and contact problem: -1 (default) for wheel and rail, 1 to 9 in module 3
-%   ipotcn   params
-%   module 1:
-%   0        dx, ds [L], unused
-%   -1       dx, ds [L], a_sep [A], d_sep, d_comb [L], and if wanted d_turn [L], g_miss [L]
-%   module 3:
-%   1        mx, my, xl, yl, dx, dy [L]             lower left corner, sizes of elements
-%   2        mx, my, xl, yl, xh, yh [L]             lower left and upper right corner
-%   3        mx, my, xc1, yc1, dx, dy [L]           centre of the first element, sizes
-%   4        mx, my, xc1, yc1, xcm, ycm [L]         centres of the first and last element
+%   ire, icp  result element (default 1) and contact patch or problem; -1 (default): wheel and rail as a whole
+%   ipotcn    params
+%   wheel and rail:
+%   0         dx, ds [L], unused
+%   -1        dx, ds [L], a_sep [A], d_sep, d_comb [L], and if wanted d_turn [L], g_miss [L]
+%   basic contact:
+%   1         mx, my, xl, yl, dx, dy [L]             lower left corner, sizes of elements
+%   2         mx, my, xl, yl, xh, yh [L]             lower left and upper right corner
+%   3         mx, my, xc1, yc1, dx, dy [L]           centre of the first element, sizes
+%   4         mx, my, xc1, yc1, xcm, ycm [L]         centres of the first and last element
+%
+% Made by src/capi/make_interface.py from src/capi/interface.txt; change those.
 
    if (nargin<1)
       ire = [];

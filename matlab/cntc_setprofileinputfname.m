@@ -3,13 +3,16 @@ function cntc_setprofileinputfname( ire, fname, iparam, rparam )
 %
 %   cntc_setprofileinputfname( ire, fname, iparam, rparam )
 %
-%   ire      result element of a wheel-rail problem (default 1)
-%   fname    name of the file, relative to the folder of cntc_initlibrary
-%   iparam   itype, unused, mirrory, mirrorz, errhndl, ismooth; itype: 0 rail, 1 wheel, -1 by the extension
-%   rparam   factor to mm, smoothing [-] or [mm], maxomit [-], zigthrs, kinkhigh, kinklow [rad], kinkwid [L]
-%   Default: iparam = -1, rparam = [1 0], which means values in mm.
+%   ire       result element of a wheel-rail problem (default 1)
+%   fname     name of the file, relative to the folder of input files
+%   iparam    itype, unused, mirrory, mirrorz, errhndl, ismooth; itype: 0 rail, 1 wheel, -1 by the extension (default
+%             -1)
+%   rparam    factor to mm (-1 by the units), smoothing [-] or [mm], maxomit [-], zigthrs, kinkhigh, kinklow [rad],
+%             kinkwid [L] (default [1 0])
 %
 % See also: cntc_setprofileinputvalues.
+%
+% Made by src/capi/make_interface.py from src/capi/interface.txt; change those.
 
    if (nargin<1)
       ire = [];

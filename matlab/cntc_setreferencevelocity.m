@@ -1,10 +1,12 @@
 function cntc_setreferencevelocity( ire, icp, veloc )
-% CNTC_SETREFERENCEVELOCITY  Set the rolling velocity (module 3).
+% CNTC_SETREFERENCEVELOCITY  Set the rolling velocity (basic contact).
 %
 %   cntc_setreferencevelocity( ire, icp, veloc )
 %
-%   ire, icp   result element and contact patch or problem (default 1, 1)
-%   veloc    velocity [V]
+%   ire, icp  result element and contact patch or problem (default 1, 1)
+%   veloc     velocity [V]
+%
+% Made by src/capi/make_interface.py from src/capi/interface.txt; change those.
 
    if (nargin<1)
       ire = [];

@@ -3,9 +3,11 @@ function cntc_setrollingstepsize( ire, icp, chi, dq )
 %
 %   cntc_setrollingstepsize( ire, icp, chi, dq )
 %
-%   ire, icp   result element (default 1) and contact problem: -1 (default) for wheel and rail, 1 to 9 in module 3
-%   chi      rolling direction [A], module 3 (default 0)
-%   dq       rolling step: in module 3 [L], in module 1 relative to the size of elements [-]
+%   ire, icp  result element (default 1) and contact patch or problem; -1 (default): wheel and rail as a whole
+%   chi       rolling direction [A], basic contact (default 0)
+%   dq        rolling step: in basic contact [L], for wheel and rail relative to the size of elements [-]
+%
+% Made by src/capi/make_interface.py from src/capi/interface.txt; change those.
 
    if (nargin<1)
       ire = [];

@@ -3,15 +3,18 @@ function cntc_setsolverflags( ire, icp, gdigit, iparam, rparam )
 %
 %   cntc_setsolverflags( ire, icp, gdigit, iparam, rparam )
 %
-%   ire, icp   result element (default 1) and contact problem: -1 (default) for wheel and rail, 1 to 9 in module 3
-%   gdigit   iparam; rparam
-%   0        maxgs, maxin, maxnr, maxout; eps                                    default solvers
-%   1        none                                                                keep all
-%   2, 3     maxgs, maxin, maxnr, maxout, inislp; eps, omegah, omegas, omgslp    ConvexGS, SteadyGS
-%   4        maxgs, maxin, maxnr, maxout, inislp; eps, omgslp                    friction that changes with slip
-%   5        maxgs, maxin, maxnr, maxout, kdowfb;
-%            eps, fdecay, betath, d_ifc, d_lin, d_cns, d_slp, pow_s              GDsteady
-%   6        mxsens; epsens                                                      sensitivities
+%   ire, icp  result element (default 1) and contact patch or problem; -1 (default): wheel and rail as a whole
+%   gdigit    iparam; rparam
+%   0         maxgs, maxin, maxnr, maxout; eps                                    default solvers
+%   1         none                                                                keep all
+%   2, 3      maxgs, maxin, maxnr, maxout, inislp; eps, omegah, omegas, omgslp    ConvexGS, SteadyGS
+%   4         maxgs, maxin, maxnr, maxout, inislp; eps, omgslp                    friction that changes with slip
+%   5         maxgs, maxin, maxnr, maxout, kdowfb;
+%             eps, fdecay, betath, d_ifc, d_lin, d_cns, d_slp, pow_s              GDsteady
+%   6         mxsens; epsens                                                      sensitivities
+%   Default: iparam = [], rparam = [].
+%
+% Made by src/capi/make_interface.py from src/capi/interface.txt; change those.
 
    if (nargin<1)
       ire = [];

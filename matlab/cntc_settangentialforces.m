@@ -3,8 +3,11 @@ function cntc_settangentialforces( ire, icp, fx, fy )
 %
 %   cntc_settangentialforces( ire, icp, fx, fy )
 %
-%   ire, icp   result element and contact patch or problem (default 1, 1)
-%   fx, fy   module 3: relative to fstat * fn [-]; module 1 (icp = -1): longitudinal force on the rail fx [F], fy unused
+%   ire, icp  result element and contact patch or problem (default 1, 1); -1: wheel and rail as a whole
+%   fx, fy    basic contact: relative to fstat * fn [-]; wheel and rail (icp = -1): longitudinal force on the rail fx
+%             [F], fy unused (default 0)
+%
+% Made by src/capi/make_interface.py from src/capi/interface.txt; change those.
 
    if (nargin<1)
       ire = [];

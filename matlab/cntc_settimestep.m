@@ -3,8 +3,10 @@ function cntc_settimestep( ire, icp, dt )
 %
 %   cntc_settimestep( ire, icp, dt )
 %
-%   ire, icp   result element (default 1) and contact problem: -1 (default) for wheel and rail, 1 to 9 in module 3
-%   dt       time step [T]
+%   ire, icp  result element (default 1) and contact patch or problem; -1 (default): wheel and rail as a whole
+%   dt        time step [T]
+%
+% Made by src/capi/make_interface.py from src/capi/interface.txt; change those.
 
    if (nargin<1)
       ire = [];

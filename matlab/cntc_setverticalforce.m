@@ -3,8 +3,10 @@ function cntc_setverticalforce( ire, fz )
 %
 %   cntc_setverticalforce( ire, fz )
 %
-%   ire      result element of a wheel-rail problem (default 1)
-%   fz       vertical force [F]
+%   ire       result element of a wheel-rail problem (default 1)
+%   fz        vertical force [F]
+%
+% Made by src/capi/make_interface.py from src/capi/interface.txt; change those.
 
    if (nargin<1)
       ire = [];

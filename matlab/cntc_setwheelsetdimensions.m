@@ -3,9 +3,11 @@ function cntc_setwheelsetdimensions( ire, ewheel, params )
 %
 %   cntc_setwheelsetdimensions( ire, ewheel, params )
 %
-%   ire      result element of a wheel-rail problem (default 1)
-%   ewheel   3, 5: new dimensions; 0, 1, 2, 4: as before
-%   params   fbdist, fbpos, nomradw, and if wanted ytape [L]
+%   ire       result element of a wheel-rail problem (default 1)
+%   ewheel    3, 5: new dimensions; 0, 1, 2, 4: as before (default 3)
+%   params    fbdist, fbpos, nomradw, and if wanted ytape [L]
+%
+% Made by src/capi/make_interface.py from src/capi/interface.txt; change those.
 
    if (nargin<1)
       ire = [];

@@ -3,9 +3,11 @@ function cntc_setwheelsetposition( ire, ewheel, params )
 %
 %   cntc_setwheelsetposition( ire, ewheel, params )
 %
-%   ire      result element of a wheel-rail problem (default 1)
-%   ewheel   1 (default) to 5
-%   params   s, y, z [L], roll, yaw, pitch [A]
+%   ire       result element of a wheel-rail problem (default 1)
+%   ewheel    1 to 5 (default 1)
+%   params    s, y, z [L], roll, yaw, pitch [A]
+%
+% Made by src/capi/make_interface.py from src/capi/interface.txt; change those.
 
    if (nargin<1)
       ire = [];

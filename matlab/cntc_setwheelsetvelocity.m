@@ -3,9 +3,11 @@ function cntc_setwheelsetvelocity( ire, ewheel, params )
 %
 %   cntc_setwheelsetvelocity( ire, ewheel, params )
 %
-%   ire      result element of a wheel-rail problem (default 1)
-%   ewheel   2 (default) to 5
-%   params   vs, vy, vz [V], vroll, vyaw, vpitch [A/T]; on rollers the first value is the roller's rate [A/T]
+%   ire       result element of a wheel-rail problem (default 1)
+%   ewheel    2 to 5 (default 2)
+%   params    vs, vy, vz [V], vroll, vyaw, vpitch [A/T]; on rollers the first value is the roller's rate [A/T]
+%
+% Made by src/capi/make_interface.py from src/capi/interface.txt; change those.
 
    if (nargin<1)
       ire = [];

@@ -3,9 +3,11 @@ function [ nx, ny, nz ] = subs_getblocksize( ire, icp, iblk )
 %
 %   [nx, ny, nz] = subs_getblocksize( ire, icp, iblk )
 %
-%   ire, icp   result element and contact patch or problem (default 1, 1)
-%   iblk     number of the block (default 1)
-%   nx, ny, nz   numbers of points, -1 when there is no such block
+%   ire, icp    result element and contact patch or problem (default 1, 1)
+%   iblk        number of the block (default 1)
+%   nx, ny, nz  numbers of points, -1 when there is no such block
+%
+% Made by src/capi/make_interface.py from src/capi/interface.txt; change those.
 
    if (nargin<1)
       ire = [];

@@ -4,7 +4,7 @@ function [ letters ] = cntc_signature( name )
 %   i, r, s   integers, real numbers, text going in
 %   I, R      integers, real numbers coming out
 %
-% Made by matlab/make_tables.py from src/capi/interface.txt; change those.
+% Made by src/capi/make_interface.py from src/capi/interface.txt; change those.
 
    persistent table;
    if (isempty(table))

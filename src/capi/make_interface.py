@@ -1,5 +1,7 @@
 #!/usr/bin/env python3
-"""Write the header, the doors, the Fortran interfaces and the Python tables of the library from interface.txt.
+"""Write the header, the doors, the Fortran interfaces, the Python tables, the functions for Matlab and the page of the library.
+
+All comes from interface.txt; make_matlab.py writes the part for Matlab.
 
     python3 src/capi/make_interface.py            writes the files, run it after a change of the table
     python3 src/capi/make_interface.py --check    exit status 1 when a file is not what would be written
@@ -9,6 +11,8 @@ import re
 import sys
 import textwrap
 
+import make_matlab
+
 HERE = os.path.dirname(os.path.abspath(__file__))
 TOP = os.path.dirname(os.path.dirname(HERE))
 WIDTH = 100
@@ -16,23 +20,44 @@ ORIGIN = "Made by src/capi/make_interface.py from src/capi/interface.txt; change
 
 
 class Argument:
-    """One argument: direction in, out or inout, kind int, real or text, and whether it is an array"""
+    """One argument: direction in, out or inout, kind int, real or text, and whether it is an array
+
+    lengths has the arguments that tell its length; size the value of the length where that is fixed, "grid" for one value per
+    element, else None.
+    """
 
     def __init__(self, text):
-        match = re.fullmatch(r"(in|out|inout) (int|real|text) (\w+)(\[\])?", text.strip())
+        match = re.fullmatch(r"(in|out|inout) (int|real|text) (\w+)(?:\[([^\]]*)\])?", text.strip())
         if not match:
             raise SystemExit(f"interface.txt: '{text}' is not an argument")
-        self.direction, self.kind, self.name = match.group(1, 2, 3)
-        self.is_array = match.group(4) is not None
+        self.direction, self.kind, self.name, length = match.groups()
+        self.is_array = length is not None
+        name, _, size = (length or "").partition("=")
+        self.lengths, self.size = name.split(), size or None
 
 
 class Routine:
-    """One routine with its arguments and its description"""
+    """One routine with its arguments, its summary, lines about arguments, and words for the functions of other languages
+
+    about has pairs of names and text; a line of a table has no names.
+    """
 
     def __init__(self, name, arguments):
         self.name = name
         self.arguments = [Argument(text) for text in arguments.split(",") if text.strip()]
-        self.text = []
+        self.text, self.about, self.words = [], [], []
+
+    def describe(self, line):
+        """Take an indented line of the table"""
+        argument = re.fullmatch(r"- ([\w, ]+): (.+)", line)
+        if argument:
+            self.about.append(argument.groups())
+        elif line.startswith("|"):
+            self.about.append(("", line[2:]))
+        elif line.startswith("@ "):
+            self.words = [word.strip() for word in line[2:].split(",")]
+        else:
+            self.text.append(line)
 
 
 class Constant:
@@ -64,7 +89,7 @@ def read_table():
             elif routine:
                 items.append(Routine(*routine.groups()))
             elif line.startswith("   "):
-                items[-1].text.append(line.strip())
+                items[-1].describe(line.strip())
             else:
                 raise SystemExit(f"interface.txt:{number}: '{line}' is not understood")
     return constants, routines, undocumented
@@ -75,6 +100,18 @@ def wrapped(words, first, indent, ending=""):
     lines = textwrap.wrap(" ".join(words), WIDTH - len(ending), initial_indent=first, subsequent_indent=indent,
                           break_long_words=False, break_on_hyphens=False)
     return [line + ending for line in lines[:-1]] + lines[-1:]
+
+
+def description(routine, width):
+    """Lines that tell what a routine does and what its arguments are"""
+    lines = textwrap.wrap(" ".join(routine.text), width)
+    for names, text in routine.about:
+        if names:
+            lines += textwrap.wrap(f"{names}: {text}", width, initial_indent="  ", subsequent_indent="      ",
+                                   break_long_words=False, break_on_hyphens=False)
+        else:
+            lines.append("  " + text)
+    return lines
 
 
 def c_header(routines):
@@ -92,7 +129,8 @@ def c_header(routines):
     for title, items in routines:
         lines += ["", f"/* ---- {title} ---- */"]
         for routine in items:
-            lines += [""] + wrapped(["/*"] + routine.text + ["*/"], "", " * ")
+            about = description(routine, WIDTH - 6)
+            lines += [""] + [("/* " if line is about[0] else " * ") + line + (" */" if line is about[-1] else "") for line in about]
             # No-break spaces keep the words of an argument on one line
             words = [("const " if argument.direction == "in" else "") + kinds[argument.kind] + " *" + argument.name
                      for argument in routine.arguments] or ["void"]
@@ -147,7 +185,7 @@ def fortran_interfaces(routines):
     for title, items in routines:
         lines += ["", f"   ! ---- {title} ----"]
         for routine in items:
-            lines += [""] + wrapped(routine.text, "   ! ", "   ! ")
+            lines += [""] + ["   ! " + line for line in description(routine, WIDTH - 5)]
             names = ", ".join(argument.name for argument in routine.arguments)
             lines += wrapped([f"subroutine {routine.name}({names})", f'bind(c, name="{routine.name}")'],
                              "   ", "      ", " &")
@@ -197,6 +235,44 @@ def c_doors(routines, undocumented):
     return lines
 
 
+def page(constants, routines):
+    """Text of doc/user/routines.md"""
+    lines = ["# Routines and named numbers of the library", "",
+             "All routines of [the library](library.md) with their arguments as in C and Fortran, and the numbers that stand for flags, fields "
+             "and codes. Matlab and", "Python have functions of the same names without the lengths of arrays. Units: L length, F force, V velocity, "
+             "A angle [rad], T time [s]; the flag", "`CNTC_if_units` chooses between mm and m. An array has its length in brackets; fields have one "
+             "value per element, x running fastest.", "",
+             f"<!-- {ORIGIN} -->"]
+    for title, items in routines:
+        lines += ["", f"## {title}"]
+        for routine in items:
+            names = ", ".join(item.name + (f"[{', '.join(item.lengths)}]" if item.lengths else "") for item in routine.arguments)
+            results = [f"`{item.name}`" for item in routine.arguments if item.direction != "in"]
+            lines += ["", f"### {routine.name}", "", f"`{routine.name}({names})`", "", " ".join(routine.text)]
+            if results:
+                lines[-1] += f" Results: {', '.join(results)}."
+            table = False
+            for about, text in routine.about:
+                if table and about:
+                    lines.append("```")
+                if not table and not about:
+                    lines += ["", "```text"]
+                elif about:
+                    lines += [""] if table or not lines[-1].startswith("- ") else []
+                    lines.append("- " + ", ".join(f"`{name}`" for name in about.split(", ")) + f": {text}")
+                if not about:
+                    lines.append(text)
+                table = not about
+            lines += ["```"] if table else []
+    # stars behind names are no emphasis
+    lines = [re.sub(r"(?<!`)\b(CNTC_[a-z]+_\*|CNTC_\w+)", r"`\1`", line) if line[:2] in ("- ",) else line for line in lines]
+    lines += ["", "## Named numbers"]
+    for title, items in constants:
+        lines += ["", f"### {title}", "", "| name | number | meaning |", "|---|---|---|"]
+        lines += [f"| `{item.name}` | {item.value} | {item.text} |" for item in items]
+    return lines
+
+
 def split_text(words):
     """The words in pieces of at most 80 characters; all but the last end with a blank"""
     pieces = textwrap.wrap(" ".join(words), 80, break_on_hyphens=False)
@@ -214,8 +290,10 @@ def main():
         "include/caddon_flags.inc": fortran_constants(constants),
         "include/contact_addon.ifc": fortran_interfaces(routines),
         "src/capi/doors.c": c_doors(routines, undocumented),
+        "doc/user/routines.md": page(constants, routines),
         "python/contact/_signatures.py": python_tables(constants, routines, undocumented),
     }
+    files.update(make_matlab.files(constants, routines, TOP, ORIGIN))
     stale = []
     for name, lines in files.items():
         text = "\n".join(lines) + "\n"

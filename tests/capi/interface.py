@@ -67,6 +67,19 @@ def implemented():
     return found
 
 
+def matlab(table):
+    """Functions for Matlab: few are written by hand, and each routine has one"""
+    constants, documented, _ = make_interface.read_table()
+    made = {os.path.basename(name)[:-2] for name in make_interface.make_matlab.files(constants, documented, SOURCE, "")}
+    here = {os.path.basename(path)[:-2] for path in glob.glob(os.path.join(SOURCE, "matlab", "*.m"))}
+    own = {name for name in here - made if name.startswith("cntc_")}
+    check(len(own) <= 20, f"{len(own)} functions cntc_* of matlab/ are written by hand: {sorted(own)}")
+    for name, routine in table.items():
+        words = set(routine.words)
+        check(name in made or not words or name in here or "no function" in words, f"{name} has no function in matlab/")
+        check(not ("by hand" in words and name not in here), f"matlab/{name}.m is said to be written by hand and is not there")
+
+
 def main():
     """Compare all"""
     compiler, *libraries = sys.argv[1:]
@@ -87,6 +100,7 @@ def main():
             continue
         arguments = [(item.name, item.kind, item.is_array, item.direction != "in") for item in routine.arguments]
         check(sources[name] == arguments, f"{name}: table {arguments}, source {sources[name]}")
+    matlab(table)
     print(f"{len(table)} routines, {len(failures)} failures")
     return 1 if failures else 0
 

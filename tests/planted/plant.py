@@ -42,14 +42,14 @@ ROOMS = {"input": 24, "control": 12, "capi": 30, "output": 22, "hdf5": 10, "expe
          "friction": 3, "temperature": 2, "subsurface": 5, "tangential": 8, "simplified": 4, "patch": 8, "wheelrail": 14}
 # These look at sources or at pictures, need a static library or the clock, or take long
 NOT_THESE = re.compile(r"capi_statics|capi_consumer|capi_types|capi_generated|harness|house|performance|make_profiles|planted|"
-                       r"octave_tables|octave_figures|force_search|worn_profiles|capi_wheel$|faults|fuzz")
+                       r"octave_figures|force_search|worn_profiles|capi_wheel$|faults|fuzz")
 # Scripts are not measured: tests that run them, quickest first
 SCRIPTS = {"python": re.compile(r"capi_(?!host)|report_|hdf5_file|campaign|json|doubts"), "matlab": re.compile("octave")}
 # Lines that gcov does not see because the process was ended from outside
 UNSEEN = re.compile("limits|capi_host_traps")
 # What draws, by eye only
 NOT_THESE_FILES = re.compile(r"private/(draw_|finish_colors|set_colors|is_black|line_options|pick_arrows)|"
-                             r"plot|Contents|make_tables|setup\.py")
+                             r"plot|Contents|setup\.py")
 # Tests with other processes, sockets, clocks or threads
 SENSITIVE = re.compile("host|server|threads|limits|command_line|rounds|messages|timers|robust|vtk")
 # Tests that follow many values from one end to the other
