@@ -1,4 +1,4 @@
-/* The process of the program: signals, streams that are not there, variables that upset the run-time library. Nothing of this
+/* The process of the program: signals, and streams that are not there. Nothing of this
  * is in the library, whose host has ideas of its own. */
 #include <errno.h>
 #include <fcntl.h>
@@ -67,19 +67,3 @@ void contact_fill_streams(void) {
   for (int k = 0; k <= 2; k++)
     if (fcntl(k, F_GETFD) < 0 && open("/dev/null", k == 0 ? O_WRONLY : O_RDONLY) != k) return;
 }
-
-#ifdef __ELF__
-/* Runs before the run-time library of Fortran looks at its variables: some of them end the program before it has begun
- * (GFORTRAN_STDERR_UNIT=6), others change every number that is written (GFORTRAN_OPTIONAL_PLUS). */
-static void forget_variables(int count, char **words, char **variables) {
-  static const char prefix[] = "GFORTRAN_";
-  char **kept = variables;
-  (void)count;
-  (void)words;
-  for (; *variables != NULL; variables++)
-    if (strncmp(*variables, prefix, sizeof prefix - 1) != 0) *kept++ = *variables;
-  *kept = NULL;
-}
-
-__attribute__((section(".preinit_array"), used)) static void (*const before_all)(int, char **, char **) = forget_variables;
-#endif
