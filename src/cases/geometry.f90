@@ -16,7 +16,7 @@ module contact_cases_geometry
    private
 
    public :: solve_hertz, build_grid, undeformed_distance, curvature_radius, is_line_contact, part_labels
-   public :: require_finite, require_positive
+   public :: require_finite, require_positive, strip_rows
 
    !> Curvatures [1/mm], lengths [mm] and ratios [-] below this value are taken for missing
    real(wp), parameter :: least_value = 1.0e-20_wp
@@ -192,16 +192,23 @@ contains
       !> Half width and half length [mm]
       real(wp), intent(in) :: aa, bb
       type(potential_contact), intent(inout) :: grid
-      integer :: rows
 
-      rows = grid%my
-      if (scale > 1.0_wp) then
-         rows = max(1, nint(grid%my/scale))
-         ! As many rows on either side, so that the ends of the contact lie between rows
-         if (mod(grid%my - rows, 2) /= 0) rows = rows + 1
-      end if
-      call lay_out_window(scale*max(least_axis, aa), max(least_axis, bb)*grid%my/rows, grid)
+      call lay_out_window(scale*max(least_axis, aa), max(least_axis, bb)*grid%my/strip_rows(grid%my, scale), grid)
    end subroutine lay_out_strip
+
+   !> Number of rows of a window that lie inside a line contact
+   pure integer function strip_rows(my, scale) result(rows)
+      !> Rows of the window
+      integer, intent(in) :: my
+      !> Size of the window relative to the contact area [-]
+      real(wp), intent(in) :: scale
+
+      rows = my
+      if (scale <= 1.0_wp) return
+      rows = max(1, nint(my/scale))
+      ! As many rows on either side, so that the ends of the contact lie between rows
+      if (mod(my - rows, 2) /= 0) rows = rows + 1
+   end function strip_rows
 
    !> Window by corner or first centre, and by steps or the opposite corner or last centre
    pure subroutine lay_out_given(spec, grid)

@@ -2,6 +2,7 @@
 module contact_input_grid3
    use contact_base_error, only : error_kind, error_type, fatal_error
    use contact_base_kinds, only : long, wp
+   use contact_cases_geometry, only : strip_rows
    use contact_cases_spec, only : case_spec, geometry_spec, grid_spec
    use contact_input_problems, only : problem_list, severity
    use contact_input_values, only : read_list, read_values
@@ -368,16 +369,4 @@ contains
       end select
       frame%is_known = frame%dx > 0.0_wp .and. frame%dy > 0.0_wp
    end function frame_of
-
-   !> Number of rows inside the strip of the two-dimensional Hertz options
-   pure integer function strip_rows(my, scale) result(rows)
-      integer, intent(in) :: my
-      real(wp), intent(in) :: scale
-
-      rows = my
-      if (scale <= 1.0_wp) return
-      rows = nint(my/scale)
-      if (mod(my - rows, 2) /= 0) rows = rows + 1
-      rows = max(1, rows)
-   end function strip_rows
 end module contact_input_grid3

@@ -203,6 +203,37 @@ class Refusals(Doors):
             file.write("1 1\n0 312\nword\n")
         self.refused(text, "none.txt:3:")
 
+    def test_table_of_too_many_coefficients(self):
+        """99800 x (2 x 279 - 1) x 9 numbers are more than 5e8, one row of offsets less is not"""
+        with open(os.path.join(self.folder, "large.txt"), "w") as file:
+            file.write("1 1\n0 312\n1 0\n99800 279 0.5 0.5\n")
+        text = "1\n" + NEW1.format(**{**PLAIN1, "iteration": "200 100 30 10 1e-5"}).replace("0022033", "0029033").replace(
+            "0.28 0.28", "'large.txt'\n0.28 0.28") + "0\n"
+        self.refused(text, "99800 by 279 elements with 1 matrices needs too many coefficients; accepted are 5e8")
+
+    def test_lists_of_another_grid(self):
+        """One value per element stays with the elements it was given for, whatever changes and in either direction"""
+        def window(mx=6, my=5, x=-1.0, y=-1.2, dx=0.3, dy=0.4):
+            return f"{mx} {my} {x} {y} {dx} {dy}"
+
+        first = ("3\n203100\n002202{e}\n0000201\n200 100 30 1 1e-5\n9 0.002 0 0\n0.4 0.4\n0 0.3 1000\n0.28 0.28 200 200\n1\n"
+                 + window() + "\n{shape}\n{slip}").format
+        second = "3\n203100\n01210{z}{e}\n0000201\n200 100 30 1 1e-5\n9 0.002 0 0\n1\n{window}\n{shape}0\n".format
+        plain, numbers = "1 1\n0.01 0 0.01 0 0 0\n", " ".join(["0.01"]*30) + "\n"
+        slips = " ".join(["1e-4 0"]*30) + "\n"
+        for first_case, kept, words in (
+                (first(e=9, shape=plain.strip(), slip=slips), dict(z=2, e=1, shape=plain), "E = 1 keeps the extra rigid"),
+                (first(e=0, shape="9 1\n" + numbers.strip(), slip=""), dict(z=1, e=0, shape=""), "IBASE = 9, one per element")):
+            for change in (dict(mx=7), dict(mx=5), dict(my=6), dict(my=4), dict(dx=0.33), dict(dx=0.27), dict(dy=0.44), dict(dy=0.36),
+                           dict(x=-0.9), dict(x=-1.1), dict(y=-1.0), dict(y=-1.4), {}):
+                text = second(window=window(**change), **kept)
+                run, out, _ = self.run_text(first_case + text, "3")
+                if change:
+                    self.assertEqual(run.returncode, 1, change)
+                    self.assertIn(words, run.stderr, change)
+                else:
+                    self.assertEqual(run.returncode, 0, run.stderr + out)
+
     def test_output_digits_of_stresses(self):
         text = self.case3(pbtnfs="203103").replace("0.01 0 0.01 0 0 0\n", "0.01 0 0.01 0 0 0\n{}\n1\n1 0 1\n0\n")
         self.refused(text.format("3 0"), "MATFIL_S = 3 is outside its range 0 to 2")

@@ -96,6 +96,15 @@ class Limits(unittest.TestCase):
         self.assertIn("Estimate of case 2 on one thread: about 160000 elements", told[0])
         self.assertIn("1960000 elements", told[2])
 
+    def test_estimate_of_a_large_case(self):
+        """Told in front of a case that is long or needs much memory; either is enough. The limit ends it at once"""
+        stresses = case(20).replace("203100", "203103", 1).rstrip("\n") + "\n0 0\n9\n200 200 100\n" + "".join(
+            " ".join(f"{0.01*k:.2f}" for k in range(1, n + 1)) + "\n" for n in (200, 200, 100)) + "0\n"
+        slow = case(400, g=2, limits="999 100 30 1 1e-5\n0.9 1.0 0 0.5")
+        for text, memory, told in ((case(40), 10000, False), (stresses, 100, True), (slow, 100, True)):
+            done, lines = self.run_program(text + "0\n", f"--limit-memory={memory}")
+            self.assertEqual("Estimate of this case" in done.stdout, told, done.stdout + done.stderr)
+
     def soft_rolling(self, modulus):
         """The first step of the example with a soft wheel"""
         with open(os.path.join(SOURCE, "examples", "rolling_steps.inp")) as file:
