@@ -529,7 +529,7 @@ contains
          if (.not. any(abs(patch%grid_reference) > 0.0_wp)) return
          call log%result("")
          call log%result("     SPINXO      SPINYO")
-         call log%result("  " // generals(patch%grid_reference))
+         call log%result("  " // generals([1.0_wp, s]*patch%grid_reference))
       end associate
    end subroutine write_patch_kinematics
 

@@ -1,0 +1,218 @@
+#!/usr/bin/env python3
+"""The report of wheel and rail: every number below its name is that of the input or of the JSON record, on both sides of the track.
+
+The environment tells CONTACT_PROGRAM and CONTACT_SOURCE.
+"""
+import json
+import math
+import os
+import re
+import subprocess
+import tempfile
+import unittest
+
+PROGRAM = os.environ["CONTACT_PROGRAM"]
+PROFILES = os.path.join(os.environ["CONTACT_SOURCE"], "examples", "profiles")
+# Nothing is zero and nothing symmetric; {s} is the sign of what changes its sign on the left
+CASE = """1
+{c1}{p}0{t}{n}{f}0
+{v}0{d}2033
+000{a}{o}01
+999 100 30 1 1e-6
+{friction}
+0.28 0.31 82000 79000
+0.9 0.7 {dqrel} 90d 8 4
+-1 {s}752.0 0.3 0.025 {s}1e-6
+'{folder}/60E1.prr' 0 1.01 0
+{s}0.3 0.1 {s}0.003 {s}1.1 2.2 {s}0.0013
+{springs}1360 -70 460
+'{folder}/S1002.prw' 0 1.01 0
+100 {s}6.5 {z} {s}0.004 {s}0.006 0.05
+20000 {s}17 3 {s}0.0017 {s}0.0021 -43.5
+0.011 {s}0.012 0.013 {s}0.0014 {s}0.0015 0.016
+1.1 {s}1.2 1.3 {s}0.014 {s}0.015 0.16
+"""
+PLAIN = dict(p=2, t=3, n=1, f=0, v=0, d=2, a=0, o=4, friction="0.35 0.35", dqrel=1, springs="", z=60000)
+BY_ANGLE = dict(v=1, friction="2\n-90d 0.1 0.1\n90d 0.5 0.5")
+# Numbers of the input by the names that the report gives them; what changes its sign on the left
+GIVEN = {"POISS(R)": 0.28, "POISS(W)": 0.31, "GG(R)": 82000, "GG(W)": 79000, "EPS": 1e-6, "DX": 0.9, "DS": 0.7, "A_SEP": math.pi/2,
+         "D_SEP": 8, "D_COMB": 4, "GAUGHT": -1, "RAILZ0": 0.3, "CANT": 0.025, "MIRRORY": 0, "MIRRORZ": 0, "ISMOOTH": 0, "LAMBDA": 0,
+         "DZRAIL": 0.1, "VZRAIL": 2.2, "S_WS": 100, "PITCH_WS": 0.05, "VX_WS": 20000, "VZ_WS": 3, "VPITCH_WS": -43.5, "DXWHL": 0.011,
+         "DZWHL": 0.013, "DPITCHW": 0.016, "VXWHL": 1.1, "VZWHL": 1.3, "VPITCHW": 0.16, "ZIGTHRS": math.radians(150),
+         "KINKHIG": math.pi/6, "KINKLOW": math.pi/30, "KINKWID": 2, "MAXOMIT": 0.5}
+GIVEN_ODD = {"RAILY0": 752, "CURV": 1e-6, "DYRAIL": 0.3, "DROLLR": 0.003, "VYRAIL": 1.1, "VROLLR": 0.0013, "Y_WS": 6.5,
+             "ROLL_WS": 0.004, "YAW_WS": 0.006, "VY_WS": 17, "VROLL_WS": 0.0017, "VYAW_WS": 0.0021, "DYWHL": 0.012, "DROLLW": 0.0014,
+             "DYAWW": 0.0015, "VYWHL": 1.2, "VROLLW": 0.014, "VYAWW": 0.015}
+# Names of the JSON record
+FOUND = {"FX(TR)": "fx_tr", "FY(TR)": "fy_tr", "FZ(TR)": "fz_tr", "FX(WS)": "fx_ws", "FY(WS)": "fy_ws", "FZ(WS)": "fz_ws",
+         "MX@R(TR)": "mx_r_tr", "MY@R(TR)": "my_r_tr", "MZ@R(TR)": "mz_r_tr", "MX@W(WS)": "mx_w_ws", "MY@W(WS)": "my_w_ws",
+         "MZ@W(WS)": "mz_w_ws", "Z_WS": "z_ws", "DY_DEFL": "dy_defl", "DZ_DEFL": "dz_defl", "XCP(TR)": "xcp_tr", "YCP(TR)": "ycp_tr",
+         "ZCP(TR)": "zcp_tr", "DELTCP(TR)": "deltcp_tr", "YCP(R)": "ycp_r", "ZCP(R)": "zcp_r", "XCP(W)": "xcp_w", "YCP(W)": "ycp_w",
+         "ZCP(W)": "zcp_w", "CKSI": "cksi", "CETA": "ceta", "CPHI": "cphi", "FN": "fn", "FX": "fx", "FS": "fy", "MN": "mz",
+         "ELAST.EN.": "elastic_energy", "FRIC.POWER": "friction_power", "FX/FSTAT/FN": "fx_rel", "FS/FSTAT/FN": "fy_rel",
+         "FX/FN": "fx_rel", "FS/FN": "fy_rel", "APPROACH": "pen", "PMAX": "pmax", "NCON": "ncon", "NADH": "nadh", "NSLIP": "nslip",
+         "BAR_FN": "bar_fn", "BAR_FX": "bar_fx", "BAR_FS": "bar_fs", "TILDE_FN": "fn"}
+SHIFTED = {"cksi": "shift_x", "ceta": "shift_y", "cphi": "rotation", "friction_power": "friction_work"}
+ODD = {"shift_y", "rotation", "ycp_r", "ycp_tr", "ycp_w", "deltcp_r", "deltcp_tr", "fy", "fy_rel", "fy_tr", "fy_ws", "mx_r_tr",
+       "mx_w_ws", "mz", "mz_r_tr", "mz_elem", "mz_w_ws", "roll_ws", "y_ws", "yaw_ws", "ceta", "cphi", "bar_fs", "bar_mn", "dy_defl"}
+
+
+def value(entry):
+    return entry["value"] if isinstance(entry, dict) else entry
+
+
+def rows_of(text):
+    """Pairs of names and numbers: a line of names, and the line of as many numbers below"""
+    lines = text.split("\n")
+    for line, below in zip(lines, lines[1:]):
+        names, words = line.split(), below.split()
+        if len(names) != len(words) or not re.fullmatch(r"[ A-Z0-9_()@/.]+", line):
+            continue
+        if all(re.fullmatch(r"-?[\d.]+(E[+-]\d+)?", word) for word in words) and re.search("[A-Z]{2}", line):
+            yield from zip(names, words)
+
+
+class PairReport(unittest.TestCase):
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(scratch.cleanup)
+        self.folder = scratch.name
+
+    def run_both(self, *steps):
+        """Cases one after the other, on the right and on the left: reports and records"""
+        sides = []
+        for c1, s in ((1, ""), (0, "-")):
+            text = "".join(CASE.format(c1=c1, s=s, folder=PROFILES, **{**PLAIN, **step}).replace("2033", "2035") for step in steps)
+            with open(os.path.join(self.folder, "x.inp"), "w", encoding="utf-8") as file:
+                file.write(text.replace("{s}", s) + "0\n")
+            run = subprocess.run([PROGRAM, "--quiet", "--json", "2", "x"], cwd=self.folder, stdin=subprocess.DEVNULL,
+                                 capture_output=True, text=True, timeout=60)
+            self.assertEqual(run.returncode, 0, run.stderr)
+            with open(os.path.join(self.folder, "x.out"), encoding="utf-8") as file:
+                reports = re.split(r"\n Case +\d+", file.read())[1:]
+            with open(os.path.join(self.folder, "x.jsonl"), encoding="utf-8") as file:
+                records = [case for case in map(json.loads, file) if case["case"]]
+            self.assertEqual([record["status"] for record in records], ["solved"]*len(steps))
+            sides.append((reports, records))
+        return sides
+
+    def compare(self, steps):
+        """All numbers of the reports; names that must be there; both sides are mirror images"""
+        sides = self.run_both(*steps)
+        names = set()
+        for left, (reports, records) in enumerate(sides):
+            for report, record in zip(reports, records):
+                self.assertIn("LEFT WHEEL" if left else "RIGHT WHEEL", report)
+                self.assertEqual(record["side"], "left" if left else "right")
+                parts = re.split(r" ----- DATA FOR CONTACT PATCH.*", report)
+                self.assertEqual(len(parts) - 1, len(record["patches"]))
+                for k, part in enumerate(parts):
+                    totals = record["patches"][k - 1]["totals"] if k else record["totals"]
+                    for name, word in rows_of(part):
+                        if name in FOUND:
+                            key = FOUND[name]
+                            # in a shift the names of creepages are those of distances
+                            expected = value(totals[key] if key in totals else totals[SHIFTED[key]])
+                        elif name in GIVEN or name in GIVEN_ODD:
+                            expected = GIVEN[name] if name in GIVEN else GIVEN_ODD[name]*(-1)**left
+                        else:
+                            continue
+                        names.add(name)
+                        if name == "MN" and "bar_mn" in totals:
+                            expected = value(totals["bar_mn"])
+                        elif name == "MN" and "mz_elem" in totals:
+                            expected = value(totals["mz_elem"])
+                        # four digits, or as many behind the point as are printed
+                        decimals = len(word.split("E")[0].partition(".")[2])
+                        unit = 10.0**(-decimals + (int(word.split("E")[1]) if "E" in word else 0)) if "." in word else 1.0
+                        self.assertAlmostEqual(float(word), expected, delta=0.501*unit if "." in word else 1e-9, msg=(name, left))
+        for right, left in zip(sides[0][1], sides[1][1]):
+            for a, b in [(right, left), *zip(right["patches"], left["patches"])]:
+                self.assertEqual(a["totals"].keys(), b["totals"].keys())
+                for name, entry in a["totals"].items():
+                    expected = value(entry)*(-1 if name in ODD else 1)
+                    self.assertAlmostEqual(value(b["totals"][name]), expected, delta=1e-7*abs(expected) + 1e-12, msg=name)
+        return names, sides
+
+    def test_plane_patch(self):
+        names, _ = self.compare([PLAIN])
+        self.assertLessEqual(set(GIVEN) | set(GIVEN_ODD), names | {"ZIGTHRS", "KINKHIG", "KINKLOW", "KINKWID", "MAXOMIT"})
+        self.assertLessEqual(set(FOUND), names | {"FX/FN", "FS/FN", "BAR_FN", "BAR_FX", "BAR_FS", "TILDE_FN", "DY_DEFL", "DZ_DEFL"})
+        # finer choices of profiles stand in longer reports
+        names, sides = self.compare([dict(PLAIN, o=3)])
+        self.assertLessEqual({"ZIGTHRS", "KINKHIG", "KINKLOW", "KINKWID", "MAXOMIT"}, names)
+        self.assertNotIn("MX@R(TR)", names)
+        self.assertNotIn("MAXOMIT", self.compare([dict(PLAIN, o=2)])[0])
+
+    def test_curved_patch(self):
+        names, sides = self.compare([dict(PLAIN, d=4, o=3, **BY_ANGLE)])
+        self.assertLessEqual({"BAR_FN", "BAR_FX", "BAR_FS", "TILDE_FN", "FX/FN", "FS/FN"}, names)
+        curves = []
+        for reports, records in sides:
+            number = int(re.search(r"CURVED REFERENCE SURFACE, TRACK COORDINATES, +(\d+) POINTS", reports[0]).group(1))
+            rows = [[float(word) for word in line.split()]
+                    for line in reports[0].split("    I        Y(I)       Z(I)       A(I)\n")[1].split("\n")[:number]]
+            self.assertEqual([row[0] for row in rows], list(range(1, number + 1)))
+            curves.append(rows)
+            totals = records[0]["patches"][0]["totals"]
+            # the reference is one of its points or between two, and the angle is the slope
+            near = min(rows, key=lambda row: abs(row[1] - value(totals["ycp_tr"])))
+            self.assertAlmostEqual(near[2], value(totals["zcp_tr"]), delta=0.2)
+            self.assertAlmostEqual(near[3], value(totals["deltcp_tr"]), delta=0.02)
+            for a, b, c in zip(rows, rows[1:], rows[2:]):
+                self.assertAlmostEqual(b[3], math.atan2(c[2] - a[2], abs(c[1] - a[1]))*(1 if c[1] > a[1] else -1)
+                                       * (1 if b[1] > 0 else 1), delta=0.02)
+            angles = re.search(r"Contact angle +(\S+) deg at the reference, from +(\S+) to +(\S+) deg", reports[0]).groups()
+            self.assertAlmostEqual(float(angles[0]), math.degrees(value(totals["deltcp_tr"])), delta=0.006)
+            first, last = map(int, re.search(r"Contact in rows +(\d+) to +(\d+) of +%d" % number, reports[0]).groups())
+            for angle, row in zip(angles[1:], (first, last)):
+                self.assertAlmostEqual(float(angle), math.degrees(rows[row - 1][3]), delta=0.006)
+            moments = re.search(r"Moments about the reference MX, MS, MN: +(\S+) +(\S+) +(\S+) N mm", reports[0]).groups()
+            self.assertAlmostEqual(float(moments[2])/value(totals["bar_mn"]), 1.0, delta=1e-3)
+        for right, left in zip(*curves):
+            self.assertEqual([right[1], right[2], right[3]], [-left[1], left[2], -left[3]])
+
+    def test_steps_and_springs(self):
+        """Two steps of transient rolling, whose reference of spin leaves the origin; the rail on springs"""
+        for extra in (dict(t=2), dict(t=1)):
+            names, sides = self.compare([dict(PLAIN, **extra), dict(PLAIN, p=0, **extra)])
+            origins = [re.findall(r"SPINXO +SPINYO\n +(\S+) +(\S+)", report) for reports, _ in sides for report in reports]
+            for right, left in zip(origins[:2], origins[2:]):
+                self.assertEqual(len(right), len(left))
+                for (a, b), record in zip(zip(right, left), sides[0][1]):
+                    totals = {name: value(entry) for name, entry in record["patches"][0]["totals"].items()}
+                    # the contact reference has this place in the coordinates of the elements
+                    self.assertAlmostEqual(totals["mz"] + float(a[0])*totals["fy"] - float(a[1])*totals["fx"], totals["mz_elem"],
+                                           delta=2e-3*abs(totals["mz_elem"]))
+                    self.assertAlmostEqual(float(a[0]), float(b[0]), delta=1e-6 + 1e-3*abs(float(a[0])))
+                    self.assertAlmostEqual(float(a[1]), -float(b[1]), delta=1e-6 + 1e-3*abs(float(a[1])))
+            self.assertTrue(any(origins), origins)
+
+    def test_rail_on_springs(self):
+        """Springs and what preloads them stand in the report as given; the springs carry what the wheel presses"""
+        springs = dict(KY_RAIL=20000, FY_RAIL=300, KZ_RAIL=50000, FZ_RAIL=-400)
+        names, sides = self.compare([dict(PLAIN, f=3, springs="20000 {s}300 50000 -400\n")])
+        self.assertLessEqual({"DY_DEFL", "DZ_DEFL"}, names)
+        for left, (reports, records) in enumerate(sides):
+            names, words = (line.split() for line in re.search(r"MASSLESS RAIL DEFLECTION\n(.*)\n(.*)\n", reports[0]).groups())
+            printed = dict(zip(names, map(float, words)))
+            for name, number in springs.items():
+                expected = number*(-1 if left and name == "FY_RAIL" else 1)
+                self.assertAlmostEqual(printed[name], expected, delta=1e-3*abs(number))
+            totals = {name: value(entry) for name, entry in records[0]["totals"].items()}
+            for way in "yz":
+                force = totals[f"f{way}_tr"] + printed[f"F{way.upper()}_RAIL"]
+                self.assertAlmostEqual(totals[f"d{way}_defl"]*springs[f"K{way.upper()}_RAIL"], force, delta=1e-3*60000)
+
+    def test_words_of_the_problem(self):
+        for step, words in ((dict(n=0, z=-2.88), "PRESCRIBED POSITION, FULL"), (dict(t=0), "PRESCRIBED VERTICAL FORCE, FULL"),
+                            (dict(t=1), "SHIFT TRANSIENT, SHIFT PRESCRIBED"), (dict(t=2), "TRANSIENT ROLLING, CREEPAGE PRESCRIBED"),
+                            (dict(t=3), "STEADY STATE ROLLING, CREEPAGE PRESCRIBED"), (dict(d=4), "FULL SOLUTION")):
+            text = dict(PLAIN, **step)
+            reports, _ = self.run_both(text)[1]
+            self.assertIn(words, reports[0])
+            self.assertEqual("FRICTION LAW" in reports[0], text["t"] > 0)
+
+
+if __name__ == "__main__":
+    unittest.main()
