@@ -1,0 +1,112 @@
+#!/usr/bin/env python3
+"""Every flag with every value within and around its range: what is stored, what is refused, what a calculation makes of it"""
+from checks import check, finish, profiles, same
+import numpy as np
+from contact import cntc
+from contact._library import call, last_error
+from contact.cntc import CNTC
+
+# Lowest and highest value, and what becomes of others: "near" the nearest of the range, "zero" 0, "keep" nothing is stored
+FLAGS = {"ic_config": (0, 5, "near"), "ic_pvtime": (0, 3, "near"), "ic_bound": (0, 6, "near"), "ic_tang": (0, 3, "near"),
+         "ic_norm": (0, 1, "near"), "ic_force": (0, 3, "near"), "ic_discns": (0, 9, "keep"), "ic_inflcf": (0, 4, "keep"),
+         "ic_iestim": (0, 3, "near"), "ic_output": (0, 6, "near"), "ic_flow": (0, 9, "near"), "ic_return": (0, 3, "near"),
+         "ic_matfil": (0, 2, "zero"), "ic_sens": (0, 3, "near"), "ic_ifmeth": (0, 1, "near"), "ic_ifvari": (1, 4, "near"),
+         "ic_sbsout": (0, 4, "near"), "ic_sbsfil": (0, 2, "zero"), "ic_npomax": (100, 1000000, "near"), "if_wrtinp": (0, 2, "keep"),
+         "own_heat": (0, 1, "keep"), "own_angle": (0, 1, "keep")}
+# Flags that belong to wheel and rail: module 3 does not store them
+OF_PAIRS = {"ic_config", "ic_discns", "own_angle"}
+# Values within the range that no digit has, and that are not available, where they are stored
+UNKNOWN = {"ic_config": (2, 3), "ic_bound": (2, 3, 4)}
+
+
+def read(ire, icp, name):
+    return int(cntc.getflags(ire, icp, [CNTC[name]])[0])
+
+
+def values_of(low, high):
+    near = {low - 100, low - 2, low - 1, low, low + 1, high - 1, high, high + 1, high + 2, high + 100}
+    return sorted(near | set(range(low, high + 1)) if high < 100 else near)
+
+
+def ranges():
+    """One flag after the other on an element of each module: the flag itself, and no other one, changes"""
+    for ire, module in ((1, 1), (2, 3)):
+        same(cntc.initialize(ire, module)[1], 0, f"initialize module {module}")
+        icp = -1 if module == 1 else 1
+        for name, (low, high, outside) in FLAGS.items():
+            if name == "ic_force" and module == 3:
+                high = 2
+            before = {other: read(ire, icp, other) for other in FLAGS}
+            stored = before[name]
+            for value in values_of(low, high):
+                cntc.setflags(ire, icp, [CNTC[name]], [value])
+                expected = value
+                if not low <= value <= high:
+                    expected = {"near": min(max(value, low), high), "zero": 0, "keep": stored}[outside]
+                if name == "ic_sbsout" and expected == 3:
+                    expected = 2
+                if (module == 3 and name in OF_PAIRS) or (module == 1 and name == "ic_force" and expected == 2):
+                    expected = stored
+                if module == 3 and name == "ic_npomax":
+                    expected = 0
+                stored = read(ire, icp, name)
+                same(stored, expected, f"module {module}: {name} = {value}")
+            for other in FLAGS:
+                if other != name:
+                    same(read(ire, icp, other), before[other], f"module {module}: {other} after {name}")
+            cntc.setflags(ire, icp, [CNTC[name]], [before[name]])
+            # a refused value does not keep the others back
+            cntc.finalize(ire)
+            cntc.initialize(ire, module)
+    # one entry after the other, those of code 0 are skipped, those that are not known do not stop the rest
+    cntc.initialize(3, 3)
+    cntc.setflags(3, 1, [CNTC["ic_tang"], 0, 4711, CNTC["ic_norm"]], [2, 5, 6, 1])
+    check("4711" in last_error(3, 1)[1], "a flag that is not known is named")
+    same([read(3, 1, "ic_tang"), read(3, 1, "ic_norm")], [2, 1], "others of the list")
+    values = np.array([-5, -6, -7], np.intc)
+    call("cntc_getflags", 3, 1, 3, np.array([CNTC["ic_tang"], 0, CNTC["ic_norm"]], np.intc), values)
+    same(list(values), [2, -6, 1], "entries of code 0")
+
+
+def pair(ire):
+    """A wheel on a rail, some thirty elements"""
+    same(cntc.initialize(ire, 1)[1], 0, f"initialize {ire}")
+    cntc.setflags(ire, -1, [CNTC[name] for name in ("ic_config", "ic_tang", "ic_pvtime", "ic_discns")], [1, 3, 2, 2])
+    cntc.setsolverflags(ire, -1, 0, [999, 100, 30, 1], [1e-5])
+    cntc.setmaterialparameters(ire, -1, 0, [0.28, 0.28, 82e3, 82e3])
+    cntc.setfrictionmethod(ire, -1, 0, [0.3, 0.3])
+    cntc.setpotcontact(ire, -1, -1, [1.0, 1.0, np.pi / 2, 8, 4])
+    cntc.setrollingstepsize(ire, -1, 0.0, 1.0)
+    cntc.settrackdimensions(ire, 3, [14.0, 0.0, 1435.0] + 8 * [0.0])
+    rail, wheel = profiles()
+    cntc.setprofileinputfname(ire, rail, [0], [1.0, 0.0])
+    cntc.setprofileinputfname(ire, wheel, [1], [1.0, 0.0])
+    cntc.setwheelsetdimensions(ire, 3, [1360.0, -70.0, 460.0])
+    cntc.setwheelsetposition(ire, 1, [0, 2.0, 0, -0.0001, 0.0048, 0])
+    cntc.setwheelsetvelocity(ire, 2, [2000, 0, 0, 0, 0, -4.3459197])
+    cntc.setverticalforce(ire, 10000.0)
+
+
+def unknown():
+    """Values that a range has room for and no digit has: the calculation says so, and is well again with a good one"""
+    pair(4)
+    same(cntc.calculate(4, -1), 0, "a good case")
+    force = cntc.getglobalforces(4, -1)[0]
+    for name, values in UNKNOWN.items():
+        good = read(4, -1, name)
+        for value in values:
+            cntc.setflags(4, -1, [CNTC[name]], [value])
+            check(cntc.calculate(4, -1) < 0, f"{name} = {value} is refused")
+            text = last_error(4, -1)[1]
+            digit = {"ic_config": "C1", "ic_bound": "B"}[name]
+            check(f"{digit} = {value} is not a known digit of wheel-rail contact" in text, f"{name} = {value}: {text}")
+        cntc.setflags(4, -1, [CNTC[name]], [good])
+        same(cntc.calculate(4, -1), 0, f"{name} as it was")
+        same(cntc.getglobalforces(4, -1)[0], force, f"{name} as it was: force")
+    cntc.setpotcontact(4, -1, -1, [0.0, 1.0, np.pi / 2, 8, 4])
+    check(cntc.calculate(4, -1) < 0, "elements without length")
+
+
+ranges()
+unknown()
+finish()
