@@ -1,0 +1,199 @@
+#!/usr/bin/env python3
+"""Relations that every solution obeys: mirror images, exchanged bodies, other lengths, other moduli; for all kinds of materials,
+friction, motion and solvers, two cases in a row each.
+
+Factors are powers of two, so that nothing is rounded differently. The environment tells CONTACT_PROGRAM.
+"""
+import copy
+import json
+import math
+import os
+import subprocess
+import tempfile
+import unittest
+
+PROGRAM = os.environ["CONTACT_PROGRAM"]
+# Totals and what they are multiplied with: power of length, of modulus, signs in the images x, y and with exchanged bodies
+KINDS = {"fn": (2, 1, 1, 1, 1), "fx": (2, 1, -1, 1, -1), "fy": (2, 1, 1, -1, -1), "mz": (3, 1, -1, -1, -1), "pen": (1, 0, 1, 1, 1),
+         "pmax": (0, 1, 1, 1, 1), "cksi": (0, 0, -1, 1, -1), "ceta": (0, 0, 1, -1, -1), "cphi": (-1, 0, -1, -1, -1),
+         "shift_x": (1, 0, -1, 1, -1), "shift_y": (1, 0, 1, -1, -1), "rotation": (0, 0, -1, -1, -1),
+         "friction_power": (3, 1, 1, 1, 1), "friction_work": (3, 1, 1, 1, 1), "elastic_energy": (3, 1, 1, 1, 1),
+         "ncon": (0, 0, 1, 1, 1), "nadh": (0, 0, 1, 1, 1), "nslip": (0, 0, 1, 1, 1), "contact_area": (2, 0, 1, 1, 1),
+         "border_elements": (0, 0, 1, 1, 1), "fx_rel": (0, 0, -1, 1, -1), "fy_rel": (0, 0, 1, -1, -1), "mu_scal": (0, 0, 1, 1, 1)}
+
+BASE = dict(p=2, b=0, t=3, n=1, f=0, l=0, c=2, m=0, g=0, eps=1e-9, maxout=1, solver="", mx=14, my=12, xl=-2.1, yl=-1.9, dx=0.3, dy=0.4,
+            shape=[0.011, 0.002, 0.014, 3e-4, 5e-4, 1e-4], fn=6000.0, pen=0.04, cx=0.002, cy=-0.001, spin=4e-4, chi=0.0, dq=0.3,
+            veloc=20000.0, poiss=[0.28, 0.28], gg=[82000.0, 82000.0], mu=0.3, fg=[1.0, 1.5], tc=[1e-5, 3e-5], flx=[4e-5],
+            reduction=[0.8, 0.3, 0.9], layer=[9000.0, 0.02, 120.0, 3000.0], falling=[0.2, 0.15, 40.0, 0.05, 500.0], memory=[0.01, 5.0])
+CONFIGURATIONS = {
+    "frictionless": dict(t=0), "approach": dict(n=0, eps=1e-10), "shift": dict(t=1), "transient": dict(t=2), "steady": {},
+    "steady, forces": dict(f=2, cx=-0.4, cy=0.3), "steady, force": dict(f=1, cx=0.5), "transient, forces": dict(t=2, f=2, cx=-0.4, cy=0.3),
+    "shift, force": dict(t=1, f=1, cx=0.5), "bilinear": dict(c=3), "dissimilar": dict(poiss=[0.28, 0.4], gg=[82000.0, 9000.0], maxout=20),
+    "dissimilar shift": dict(t=1, poiss=[0.1, 0.45], gg=[82000.0, 2000.0], maxout=20, fn=500.0),
+    "ConvexGS": dict(t=2, g=2, solver="0.9 1.0 0 0.5"), "SteadyGS": dict(g=3, solver="0.9 1.0 0 0.5"),
+    "GDsteady": dict(g=5, solver="1.0 0.5 2 1.5 0.01 2.5 1.2 1.3", eps=1e-7),
+    "viscoelastic": dict(m=1), "viscoelastic, dissimilar": dict(m=1, maxout=20, poiss=[0.3, 0.4], gg=[900.0, 500.0], fn=100.0),
+    "Fastsim": dict(b=2, m=2), "Fastsim, three": dict(b=3, m=3), "FaStrip": dict(b=2, m=5), "FaStrip plain": dict(b=2, m=6),
+    "layer": dict(m=4), "layer, shift": dict(m=4, t=1), "elastic layer": dict(m=4, layer=[9000.0, 0.02, 0.0, 0.0]),
+    "linear falling": dict(l=2), "rational falling": dict(l=3), "exponential falling": dict(l=4, t=2)}
+
+
+def numbers(*values):
+    return " ".join("%.17g" % value for value in values)
+
+
+def two_cases(c):
+    """The input of a case, and of one that continues it with other motion"""
+    def kinematics(share):
+        parts = [c["fn"] if c["n"] else c["pen"]]
+        factor = 1.0 if c["f"] == 2 else share
+        parts += [c["cx"] if c["f"] else c["cx"]*share, c["cy"]*factor, c["spin"]*share]
+        return numbers(*parts)
+    lines = ["3", f"{c['p']}{c['b']}{c['t']}{c['n']}{c['f']}0", f"{c['l']}2{c['c']}{c['m']}20", f"0{c['g']}00001",
+             f"999 200 60 {c['maxout']} {c['eps']:g}"]
+    lines += [c["solver"]] if c["solver"] else []
+    lines.append(kinematics(1.0))
+    lines += [numbers(*c["falling"]), numbers(*c["memory"])] if c["l"] else [numbers(c["mu"], c["mu"])]
+    lines += [numbers(c["chi"], c["dq"], c["veloc"])] if c["t"] >= 2 else []
+    lines.append(numbers(*c["poiss"], *c["gg"]))
+    lines += {1: [numbers(*c["fg"], *c["tc"])], 2: [numbers(*c["flx"], *c["reduction"])], 3: [numbers(*c["reduction"])],
+              4: [numbers(*c["layer"])], 5: [numbers(*c["reduction"])]}.get(c["m"], [])
+    lines += ["1", numbers(c["mx"], c["my"], c["xl"], c["yl"], c["dx"], c["dy"]), "1 1", numbers(*c["shape"])]
+    if c["b"] in (2, 3):
+        # formulas of pressures need an ellipse, which an ellipse of given semi-axes is
+        lines[-4:] = ["-3", numbers(c["mx"], c["my"], c["aa"], c["bb"], 1.25)]
+    keep = "100000"
+    lines += ["3", f"{0 if c['t'] in (1, 2) else 2}{c['b']}{c['t']}{c['n']}{c['f']}0", keep, "0100001", kinematics(0.7)]
+    return "\n".join(lines) + "\n"
+
+
+def image_x(c):
+    new = copy.deepcopy(c)
+    new["xl"] = -(c["xl"] + c["mx"]*c["dx"])
+    new["shape"][1], new["shape"][3] = -c["shape"][1], -c["shape"][3]
+    new.update(cx=-c["cx"], spin=-c["spin"], chi=math.pi - c["chi"])
+    return new
+
+
+def image_y(c):
+    new = copy.deepcopy(c)
+    new["yl"] = -(c["yl"] + c["my"]*c["dy"])
+    new["shape"][1], new["shape"][4] = -c["shape"][1], -c["shape"][4]
+    new.update(cy=-c["cy"], spin=-c["spin"])
+    return new
+
+
+def exchanged(c):
+    """Body 1 and body 2: slip and tractions change their signs"""
+    new = copy.deepcopy(c)
+    for name in ("poiss", "gg", "fg", "tc"):
+        new[name] = c[name][::-1]
+    new.update(cx=-c["cx"], cy=-c["cy"], spin=-c["spin"])
+    return new
+
+
+def longer(c, s=2.0):
+    """All lengths twice as large, times as they are"""
+    new = copy.deepcopy(c)
+    for name in ("xl", "yl", "dx", "dy", "pen", "dq", "veloc", "aa", "bb"):
+        new[name] = s*c[name]
+    new["shape"] = [value*power for value, power in zip(c["shape"], (1/s, 1/s, 1/s, 1, 1, s))]
+    new["fn"] = s*s*c["fn"]
+    if c["t"] == 1:
+        new.update(cx=c["cx"]*(1 if c["f"] else s), cy=c["cy"]*(1 if c["f"] == 2 else s))
+    else:
+        new["spin"] = c["spin"]/s
+    new["flx"] = [s*value for value in c["flx"]]
+    new["layer"] = [value*power for value, power in zip(c["layer"], (1, s, 1, 1/s))]
+    new["falling"] = [value*power for value, power in zip(c["falling"], (1, 1, s, 1, s))]
+    new["memory"] = [s*value for value in c["memory"]]
+    return new
+
+
+def stiffer(c, k=2.0):
+    """All moduli and forces twice as large"""
+    new = copy.deepcopy(c)
+    new.update(fn=k*c["fn"], gg=[k*value for value in c["gg"]], flx=[value/k for value in c["flx"]],
+               layer=[k*c["layer"][0], c["layer"][1], k*c["layer"][2], k*c["layer"][3]])
+    return new
+
+
+class Relations(unittest.TestCase):
+    def solve(self, cases):
+        with tempfile.TemporaryDirectory() as folder:
+            with open(os.path.join(folder, "x.inp"), "w", encoding="utf-8") as file:
+                file.write("".join(map(two_cases, cases)) + "0\n")
+            run = subprocess.run([PROGRAM, "--quiet", "--json", "2", "x"], cwd=folder, stdin=subprocess.DEVNULL, capture_output=True,
+                                 text=True, timeout=120)
+            self.assertEqual(run.returncode, 0, run.stderr)
+            with open(os.path.join(folder, "x.jsonl"), encoding="utf-8") as file:
+                records = [case for case in map(json.loads, file) if case["case"]]
+        self.assertEqual(len(records), 2*len(cases))
+        found = []
+        for record in records:
+            self.assertEqual(len(record["patches"]), 1)
+            totals = record["patches"][0]["totals"]
+            found.append({name: entry["value"] if isinstance(entry, dict) else entry for name, entry in totals.items()})
+            found[-1]["status"] = record["status"]
+        return found
+
+    def compare(self, change, sign, power_of_length=0, power_of_modulus=0, tolerance=1e-6):
+        """sign: column of KINDS, or None"""
+        names = list(CONFIGURATIONS)
+        before = [dict(copy.deepcopy(BASE), aa=1.6, bb=1.9, **copy.deepcopy(CONFIGURATIONS[name])) for name in names]
+        found = self.solve(before + [change(case) for case in before])
+        half = len(found)//2
+        seen = set()
+        for k, (a, b) in enumerate(zip(found[:half], found[half:])):
+            label = f"{names[k//2]}, case {k % 2 + 1}"
+            self.assertEqual(a["status"], b["status"], label)
+            self.assertEqual(a.keys(), b.keys(), label)
+            size = {"fx": a["fn"], "fy": a["fn"], "mz": 2.0*a["fn"], "fx_rel": 1.0, "fy_rel": 1.0}
+            for name, value in a.items():
+                if name not in KINDS:
+                    continue
+                seen.add(name)
+                kind = KINDS[name]
+                factor = 2.0**(power_of_length*kind[0] + power_of_modulus*kind[1])*(kind[sign] if sign else 1)
+                if name in ("ncon", "nadh", "nslip", "border_elements") and tolerance > 1e-10:
+                    # round-off decides about single elements
+                    self.assertLessEqual(abs(b[name] - value), 0 if name == "ncon" else 1, (label, name))
+                    continue
+                allowed = tolerance*max(abs(value), 1e-2*size.get(name, 0.0), 1e-9)*abs(factor)
+                if name in ("cksi", "ceta", "shift_x", "shift_y"):
+                    allowed = 100*allowed
+                self.assertAlmostEqual(b[name], factor*value, delta=allowed, msg=(label, name))
+        self.assertLessEqual(set(KINDS) - {"contact_area"}, seen)
+
+    def test_configurations_differ(self):
+        """No two of them have the same forces: each does what it is there for"""
+        cases = [dict(copy.deepcopy(BASE), aa=1.6, bb=1.9, **values) for values in CONFIGURATIONS.values()]
+        found = self.solve(cases)
+        for k, name in enumerate(CONFIGURATIONS):
+            self.assertEqual(found[2*k]["status"], "solved", name)
+            self.assertGreater(found[2*k]["ncon"], 20, name)
+            if cases[k]["t"]:
+                self.assertGreater(abs(found[2*k]["fx"]) + abs(found[2*k]["fy"]), 0.02*found[2*k]["fn"], name)
+            if cases[k]["f"]:
+                self.assertAlmostEqual(found[2*k]["fx_rel"], cases[k]["cx"], delta=1e-8)
+        pairs = {(round(row["fx"], 1), round(row["fy"], 1), round(row["fn"], 1), round(row.get("cksi", 0), 6)) for row in found[::2]}
+        self.assertGreaterEqual(len(pairs), len(CONFIGURATIONS) - 4)
+
+    def test_mirror_image_in_x(self):
+        self.compare(image_x, 2)
+
+    def test_mirror_image_in_y(self):
+        self.compare(image_y, 3)
+
+    def test_exchanged_bodies(self):
+        self.compare(exchanged, 4)
+
+    def test_lengths(self):
+        self.compare(longer, None, power_of_length=1, tolerance=1e-8)
+
+    def test_moduli(self):
+        self.compare(stiffer, None, power_of_modulus=1, tolerance=1e-8)
+
+
+if __name__ == "__main__":
+    unittest.main()
