@@ -189,10 +189,10 @@ class Relations(unittest.TestCase):
         self.compare(exchanged, 4)
 
     def test_lengths(self):
-        self.compare(longer, None, power_of_length=1, tolerance=1e-8)
+        self.compare(longer, None, power_of_length=1, tolerance=1e-11)
 
     def test_moduli(self):
-        self.compare(stiffer, None, power_of_modulus=1, tolerance=1e-8)
+        self.compare(stiffer, None, power_of_modulus=1, tolerance=1e-11)
 
 
 if __name__ == "__main__":
