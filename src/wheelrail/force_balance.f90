@@ -55,7 +55,8 @@ module contact_wheelrail_force_balance
       logical :: has_high = .false.
       !> Forces of trials are those of friction that is only estimated: what looks like a jump ends the search at once
       logical, private :: forces_are_estimates = .false.
-      type(height_trial), private :: last
+      !> The last trial, and the one before it
+      type(height_trial), private :: last, before
       !> Trials since the bracket was last halved, and its width then
       integer, private :: slow = 0
       real(wp), private :: old_width = huge(1.0_wp)
@@ -109,6 +110,7 @@ contains
       self%low = height_trial(z=touch)
       self%has_high = .false.
       self%last = height_trial(z=touch)
+      self%before = self%last
       self%forces_are_estimates = forces_are_estimates
       self%slow = 0
       self%old_width = huge(1.0_wp)
@@ -130,6 +132,8 @@ contains
       end if
       z = newton_step(self)
       if (.not. self%has_high) then
+         if (self%last%force < 0.0_wp .and. self%last%slope > 0.0_wp) &
+            & z = self%last%z + (self%target - self%last%force)/self%last%slope
          ! from below: at least a little further, and not too far
          z = max(z, self%touch + 1.02_wp*(self%low%z - self%touch) + self%resolution)
          z = min(z, self%touch + largest_growth*max(self%low%z - self%touch, 1.0e-3_wp), self%highest)
@@ -146,7 +150,7 @@ contains
       else if (self%low%z > self%touch .and. .not. self%low%force > 0.0_wp) then
          if (self%low%force < 0.0_wp) then
             ! friction carries more than the pressures: the power of the penetration means nothing
-            z = self%low%z + width*(self%target - self%low%force)/(self%high%force - self%low%force)
+            z = straight_step(self, margin*width)
          else
             ! the end below tells nothing of the force: from the one above
             z = newton_from(self, self%high)
@@ -175,6 +179,26 @@ contains
          z = newton_from(self, last)
       end associate
    end function newton_step
+
+   !> The secant through the last two trials; the chord of the bracket where it leads out of it
+   !>
+   !> The force rises faster and faster with the penetration: chords alone come near from below in ever smaller steps. The
+   !> slope that follows from the stiffness is of little use here, as it leaves out that friction and steep patches turn.
+   pure real(wp) function straight_step(self, away) result(z)
+      class(force_balance), intent(in) :: self
+      !> Distance from the ends of the bracket at least [mm]
+      real(wp), intent(in) :: away
+      real(wp) :: rise
+
+      associate (last => self%last, low => self%low, high => self%high)
+         rise = (last%force - self%before%force)*(last%z - self%before%z)
+         if (rise > 0.0_wp) then
+            z = last%z + (self%target - last%force)*(last%z - self%before%z)**2/rise
+            if (z > low%z + away .and. z < high%z - away) return
+         end if
+         z = low%z + (high%z - low%z)*(self%target - low%force)/(high%force - low%force)
+      end associate
+   end function straight_step
 
    !> Newton's step for F**(2/3) from a trial; the trial itself where its force or its slope is not positive
    pure real(wp) function newton_from(self, trial) result(z)
@@ -230,6 +254,7 @@ contains
       real(wp) :: width
 
       self%trials = self%trials + 1
+      self%before = self%last
       self%last = height_trial(z, force, slope, patches)
       if (.not. ieee_is_finite(force)) then
          self%ended = balance_ending%out_of_reach

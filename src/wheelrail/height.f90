@@ -33,6 +33,8 @@ module contact_wheelrail_height
 
    !> A trial after one that missed the force by less than so many times EPS solves pressures to that part of EPS
    real(wp), parameter :: near_by = 20.0_wp, sharper = 0.05_wp
+   !> Least part of the normal forces that pressures are made sharper for
+   real(wp), parameter :: smallest = 1.0e-4_wp
 
    !> Forces below this value ask for a wheel that just touches [N]
    real(wp), parameter :: no_force = 1.0e-9_wp
@@ -129,8 +131,9 @@ contains
       character(len=:), allocatable :: why
       character(len=8) :: missed
       real(wp) :: force, first_guess, guess, touch, bottom, slope, miss, last_miss
-      !> What the last trial missed the force by, relative to it
-      real(wp) :: off
+      !> What the last trial missed the force by, relative to it; the force relative to the normal forces where friction carries
+      !> nearly all of these, otherwise 1
+      real(wp) :: off, small
       logical :: separate
       integer :: round, trials
 
@@ -155,6 +158,7 @@ contains
       trials = 0
       last_miss = huge(last_miss)
       off = huge(off)
+      small = 1.0_wp
       do round = 1, rounds_apart
          if (.not. separate) exit
          call search(with_friction=.false., most_trials=problem%template%maxnr/2 - trials)
@@ -249,7 +253,8 @@ contains
 
          call log%hold()
          ! pressures within EPS of the last ones would be taken for those of this height
-         memory%here%pressure_eps = merge(sharper, 1.0_wp, off > problem%template%eps .and. off < near_by*problem%template%eps)
+         memory%here%pressure_eps = 1.0_wp
+         if (off > problem%template%eps .and. off*small < near_by*problem%template%eps) memory%here%pressure_eps = sharper*small
          call evaluate(problem, memory, z, with_friction, log, error)
          trials = trials + 1
          memory%here%pressure_eps = 1.0_wp
@@ -259,6 +264,10 @@ contains
          end if
          force = vertical_force(memory) + spring*(z - touch)
          off = abs(force - target)/target
+         ! a small difference of large forces needs sharper ones
+         small = 1.0_wp
+         if (sum_of_normal_forces(memory) > mostly_friction*target) &
+            & small = max(smallest, target/sum_of_normal_forces(memory))
          slope = vertical_slope(memory) + spring
          call trace_trial(log, result%force_evaluations + trials, z, force, slope)
       end subroutine try_height

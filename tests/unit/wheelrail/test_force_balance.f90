@@ -6,7 +6,8 @@ program test_force_balance
    use contact_wheelrail_force_balance, only : balance_ending, force_balance
    implicit none (type, external)
    !> Shapes of the force as a function of the penetration
-   integer, parameter :: hertz = 1, second_patch = 2, jump_down = 3, jump_up = 4, fold = 5, bounded = 6, broken = 7
+   integer, parameter :: hertz = 1, second_patch = 2, jump_down = 3, jump_up = 4, fold = 5, bounded = 6, broken = 7, &
+      & carried = 8
    type(test_suite) :: suite
    real(wp) :: target
    integer :: k
@@ -22,6 +23,9 @@ program test_force_balance
       call reaches(suite, jump_up, 1.0e3_wp*target, 0.1_wp, .false., 60)
    end do
    call reaches(suite, fold, 5.0e3_wp, 0.1_wp, .false., 40)
+   do k = 0, 3
+      call reaches(suite, carried, 10.0_wp**k, 0.05_wp, .true., 24)
+   end do
    call over_a_jump(suite)
    call jump_with_slopes(suite)
    call out_of_reach(suite)
@@ -49,6 +53,10 @@ contains
          force = force + 2.0e3_wp*sin(60.0_wp*d)
       case (bounded)
          force = 1.0e3_wp*tanh(max(0.0_wp, d))
+      case (carried)
+         ! friction lifts the wheel until a flank takes over; slopes leave out that the flank turns
+         force = -4.0e3_wp*d + 2.0e7_wp*max(0.0_wp, d - 0.2_wp)**2.5_wp
+         slope = -4.0e3_wp + 1.5e7_wp*max(0.0_wp, d - 0.2_wp)**1.5_wp
       case (broken)
          force = 0.0_wp
          if (d > 0.1_wp) force = ieee_value(force, ieee_quiet_nan)
