@@ -158,6 +158,8 @@ class Tools:
         size = int(self.gigabytes*2**30)
         resource.setrlimit(resource.RLIMIT_AS, (size, size))
         resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+        # processor time: on a busy machine a run may take several times as long
+        resource.setrlimit(resource.RLIMIT_CPU, (int(self.seconds) + 1, int(self.seconds) + 2))
 
     def command(self, arguments):
         """Run a command in the scratch folder: (exit code or None when it took too long, output, errors, seconds)"""
@@ -167,8 +169,8 @@ class Tools:
         process = subprocess.Popen(arguments, cwd=self.folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                                    stderr=subprocess.PIPE, env=environment, preexec_fn=self._limits, start_new_session=True)
         try:
-            output, errors = process.communicate(timeout=self.seconds)
-            code = process.returncode
+            output, errors = process.communicate(timeout=10*self.seconds)
+            code = None if process.returncode in (-signal.SIGXCPU, -signal.SIGKILL) else process.returncode
         except subprocess.TimeoutExpired:
             os.killpg(process.pid, signal.SIGKILL)
             output, errors = process.communicate()

@@ -199,6 +199,8 @@ def places(scene, case, placed, record, totals, patches, findings):
         return
     steep = max(abs(math.tan(patch["deltcp_tr"])) for patch in patches)
     slack = 2e-5 * (1.0 + min(steep, 20.0))  # of the sampled curves, vertically [mm]
+    if placed.rail.slices or placed.wheel.slices:
+        slack += geometry1.SLICED * (1.0 + min(steep, 20.0))
     by_rows = digits["D"] not in (5, 6) and not placed.wheel.slices
     regions = [region for region in placed.regions(depth, by_rows) if region["depth"] > 1e-3 * depth]
     if not regions:
@@ -215,9 +217,11 @@ def places(scene, case, placed, record, totals, patches, findings):
         region, patch = deepest, patches[0]
         if width < 1.2 * ds:  # fewer points of the table than make a mean
             return
-        if (placed.rail.slices or placed.wheel.slices) and depth < 1e-4:  # slices are sampled anew, with steps of 0.5 mm
+        if (placed.rail.slices or placed.wheel.slices) and depth < 1e-4:  # see SLICED
             return
         across = (0.05 * ds + 0.01 * width if width > 4 * ds else 0.3 * ds) + slack + geometry1.SAMPLE
+        if placed.rail.slices or placed.wheel.slices:
+            across += geometry1.SLICED_PLACE
         share = 2.0 * min(1.0, across / width)
         along_x = 0.01 * (region["x_bounds"][1] - region["x_bounds"][0]) + share * region["lean"] + 2e-3 * ds
         judge.exceeds(findings, "places", "YCP", abs(region["y"] - patch["ycp_tr"]), across)
@@ -314,6 +318,8 @@ def compared(findings, what, one, two, tolerance, lengths=1.0, forces=1.0, posit
         if not size > 0.0 or min(patch["ncon"] for patch in mine) < elements:
             continue
         tolerance = least + 1.5 * height / min(patch["pen"] for patch in mine)
+        if least > 1e-4:  # a vertical force that is the small difference of large forces
+            tolerance *= max(1.0, 0.2 * size / max(abs(totals["fz_tr"]), 1e-9))
         for name in ("fx_tr", "fy_tr", "fz_tr"):
             judge.exceeds(findings, what, name.upper(), abs(theirs[name] / forces - totals[name]) / size, tolerance)
         judge.exceeds(findings, what, "Z_WS", abs(theirs["z_ws"] / lengths - totals["z_ws"]) / max(mine[0]["pen"], 1e-12),
@@ -426,7 +432,19 @@ def cut(scene, tools, run, cases, findings):
         return
     origin = placed.rail_origin - np.array([0.0, case["deviation"][0], case["deviation"][1]])
     part["pair"]["track"] = [-1.0, float(origin[1]), float(origin[2]), part["pair"]["track"][3]]
-    compared(findings, "cut", cases[:1], results(scene1.solve(part, tools, "part"), scene["side"]), 5e-3, height=2e-6, elements=30)
+    found = []
+    compared(found, "cut", cases[:1], results(scene1.solve(part, tools, "part"), scene["side"]), 5e-3, height=2e-6, elements=30)
+    if found and max(patch["ncon"] for patch in patches) < 500:
+        # the table of gaps begins at the end of the rail: elements stand at other places of the contact. What is due to that goes
+        # with elements of a quarter of the size
+        found, fine = [], []
+        for one in (scene, part):
+            one = copy.deepcopy(one)
+            del one["cases"][1:]
+            one["grid"][:2] = [0.25 * value for value in one["grid"][:2]]
+            fine.append(results(scene1.solve(one, tools, "fine"), scene["side"]))
+        compared(found, "cut", *fine, 5e-3, height=2e-6, elements=30)
+    findings += found
 
 
 def slices(scene, tools, run, cases, findings):
@@ -446,7 +464,7 @@ def slices(scene, tools, run, cases, findings):
     same["pair"]["track"] = [-1.0, float(origin[1]), float(origin[2]), same["pair"]["track"][3]]
     same["pair"]["rail"]["slices"] = [[case["s"] + 100.0 * (k - 3), 0.0, 0.0] for k in range(7)]
     compared(findings, "slices", cases[:1], results(scene1.solve(same, tools, "same"), scene["side"]), 2e-2,
-             position=0.3 * scene["grid"][1], patches=False, height=2e-6, elements=30)
+             position=0.3 * scene["grid"][1] + geometry1.SLICED_PLACE, patches=False, height=2e-6, elements=30)
 
 
 def refined_grid(scene, tools, run, cases, findings):
@@ -507,7 +525,7 @@ def library(scene, tools, run, cases, findings):
                or name.startswith("through") and name.endswith(".inp")]
     for name in written:
         with open(os.path.join(tools.folder, name), encoding="utf-8") as held:
-            again = results(tools.run("written", held.read()), scene["side"])
+            again = results(tools.run("written", held.read(), options=scene1.OPTIONS), scene["side"])
         compared(findings, "written input", cases, again, 1e-5)
 
 

@@ -64,7 +64,7 @@ def main():
     os.chdir(folder)
     contact.output_to(folder, "through")
     digits, sign, answers = scene["digits"], -1.0 if scene["side"] == "left" else 1.0, []
-    with WheelRail(scene["side"], roller=bool(scene["roller"]), motion=MOTION[digits["T"]], contact_angle="established") as pair:
+    with WheelRail(scene["side"], roller=bool(scene["roller"]), motion=MOTION[digits["T"]]) as pair:
         settings(pair, scene)
         for case in scene["cases"]:
             track(pair, scene, case)

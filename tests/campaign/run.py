@@ -217,7 +217,7 @@ def arguments():
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--jobs", type=int, default=1)
     parser.add_argument("--store", default="campaign")
-    parser.add_argument("--limit", type=float, default=60.0, help="seconds that one run of the program may take")
+    parser.add_argument("--limit", type=float, default=60.0, help="seconds of processor time that one run of the program may take")
     parser.add_argument("--seconds", type=float, default=0.0, help="end the campaign after this time; started again it goes on")
     parser.add_argument("--only", type=int, default=None, help="one case by its number, done anew")
     parser.add_argument("--fresh", action="store_true", help="forget earlier results")

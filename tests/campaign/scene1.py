@@ -21,6 +21,9 @@ import profiles
 
 TRIALS = 30  # for the vertical force
 EPS = 1e-5
+# Contact angles of rails in slices are those of the place where the bodies touch: that of the section below the axle, which
+# input files take otherwise, is told by a warning
+OPTIONS = ("--json", "--hdf5", "--quiet", "--contact-angle", "contact")
 RELATIONS = ("none", "mirror", "translate", "scale", "file", "refined_profile", "cut", "slices", "refined_grid", "library")
 
 # ---- Scenes --------------------------------------------------------------------------------------------
@@ -257,7 +260,7 @@ def solve(scene, tools, name="run", side=None):
     """Run the program on a scene"""
     held = files(scene)
     del held["run.inp"]
-    return tools.run(name, text(scene, side), held)
+    return tools.run(name, text(scene, side), held, options=OPTIONS)
 
 
 # ---- Simpler scenes ------------------------------------------------------------------------------------------
