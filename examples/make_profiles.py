@@ -142,8 +142,7 @@ def groove_points():
 def write_table(name, points):
     with open(name, "w", newline="\n") as f:
         f.write("% Written by make_profiles.py; y and z in mm\n")
-        for y, z in points:
-            f.write(f"{y:10.4f} {z:12.8f}\n")
+        f.writelines(f"{y:10.4f} {z:12.8f}\n" for y, z in points)
 
 
 # ---- Output ----------------------------------------------------------------------------------------
@@ -152,9 +151,7 @@ def write(name, kind, comment, points):
         f.write("! Written by make_profiles.py; coordinates in mm\n"
                 f"header.begin\n  version = 1\n  type    = {kind}\nheader.end\n"
                 f"spline.begin\n  comment     = '{comment}'\n  units.len.f = 1000.\n  inversion   = 0\n  point.begin\n")
-        for y, z in points:
-            # plus zero: no negative zeros
-            f.write(f"  {round(y, 9) + 0.0:15.9f} {round(z, 9) + 0.0:15.9f}\n")
+        f.writelines(f"  {round(y, 9) + 0.0:15.9f} {round(z, 9) + 0.0:15.9f}\n" for y, z in points)
         f.write("  point.end\nspline.end\n")
 
 

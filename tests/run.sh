@@ -29,6 +29,7 @@ install_missing
 install_octave
 install_python_packages
 install_valgrind
+install_linters
 if [ -n "$sanitize" ]; then
   . "$top/tests/support/sanitize.sh"
 fi

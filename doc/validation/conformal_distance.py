@@ -130,7 +130,7 @@ class Pair:
         points, angles = self.curve()
         plane = axes(ANGLE_REF)
         local = self.turn.T @ (self.reference - self.origin)
-        m = int(round(12.0 / step))
+        m = round(12.0 / step)
         s_net = self.w_ref + step * np.arange(-m, m + 1)
         x_net = local[0] + STEP * np.arange(-60, 61)
         net = np.array([[plane.T @ (self.point_of_wheel(x, s) - self.reference) for s in s_net] for x in x_net])

@@ -9,11 +9,10 @@ begin at any of four places. Needs numpy and scipy, and conformal_distance.py be
 import os
 import sys
 
-import numpy as np
-from scipy.optimize import brentq
-
 import conformal_distance
+import numpy as np
 from conformal_distance import axes, pressures, profile, spline
+from scipy.optimize import brentq
 
 STEP, RADIUS, Y_WS, ROLL, YAW, Y_WHEEL = 0.4, 444.0, 14.74, -0.0013, 0.0050, 673.7
 GAUGE_HEIGHT, GAUGE = 15.875, 1435.1

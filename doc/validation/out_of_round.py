@@ -11,7 +11,7 @@ import os
 import sys
 
 import numpy as np
-from scipy.interpolate import CubicHermiteSpline, CubicSpline, BSpline, make_smoothing_spline, RectBivariateSpline
+from scipy.interpolate import BSpline, CubicHermiteSpline, CubicSpline, RectBivariateSpline, make_smoothing_spline
 
 REFERENCE = os.path.join(os.path.normpath(sys.argv[1]), '') if len(sys.argv) > 1 else ''
 
@@ -19,7 +19,9 @@ REFERENCE = os.path.join(os.path.normpath(sys.argv[1]), '') if len(sys.argv) > 1
 def surface(folder, name, smooth, lines):
     """Coordinates y and z of all lines across the profile as functions of the angle: slices are control points"""
     angles, files = [], []
-    for text in open(folder + name + ".slcw"):
+    with open(folder + name + ".slcw") as file:
+        lines = file.readlines()
+    for text in lines:
         words = text.split()
         if len(words) == 2 and name in words[1]:
             angles.append(float(words[0]))
@@ -147,7 +149,9 @@ def compute(job, lines, step):
 def wide_rail():
     """The rail of wheelflat, z down"""
     points = []
-    for text in open(REFERENCE + "examples/r300_wide.prr"):
+    with open(REFERENCE + "examples/r300_wide.prr") as file:
+        lines = file.readlines()
+    for text in lines:
         try:
             points.append([float(word) for word in text.split()[:2]])
         except ValueError:

@@ -9,12 +9,11 @@ reference has it. Needs numpy and scipy, and measured_profiles.py and conformal_
 import os
 import sys
 
-import numpy as np
-from scipy.optimize import brentq
-
 import conformal_distance
 import measured_profiles
+import numpy as np
 from conformal_distance import axes, pressures, profile, spline
+from scipy.optimize import brentq
 
 CASE, STEP, GAUGE_HEIGHT, GAUGE = 3, 0.2, 14.0, 1435.0
 
@@ -51,7 +50,10 @@ def main(folder):
     published = compare_out.read(os.path.join(folder, "examples/mbench_a22_varfric.ref_out"))[CASE]
     first, second = published[1], published[2]
     between = (first["YCP(TR)"] * second["FN"] + second["YCP(TR)"] * first["FN"]) / (first["FN"] + second["FN"])
-    gaps = [pair.patch(first, published[0]["Z_WS"], None, between, 1e3), pair.patch(second, published[0]["Z_WS"], None, 0.0, between)]
+    gaps = [
+        pair.patch(first, published[0]["Z_WS"], None, between, 1e3),
+        pair.patch(second, published[0]["Z_WS"], None, 0.0, between),
+    ]
     cosines = [np.cos(first["DELTCP(TR)"]), np.cos(second["DELTCP(TR)"])]
     total = first["FN"] + second["FN"]
     print("published: FN %.1f and %.1f N, approach %.6f and %.6f mm, largest pressure %.1f and %.1f N/mm2" % tuple(
@@ -61,9 +63,16 @@ def main(folder):
             return [pressures(h[name] - down * c) for h, c in zip(gaps, cosines)]
         down = brentq(lambda d: sum(p.sum() for p in solve(d)) * STEP**2 - total, -1e-3, 1e-3, xtol=1e-8)
         p = solve(down)
-        print("%-24s FN %.1f and %.1f N, approach %.6f and %.6f mm, largest pressure %.1f and %.1f N/mm2" % (
-            name, *(q.sum() * STEP**2 for q in p), *(down * c - h[name].min() for h, c in zip(gaps, cosines)), *(q.max() for q in p)),
-            flush=True)
+        print(
+            "%-24s FN %.1f and %.1f N, approach %.6f and %.6f mm, largest pressure %.1f and %.1f N/mm2"
+            % (
+                name,
+                *(q.sum() * STEP**2 for q in p),
+                *(down * c - h[name].min() for h, c in zip(gaps, cosines)),
+                *(q.max() for q in p),
+            ),
+            flush=True,
+        )
 
 
 if __name__ == "__main__":

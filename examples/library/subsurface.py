@@ -1,7 +1,6 @@
 """Stresses below a ball that slides over a plane: their largest value moves towards the surface with friction."""
-import numpy as np
-
 import contact
+import numpy as np
 
 with contact.Problem(motion="steady") as ball:
     ball.set_material(g=80000.0, nu=0.3)

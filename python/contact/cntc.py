@@ -12,7 +12,8 @@ from __future__ import annotations
 
 import os
 import sys
-from typing import Any, Sequence, Union
+from collections.abc import Sequence
+from typing import Any, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -88,7 +89,7 @@ def _ints(values: ArrayLike | None) -> NDArray[np.intc]:
 
 def _tell(routine: str, code: int, idebug: int) -> None:
     """Print what an error code means, if that is wanted"""
-    if code < 0 and idebug >= 1 or code > 0 and idebug >= 2:
+    if (code < 0 and idebug >= 1) or (code > 0 and idebug >= 2):
         what = f"{code} elements at the border of the grid" if 0 < code < 300 else meaning(code)
         print(f"{routine}: {what} (code {code})", file=sys.stdout)
 
@@ -316,7 +317,7 @@ def setprofileinputvalues(ire: Number, values: ArrayLike, iparam: ArrayLike | No
     table = np.asarray(values, dtype=np.float64)
     if table.ndim == 2 and table.shape[1] != 2 and table.shape[0] == 2:
         table = table.T
-    elif table.ndim not in (1, 2) or table.ndim == 2 and table.shape[1] != 2 or table.ndim == 1 and table.size % 2:
+    elif table.ndim not in (1, 2) or (table.ndim == 2 and table.shape[1] != 2) or (table.ndim == 1 and table.size % 2):
         raise ValueError(f"a profile has y and z for each point, this is an array of shape {table.shape}")
     ints = _ints([0] if iparam is None or np.size(iparam) == 0 else iparam)
     reals = _reals([-1, 0] if rparam is None or np.size(rparam) == 0 else rparam)

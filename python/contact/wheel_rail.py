@@ -3,15 +3,25 @@ from __future__ import annotations
 
 import os
 import warnings
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from . import cntc
-from ._element import (Element, Field, Patch, Stresses, buried_ends, fail_if, read_patch, read_stresses, warn_of_border,
-                       warn_of_few_elements)
+from ._element import (
+    Element,
+    Field,
+    Patch,
+    Stresses,
+    buried_ends,
+    fail_if,
+    read_patch,
+    read_stresses,
+    warn_of_border,
+    warn_of_few_elements,
+)
 from .errors import ContactWarning
 
 # Values of the flag own_angle
@@ -242,8 +252,12 @@ class WheelRail(Element):
         forces = Forces(*(Wrench(force, moment) for force, moment in values))
         buried = buried_ends(number)
         if buried:
-            warnings.warn(f"the {' and the '.join(buried)} end of the wheel profile stands within the rail where no contact patch is: "
-                          "an edge that touches there carries no load here", ContactWarning, stacklevel=2)
+            warnings.warn(
+                f"the {' and the '.join(buried)} end of the wheel profile stands within the rail where no contact patch is: "
+                "an edge that touches there carries no load here",
+                ContactWarning,
+                stacklevel=2,
+            )
         return WheelRailResult(patches, forces, cntc.getwheelsetposition(number), cntc.getwheelsetvelocity(number),
                                self._status, self._reason, buried)
 

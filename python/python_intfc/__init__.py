@@ -1,2 +1,2 @@
 """The names under which scripts for the published library import its routines; see contact.cntc."""
-from contact.cntc import *  # noqa: F401,F403
+from contact.cntc import *  # noqa: F403

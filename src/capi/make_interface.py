@@ -237,12 +237,12 @@ def c_doors(routines, undocumented):
 
 def page(constants, routines):
     """Text of doc/user/routines.md"""
-    lines = ["# Routines and named numbers of the library", "",
-             "All routines of [the library](library.md) with their arguments as in C and Fortran, and the numbers that stand for flags, fields "
-             "and codes. Matlab and", "Python have functions of the same names without the lengths of arrays. Units: L length, F force, V velocity, "
-             "A angle [rad], T time [s]; the flag", "`CNTC_if_units` chooses between mm and m. An array has its length in brackets; fields have one "
-             "value per element, x running fastest.", "",
-             f"<!-- {ORIGIN} -->"]
+    lines = [
+        "# Routines and named numbers of the library", "",
+        "All routines of [the library](library.md) with their arguments as in C and Fortran, and the numbers that stand for flags,",
+        "fields and codes. Matlab and Python have functions of the same names without the lengths of arrays. Units: L length,",
+        "F force, V velocity, A angle [rad], T time [s]; the flag `CNTC_if_units` chooses between mm and m. An array has its",
+        "length in brackets; fields have one value per element, x running fastest.", "", f"<!-- {ORIGIN} -->"]
     for title, items in routines:
         lines += ["", f"## {title}"]
         for routine in items:
@@ -265,7 +265,7 @@ def page(constants, routines):
                 table = not about
             lines += ["```"] if table else []
     # stars behind names are no emphasis
-    lines = [re.sub(r"(?<!`)\b(CNTC_[a-z]+_\*|CNTC_\w+)", r"`\1`", line) if line[:2] in ("- ",) else line for line in lines]
+    lines = [re.sub(r"(?<!`)\b(CNTC_[a-z]+_\*|CNTC_\w+)", r"`\1`", line) if line[:2] == "- " else line for line in lines]
     lines += ["", "## Named numbers"]
     for title, items in constants:
         lines += ["", f"### {title}", "", "| name | number | meaning |", "|---|---|---|"]

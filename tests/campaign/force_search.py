@@ -37,7 +37,7 @@ except ImportError:
     print("SKIPPED: there is no numpy")
     sys.exit(77)
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-import profiles  # noqa: E402
+import profiles
 
 EPS, STEPS, MAXNR = 1e-5, 1e-4, 30
 WITHIN_STEPS = "met within grid steps"
@@ -58,7 +58,10 @@ def roughen(rng, recipe):
     elif what == "noise":
         recipe.update(spacing=[0.2, rng.uniform(0.3, 0.8)], noise=10**rng.uniform(-3.3, -2.2))
     else:
-        bells = [[rng.uniform(0, 3), rng.uniform(-8, 12), rng.uniform(6, 20)], [rng.uniform(0, 2), rng.uniform(-38, -20), rng.uniform(4, 9)]]
+        bells = [
+            [rng.uniform(0, 3), rng.uniform(-8, 12), rng.uniform(6, 20)],
+            [rng.uniform(0, 2), rng.uniform(-38, -20), rng.uniform(4, 9)],
+        ]
         recipe.setdefault("wear", []).extend(bells)
     return what
 
@@ -74,14 +77,14 @@ def make_pair(seed, number, folder):
         bodies = [body for body in ("rail", "wheel") if not pair[body].get("slices")]
         rough = [roughen(rng, pair[body]) for body in rng.sample(bodies, rng.randint(1, len(bodies)))]
     d = dict(number=number, kind_of_pair=pair["kind"], rough=rough, rail=pair["rail"], wheel=pair["wheel"], track=pair["track"],
-             wheelset=pair["wheelset"] if "wheelset" in pair else [1360.0, -70.0, 460.0])
+             wheelset=pair.get("wheelset", [1360.0, -70.0, 460.0]))
     d["rail_line"], d["wheel_line"] = (profiles.write(pair[body], folder, body) for body in ("rail", "wheel"))
     free = d["kind_of_pair"] in ("crown", "grooved")
     size = d["rail"].get("scale", 1.0)
     varies = bool(d["rail"].get("slices") or d["wheel"].get("slices"))
     d["left"] = rng.random() < 0.5
-    d["roller"] = d["track"][0] <= 0.0 and not d["rail"].get("slices") and rng.random() < 0.5 \
-        or not varies and rng.random() < 0.2
+    d["roller"] = (d["track"][0] <= 0.0 and not d["rail"].get("slices") and rng.random() < 0.5) \
+        or (not varies and rng.random() < 0.2)
     if d["roller"]:
         if d["track"][0] > 0.0:
             d["track"] = [-1.0, 752.0*size, 0.0, 0.0]
@@ -277,9 +280,8 @@ def judge(program, seed, number, root, keep):
                     result["kind"] += ", springs not in balance"
                 else:
                     result["kind"] += ", not converged"
-            elif d["F"] == 1 and error <= 1.01*STEPS:
-                if abs(d["fx"] - t["fx_ws"]) > 3e-4*math.hypot(d["fx"], d["fz"]):
-                    result["kind"] += ", FX SILENT"
+            elif d["F"] == 1 and error <= 1.01*STEPS and abs(d["fx"] - t["fx_ws"]) > 3e-4*math.hypot(d["fx"], d["fz"]):
+                result["kind"] += ", FX SILENT"
             if result["trials"] is not None and result["trials"] > MAXNR:
                 result["kind"] += ", TOO MANY TRIALS"
     finding = any(word.isupper() and len(word) > 2 for word in re.split(r"[ ,]+", result["kind"])) or result["kind"] == "failed"

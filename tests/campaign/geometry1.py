@@ -6,13 +6,11 @@ nothing is taken from a formula for the contact locus.
 import math
 
 import numpy as np
-
 import profiles
 
-
 SAMPLE = 0.005  # distance of points of the rail [mm]
-# Surfaces through slices have lines at distances of 0.5 mm across the profile. Where the curvature jumps, spline and profile are apart
-# by this [mm], and shallow contacts move by this along the profile. With lines at 0.05 mm both are gone
+# Surfaces through slices have lines at distances of 0.5 mm across the profile. Where the curvature jumps, spline and profile are
+# apart by this [mm], and shallow contacts move by this along the profile. With lines at 0.05 mm both are gone
 SLICED, SLICED_PLACE = 2e-4, 0.02
 
 
@@ -237,7 +235,7 @@ class Placed:
         kappa = 1.0 / (2.0 * self.radius) + (1.0 / (2.0 * self.roller) if self.roller else 0.0)
         half = math.sqrt(max(depth, 1e-9) / kappa)
         angles = np.linspace(-0.3, 0.3, 241)
-        points, gap = self.gaps(s, angles)
+        _points, gap = self.gaps(s, angles)
         # between these points the gap may be smaller by what the curvatures make of half a step
         below = np.isfinite(gap) & (gap < 0.25 * depth + 1.5 * kappa * (0.5 * (angles[1] - angles[0]) * self.radius)**2 + 2e-4)
         if not below.any():
@@ -256,7 +254,7 @@ class Placed:
 
     def _rows(self, first, last, angles, kappa, by_rows):
         s = np.linspace(first, last, 501)
-        points, gap = self.gaps(s, angles)
+        points, _gap = self.gaps(s, angles)
         y_rows = np.linspace(points[1].min(), points[1].max(), 601)
         width = y_rows[1] - y_rows[0]
         rows, places = np.full((len(angles), len(y_rows)), np.inf), np.zeros((len(angles), len(y_rows)))

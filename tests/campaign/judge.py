@@ -22,7 +22,7 @@ PRINTED = 5e-6
 # Round-off of sums over some thousand elements
 ROUND_OFF = 1e-9
 # Columns of the element lines of a .mat file, from the first
-MAT_COLUMNS = "element eldiv h mu pn px py un ux uy slip".split()
+MAT_COLUMNS = ["element", "eldiv", "h", "mu", "pn", "px", "py", "un", "ux", "uy", "slip"]
 
 
 def finding(judge, what, size=None, limit=None, status="disagreement"):

@@ -9,10 +9,9 @@ import os
 import re
 import sys
 
-import numpy as np
-
 import geometry1
 import judge
+import numpy as np
 import profiles
 import scene1
 
@@ -194,8 +193,12 @@ def places(scene, case, placed, record, totals, patches, findings):
         return
     if not 1e-6 < touch[1] < placed.wheel.length - 1e-6:
         # an edge touches where no tangent plane is shared; the program has no patch there, or one that is cut off, and says so
-        if not ("buried" in record or any("wheel profile" in patch.get("border", {}).get("reached", "") for patch in record["patches"])):
-            findings.append(judge.finding("gap", "an end of the wheel's profile stands within the rail, and nothing is said", depth, 0.0))
+        if not (
+            "buried" in record or any("wheel profile" in patch.get("border", {}).get("reached", "") for patch in record["patches"])
+        ):
+            findings.append(
+                judge.finding("gap", "an end of the wheel's profile stands within the rail, and nothing is said", depth, 0.0)
+            )
         return
     steep = max(abs(math.tan(patch["deltcp_tr"])) for patch in patches)
     slack = 2e-5 * (1.0 + min(steep, 20.0))  # of the sampled curves, vertically [mm]
@@ -414,7 +417,7 @@ def cut(scene, tools, run, cases, findings):
     if scene["roller"] or rail.get("slices") or rail.get("smooth") or not scene1.sampled(scene):
         return
     part = copy.deepcopy(scene)
-    for k, (record, totals, patches) in enumerate(cases):
+    for _k, (record, _totals, patches) in enumerate(cases):
         if not patches or not settled(record):
             return
     case = part["cases"][0]
@@ -424,7 +427,7 @@ def cut(scene, tools, run, cases, findings):
     low, high = min(p["ycp_r"] for p in patches) - margin, max(p["ycp_r"] for p in patches) + margin
     placed = geometry1.Placed(part, case, 0.0)
     whole = profiles.points(rail)
-    if low <= whole[0, 0] and high >= whole[-1, 0] or min(patch["deltcp_r"] for patch in patches) < -1.2:
+    if (low <= whole[0, 0] and high >= whole[-1, 0]) or min(patch["deltcp_r"] for patch in patches) < -1.2:
         return
     factor = rail.get("scale", 1.0)
     part["pair"]["rail"]["cut"] = [low / factor, high / factor]
@@ -521,8 +524,8 @@ def library(scene, tools, run, cases, findings):
             for name, odd in (("fn", 1.0), ("fx", 1.0), ("pmax", 1.0), ("pen", 1.0)):
                 judge.exceeds(findings, "library", name.upper(), abs(odd * other[name] - patch[name])
                               / max(abs(patch[name]), 0.1 * patch["fn"] if name == "fx" else 0.0), same)
-    written = [name for name in os.listdir(tools.folder) if name.startswith("caddon") and name.endswith(".inp")
-               or name.startswith("through") and name.endswith(".inp")]
+    written = [name for name in os.listdir(tools.folder) if (name.startswith("caddon") and name.endswith(".inp"))
+               or (name.startswith("through") and name.endswith(".inp"))]
     for name in written:
         with open(os.path.join(tools.folder, name), encoding="utf-8") as held:
             again = results(tools.run("written", held.read(), options=scene1.OPTIONS), scene["side"])

@@ -9,14 +9,12 @@ import json
 import os
 import sys
 
-import numpy as np
-
 import contact
+import numpy as np
+import profiles
+import scene1
 from contact import cntc
 from contact.wheel_rail import WheelRail
-
-import scene1
-import profiles
 
 MOTION = {0: "frictionless", 1: "shift", 2: "transient", 3: "steady"}
 MATERIAL = {0: [], 1: [0.5, 0.5, 0.001, 0.001], 2: [1e-4, 0.5, 0.8, 1.0], 3: [0.5, 0.8, 1.0], 4: [10000.0, 0.02, 0.0, 0.0],
@@ -25,7 +23,7 @@ MATERIAL = {0: [], 1: [0.5, 0.5, 0.001, 0.001], 2: [1e-4, 0.5, 0.8, 1.0], 3: [0.
 
 def settings(pair, scene):
     """What stays the same in all cases"""
-    digits, sign = scene["digits"], -1.0 if scene["side"] == "left" else 1.0
+    digits = scene["digits"]
     pair.set_flags(if_wrtinp=1, ic_bound=digits["B"], ic_discns=digits["D"], ic_inflcf=digits["C"], ic_norm=digits["N"],
                    ic_force=digits["F"])
     pair.set_solver(eps=scene1.EPS, maxgs=999, maxin=100, maxnr=scene1.TRIALS,

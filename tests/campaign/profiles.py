@@ -344,7 +344,7 @@ def _file(rng, recipe):
         recipe["mirror"] = 1
     if rng.random() < 0.2:
         recipe["reverse"] = 1
-    if rng.random() < 0.15 or recipe["format"] == "miniprof" and rng.random() < 0.7:
+    if rng.random() < 0.15 or (recipe["format"] == "miniprof" and rng.random() < 0.7):
         recipe["up"] = 1
     if rng.random() < 0.1:
         recipe["metres"] = 1

@@ -197,8 +197,13 @@ def replay(options):
         folder = os.path.join(options.store, f"scratch{os.getpid()}")
         findings = judged(module, scene, options, folder)
         if options.reduce and status_of(findings) == "disagreement":
-            scene, findings = minimise.smallest(kind_of(module), scene, findings,
-                                                lambda simpler, kind=module: judged(kind, simpler, options, folder), options.minimise)
+            scene, findings = minimise.smallest(
+                kind_of(module),
+                scene,
+                findings,
+                lambda simpler, kind=module, folder=folder: judged(kind, simpler, options, folder),
+                options.minimise,
+            )
             keep(kind_of(module), scene, findings, os.path.join(options.store, "minimal"))
         shutil.rmtree(folder, ignore_errors=True)
         bad = bad or status_of(findings) == "disagreement"
@@ -240,7 +245,7 @@ def main():
     if options.scenes:
         return 1 if replay(options) else 0
     modules = ("1", "3") if options.module == "both" else (options.module,)
-    return 1 if any([campaign(module, options) for module in modules]) else 0
+    return 1 if any(campaign(module, options) for module in modules) else 0
 
 
 if __name__ == "__main__":

@@ -300,4 +300,4 @@ def reduce(scene):
         for j in (1, 2, 3, 4):
             yield from changed(lambda s, k=k, j=j: s["cases"][k]["speed"].__setitem__(j, 0.0))
         for name, digits in (("y", "%.2g"), ("fz", "%.2g")):
-            yield from changed(lambda s, k=k, name=name, digits=digits: s["cases"][k].update({name: float(digits % case[name])}))
+            yield from changed(lambda s, k=k, name=name, value=float(digits % case[name]): s["cases"][k].update({name: value}))

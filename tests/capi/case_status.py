@@ -17,8 +17,8 @@ import warnings
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "conformance"))
 from checks import SOURCE, check, close, finish, same
-import numpy as np
 import contact
+import numpy as np
 from contact import cntc
 from contact._library import library
 
@@ -75,16 +75,41 @@ TABLE = [
     (3, "normal", module3(limits="2 100 30 1 1e-9"), 1, "normal", -27),
     (3, "tangential", module3(output="0201201", limits=GS.format(9)), 1, "tangential", -28),
     (3, "outer", module3(digits="203100", limits="999 100 30 20 1e-5", **SOFT), 1, "outer", -28),
-    (3, "friction law", module3(laws="0222020", limits="999 1 30 1 1e-5", motion="100 0.01 0 0", friction=FALLING), 1, "outer", -28),
-    (3, "force", module3(digits="203110", laws="0222020", motion="100 0.9 0 0", friction=FALLING, rolling="0 0.1 1e7"),
-     1, "force", -28),
+    (
+        3,
+        "friction law",
+        module3(laws="0222020", limits="999 1 30 1 1e-5", motion="100 0.01 0 0", friction=FALLING),
+        1,
+        "outer",
+        -28,
+    ),
+    (
+        3,
+        "force",
+        module3(digits="203110", laws="0222020", motion="100 0.9 0 0", friction=FALLING, rolling="0 0.1 1e7"),
+        1,
+        "force",
+        -28,
+    ),
     (3, "refused", module3(digits="203110", motion="100 1.5 0 0"), 2, "none", None),
     (1, "solved", module1(), 0, "none", 0),
     (1, "normal", module1(limits="2 100 30 1 1e-9"), 1, "normal", 0),
     (1, "tangential", module1(output="0201201", limits=GS.format(14)), 1, "tangential", 0),
     # a given approach: no search for the force starts the second pass, the last one, from the result of another
-    (1, "outer", module1(digits="1203000", limits="999 100 30 2 1e-8", material="0 .5 1e4 1e6", friction="0.9 0.9",
-                         position="0.0 0.0 0.5 0.0 0.0 0.0"), 1, "outer", 0),
+    (
+        1,
+        "outer",
+        module1(
+            digits="1203000",
+            limits="999 100 30 2 1e-8",
+            material="0 .5 1e4 1e6",
+            friction="0.9 0.9",
+            position="0.0 0.0 0.5 0.0 0.0 0.0",
+        ),
+        1,
+        "outer",
+        0,
+    ),
     (1, "force", module1(digits="1203110", velocity="20000. 0.0 0.0 0.0 0.0 40000"), 1, "force", -29),
     (1, "away", module1(position="0.0 700.0 60000. 0.0 0.0 0.0"), 1, "force", 0),
     (1, "refused", module1(digits="1203000", position="0.0 0.0 600. 0.0 0.0 0.0"), 2, "none", -99),
@@ -92,8 +117,7 @@ TABLE = [
 
 
 def run(*arguments):
-    return subprocess.run([PROGRAM, *arguments], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                          text=True, timeout=120)
+    return subprocess.run([PROGRAM, *arguments], stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=120)
 
 
 def hdf5_status(name):
@@ -142,7 +166,7 @@ def by_program(name, text, state, missed):
         same((in_file, on_page), (reason, reason), f"{name}: the reason in the HDF5 file and for the page")
         same(word, WORDS[state], f"{name}: status for the page")
     tables = sorted(glob.glob(glob.escape(name) + ".0001*.mat"))
-    check(bool(tables) == (state == 0 or state == 1 and "away" not in name), f"{name}: .mat files {tables}")
+    check(bool(tables) == (state == 0 or (state == 1 and "away" not in name)), f"{name}: .mat files {tables}")
     expected = WORDS[state] + (f" ({missed}): {reason}" if state else "")
     for table in tables:
         with open(table) as file:
@@ -217,7 +241,12 @@ def by_library3(name, state, missed, code, reason):
         if name == "force":
             forces = cntc.getcontactforces(problem.number, 1)
             px = cntc.gettractions(problem.number, 1)[1]
-            close(forces[1], np.prod(cntc.getgriddiscretization(problem.number, 1)) * np.sum(px), 1e-9 * abs(forces[0]), "a missed force is the sum of its tractions")
+            close(
+                forces[1],
+                np.prod(cntc.getgriddiscretization(problem.number, 1)) * np.sum(px),
+                1e-9 * abs(forces[0]),
+                "a missed force is the sum of its tractions",
+            )
             close(abs(forces[1]), 10.0, 1e-3, "full sliding")
             # what was asked for is still asked for
             for _ in range(2):

@@ -2,6 +2,7 @@
 # Install into a scratch folder, then build and run programs of others against it: by CMake package, by pkg-config
 # with the shared and with the static library, and as callers of the published library are built, by its file names
 # usage: consumer.sh BUILD_FOLDER C_COMPILER FORTRAN_COMPILER
+# shellcheck disable=SC2086  # options are lists of words
 set -eu
 build=$1
 compiler=$2
@@ -45,7 +46,6 @@ same() {
   "$2" > "$1.txt"
   cmp stranger.txt "$1.txt"
 }
-# shellcheck disable=SC2086
 echo "-- file names of the published library, linked by name, by path, and as libcontact"
 "$compiler" -std=c90 $strict -I"$include" "$here/consumer/stranger.c" -o stranger_name -L"$work/prefix/bin" \
   -l:contact_addon_linux64.so -lm
@@ -102,9 +102,10 @@ eval "\"\$compiler\" -Wall -Wextra -Werror \"\$here/consumer/consumer.c\" -o con
   '"-Wl,-rpath,$library_folder"'
 run shared ./consumer_shared
 
-# caller NAME COMPILER FILES: the library's routines, which need no module file of ours
-caller() {
+# build_caller NAME COMPILER FILES: the library's routines, which need no module file of ours
+build_caller() {
   name=$1
+  # shellcheck disable=SC2034  # eval reads it
   with=$2
   shift 2
   eval "\"\$with\" \"\$@\" -o \"caller_\$name\" $flags" '"-Wl,-rpath,$library_folder"'
@@ -112,10 +113,10 @@ caller() {
 }
 examples=$CONTACT_SOURCE/examples/library
 echo "-- pkg-config, routines from C, Fortran with the module, old Fortran"
-caller c "$compiler" "$examples/creep_curve.c"
-caller module "$fortran" "$work/prefix/include/contact_addon.f90" "$examples/creep_curve.f90"
+build_caller c "$compiler" "$examples/creep_curve.c"
+build_caller module "$fortran" "$work/prefix/include/contact_addon.f90" "$examples/creep_curve.f90"
 cmp caller_c.txt caller_module.txt
-caller fixed "$fortran" "$here/consumer/fixed.F"
+build_caller fixed "$fortran" "$here/consumer/fixed.F"
 if command -v c++ > /dev/null 2>&1; then
   # shellcheck disable=SC2086
   eval "c++ \$strict \"\$here/consumer/plus.cpp\" -o caller_plus $flags" '"-Wl,-rpath,$library_folder"'

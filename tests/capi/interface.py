@@ -51,7 +51,7 @@ def implemented():
         with open(path, encoding="utf-8") as file:
             text = re.sub(r"&\s*\n\s*&?", " ", file.read())
         for match in re.finditer(r"^\s*subroutine (\w+)\s*(?:\((.*?)\))?\s*bind\(c.*?\)(.*?)^\s*end subroutine \1", text,
-                                 re.M | re.S):
+                                 re.MULTILINE | re.DOTALL):
             name, names, body = match.groups()
             kinds = {}
             for line in body.splitlines():

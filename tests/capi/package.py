@@ -9,8 +9,8 @@ import warnings
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "conformance"))
 from checks import SOURCE, check, close, finish, same
-import numpy as np
 import contact
+import numpy as np
 from contact import cntc
 from contact._library import call, last_error
 
@@ -128,7 +128,7 @@ def many():
     problems = []
 
     def fill():
-        for _ in range(101):
+        while len(problems) < 101:
             problems.append(contact.Problem())
 
     raises(contact.ContactError, fill, "close some", "too many problems")
@@ -247,7 +247,7 @@ def documents():
     os.chdir(SOURCE)
     for name in ("README.md", "python/README.md", "doc/user/python.md"):
         with open(name, encoding="utf-8") as file:
-            pieces = re.findall(r"^```python\n(.*?)^```", file.read(), re.M | re.S)
+            pieces = re.findall(r"^```python\n(.*?)^```", file.read(), re.MULTILINE | re.DOTALL)
         check(len(pieces) > 0, f"{name} has pieces of Python")
         room = {}
         for piece in pieces:
@@ -270,7 +270,11 @@ def doubts():
         problem.set_friction(0.3)
         problem.set_normal_force(9.1954)
         problem.set_creepages(0.001)
-        for first, border in (((-0.5, -0.5), ("x low", "x high", "y low", "y high")), ((-2.2, -0.6), ("y low",)), ((-2.2, -2.2), ())):
+        for first, border in (
+            ((-0.5, -0.5), ("x low", "x high", "y low", "y high")),
+            ((-2.2, -0.6), ("y low",)),
+            ((-2.2, -2.2), ()),
+        ):
             mx = 10 if len(border) == 4 else 44
             problem.set_grid(mx, mx, 0.1, 0.1, *first)
             problem.set_distance(lambda x, y: 0.5 * (x**2 + y**2))
@@ -292,8 +296,10 @@ def doubts():
         across = cntc.getflags(problem.number, 1, cntc.CNTC["own_across"])
         same((result.elements_across, across.tolist()), (3, [3]), "elements across")
         same([text.split(":")[0] for text in told], ["contact is only 3 elements wide"], "warning of few elements")
-    rows = np.array([[float(word) for word in line.split()[:2]] for line in open(os.path.join(PROFILES, "60E1.prr"), encoding="utf-8")
-                     if re.match(r"\s*[-0-9.]+\s+[-0-9.]+\s*$", line)])
+    with open(os.path.join(PROFILES, "60E1.prr"), encoding="utf-8") as file:
+        rows = np.array(
+            [[float(word) for word in line.split()[:2]] for line in file if re.match(r"\s*[-0-9.]+\s+[-0-9.]+\s*$", line)]
+        )
     for side in ("right", "left"):
         with contact.WheelRail(side) as pair:
             braked_wheel(pair)
@@ -365,7 +371,19 @@ def output():
 
 
 if __name__ == "__main__":
-    for part in (results, distance, prescribed_and_transient, errors, many, threads, wheel_on_rail, older_scripts, documents, doubts, temperatures,
-                 output):
+    for part in (
+        results,
+        distance,
+        prescribed_and_transient,
+        errors,
+        many,
+        threads,
+        wheel_on_rail,
+        older_scripts,
+        documents,
+        doubts,
+        temperatures,
+        output,
+    ):
         part()
     finish()

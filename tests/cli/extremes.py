@@ -108,7 +108,7 @@ def run(seed):
                                   capture_output=True, text=True, errors="replace", stdin=subprocess.DEVNULL)
         except subprocess.TimeoutExpired:
             return False, "does not end in time"
-        if done.returncode not in (0, 1) or "Backtrace" in done.stderr or done.returncode == 1 and not done.stderr.strip():
+        if done.returncode not in (0, 1) or "Backtrace" in done.stderr or (done.returncode == 1 and not done.stderr.strip()):
             places = re.findall(r"in (\S+)\n\s+at (\S+)", done.stderr)
             where = " < ".join(f"{name} {place}" for name, place in places[:5]) or done.stderr[-300:]
             return False, f"ends with {done.returncode}: {where}"

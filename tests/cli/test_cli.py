@@ -54,8 +54,9 @@ class Cli(unittest.TestCase):
 
     def run_program(self, *arguments, answers=None, environment=None):
         given = dict(stdin=subprocess.DEVNULL) if answers is None else dict(input=answers)
-        return subprocess.run([PROGRAM, *arguments], cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                              text=True, timeout=60, env=environment, **given)
+        return subprocess.run(
+            [PROGRAM, *arguments], cwd=self.folder, capture_output=True, text=True, timeout=60, env=environment, **given
+        )
 
     def fails(self, run, *texts):
         """The run ended with an error, in order, that tells these texts on the standard error stream"""
@@ -196,7 +197,7 @@ class Runs(Cli):
         self.succeeds(self.run_program("2", "ball"))
         self.assertEqual(self.files(), ["ball.inp", "ball.out", "ball_re002.0001.mat", "ball_re007.0001.mat",
                                         "ball_re007.0002.mat"])
-        self.assertEqual(re.findall(r"^ Case.*", self.read("ball.out"), re.M),
+        self.assertEqual(re.findall(r"^ Case.*", self.read("ball.out"), re.MULTILINE),
                          [" Case     1, result element   7", " Case     1, result element   2",
                           " Case     2, result element   7"])
 

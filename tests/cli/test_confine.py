@@ -50,8 +50,8 @@ class Confined(unittest.TestCase):
         (self.outside / "secret.txt").write_text("the secret of the operator\n")
 
     def run_program(self, *arguments, cwd=None):
-        done = subprocess.run([PROGRAM, *arguments], cwd=cwd or self.folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                              stderr=subprocess.PIPE, text=True, timeout=60)
+        done = subprocess.run([PROGRAM, *arguments], cwd=cwd or self.folder, stdin=subprocess.DEVNULL, capture_output=True,
+                              text=True, timeout=60)
         return done.returncode, done.stdout, done.stderr
 
     def write(self, text, name="a.inp"):
@@ -61,7 +61,11 @@ class Confined(unittest.TestCase):
         """Refused by a check and by a run, and without --confine for no such reason"""
         self.write(text)
         for mode in ("3", "2"):
-            for place, words in ((self.folder, ["a"]), (self.folder.parent, ["inside/a"]), (self.outside, [str(self.folder / "a")])):
+            for place, words in (
+                (self.folder, ["a"]),
+                (self.folder.parent, ["inside/a"]),
+                (self.outside, [str(self.folder / "a")]),
+            ):
                 status, _, err = self.run_program("--confine", mode, *words, cwd=place)
                 self.assertEqual(status, 1, (mode, words, err))
                 self.assertIn(why, err, (mode, words))
@@ -72,7 +76,8 @@ class Confined(unittest.TestCase):
         (self.folder / "links").symlink_to("profiles")
         for text in (self.rail, self.rail.replace("profiles/", "links/"), self.rail.replace("profiles/", "profiles//./")):
             self.write(text)
-            for place, words in ((self.folder, ["a"]), (self.folder.parent, ["inside/a"]), (self.outside, [str(self.folder / "a")])):
+            places = ((self.folder, ["a"]), (self.folder.parent, ["inside/a"]), (self.outside, [str(self.folder / "a")]))
+            for place, words in places:
                 status, _, err = self.run_program("--confine", "--limit-elements=1000000", "3", *words, cwd=place)
                 self.assertEqual((status, err), (0, ""), (text[:40], words))
 

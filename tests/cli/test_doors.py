@@ -124,7 +124,7 @@ class StoredValues(Doors):
 
     def test_first_case_of_a_module(self):
         """A first case of one module has nothing to keep from the other"""
-        run, out, _ = self.run_text("3\n" + NEW3.format(**PLAIN3) + "1\n" + KEPT1 + "0\n")
+        run, _out, _ = self.run_text("3\n" + NEW3.format(**PLAIN3) + "1\n" + KEPT1 + "0\n")
         self.assertEqual(run.returncode, 1)
         self.assertIn("first case", run.stderr)
 
@@ -185,9 +185,16 @@ class Refusals(Doors):
 
     def test_first_case_keeps_nothing(self):
         """Digits that keep values which no case has given"""
-        for digits, word in (({"vldcmze": "0021020"}, "C = 1"), ({"vldcmze": "0020020"}, "C = 0"), ({"vldcmze": "0022010"}, "Z = 1"),
-                             ({"vldcmze": "0022021"}, "E = 1"), ({"third": "1000201"}, "H = 1"), ({"vldcmze": "0122020"}, "L = 1"),
-                             ({"vldcmze": "0012020"}, "D = 1"), ({"pbtnfs": "203101"}, "S = 1")):
+        for digits, word in (
+            ({"vldcmze": "0021020"}, "C = 1"),
+            ({"vldcmze": "0020020"}, "C = 0"),
+            ({"vldcmze": "0022010"}, "Z = 1"),
+            ({"vldcmze": "0022021"}, "E = 1"),
+            ({"third": "1000201"}, "H = 1"),
+            ({"vldcmze": "0122020"}, "L = 1"),
+            ({"vldcmze": "0012020"}, "D = 1"),
+            ({"pbtnfs": "203101"}, "S = 1"),
+        ):
             self.refused(self.case3(**digits), word, "first case")
         text = "1\n" + NEW1.format(**PLAIN1) + "0\n"
         for old, new, word in (("0022033", "0021033", "C = 1"), ("0022033", "0012033", "D = 1"), ("0022033", "0022013", "Z = 1"),
@@ -224,8 +231,21 @@ class Refusals(Doors):
         for first_case, kept, words in (
                 (first(e=9, shape=plain.strip(), slip=slips), dict(z=2, e=1, shape=plain), "E = 1 keeps the extra rigid"),
                 (first(e=0, shape="9 1\n" + numbers.strip(), slip=""), dict(z=1, e=0, shape=""), "IBASE = 9, one per element")):
-            for change in (dict(mx=7), dict(mx=5), dict(my=6), dict(my=4), dict(dx=0.33), dict(dx=0.27), dict(dy=0.44), dict(dy=0.36),
-                           dict(x=-0.9), dict(x=-1.1), dict(y=-1.0), dict(y=-1.4), {}):
+            for change in (
+                dict(mx=7),
+                dict(mx=5),
+                dict(my=6),
+                dict(my=4),
+                dict(dx=0.33),
+                dict(dx=0.27),
+                dict(dy=0.44),
+                dict(dy=0.36),
+                dict(x=-0.9),
+                dict(x=-1.1),
+                dict(y=-1.0),
+                dict(y=-1.4),
+                {},
+            ):
                 text = second(window=window(**change), **kept)
                 run, out, _ = self.run_text(first_case + text, "3")
                 if change:
@@ -246,10 +266,12 @@ class Refusals(Doors):
         # the right half of the first window
         moved = moved.replace("10 20 -1 -1", "10 20 0 -1")
         for p in "01":
-            self.refused(text + "3\n" + moved.format(p=p) + "0\n", "leaves out", "elements that were in contact", "P=2", modes=("2",))
-        run, out, _ = self.run_text(text + "3\n" + moved.format(p="2") + "0\n")
+            self.refused(
+                text + "3\n" + moved.format(p=p) + "0\n", "leaves out", "elements that were in contact", "P=2", modes=("2",)
+            )
+        run, _, _ = self.run_text(text + "3\n" + moved.format(p="2") + "0\n")
         self.assertEqual(run.returncode, 0, run.stderr)
-        run, out, _ = self.run_text(text + "3\n" + moved.replace("10 20 0 -1", "30 20 -1 -1").format(p="0") + "0\n")
+        run, _out, _ = self.run_text(text + "3\n" + moved.replace("10 20 0 -1", "30 20 -1 -1").format(p="0") + "0\n")
         self.assertEqual(run.returncode, 0, run.stderr)
 
     def test_distances_that_nothing_can_be_added_to(self):
@@ -262,7 +284,7 @@ class Refusals(Doors):
         self.assertNotRegex(out.replace("RESIDUAL", ""), r"\bNaN\b")
         self.assertAlmostEqual(records[0]["patches"][0]["totals"]["fn"]["value"], 1e-15, delta=1e-27)
         self.assertEqual(records[0]["patches"][0]["totals"]["ncon"], 1)
-        alone, _, expected = self.run_text("3\n" + NEW3.format(**PLAIN3) + "0\n")
+        _alone, _, expected = self.run_text("3\n" + NEW3.format(**PLAIN3) + "0\n")
         self.assertEqual(len(expected[-1]["patches"]), 1)
         self.assertEqual(records[-1]["patches"], expected[-1]["patches"])
 
@@ -280,7 +302,9 @@ class Words(Doors):
     def test_gauge_point_below_the_profile(self):
         text = "1\n" + NEW1.format(**PLAIN1) + "0\n"
         self.assertNotIn("gauge end", self.run_text(text)[1])
-        self.assertIn("its gauge end is taken for the gauge point", self.run_text(text.replace("14 0 1435 0\n", "150 0 1435 0\n"))[1])
+        self.assertIn(
+            "its gauge end is taken for the gauge point", self.run_text(text.replace("14 0 1435 0\n", "150 0 1435 0\n"))[1]
+        )
 
     def test_no_results(self):
         run, out, _ = self.run_text("3\n" + NEW3.format(**{**PLAIN3, "third": "0000001"}) + "0\n")
@@ -303,10 +327,11 @@ class Words(Doors):
 
     def test_step_of_hertzian_rolling(self):
         """DX of a Hertzian grid is not known beforehand: a DQ that differs is no reason for a warning"""
-        hertz = "203100\n022020\n0000201\n200 100 30 1 1e-5\n9 0.002 0 0\n0.4 0.4\n0 0.5 1000\n0.28 0.28 200 200\n-1\n15 15 0.01 0.01 1.2\n"
-        run, out, _ = self.run_text("3\n" + hertz + "0\n")
+        hertz = ("203100\n022020\n0000201\n200 100 30 1 1e-5\n9 0.002 0 0\n0.4 0.4\n0 0.5 1000\n0.28 0.28 200 200\n-1\n"
+                 "15 15 0.01 0.01 1.2\n")
+        _, out, _ = self.run_text("3\n" + hertz + "0\n")
         self.assertNotIn("Warning", out)
-        run, out, _ = self.run_text("3\n" + NEW3.format(**{**PLAIN3, "rolling": "0 0.5 1000"}) + "0\n")
+        _run, out, _ = self.run_text("3\n" + NEW3.format(**{**PLAIN3, "rolling": "0 0.5 1000"}) + "0\n")
         self.assertIn("DQ is set to DX", out)
 
 

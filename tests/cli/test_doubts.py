@@ -58,7 +58,7 @@ class Program(unittest.TestCase):
         with open(os.path.join(self.folder, "run.inp"), "w", encoding="utf-8") as file:
             file.write(text + "\n0\n")
         run = subprocess.run([PROGRAM, "--quiet", "--json", *options, "2", "run"], cwd=self.folder, stdin=subprocess.DEVNULL,
-                             stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=120)
+                             capture_output=True, text=True, timeout=120)
         self.assertEqual(run.returncode, 0, run.stderr)
         with open(os.path.join(self.folder, "run.jsonl"), encoding="utf-8") as file:
             cases = [case for case in map(json.loads, file) if case["case"]]
@@ -160,7 +160,7 @@ class Border(Program):
             # two or three elements of the coarser direction are free on each side
             free = 0.5*min(mx, my)*(1.0 - 1.0/scale)
             self.assertTrue(1.4 <= free <= 3.1 if min(mx, my) > 6 else scale == 2.0, (mx, my, scale))
-            told, patches = self.alarms(ball(f"-1\n{mx} {my} 0.5 0.5 {scale}", shape=""))
+            told, _patches = self.alarms(ball(f"-1\n{mx} {my} 0.5 0.5 {scale}", shape=""))
             self.assertEqual(told, [], (mx, my, scale))
 
     def test_borders_that_are_meant(self):
@@ -303,7 +303,9 @@ class EndsAheadOfTheAxle(Program):
                 depth, place = self.depth(end, -yaw if left else yaw, 0.05, roller)
                 told = [line for line in warnings if "within the rail where no contact patch is" in line]
                 self.assertEqual(len(told), 1, warnings)
-                found = re.search(r"the (\w+) end of the wheel profile stands (\S+) mm within .* at x = (\S+), y = (\S+), z", told[0])
+                found = re.search(
+                    r"the (\w+) end of the wheel profile stands (\S+) mm within .* at x = (\S+), y = (\S+), z", told[0]
+                )
                 self.assertEqual(found.group(1), name)
                 self.assertIn(found.group(0), " Warning: " + cases[0]["buried"][name])
                 if not outside:
@@ -322,7 +324,7 @@ class EndsAheadOfTheAxle(Program):
 
 
 class FewElements(Program):
-    """Contact of a few elements has a rough area and force, whatever its residual: FZ was off by a factor of four on two elements"""
+    """Contact of a few elements has a rough area and force, whatever its residual: FZ was off by four on two elements"""
 
     def told(self, text):
         cases, warnings, _ = self.run_text(text)
@@ -485,7 +487,7 @@ class Temperatures(Program):
 
     def test_unknown_name(self):
         run = subprocess.run([PROGRAM, "--heat", "hot", "2", "run"], cwd=self.folder, stdin=subprocess.DEVNULL,
-                             stderr=subprocess.PIPE, stdout=subprocess.PIPE, text=True, timeout=20)
+                             capture_output=True, text=True, timeout=20)
         self.assertEqual(run.returncode, 1)
         self.assertIn("established and moving-source", run.stderr)
 
@@ -508,8 +510,11 @@ class Profiles(Program):
         for text, sign in ((cases[1], 1), (cases[1].replace("1203100", "0203100"), -1)):
             records, _, out = self.run_text(" 1 MODULE" + text.replace("0001201", "0001401"))
             totals = records[0]["patches"][0]["totals"]
-            for title, columns in (("RAIL PROFILE USED, TRACK COORDINATES,", 3), ("PRINCIPAL WHEEL PROFILE, TRACK COORDINATES,", 4)):
-                head, rest = out.split(title)
+            for title, columns in (
+                ("RAIL PROFILE USED, TRACK COORDINATES,", 3),
+                ("PRINCIPAL WHEEL PROFILE, TRACK COORDINATES,", 4),
+            ):
+                _head, rest = out.split(title)
                 number = int(rest.split()[0])
                 rows = [[float(word) for word in row.split()] for row in rest.split("\n")[2:2 + number]]
                 self.assertGreater(number, 100)

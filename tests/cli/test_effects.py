@@ -67,7 +67,7 @@ class Effects(unittest.TestCase):
         with open(os.path.join(self.folder, "a.inp"), "w") as file:
             file.write(text)
         done = subprocess.run([PROGRAM, "--json", "2", "a"], cwd=self.folder, stdin=subprocess.DEVNULL,
-                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=120)
+                              capture_output=True, text=True, timeout=120)
         self.assertEqual(done.returncode, 0, done.stderr + text)
         with open(os.path.join(self.folder, "a.jsonl")) as file:
             lines = [case for case in map(json.loads, file) if case["case"]]
@@ -83,7 +83,7 @@ class Effects(unittest.TestCase):
 
     def test_damping_acts_from_the_second_case_on(self):
         first = case(laws="0022020 2", more="1e-3 1e-3 1e10 1e10", digits="202100")
-        second = "\n".join(["3", "002100", "0100000 1", "0101201", "200 0.002 0 0", "0", ""])
+        second = "3\n002100\n0100000 1\n0101201\n200 0.002 0 0\n0\n"
         lines, _ = self.run_program(first[:-2] + second)
         self.assertNotIn("damping", lines[0]["patches"][0]["effects"])
         self.assertIn(", damping forces", lines[1]["patches"][0]["effects"])

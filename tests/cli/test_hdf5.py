@@ -47,8 +47,7 @@ NEXT = """3
 def series(path, cases):
     """Creepages from 0 in steps; everything else stays"""
     with open(path, "w") as file:
-        for k in range(cases):
-            file.write((FIRST if k == 0 else NEXT).format(creep=-1e-5 * k))
+        file.writelines((FIRST if k == 0 else NEXT).format(creep=-1e-5 * k) for k in range(cases))
         file.write("0\n")
 
 
@@ -72,7 +71,7 @@ class Hdf5(unittest.TestCase):
 
     def run_program(self, *arguments):
         run = subprocess.run([PROGRAM, "--quiet", *arguments], cwd=self.folder, stdin=subprocess.DEVNULL,
-                             stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=300)
+                             capture_output=True, text=True, timeout=300)
         self.assertEqual(run.returncode, 0, run.stderr[-2000:])
 
     def run_example(self, name):
@@ -91,7 +90,9 @@ class Hdf5(unittest.TestCase):
                     field = group["fields/" + name]
                     self.assertEqual(field.shape, (11, 13))
                     self.assertTrue(field.attrs["units"] and field.attrs["long_name"])
-                    np.testing.assert_allclose(field[...].ravel(), columns[column], rtol=1e-5, atol=1e-9 * abs(columns[column]).max())
+                    np.testing.assert_allclose(
+                        field[...].ravel(), columns[column], rtol=1e-5, atol=1e-9 * abs(columns[column]).max()
+                    )
                 np.testing.assert_array_equal(group["fields/eldiv"][...].ravel(), columns["IGS"])
                 slip = np.hypot(group["fields/sx"][...], group["fields/sy"][...]).ravel()
                 np.testing.assert_allclose(slip, columns["SREL"], rtol=1e-5, atol=1e-12)
@@ -186,7 +187,7 @@ class Hdf5(unittest.TestCase):
         with open(self.path("faulty.inp"), "w") as file:
             file.write(FIRST.format(creep=0) + FIRST.format(creep=0).replace("0.28 0.28 8", "0.28 0.98 8") + "0\n")
         run = subprocess.run([PROGRAM, "--quiet", "--hdf5", "2", "faulty"], cwd=self.folder, stdin=subprocess.DEVNULL,
-                             stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=60)
+                             capture_output=True, timeout=60)
         self.assertEqual(run.returncode, 1)
         with h5py.File(self.path("faulty.h5"), "r") as file:
             self.assertEqual(list(file["cases/solved"]), [1.0, 0.0])

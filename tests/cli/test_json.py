@@ -49,8 +49,8 @@ class Json(unittest.TestCase):
         self.folder = scratch.name
 
     def run_program(self, *arguments):
-        return subprocess.run([PROGRAM, *arguments], cwd=self.folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                              stderr=subprocess.PIPE, text=True, timeout=120)
+        return subprocess.run([PROGRAM, *arguments], cwd=self.folder, stdin=subprocess.DEVNULL, capture_output=True,
+                              text=True, timeout=120)
 
     def run_example(self, name):
         run = self.run_program("--quiet", "--json", "--output-dir", ".", "2", os.path.join(SOURCE, "examples", name))

@@ -28,7 +28,7 @@ class Limits(unittest.TestCase):
             file.write(text)
         start = time.monotonic()
         done = subprocess.run([PROGRAM, *arguments, "--json", mode, "a"], cwd=self.folder, stdin=subprocess.DEVNULL,
-                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=120)
+                              capture_output=True, text=True, timeout=120)
         self.seconds = time.monotonic() - start
         lines = []
         if mode == "2":
@@ -44,7 +44,7 @@ class Limits(unittest.TestCase):
         self.assertIn("1 solved, 0 not converged, 1 refused", done.stdout)
 
     def test_memory(self):
-        done, lines = self.run_program(case(60) + case(20) + "0\n", "--limit-memory=1")
+        _done, lines = self.run_program(case(60) + case(20) + "0\n", "--limit-memory=1")
         self.assertEqual([line["status"] for line in lines], ["refused", "solved"])
         self.assertIn("more than the limit of 1 MB", lines[0]["reason"])
         _, lines = self.run_program(case(60) + case(20) + "0\n", "--limit-memory=800")
@@ -52,7 +52,7 @@ class Limits(unittest.TestCase):
 
     def test_time_inside_a_solution(self):
         done, lines = self.run_program(endless(80) + case(10) + "0\n", "--limit-time", "0.5")
-        self.assertEqual([(line["status"], line["iteration"] if "iteration" in line else "") for line in lines],
+        self.assertEqual([(line["status"], line.get("iteration", "")) for line in lines],
                          [("not converged", "time"), ("solved", "")])
         self.assertIn("time limit of 0.5", lines[0]["reason"])
         self.assertFalse(lines[0]["solved"] or lines[0]["converged"])
@@ -62,7 +62,7 @@ class Limits(unittest.TestCase):
     def test_time_of_wheel_and_rail(self):
         with open(os.path.join(SOURCE, "examples", "wheel_on_rail.inp")) as file:
             text = file.read()
-        done, lines = self.run_program(text, "--limit-time", "1e-6")
+        _done, lines = self.run_program(text, "--limit-time", "1e-6")
         self.assertTrue(lines)
         self.assertEqual({line["iteration"] for line in lines}, {"time"})
 
@@ -83,8 +83,8 @@ class Limits(unittest.TestCase):
 
     def test_options(self):
         for option in ("--limit-time=0", "--limit-time=-1", "--limit-memory=much", "--limit-elements=nan", "--limit-time"):
-            done = subprocess.run([PROGRAM, option], cwd=self.folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                                  stderr=subprocess.PIPE, text=True, timeout=60)
+            done = subprocess.run([PROGRAM, option], cwd=self.folder, stdin=subprocess.DEVNULL, capture_output=True,
+                                  text=True, timeout=60)
             self.assertEqual(done.returncode, 1, option)
             self.assertIn("positive number", done.stderr, option)
 
@@ -102,7 +102,7 @@ class Limits(unittest.TestCase):
             " ".join(f"{0.01*k:.2f}" for k in range(1, n + 1)) + "\n" for n in (200, 200, 100)) + "0\n"
         slow = case(400, g=2, limits="999 100 30 1 1e-5\n0.9 1.0 0 0.5")
         for text, memory, told in ((case(40), 10000, False), (stresses, 100, True), (slow, 100, True)):
-            done, lines = self.run_program(text + "0\n", f"--limit-memory={memory}")
+            done, _lines = self.run_program(text + "0\n", f"--limit-memory={memory}")
             self.assertEqual("Estimate of this case" in done.stdout, told, done.stdout + done.stderr)
 
     def soft_rolling(self, modulus):
@@ -113,13 +113,13 @@ class Limits(unittest.TestCase):
 
     def test_soft_bodies_in_a_transient_case(self):
         # the contact of a first trial would cover much of the wheel
-        done, lines = self.run_program(self.soft_rolling("8.2"))
+        _done, lines = self.run_program(self.soft_rolling("8.2"))
         self.assertLess(self.seconds, 60.0)
         self.assertNotEqual(lines[0]["status"], "solved")
         self.assertIn("NPOT_MAX", lines[0]["reason"])
 
     def test_bodies_that_the_force_would_press_flat(self):
-        done, lines = self.run_program(self.soft_rolling("1e-3"))
+        _done, lines = self.run_program(self.soft_rolling("1e-3"))
         self.assertEqual(lines[0]["status"], "refused")
         self.assertIn("more than the radius of the wheel, 460 mm", lines[0]["reason"])
 

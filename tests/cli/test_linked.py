@@ -98,7 +98,9 @@ class Linked(Runs):
 
 class Strips(Runs):
     """Two-dimensional Hertzian contact in rows: pressures as in a single row, and free rows on both sides"""
-    CASE = "3\n200100\n022020\n0001201\n999 100 30 1 1e-6\n{load} 0 0 0\n0.3 0.3\n0.28 0.28 82000 82000\n{kind}\n24 {my} {a} {bb} {scale}\n"
+
+    CASE = ("3\n200100\n022020\n0001201\n999 100 30 1 1e-6\n{load} 0 0 0\n0.3 0.3\n0.28 0.28 82000 82000\n{kind}\n"
+            "24 {my} {a} {bb} {scale}\n")
 
     def test_rows(self):
         one = self.run_text(self.CASE.format(load=40000, kind=-4, my=1, a=0.001, bb=10, scale=1.2) + "0\n")[0][0]
@@ -119,11 +121,13 @@ class Friction(Runs):
 
     def test_rows_of_the_table(self):
         values = [0.11, 0.22, 0.33, 0.24, 0.15]
-        text = "3\n203100\n3022020\n0000521\n999 100 30 1 1e-6\n1000 0.001 0 0\n0 0.5 1000\n0.28 0.28 82000 82000\n1\n" \
-            + "7 5 -1.75 -1.25 0.5 0.5\n1 1\n0.01 0 0.01 0 0 0\n" + "".join(f"{v} {v}\n" for v in values) + "0\n"
+        text = ("3\n203100\n3022020\n0000521\n999 100 30 1 1e-6\n1000 0.001 0 0\n0 0.5 1000\n0.28 0.28 82000 82000\n1\n"
+                "7 5 -1.75 -1.25 0.5 0.5\n1 1\n0.01 0 0.01 0 0 0\n" + "".join(f"{v} {v}\n" for v in values) + "0\n")
         _, out = self.run_text(text)
-        rows = re.findall(r"^ +(\d+) +(0\.\d+) +(0\.\d+) *$", out[out.index("FRICTION LAW"):out.index("KINEMATIC")], re.M)
-        self.assertEqual([(int(k), float(a), float(b)) for k, a, b in rows], [(k + 1, v, v) for k, v in enumerate(values)], out[:3000])
+        rows = re.findall(r"^ +(\d+) +(0\.\d+) +(0\.\d+) *$", out[out.index("FRICTION LAW"):out.index("KINEMATIC")], re.MULTILINE)
+        self.assertEqual(
+            [(int(k), float(a), float(b)) for k, a, b in rows], [(k + 1, v, v) for k, v in enumerate(values)], out[:3000]
+        )
 
 
 if __name__ == "__main__":

@@ -115,7 +115,7 @@ class Outputs(unittest.TestCase):
         waited = time.monotonic() - started
         rows = {name.strip(): (int(calls), float(processor), float(elapsed))
                 for name, calls, processor, elapsed in re.findall(r"^\|([^|]+)\| +(\d+) \| +([\d.]+) \| +[\d.]+ \| +([\d.]+) \|",
-                                                                  out, re.M)}
+                                                                  out, re.MULTILINE)}
         self.assertLessEqual({"Total", "Reading input", "Solving cases", "Writing results"}, set(rows))
         self.assertLessEqual(rows["Total"][2], waited + 0.1)
         self.assertGreaterEqual(rows["Total"][2], 0.3*waited - 0.1)

@@ -58,8 +58,8 @@ class PairMat(unittest.TestCase):
             text += CASE.format(c1=c1, s=s, d=d, folder=PROFILES, **values)
         with open(os.path.join(self.folder, "t.inp"), "w", encoding="ascii") as file:
             file.write(text + "0\n")
-        run = subprocess.run([PROGRAM, "--quiet", "2", "t"], cwd=self.folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                             stderr=subprocess.PIPE, text=True, timeout=120)
+        run = subprocess.run([PROGRAM, "--quiet", "2", "t"], cwd=self.folder, stdin=subprocess.DEVNULL, capture_output=True,
+                             text=True, timeout=120)
         self.assertEqual(run.returncode, 0, run.stderr[-2000:])
         sides = []
         for case in (1, 2):
@@ -70,21 +70,21 @@ class PairMat(unittest.TestCase):
 
     def mirrored(self, right, left, patches):
         self.assertEqual((len(right), len(left)), (patches, patches))
-        for k, (r, l) in enumerate(zip(right, left)):
-            self.assertEqual([row[7:9] for row in (r[2], l[2])], [[patches, k + 1]] * 2)
+        for k, (r, m) in enumerate(zip(right, left)):
+            self.assertEqual([row[7:9] for row in (r[2], m[2])], [[patches, k + 1]] * 2)
             mx, my = int(r[3][0]), int(r[3][1])
             # rail: y and roll change signs; wheel: y, roll, yaw; the contact reference: y, angle, y
             for line, odd in ((0, (3, 5)), (1, (1, 3, 4)), (2, ODD_REFERENCE)):
-                for i, (a, b) in enumerate(zip(r[line], l[line])):
+                for i, (a, b) in enumerate(zip(r[line], m[line])):
                     self.assertAlmostEqual(a, -b if i in odd else b, delta=1e-5 * abs(a) + 1e-9,
                                            msg="line %d, value %d" % (line, i))
-            self.assertAlmostEqual(l[3][3], -(r[3][3] + my * r[3][5]), delta=1e-4)
-            self.assertEqual([r[3][8], l[3][8]], [1, 0])
-            self.assertEqual(r[3][:3] + r[3][4:8] + r[3][9:], l[3][:3] + l[3][4:8] + l[3][9:])
-            self.assertEqual(r[4:5], l[4:5])
-            self.assertEqual([row[0] for row in l[6:]], list(range(1, mx * my + 1)))
+            self.assertAlmostEqual(m[3][3], -(r[3][3] + my * r[3][5]), delta=1e-4)
+            self.assertEqual([r[3][8], m[3][8]], [1, 0])
+            self.assertEqual(r[3][:3] + r[3][4:8] + r[3][9:], m[3][:3] + m[3][4:8] + m[3][9:])
+            self.assertEqual(r[4:5], m[4:5])
+            self.assertEqual([row[0] for row in m[6:]], list(range(1, mx * my + 1)))
             self.assertEqual(min(row[2] for row in r[6:]), 0.0)
-            for number, row in enumerate(l[6:]):
+            for number, row in enumerate(m[6:]):
                 iy, ix = divmod(number, mx)
                 other = r[6 + ix + mx * (my - 1 - iy)]
                 self.assertEqual(row[1], other[1])

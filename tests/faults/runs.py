@@ -78,7 +78,7 @@ def same(a, b):
         return False
     if isinstance(a, np.ndarray):
         return a.shape == b.shape and np.array_equal(a, b, equal_nan=a.dtype.kind == "f")
-    return bool(a == b or a != a and b != b)
+    return bool(a == b or (a != a and b != b))
 
 
 def difference(good, file):
@@ -97,7 +97,9 @@ def difference(good, file):
 def differences(good, folder):
     """All differences of two folders of results"""
     names = {file.name for file in good.iterdir() if file.is_file()}, {file.name for file in folder.iterdir() if file.is_file()}
-    found = [f"{name} is missing" for name in sorted(names[0] - names[1])] + [f"{name} is left" for name in sorted(names[1] - names[0])]
+    found = [f"{name} is missing" for name in sorted(names[0] - names[1])] + [
+        f"{name} is left" for name in sorted(names[1] - names[0])
+    ]
     for name in sorted(names[0] & names[1]):
         what = difference(good / name, folder / name)
         if what:
@@ -125,7 +127,7 @@ def finished_cases(folder):
             counts["jsonl"] = sum(1 for line in lines if line["case"])
         elif file.suffix == ".h5":
             with h5py.File(file) as data:
-                rows = data["cases/case"] if "cases/case" in data else []
+                rows = data.get("cases/case", [])
                 counts["h5"] = len(rows)
                 assert "complete" in data.attrs and "cases_planned" in data.attrs, sorted(data.attrs)
             read_all(file)

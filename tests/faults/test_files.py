@@ -3,8 +3,8 @@
 
 usage: test_files.py LIBRARY_TO_PRELOAD [STEP]
 
-After a failure: success with right files, or an error, and nothing half-written that could be taken for whole. After a kill: every file can be
-read, and holds all cases up to the last but one or two. Every STEP-th place is tried, 37 if not told otherwise.
+After a failure: success with right files, or an error, and nothing half-written that could be taken for whole. After a kill:
+every file can be read, and holds all cases up to the last but one or two. Every STEP-th place is tried, 37 if not told otherwise.
 """
 import errno
 import pathlib
@@ -64,7 +64,9 @@ def run(folder, kind, preload, **inject):
     """Exit status and messages of a run into an empty folder"""
     name, options = prepare(folder, kind)
     settings = {key: str(value) for key, value in inject.items() if value is not None}
-    return runs.run(folder, name, *options, environment=dict(LD_PRELOAD=preload, INJECT_FOLDER=str(folder) + "/", **settings), timeout=60)
+    return runs.run(
+        folder, name, *options, environment=dict(LD_PRELOAD=preload, INJECT_FOLDER=str(folder) + "/", **settings), timeout=60
+    )
 
 
 def half_written(file):

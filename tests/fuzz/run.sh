@@ -46,10 +46,14 @@ trap 'exit 130' INT TERM
 cp "$top/tests/fuzz/words.dict" "$work/words.dict"
 sed -n 's/^\(\(cntc\|subs\)_[a-z0-9_]*\)(.*/"\1"/p' "$top/src/capi/interface.txt" >>"$work/words.dict"
 
+# How many files a folder has
+files_of() { find "$1" -type f | wc -l; }
+
 # A number of the last run, by its name
 figure() { sed -n "s/^stat::$1: *//p" "$work/log" | tail -n 1; }
 
 found=0
+# shellcheck disable=SC2086
 count=$(echo $targets | wc -w)
 for name in $targets; do
   program=$top/build/$preset/tests/fuzz_$name
@@ -60,7 +64,7 @@ for name in $targets; do
     mkdir "$texts.new"
     "$program" -merge=1 -timeout=120 "$texts.new" "$top/tests/fuzz/corpus/$name" "$texts" >"$work/log" 2>&1 ||
       fail "$name cannot be minimised; see $work/log"
-    say "$name: $(ls "$texts" | wc -l) texts, $(ls "$texts.new" | wc -l) take the same branches"
+    say "$name: $(files_of "$texts") texts, $(files_of "$texts.new") take the same branches"
     rm -rf "$texts"
     mv "$texts.new" "$texts"
     continue
@@ -84,7 +88,7 @@ for name in $targets; do
   # branches that all texts take, these findings left out
   "$program" -runs=0 -entropic=0 -timeout=120 "$texts" "$top/tests/fuzz/corpus/$name" >"$work/log" 2>&1
   printf '%s %s %s %s %s %s\n' "$name" "$preset" "$executions" "$seconds" "$new" "$(figure branches)" >>"$work/statistics"
-  say "$name: $executions executions in $seconds s, $new findings, $(ls "$texts" | wc -l) texts, $(figure branches) branches"
+  say "$name: $executions executions in $seconds s, $new findings, $(files_of "$texts") texts, $(figure branches) branches"
   found=$((found + new))
 done
 [ -n "$minimise" ] && exit 0

@@ -15,8 +15,8 @@ def offences(lines):
         for match in FORMAT.finditer(line):
             descriptors = re.sub(r"""(['"]).*?\1""", "", match[2])
             if re.search("[a-z]", descriptors):
-                yield (number, line.strip(), "an edit descriptor in small letters: the run-time library makes capitals of them "
-                       "by the host's locale, and a Turkish i has none")
+                yield (number, line.strip(), ("an edit descriptor in small letters: the run-time library makes capitals of them "
+                       "by the host's locale, and a Turkish i has none"))
 
 
 def main():

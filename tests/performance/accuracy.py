@@ -45,7 +45,9 @@ def decades(values):
 
 def panel(out, x0, y0, points, measure, methods, y_range):
     x_range = decades([p["seconds"] for p in points])
-    error = lambda p: max(p[measure], 10.0**y_range[0])
+
+    def error(p):
+        return max(p[measure], 10.0**y_range[0])
 
     def x(seconds):
         return x0 + WIDTH*(math.log10(seconds) - x_range[0])/(x_range[1] - x_range[0])
@@ -86,7 +88,9 @@ def picture(points):
         y0 = top + row*(HEIGHT + GAP_Y)
         y_range = max(-8, math.floor(math.log10(max(1e-9, min(p[measure] for p in points))))), \
             math.ceil(math.log10(max(p[measure] for p in points)))
-        out.append(f'<text x="14" y="{y0 + HEIGHT/2}" transform="rotate(-90 14 {y0 + HEIGHT/2})" text-anchor="middle">{title}</text>')
+        out.append(
+            f'<text x="14" y="{y0 + HEIGHT / 2}" transform="rotate(-90 14 {y0 + HEIGHT / 2})" text-anchor="middle">{title}</text>'
+        )
         for column, group in enumerate(groups):
             x0 = LEFT + column*(WIDTH + GAP_X)
             own = [p for p in points if p["group"] == group]
@@ -99,7 +103,9 @@ def picture(points):
                     out.append(f'<circle cx="{at + 4}" cy="{line}" r="4" fill="{COLOURS[k]}"/>'
                                f'<text x="{at + 12}" y="{line + 4}">{method}</text>')
             else:
-                out.append(f'<text x="{x0 + WIDTH/2}" y="{y0 + HEIGHT + 34}" text-anchor="middle">processor time of one case</text>')
+                out.append(
+                    f'<text x="{x0 + WIDTH / 2}" y="{y0 + HEIGHT + 34}" text-anchor="middle">processor time of one case</text>'
+                )
     out.append("</svg>")
     return "\n".join(out) + "\n"
 

@@ -40,7 +40,7 @@ def main():
     for count, *stack in places:
         frames = []
         for address in stack:
-            for function, where in known.get(int(address, 16), []):
+            for _function, where in known.get(int(address, 16), []):
                 match = re.search(r"/src/(.*\.f90:\d+)", where)
                 if match:
                     frames.append(match.group(1))

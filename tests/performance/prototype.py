@@ -31,7 +31,7 @@ folder = sys.argv[2] if len(sys.argv) > 2 else os.path.join(top, "..", "shared",
 if not os.path.exists(os.path.join(folder, "nested_preconditioned.py")):
     skip("its folder is absent")
 try:
-    import numpy as np
+    import numpy as np  # noqa: F401
     import scipy  # noqa: F401
 except ImportError as error:
     skip(str(error))
@@ -83,8 +83,8 @@ def main():
     print("|---|---|---|---|---|---|---|---|")
     met = total = 0
     for n in (80, 160, 320) if large else (80, 160):
-        for name, run in [(c[0], lambda c=c: prototype_creepages(n, c[1], c[2])) for c in CREEPAGES] \
-                + [(f[0], lambda f=f: prototype_forces(n, f[1])) for f in FORCES if n < 320]:
+        for name, run in [(c[0], lambda c=c, n=n: prototype_creepages(n, c[1], c[2])) for c in CREEPAGES] \
+                + [(f[0], lambda f=f, n=n: prototype_forces(n, f[1])) for f in FORCES if n < 320]:
             theirs, mine, whole = [], [], []
             for _ in range(RUNS if n < 320 else 1):
                 theirs.append(run())

@@ -45,7 +45,7 @@ measure_rail() {
   return $status
 }
 
-# shellcheck disable=SC2086
+# shellcheck disable=SC2086,SC2016  # marks of Markdown
 measure() {
   printf '# What cases cost\n\n'
   printf 'Written by `sh tests/performance/run.sh --write`; how to read and repeat it: [performance](../develop/performance.md).\n\n'

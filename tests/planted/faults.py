@@ -15,12 +15,12 @@ PAIRS = [("fx", "fy"), ("cksi", "ceta"), ("px", "py"), ("sx", "sy"), ("ux", "uy"
 OTHER = {a: b for pair in PAIRS for a, b in (pair, pair[::-1])}
 COMPARE = {"<": ">", ">": "<", "<=": ">=", ">=": "<=", "==": "/=", "/=": "==", "!=": "==", "~=": "=="}
 NAME = r"[a-z_]\w*(?:%[a-z_]\w*|\.[a-z_]\w*)*"
-SIMPLE = re.compile(r"-?(?:%s(?:\([^()]*\))?|\d[\w.]*)" % NAME, re.I)
+SIMPLE = re.compile(r"-?(?:%s(?:\([^()]*\))?|\d[\w.]*)" % NAME, re.IGNORECASE)
 DECLARATION = re.compile(r"(use|implicit|import|integer|real|logical|complex|character|class\s*\(|type\s*[(,:]|type\s+\w+$|"
                          r"procedure\s*[(,:]|parameter|dimension|intrinsic|external|private|public|enum|save|generic|final|sequence|contains|include|"
-                         r"select\s+type|type\s+is|class\s+is|class\s+default)\b", re.I)
+                         r"select\s+type|type\s+is|class\s+is|class\s+default)\b", re.IGNORECASE)
 HEADER = re.compile(r"(?:(?:pure|elemental|impure|recursive|module|integer|logical|character|real|type|class|non_recursive)\b"
-                    r"(?:\s*\([^()]*(?:\([^()]*\)[^()]*)*\))?\s*)*(subroutine|function)\s+\w+", re.I)
+                    r"(?:\s*\([^()]*(?:\([^()]*\)[^()]*)*\))?\s*)*(subroutine|function)\s+\w+", re.IGNORECASE)
 
 
 FRAME = re.compile(r"end\b|end\s*\w+|else$|case\b|associate|block|critical|stop|error stop")
@@ -35,10 +35,10 @@ def mask(line, language):
         if quote:
             out.append("~")
             quote = None if c == quote else quote
-        elif c == '"' or c == "'" and (language != "m" or not re.search(r"[\w)\]}.']$", line[:k])):
+        elif c == '"' or (c == "'" and (language != "m" or not re.search(r"[\w)\]}.']$", line[:k]))):
             quote = c
             out.append("~")
-        elif c == {"f90": "!", "py": "#", "m": "%"}[language] or language == "m" and c == "#":
+        elif c == {"f90": "!", "py": "#", "m": "%"}[language] or (language == "m" and c == "#"):
             break
         else:
             out.append(c)
@@ -94,7 +94,7 @@ def fortran_statements(text):
             yield number, code, not continued
 
 
-def places(pattern, code, flags=re.I):
+def places(pattern, code, flags=re.IGNORECASE):
     return list(re.finditer(pattern, code, flags))
 
 
@@ -123,7 +123,12 @@ def top_level(code, start, signs):
     for k in range(start, len(code)):
         c = code[k]
         depth += (c in "([{") - (c in ")]}")
-        if depth == 0 and c in signs and re.search(r"[\w)\]]\s*$", code[start:k]) and not re.search(r"\d[ed]$", code[:k], re.I):
+        if (
+            depth == 0
+            and c in signs
+            and re.search(r"[\w)\]]\s*$", code[start:k])
+            and not re.search(r"\d[ed]$", code[:k], re.IGNORECASE)
+        ):
             found.append(k)
     return found
 
@@ -135,7 +140,7 @@ def variants(code, whole, language):
     nothing = {"f90": "continue", "py": "pass", "m": ";"}[language]
     # sign
     for m in places(r"(?<=[\w)\]])\s*([+-])\s*(?=[\w(])", code):
-        if not re.search(r"\d[ed]$", code[:m.start(1)], re.I):
+        if not re.search(r"\d[ed]$", code[:m.start(1)], re.IGNORECASE):
             yield "sign", [(m.start(1), m.end(1), "-" if m[1] == "+" else "+")]
     for m in places(r"[=(,\[*/<>]\s*(-)(?=[a-z(])", code):
         yield "sign", [(m.start(1), m.end(1), "")]
@@ -158,7 +163,7 @@ def variants(code, whole, language):
                 yield "component", [(m.end() - len(name), m.end(), OTHER[name.lower()])]
                 break
     # off by one
-    m = re.match(r"\s*do\s+(?:concurrent\s*\()?\w+\s*=\s*", code, re.I) if fortran else None
+    m = re.match(r"\s*do\s+(?:concurrent\s*\()?\w+\s*=\s*", code, re.IGNORECASE) if fortran else None
     if m:
         parts = split_top(code, m.end())
         if len(parts) >= 2:
@@ -166,12 +171,12 @@ def variants(code, whole, language):
             yield "off by one", [(b, b, " + 1")]
             yield "off by one", [(d, d, " - 1")]
     for m in places(r"\s?[+-]\s?1(?![\w.])", code):
-        if re.search(r"[\w)\]]$", code[:m.start()]) and not re.search(r"\d[ed]$", code[:m.start()], re.I):
+        if re.search(r"[\w)\]]$", code[:m.start()]) and not re.search(r"\d[ed]$", code[:m.start()], re.IGNORECASE):
             yield "off by one", [(m.start(), m.end(), "")]
     for m in places(r"\b(?:range|len|size|numel)\(" + NAME + r"\)", code):
         yield "off by one", [(m.end(), m.end(), " - 1") if m[0][0] in "lsn" else (m.end() - 1, m.end() - 1, " - 1")]
     # dropped term
-    m = re.match(r"\s*[a-z_][\w%.]*(?:\([^=]*\))?\s*=(?!=)\s*", code, re.I)
+    m = re.match(r"\s*[a-z_][\w%.]*(?:\([^=]*\))?\s*=(?!=)\s*", code, re.IGNORECASE)
     if m and whole:
         signs = top_level(code, m.end(), "+-")
         if signs:
@@ -198,11 +203,12 @@ def variants(code, whole, language):
                 yield "constant", [(m.start(), m.end(), b)]
     # what a whole statement does
     if whole:
-        if re.match(r"\s*[a-z_][\w%.]*(?:\([^=]*\))?\s*(?:=(?![=>])|\+=)", code, re.I) and (fortran or not re.match(r"\s*\w+\s*=",
-            code)):
+        if re.match(r"\s*[a-z_][\w%.]*(?:\([^=]*\))?\s*(?:=(?![=>])|\+=)", code, re.IGNORECASE) and (
+            fortran or not re.match(r"\s*\w+\s*=", code)
+        ):
             yield "missing update", [(indent, len(code), nothing)]
-        elif re.match(r"\s*call\s", code, re.I):
-            error = re.match(r"\s*call\s+[\w%]*(fail|refuse|error|complain|warn|add)\w*\s*\(", code, re.I)
+        elif re.match(r"\s*call\s", code, re.IGNORECASE):
+            error = re.match(r"\s*call\s+[\w%]*(fail|refuse|error|complain|warn|add)\w*\s*\(", code, re.IGNORECASE)
             yield "error dropped" if error else "missing update", [(indent, len(code), nothing)]
         if re.match(r"\s*if \(allocated\((error|fatal|problem)\w*\)\) (return|exit|cycle)", code) or \
                 re.match(r"\s*if \(.*(error|status|stat|code|ierr)\b.*\) (return|exit|cycle)$",
@@ -217,7 +223,7 @@ def variants(code, whole, language):
         a, b = m.start(2), m.end(2)
         inner = code[a + 1:b - 1] if fortran else m[2]
         yield "branches", [(a, b, "(.not. %s)" % "(KEEP)" if fortran else " not (KEEP)" if language == "py" else " ~(KEEP)")]
-        if re.fullmatch(r"\s*(\.not\. |not |~)?%s\s*" % NAME, inner, re.I):
+        if re.fullmatch(r"\s*(\.not\. |not |~)?%s\s*" % NAME, inner, re.IGNORECASE):
             yield "option ignored", [(a, b, "(.false.)" if fortran else " False" if language == "py" else " (false)")]
     for m in places(r"\bmerge\(", code):
         parts = split_top(code, m.end(), ")")

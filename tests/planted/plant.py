@@ -14,9 +14,9 @@ usage: plant.py [--seed N] [--count N] [--store FOLDER] [--again] [--renew] [--m
     --table         only write the table of what is known
 
 One after the other: write the fault, compile its file, link, run the tests that reach the line until one fails. Which tests
-reach a line is measured once with gcov, and again with --measure. Results are lines of FOLDER/results.jsonl, the last one of a fault counts;
-a campaign that was ended goes on where it was. Faults of which the object file is the same as without them are replaced, and
-those of equivalent.json, which were judged by hand, are no loss. Tests run without the reference data.
+reach a line is measured once with gcov, and again with --measure. Results are lines of FOLDER/results.jsonl, the last one of a
+fault counts; a campaign that was ended goes on where it was. Faults of which the object file is the same as without them are
+replaced, and those of equivalent.json, which were judged by hand, are no loss. Tests run without the reference data.
 """
 import argparse
 import collections
@@ -169,7 +169,7 @@ class Store:
         """Compile a source in place of a file of src; whether that works"""
         command = self.commands["compile"][file]["command"]
         command = command.split("&&")[0] if "&&" in command else command
-        words = [word for word in command.replace("\\(", "(").replace("\\)", ")").split()]
+        words = list(command.replace("\\(", "(").replace("\\)", ")").split())
         result, k = [], 0
         while k < len(words):
             word = words[k]
@@ -264,9 +264,9 @@ class Store:
         replaced, failed = {}, []
         for file, entry in self.commands["compile"].items():
             output, source = counted / (file.replace("/", "__") + ".o"), self.source / file
-            if not output.exists() or output.stat().st_mtime < source.stat().st_mtime:
-                if not self.compile_file(file, source, output, ["--coverage"]):
-                    failed.append(file)
+            old = not output.exists() or output.stat().st_mtime < source.stat().st_mtime
+            if old and not self.compile_file(file, source, output, ["--coverage"]):
+                failed.append(file)
             replaced[entry["object"]] = output
         if failed:
             sys.exit("not compiled with --coverage: " + " ".join(failed))
@@ -469,12 +469,12 @@ class Store:
                  or room in options.only}
         try:
             if options.again:
-                for key, result in list(latest.items()):
+                for result in list(latest.values()):
                     if result["told"] == "survived" and result["room"] in quota and not judged_by_hand(result):
                         self.tell(self.judge(faults.Fault(*[result[k] for k in faults.Fault._fields]), result["room"],
                                              options.limit, caught), options)
                 return
-            done = {room: 0 for room in quota}
+            done = dict.fromkeys(quota, 0)
             places = {room: iter(order[room]) for room in quota}
             while any(done[room] < n for room, n in quota.items()):
                 # all rooms in step, so that a part of a campaign says something on all of them

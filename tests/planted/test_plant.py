@@ -89,8 +89,11 @@ class Toy(plant.Store):
         for folder in source.parent, self.build, self.folder / "right":
             folder.mkdir(parents=True)
         source.write_text(TOY, encoding="utf-8")
-        (self.build / "main.f90").write_text("program main\nuse toy\nlogical :: bad\n"
-                                             "if (.not. abs(length(3.0, 4.0, 0.1, bad) - 5.0) < 1e-5 .or. bad) stop 1\nend program\n", encoding="utf-8")
+        (self.build / "main.f90").write_text(
+            "program main\nuse toy\nlogical :: bad\n"
+            "if (.not. abs(length(3.0, 4.0, 0.1, bad) - 5.0) < 1e-5 .or. bad) stop 1\nend program\n",
+            encoding="utf-8",
+        )
         self.write("commands.json", {"link": {"program": compiler + " main.f90 toy.o -J. -o program"},
                                      "compile": {"src/toy/toy.f90": {"object": "toy.o",
                                                                      "command": "%s -J. -c toy.f90 -o toy.o" % compiler}}})

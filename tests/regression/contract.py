@@ -31,7 +31,7 @@ def check_out(path):
     demand(len(lines) > 1 and "detailed investigation of 3D" in lines[1], 1, "the second line does not tell the kind of file")
     announced = patches = 0
     for k, line in enumerate(lines):
-        def count(below):
+        def count(below, k=k):
             try:
                 return len(out_file.numbers(lines[k + below]))
             except (ValueError, IndexError):
@@ -79,10 +79,7 @@ def check_mat(path):
         return ["%s: six pairs of names and values and the names of a table are expected" % path]
     if not re.search(r" FMT   STATUS: (solved|not converged \((normal|tangential|outer|force|time)\): .+)$", lines[0]):
         wrong.append("%s: the first line does not end with the status" % path)
-    rows = []
-    for k, line in enumerate(lines):
-        if line[0] != "%":
-            rows.append([float(word) for word in line.split()])
+    rows = [[float(word) for word in line.split()] for line in lines if line[0] != "%"]
     columns = len(rows[0])
     for k, row in enumerate(rows):
         if len(row) != columns:
@@ -100,7 +97,11 @@ def check_mat(path):
     table = rows[6:]
     numbers = [row[0] for row in table]
     mx, my = rows[3][:2]
-    if numbers != sorted(set(numbers)) or any(not 1 <= i <= mx * my for i in numbers) or any(row[1] not in (0, 1, 2, 3) for row in table):
+    if (
+        numbers != sorted(set(numbers))
+        or any(not 1 <= i <= mx * my for i in numbers)
+        or any(row[1] not in (0, 1, 2, 3) for row in table)
+    ):
         wrong.append("%s: numbers or states of elements" % path)
     if any(row[1] == 0 and (row[4] or row[5] or row[6] or row[10]) for row in table):
         wrong.append("%s: tractions or slip out of contact" % path)
@@ -132,7 +133,11 @@ def check_subs(path):
         if len(names) != columns or len(points) != nx * ny * nz:
             wrong.append("%s:%d: a block of %d x %d x %d points has %d" % (path, k + 1, nx, ny, nz, len(points)))
         for i, point in enumerate(points):
-            if point[0] != points[i % nx][0] or point[1] != points[i % (nx * ny) // nx * nx][1] or point[2] != points[i // (nx * ny) * nx * ny][2]:
+            if (
+                point[0] != points[i % nx][0]
+                or point[1] != points[i % (nx * ny) // nx * nx][1]
+                or point[2] != points[i // (nx * ny) * nx * ny][2]
+            ):
                 wrong.append("%s:%d: order of points" % (path, k + 4 + i))
                 break
         k += 3 + nx * ny * nz

@@ -24,7 +24,7 @@ def main(name):
         if old.startswith(name + "."):
             os.remove(old)
     run = subprocess.run([program, "--quiet", "--output-dir", ".", "2", os.path.join(source, "examples", name)],
-                         stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+                         stdin=subprocess.DEVNULL, capture_output=True, text=True)
     # debug builds tell array temporaries on the error stream
     if run.returncode != 0 or run.stdout:
         print(run.stdout, run.stderr[-3000:], sep="")

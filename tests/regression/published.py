@@ -186,8 +186,8 @@ def solve(scene):
     name = scene.__name__
     with open(name + ".inp", "w", encoding="utf-8") as file:
         file.write("\n".join(scene()) + "\n0\n")
-    run = subprocess.run([os.environ["CONTACT_PROGRAM"], "--quiet", "2", name], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                         stderr=subprocess.PIPE, text=True)
+    run = subprocess.run([os.environ["CONTACT_PROGRAM"], "--quiet", "2", name], stdin=subprocess.DEVNULL, capture_output=True,
+                         text=True)
     if run.returncode:
         print("FAILED: %s: exit status %d\n%s%s" % (name, run.returncode, run.stdout, run.stderr[-2000:]))
         return {}

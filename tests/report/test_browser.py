@@ -28,8 +28,10 @@ sys.path.insert(0, os.path.join(SOURCE, "python"))
 from contact.report import write_page  # noqa: E402
 
 # Number of different colours on a canvas: a canvas that was not drawn has one
-COLOURS = """id => { const c = document.getElementById(id), p = c.getContext('2d').getImageData(0, 0, c.width, c.height).data;
-const seen = new Set(); for (let i = 0; i < p.length; i += 4) seen.add(p[i] * 65536 + p[i + 1] * 256 + p[i + 2]); return seen.size; }"""
+COLOURS = """id => { const c = document.getElementById(id), p = c.getContext('2d')
+  .getImageData(0, 0, c.width, c.height).data;
+const seen = new Set(); for (let i = 0; i < p.length; i += 4) seen.add(p[i] * 65536 + p[i + 1] * 256 + p[i + 2]);
+return seen.size; }"""
 SETTLED = "index => window.contactReport && contactReport.state.ready && contactReport.state.index === index"
 
 MANY = """3
@@ -81,7 +83,10 @@ class Browser(unittest.TestCase):
         page.on("console", lambda message: self.troubles.append(message.text) if message.type in ("error", "warning")
                 and "willReadFrequently" not in message.text else None)
         page.on("pageerror", lambda error: self.troubles.append(str(error)))
-        page.on("request", lambda request: None if request.url.startswith(("file:", "data:", "blob:")) else self.troubles.append(request.url))
+        page.on(
+            "request",
+            lambda request: None if request.url.startswith(("file:", "data:", "blob:")) else self.troubles.append(request.url),
+        )
         page.goto(address)
         page.wait_for_function(SETTLED, arg=0, timeout=60000)
         return page
@@ -108,7 +113,9 @@ class Browser(unittest.TestCase):
         # zoom and pan change the view, a double click shows all again
         before = page.evaluate("contactReport.state.view")
         page.mouse.wheel(0, -300)
-        page.wait_for_function("w => contactReport.state.view[1] - contactReport.state.view[0] < 0.8 * w", arg=before[1] - before[0])
+        page.wait_for_function(
+            "w => contactReport.state.view[1] - contactReport.state.view[0] < 0.8 * w", arg=before[1] - before[0]
+        )
         zoomed = page.evaluate("contactReport.state.view")
         page.mouse.down()
         page.mouse.move(box["x"] + 120, box["y"] + 60, steps=4)
@@ -163,7 +170,9 @@ class Browser(unittest.TestCase):
         page.select_option("#plane", "z")
         page.fill("#depth", "2")
         page.select_option("#stress", "sigzz")
-        page.wait_for_function("() => { const b = contactReport.state.block; return b.plane === 'z' && b.place === 2 && b.name === 'sigzz'; }")
+        page.wait_for_function(
+            "() => { const b = contactReport.state.block; return b.plane === 'z' && b.place === 2 && b.name === 'sigzz'; }"
+        )
         self.assertGreater(page.evaluate(COLOURS, "map-block"), 100)
         # a line of points, and a case whose patch has none
         page.select_option("#block", "1")
@@ -191,8 +200,7 @@ class Browser(unittest.TestCase):
     def test_a_thousand_cases(self):
         path = os.path.join(self.scratch.name, "many")
         with open(path + ".inp", "w") as file:
-            for k in range(1000):
-                file.write((MANY if k == 0 else NEXT).format(creep=-4e-6 * k))
+            file.writelines((MANY if k == 0 else NEXT).format(creep=-4e-6 * k) for k in range(1000))
             file.write("0\n")
         address = self.page_of("many", path)
         started = time.monotonic()
@@ -205,8 +213,9 @@ class Browser(unittest.TestCase):
         self.assertEqual(self.troubles, [])
 
     def test_the_server_in_the_browser(self):
-        from contact.report.server import Server
         import threading
+
+        from contact.report.server import Server
         folder = os.path.join(self.scratch.name, "served")
         os.mkdir(folder)
         shutil.copy(os.path.join(SOURCE, "examples", "cattaneo.inp"), folder)

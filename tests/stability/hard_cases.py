@@ -70,8 +70,8 @@ def listed(cases):
 
 def report(build):
     groups = [(name, *read(name, build)) for name in GROUPS]
-    out = [TEXT, "| group | cases | refused | handed to a fall-back | not converged, and said so | products: mean | largest | "
-           "recomputed: largest of the converged |", "|---|---|---|---|---|---|---|---|"]
+    out = [TEXT, ("| group | cases | refused | handed to a fall-back | not converged, and said so | products: mean | largest | "
+           "recomputed: largest of the converged |"), "|---|---|---|---|---|---|---|---|"]
     for name, _, cases in groups:
         solved = [case for case in cases if not case["refused"]]
         products = [case["products"] for case in solved]
@@ -79,8 +79,13 @@ def report(build):
                    f"{sum(map(failed, solved))} | {sum(products)/len(products):.0f} | {max(products)} | "
                    f"{max(case['recomputed'] for case in solved if not failed(case)):.1e} |")
     for name, title, cases in groups:
-        out += ["", f"## {title} ({name})", "", "| case | contact | method | iterations | products | residual | recomputed | ended |",
-                "|---|---|---|---|---|---|---|---|"]
+        out += [
+            "",
+            f"## {title} ({name})",
+            "",
+            "| case | contact | method | iterations | products | residual | recomputed | ended |",
+            "|---|---|---|---|---|---|---|---|",
+        ]
         for case in listed(cases):
             out.append(f"| {case['name']} | {case['contact']} | {case['method']} | {case['iterations']} | {case['products']} | "
                        f"{case['residual']} | {case['recomputed']:.1e} | {case['ended']} |")

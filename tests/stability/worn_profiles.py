@@ -134,7 +134,8 @@ def solve(name, pair, side, forces, cases):
             file.write(" 0.0 %g %.9g 0.0 %g 0.0\n 20000. 0.0 0.0 0.0 0.0 -43.5\n\n" % (sign*y, third, sign*yaw))
         file.write(" 0 MODULE\n")
     run = subprocess.run([os.environ["CONTACT_PROGRAM"], "2", name], stdin=subprocess.DEVNULL, capture_output=True, text=True)
-    lines, results = open(name + ".out").read().splitlines(), []
+    with open(name + ".out") as file:
+        lines, results = file.read().splitlines(), []
     for i, line in enumerate(lines):
         if re.match(r" ?Case +\d+", line):
             results.append([math.nan]*4)

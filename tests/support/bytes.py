@@ -4,8 +4,9 @@
     bytes.py store DIR --exe PROGRAM --library LIBRARY      run everything, keep the answers in DIR
     bytes.py compare DIR --exe PROGRAM --library LIBRARY    run the same again, tell every file that differs
 
-A store that was interrupted goes on where it was. It keeps its own copies of inputs, profiles, scripts and of the Python package, so a comparison looks at program and library
-only. It runs the examples, and the inputs below CONTACT_REFERENCE where there are any, through these doors:
+A store that was interrupted goes on where it was. It keeps its own copies of inputs, profiles, scripts and of the Python package,
+so a comparison looks at program and library only. It runs the examples, and the inputs below
+CONTACT_REFERENCE where there are any, through these doors:
 
     program   contact 2 with .out, .mat, .subs, HDF5, JSON, VTK, and what it says on the screen
     check     contact 3, also on inputs with single words replaced: errors, and the echo of the input
@@ -164,7 +165,7 @@ def scenarios(source):
         text = file.read()
     for names, script in re.findall(r"foreach\(scenario ([^)]*)\)\s*capi_script_test\(\S+ \S*/conformance/(\w+\.py)", text):
         for name in names.split():
-            if name not in ("timers",):
+            if name != "timers":
                 yield f"{script[:-3]}_{name}", [f"tests/capi/conformance/{script}", name]
     yield "creep_force_book", ["tests/capi/conformance/creep_force_book.py", "12"]
     yield "hostile", ["tests/capi/robust/hostile.py", "3000"]
@@ -199,7 +200,7 @@ def limited():
 
 def perform(task, store, tools, keep):
     """Run one task; hash and text of every file, seconds"""
-    door, name, command = task
+    _door, _name, command = task
     clients = os.path.join(store, "clients")
     source = os.path.join(clients, "source")
     environment = dict(os.environ, OMP_NUM_THREADS="1", CONTACT_LIBRARY=tools["library"], CONTACT_PROGRAM=tools["exe"],
@@ -280,7 +281,10 @@ def do_store(store, arguments, tools):
             if tools["limit"] and files is None:
                 again.append(task)
                 continue
-            index[f"{door}/{name}"] = {"seconds": round(seconds, 2), "files": {file: digest for file, (digest, _) in (files or {}).items()}}
+            index[f"{door}/{name}"] = {
+                "seconds": round(seconds, 2),
+                "files": {file: digest for file, (digest, _) in (files or {}).items()},
+            }
             for file, (_, text) in (files or {}).items():
                 if text is not None:
                     place = place_of(store, door, name, file)
@@ -305,7 +309,9 @@ def stored_text(store, door, name, file):
 def told(old, new, ignored, lines):
     """The first differing lines; None when what differs is ignored"""
     def split(text):
-        return [line for line in text.decode("utf-8", errors="backslashreplace").split("\n") if not (ignored and ignored.search(line))]
+        return [
+            line for line in text.decode("utf-8", errors="backslashreplace").split("\n") if not (ignored and ignored.search(line))
+        ]
     before, after = split(old), split(new)
     if before == after:
         return None
@@ -369,8 +375,12 @@ def main():
     parser.add_argument("store")
     parser.add_argument("--exe", default=os.environ.get("CONTACT_PROGRAM"), help="program; default CONTACT_PROGRAM")
     parser.add_argument("--library", default=os.environ.get("CONTACT_LIBRARY"), help="shared library; default CONTACT_LIBRARY")
-    parser.add_argument("--inputs", default=os.environ.get("CONTACT_REFERENCE"), help="folder of more inputs; default CONTACT_REFERENCE")
-    parser.add_argument("--source", default=os.path.dirname(os.path.dirname(HERE)), help="sources from which a store takes examples")
+    parser.add_argument(
+        "--inputs", default=os.environ.get("CONTACT_REFERENCE"), help="folder of more inputs; default CONTACT_REFERENCE"
+    )
+    parser.add_argument(
+        "--source", default=os.path.dirname(os.path.dirname(HERE)), help="sources from which a store takes examples"
+    )
     parser.add_argument("--python", help="compare: use this Python package instead of the stored one")
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--patience", type=float, default=900.0, help="seconds that one run may take")

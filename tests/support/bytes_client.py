@@ -2,7 +2,7 @@
 
     bytes_client.py run NAME              contact_run_with on an experiment, all outputs
     bytes_client.py read NAME             cntc_readinpfile on an experiment of wheel and rail, then every getter
-    bytes_client.py calls SCRIPT [ARG..]  a script of the Python package; each call of the library with its results goes to calls.txt
+    bytes_client.py calls SCRIPT [ARG..]  a script of the Python package; each call with its results goes to calls.txt
 
 The environment tells CONTACT_LIBRARY; the package contact is found by PYTHONPATH.
 """

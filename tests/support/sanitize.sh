@@ -1,6 +1,7 @@
 # What sh tests/run.sh --sanitize does; sourced by it with $top set to the checkout. Ends the shell.
 #
 # Each part runs whatever the ones before found, and the exit status is 0 when none found anything.
+# shellcheck shell=sh disable=SC2154
 
 failures=
 # part NAME COMMAND...

@@ -156,7 +156,7 @@ class _InTime(io.RawIOBase):
 
 
 class Handler(BaseHTTPRequestHandler):
-    server: "Server"
+    server: Server
     protocol_version = "HTTP/1.1"
     server_version = "contact-report"
     sys_version = ""

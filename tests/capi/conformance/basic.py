@@ -5,8 +5,8 @@ import re
 import subprocess
 import sys
 
-from checks import SOURCE, check, close, extreme, finish, log_text, same
 import numpy as np
+from checks import SOURCE, check, close, extreme, finish, log_text, same
 from contact import cntc
 from contact._library import call, last_error, library
 from contact._signatures import SIGNATURES
@@ -364,7 +364,6 @@ def refusals():
     same(cntc.calculate(1, 1), 0, "a good case")
     forces = cntc.getcontactforces(1, 1)
     nan, inf = float("nan"), float("inf")
-    steel = [0.28, 0.28, 82e3, 82e3]
     settings = (
         ("setpenetration", "PEN", lambda x: cntc.setpenetration(1, 1, x), 0.05, (nan, inf, 1e300)),
         ("setcreepages", "CETA", lambda x: cntc.setcreepages(1, 1, 0.001, x, 0.0004), 0.0, (nan, -inf, 1e300)),
@@ -372,10 +371,20 @@ def refusals():
         ("setreferencevelocity", "VELOC", lambda x: cntc.setreferencevelocity(1, 1, x), 24000.0, (nan, 1e300)),
         ("setrollingstepsize", "DQ", lambda x: cntc.setrollingstepsize(1, 1, 0.0, x), 0.5, (nan, 0.0, -1.0)),
         ("setrollingstepsize", "CHI", lambda x: cntc.setrollingstepsize(1, 1, x, 0.5), 0.0, (180.0, nan)),
-        ("setmaterialparameters", "GG1", lambda x: cntc.setmaterialparameters(1, 1, 0, [0.28, 0.28, x, 82e3]), 82e3,
-         (nan, 0.0, -1.0, 1e300)),
-        ("setmaterialparameters", "POISS2", lambda x: cntc.setmaterialparameters(1, 1, 0, [0.28, x, 82e3, 82e3]), 0.28,
-         (nan, 0.6, -1.0)),
+        (
+            "setmaterialparameters",
+            "GG1",
+            lambda x: cntc.setmaterialparameters(1, 1, 0, [0.28, 0.28, x, 82e3]),
+            82e3,
+            (nan, 0.0, -1.0, 1e300),
+        ),
+        (
+            "setmaterialparameters",
+            "POISS2",
+            lambda x: cntc.setmaterialparameters(1, 1, 0, [0.28, x, 82e3, 82e3]),
+            0.28,
+            (nan, 0.6, -1.0),
+        ),
         ("setmaterialparameters", "CDAMPN", lambda x: cntc.setmaterialparameters(1, 1, 12, [x, 0, 0, 0]), 0.0, (nan, -1.0)),
         ("setfrictionmethod", "FSTAT", lambda x: cntc.setfrictionmethod(1, 1, 0, [x, 0.3]), 0.3, (nan, -0.3, inf)),
         ("setsolverflags", "EPS", lambda x: cntc.setsolverflags(1, 1, 0, [999, 30, 30, 1], [x]), 1e-4, (nan, 0.0, 2.0)),
@@ -383,19 +392,27 @@ def refusals():
         ("sethertzcontact", "AA", lambda x: cntc.sethertzcontact(1, 1, -3, [21, 33, x, 7.0, 21 / 17]), 4.25, (nan, 0.0)),
         ("sethertzcontact", "MX", lambda x: cntc.sethertzcontact(1, 1, -3, [x, 33, 4.25, 7.0, 21 / 17]), 21, (nan, 0, 1e9)),
         ("sethertzcontact", "options", lambda x: cntc.sethertzcontact(1, 1, x, [21, 33, 4.25, 7.0, 21 / 17]), -3, (-9, 7)),
-        ("settemperaturedata", "HEATCP1", lambda x: cntc.settemperaturedata(1, 1, 3, [0, x, 50, 7.85e-6] + [0, 450, 50, 7.85e-6, 1]),
-         450, (nan, 0.0)),
+        (
+            "settemperaturedata",
+            "HEATCP1",
+            lambda x: cntc.settemperaturedata(1, 1, 3, [0, x, 50, 7.85e-6] + [0, 450, 50, 7.85e-6, 1]),
+            450,
+            (nan, 0.0),
+        ),
         ("settangentialforces", "FX", lambda x: cntc.settangentialforces(1, 1, x, 0.0), 0.0, (nan, 1e300)),
         ("settimestep", "dt", lambda x: cntc.settimestep(1, 1, x), 1.0, (nan,)),
         ("setmetadata", "metadata", lambda x: cntc.setmetadata(1, 1, [2011], [x]), 1.0, (nan,)),
         ("setextrarigidslip", "EXRHS", lambda x: cntc.setextrarigidslip(1, 1, [x] * 693, [0.0] * 693), 0.0, (nan, 1e300)),
         ("setundeformeddistc", "B", lambda x: cntc.setundeformeddistc(1, 1, 1, [1, 0, 1, 0, 0, x]), 0.0, (nan, 1e20)),
-        ("setnormalforce", "FN", lambda x: cntc.setnormalforce(1, 1, x), 42000.0, (nan, -1.0, 1e300)))
+        ("setnormalforce", "FN", lambda x: cntc.setnormalforce(1, 1, x), 42000.0, (nan, -1.0, 1e300)),
+    )
     for routine, word, give, good, bad in settings:
         for value in bad:
             give(value)
             text = last_error(1, 1)[1]
-            check(word in text or word == "options" and "Hertzian option" in text, f"{routine}: {value} is refused at once: {text}")
+            check(
+                word in text or (word == "options" and "Hertzian option" in text), f"{routine}: {value} is refused at once: {text}"
+            )
             same(cntc.calculate(1, 1), -99, f"{routine}: {word} = {value} is not forgotten")
             text = last_error(1, 1)[1]
             check("was refused" in text and routine in text.lower(), f"{routine} is named: {text}")
@@ -545,7 +562,9 @@ def grids():
         case_a(1, 1, units)
         same(cntc.calculate(1, 1), 0, "an ellipse")
         a1, b1, aa, bb, rho, cp, scale, bneg, bpos, aob = cntc.gethertzcontact(1, 1)
-        close([aa, bb, scale, bneg, bpos, aob], [4.25 * big, 7 * big, 21 / 17, 7 * big, 7 * big, 4.25 / 7], 1e-9, f"{units}: ellipse")
+        close(
+            [aa, bb, scale, bneg, bpos, aob], [4.25 * big, 7 * big, 21 / 17, 7 * big, 7 * big, 4.25 / 7], 1e-9, f"{units}: ellipse"
+        )
         close([rho, cp], [2 / (a1 + b1), np.sqrt(aa * bb)], [1e-9 * rho, 1e-9], f"{units}: effective radius and size")
         # pressure of an ellipse from its force and area
         fn = cntc.getcontactforces(1, 1)[0]
@@ -564,8 +583,12 @@ def grids():
         cntc.setnormalforce(1, 1, 33000)
         cntc.setmaterialparameters(1, 1, 3, [0.28, 0.28, 82e3 / big**2, 82e3 / big**2, 1, 1, 1])
         same(cntc.calculate(1, 1), 0, "two half ellipses")
-        close(np.array(cntc.gethertzcontact(1, 1)) / [1, 1, big, big, big, big, 1, big, big, 1], [0, 0, 4.2, 0, 0, 0, 1.25, 3.1, 5.1, 1],
-              1e-9, f"{units}: two half ellipses")
+        close(
+            np.array(cntc.gethertzcontact(1, 1)) / [1, 1, big, big, big, big, 1, big, big, 1],
+            [0, 0, 4.2, 0, 0, 0, 1.25, 3.1, 5.1, 1],
+            1e-9,
+            f"{units}: two half ellipses",
+        )
         cntc.finalize(1)
 
 
@@ -626,7 +649,7 @@ def timers():
         cntc.subs_addblock(1, 1, 1, 9, [0.0], [0.0], [1.0])
         same(cntc.subs_calculate(1, 1), 0, "stresses")
         cntc.finalize(1)
-        rows = re.findall(r"^ *\|(.+?) +\| +(\d+) \|", log_text(), re.M)
+        rows = re.findall(r"^ *\|(.+?) +\| +(\d+) \|", log_text(), re.MULTILINE)
         same(rows, [(line, "1") for line in lines], f"level {level}: lines and calls")
 
 

@@ -5,11 +5,11 @@ The published program for this table has no printed results; what is checked is 
 creepages xi, eta, psi: the linear theory gives 3 xi, 3 eta, psi. usage: creep_force_book.py [STRIDE]
 With a stride only every so many ellipses and creepages are computed.
 """
-from concurrent.futures import ThreadPoolExecutor
 import sys
+from concurrent.futures import ThreadPoolExecutor
 
-from checks import check, close, finish, same
 import numpy as np
+from checks import check, close, finish, same
 from contact import cntc
 from contact._library import call
 from contact.cntc import CNTC

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Every flag with every value within and around its range: what is stored, what is refused, what a calculation makes of it"""
-from checks import check, finish, profiles, same
 import numpy as np
+from checks import check, finish, profiles, same
 from contact import cntc
 from contact._library import call, last_error
 from contact.cntc import CNTC

@@ -9,8 +9,9 @@ import re
 import subprocess
 import sys
 
-from checks import check, close, finish, profiles, same
 import numpy as np
+from checks import check, close, finish, profiles, same
+
 try:
     import h5py
 except ImportError:
@@ -160,7 +161,7 @@ def compare_rows(found, expected, label):
     """The rows are there with these values"""
     for names, values in expected.items():
         label_of_row = f"{label}: {names}"
-        if isinstance(values, float) or isinstance(values, int):
+        if isinstance(values, (float, int)):
             # one of the row of kinematics
             row = next((key for key in found if key.split()[:1] in (["PEN"], ["FN"])), None)
             check(row is not None and names in row.split(), f"{label_of_row}: a row {row}")

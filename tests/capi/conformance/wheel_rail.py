@@ -6,8 +6,8 @@ import shutil
 import subprocess
 import sys
 
-from checks import REFERENCE, SOURCE, check, close, finish, profiles, same
 import numpy as np
+from checks import REFERENCE, SOURCE, check, close, finish, profiles, same
 from contact import cntc
 from contact._library import call, last_error
 from contact.cntc import CNTC
@@ -130,7 +130,7 @@ def rail_points():
     """The points of the rail as its file has them, and the gauge point: 14 mm below the top, on the side of the gauge"""
     with open(profiles()[0], encoding="utf-8") as file:
         text = re.sub("!.*", "", file.read())
-    points = np.array(re.search(r"point\.begin(.*?)point\.end", text, re.S).group(1).split(), float).reshape(-1, 2)
+    points = np.array(re.search(r"point\.begin(.*?)point\.end", text, re.DOTALL).group(1).split(), float).reshape(-1, 2)
     inner = points[points[:, 0] < points[np.argmin(points[:, 1]), 0]]
     inner = inner[np.argsort(inner[:, 1])]
     return points, np.interp(points[:, 1].min() + 14.0, inner[:, 1], inner[:, 0])
@@ -267,7 +267,7 @@ def slices():
     cntc.getprofilevalues(1, 9, [0, 1])
     with open("dump_spl2d.m", encoding="utf-8") as file:
         dumped = file.read()
-    number = [[float(word) for word in re.search(rf"group\({group}\)\.{name} = \[(.*?)\]", dumped, re.S).group(1).split()]
+    number = [[float(word) for word in re.search(rf"group\({group}\)\.{name} = \[(.*?)\]", dumped, re.DOTALL).group(1).split()]
               for group in (1,) for name in ("knots", "v", "y")]
     same(len(number[2]), (len(number[0]) - 4) * len(number[1]), "coefficients of the written surface")
     cntc.settrackdimensions(1, 3, [14.0, 0.0, 1435.0] + 8 * [0.0])
@@ -318,7 +318,7 @@ def replay_values():
     shutil.rmtree("dumps", ignore_errors=True)
     os.makedirs("dumps")
     cntc.initlibrary(outdir="dumps", expnam="values")
-    rail, wheel = profiles()
+    _rail, _wheel = profiles()
     set_up(1, 1)
     forces = [cntc.getglobalforces(1, -1)[:3]]
     cntc.setflags(1, -1, [CNTC["if_wrtinp"], CNTC["ic_output"]], [1, 2])
@@ -436,7 +436,7 @@ def _cases_of(name):
     with open(os.path.join(bank, name + ".ref_out"), encoding="utf-8") as file:
         lines = file.read().splitlines()
     forces = [[float(word) for word in lines[number + 1].split()[:3]] for number, line in enumerate(lines) if "FX(TR)" in line]
-    starts = [match.start() for match in re.finditer(r"^ *1 +MODULE", text, re.M)]
+    starts = [match.start() for match in re.finditer(r"^ *1 +MODULE", text, re.MULTILINE)]
     return [text[one:other] for one, other in zip(starts, starts[1:] + [None])], forces
 
 
@@ -512,7 +512,18 @@ def from_inputs():
 
 
 if __name__ == "__main__":
-    scenarios = (conventions, patch_as_in_matlab, mirrored, profile_values, slices, replay, replay_values, options, varying, from_inputs)
+    scenarios = (
+        conventions,
+        patch_as_in_matlab,
+        mirrored,
+        profile_values,
+        slices,
+        replay,
+        replay_values,
+        options,
+        varying,
+        from_inputs,
+    )
     chosen = [scenario for scenario in scenarios if scenario.__name__ in sys.argv[1:]]
     if not chosen:
         raise SystemExit("usage: wheel_rail.py " + " | ".join(scenario.__name__ for scenario in scenarios))
