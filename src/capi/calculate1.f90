@@ -13,11 +13,9 @@ module contact_capi_calculate1
    use contact_capi_problem, only : library_problem, most_patches
    use contact_cases_pair_session, only : solve_pair_case
    use contact_cases_spec, only : case_spec
-   use contact_control_digits, only : digit_value
-   use contact_control_digits1, only : digit1_names, digit1_value_is_known
+   use contact_control_digits, only : digit_names, digit_value, is_known
    use contact_control_library_codes, only : code_of_pair, library_code
-   use contact_input_control1, only : name_choices1
-   use contact_input_control3, only : check_physics, control_words, refuse_unbuilt_digits
+   use contact_input_control, only : check_physics, control_words, name_choices, refuse_unbuilt_digits
    use contact_input_problems, only : problem_list
    use contact_output_pair_files, only : write_pair_files
    use contact_output_report_pair, only : write_pair
@@ -119,7 +117,7 @@ contains
             spec%digits%p = 2
             spec%digits%i = 0
          end if
-         call name_choices1(spec)
+         call name_choices(spec, 1)
          if (spec%digits%h == heat_model%keep) spec%heat_model = heat_model%given
          spec%new_grid = .true.
          ! the first coordinate is that along the track, on rollers that of the wheelset beside the top of the roller
@@ -162,10 +160,10 @@ contains
       character(len=:), allocatable :: name
       integer :: k, digit
 
-      do k = 1, size(digit1_names)
-         name = trim(digit1_names(k))
+      do k = 1, size(digit_names)
+         name = trim(digit_names(k))
          digit = digit_value(spec%digits, name)
-         if (.not. digit1_value_is_known(name, digit)) then
+         if (.not. is_known(name, digit, 1)) then
             call fatal_error(error, name // " = " // integer_text(digit) // " is not a known digit of wheel-rail contact")
             return
          end if
@@ -177,7 +175,7 @@ contains
       end if
       if (allocated(error)) return
       call problems%start("")
-      call refuse_unbuilt_digits(words, spec, on_rail=.true., problems=problems)
+      call refuse_unbuilt_digits(words, 1, spec, problems)
       call check_physics(words, spec, problems)
       call first_problem(problems, error)
    end subroutine check_settings

@@ -14,9 +14,10 @@ module contact_capi_calculate3
    use contact_cases_spec, only : case_spec
    use contact_control_library_codes, only : code_of_contact, library_code
    use contact_grid_potential_contact, only : potential_contact
-   use contact_input_checks3, only : case_lines, check_case
-   use contact_input_control3, only : check_physics, control_words, name_choices, refuse_unbuilt_digits
-   use contact_input_grid3, only : frame_of, grid_frame
+   use contact_input_checks3, only : check_case
+   use contact_input_control, only : check_physics, control_words, name_choices, refuse_unbuilt_digits
+   use contact_input_grid_frame, only : frame_of, grid_frame
+   use contact_input_groups, only : case_lines
    use contact_input_problems, only : problem_list, severity
    use contact_output_mat_file, only : mat_place, write_mat_file
    use contact_output_report, only : write_case
@@ -87,7 +88,7 @@ contains
             spec%digits%p = 2
             spec%digits%i = 0
          end if
-         call name_choices(spec)
+         call name_choices(spec, 3)
          if (spec%digits%h == heat_model%keep) spec%heat_model = heat_model%given
          if (spec%digits%e == slip_source%keep) spec%slip_source = slip_source%given
          spec%new_grid = .true.
@@ -118,7 +119,7 @@ contains
       call problems%start("")
       call check_physics(words, spec, problems)
       call check_case(words, case_lines(), spec, .false., grid_frame(), spec, problems)
-      call refuse_unbuilt_digits(words, spec, on_rail=.false., problems=problems)
+      call refuse_unbuilt_digits(words, 3, spec, problems)
       call first_problem(problems, error)
    end subroutine check_settings
 

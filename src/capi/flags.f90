@@ -10,9 +10,8 @@ module contact_capi_flags
    use contact_capi_problem, only : library_problem
    use contact_capi_registry, only : enter, leave, scope
    use contact_capi_timers, only : set_timer_level
-   use contact_control_digits, only : choice_of, digit_value
-   use contact_control_digits1, only : choice1_of
-   use contact_control_flags, only : accepted_value, flag, flag_table, highest_of, put_digit, row_of_flag
+   use contact_control_digits, only : choice_of, digit_value, put_digit
+   use contact_control_flags, only : accepted_value, flag, flag_table, highest_of, row_of_flag
    use contact_control_units, only : convention_code, find_convention, inward, quantity
    use contact_patch_border, only : border_code
    use contact_patch_resolution, only : least_across
@@ -144,11 +143,11 @@ contains
                call say(1, this, "the way to locate the contact belongs to wheel and rail, the flag is ignored")
             else
                spec%digits%d = number
-               if (number >= 2) spec%wheel_rail%search%location = choice1_of("D", number)
+               if (number >= 2) spec%wheel_rail%search%location = choice_of("D", number, 1)
             end if
          case (flag%inflcf)
             spec%digits%c = number
-            if (number >= 2) spec%kernel = choice_of("C", number)
+            if (number >= 2) spec%kernel = choice_of("C", number, problem%module_number)
          case (flag%exrhs)
             if (.not. is_pair) then
                spec%digits%e = number
@@ -190,6 +189,9 @@ contains
             else
                call set_global_flag(code, number)
             end if
+         case (flag%xflow)
+            ! the word chooses what debug output prints, and there is none; the digit tells that it was given
+            spec%digits%x = merge(1, 0, number > 0)
          case default
             call put_digit(spec%digits, flag_table(row_of_flag(code))%digit, number)
          end select

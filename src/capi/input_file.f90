@@ -15,7 +15,7 @@ module contact_capi_input_file
    use contact_control_library_codes, only : input_type, library_code
    use contact_input_experiment_file, only : experiment_reader, input_case
    use contact_input_problems, only : problem_list
-   use contact_input_reader1, only : read_case1
+   use contact_input_reader, only : read_case
    use contact_profile_request, only : profile_side
    use contact_text_lexer, only : input_lexer, input_value
    use contact_text_words, only : integer_text, replaced
@@ -152,7 +152,7 @@ contains
             & file=file, line=v(1)%line, column=v(1)%column)
          return
       end if
-      call read_case1(lexer, previous, .true., 1, spec, problems, error, first_line)
+      call read_case(lexer, 1, previous, .true., 1, spec, problems, error, first_line=first_line)
    end subroutine read_simpack_case
 
    !> The case becomes what the next calculation solves; its profiles are read

@@ -10,7 +10,6 @@ module contact_capi_physics
    use contact_capi_registry, only : enter, leave, scope
    use contact_cases_spec, only : case_spec, damping_spec, friction_set, heat_spec
    use contact_control_digits, only : choice_of, digit_of
-   use contact_control_digits1, only : choice1_of
    use contact_control_units, only : inward, quantity, unit_convention
    use contact_elastic_material, only : combine, combined_material
    use contact_text_words, only : integer_text, real_text
@@ -89,7 +88,7 @@ contains
          end if
          spec%digits%g = method
          if (method == 1) return
-         spec%solver = choice_of("G", method)
+         spec%solver = choice_of("G", method, 3)
          iteration%maxgs = ints(1)
          iteration%maxin = ints(2)
          iteration%maxnr = ints(3)
@@ -145,7 +144,8 @@ contains
       else
          ! the flexibility of an elastic thin sheet comes last, where there is one
          with_sheet = 0
-         if (method < 10 .and. problem%spec%digits%b == digit_of("B", pressure_model%thin_sheet)) with_sheet = 1
+         if (method < 10 .and. problem%spec%digits%b == digit_of("B", pressure_model%thin_sheet, problem%module_number)) &
+            & with_sheet = 1
          if (.not. count_fits(this, method, size(values), fewest(method), most(method) + with_sheet)) then
             call leave(problem)
             return
@@ -228,7 +228,7 @@ contains
       if (.not. fits(this, "POISS1 POISS2 GG1 GG2" // trim(names(method)) // trim(merge(" FLXZ", "     ", with_sheet)), v(:n))) &
          & return
       spec%digits%m = method
-      spec%material_model = choice_of("M", method)
+      spec%material_model = choice_of("M", method, 3)
       associate (material => spec%material)
          material%poiss = v(1:2)
          material%gg = v(3:4)
@@ -413,8 +413,8 @@ contains
       associate (spec => problem%spec)
          spec%digits%v = variation
          spec%digits%l = merge(4, law, law == 5)
-         spec%variation = choice1_of("V", variation)
-         spec%friction_law = choice_of("L", spec%digits%l)
+         spec%variation = choice_of("V", variation, problem%module_number)
+         spec%friction_law = choice_of("L", spec%digits%l, problem%module_number)
          spec%friction%memdst = memory(1)
          spec%friction%mem_s0 = memory(2)
          call move_alloc(sets, spec%friction%sets)

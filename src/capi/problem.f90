@@ -15,7 +15,7 @@ module contact_capi_problem
    use contact_cases_spec, only : case_spec, friction_set
    use contact_control_units, only : unit_convention
    use contact_experiment_stopwatch, only : stopwatch
-   use contact_input_grid3, only : grid_frame
+   use contact_input_grid_frame, only : grid_frame
    use contact_profile_curve, only : profile_curve
    use contact_profile_surface, only : profile_surface
    use contact_subsurface_points, only : point_block

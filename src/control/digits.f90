@@ -1,9 +1,9 @@
-!> The control digits of module 3: digit, named choice and words, in one table
+!> The control digits: digit, named choice and words, in one table for both modules
 !>
 !> The table serves reading, checking, refusing what is not built, writing of input files and
-!> the tables of doc/user/input.md. Decoding and encoding of the three control words is here too.
+!> the tables of doc/user. Decoding and encoding of the three control words is here too.
 module contact_control_digits
-   use contact_base_choices, only : estimate_choice, force_control, friction_model, heat_model, kernel_model, &
+   use contact_base_choices, only : contact_location, estimate_choice, force_control, friction_model, heat_model, kernel_model, &
       & material_model, motion, normal_control, pressure_model, slip_source, solver_choice, stress_choice, &
       & time_link, variation
    use contact_cases_spec, only : case_digits
@@ -11,7 +11,7 @@ module contact_control_digits
    private
 
    public :: digit_row, digit_table, digit_names
-   public :: is_known, is_built, choice_of, digit_of, digit_text, allowed_text, listed, digit_value
+   public :: is_known, is_built, choice_of, digit_of, digit_text, allowed_text, digit_value, put_digit
    public :: decode_words, encode_words, word_text
 
    !> Length of the words for a value, and of the list of all values of a digit
@@ -25,120 +25,157 @@ module contact_control_digits
       integer :: digit
       !> Member of the enumeration in contact_base_choices, or the digit itself where there is none
       integer :: choice
+      !> Module that knows this value, 0 for both
+      integer :: module_number
       !> Can this version compute it?
       logical :: built
       !> What it means; for what is not built: the name of the effect
       character(len=text_length) :: text
    end type digit_row
 
-   !> All digits in the order of the control words
+   integer, parameter :: both = 0, module_1 = 1, module_3 = 3
+
+   !> All digits in the order of the control words; C1 has module 1 only
    character(len=2), parameter :: digit_names(*) = [character(len=2) :: &
-      & "P", "B", "T", "N", "F", "S", "V", "L", "D", "C", "M", "Z", "E", "M2", "X", "H", "G", "I", "A", "O", "W", "R"]
+      & "C1", "P", "B", "T", "N", "F", "S", "V", "L", "D", "C", "M", "Z", "E", "M2", "X", "H", "G", "I", "A", "O", "W", "R"]
 
    type(digit_row), parameter :: word1_rows(*) = [ &
-      & digit_row("P", 0, time_link%continue_all, .true., "new time step: the previous case gives the previous tractions"), &
-      & digit_row("P", 1, time_link%continue_normal, .true., "as 0 for the pressures; previous shear tractions are zero"), &
-      & digit_row("P", 2, time_link%initiate, .true., "new sequence: no previous tractions"), &
-      & digit_row("P", 3, time_link%repeat_step, .true., "new iteration: previous tractions stay as they are"), &
-      & digit_row("B", 0, pressure_model%full, .true., "full solution of the normal problem"), &
-      & digit_row("B", 1, pressure_model%thin_sheet, .true., "elastic thin sheet with a vertical flexibility"), &
-      & digit_row("B", 2, pressure_model%elliptical, .true., "Hertzian: elliptical pressure and traction bound"), &
-      & digit_row("B", 3, pressure_model%parabolical, .true., "Hertzian ellipse with a parabolical traction bound"), &
-      & digit_row("B", 4, pressure_model%sdec, .true., "simple double-elliptical contact (SDEC)"), &
-      & digit_row("B", 5, pressure_model%kpec, .true., "Kik-Piotrowski approach with ellipse correction (KPEC)"), &
-      & digit_row("B", 6, pressure_model%analyn, .true., "modified ANALYN approach"), &
-      & digit_row("T", 0, motion%none, .true., "frictionless compression"), &
-      & digit_row("T", 1, motion%shift, .true., "shift, or rolling with material-fixed coordinates"), &
-      & digit_row("T", 2, motion%transient_rolling, .true., "transient rolling, moving coordinates"), &
-      & digit_row("T", 3, motion%steady_rolling, .true., "steady rolling, direct method"), &
-      & digit_row("N", 0, normal_control%approach, .true., "approach PEN prescribed"), &
-      & digit_row("N", 1, normal_control%force, .true., "normal force FN prescribed"), &
-      & digit_row("F", 0, force_control%creepages, .true., "creepages CKSI and CETA prescribed"), &
-      & digit_row("F", 1, force_control%fx_and_ceta, .true., "force FX and creepage CETA prescribed"), &
-      & digit_row("F", 2, force_control%fx_and_fy, .true., "forces FX and FY prescribed"), &
-      & digit_row("S", 0, stress_choice%none, .true., "no subsurface stresses"), &
-      & digit_row("S", 1, stress_choice%keep, .true., "subsurface stresses in the points in store"), &
-      & digit_row("S", 2, stress_choice%new_output, .true., "as 1, with new output digits"), &
-      & digit_row("S", 3, stress_choice%new_points, .true., "new output digits and new subsurface points")]
+      & digit_row("C1", 0, 0, module_1, .true., "left wheel on the track"), &
+      & digit_row("C1", 1, 1, module_1, .true., "right wheel on the track"), &
+      & digit_row("C1", 4, 4, module_1, .true., "left wheel on a roller"), &
+      & digit_row("C1", 5, 5, module_1, .true., "right wheel on a roller"), &
+      & digit_row("P", 0, time_link%continue_all, both, .true., "new time step: the previous case gives the previous tractions"), &
+      & digit_row("P", 1, time_link%continue_normal, both, .true., "as 0 for the pressures; previous shear tractions are zero"), &
+      & digit_row("P", 2, time_link%initiate, both, .true., "new sequence: no previous tractions"), &
+      & digit_row("P", 3, time_link%repeat_step, both, .true., "new iteration: previous tractions stay as they are"), &
+      & digit_row("B", 0, pressure_model%full, both, .true., "full solution of the normal problem"), &
+      & digit_row("B", 1, pressure_model%thin_sheet, both, .true., "elastic thin sheet with a vertical flexibility"), &
+      & digit_row("B", 2, pressure_model%elliptical, module_3, .true., "Hertzian: elliptical pressure and traction bound"), &
+      & digit_row("B", 3, pressure_model%parabolical, module_3, .true., "Hertzian ellipse with a parabolical traction bound"), &
+      & digit_row("B", 4, pressure_model%sdec, module_3, .true., "simple double-elliptical contact (SDEC)"), &
+      & digit_row("B", 5, pressure_model%kpec, both, .true., "Kik-Piotrowski approach with ellipse correction (KPEC)"), &
+      & digit_row("B", 6, pressure_model%analyn, both, .true., "modified ANALYN approach"), &
+      & digit_row("T", 0, motion%none, both, .true., "frictionless compression"), &
+      & digit_row("T", 1, motion%shift, both, .true., "shift, or rolling with material-fixed coordinates"), &
+      & digit_row("T", 2, motion%transient_rolling, both, .true., "transient rolling, moving coordinates"), &
+      & digit_row("T", 3, motion%steady_rolling, both, .true., "steady rolling, direct method"), &
+      & digit_row("N", 0, normal_control%approach, both, .true., "approach PEN prescribed"), &
+      & digit_row("N", 1, normal_control%force, both, .true., "normal force FN prescribed"), &
+      & digit_row("F", 0, force_control%creepages, module_3, .true., "creepages CKSI and CETA prescribed"), &
+      & digit_row("F", 1, force_control%fx_and_ceta, module_3, .true., "force FX and creepage CETA prescribed"), &
+      & digit_row("F", 2, force_control%fx_and_fy, module_3, .true., "forces FX and FY prescribed"), &
+      & digit_row("F", 0, force_control%creepages, module_1, .true., "velocities prescribed"), &
+      & digit_row("F", 1, force_control%longitudinal_force, module_1, .true., &
+      & "longitudinal force in place of the pitch velocity"), &
+      & digit_row("F", 3, force_control%massless_rail, module_1, .true., "rail without mass on springs"), &
+      & digit_row("S", 0, stress_choice%none, both, .true., "no subsurface stresses"), &
+      & digit_row("S", 1, stress_choice%keep, both, .true., "subsurface stresses in the points in store"), &
+      & digit_row("S", 2, stress_choice%new_output, both, .true., "as 1, with new output digits"), &
+      & digit_row("S", 3, stress_choice%new_points, both, .true., "new output digits and new subsurface points")]
 
    type(digit_row), parameter :: word2_rows(*) = [ &
-      & digit_row("V", 0, variation%none, .true., "one set of friction parameters"), &
-      & digit_row("V", 3, variation%by_row, .true., "friction parameters for each row of the grid"), &
-      & digit_row("L", 0, friction_model%coulomb, .true., "Coulomb friction"), &
-      & digit_row("L", 1, 1, .true., "keep the friction law of the previous case"), &
-      & digit_row("L", 2, friction_model%linear, .true., "friction falling with slip velocity, piecewise linear"), &
-      & digit_row("L", 3, friction_model%rational, .true., "friction falling with slip velocity, rational"), &
-      & digit_row("L", 4, friction_model%exponential, .true., "friction falling with slip velocity, exponential"), &
-      & digit_row("L", 6, friction_model%temperature, .true., "friction changing with surface temperature"), &
-      & digit_row("D", 0, 0, .true., "keep the potential contact area"), &
-      & digit_row("D", 1, 1, .true., "form the potential contact area from the values in store"), &
-      & digit_row("D", 2, 2, .true., "read the potential contact area"), &
-      & digit_row("C", 0, 0, .true., "keep the influence coefficients"), &
-      & digit_row("C", 1, 1, .true., "form the influence coefficients from the values in store"), &
-      & digit_row("C", 2, kernel_model%piecewise_constant, .true., "half-space, piecewise constant; read materials"), &
-      & digit_row("C", 3, kernel_model%bilinear, .true., "half-space with bilinear tractions"), &
-      & digit_row("C", 4, kernel_model%conformal, .true., "half-space with angle correction for conformal contact"), &
-      & digit_row("C", 9, kernel_model%tabulated, .true., "numerical influence coefficients from a file"), &
-      & digit_row("M", 0, material_model%elastic, .true., "elastic"), &
-      & digit_row("M", 1, material_model%viscoelastic, .true., "viscoelastic"), &
-      & digit_row("M", 2, material_model%fastsim_single, .true., "simplified theory, one flexibility (modified Fastsim)"), &
-      & digit_row("M", 3, material_model%fastsim, .true., "simplified theory, three flexibilities (modified Fastsim)"), &
-      & digit_row("M", 4, material_model%interfacial_layer, .true., "interfacial layer with near-surface plasticity"), &
-      & digit_row("M", 5, material_model%fastrip, .true., "modified FaStrip"), &
-      & digit_row("M", 6, material_model%fastrip_plain, .true., "FaStrip as published, without slope reduction"), &
-      & digit_row("M", 7, material_model%fastrip_sliding, .true., "as 6, with the correction of full sliding"), &
-      & digit_row("Z", 0, 0, .true., "keep the undeformed distance and planform"), &
-      & digit_row("Z", 1, 1, .true., "form the undeformed distance from the values in store"), &
-      & digit_row("Z", 2, 2, .true., "read the undeformed distance and planform"), &
-      & digit_row("E", 0, slip_source%none, .true., "no extra term in the rigid slip"), &
-      & digit_row("E", 1, slip_source%keep, .true., "keep the extra term of the previous case"), &
-      & digit_row("E", 2, slip_source%no_spin_y, .true., "extra term that cancels the lateral part of the spin"), &
-      & digit_row("E", 3, slip_source%no_spin_x, .true., "extra term that cancels the longitudinal part of the spin"), &
-      & digit_row("E", 9, slip_source%given, .true., "read an extra term for each element"), &
-      & digit_row("M2", 0, 0, .true., "no damping"), &
-      & digit_row("M2", 1, 1, .true., "keep the damping of the previous case"), &
-      & digit_row("M2", 2, 2, .true., "force-based proportional damping")]
+      & digit_row("V", 0, variation%none, both, .true., "one set of friction parameters"), &
+      & digit_row("V", 3, variation%by_row, module_3, .true., "friction parameters for each row of the grid"), &
+      & digit_row("V", 1, variation%by_angle, module_1, .true., "friction parameters by the inclination of the rail surface"), &
+      & digit_row("V", 2, variation%by_position, module_1, .true., "friction parameters by the position along the track"), &
+      & digit_row("L", 0, friction_model%coulomb, both, .true., "Coulomb friction"), &
+      & digit_row("L", 1, 1, both, .true., "keep the friction law of the previous case"), &
+      & digit_row("L", 2, friction_model%linear, both, .true., "friction falling with slip velocity, piecewise linear"), &
+      & digit_row("L", 3, friction_model%rational, both, .true., "friction falling with slip velocity, rational"), &
+      & digit_row("L", 4, friction_model%exponential, both, .true., "friction falling with slip velocity, exponential"), &
+      & digit_row("L", 6, friction_model%temperature, both, .true., "friction changing with surface temperature"), &
+      & digit_row("D", 0, 0, module_3, .true., "keep the potential contact area"), &
+      & digit_row("D", 1, 1, module_3, .true., "form the potential contact area from the values in store"), &
+      & digit_row("D", 2, 2, module_3, .true., "read the potential contact area"), &
+      & digit_row("D", 0, 0, module_1, .true., "keep the settings of search and discretisation"), &
+      & digit_row("D", 1, 1, module_1, .true., "keep the settings of search and discretisation"), &
+      & digit_row("D", 2, contact_location%locus, module_1, .true., "flat contact, contact locus"), &
+      & digit_row("D", 3, contact_location%locus_extended, module_1, .true., "flat contact, contact locus, extended rigid slip"), &
+      & digit_row("D", 4, contact_location%conformal, module_1, .true., "conformal contact, contact locus"), &
+      & digit_row("D", 5, contact_location%grid, module_1, .true., "flat contact, search over a grid"), &
+      & digit_row("D", 6, contact_location%steep_grid, module_1, .true., "flat contact, search over a finer grid"), &
+      & digit_row("D", 7, contact_location%first_contact, module_1, .true., "flat contact, first point of contact as reference"), &
+      & digit_row("D", 8, contact_location%oblique_locus, module_1, .false., &
+      & "contact locus in an oblique view that fits few profiles"), &
+      & digit_row("D", 9, contact_location%oblique_grid, module_1, .false., &
+      & "grid search in an oblique view that fits few profiles"), &
+      & digit_row("C", 0, 0, module_3, .true., "keep the influence coefficients"), &
+      & digit_row("C", 1, 1, both, .true., "form the influence coefficients from the values in store"), &
+      & digit_row("C", 2, kernel_model%piecewise_constant, both, .true., "half-space, piecewise constant; read materials"), &
+      & digit_row("C", 3, kernel_model%bilinear, both, .true., "half-space with bilinear tractions"), &
+      & digit_row("C", 4, kernel_model%conformal, both, .true., "half-space with angle correction for conformal contact"), &
+      & digit_row("C", 9, kernel_model%tabulated, both, .true., "numerical influence coefficients from a file"), &
+      & digit_row("C", 0, 0, module_1, .true., "as 1"), &
+      & digit_row("M", 0, material_model%elastic, both, .true., "elastic"), &
+      & digit_row("M", 1, material_model%viscoelastic, both, .true., "viscoelastic"), &
+      & digit_row("M", 2, material_model%fastsim_single, both, .true., "simplified theory, one flexibility (modified Fastsim)"), &
+      & digit_row("M", 3, material_model%fastsim, both, .true., "simplified theory, three flexibilities (modified Fastsim)"), &
+      & digit_row("M", 4, material_model%interfacial_layer, both, .true., "interfacial layer with near-surface plasticity"), &
+      & digit_row("M", 5, material_model%fastrip, both, .true., "modified FaStrip"), &
+      & digit_row("M", 6, material_model%fastrip_plain, both, .true., "FaStrip as published, without slope reduction"), &
+      & digit_row("M", 7, material_model%fastrip_sliding, both, .true., "as 6, with the correction of full sliding"), &
+      & digit_row("Z", 0, 0, module_3, .true., "keep the undeformed distance and planform"), &
+      & digit_row("Z", 1, 1, module_3, .true., "form the undeformed distance from the values in store"), &
+      & digit_row("Z", 2, 2, module_3, .true., "read the undeformed distance and planform"), &
+      & digit_row("Z", 0, 0, module_1, .true., "keep track and rail"), &
+      & digit_row("Z", 1, 1, module_1, .true., "read the track dimensions"), &
+      & digit_row("Z", 2, 2, module_1, .true., "read the deviations of the rail"), &
+      & digit_row("Z", 3, 3, module_1, .true., "read track dimensions, rail profile and deviations"), &
+      & digit_row("E", 0, slip_source%none, module_3, .true., "no extra term in the rigid slip"), &
+      & digit_row("E", 1, slip_source%keep, module_3, .true., "keep the extra term of the previous case"), &
+      & digit_row("E", 2, slip_source%no_spin_y, module_3, .true., "extra term that cancels the lateral part of the spin"), &
+      & digit_row("E", 3, slip_source%no_spin_x, module_3, .true., "extra term that cancels the longitudinal part of the spin"), &
+      & digit_row("E", 9, slip_source%given, module_3, .true., "read an extra term for each element"), &
+      & digit_row("E", 0, 0, module_1, .true., "keep wheelset, position and velocity"), &
+      & digit_row("E", 1, 1, module_1, .true., "read the position of the wheelset"), &
+      & digit_row("E", 2, 2, module_1, .true., "read position and velocity"), &
+      & digit_row("E", 3, 3, module_1, .true., "read wheelset dimensions, wheel profile, position and velocity"), &
+      & digit_row("E", 4, 4, module_1, .true., "as 2, with the flexible deviations of the wheelset"), &
+      & digit_row("E", 5, 5, module_1, .true., "as 3, with the flexible deviations of the wheelset"), &
+      & digit_row("M2", 0, 0, both, .true., "no damping"), &
+      & digit_row("M2", 1, 1, both, .true., "keep the damping of the previous case"), &
+      & digit_row("M2", 2, 2, both, .true., "force-based proportional damping")]
 
    type(digit_row), parameter :: word3_rows(*) = [ &
-      & digit_row("X", 0, 0, .true., "no fourth control word"), &
-      & digit_row("X", 1, 1, .true., "a fourth control word follows, which is read and ignored"), &
-      & digit_row("H", 0, heat_model%none, .true., "no surface temperatures"), &
-      & digit_row("H", 1, heat_model%keep, .true., "surface temperatures with the values in store"), &
-      & digit_row("H", 3, heat_model%given, .true., "surface temperatures with new values"), &
-      & digit_row("G", 0, solver_choice%default, .true., "default solvers"), &
-      & digit_row("G", 1, 1, .true., "keep the solver settings of the previous case"), &
-      & digit_row("G", 2, solver_choice%convex_gs, .true., "ConvexGS always, relaxation is read"), &
-      & digit_row("G", 3, solver_choice%gauss_seidel, .true., "SteadyGS in steady rolling, relaxation is read"), &
-      & digit_row("G", 4, solver_choice%default_friction, .true., "default solvers, slip velocity iteration is read"), &
-      & digit_row("G", 5, solver_choice%gd_steady, .true., "GDsteady in steady rolling, its parameters are read"), &
-      & digit_row("I", 0, estimate_choice%fresh, .true., "start from zero tractions"), &
-      & digit_row("I", 1, estimate_choice%previous, .true., "start from the previous solution, regularised"), &
-      & digit_row("I", 2, estimate_choice%previous_normal, .true., "start from the previous pressures only"), &
-      & digit_row("I", 3, estimate_choice%unchanged, .true., "start from the previous solution, untouched"), &
-      & digit_row("A", 0, 0, .true., "no .mat file"), &
-      & digit_row("A", 1, 1, .true., ".mat file with the elements in contact"), &
-      & digit_row("A", 2, 2, .true., ".mat file with all elements"), &
-      & digit_row("O", 0, 0, .true., "no results in the .out file"), &
-      & digit_row("O", 1, 1, .true., "global results"), &
-      & digit_row("O", 2, 2, .true., "as 1, with the input"), &
-      & digit_row("O", 3, 3, .true., "as 2, with a picture of the contact area"), &
-      & digit_row("O", 4, 4, .true., "as 3"), &
-      & digit_row("O", 5, 5, .true., "as 4, with a table of the elements in contact"), &
-      & digit_row("O", 6, 6, .true., "as 4, with a table of all elements"), &
-      & digit_row("W", 0, 0, .true., "no flow trace"), &
-      & digit_row("W", 1, 1, .true., "outer iteration"), &
-      & digit_row("W", 2, 2, .true., "as 1, with the iteration of slip velocity and friction"), &
-      & digit_row("W", 3, 3, .true., "as 2, with the normal and tangential algorithms"), &
-      & digit_row("W", 4, 4, .true., "as 3, with the Newton-Raphson iteration of forces"), &
-      & digit_row("W", 5, 5, .true., "as 4, with the tangential solvers"), &
-      & digit_row("W", 6, 6, .true., "as 5, with the normal solver"), &
-      & digit_row("W", 7, 7, .true., "as 6"), &
-      & digit_row("W", 8, 8, .true., "as 6"), &
-      & digit_row("W", 9, 9, .true., "full flow trace, with pictures of the element division"), &
-      & digit_row("R", 0, 0, .true., "solve; the next case of this module follows"), &
-      & digit_row("R", 1, 1, .true., "solve; a module line follows"), &
-      & digit_row("R", 2, 2, .true., "store the input only; the next case of this module follows"), &
-      & digit_row("R", 3, 3, .true., "store the input only; a module line follows")]
+      & digit_row("X", 0, 0, both, .true., "no fourth control word"), &
+      & digit_row("X", 1, 1, both, .true., "a fourth control word follows, which is read and ignored"), &
+      & digit_row("H", 0, heat_model%none, both, .true., "no surface temperatures"), &
+      & digit_row("H", 1, heat_model%keep, both, .true., "surface temperatures with the values in store"), &
+      & digit_row("H", 3, heat_model%given, both, .true., "surface temperatures with new values"), &
+      & digit_row("G", 0, solver_choice%default, both, .true., "default solvers"), &
+      & digit_row("G", 1, 1, both, .true., "keep the solver settings of the previous case"), &
+      & digit_row("G", 2, solver_choice%convex_gs, both, .true., "ConvexGS always, relaxation is read"), &
+      & digit_row("G", 3, solver_choice%gauss_seidel, both, .true., "SteadyGS in steady rolling, relaxation is read"), &
+      & digit_row("G", 4, solver_choice%default_friction, both, .true., "default solvers, slip velocity iteration is read"), &
+      & digit_row("G", 5, solver_choice%gd_steady, both, .true., "GDsteady in steady rolling, its parameters are read"), &
+      & digit_row("I", 0, estimate_choice%fresh, both, .true., "start from zero tractions"), &
+      & digit_row("I", 1, estimate_choice%previous, both, .true., "start from the previous solution, regularised"), &
+      & digit_row("I", 2, estimate_choice%previous_normal, both, .true., "start from the previous pressures only"), &
+      & digit_row("I", 3, estimate_choice%unchanged, both, .true., "start from the previous solution, untouched"), &
+      & digit_row("A", 0, 0, both, .true., "no .mat file"), &
+      & digit_row("A", 1, 1, both, .true., ".mat file with the elements in contact"), &
+      & digit_row("A", 2, 2, both, .true., ".mat file with all elements"), &
+      & digit_row("O", 0, 0, both, .true., "no results in the .out file"), &
+      & digit_row("O", 1, 1, both, .true., "global results"), &
+      & digit_row("O", 2, 2, both, .true., "as 1, with the input"), &
+      & digit_row("O", 3, 3, both, .true., "as 2, with a picture of the contact area"), &
+      & digit_row("O", 4, 4, both, .true., "as 3"), &
+      & digit_row("O", 5, 5, both, .true., "as 4, with a table of the elements in contact"), &
+      & digit_row("O", 6, 6, both, .true., "as 4, with a table of all elements"), &
+      & digit_row("W", 0, 0, both, .true., "no flow trace"), &
+      & digit_row("W", 1, 1, both, .true., "outer iteration"), &
+      & digit_row("W", 2, 2, both, .true., "as 1, with the iteration of slip velocity and friction"), &
+      & digit_row("W", 3, 3, both, .true., "as 2, with the normal and tangential algorithms"), &
+      & digit_row("W", 4, 4, both, .true., "as 3, with the Newton-Raphson iteration of forces"), &
+      & digit_row("W", 5, 5, both, .true., "as 4, with the tangential solvers"), &
+      & digit_row("W", 6, 6, both, .true., "as 5, with the normal solver"), &
+      & digit_row("W", 7, 7, both, .true., "as 6"), &
+      & digit_row("W", 8, 8, both, .true., "as 6"), &
+      & digit_row("W", 9, 9, both, .true., "full flow trace, with pictures of the element division"), &
+      & digit_row("R", 0, 0, both, .true., "solve; the next case of this module follows"), &
+      & digit_row("R", 1, 1, both, .true., "solve; a module line follows"), &
+      & digit_row("R", 2, 2, both, .true., "store the input only; the next case of this module follows"), &
+      & digit_row("R", 3, 3, both, .true., "store the input only; a module line follows")]
 
    !> Every accepted value of every digit, in the order of digit_names
    type(digit_row), parameter :: digit_table(*) = [word1_rows, word2_rows, word3_rows]
@@ -146,89 +183,111 @@ module contact_control_digits
 contains
 
    !> Row of the table, 0 when there is none
-   pure integer function row_of(name, digit) result(row)
+   pure integer function row_of(name, digit, module_number) result(row)
       character(len=*), intent(in) :: name
       integer, intent(in) :: digit
+      !> 1 or 3
+      integer, intent(in) :: module_number
       character(len=2) :: key
 
       key = name
       do row = 1, size(digit_table)
-         if (digit_table(row)%digit == digit .and. digit_table(row)%name == key) return
+         if (digit_table(row)%digit == digit .and. digit_table(row)%name == key .and. belongs(digit_table(row), module_number)) &
+            & return
       end do
       row = 0
    end function row_of
 
+   !> Does a module know this row?
+   elemental logical function belongs(row, module_number)
+      type(digit_row), intent(in) :: row
+      !> 1 or 3
+      integer, intent(in) :: module_number
+
+      belongs = row%module_number == both .or. row%module_number == module_number
+   end function belongs
+
    !> Does the format know this value of the digit?
-   pure logical function is_known(name, digit)
+   pure logical function is_known(name, digit, module_number)
       character(len=*), intent(in) :: name
       integer, intent(in) :: digit
+      !> 1 or 3
+      integer, intent(in) :: module_number
 
-      is_known = row_of(name, digit) > 0
+      is_known = row_of(name, digit, module_number) > 0
    end function is_known
 
    !> Can this version compute it? False for unknown values too
-   pure logical function is_built(name, digit)
+   pure logical function is_built(name, digit, module_number)
       character(len=*), intent(in) :: name
       integer, intent(in) :: digit
+      !> 1 or 3
+      integer, intent(in) :: module_number
       integer :: row
 
-      row = row_of(name, digit)
+      row = row_of(name, digit, module_number)
       is_built = .false.
       if (row > 0) is_built = digit_table(row)%built
    end function is_built
 
    !> Named choice behind a digit; an unknown digit is handed back as it is
-   pure integer function choice_of(name, digit) result(choice)
+   pure integer function choice_of(name, digit, module_number) result(choice)
       character(len=*), intent(in) :: name
       integer, intent(in) :: digit
+      !> 1 or 3
+      integer, intent(in) :: module_number
       integer :: row
 
-      row = row_of(name, digit)
+      row = row_of(name, digit, module_number)
       choice = digit
       if (row > 0) choice = digit_table(row)%choice
    end function choice_of
 
    !> Digit that stands for a named choice, -1 when there is none
-   pure integer function digit_of(name, choice) result(digit)
+   pure integer function digit_of(name, choice, module_number) result(digit)
       character(len=*), intent(in) :: name
       integer, intent(in) :: choice
+      !> 1 or 3
+      integer, intent(in) :: module_number
       integer :: row
 
       digit = -1
       do row = 1, size(digit_table)
          if (digit_table(row)%choice /= choice .or. digit_table(row)%name /= name) cycle
+         if (.not. belongs(digit_table(row), module_number)) cycle
          digit = digit_table(row)%digit
          return
       end do
    end function digit_of
 
    !> What the digit means, in words
-   pure function digit_text(name, digit) result(text)
+   pure function digit_text(name, digit, module_number) result(text)
       character(len=*), intent(in) :: name
       integer, intent(in) :: digit
+      !> 1 or 3
+      integer, intent(in) :: module_number
       character(len=text_length) :: text
       integer :: row
 
-      row = row_of(name, digit)
+      row = row_of(name, digit, module_number)
       text = "unknown"
       if (row > 0) text = digit_table(row)%text
    end function digit_text
 
    !> The known values of a digit, "0, 1, 2, 3", for messages
-   pure function allowed_text(name) result(text)
+   pure function allowed_text(name, module_number) result(text)
       character(len=*), intent(in) :: name
+      !> 1 or 3
+      integer, intent(in) :: module_number
       character(len=list_length) :: text
+      integer :: digit
 
-      text = listed(pack(digit_table%digit, digit_table%name == name))
+      text = ""
+      do digit = 0, 9
+         if (is_known(name, digit, module_number)) text = trim(text) // ", " // achar(iachar("0") + digit)
+      end do
+      text = text(3:)
    end function allowed_text
-
-   !> Digits with commas between
-   pure function listed(digits) result(text)
-      integer, intent(in) :: digits(:)
-      character(len=list_length) :: text
-
-      write(text, '(*(I1, :, ", "))') digits
-   end function listed
 
    !> Value of the digit with the given name
    pure integer function digit_value(digits, name) result(digit)
@@ -263,13 +322,49 @@ contains
       end select
    end function digit_value
 
-   !> Take the control words of module 3 apart, from the right
+   !> Give a control digit a value
+   pure subroutine put_digit(digits, name, value)
+      type(case_digits), intent(inout) :: digits
+      character(len=*), intent(in) :: name
+      integer, intent(in) :: value
+
+      select case (name)
+      case ("C1"); digits%c1 = value
+      case ("P"); digits%p = value
+      case ("B"); digits%b = value
+      case ("T"); digits%t = value
+      case ("N"); digits%n = value
+      case ("F"); digits%f = value
+      case ("S"); digits%s = value
+      case ("V"); digits%v = value
+      case ("L"); digits%l = value
+      case ("D"); digits%d = value
+      case ("C"); digits%c = value
+      case ("M"); digits%m = value
+      case ("Z"); digits%z = value
+      case ("E"); digits%e = value
+      case ("M2"); digits%m2 = value
+      case ("X"); digits%x = value
+      case ("H"); digits%h = value
+      case ("G"); digits%g = value
+      case ("I"); digits%i = value
+      case ("A"); digits%a = value
+      case ("O"); digits%o = value
+      case ("W"); digits%w = value
+      case ("R"); digits%r = value
+      end select
+   end subroutine put_digit
+
+   !> Take the control words apart, from the right
    !>
    !> Leading digits that are absent are zero. What stands left of V and X stays in these digits
-   !> and makes them out of range; what stands left of P is ignored. The sign is the caller's concern.
-   pure subroutine decode_words(word1, word2, word3, digits, second)
-      !> P B T N F S; V L D C M Z E; X H G I A O W R
+   !> and makes them out of range; what stands left of P is C1 in module 1 and ignored in module 3. The sign is the
+   !> caller's concern.
+   pure subroutine decode_words(word1, word2, word3, module_number, digits, second)
+      !> C1 P B T N F S; V L D C M Z E; X H G I A O W R
       integer, intent(in) :: word1, word2, word3
+      !> 1 or 3
+      integer, intent(in) :: module_number
       !> GAPWGT keeps its value when there is no second number
       type(case_digits), intent(inout) :: digits
       !> Second number of word 2, 10 GAPWGT + M2; absent means that the damping is kept
@@ -283,6 +378,7 @@ contains
       call take(rest, digits%t)
       call take(rest, digits%b)
       call take(rest, digits%p)
+      if (module_number == module_1) digits%c1 = rest
 
       rest = abs(word2)
       call take(rest, digits%e)
@@ -321,7 +417,7 @@ contains
       number = number/10
    end subroutine take
 
-   !> Put the control words of module 3 together
+   !> Put the control words together, without C1
    pure subroutine encode_words(digits, word1, word2, word3, second)
       type(case_digits), intent(in) :: digits
       !> P B T N F S; V L D C M Z E; X H G I A O W R

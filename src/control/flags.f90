@@ -2,11 +2,10 @@
 !>
 !> The table serves setting, getting and the range of what is accepted.
 module contact_control_flags
-   use contact_cases_spec, only : case_digits
    implicit none (type, external)
    private
 
-   public :: flag, flag_row, flag_table, row_of_flag, accepted_value, highest_of, put_digit
+   public :: flag, flag_row, flag_table, row_of_flag, accepted_value, highest_of
 
    type :: flag_list
       integer :: units = 1933, config = 1967, pvtime = 1970, bound = 1971, tang = 1972, norm = 1973, force = 1974
@@ -118,30 +117,4 @@ contains
       ! output of subsurface stresses has no level 3
       if (row%code == flag%sbsout .and. stored == 3) stored = 2
    end subroutine accepted_value
-
-   !> Give the control digit behind a flag a value
-   pure subroutine put_digit(digits, name, value)
-      type(case_digits), intent(inout) :: digits
-      character(len=*), intent(in) :: name
-      integer, intent(in) :: value
-
-      select case (name)
-      case ("C1"); digits%c1 = value
-      case ("P"); digits%p = value
-      case ("B"); digits%b = value
-      case ("T"); digits%t = value
-      case ("N"); digits%n = value
-      case ("F"); digits%f = value
-      case ("D"); digits%d = value
-      case ("C"); digits%c = value
-      case ("E"); digits%e = value
-      ! the word chooses what debug output prints, and there is none; the digit tells that it was given
-      case ("X"); digits%x = merge(1, 0, value > 0)
-      case ("I"); digits%i = value
-      case ("A"); digits%a = value
-      case ("O"); digits%o = value
-      case ("W"); digits%w = value
-      case ("R"); digits%r = value
-      end select
-   end subroutine put_digit
 end module contact_control_flags

@@ -2,20 +2,15 @@
 module contact_input_checks3
    use contact_base_kinds, only : wp
    use contact_cases_spec, only : case_spec
-   use contact_input_control3, only : add_for_digit, control_words
-   use contact_input_grid3, only : frame_of, grid_frame
+   use contact_input_control, only : add_for_digit, control_words
+   use contact_input_grid_frame, only : frame_of, grid_frame
+   use contact_input_groups, only : case_lines
    use contact_input_problems, only : problem_list, severity
    use contact_text_words, only : integer_text, real_text
    implicit none (type, external)
    private
 
-   public :: case_lines, check_case
-
-   !> Lines to which messages refer
-   type :: case_lines
-      !> Kinematics, and the grid group when the case has one
-      integer :: kinematics = 0, grid = 0
-   end type case_lines
+   public :: check_case
 
    !> Relative difference of element sides that still count as equal [-]
    real(wp), parameter :: same_side = 1.0e-4_wp

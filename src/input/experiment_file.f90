@@ -2,10 +2,9 @@
 module contact_input_experiment_file
    use contact_base_error, only : add_context, error_kind, error_type, fatal_error
    use contact_cases_spec, only : case_spec
-   use contact_input_grid3, only : grid_frame
+   use contact_input_grid_frame, only : grid_frame
    use contact_input_problems, only : problem_list, severity
-   use contact_input_reader1, only : read_case1
-   use contact_input_reader3, only : read_case3
+   use contact_input_reader, only : read_case
    use contact_text_lexer, only : input_lexer, input_value
    use contact_text_words, only : integer_text
    implicit none (type, external)
@@ -132,13 +131,8 @@ contains
          this%reid = store%reid
          this%cpid = store%cpid
          this%number = self%next_number()
-         if (self%module_number == 1) then
-            call read_case1(self%lexer, store%spec, store%cases > 0, this%number, this%spec, this%problems, error, &
-               & this%first_line)
-         else
-            call read_case3(self%lexer, store%spec, store%cases > 0, this%number, this%spec, this%problems, error, &
-               & store%coefficients, this%first_line)
-         end if
+         call read_case(self%lexer, self%module_number, store%spec, store%cases > 0, this%number, this%spec, this%problems, error, &
+            & store%coefficients, this%first_line)
          if (allocated(error)) return
          store%spec = this%spec
          store%cases = store%cases + 1

@@ -1,12 +1,11 @@
 !> Subsurface points: output digits and blocks (S = 2, 3)
 module contact_input_subsurface_reader
-   use contact_base_error, only : add_context, error_type, fatal_error
+   use contact_base_error, only : add_context
    use contact_base_kinds, only : wp
-   use contact_cases_spec, only : case_spec
-   use contact_input_problems, only : problem_list, severity
+   use contact_cases_inputs, only : visit_stress_output
+   use contact_cases_spec, only : subsurface_spec
+   use contact_input_file_reader, only : file_reader
    use contact_subsurface_points, only : point_block, point_selection
-   use contact_input_values, only : read_list, read_values
-   use contact_text_lexer, only : input_lexer, input_value
    use contact_text_words, only : integer_text
    implicit none (type, external)
    private
@@ -20,154 +19,140 @@ module contact_input_subsurface_reader
 
 contains
 
-   !> Output digits (S = 2, 3) and blocks (S = 3), which replace all that were stored
-   subroutine read_subsurface(lexer, spec, problems, error)
-      type(input_lexer), intent(inout) :: lexer
-      type(case_spec), intent(inout) :: spec
-      type(problem_list), intent(inout) :: problems
-      type(error_type), allocatable, intent(out) :: error
+   !> Output digits, and blocks, which replace all that were stored
+   subroutine read_subsurface(a, with_blocks, subsurface)
+      type(file_reader), intent(inout) :: a
+      !> S = 3?
+      logical, intent(in) :: with_blocks
+      type(subsurface_spec), intent(inout) :: subsurface
       type(point_block), allocatable :: blocks(:), longer(:)
-      type(input_value) :: v(2)
+      integer, target :: option
       integer :: n
 
-      if (spec%digits%s < 2) return
-      call read_values(lexer, "ii", "MATFIL_S OUTPUT_S", v, problems, error)
-      if (allocated(error)) return
-      spec%subsurface%matfil = v(1)%i
-      spec%subsurface%output = v(2)%i
-      if (spec%digits%s /= 3) return
-
+      call visit_stress_output(a, subsurface)
+      if (.not. with_blocks .or. .not. a%is_good) return
       n = 0
       allocate(blocks(4))
       do
-         call lexer%read_group("i", "ISUBS", v, error)
-         if (allocated(error)) exit
-         if (v(1)%i <= 0) exit
+         call a%integer("ISUBS", option, unchecked=.true.)
+         call a%end_line()
+         if (.not. a%is_good .or. option <= 0) exit
          if (n == size(blocks)) then
             allocate(longer(2*n))
             longer(:n) = blocks
             call move_alloc(longer, blocks)
          end if
          n = n + 1
-         call read_block(lexer, v(1), blocks(n), problems, error)
-         if (allocated(error)) exit
+         call read_block(a, option, blocks(n))
+         if (.not. a%is_good) exit
       end do
-      call add_context(error, "subsurface block " // integer_text(max(1, n)))
-      if (allocated(error)) return
-      if (allocated(spec%subsurface%blocks)) deallocate(spec%subsurface%blocks)
-      spec%subsurface%blocks = blocks(:n)
+      call add_context(a%error, "subsurface block " // integer_text(max(1, n)))
+      if (.not. a%is_good) return
+      if (allocated(subsurface%blocks)) deallocate(subsurface%blocks)
+      subsurface%blocks = blocks(:n)
    end subroutine read_subsurface
 
    !> One block: columns and rows, then depths, or coordinates in all directions
-   subroutine read_block(lexer, option, block, problems, error)
-      type(input_lexer), intent(inout) :: lexer
+   subroutine read_block(a, option, block)
+      type(file_reader), intent(inout) :: a
       !> ISUBS
-      type(input_value), intent(in) :: option
-      type(point_block), intent(out) :: block
-      type(problem_list), intent(inout) :: problems
-      type(error_type), allocatable, intent(out) :: error
-      type(input_value) :: v(3)
+      integer, intent(in) :: option
+      type(point_block), intent(out), target :: block
+      real(wp), target :: first_depth, step
+      integer, target :: nx, ny, nz
       integer :: k
 
-      select case (option%i)
+      select case (option)
       case (1, 5)
          block%selection = point_selection%all_elements
       case (2, 6)
          block%selection = point_selection%ranges
-         call read_range("IXL IXINC IXH", block%ixl, block%ixinc, block%ixh)
-         if (allocated(error)) return
-         call read_range("IYL IYINC IYH", block%iyl, block%iyinc, block%iyh)
-         if (allocated(error)) return
+         call read_range("IX", block%ixl, block%ixinc, block%ixh)
+         call read_range("IY", block%iyl, block%iyinc, block%iyh)
       case (3, 7)
          block%selection = point_selection%lists
-         call lexer%read_group("ii", "NX NY", v, error)
-         if (allocated(error)) return
-         call require_length(v(1), error)
-         if (allocated(error)) return
-         call require_length(v(2), error)
-         if (allocated(error)) return
-         call read_indices(lexer, v(1)%i, "IX", block%ix, problems, error)
-         if (allocated(error)) return
-         call read_indices(lexer, v(2)%i, "IY", block%iy, problems, error)
-         if (allocated(error)) return
+         call a%integer("NX", nx, unchecked=.true.)
+         call a%integer("NY", ny, unchecked=.true.)
+         call a%end_line()
+         call require_length("NX", nx)
+         call require_length("NY", ny)
+         call read_indices(a, nx, "IX", block%ix)
+         call read_indices(a, ny, "IY", block%iy)
       case (9)
          block%selection = point_selection%free
-         call lexer%read_group("iii", "NX NY NZ", v, error)
-         if (allocated(error)) return
-         do k = 1, 3
-            call require_length(v(k), error)
-            if (allocated(error)) return
-         end do
-         call read_sorted(lexer, v(1)%i, "X", block%x, problems, error)
-         if (allocated(error)) return
-         call read_sorted(lexer, v(2)%i, "Y", block%y, problems, error)
-         if (allocated(error)) return
-         call read_sorted(lexer, v(3)%i, "Z", block%z, problems, error)
+         call a%integer("NX", nx, unchecked=.true.)
+         call a%integer("NY", ny, unchecked=.true.)
+         call a%integer("NZ", nz, unchecked=.true.)
+         call a%end_line()
+         call require_length("NX", nx)
+         call require_length("NY", ny)
+         call require_length("NZ", nz)
+         call read_sorted(a, nx, "X", block%x)
+         call read_sorted(a, ny, "Y", block%y)
+         call read_sorted(a, nz, "Z", block%z)
          return
       case default
-         call fatal_error(error, "ISUBS = " // option%word // &
-            & " is not a known option; allowed are 1, 2, 3, 5, 6, 7 and 9, and 0 to end the blocks", &
-            & file=lexer%file, line=option%line, column=option%column)
+         call a%fail("ISUBS", " is not a known option; allowed are 1, 2, 3, 5, 6, 7 and 9, and 0 to end the blocks")
          return
       end select
 
-      if (option%i <= 3) then
-         call read_values(lexer, "irr", "NZ ZL DZ", v, problems, error)
-         if (allocated(error)) return
-         call require_length(v(1), error)
-         if (allocated(error)) return
-         block%z = [(v(2)%r + (k - 1)*v(3)%r, k = 1, v(1)%i)]
+      call a%integer("NZ", nz, unchecked=.true.)
+      if (option <= 3) then
+         call a%real("ZL", first_depth)
+         call a%real("DZ", step)
+      end if
+      call a%end_line()
+      call require_length("NZ", nz)
+      if (.not. a%is_good) return
+      if (option <= 3) then
+         block%z = [(first_depth + (k - 1)*step, k = 1, nz)]
       else
-         call lexer%read_group("i", "NZ", v, error)
-         if (allocated(error)) return
-         call require_length(v(1), error)
-         if (allocated(error)) return
-         call read_sorted(lexer, v(1)%i, "Z", block%z, problems, error)
+         call read_sorted(a, nz, "Z", block%z)
       end if
 
    contains
 
       !> First, step and last column or row
-      subroutine read_range(names, low, step, high)
-         character(len=*), intent(in) :: names
-         integer, intent(out) :: low, step, high
+      subroutine read_range(name, low, step, high)
+         !> IX or IY
+         character(len=2), intent(in) :: name
+         integer, intent(out), target :: low, step, high
+         integer :: first
 
          low = 1
          step = 1
          high = 0
-         call read_values(lexer, "iii", names, v, problems, error)
-         if (allocated(error)) return
-         if (v(3)%i >= 1 .and. v(3)%i <= largest_index) call problems%check_integer(v(3), &
-            & max(1, min(v(1)%i, largest_index)), largest_index)
-         low = v(1)%i
-         step = max(1, v(2)%i)
-         high = v(3)%i
+         call a%integer(name // "L", low)
+         call a%integer(name // "INC", step)
+         call a%integer(name // "H", high)
+         call a%end_line()
+         first = max(1, min(low, largest_index))
+         if (high >= 1 .and. high < first) call a%refuse(name // "H", " is outside its range " // integer_text(first) // &
+            & " to " // integer_text(largest_index))
+         step = max(1, step)
       end subroutine read_range
 
       !> Without a proper length the list cannot be read
-      subroutine require_length(value, trouble)
-         type(input_value), intent(in) :: value
-         type(error_type), allocatable, intent(inout) :: trouble
+      subroutine require_length(name, length)
+         character(len=*), intent(in) :: name
+         integer, intent(in) :: length
 
-         if (value%i >= 1 .and. value%i <= longest_list) return
-         call fatal_error(trouble, value%name // " = " // value%word // " is outside its range 1 to " // &
-            & integer_text(longest_list), file=lexer%file, line=value%line, column=value%column)
+         if (.not. a%is_good) return
+         if (length < 1 .or. length > longest_list) call a%fail(name, " is outside its range 1 to " // integer_text(longest_list))
       end subroutine require_length
    end subroutine read_block
 
    !> A list of columns or rows: rounded, ascending, each once
-   subroutine read_indices(lexer, n, name, list, problems, error)
-      type(input_lexer), intent(inout) :: lexer
+   subroutine read_indices(a, n, name, list)
+      type(file_reader), intent(inout) :: a
       integer, intent(in) :: n
       character(len=*), intent(in) :: name
       integer, allocatable, intent(out) :: list(:)
-      type(problem_list), intent(inout) :: problems
-      type(error_type), allocatable, intent(out) :: error
       real(wp), allocatable :: values(:)
-      integer :: k, line, kept
+      integer :: k, kept
 
-      call read_list(lexer, n, name, values, problems, error, line=line)
-      if (allocated(error)) return
+      call a%list(name, values, n)
+      if (.not. a%is_good) return
       values = min(values, real(largest_index, wp))
       call sort(values)
       allocate(list(n))
@@ -181,22 +166,20 @@ contains
          list(kept) = nint(values(k))
       end do
       list = list(:kept)
-      if (kept < n) call problems%add(severity%warning, integer_text(n - kept) // " of the " // integer_text(n) // &
-         & " numbers of " // name // " are dropped: they are not positive, or given twice", line)
+      if (kept < n) call a%warn("", integer_text(n - kept) // " of the " // integer_text(n) // " numbers of " // name // &
+         & " are dropped: they are not positive, or given twice")
    end subroutine read_indices
 
    !> A list of coordinates, ascending
-   subroutine read_sorted(lexer, n, name, list, problems, error)
-      type(input_lexer), intent(inout) :: lexer
+   subroutine read_sorted(a, n, name, list)
+      type(file_reader), intent(inout) :: a
       integer, intent(in) :: n
       character(len=*), intent(in) :: name
       !> Coordinates [mm]
-      real(wp), allocatable, intent(out) :: list(:)
-      type(problem_list), intent(inout) :: problems
-      type(error_type), allocatable, intent(out) :: error
+      real(wp), allocatable, intent(inout) :: list(:)
 
-      call read_list(lexer, n, name, list, problems, error)
-      if (.not. allocated(error)) call sort(list)
+      call a%list(name, list, n)
+      if (a%is_good) call sort(list)
    end subroutine read_sorted
 
    !> Sort ascending, by insertion: the lists are short and mostly in order

@@ -18,7 +18,9 @@ module contact_text_bounds
       !> Name in the input files; one name serves for GG1 and GG2, as figures at the end count when they stand in the table
       character(len=11) :: name
       !> Unit; "integer" for numbers that are counted
-      character(len=8) :: unit
+      character(len=11) :: unit
+      !> What it is
+      character(len=72) :: title
       !> Smallest and largest value
       real(wp) :: lowest, highest
       !> Is the smallest value itself refused?
@@ -45,222 +47,424 @@ module contact_text_bounds
    real(wp), parameter :: rigid = 1.0e20_wp
 
    type(number_bounds), parameter :: solver_rows(*) = [ &
-      & number_bounds("MAXGS", "integer", 1.0_wp, 999999.0_wp, .false., "an iteration has to begin and to end"), &
-      & number_bounds("MAXIN", "integer", 1.0_wp, 999999.0_wp, .false., "an iteration has to begin and to end"), &
-      & number_bounds("MAXNR", "integer", 1.0_wp, 999999.0_wp, .false., "an iteration has to begin and to end"), &
-      & number_bounds("MAXOUT", "integer", 1.0_wp, 999999.0_wp, .false., "an iteration has to begin and to end"), &
-      & number_bounds("MXSENS", "integer", 1.0_wp, 999999.0_wp, .false., "an iteration has to begin and to end"), &
-      & number_bounds("EPS", "-", 1.0e-20_wp, 1.0_wp, .false., "double precision ends at 1e-16; at 1 nothing is solved"), &
-      & number_bounds("EPSENS", "-", 1.0e-20_wp, 1.0_wp, .false., "double precision ends at 1e-16; at 1 nothing is solved"), &
-      & number_bounds("NPOT_MAX", "integer", 1.0_wp, 2.0e9_wp, .false., "a number of elements; 100 to 1000000 act"), &
-      & number_bounds("OMEGAH", "-", 0.0_wp, 10.0_wp, .true., "a relaxation factor; beyond 2 the iteration diverges"), &
-      & number_bounds("OMEGAS", "-", 0.0_wp, 10.0_wp, .true., "a relaxation factor; beyond 2 the iteration diverges"), &
-      & number_bounds("OMGSLP", "-", 0.0_wp, 10.0_wp, .true., "a relaxation factor; beyond 2 the iteration diverges"), &
-      & number_bounds("INISLP", "-", -1.0e9_wp, 1.0e9_wp, .false., "only the sign has a meaning"), &
-      & number_bounds("FDECAY", "-", -1.0e4_wp, 1.0e4_wp, .false., "a factor, or minus a number of elements"), &
-      & number_bounds("BETATH", "-", -1.0e4_wp, 1.0e4_wp, .false., "a factor"), &
-      & number_bounds("KDOWFB", "integer", -1.0e6_wp, 1.0e6_wp, .false., "a number of elements"), &
-      & number_bounds("D_IFC", "-", -1.0e6_wp, 1.0e6_wp, .false., "a weight; at least 0.01 acts"), &
-      & number_bounds("D_LIN", "-", -1.0e6_wp, 1.0e6_wp, .false., "a weight per element"), &
-      & number_bounds("D_CNS", "-", -1.0e6_wp, 1.0e6_wp, .false., "a weight; at least 0.01 acts"), &
-      & number_bounds("D_SLP", "-", -1.0e6_wp, 1.0e6_wp, .false., "a weight; at least 0.01 acts"), &
-      & number_bounds("POW_S", "-", -1.0e4_wp, 1.0e4_wp, .false., "an exponent; 0.01 to 10 act")]
+      & number_bounds("MAXGS", "integer", "largest number of iterations of a solver", &
+      & 1.0_wp, 999999.0_wp, .false., "an iteration has to begin and to end"), &
+      & number_bounds("MAXIN", "integer", "largest number of changes of the element division", &
+      & 1.0_wp, 999999.0_wp, .false., "an iteration has to begin and to end"), &
+      & number_bounds("MAXNR", "integer", "largest number of iterations for forces", &
+      & 1.0_wp, 999999.0_wp, .false., "an iteration has to begin and to end"), &
+      & number_bounds("MAXOUT", "integer", "largest number of outer iterations", &
+      & 1.0_wp, 999999.0_wp, .false., "an iteration has to begin and to end"), &
+      & number_bounds("MXSENS", "integer", "largest number of iterations for sensitivities", &
+      & 1.0_wp, 999999.0_wp, .false., "an iteration has to begin and to end"), &
+      & number_bounds("EPS", "-", "relative tolerance", &
+      & 1.0e-20_wp, 1.0_wp, .false., "double precision ends at 1e-16; at 1 nothing is solved"), &
+      & number_bounds("EPSENS", "-", "relative tolerance of sensitivities", &
+      & 1.0e-20_wp, 1.0_wp, .false., "double precision ends at 1e-16; at 1 nothing is solved"), &
+      & number_bounds("NPOT_MAX", "integer", "largest number of elements of a patch of wheel and rail", &
+      & 1.0_wp, 2.0e9_wp, .false., "a number of elements; 100 to 1000000 act"), &
+      & number_bounds("OMEGAH", "-", "relaxation in the adhesion area", &
+      & 0.0_wp, 10.0_wp, .true., "a relaxation factor; beyond 2 the iteration diverges"), &
+      & number_bounds("OMEGAS", "-", "relaxation in the slip area", &
+      & 0.0_wp, 10.0_wp, .true., "a relaxation factor; beyond 2 the iteration diverges"), &
+      & number_bounds("OMGSLP", "-", "relaxation of the slip velocity", &
+      & 0.0_wp, 10.0_wp, .true., "a relaxation factor; beyond 2 the iteration diverges"), &
+      & number_bounds("INISLP", "-", "start of the slip velocity iteration: its sign chooses the branch", &
+      & -1.0e9_wp, 1.0e9_wp, .false., "only the sign has a meaning"), &
+      & number_bounds("FDECAY", "-", "GDsteady: part of a step kept after projection, or minus elements", &
+      & -1.0e4_wp, 1.0e4_wp, .false., "a factor, or minus a number of elements"), &
+      & number_bounds("BETATH", "-", "GDsteady: progress below which the projection changes", &
+      & -1.0e4_wp, 1.0e4_wp, .false., "a factor"), &
+      & number_bounds("KDOWFB", "integer", "GDsteady: elements of the projection after stagnation", &
+      & -1.0e6_wp, 1.0e6_wp, .false., "a number of elements"), &
+      & number_bounds("D_IFC", "-", "GDsteady: weight of the first element of an adhesion area", &
+      & -1.0e6_wp, 1.0e6_wp, .false., "a weight; at least 0.01 acts"), &
+      & number_bounds("D_LIN", "-", "GDsteady: growth of the weight per element", &
+      & -1.0e6_wp, 1.0e6_wp, .false., "a weight per element"), &
+      & number_bounds("D_CNS", "-", "GDsteady: weight up or down to which it grows", &
+      & -1.0e6_wp, 1.0e6_wp, .false., "a weight; at least 0.01 acts"), &
+      & number_bounds("D_SLP", "-", "GDsteady: weight of the slip area", &
+      & -1.0e6_wp, 1.0e6_wp, .false., "a weight; at least 0.01 acts"), &
+      & number_bounds("POW_S", "-", "GDsteady: exponent of the weights in the slip area", &
+      & -1.0e4_wp, 1.0e4_wp, .false., "an exponent; 0.01 to 10 act")]
 
    type(number_bounds), parameter :: motion_rows(*) = [ &
-      & number_bounds("PEN", "mm", -far, far, .false., "an approach of a kilometre"), &
-      & number_bounds("FN", "N", 0.0_wp, heavy, .false., "bodies do not pull at each other; the weight of a mountain"), &
-      & number_bounds("FX", "-", -1.0_wp, 1.0_wp, .false., "relative to the friction bound FSTAT FN"), &
-      & number_bounds("FY", "-", -1.0_wp, 1.0_wp, .false., "relative to the friction bound FSTAT FN"), &
-      & number_bounds("CKSI", "-, mm", -endless, endless, .false., "a creepage of 2 is a wheel turning backwards; shifts in mm"), &
-      & number_bounds("CETA", "-, mm", -endless, endless, .false., "a creepage of 1 is sliding at 45 degrees; shifts in mm"), &
-      & number_bounds("CPHI", "rad/mm", -endless, endless, .false., "at most one over the radius of a body"), &
-      & number_bounds("SPINXO", "mm", -1.0e9_wp, 1.0e9_wp, .false., "a centre so far off is a translation"), &
-      & number_bounds("SPINYO", "mm", -1.0e9_wp, 1.0e9_wp, .false., "a centre so far off is a translation"), &
-      & number_bounds("CHI", "rad", -two_turns, two_turns, .false., "a direction has one turn; degrees need a d: 180d"), &
-      & number_bounds("DQ", "mm", tiny_side, far, .false., "a step below the size of atoms makes no way"), &
-      & number_bounds("VELOC", "mm/s", 1.0e-9_wp, fast, .false., "from creeping rock to a thousand km/s"), &
-      & number_bounds("FACPHI", "-", -1.0e3_wp, 1.0e3_wp, .false., "a part of a step"), &
-      & number_bounds("EXRHS", "-, mm", -endless, endless, .false., "as creepages")]
+      & number_bounds("PEN", "mm", "approach, prescribed with N = 0", &
+      & -far, far, .false., "an approach of a kilometre"), &
+      & number_bounds("FN", "N", "normal force, prescribed with N = 1", &
+      & 0.0_wp, heavy, .false., "bodies do not pull at each other; the weight of a mountain"), &
+      & number_bounds("FX", "-", "relative force FX, prescribed with F = 1, 2", &
+      & -1.0_wp, 1.0_wp, .false., "relative to the friction bound FSTAT FN"), &
+      & number_bounds("FY", "-", "relative force FY, prescribed with F = 2", &
+      & -1.0_wp, 1.0_wp, .false., "relative to the friction bound FSTAT FN"), &
+      & number_bounds("CKSI", "- or mm", "longitudinal creepage or shift", &
+      & -endless, endless, .false., "a creepage of 2 is a wheel turning backwards; shifts in mm"), &
+      & number_bounds("CETA", "- or mm", "lateral creepage or shift", &
+      & -endless, endless, .false., "a creepage of 1 is sliding at 45 degrees; shifts in mm"), &
+      & number_bounds("CPHI", "rad/mm", "spin or rotation", &
+      & -endless, endless, .false., "at most one over the radius of a body"), &
+      & number_bounds("SPINXO", "mm", "spin centre", &
+      & -1.0e9_wp, 1.0e9_wp, .false., "a centre so far off is a translation"), &
+      & number_bounds("SPINYO", "mm", "spin centre", &
+      & -1.0e9_wp, 1.0e9_wp, .false., "a centre so far off is a translation"), &
+      & number_bounds("CHI", "rad", "rolling direction", &
+      & -two_turns, two_turns, .false., "a direction has one turn; degrees need a d: 180d"), &
+      & number_bounds("DQ", "mm", "distance per step", &
+      & tiny_side, far, .false., "a step below the size of atoms makes no way"), &
+      & number_bounds("VELOC", "mm/s", "velocity", &
+      & 1.0e-9_wp, fast, .false., "from creeping rock to a thousand km/s"), &
+      & number_bounds("FACPHI", "-", "offset of the spin in steps", &
+      & -1.0e3_wp, 1.0e3_wp, .false., "a part of a step"), &
+      & number_bounds("EXRHS", "- or mm", "extra term of the rigid slip", &
+      & -endless, endless, .false., "as creepages")]
 
    type(number_bounds), parameter :: friction_rows(*) = [ &
-      & number_bounds("FSTAT", "-", 1.0e-6_wp, 1.0e6_wp, .false., "frictionless is T = 0; from 100 on nothing slips"), &
-      & number_bounds("FKIN", "-", 0.0_wp, 1.0e6_wp, .false., "friction does not push; from 100 on nothing slips"), &
-      & number_bounds("FLIN", "-", 0.0_wp, 1.0e6_wp, .false., "friction does not push; from 100 on nothing slips"), &
-      & number_bounds("FRAT", "-", 0.0_wp, 1.0e6_wp, .false., "friction does not push; from 100 on nothing slips"), &
-      & number_bounds("FEXP", "-", 0.0_wp, 1.0e6_wp, .false., "friction does not push; from 100 on nothing slips"), &
-      & number_bounds("SABSH", "mm/s", 1.0e-5_wp, fast, .false., "the law would jump; a thousand km/s"), &
-      & number_bounds("MEMDST", "mm", 0.0_wp, far, .false., "a distance; particles leave the contact sooner"), &
-      & number_bounds("MEM_S0", "mm/s", 0.0_wp, fast, .false., "a speed; a thousand km/s"), &
-      & number_bounds("FREF", "-", 0.0_wp, 1.0e6_wp, .false., "friction does not push; from 100 on nothing slips"), &
-      & number_bounds("TREF", "degC", -273.15_wp, 1.0e5_wp, .false., "absolute zero; far above what any material bears"), &
-      & number_bounds("DFHEAT", "-", -1.0e6_wp, 1.0e6_wp, .false., "a change of FREF"), &
-      & number_bounds("DTHEAT", "degC", 0.0_wp, 1.0e5_wp, .true., "the law would jump; far above what any material bears"), &
-      & number_bounds("NVF", "integer", 1.0_wp, 10.0_wp, .false., "as many control points as the format has"), &
-      & number_bounds("SVF", "mm", -far_along, far_along, .false., "a million km of track"), &
-      & number_bounds("ALPHA", "rad", -two_turns, two_turns, .false., "an inclination; degrees need a d: 60d")]
+      & number_bounds("FSTAT", "-", "static coefficient of friction", &
+      & 1.0e-6_wp, 1.0e6_wp, .false., "frictionless is T = 0; from 100 on nothing slips"), &
+      & number_bounds("FKIN", "-", "kinetic coefficient of friction", &
+      & 0.0_wp, 1.0e6_wp, .false., "friction does not push; from 100 on nothing slips"), &
+      & number_bounds("FLIN", "-", "coefficient of a term of the linear law", &
+      & 0.0_wp, 1.0e6_wp, .false., "friction does not push; from 100 on nothing slips"), &
+      & number_bounds("FRAT", "-", "coefficient of a term of the rational law", &
+      & 0.0_wp, 1.0e6_wp, .false., "friction does not push; from 100 on nothing slips"), &
+      & number_bounds("FEXP", "-", "coefficient of a term of the exponential law", &
+      & 0.0_wp, 1.0e6_wp, .false., "friction does not push; from 100 on nothing slips"), &
+      & number_bounds("SABSH", "mm/s", "slip velocity at which a term has fallen to one half", &
+      & 1.0e-5_wp, fast, .false., "the law would jump; a thousand km/s"), &
+      & number_bounds("MEMDST", "mm", "distance of the friction memory", &
+      & 0.0_wp, far, .false., "a distance; particles leave the contact sooner"), &
+      & number_bounds("MEM_S0", "mm/s", "lowest velocity of the friction memory", &
+      & 0.0_wp, fast, .false., "a speed; a thousand km/s"), &
+      & number_bounds("FREF", "-", "coefficient of friction up to TREF", &
+      & 0.0_wp, 1.0e6_wp, .false., "friction does not push; from 100 on nothing slips"), &
+      & number_bounds("TREF", "degC", "temperature at which friction begins to change", &
+      & -273.15_wp, 1.0e5_wp, .false., "absolute zero; far above what any material bears"), &
+      & number_bounds("DFHEAT", "-", "change of the coefficient of friction", &
+      & -1.0e6_wp, 1.0e6_wp, .false., "a change of FREF"), &
+      & number_bounds("DTHEAT", "degC", "range of temperatures of the change", &
+      & 0.0_wp, 1.0e5_wp, .true., "the law would jump; far above what any material bears"), &
+      & number_bounds("NVF", "integer", "number of control points of friction", &
+      & 1.0_wp, 10.0_wp, .false., "as many control points as the format has"), &
+      & number_bounds("SVF", "mm", "position of a control point along the track", &
+      & -far_along, far_along, .false., "a million km of track"), &
+      & number_bounds("ALPHA", "rad", "surface inclination of a control point", &
+      & -two_turns, two_turns, .false., "an inclination; degrees need a d: 60d")]
 
    type(number_bounds), parameter :: material_rows(*) = [ &
-      & number_bounds("POISS", "-", -1.0_wp, 0.5_wp, .true., "no elastic body is stable beyond"), &
-      & number_bounds("GG", "N/mm2", 1.0e-5_wp, rigid, .false., "from the softest gels to bodies that count as rigid"), &
-      & number_bounds("FLXZ", "mm3/N", 1.0e-10_wp, 1.0e10_wp, .false., "a thin sheet on rigid or on gel"), &
-      & number_bounds("FG", "-", 0.0_wp, 1.0e10_wp, .false., "a ratio of moduli"), &
-      & number_bounds("TC", "s", 0.0_wp, 1.0e15_wp, .false., "a time; thirty million years"), &
-      & number_bounds("FLX", "mm3/N", 1.0e-10_wp, 1.0e10_wp, .false., "rigid to gel"), &
-      & number_bounds("K0_MF", "-", 1.0e-10_wp, 1.0_wp, .false., "a part of the initial slope"), &
-      & number_bounds("ALFAMF", "-", 0.0_wp, 1.0_wp, .false., "a part of the initial slope"), &
-      & number_bounds("BETAMF", "-", 0.0_wp, 1.0e10_wp, .false., "slopes fall with creepage"), &
-      & number_bounds("GG3", "N/mm2", 1.0e-5_wp, rigid, .false., "from the softest gels to layers that count as rigid"), &
-      & number_bounds("LAYTHK", "mm", 0.0_wp, far, .false., "a thickness; 0 is no layer"), &
-      & number_bounds("TAU_C0", "N/mm2", -rigid, rigid, .false., "0 and less, and 1e10 and more: no plasticity"), &
-      & number_bounds("K_TAU", "N/mm3", -rigid, rigid, .false., "hardening or softening over a nanometre"), &
-      & number_bounds("Y,ALPHA", "mm, rad", -far, far, .false., "a kilometre off the contact; angles are smaller by far"), &
-      & number_bounds("CZZ", "mm", -1.0e12_wp, 1.0e12_wp, .false., "an element yields by about its own side"), &
-      & number_bounds("IF_METH", "integer", 0.0_wp, 1.0_wp, .false., "the methods that there are"), &
-      & number_bounds("VARIANT", "integer", 1.0_wp, 4.0_wp, .false., "the variants that there are"), &
-      & number_bounds("CDAMP", "s", 0.0_wp, 1.0e10_wp, .false., "damping does not drive"), &
-      & number_bounds("DFNMAX", "N/s", 0.0_wp, rigid, .false., "a limit of a rate"), &
-      & number_bounds("DFTMAX", "N/s", 0.0_wp, rigid, .false., "a limit of a rate"), &
-      & number_bounds("BKTEMP", "degC", -273.15_wp, 1.0e5_wp, .false., "absolute zero; far above what any material bears"), &
-      & number_bounds("HEATCP", "J/kg-C", 1.0e-5_wp, 1.0e10_wp, .false., "water has 4200"), &
-      & number_bounds("LAMBDA", "W/mm-C", 1.0e-5_wp, 1.0e10_wp, .false., "foam has 3e-5, diamond 2"), &
-      & number_bounds("DENS", "kg/mm3", 1.0e-12_wp, 1.0e3_wp, .false., "far below any gas, far above any solid"), &
-      & number_bounds("BETAPL", "-", 0.0_wp, 1.0_wp, .false., "a part of the plastic work")]
+      & number_bounds("POISS", "-", "Poisson ratio", &
+      & -1.0_wp, 0.5_wp, .true., "no elastic body is stable beyond"), &
+      & number_bounds("GG", "N/mm2", "modulus of rigidity", &
+      & 1.0e-5_wp, rigid, .false., "from the softest gels to bodies that count as rigid"), &
+      & number_bounds("FLXZ", "mm3/N", "vertical flexibility of the elastic thin sheet", &
+      & 1.0e-10_wp, 1.0e10_wp, .false., "a thin sheet on rigid or on gel"), &
+      & number_bounds("FG", "-", "ratio of viscoelastic to elastic flexibility", &
+      & 0.0_wp, 1.0e10_wp, .false., "a ratio of moduli"), &
+      & number_bounds("TC", "s", "relaxation time", &
+      & 0.0_wp, 1.0e15_wp, .false., "a time; thirty million years"), &
+      & number_bounds("FLX", "mm3/N", "flexibility of simplified theory", &
+      & 1.0e-10_wp, 1.0e10_wp, .false., "rigid to gel"), &
+      & number_bounds("K0_MF", "-", "initial slope reduction", &
+      & 1.0e-10_wp, 1.0_wp, .false., "a part of the initial slope"), &
+      & number_bounds("ALFAMF", "-", "final slope reduction over initial one", &
+      & 0.0_wp, 1.0_wp, .false., "a part of the initial slope"), &
+      & number_bounds("BETAMF", "-", "decay of the slope reduction", &
+      & 0.0_wp, 1.0e10_wp, .false., "slopes fall with creepage"), &
+      & number_bounds("GG3", "N/mm2", "modulus of rigidity of the layer", &
+      & 1.0e-5_wp, rigid, .false., "from the softest gels to layers that count as rigid"), &
+      & number_bounds("LAYTHK", "mm", "thickness of the layer", &
+      & 0.0_wp, far, .false., "a thickness; 0 is no layer"), &
+      & number_bounds("TAU_C0", "N/mm2", "yield limit", &
+      & -rigid, rigid, .false., "0 and less, and 1e10 and more: no plasticity"), &
+      & number_bounds("K_TAU", "N/mm3", "hardening", &
+      & -rigid, rigid, .false., "hardening or softening over a nanometre"), &
+      & number_bounds("Y,ALPHA", "mm, rad", "lateral position and surface inclination", &
+      & -far, far, .false., "a kilometre off the contact; angles are smaller by far"), &
+      & number_bounds("CZZ", "mm", "influence coefficient", &
+      & -1.0e12_wp, 1.0e12_wp, .false., "an element yields by about its own side"), &
+      & number_bounds("IF_METH", "integer", "method for the normal direction", &
+      & 0.0_wp, 1.0_wp, .false., "the methods that there are"), &
+      & number_bounds("VARIANT", "integer", "variant of the angle correction", &
+      & 1.0_wp, 4.0_wp, .false., "the variants that there are"), &
+      & number_bounds("CDAMP", "s", "damping coefficient", &
+      & 0.0_wp, 1.0e10_wp, .false., "damping does not drive"), &
+      & number_bounds("DFNMAX", "N/s", "largest rate of the normal force", &
+      & 0.0_wp, rigid, .false., "a limit of a rate"), &
+      & number_bounds("DFTMAX", "N/s", "largest rate of the tangential force", &
+      & 0.0_wp, rigid, .false., "a limit of a rate"), &
+      & number_bounds("BKTEMP", "degC", "bulk temperature", &
+      & -273.15_wp, 1.0e5_wp, .false., "absolute zero; far above what any material bears"), &
+      & number_bounds("HEATCP", "J/(kg degC)", "specific heat capacity", &
+      & 1.0e-5_wp, 1.0e10_wp, .false., "water has 4200"), &
+      & number_bounds("LAMBDA", "W/(mm degC)", "heat conductivity", &
+      & 1.0e-5_wp, 1.0e10_wp, .false., "foam has 3e-5, diamond 2"), &
+      & number_bounds("DENS", "kg/mm3", "density", &
+      & 1.0e-12_wp, 1.0e3_wp, .false., "far below any gas, far above any solid"), &
+      & number_bounds("BETAPL", "-", "part of plastic work that becomes heat", &
+      & 0.0_wp, 1.0_wp, .false., "a part of the plastic work")]
 
    type(number_bounds), parameter :: grid_rows(*) = [ &
-      & number_bounds("MX", "integer", 1.0_wp, 2.0e6_wp, .false., "MX times MY is at most 2000000"), &
-      & number_bounds("MY", "integer", 1.0_wp, 2.0e6_wp, .false., "MX times MY is at most 2000000"), &
-      & number_bounds("SCALE", "-", 1.0e-6_wp, 1.0e6_wp, .false., "a window with the contact in it, or a part of it"), &
-      & number_bounds("A1", "1/mm", 1.0e-12_wp, 1.0e9_wp, .false., "from a planet to an atom"), &
-      & number_bounds("B1", "1/mm", 1.0e-12_wp, 1.0e9_wp, .false., "from a planet to an atom"), &
-      & number_bounds("AOB", "-", 1.0e-6_wp, 1.0e6_wp, .false., "longer contacts are lines: IPOTCN = -4"), &
-      & number_bounds("AA", "mm", tiny_side, far, .false., "from below an atom to a kilometre"), &
-      & number_bounds("BB", "mm", tiny_side, far, .false., "from below an atom to a kilometre"), &
-      & number_bounds("BNEG", "mm", tiny_side, far, .false., "from below an atom to a kilometre"), &
-      & number_bounds("BPOS", "mm", tiny_side, far, .false., "from below an atom to a kilometre"), &
-      & number_bounds("XL", "mm", -far, far, .false., "a kilometre off the contact"), &
-      & number_bounds("YL", "mm", -far, far, .false., "a kilometre off the contact"), &
-      & number_bounds("XH", "mm", -far, far, .false., "a kilometre off the contact"), &
-      & number_bounds("YH", "mm", -far, far, .false., "a kilometre off the contact"), &
-      & number_bounds("XC1", "mm", -far, far, .false., "a kilometre off the contact"), &
-      & number_bounds("YC1", "mm", -far, far, .false., "a kilometre off the contact"), &
-      & number_bounds("XCM", "mm", -far, far, .false., "a kilometre off the contact"), &
-      & number_bounds("YCM", "mm", -far, far, .false., "a kilometre off the contact"), &
-      & number_bounds("DX", "mm", tiny_side, far, .false., "from below an atom to a kilometre"), &
-      & number_bounds("DY", "mm", tiny_side, far, .false., "from below an atom to a kilometre"), &
-      & number_bounds("B", "mm ...", -1.0e9_wp, 1.0e9_wp, .false., "curvatures, slopes and heights beyond any body"), &
-      & number_bounds("B(IBASE3)", "mm ...", -rigid, rigid, .false., "as B; radii of flat bodies are written as 1e20"), &
-      & number_bounds("NN", "integer", 1.0_wp, 999999.0_wp, .false., "a number of points"), &
-      & number_bounds("XM", "mm", -far, far, .false., "a kilometre off the contact"), &
-      & number_bounds("RM", "mm", -rigid, rigid, .false., "radii of flat bodies are written as 1e20"), &
-      & number_bounds("Y1", "mm", -far, far, .false., "a kilometre off the contact"), &
-      & number_bounds("DY1", "mm", tiny_side, far, .false., "from below an atom to a kilometre"), &
-      & number_bounds("H", "mm", -far, 1.0e38_wp, .false., "a kilometre of overlap; 1e30 excludes an element"), &
-      & number_bounds("PL", "mm2 ...", -rigid, rigid, .false., "the square of a kilometre is 1e12"), &
-      & number_bounds("XL1", "mm", -1.0e38_wp, 1.0e38_wp, .false., "a side without end is written as 1e30"), &
-      & number_bounds("XH1", "mm", -1.0e38_wp, 1.0e38_wp, .false., "a side without end is written as 1e30"), &
-      & number_bounds("YL1", "mm", -1.0e38_wp, 1.0e38_wp, .false., "a side without end is written as 1e30"), &
-      & number_bounds("YH1", "mm", -1.0e38_wp, 1.0e38_wp, .false., "a side without end is written as 1e30"), &
-      & number_bounds("XL2", "mm", -1.0e38_wp, 1.0e38_wp, .false., "a side without end is written as 1e30"), &
-      & number_bounds("XH2", "mm", -1.0e38_wp, 1.0e38_wp, .false., "a side without end is written as 1e30"), &
-      & number_bounds("YL2", "mm", -1.0e38_wp, 1.0e38_wp, .false., "a side without end is written as 1e30"), &
-      & number_bounds("YH2", "mm", -1.0e38_wp, 1.0e38_wp, .false., "a side without end is written as 1e30"), &
-      & number_bounds("XL,XH,YL,YH", "mm", -1.0e38_wp, 1.0e38_wp, .false., "a side without end is written as 1e30"), &
-      & number_bounds("NP", "integer", 1.0_wp, 100.0_wp, .false., "a number of sub-patches"), &
-      & number_bounds("FAC", "-", 0.0_wp, 1.0_wp, .false., "a part of what one patch would do to the other")]
+      & number_bounds("MX", "integer", "number of elements along x", &
+      & 1.0_wp, 2.0e6_wp, .false., "MX times MY is at most 2000000"), &
+      & number_bounds("MY", "integer", "number of elements along y", &
+      & 1.0_wp, 2.0e6_wp, .false., "MX times MY is at most 2000000"), &
+      & number_bounds("SCALE", "-", "size of the grid over that of the contact", &
+      & 1.0e-6_wp, 1.0e6_wp, .false., "a window with the contact in it, or a part of it"), &
+      & number_bounds("A1", "1/mm", "curvature along x", &
+      & 1.0e-12_wp, 1.0e9_wp, .false., "from a planet to an atom"), &
+      & number_bounds("B1", "1/mm", "curvature along y", &
+      & 1.0e-12_wp, 1.0e9_wp, .false., "from a planet to an atom"), &
+      & number_bounds("AOB", "-", "ratio of semi-axes", &
+      & 1.0e-6_wp, 1.0e6_wp, .false., "longer contacts are lines: IPOTCN = -4"), &
+      & number_bounds("AA", "mm", "semi-axis along x", &
+      & tiny_side, far, .false., "from below an atom to a kilometre"), &
+      & number_bounds("BB", "mm", "semi-axis along y", &
+      & tiny_side, far, .false., "from below an atom to a kilometre"), &
+      & number_bounds("BNEG", "mm", "semi-axis to negative y", &
+      & tiny_side, far, .false., "from below an atom to a kilometre"), &
+      & number_bounds("BPOS", "mm", "semi-axis to positive y", &
+      & tiny_side, far, .false., "from below an atom to a kilometre"), &
+      & number_bounds("XL", "mm", "lower border in x", &
+      & -far, far, .false., "a kilometre off the contact"), &
+      & number_bounds("YL", "mm", "lower border in y", &
+      & -far, far, .false., "a kilometre off the contact"), &
+      & number_bounds("XH", "mm", "upper border in x", &
+      & -far, far, .false., "a kilometre off the contact"), &
+      & number_bounds("YH", "mm", "upper border in y", &
+      & -far, far, .false., "a kilometre off the contact"), &
+      & number_bounds("XC1", "mm", "centre of the first element in x", &
+      & -far, far, .false., "a kilometre off the contact"), &
+      & number_bounds("YC1", "mm", "centre of the first element in y", &
+      & -far, far, .false., "a kilometre off the contact"), &
+      & number_bounds("XCM", "mm", "centre of the last element in x", &
+      & -far, far, .false., "a kilometre off the contact"), &
+      & number_bounds("YCM", "mm", "centre of the last element in y", &
+      & -far, far, .false., "a kilometre off the contact"), &
+      & number_bounds("DX", "mm", "size of the elements along x", &
+      & tiny_side, far, .false., "from below an atom to a kilometre"), &
+      & number_bounds("DY", "mm", "size of the elements along y", &
+      & tiny_side, far, .false., "from below an atom to a kilometre"), &
+      & number_bounds("B", "mm ...", "coefficients of the undeformed distance", &
+      & -1.0e9_wp, 1.0e9_wp, .false., "curvatures, slopes and heights beyond any body"), &
+      & number_bounds("B(IBASE3)", "mm ...", "parameters of the undeformed distance", &
+      & -rigid, rigid, .false., "as B; radii of flat bodies are written as 1e20"), &
+      & number_bounds("NN", "integer", "number of points of the profile", &
+      & 1.0_wp, 999999.0_wp, .false., "a number of points"), &
+      & number_bounds("XM", "mm", "x of the highest point", &
+      & -far, far, .false., "a kilometre off the contact"), &
+      & number_bounds("RM", "mm", "radius along x", &
+      & -rigid, rigid, .false., "radii of flat bodies are written as 1e20"), &
+      & number_bounds("Y1", "mm", "y of the first point of the profile", &
+      & -far, far, .false., "a kilometre off the contact"), &
+      & number_bounds("DY1", "mm", "distance of the points of the profile", &
+      & tiny_side, far, .false., "from below an atom to a kilometre"), &
+      & number_bounds("H", "mm", "undeformed distance of each element", &
+      & -far, 1.0e38_wp, .false., "a kilometre of overlap; 1e30 excludes an element"), &
+      & number_bounds("PL", "mm2 ...", "coefficients of the planform", &
+      & -rigid, rigid, .false., "the square of a kilometre is 1e12"), &
+      & number_bounds("XL1", "mm", "first rectangle: lower border in x", &
+      & -1.0e38_wp, 1.0e38_wp, .false., "a side without end is written as 1e30"), &
+      & number_bounds("XH1", "mm", "first rectangle: upper border in x", &
+      & -1.0e38_wp, 1.0e38_wp, .false., "a side without end is written as 1e30"), &
+      & number_bounds("YL1", "mm", "first rectangle: lower border in y", &
+      & -1.0e38_wp, 1.0e38_wp, .false., "a side without end is written as 1e30"), &
+      & number_bounds("YH1", "mm", "first rectangle: upper border in y", &
+      & -1.0e38_wp, 1.0e38_wp, .false., "a side without end is written as 1e30"), &
+      & number_bounds("XL2", "mm", "second rectangle: lower border in x", &
+      & -1.0e38_wp, 1.0e38_wp, .false., "a side without end is written as 1e30"), &
+      & number_bounds("XH2", "mm", "second rectangle: upper border in x", &
+      & -1.0e38_wp, 1.0e38_wp, .false., "a side without end is written as 1e30"), &
+      & number_bounds("YL2", "mm", "second rectangle: lower border in y", &
+      & -1.0e38_wp, 1.0e38_wp, .false., "a side without end is written as 1e30"), &
+      & number_bounds("YH2", "mm", "second rectangle: upper border in y", &
+      & -1.0e38_wp, 1.0e38_wp, .false., "a side without end is written as 1e30"), &
+      & number_bounds("XL,XH,YL,YH", "mm", "borders of a part of the planform", &
+      & -1.0e38_wp, 1.0e38_wp, .false., "a side without end is written as 1e30"), &
+      & number_bounds("NP", "integer", "number of parts of the planform", &
+      & 1.0_wp, 100.0_wp, .false., "a number of sub-patches"), &
+      & number_bounds("FAC", "-", "factor between two parts of the planform", &
+      & 0.0_wp, 1.0_wp, .false., "a part of what one patch would do to the other")]
 
    type(number_bounds), parameter :: subsurface_rows(*) = [ &
-      & number_bounds("MATFIL_S", "integer", 0.0_wp, 2.0_wp, .false., "the kinds of files that there are"), &
-      & number_bounds("OUTPUT_S", "integer", 0.0_wp, 4.0_wp, .false., "the amounts of output that there are"), &
-      & number_bounds("IXL", "integer", 1.0_wp, 999999.0_wp, .false., "a number of a column"), &
-      & number_bounds("IXINC", "integer", -2.0e9_wp, 2.0e9_wp, .false., "a step; at least 1 acts"), &
-      & number_bounds("IXH", "integer", 1.0_wp, 999999.0_wp, .false., "a number of a column"), &
-      & number_bounds("IYL", "integer", 1.0_wp, 999999.0_wp, .false., "a number of a row"), &
-      & number_bounds("IYINC", "integer", -2.0e9_wp, 2.0e9_wp, .false., "a step; at least 1 acts"), &
-      & number_bounds("IYH", "integer", 1.0_wp, 999999.0_wp, .false., "a number of a row"), &
-      & number_bounds("NX", "integer", 1.0_wp, 9999.0_wp, .false., "points in one direction"), &
-      & number_bounds("NY", "integer", 1.0_wp, 9999.0_wp, .false., "points in one direction"), &
-      & number_bounds("NZ", "integer", 1.0_wp, 9999.0_wp, .false., "points in one direction"), &
-      & number_bounds("IX", "-", -1.0e9_wp, 1.0e9_wp, .false., "a number of a column, rounded"), &
-      & number_bounds("IY", "-", -1.0e9_wp, 1.0e9_wp, .false., "a number of a row, rounded"), &
-      & number_bounds("X", "mm", -far, far, .false., "a kilometre off the contact"), &
-      & number_bounds("Y", "mm", -far, far, .false., "a kilometre off the contact"), &
-      & number_bounds("Z", "mm", -far, far, .false., "a kilometre off the contact"), &
-      & number_bounds("ZL", "mm", -far, far, .false., "a kilometre off the contact"), &
-      & number_bounds("DZ", "mm", 1.0e-9_wp, far, .false., "from below an atom to a kilometre")]
+      & number_bounds("MATFIL_S", "integer", "amount of data in the .subs file", &
+      & 0.0_wp, 2.0_wp, .false., "the kinds of files that there are"), &
+      & number_bounds("OUTPUT_S", "integer", "amount of stresses in the .out file", &
+      & 0.0_wp, 4.0_wp, .false., "the amounts of output that there are"), &
+      & number_bounds("IXL", "integer", "first column", &
+      & 1.0_wp, 999999.0_wp, .false., "a number of a column"), &
+      & number_bounds("IXINC", "integer", "step of columns", &
+      & -2.0e9_wp, 2.0e9_wp, .false., "a step; at least 1 acts"), &
+      & number_bounds("IXH", "integer", "last column", &
+      & 1.0_wp, 999999.0_wp, .false., "a number of a column"), &
+      & number_bounds("IYL", "integer", "first row", &
+      & 1.0_wp, 999999.0_wp, .false., "a number of a row"), &
+      & number_bounds("IYINC", "integer", "step of rows", &
+      & -2.0e9_wp, 2.0e9_wp, .false., "a step; at least 1 acts"), &
+      & number_bounds("IYH", "integer", "last row", &
+      & 1.0_wp, 999999.0_wp, .false., "a number of a row"), &
+      & number_bounds("NX", "integer", "number of points along x", &
+      & 1.0_wp, 9999.0_wp, .false., "points in one direction"), &
+      & number_bounds("NY", "integer", "number of points along y", &
+      & 1.0_wp, 9999.0_wp, .false., "points in one direction"), &
+      & number_bounds("NZ", "integer", "number of depths", &
+      & 1.0_wp, 9999.0_wp, .false., "points in one direction"), &
+      & number_bounds("IX", "-", "columns", &
+      & -1.0e9_wp, 1.0e9_wp, .false., "a number of a column, rounded"), &
+      & number_bounds("IY", "-", "rows", &
+      & -1.0e9_wp, 1.0e9_wp, .false., "a number of a row, rounded"), &
+      & number_bounds("X", "mm", "x of the points", &
+      & -far, far, .false., "a kilometre off the contact"), &
+      & number_bounds("Y", "mm", "y of the points", &
+      & -far, far, .false., "a kilometre off the contact"), &
+      & number_bounds("Z", "mm", "depths", &
+      & -far, far, .false., "a kilometre off the contact"), &
+      & number_bounds("ZL", "mm", "first depth", &
+      & -far, far, .false., "a kilometre off the contact"), &
+      & number_bounds("DZ", "mm", "distance of depths", &
+      & 1.0e-9_wp, far, .false., "from below an atom to a kilometre")]
 
    type(number_bounds), parameter :: track_rows(*) = [ &
-      & number_bounds("DS", "mm", tiny_side, far, .false., "from below an atom to a kilometre"), &
-      & number_bounds("DQREL", "-", 5.0e-7_wp, 10.0_wp, .false., "a step in elements"), &
-      & number_bounds("A_SEP", "rad", -1.0e4_wp, 1.0e4_wp, .false., "an angle; pi and more never separates"), &
-      & number_bounds("D_SEP", "mm", -far, far, .false., "a distance of patches"), &
-      & number_bounds("D_COMB", "mm", -far, far, .false., "a distance of patches"), &
-      & number_bounds("D_TURN", "mm", -far, far, .false., "a distance of patches"), &
-      & number_bounds("G_MISS", "mm", -far, far, .false., "a gap; negative for never"), &
-      & number_bounds("GAUGHT", "mm", -far, 200.0_wp, .false., "no rail is that high; 0 and less: absolute placement"), &
-      & number_bounds("GAUGSQ", "-", -1.0e9_wp, 1.0e9_wp, .false., "read and not used"), &
-      & number_bounds("GAUGWD", "mm", -far, far, .false., "a gauge of a kilometre"), &
-      & number_bounds("RAILY0", "mm", -far, far, .false., "a kilometre off the track"), &
-      & number_bounds("RAILZ0", "mm", -far, far, .false., "a kilometre off the track"), &
-      & number_bounds("CANT", "rad", -two_turns, two_turns, .false., "an angle; degrees need a d: 1.43d"), &
-      & number_bounds("NOMRAD", "mm", 1.0e-3_wp, 1.0e9_wp, .false., "a wheel of a micrometre or of a thousand km"), &
-      & number_bounds("CURV", "1/mm", -1.0_wp, 1.0_wp, .false., "a curve with the radius of a millimetre"), &
-      & number_bounds("DYRAIL", "mm", -far, far, .false., "a kilometre off the track"), &
-      & number_bounds("DZRAIL", "mm", -far, far, .false., "a kilometre off the track"), &
-      & number_bounds("DROLLR", "rad", -two_turns, two_turns, .false., "an angle; degrees need a d: 1d"), &
-      & number_bounds("VYRAIL", "mm/s", -fast, fast, .false., "a thousand km/s"), &
-      & number_bounds("VZRAIL", "mm/s", -fast, fast, .false., "a thousand km/s"), &
-      & number_bounds("VROLLR", "rad/s", -many_turns, many_turns, .false., "a rail is no turbine"), &
-      & number_bounds("KYRAIL", "N/mm", 0.0_wp, rigid, .false., "springs do not push further; rigid"), &
-      & number_bounds("FYRAIL", "N", -heavy, heavy, .false., "the weight of a mountain"), &
-      & number_bounds("KZRAIL", "N/mm", 0.0_wp, rigid, .false., "springs do not push further; rigid"), &
-      & number_bounds("FZRAIL", "N", -heavy, heavy, .false., "the weight of a mountain"), &
-      & number_bounds("DYSTEP0", "mm", 0.0_wp, far, .true., "a trial step"), &
-      & number_bounds("PROFILE", "mm ...", -1.0e9_wp, 1.0e9_wp, .false., "a number of a profile; a kilometre in micrometres"), &
-      & number_bounds("MIRRORY", "integer", -1.0_wp, 1.0_wp, .false., "1 for yes, 0 and -1 for no"), &
-      & number_bounds("MIRRORZ", "integer", -1.0_wp, 1.0_wp, .false., "1 for yes, -1 for no, 0 for as the file suggests"), &
-      & number_bounds("SCALEYZ", "-", -1.0e9_wp, 1.0e9_wp, .false., "a factor of units"), &
-      & number_bounds("SMOOTH", "mm ...", -1.0e9_wp, 1.0e9_wp, .false., "a wavelength or a weight"), &
-      & number_bounds("PRFOPT", "integer", 0.0_wp, 2.0_wp, .false., "the groups that there are"), &
-      & number_bounds("ISMOOTH", "integer", 0.0_wp, 2.0_wp, .false., "the methods that there are"), &
-      & number_bounds("ZIGTHRS", "rad", -1.0e4_wp, 1.0e4_wp, .false., "an angle; degrees need a d: 150d"), &
-      & number_bounds("KINKHIGH", "rad", -1.0e4_wp, 1.0e4_wp, .false., "an angle; degrees need a d: 30d"), &
-      & number_bounds("KINKLOW", "rad", -1.0e4_wp, 1.0e4_wp, .false., "an angle; degrees need a d: 6d"), &
-      & number_bounds("KINKWID", "mm", -far, far, .false., "a distance in a profile"), &
-      & number_bounds("ERRHND", "integer", -2.0_wp, 1.0_wp, .false., "the levels that there are"), &
-      & number_bounds("MAXOMIT", "-", -1.0e9_wp, 1.0e9_wp, .false., "a part of the points")]
+      & number_bounds("DS", "mm", "element size along the profile", &
+      & tiny_side, far, .false., "from below an atom to a kilometre"), &
+      & number_bounds("DQREL", "-", "step in elements", &
+      & 5.0e-7_wp, 10.0_wp, .false., "a step in elements"), &
+      & number_bounds("A_SEP", "rad", "angle of separate patches", &
+      & -1.0e4_wp, 1.0e4_wp, .false., "an angle; pi and more never separates"), &
+      & number_bounds("D_SEP", "mm", "distance of separate patches", &
+      & -far, far, .false., "a distance of patches"), &
+      & number_bounds("D_COMB", "mm", "distance of combined patches", &
+      & -far, far, .false., "a distance of patches"), &
+      & number_bounds("D_TURN", "mm", "distance of patches with own planes", &
+      & -far, far, .false., "a distance of patches"), &
+      & number_bounds("G_MISS", "mm", "gap up to which a patch is enlarged", &
+      & -far, far, .false., "a gap; negative for never"), &
+      & number_bounds("GAUGHT", "mm", "height of the gauge point", &
+      & -far, 200.0_wp, .false., "no rail is that high; 0 and less: absolute placement"), &
+      & number_bounds("GAUGSQ", "-", "number of the gauge point", &
+      & -1.0e9_wp, 1.0e9_wp, .false., "read and not used"), &
+      & number_bounds("GAUGWD", "mm", "gauge", &
+      & -far, far, .false., "a gauge of a kilometre"), &
+      & number_bounds("RAILY0", "mm", "lateral place of the rail", &
+      & -far, far, .false., "a kilometre off the track"), &
+      & number_bounds("RAILZ0", "mm", "vertical place of the rail", &
+      & -far, far, .false., "a kilometre off the track"), &
+      & number_bounds("CANT", "rad", "cant of the rail", &
+      & -two_turns, two_turns, .false., "an angle; degrees need a d: 1.43d"), &
+      & number_bounds("NOMRAD", "mm", "nominal radius", &
+      & 1.0e-3_wp, 1.0e9_wp, .false., "a wheel of a micrometre or of a thousand km"), &
+      & number_bounds("CURV", "1/mm", "curvature of the track", &
+      & -1.0_wp, 1.0_wp, .false., "a curve with the radius of a millimetre"), &
+      & number_bounds("DYRAIL", "mm", "lateral deviation of the rail", &
+      & -far, far, .false., "a kilometre off the track"), &
+      & number_bounds("DZRAIL", "mm", "vertical deviation of the rail", &
+      & -far, far, .false., "a kilometre off the track"), &
+      & number_bounds("DROLLR", "rad", "roll of the rail", &
+      & -two_turns, two_turns, .false., "an angle; degrees need a d: 1d"), &
+      & number_bounds("VYRAIL", "mm/s", "lateral velocity of the rail", &
+      & -fast, fast, .false., "a thousand km/s"), &
+      & number_bounds("VZRAIL", "mm/s", "vertical velocity of the rail", &
+      & -fast, fast, .false., "a thousand km/s"), &
+      & number_bounds("VROLLR", "rad/s", "roll rate of the rail", &
+      & -many_turns, many_turns, .false., "a rail is no turbine"), &
+      & number_bounds("KYRAIL", "N/mm", "lateral stiffness of the rail", &
+      & 0.0_wp, rigid, .false., "springs do not push further; rigid"), &
+      & number_bounds("FYRAIL", "N", "lateral spring force of the rail at rest", &
+      & -heavy, heavy, .false., "the weight of a mountain"), &
+      & number_bounds("KZRAIL", "N/mm", "vertical stiffness of the rail", &
+      & 0.0_wp, rigid, .false., "springs do not push further; rigid"), &
+      & number_bounds("FZRAIL", "N", "vertical spring force of the rail at rest", &
+      & -heavy, heavy, .false., "the weight of a mountain"), &
+      & number_bounds("DYSTEP0", "mm", "first trial step of the lateral deflection", &
+      & 0.0_wp, far, .true., "a trial step"), &
+      & number_bounds("PROFILE", "mm ...", "number in a profile file", &
+      & -1.0e9_wp, 1.0e9_wp, .false., "a number of a profile; a kilometre in micrometres"), &
+      & number_bounds("MIRRORY", "integer", "mirror the profile in y?", &
+      & -1.0_wp, 1.0_wp, .false., "1 for yes, 0 and -1 for no"), &
+      & number_bounds("MIRRORZ", "integer", "mirror the profile in z?", &
+      & -1.0_wp, 1.0_wp, .false., "1 for yes, -1 for no, 0 for as the file suggests"), &
+      & number_bounds("SCALEYZ", "-", "factor to mm", &
+      & -1.0e9_wp, 1.0e9_wp, .false., "a factor of units"), &
+      & number_bounds("SMOOTH", "mm ...", "parameter of smoothing", &
+      & -1.0e9_wp, 1.0e9_wp, .false., "a wavelength or a weight"), &
+      & number_bounds("PRFOPT", "integer", "groups of options that follow", &
+      & 0.0_wp, 2.0_wp, .false., "the groups that there are"), &
+      & number_bounds("ISMOOTH", "integer", "smoothing method", &
+      & 0.0_wp, 2.0_wp, .false., "the methods that there are"), &
+      & number_bounds("ZIGTHRS", "rad", "turning angle of a zig-zag", &
+      & -1.0e4_wp, 1.0e4_wp, .false., "an angle; degrees need a d: 150d"), &
+      & number_bounds("KINKHIGH", "rad", "turning angle of a kink", &
+      & -1.0e4_wp, 1.0e4_wp, .false., "an angle; degrees need a d: 30d"), &
+      & number_bounds("KINKLOW", "rad", "largest turning angle beside a kink", &
+      & -1.0e4_wp, 1.0e4_wp, .false., "an angle; degrees need a d: 6d"), &
+      & number_bounds("KINKWID", "mm", "reach of a kink", &
+      & -far, far, .false., "a distance in a profile"), &
+      & number_bounds("ERRHND", "integer", "level of error handling", &
+      & -2.0_wp, 1.0_wp, .false., "the levels that there are"), &
+      & number_bounds("MAXOMIT", "-", "part of the profile that may be left out", &
+      & -1.0e9_wp, 1.0e9_wp, .false., "a part of the points")]
 
    type(number_bounds), parameter :: wheel_rows(*) = [ &
-      & number_bounds("FBDIST", "mm", -far, far, .false., "a wheelset of a kilometre"), &
-      & number_bounds("FBPOS", "mm", -far, far, .false., "a wheel of a kilometre"), &
-      & number_bounds("YTAPE", "mm", -1.0e9_wp, 1.0e9_wp, .false., "999 and more: no tape line"), &
-      & number_bounds("S_WS", "mm", -far_along, far_along, .false., "a million km of track"), &
-      & number_bounds("X_WS", "mm", -far, far, .false., "a kilometre off the roller"), &
-      & number_bounds("Y_WS", "mm", -far, far, .false., "a kilometre off the track"), &
-      & number_bounds("Z_WS", "mm", -far, far, .false., "a kilometre off the track"), &
-      & number_bounds("FZ", "N", -heavy, heavy, .false., "the weight of a mountain"), &
-      & number_bounds("ROLL", "rad", -two_turns, two_turns, .false., "an angle; degrees need a d: 1d"), &
-      & number_bounds("YAW", "rad", -two_turns, two_turns, .false., "an angle; degrees need a d: 1d"), &
-      & number_bounds("PITCH", "rad", -many_turns, many_turns, .false., "turns that add up over a run"), &
-      & number_bounds("VS", "mm/s", -fast, fast, .false., "a thousand km/s"), &
-      & number_bounds("VY", "mm/s", -fast, fast, .false., "a thousand km/s"), &
-      & number_bounds("VZ", "mm/s", -fast, fast, .false., "a thousand km/s"), &
-      & number_bounds("VROLL", "rad/s", -many_turns, many_turns, .false., "faster than any turbine"), &
-      & number_bounds("VYAW", "rad/s", -many_turns, many_turns, .false., "faster than any turbine"), &
-      & number_bounds("VPITCH", "rad/s", -many_turns, many_turns, .false., "faster than any turbine"), &
-      & number_bounds("RPITCH", "rad/s", -many_turns, many_turns, .false., "faster than any turbine"), &
-      & number_bounds("FX_WS", "N", -heavy, heavy, .false., "the weight of a mountain"), &
-      & number_bounds("DXWHL", "mm", -far, far, .false., "a deviation of a kilometre"), &
-      & number_bounds("DYWHL", "mm", -far, far, .false., "a deviation of a kilometre"), &
-      & number_bounds("DZWHL", "mm", -far, far, .false., "a deviation of a kilometre"), &
-      & number_bounds("DROLLW", "rad", -two_turns, two_turns, .false., "an angle; degrees need a d: 1d"), &
-      & number_bounds("DYAWW", "rad", -two_turns, two_turns, .false., "an angle; degrees need a d: 1d"), &
-      & number_bounds("DPITCHW", "rad", -many_turns, many_turns, .false., "turns that add up over a run"), &
-      & number_bounds("VXWHL", "mm/s", -fast, fast, .false., "a thousand km/s"), &
-      & number_bounds("VYWHL", "mm/s", -fast, fast, .false., "a thousand km/s"), &
-      & number_bounds("VZWHL", "mm/s", -fast, fast, .false., "a thousand km/s"), &
-      & number_bounds("VROLLW", "rad/s", -many_turns, many_turns, .false., "faster than any turbine"), &
-      & number_bounds("VYAWW", "rad/s", -many_turns, many_turns, .false., "faster than any turbine"), &
-      & number_bounds("VPITCHW", "rad/s", -many_turns, many_turns, .false., "faster than any turbine")]
+      & number_bounds("FBDIST", "mm", "flange-back distance", &
+      & -far, far, .false., "a wheelset of a kilometre"), &
+      & number_bounds("FBPOS", "mm", "place of the flange back in the profile", &
+      & -far, far, .false., "a wheel of a kilometre"), &
+      & number_bounds("YTAPE", "mm", "place of the nominal radius", &
+      & -1.0e9_wp, 1.0e9_wp, .false., "999 and more: no tape line"), &
+      & number_bounds("S_WS", "mm", "position along the track", &
+      & -far_along, far_along, .false., "a million km of track"), &
+      & number_bounds("X_WS", "mm", "longitudinal position on the roller", &
+      & -far, far, .false., "a kilometre off the roller"), &
+      & number_bounds("Y_WS", "mm", "lateral position", &
+      & -far, far, .false., "a kilometre off the track"), &
+      & number_bounds("Z_WS", "mm", "height, when prescribed", &
+      & -far, far, .false., "a kilometre off the track"), &
+      & number_bounds("FZ", "N", "vertical force, when prescribed", &
+      & -heavy, heavy, .false., "the weight of a mountain"), &
+      & number_bounds("ROLL", "rad", "roll angle", &
+      & -two_turns, two_turns, .false., "an angle; degrees need a d: 1d"), &
+      & number_bounds("YAW", "rad", "yaw angle", &
+      & -two_turns, two_turns, .false., "an angle; degrees need a d: 1d"), &
+      & number_bounds("PITCH", "rad", "pitch angle", &
+      & -many_turns, many_turns, .false., "turns that add up over a run"), &
+      & number_bounds("VS", "mm/s", "forward speed", &
+      & -fast, fast, .false., "a thousand km/s"), &
+      & number_bounds("VY", "mm/s", "lateral velocity", &
+      & -fast, fast, .false., "a thousand km/s"), &
+      & number_bounds("VZ", "mm/s", "vertical velocity", &
+      & -fast, fast, .false., "a thousand km/s"), &
+      & number_bounds("VROLL", "rad/s", "roll rate", &
+      & -many_turns, many_turns, .false., "faster than any turbine"), &
+      & number_bounds("VYAW", "rad/s", "yaw rate", &
+      & -many_turns, many_turns, .false., "faster than any turbine"), &
+      & number_bounds("VPITCH", "rad/s", "pitch rate, when prescribed", &
+      & -many_turns, many_turns, .false., "faster than any turbine"), &
+      & number_bounds("RPITCH", "rad/s", "pitch rate of the roller", &
+      & -many_turns, many_turns, .false., "faster than any turbine"), &
+      & number_bounds("FX_WS", "N", "longitudinal force, when prescribed", &
+      & -heavy, heavy, .false., "the weight of a mountain"), &
+      & number_bounds("DXWHL", "mm", "longitudinal deviation of the wheel", &
+      & -far, far, .false., "a deviation of a kilometre"), &
+      & number_bounds("DYWHL", "mm", "lateral deviation of the wheel", &
+      & -far, far, .false., "a deviation of a kilometre"), &
+      & number_bounds("DZWHL", "mm", "vertical deviation of the wheel", &
+      & -far, far, .false., "a deviation of a kilometre"), &
+      & number_bounds("DROLLW", "rad", "roll of the wheel", &
+      & -two_turns, two_turns, .false., "an angle; degrees need a d: 1d"), &
+      & number_bounds("DYAWW", "rad", "yaw of the wheel", &
+      & -two_turns, two_turns, .false., "an angle; degrees need a d: 1d"), &
+      & number_bounds("DPITCHW", "rad", "pitch of the wheel", &
+      & -many_turns, many_turns, .false., "turns that add up over a run"), &
+      & number_bounds("VXWHL", "mm/s", "longitudinal velocity of the wheel", &
+      & -fast, fast, .false., "a thousand km/s"), &
+      & number_bounds("VYWHL", "mm/s", "lateral velocity of the wheel", &
+      & -fast, fast, .false., "a thousand km/s"), &
+      & number_bounds("VZWHL", "mm/s", "vertical velocity of the wheel", &
+      & -fast, fast, .false., "a thousand km/s"), &
+      & number_bounds("VROLLW", "rad/s", "roll rate of the wheel", &
+      & -many_turns, many_turns, .false., "faster than any turbine"), &
+      & number_bounds("VYAWW", "rad/s", "yaw rate of the wheel", &
+      & -many_turns, many_turns, .false., "faster than any turbine"), &
+      & number_bounds("VPITCHW", "rad/s", "pitch rate of the wheel", &
+      & -many_turns, many_turns, .false., "faster than any turbine")]
 
    !> All numbers, in the order in which the groups of a case come
    type(number_bounds), parameter :: bounds_table(*) = [solver_rows, motion_rows, friction_rows, material_rows, grid_rows, &

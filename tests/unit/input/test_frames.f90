@@ -6,7 +6,7 @@ program test_frames
    use contact_cases_geometry, only : build_grid, solve_hertz, strip_rows
    use contact_cases_spec, only : grid_spec
    use contact_grid_potential_contact, only : potential_contact
-   use contact_input_grid3, only : frame_of, grid_frame
+   use contact_input_grid_frame, only : frame_of, grid_frame
    use contact_patch_result, only : hertz_result
    use contact_test_harness, only : test_suite
    implicit none (type, external)

@@ -6,7 +6,7 @@ program test_reader1
    use contact_base_kinds, only : wp
    use contact_cases_spec, only : case_spec
    use contact_input_problems, only : problem_list, problem_text, severity
-   use contact_input_reader1, only : read_case1
+   use contact_input_reader, only : read_case
    use contact_test_harness, only : test_suite
    use contact_text_lexer, only : input_lexer
    implicit none (type, external)
@@ -64,9 +64,9 @@ contains
 
       call lexer%open_text(text, "test")
       if (present(previous)) then
-         call read_case1(lexer, previous, .true., 2, spec, problems, error, first_line)
+         call read_case(lexer, 1, previous, .true., 2, spec, problems, error, first_line=first_line)
       else
-         call read_case1(lexer, nothing, .false., 1, spec, problems, error, first_line)
+         call read_case(lexer, 1, nothing, .false., 1, spec, problems, error, first_line=first_line)
       end if
    end subroutine read_text
 
@@ -174,7 +174,7 @@ contains
          & [5.0_wp, 0.3_wp, 0.01_wp], closed, "position, coefficient, memory")
 
       call read_text(new_case(word2="1022033", friction="2; -10d 0.2 0.2; -20d 0.3 0.3"), spec, problems, error)
-      call has_problem(suite, problems, "ALPHA = -20d does not lie above the one before it, -10d", "angles that decrease")
+      call has_problem(suite, problems, "ALPHA = -20d does not lie above the one before it, ALPHA = -10d", "angles that decrease")
    end subroutine friction_points
 
    subroutine faulty_cases(suite)

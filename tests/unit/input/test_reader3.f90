@@ -6,7 +6,7 @@ program test_reader3
    use contact_cases_spec, only : case_spec
    use contact_input_experiment_file, only : case_failure, experiment_reader, input_case
    use contact_input_problems, only : problem_list, problem_text, severity
-   use contact_input_reader3, only : read_case3
+   use contact_input_reader, only : read_case
    use contact_test_harness, only : environment, test_suite
    use contact_text_lexer, only : input_lexer
    implicit none (type, external)
@@ -105,7 +105,7 @@ contains
       type(case_spec) :: nothing
 
       call lexer%open_text(new_case(changes), "test")
-      call read_case3(lexer, nothing, .false., 1, spec, problems, error)
+      call read_case(lexer, 3, nothing, .false., 1, spec, problems, error)
    end subroutine read_one
 
    !> Read two cases, the problems are those of the second
@@ -120,7 +120,7 @@ contains
       call read_one(first, previous, problems, error)
       if (allocated(error)) return
       call lexer%open_text(new_case(second), "test")
-      call read_case3(lexer, previous, .true., 2, spec, problems, error)
+      call read_case(lexer, 3, previous, .true., 2, spec, problems, error)
    end subroutine read_two
 
    !> Exactly one error, or warning, with a phrase; choices that are not built do not count
@@ -402,7 +402,7 @@ contains
       type(test_suite), intent(inout) :: suite
       character(len=*), parameter :: blocks = "12=0.01 0 0.01 0 0 0;0 0"
 
-      call wrong(suite, "1=273100", "B = 7 is not a known digit; allowed are 0, 1, 2, 3, 4, 5, 6")
+      call wrong(suite, "1=273100", "B = 7 is not a known digit of module 3; allowed are 0, 1, 2, 3, 4, 5, 6")
       call wrong(suite, "1=204100|7=", "T = 4 is not")
       call wrong(suite, "1=203200", "N = 2 is not")
       call wrong(suite, "1=203130|5=1000 0.1 0.1 0", "F = 3 is not")
@@ -588,14 +588,14 @@ contains
       call wrong(suite, "11=4 1|12=", "IBASE = 4 is not a known option")
       call wrong(suite, "11=1 5", "IPLAN = 5 is not a known option")
       call right(suite, "11=2 1|12=2 0 1 0 .1;0 0")
-      call wrong(suite, "11=2 1|12=1 0 1 0 .1;0", "NN = 1 is outside its range 2 to 999999")
+      call wrong(suite, "11=2 1|12=1 0 1 0 .1;0", "NN = 1 is below its lower bound 2")
       call wrong(suite, "11=2 1|12=2 0 1 0 0;0 0", "DY1 = 0 is below")
       call right(suite, "11=3 1|12=1 2 3 4 5 6 7 8")
       call right(suite, "11=9 1|10=2 2 0 0 1 1|12=1 2;3 4")
       call right(suite, "11=1 2|" // quadratic // "1 2 3 4 5 6")
       call right(suite, "11=1 3|" // quadratic // "0 1 0 1 0 1 0 1")
-      call wrong(suite, "11=1 3|" // quadratic // "0 1 0 1 0 1 1 1", "XL2, XH2, YL2, YH2 = 0, 1, 0, 1, 0, 1, 1, 1")
-      call wrong(suite, "11=1 3|" // quadratic // "0 1 0 1 2 1 0 1", "need XL < XH and YL < YH")
+      call wrong(suite, "11=1 3|" // quadratic // "0 1 0 1 0 1 1 1", "YH2 = 1 must be larger than YL2 = 1")
+      call wrong(suite, "11=1 3|" // quadratic // "0 1 0 1 2 1 0 1", "XH2 = 1 must be larger than XL2 = 2")
       call right(suite, "11=1 4|" // quadratic // "3;0 1 0 1 0 1 0 1 0 1 0 1;.1 .2 .3")
    end subroutine geometries
 

@@ -93,11 +93,11 @@ contains
       end if
    end subroutine expect
 
-   !> The manual lists every row: `| GG | N/mm2 | 1.00000E-05 | 1.00000E+20 | reason |`
+   !> The manual lists every row: `| GG | modulus of rigidity | N/mm2 | 1.00000E-05 | 1.00000E+20 | reason |`
    subroutine manual(suite)
       type(test_suite), intent(inout) :: suite
       character(len=300) :: folder, line
-      character(len=200) :: expected(size(bounds_table))
+      character(len=280) :: expected(size(bounds_table))
       logical, allocatable :: seen(:)
       integer :: k, status, unit
 
@@ -126,12 +126,12 @@ contains
    !> A row of the manual
    pure function manual_row(bounds) result(row)
       type(number_bounds), intent(in) :: bounds
-      character(len=200) :: row
+      character(len=280) :: row
       character(len=:), allocatable :: lowest
 
       lowest = real_text(bounds%lowest)
       if (bounds%is_open) lowest = "above " // lowest
-      row = "| " // trim(bounds%name) // " | " // trim(bounds%unit) // " | " // lowest // " | " // &
+      row = "| " // trim(bounds%name) // " | " // trim(bounds%title) // " | " // trim(bounds%unit) // " | " // lowest // " | " // &
          & real_text(bounds%highest) // " | " // trim(bounds%reason) // " |"
    end function manual_row
 end program test_bounds

@@ -1,19 +1,18 @@
-!> The control words of a case of module 3 and the checks of its digits
-module contact_input_control3
-   use contact_base_choices, only : contact_location, is_fastrip, is_simplified, slip_source
+!> The control words of a case and the checks of its digits
+module contact_input_control
+   use contact_base_choices, only : contact_location, estimate_choice, is_fastrip, is_simplified, slip_source, time_link
    use contact_base_error, only : error_type
    use contact_cases_spec, only : case_digits, case_spec
    use contact_control_digits, only : allowed_text, choice_of, decode_words, digit_names, digit_text, digit_value, &
       & is_built, is_known
-   use contact_control_digits1, only : digit1_is_built, digit1_names, digit1_text, digit1_value_is_known
    use contact_input_problems, only : problem_list, severity
    use contact_text_lexer, only : input_lexer, input_value
    use contact_text_words, only : integer_text
+   use contact_wheelrail_spec, only : wheel_rail_spec
    implicit none (type, external)
    private
 
-   public :: control_words, read_control_words, check_digits, name_choices, refuse_unbuilt_digits, add_for_digit
-   public :: check_signs, start_sequence, check_kept, check_physics
+   public :: control_words, read_control_words, check_digits, name_choices, refuse_unbuilt_digits, add_for_digit, check_physics
 
    !> The words with their places, for messages
    type :: control_words
@@ -26,15 +25,17 @@ module contact_input_control3
 contains
 
    !> Read the words and make named choices of their digits
-   subroutine read_control_words(lexer, words, spec, error)
+   subroutine read_control_words(lexer, words, module_number, spec, error)
       type(input_lexer), intent(inout) :: lexer
       type(control_words), intent(out) :: words
+      !> 1 or 3
+      integer, intent(in) :: module_number
       !> On entry the previous case; its effective choices stay where a digit says "keep"
       type(case_spec), intent(inout) :: spec
       type(error_type), allocatable, intent(out) :: error
       type(input_value) :: values(2)
 
-      call lexer%read_group("i", "PBTNFS", values, error)
+      call lexer%read_group("i", trim(merge("CPBTNFS", "PBTNFS ", module_number == 1)), values, error)
       if (allocated(error)) return
       words%word(1) = values(1)
       call lexer%read_group("iI", "VLDCMZE M2", values, error)
@@ -47,93 +48,146 @@ contains
 
       associate (word => words%word%i)
          if (words%second%given) then
-            call decode_words(word(1), word(2), word(3), spec%digits, words%second%i)
+            call decode_words(word(1), word(2), word(3), module_number, spec%digits, words%second%i)
          else
-            call decode_words(word(1), word(2), word(3), spec%digits)
+            call decode_words(word(1), word(2), word(3), module_number, spec%digits)
          end if
       end associate
       if (spec%digits%x > 0) then
          call lexer%read_group("iI", "PSFLCIN READLN", values, error)
          if (allocated(error)) return
       end if
-      call name_choices(spec)
+      call name_choices(spec, module_number)
    end subroutine read_control_words
 
    !> Digits to names; effective values of the digits that can say "keep"
-   subroutine name_choices(spec)
+   subroutine name_choices(spec, module_number)
       type(case_spec), intent(inout) :: spec
+      !> 1 or 3
+      integer, intent(in) :: module_number
 
       associate (digits => spec%digits)
-         spec%link = choice_of("P", digits%p)
-         spec%pressure = choice_of("B", digits%b)
-         spec%motion = choice_of("T", digits%t)
-         spec%normal = choice_of("N", digits%n)
-         spec%force = choice_of("F", digits%f)
-         spec%stress = choice_of("S", digits%s)
-         spec%variation = choice_of("V", digits%v)
-         spec%material_model = choice_of("M", digits%m)
-         spec%estimate = choice_of("I", digits%i)
+         spec%link = choice("P", digits%p)
+         spec%pressure = choice("B", digits%b)
+         spec%motion = choice("T", digits%t)
+         spec%normal = choice("N", digits%n)
+         spec%force = choice("F", digits%f)
+         spec%stress = choice("S", digits%s)
+         spec%variation = choice("V", digits%v)
+         spec%material_model = choice("M", digits%m)
+         spec%estimate = choice("I", digits%i)
          spec%mat_file = digits%a
          spec%output_level = digits%o
          spec%flow_level = digits%w
          spec%solve = digits%r <= 1
-         if (digits%l /= 1) spec%friction_law = choice_of("L", digits%l)
-         if (digits%c >= 2) spec%kernel = choice_of("C", digits%c)
-         if (digits%g /= 1) spec%solver = choice_of("G", digits%g)
-         if (digits%e /= 1) spec%slip_source = choice_of("E", digits%e)
-         if (digits%h /= 1) spec%heat_model = choice_of("H", digits%h)
+         if (digits%l /= 1) spec%friction_law = choice("L", digits%l)
+         if (digits%c >= 2) spec%kernel = choice("C", digits%c)
+         if (digits%g /= 1) spec%solver = choice("G", digits%g)
+         if (digits%h /= 1) spec%heat_model = choice("H", digits%h)
          if (digits%m2 /= 1) spec%has_damping = digits%m2 >= 2
-         spec%new_grid = digits%d == 2
-         spec%new_geometry = digits%z == 2
          spec%new_kernel = digits%c >= 2
+         if (module_number == 1) then
+            if (.not. allocated(spec%wheel_rail)) allocate(spec%wheel_rail, source=wheel_rail_spec())
+            spec%wheel_rail%left = digits%c1 == 0 .or. digits%c1 == 4
+            spec%wheel_rail%roller = digits%c1 == 4 .or. digits%c1 == 5
+            spec%wheel_rail%search%weight_power = merge(1, 2, digits%gapwgt == 1)
+            spec%wheel_rail%new_rail_profile = .false.
+            spec%wheel_rail%new_wheel_profile = .false.
+            spec%slip_source = slip_source%none
+            spec%new_grid = digits%d >= 2
+            spec%new_geometry = .true.
+         else
+            if (digits%e /= 1) spec%slip_source = choice("E", digits%e)
+            spec%new_grid = digits%d == 2
+            spec%new_geometry = digits%z == 2
+         end if
       end associate
+
+   contains
+
+      !> The name behind a digit
+      pure integer function choice(name, digit)
+         character(len=*), intent(in) :: name
+         integer, intent(in) :: digit
+
+         choice = choice_of(name, digit, module_number)
+      end function choice
    end subroutine name_choices
 
    !> Range of each digit, and what digits demand of each other and of the previous case
    !>
-   !> Two digits are corrected in a first case, with a warning: P to 2 and I to 0.
-   subroutine check_digits(words, previous, has_previous, spec, problems)
+   !> Digits that mean nothing are corrected, with a warning: P to 2 and I to 0 in a first case, C = 0 to 1 in module 1.
+   subroutine check_digits(words, module_number, previous, has_previous, spec, problems)
       type(control_words), intent(in) :: words
-      !> The previous case of this result element
+      !> 1 or 3
+      integer, intent(in) :: module_number
+      !> The previous case of this module and result element
       type(case_spec), intent(in) :: previous
       !> Is there one?
       logical, intent(in) :: has_previous
       type(case_spec), intent(inout) :: spec
       type(problem_list), intent(inout) :: problems
 
-      call check_ranges(words, spec%digits, problems)
+      call check_ranges(words, module_number, spec%digits, problems)
+      if (module_number == 1 .and. spec%digits%c == 0) then
+         if (has_previous) call add_for_digit(problems, words, severity%warning, "C", "C = 0 is replaced by 1: the grids of " // &
+            & "wheel-rail contact change, and coefficients are formed when they are needed")
+         spec%digits%c = 1
+      end if
       if (has_previous) then
          call check_kept(words, previous, spec, problems)
+         if (module_number == 1) call check_kept_wheelset(words, previous, spec, problems)
       else
-         call check_first_case(words, spec, problems)
+         call start_sequence(words, spec, problems)
+         if (module_number == 1) then
+            call check_first_pair(words, spec, problems)
+         else
+            call check_first_contact(words, spec, problems)
+         end if
       end if
-      call check_combinations(words, merge(previous%motion, spec%motion, has_previous), spec, problems)
+      if (module_number == 1) then
+         call check_pair(words, spec, problems)
+      else
+         call check_contact(words, merge(previous%motion, spec%motion, has_previous), spec, problems)
+      end if
+      call check_physics(words, spec, problems)
    end subroutine check_digits
 
-   !> Each digit must be one that the format knows
-   subroutine check_ranges(words, digits, problems)
+   !> Control words have no sign, GAPWGT has a range, and each digit must be one that the module knows
+   subroutine check_ranges(words, module_number, digits, problems)
       type(control_words), intent(in) :: words
+      !> 1 or 3
+      integer, intent(in) :: module_number
       type(case_digits), intent(in) :: digits
       type(problem_list), intent(inout) :: problems
       character(len=:), allocatable :: name
-      integer :: k
+      integer :: digit, k
 
-      call check_signs(words, digits, problems)
+      do k = 1, 3
+         associate (word => words%word(k))
+            if (word%i < 0) call problems%add(severity%error, "the control word " // word%name // " = " // word%word // &
+               & " is negative; it must consist of digits", word%line, word%column)
+         end associate
+      end do
+      if (digits%gapwgt > 2) call problems%add(severity%error, "GAPWGT = " // integer_text(digits%gapwgt) // &
+         & " is outside its range 0 to 2", words%second%line, words%second%column)
       do k = 1, size(digit_names)
          name = trim(digit_names(k))
-         if (is_known(name, digit_value(digits, name))) cycle
-         call add_for_digit(problems, words, severity%error, name, name // " = " // &
-            & integer_text(digit_value(digits, name)) // " is not a known digit; allowed are " // trim(allowed_text(name)))
+         if (module_number == 3 .and. name == "C1") cycle
+         digit = digit_value(digits, name)
+         if (is_known(name, digit, module_number)) cycle
+         call add_for_digit(problems, words, severity%error, name, name // " = " // integer_text(digit) // &
+            & " is not a known digit of module " // integer_text(module_number) // "; allowed are " // &
+            & trim(allowed_text(name, module_number)))
       end do
    end subroutine check_ranges
 
-   !> A first case has nothing to continue and nothing to keep
-   subroutine check_first_case(words, spec, problems)
+   !> A first case of module 3 has nothing to keep
+   subroutine check_first_contact(words, spec, problems)
       type(control_words), intent(in) :: words
-      type(case_spec), intent(inout) :: spec
+      type(case_spec), intent(in) :: spec
       type(problem_list), intent(inout) :: problems
 
-      call start_sequence(words, spec, problems)
       associate (digits => spec%digits)
          if (digits%d == 0) call add_for_digit(problems, words, severity%error, "D", &
             & "D = 0 keeps the potential contact area, but this is the first case")
@@ -144,7 +198,25 @@ contains
          if (digits%e == 1) call add_for_digit(problems, words, severity%error, "E", &
             & "E = 1 keeps the extra term of the rigid slip, but this is the first case; E = 9 reads it")
       end associate
-   end subroutine check_first_case
+   end subroutine check_first_contact
+
+   !> A first case of module 1 has nothing to keep
+   subroutine check_first_pair(words, spec, problems)
+      type(control_words), intent(in) :: words
+      type(case_spec), intent(in) :: spec
+      type(problem_list), intent(inout) :: problems
+
+      associate (digits => spec%digits)
+         if (digits%c < 2) call add_for_digit(problems, words, severity%error, "C", "C = " // integer_text(digits%c) // &
+            & " keeps the materials, but this is the first case; C = 2 reads them")
+         if (digits%d < 2) call add_for_digit(problems, words, severity%error, "D", "D = " // integer_text(digits%d) // &
+            & " keeps the settings of the contact search, but this is the first case")
+         if (digits%z /= 3) call add_for_digit(problems, words, severity%error, "Z", "Z = " // integer_text(digits%z) // &
+            & " in the first case: no rail profile has been given; Z = 3 is needed")
+         if (digits%e /= 3 .and. digits%e /= 5) call add_for_digit(problems, words, severity%error, "E", "E = " // &
+            & integer_text(digits%e) // " in the first case: no wheel profile has been given; E = 3 or 5 is needed")
+      end associate
+   end subroutine check_first_pair
 
    !> What a later case keeps must be there
    subroutine check_kept(words, previous, spec, problems)
@@ -162,8 +234,24 @@ contains
       end associate
    end subroutine check_kept
 
-   !> What digits demand of each other
-   subroutine check_combinations(words, previous_motion, spec, problems)
+   !> Track and wheelset that a later case keeps must fit to it
+   subroutine check_kept_wheelset(words, previous, spec, problems)
+      type(control_words), intent(in) :: words
+      type(case_spec), intent(in) :: previous, spec
+      type(problem_list), intent(inout) :: problems
+
+      associate (digits => spec%digits)
+         if (digits%e == 0 .and. digits%n /= previous%digits%n) call add_for_digit(problems, words, severity%error, "E", &
+            & "E = 0 keeps the position of the wheelset, but N changes from " // integer_text(previous%digits%n) // " to " // &
+            & integer_text(digits%n) // ": a new position is needed")
+         if (digits%c1 /= previous%digits%c1 .and. (digits%z == 0 .or. digits%e == 0)) call add_for_digit(problems, words, &
+            & severity%warning, "C1", "C1 changes from " // integer_text(previous%digits%c1) // " to " // &
+            & integer_text(digits%c1) // ", but track or wheelset are kept")
+      end associate
+   end subroutine check_kept_wheelset
+
+   !> What digits of module 3 demand of each other
+   subroutine check_contact(words, previous_motion, spec, problems)
       type(control_words), intent(in) :: words
       !> T of the previous case, of this one when there is none
       integer, intent(in) :: previous_motion
@@ -178,25 +266,22 @@ contains
             & severity%error, "C", "C = 0 keeps the influence coefficients, but T changes from " // &
             & integer_text(previous_motion) // " to " // integer_text(digits%t) // ", between shift and rolling")
       end associate
-      call check_physics(words, spec, problems)
-   end subroutine check_combinations
+   end subroutine check_contact
 
-   !> Control words have no sign, and GAPWGT has a range; for both modules
-   subroutine check_signs(words, digits, problems)
+   !> What digits of module 1 demand of each other
+   subroutine check_pair(words, spec, problems)
       type(control_words), intent(in) :: words
-      type(case_digits), intent(in) :: digits
+      type(case_spec), intent(in) :: spec
       type(problem_list), intent(inout) :: problems
-      integer :: k
 
-      do k = 1, 3
-         associate (word => words%word(k))
-            if (word%i < 0) call problems%add(severity%error, "the control word " // word%name // " = " // word%word // &
-               & " is negative; it must consist of digits", word%line, word%column)
-         end associate
-      end do
-      if (digits%gapwgt > 2) call problems%add(severity%error, "GAPWGT = " // integer_text(digits%gapwgt) // &
-         & " is outside its range 0 to 2", words%second%line, words%second%column)
-   end subroutine check_signs
+      associate (digits => spec%digits)
+         if (digits%f /= 0 .and. digits%t == 0) call add_for_digit(problems, words, severity%error, "F", "F = " // &
+            & integer_text(digits%f) // " needs a tangential problem, T = 1, 2 or 3")
+         if (digits%c == 4 .and. digits%d >= 2 .and. choice_of("D", digits%d, 1) /= contact_location%conformal) &
+            & call add_for_digit(problems, words, severity%warning, "C", "C = 4, the angle correction for conformal contact, " // &
+            & "has no effect with D = " // integer_text(digits%d) // ", whose patches are flat; D = 4 has curved ones")
+      end associate
+   end subroutine check_pair
 
    !> What a first case of either module corrects, with a warning, and cannot keep
    subroutine start_sequence(words, spec, problems)
@@ -209,13 +294,13 @@ contains
             call add_for_digit(problems, words, severity%warning, "P", "P = " // integer_text(digits%p) // &
                & " is replaced by 2: the first case has no previous tractions")
             digits%p = 2
-            spec%link = choice_of("P", 2)
+            spec%link = time_link%initiate
          end if
          if (digits%i /= 0) then
             call add_for_digit(problems, words, severity%warning, "I", "I = " // integer_text(digits%i) // &
                & " is replaced by 0: the first case has no previous solution")
             digits%i = 0
-            spec%estimate = choice_of("I", 0)
+            spec%estimate = estimate_choice%fresh
          end if
          if (digits%l == 1) call add_for_digit(problems, words, severity%error, "L", &
             & "L = 1 keeps the friction law of the previous case, but this is the first case")
@@ -258,27 +343,22 @@ contains
    !> Refuse by name what the format knows but this version cannot compute: the one door for files and calls of both modules
    !>
    !> A digit that keeps something counts as the one that is kept.
-   subroutine refuse_unbuilt_digits(words, spec, on_rail, problems)
+   subroutine refuse_unbuilt_digits(words, module_number, spec, problems)
       type(control_words), intent(in) :: words
+      !> 1 or 3
+      integer, intent(in) :: module_number
       type(case_spec), intent(in) :: spec
-      !> Module 1, wheel on rail? Otherwise module 3
-      logical, intent(in) :: on_rail
       type(problem_list), intent(inout) :: problems
       character(len=:), allocatable :: name, text
       integer :: digit, k
 
-      do k = 1, size(digit1_names)
-         name = trim(digit1_names(k))
-         if (name == "C1" .and. .not. on_rail) cycle
-         digit = kept_digit(spec, name, on_rail)
-         if (on_rail) then
-            if (digit1_is_built(name, digit) .or. .not. digit1_value_is_known(name, digit)) cycle
-            text = trim(digit1_text(name, digit)) // ", is known but not built in this version for wheel on rail" // &
-               & trim(alternative(spec, name))
-         else
-            if (is_built(name, digit) .or. .not. is_known(name, digit)) cycle
-            text = trim(digit_text(name, digit)) // ", is known but not built in this version"
-         end if
+      do k = 1, size(digit_names)
+         name = trim(digit_names(k))
+         if (module_number == 3 .and. name == "C1") cycle
+         digit = kept_digit(spec, name, module_number)
+         if (is_built(name, digit, module_number) .or. .not. is_known(name, digit, module_number)) cycle
+         text = trim(digit_text(name, digit, module_number)) // ", is known but not built in this version"
+         if (module_number == 1) text = text // " for wheel on rail" // trim(alternative(spec, name))
          call add_for_digit(problems, words, severity%unsupported, name, name // " = " // integer_text(digit) // ", " // text)
       end do
    end subroutine refuse_unbuilt_digits
@@ -298,18 +378,19 @@ contains
    end function alternative
 
    !> A digit, or the one that it keeps
-   pure integer function kept_digit(spec, name, on_rail) result(digit)
+   pure integer function kept_digit(spec, name, module_number) result(digit)
       type(case_spec), intent(in) :: spec
       character(len=*), intent(in) :: name
-      logical, intent(in) :: on_rail
+      !> 1 or 3
+      integer, intent(in) :: module_number
 
       digit = digit_value(spec%digits, name)
       select case (name)
       case ("L"); if (digit == 1) digit = spec%friction_law
       case ("C"); if (digit <= 1) digit = spec%kernel
       case ("M2"); if (digit == 1 .and. spec%has_damping) digit = 2
-      case ("D"); if (on_rail .and. digit <= 1) digit = spec%wheel_rail%search%location
-      case ("E"); if (.not. on_rail .and. digit == 1) digit = spec%slip_source
+      case ("D"); if (module_number == 1 .and. digit <= 1) digit = spec%wheel_rail%search%location
+      case ("E"); if (module_number == 3 .and. digit == 1) digit = spec%slip_source
       end select
    end function kept_digit
 
@@ -334,4 +415,4 @@ contains
          call problems%add(kind, message, words%word(3)%line, words%word(3)%column)
       end select
    end subroutine add_for_digit
-end module contact_input_control3
+end module contact_input_control

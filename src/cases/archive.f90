@@ -1,0 +1,324 @@
+!> The way of the numbers of a case into and out of every format
+!>
+!> The modules contact_cases_inputs, contact_cases_grid_inputs and contact_cases_rail_inputs name the numbers of each group of
+!> the input, in their order, once. What happens with them is decided by a child of `case_archive`: the reader of input files
+!> gives them values, the setter of the library too, writers and records look at them, a check looks at their bounds.
+!>
+!> The numbers of one line are noted first (`real`, `integer`, `text`) and handled together by `end_line`, so that a complaint
+!> can tell the whole line. Variables that are noted must therefore have the attribute `target`, and hold new values after
+!> `end_line` only.
+module contact_cases_archive
+   use contact_base_kinds, only : wp
+   use contact_text_bounds, only : bounds_of, bounds_table
+   use contact_text_words, only : integer_text, real_text
+   implicit none (type, external)
+   private
+
+   public :: archive_item, archive_line, case_archive, item_kind, text_variable
+
+   !> Most numbers on a line; length of a number with its name
+   integer, parameter :: most_items = 12
+   integer, parameter, public :: shown_length = 64
+
+   type :: item_kind_list
+      integer :: real = 1, angle = 2, integer = 3, text = 4
+      !> An integer that files may write as 1.0
+      integer :: branch = 5
+   end type item_kind_list
+   !> Kinds of items
+   type(item_kind_list), parameter :: item_kind = item_kind_list()
+
+   !> A text whose length may change
+   type :: text_variable
+      character(len=:), allocatable :: value
+   end type text_variable
+
+   !> One number of a line and where it belongs
+   type :: archive_item
+      !> Name as in the input files; "A|B" when it is A or B, depending on another number of the line
+      character(len=13) :: name = ""
+      !> Member of item_kind
+      integer :: kind = 0
+      !> May it be missing? Then it is the default
+      logical :: is_optional = .false.
+      real(wp) :: default = 0.0_wp
+      !> Are bounds the business of the caller, because they depend on other numbers?
+      logical :: is_unchecked = .false.
+      !> Was it given? Always so unless it is optional and values come in
+      logical :: given = .true.
+      !> The variable of its kind
+      real(wp), pointer :: r => null()
+      integer, pointer :: i => null()
+      type(text_variable), pointer :: s => null()
+   end type archive_item
+
+   !> The items of the line in hand
+   type :: archive_line
+      integer :: count = 0
+      type(archive_item) :: items(most_items)
+   end type archive_line
+
+   !> One format or use
+   type, abstract :: case_archive
+      !> The line in hand, and the one that ended last
+      type(archive_line) :: line, last
+      !> Do values come in?
+      logical :: is_reading = .false.
+      !> Of two coefficients of Coulomb friction, does the smaller one count? Else the static one
+      logical :: smaller_friction = .false.
+      !> Was everything good so far, so that going on makes sense?
+      logical :: is_good = .true.
+   contains
+      !> Note a number, the components of a vector, an integer, a text
+      procedure :: real => note_real
+      procedure :: reals => note_reals
+      procedure :: integer => note_integer
+      procedure :: text => note_text
+      !> Handle the line: give its variables their values, or do with them what the format is for
+      procedure(end_line_interface), deferred :: end_line
+      !> A list of numbers with lines of its own
+      procedure(list_interface), deferred :: list
+      !> Begin and end a group; formats without groups do nothing
+      procedure :: open => open_nothing
+      procedure :: close => close_nothing
+      !> A number of the last line is wrong, doubtful or replaced; nothing where values do not come in
+      procedure :: refuse => say_nothing
+      !> Reading cannot go on, with the reason
+      procedure :: fail => fail_at_nothing
+      procedure :: warn => say_nothing
+      !> Check the bounds of a number of the last line that was noted as unchecked
+      procedure :: check => check_nothing
+      !> Where an item of the last line stands in its file
+      procedure :: place => place_nowhere
+      !> A number of the last line with its name, as it was given
+      procedure :: shown => show_item
+      !> Was an optional number of the last line given?
+      procedure :: was_given
+      !> Place of a number in the last line
+      procedure :: place_of
+      !> What end_line does last
+      procedure :: finish_line
+   end type case_archive
+
+   abstract interface
+      !> Handle the items of `line`, and make it `last`
+      subroutine end_line_interface(self)
+         import :: case_archive
+         class(case_archive), intent(inout) :: self
+      end subroutine end_line_interface
+
+      !> Handle a list
+      subroutine list_interface(self, name, values, n, units, bounds)
+         import :: case_archive, wp
+         class(case_archive), intent(inout) :: self
+         character(len=*), intent(in) :: name
+         !> Unallocated, or of another size, where values come in
+         real(wp), allocatable, intent(inout) :: values(:)
+         !> Number of values
+         integer, intent(in) :: n
+         !> Unit of each value in turn, begun anew at the end; default mm. With rad among them files may have degrees
+         character(len=*), intent(in), optional :: units(:)
+         !> Name of the bounds in the table; default that of the list
+         character(len=*), intent(in), optional :: bounds
+      end subroutine list_interface
+   end interface
+
+contains
+
+   !> Room for one more item
+   subroutine add_item(self, name, kind, default)
+      class(case_archive), intent(inout) :: self
+      character(len=*), intent(in) :: name
+      !> Member of item_kind
+      integer, intent(in) :: kind
+      real(wp), intent(in), optional :: default
+
+      self%line%count = self%line%count + 1
+      associate (item => self%line%items(self%line%count))
+         item%name = name
+         item%kind = kind
+         item%is_optional = present(default)
+         item%default = 0.0_wp
+         if (present(default)) item%default = default
+         item%is_unchecked = index(name, "|") > 0
+         item%given = .true.
+         nullify(item%r, item%i, item%s)
+      end associate
+   end subroutine add_item
+
+   !> Note a number; angles are those whose unit is rad or rad/s
+   subroutine note_real(self, name, value, default, unchecked)
+      class(case_archive), intent(inout) :: self
+      character(len=*), intent(in) :: name
+      real(wp), intent(inout), target :: value
+      !> Value of an optional number that is not given
+      real(wp), intent(in), optional :: default
+      !> Are bounds checked by the caller?
+      logical, intent(in), optional :: unchecked
+      integer :: kind, row
+
+      kind = item_kind%real
+      row = bounds_of(name)
+      if (row > 0) then
+         if (bounds_table(row)%unit == "rad" .or. bounds_table(row)%unit == "rad/s") kind = item_kind%angle
+      end if
+      call add_item(self, name, kind, default)
+      self%line%items(self%line%count)%r => value
+      if (present(unchecked)) self%line%items(self%line%count)%is_unchecked = unchecked
+   end subroutine note_real
+
+   !> Note the components of a vector: name1, name2, ...
+   subroutine note_reals(self, name, values)
+      class(case_archive), intent(inout) :: self
+      character(len=*), intent(in) :: name
+      real(wp), intent(inout), target :: values(:)
+      integer :: k
+
+      do k = 1, size(values)
+         call self%real(name // achar(iachar("0") + k), values(k))
+      end do
+   end subroutine note_reals
+
+   !> Note an integer
+   subroutine note_integer(self, name, value, default, branch, unchecked)
+      class(case_archive), intent(inout) :: self
+      character(len=*), intent(in) :: name
+      integer, intent(inout), target :: value
+      !> Value of an optional number that is not given
+      integer, intent(in), optional :: default
+      !> May files write it as a number with a decimal point, of which the sign counts? Default no
+      logical, intent(in), optional :: branch
+      !> Are bounds checked by the caller?
+      logical, intent(in), optional :: unchecked
+      integer :: kind
+
+      kind = item_kind%integer
+      if (present(branch)) kind = merge(item_kind%branch, item_kind%integer, branch)
+      if (present(default)) then
+         call add_item(self, name, kind, real(default, wp))
+      else
+         call add_item(self, name, kind)
+      end if
+      self%line%items(self%line%count)%i => value
+      if (present(unchecked)) self%line%items(self%line%count)%is_unchecked = unchecked
+   end subroutine note_integer
+
+   !> Note a text
+   subroutine note_text(self, name, value)
+      class(case_archive), intent(inout) :: self
+      character(len=*), intent(in) :: name
+      type(text_variable), intent(inout), target :: value
+
+      call add_item(self, name, item_kind%text)
+      self%line%items(self%line%count)%s => value
+   end subroutine note_text
+
+   !> Was an item of the last line given?
+   pure logical function was_given(self, name)
+      class(case_archive), intent(in) :: self
+      character(len=*), intent(in) :: name
+      integer :: k
+
+      k = self%place_of(name)
+      was_given = .false.
+      if (k > 0) was_given = self%last%items(k)%given
+   end function was_given
+
+   !> Place of an item in the last line, 0 when it is not there
+   pure integer function place_of(self, name) result(k)
+      class(case_archive), intent(in) :: self
+      character(len=*), intent(in) :: name
+
+      do k = 1, self%last%count
+         if (self%last%items(k)%name == name) return
+      end do
+      k = 0
+   end function place_of
+
+   !> The line in hand is done
+   pure subroutine finish_line(self)
+      class(case_archive), intent(inout) :: self
+
+      self%last = self%line
+      self%line%count = 0
+   end subroutine finish_line
+
+   !> Formats without groups
+   subroutine open_nothing(self, name)
+      class(case_archive), intent(inout) :: self
+      character(len=*), intent(in) :: name
+
+      associate (unused => self, no_name => name)
+      end associate
+   end subroutine open_nothing
+
+   !> Formats without groups
+   subroutine close_nothing(self)
+      class(case_archive), intent(inout) :: self
+
+      associate (unused => self)
+      end associate
+   end subroutine close_nothing
+
+   !> Values that do not come in are right
+   subroutine say_nothing(self, name, text)
+      class(case_archive), intent(inout) :: self
+      !> Item of the last line
+      character(len=*), intent(in) :: name
+      !> What is said behind its name and its value
+      character(len=*), intent(in) :: text
+
+      associate (unused => self, no_name => name, no_text => text)
+      end associate
+   end subroutine say_nothing
+
+   !> Values that do not come in are right
+   subroutine fail_at_nothing(self, name, text)
+      class(case_archive), intent(inout) :: self
+      !> Item of the last line, "" when no item is to blame
+      character(len=*), intent(in) :: name
+      character(len=*), intent(in) :: text
+
+      associate (unused => self, no_name => name, no_text => text)
+      end associate
+   end subroutine fail_at_nothing
+
+   !> Values that do not come in are right
+   subroutine check_nothing(self, name, bounds)
+      class(case_archive), intent(inout) :: self
+      !> Item of the last line
+      character(len=*), intent(in) :: name
+      !> Name of the bounds in the table; default that of the item
+      character(len=*), intent(in), optional :: bounds
+
+      associate (unused => self, no_name => name, is_there => present(bounds))
+      end associate
+   end subroutine check_nothing
+
+   !> Values that do not come in stand nowhere
+   subroutine place_nowhere(self, name, line, column)
+      class(case_archive), intent(in) :: self
+      !> Item of the last line
+      character(len=*), intent(in) :: name
+      integer, intent(inout) :: line, column
+
+      associate (unused => self, no_name => name, no_line => line, no_column => column)
+      end associate
+   end subroutine place_nowhere
+
+   !> An item of the last line, "DX = 0.5", with blanks behind
+   pure function show_item(self, name) result(text)
+      class(case_archive), intent(in) :: self
+      character(len=*), intent(in) :: name
+      character(len=shown_length) :: text
+      integer :: k
+
+      k = self%place_of(name)
+      text = name
+      if (k == 0) return
+      associate (item => self%last%items(k))
+         if (associated(item%r)) text = name // " = " // real_text(item%r)
+         if (associated(item%i)) text = name // " = " // integer_text(item%i)
+      end associate
+   end function show_item
+end module contact_cases_archive

@@ -1,0 +1,210 @@
+!> The numbers of grid, undeformed distance and planform, once for all formats
+!>
+!> As in contact_cases_inputs.
+module contact_cases_grid_inputs
+   use contact_base_kinds, only : long, wp
+   use contact_cases_archive, only : case_archive
+   use contact_cases_spec, only : geometry_spec, grid_spec
+   use contact_text_words, only : integer_text
+   implicit none (type, external)
+   private
+
+   public :: visit_grid, visit_distance, visit_planform, largest_grid
+
+   !> Largest number of elements of a potential contact area
+   integer, parameter :: largest_grid = 2000000
+   !> Most parts of a planform
+   integer, parameter :: most_parts = 100
+
+contains
+
+   !> The line that belongs to a form of the grid (IPOTCN)
+   subroutine visit_grid(a, grid)
+      class(case_archive), intent(inout) :: a
+      !> Its form is known
+      type(grid_spec), intent(inout), target :: grid
+
+      call a%integer("MX", grid%mx)
+      call a%integer("MY", grid%my)
+      select case (grid%ipotcn)
+      case (-1)
+         call a%real("A1", grid%a1)
+         call a%real("B1", grid%b1)
+      case (-2)
+         call a%real("A1", grid%a1)
+         call a%real("AOB", grid%aob)
+      case (-3, -5)
+         call a%real("AA", grid%aa)
+         call a%real("BB", grid%bb)
+      case (-4)
+         call a%real("A1", grid%a1)
+         call a%real("BB", grid%bb)
+      case (-6)
+         call a%real("AA", grid%aa)
+         call a%real("BNEG", grid%bneg)
+         call a%real("BPOS", grid%bpos)
+      case (1, 2)
+         call a%real("XL", grid%xl)
+         call a%real("YL", grid%yl)
+      case (3, 4)
+         call a%real("XC1", grid%xc1)
+         call a%real("YC1", grid%yc1)
+      end select
+      select case (grid%ipotcn)
+      case (:-1)
+         call a%real("SCALE", grid%scale)
+      case (1, 3)
+         call a%real("DX", grid%dx)
+         call a%real("DY", grid%dy)
+      case (2)
+         call a%real("XH", grid%xh)
+         call a%real("YH", grid%yh)
+      case (4)
+         call a%real("XCM", grid%xcm)
+         call a%real("YCM", grid%ycm)
+      end select
+      call a%end_line()
+
+      if (.not. a%is_reading) return
+      if (grid%ipotcn == 4) then
+         call check_two("MX", grid%mx)
+         call check_two("MY", grid%my)
+         call check_order("XC1", grid%xc1, "XCM", grid%xcm)
+         call check_order("YC1", grid%yc1, "YCM", grid%ycm)
+      else if (grid%ipotcn == 2) then
+         call check_order("XL", grid%xl, "XH", grid%xh)
+         call check_order("YL", grid%yl, "YH", grid%yh)
+      end if
+      if (min(grid%mx, grid%my) < 1 .or. max(grid%mx, grid%my) > largest_grid) return
+      if (int(grid%mx, long)*int(grid%my, long) > largest_grid) call a%refuse("MX", " times " // trim(a%shown("MY")) // &
+         & " is above its upper bound of " // integer_text(largest_grid) // " elements")
+
+   contains
+
+      !> Two centres are needed to tell a distance
+      subroutine check_two(name, number)
+         character(len=*), intent(in) :: name
+         integer, intent(in) :: number
+
+         if (number == 1) call a%refuse(name, " is below its lower bound 2 for IPOTCN = 4, which derives the sides of " // &
+            & "elements from the distance of two centres")
+      end subroutine check_two
+
+      !> The upper end must lie above the lower end
+      subroutine check_order(low_name, low, high_name, high)
+         character(len=*), intent(in) :: low_name, high_name
+         real(wp), intent(in) :: low, high
+
+         if (.not. high > low) call a%refuse(high_name, " must be larger than " // trim(a%shown(low_name)))
+      end subroutine check_order
+   end subroutine visit_grid
+
+   !> The values that belong to a form of the undeformed distance (IBASE)
+   subroutine visit_distance(a, geometry, elements)
+      class(case_archive), intent(inout) :: a
+      !> Its form is known
+      type(geometry_spec), intent(inout), target :: geometry
+      !> Number of elements of the grid, 0 when there is none that can be used
+      integer, intent(in) :: elements
+      real(wp), allocatable :: list(:)
+      integer, target :: n
+
+      select case (geometry%ibase)
+      case (1)
+         list = geometry%b(:6)
+         call a%list("B", list, 6, units=[character(len=4) :: "1/mm", "1/mm", "1/mm", "-", "-", "mm"])
+         if (a%is_reading .and. a%is_good) geometry%b(:6) = list
+      case (2)
+         n = 0
+         if (allocated(geometry%profile)) n = size(geometry%profile)
+         call a%integer("NN", n)
+         call a%real("XM", geometry%xm)
+         call a%real("RM", geometry%rm)
+         call a%real("Y1", geometry%y1)
+         call a%real("DY1", geometry%dy1)
+         call a%end_line()
+         if (n == 1) call a%refuse("NN", " is below its lower bound 2")
+         call a%list("B", geometry%profile, n)
+      case (3)
+         list = geometry%b
+         call a%list("B", list, 8, units=[character(len=4) :: "mm", "1/mm", "mm", "mm", "1/mm", "mm", "mm", "mm"], &
+            & bounds="B(IBASE3)")
+         if (a%is_reading .and. a%is_good) geometry%b = list
+      case (9)
+         if (elements == 0) call a%fail("", "the list H has one entry for each element, but there is no grid that can be used")
+         call a%list("H", geometry%h, elements)
+      end select
+   end subroutine visit_distance
+
+   !> The values that belong to a form of the planform (IPLAN)
+   subroutine visit_planform(a, geometry)
+      class(case_archive), intent(inout) :: a
+      !> Its form is known
+      type(geometry_spec), intent(inout), target :: geometry
+      character(len=3), parameter :: names(8) = ["XL1", "XH1", "YL1", "YH1", "XL2", "XH2", "YL2", "YH2"]
+      real(wp), allocatable :: list(:)
+      integer :: k
+
+      select case (geometry%iplan)
+      case (2)
+         list = geometry%pl(:6)
+         call a%list("PL", list, 6)
+         if (a%is_reading .and. a%is_good) geometry%pl(:6) = list
+      case (3)
+         do k = 1, 8
+            call a%real(names(k), geometry%pl(k))
+         end do
+         call a%end_line()
+         do k = 1, 7, 2
+            if (.not. geometry%pl(k + 1) > geometry%pl(k)) call a%refuse(names(k + 1), " must be larger than " // &
+               & trim(a%shown(names(k))))
+         end do
+      case (4)
+         call visit_parts(a, geometry)
+      end select
+   end subroutine visit_planform
+
+   !> Parts of a planform, and how the pressures of one act on another
+   subroutine visit_parts(a, geometry)
+      class(case_archive), intent(inout) :: a
+      type(geometry_spec), intent(inout), target :: geometry
+      real(wp), allocatable :: list(:), factors(:)
+      integer, target :: n
+      integer :: i, j, k
+
+      n = 0
+      if (allocated(geometry%rectangles)) n = size(geometry%rectangles, 2)
+      call a%integer("NP", n, unchecked=.true.)
+      call a%end_line()
+      ! how much to read is not known then
+      if (n < 1 .or. n > most_parts) call a%fail("NP", ", the number of parts of IPLAN = 4, is outside its range 1 to " // &
+         & integer_text(most_parts))
+      if (.not. a%is_good) return
+      if (.not. a%is_reading) then
+         list = reshape(geometry%rectangles, [4*n])
+         factors = [((geometry%interaction(i, j), j = i + 1, n), i = 1, n)]
+      end if
+      call a%list("XL,XH,YL,YH", list, 4*n)
+      if (a%is_reading .and. a%is_good) then
+         geometry%rectangles = reshape(list, [4, n])
+         do k = 1, n
+            if (list(4*k - 3) < list(4*k - 2) .and. list(4*k - 1) < list(4*k)) cycle
+            call a%refuse("NP", ": the rectangles of IPLAN = 4 need XL < XH and YL < YH; rectangle " // integer_text(k) // &
+               & " has not")
+            exit
+         end do
+      end if
+      call a%list("FAC", factors, (n*(n - 1))/2)
+      if (.not. (a%is_reading .and. a%is_good)) return
+      if (allocated(geometry%interaction)) deallocate(geometry%interaction)
+      allocate(geometry%interaction(n, n), source=1.0_wp)
+      k = 0
+      do i = 1, n
+         do j = i + 1, n
+            k = k + 1
+            geometry%interaction(i, j) = factors(k)
+            geometry%interaction(j, i) = factors(k)
+         end do
+      end do
+   end subroutine visit_parts
+end module contact_cases_grid_inputs

@@ -1,0 +1,225 @@
+!> The archive that gives values to a case from an input file
+module contact_input_file_reader
+   use contact_base_error, only : error_kind, error_type, fatal_error
+   use contact_base_kinds, only : wp
+   use contact_cases_archive, only : archive_item, case_archive, item_kind, shown_length
+   use contact_input_problems, only : problem_list, severity
+   use contact_text_bounds, only : bounds_of, bounds_table
+   use contact_text_lexer, only : input_lexer, input_value
+   implicit none (type, external)
+   private
+
+   public :: file_reader, new_file_reader
+
+   !> Reads the lines of an input file and tells which numbers are beyond their bounds
+   type, extends(case_archive) :: file_reader
+      !> The file, and what is wrong with the values of the case
+      type(input_lexer), pointer :: lexer => null()
+      type(problem_list), pointer :: problems => null()
+      !> Why reading cannot go on; unallocated while it can
+      type(error_type), allocatable :: error
+      !> The words of the last line
+      type(input_value), allocatable :: values(:)
+   contains
+      procedure :: end_line => read_line
+      procedure :: list => read_list
+      procedure :: refuse => refuse_value
+      procedure :: warn => warn_of_value
+      procedure :: fail => stop_reading
+      procedure :: check => check_value
+      procedure :: shown => show_value
+      procedure :: place => place_value
+   end type file_reader
+
+contains
+
+   !> A reader that begins at the next line of a file
+   function new_file_reader(lexer, problems) result(reader)
+      !> Both must outlive the reader
+      type(input_lexer), intent(in), target :: lexer
+      type(problem_list), intent(in), target :: problems
+      type(file_reader) :: reader
+
+      reader%is_reading = .true.
+      reader%lexer => lexer
+      reader%problems => problems
+      allocate(reader%values(size(reader%line%items)))
+   end function new_file_reader
+
+   !> Read the items in hand; those beyond their bounds are told
+   subroutine read_line(self)
+      class(file_reader), intent(inout) :: self
+      character(len=size(self%line%items)) :: types
+      character(len=16*size(self%line%items)) :: names
+      integer :: k, n, last
+
+      n = self%line%count
+      if (self%is_good .and. n > 0) then
+         types = ""
+         names = ""
+         last = 0
+         do k = 1, n
+            types(k:k) = letter_of(self%line%items(k))
+            names(last + 1:) = self%line%items(k)%name
+            last = len_trim(names) + 1
+         end do
+         call self%lexer%read_group(types(:n), trim(names), self%values(:n), self%error)
+         self%is_good = .not. allocated(self%error)
+         if (self%is_good) then
+            do k = 1, n
+               call take_value(self, self%line%items(k), self%values(k))
+            end do
+         end if
+      end if
+      call self%finish_line()
+   end subroutine read_line
+
+   !> Letter of the type of an item, as read_group wants it
+   pure character function letter_of(item) result(letter)
+      type(archive_item), intent(in) :: item
+
+      select case (item%kind)
+      case (item_kind%angle); letter = "a"
+      case (item_kind%integer); letter = "i"
+      case (item_kind%text); letter = "s"
+      case default; letter = "r"
+      end select
+      if (item%is_optional) letter = achar(iachar(letter) - 32)
+   end function letter_of
+
+   !> Give the variable of an item its value
+   subroutine take_value(self, item, value)
+      class(file_reader), intent(inout) :: self
+      type(archive_item), intent(inout) :: item
+      type(input_value), intent(in) :: value
+
+      item%given = value%given
+      if (.not. value%given) then
+         if (associated(item%r)) item%r = item%default
+         if (associated(item%i)) item%i = nint(item%default)
+         return
+      end if
+      if (item%kind == item_kind%text) then
+         item%s%value = value%s
+         return
+      end if
+      if (.not. item%is_unchecked) call self%problems%check_bounds(value)
+      select case (item%kind)
+      case (item_kind%integer); item%i = value%i
+      ! only the sign has a meaning
+      case (item_kind%branch); item%i = int(sign(min(1000.0_wp, anint(abs(value%r) + 0.49_wp)), value%r))
+      case default; item%r = value%r
+      end select
+   end subroutine take_value
+
+   !> Read exactly n numbers and tell the first that is beyond the bounds
+   subroutine read_list(self, name, values, n, units, bounds)
+      class(file_reader), intent(inout) :: self
+      character(len=*), intent(in) :: name
+      real(wp), allocatable, intent(inout) :: values(:)
+      integer, intent(in) :: n
+      character(len=*), intent(in), optional :: units(:)
+      character(len=*), intent(in), optional :: bounds
+      type(input_value) :: outside
+      integer :: row
+      logical :: has_angles
+
+      if (.not. self%is_good) return
+      has_angles = .false.
+      if (present(units)) has_angles = any(units == "rad")
+      row = bounds_of(name)
+      if (present(bounds)) row = bounds_of(bounds)
+      call self%lexer%read_array(n, name, values, self%error, has_angles, lowest=bounds_table(row)%lowest, &
+         & highest=bounds_table(row)%highest, outside=outside)
+      self%is_good = .not. allocated(self%error)
+      if (self%is_good .and. outside%given) call self%problems%check_bounds(outside, trim(bounds_table(row)%name))
+   end subroutine read_list
+
+   !> A value cannot be used: "name = word" and the reason
+   subroutine refuse_value(self, name, text)
+      class(file_reader), intent(inout) :: self
+      character(len=*), intent(in) :: name, text
+
+      call add_problem(self, severity%error, name, text)
+   end subroutine refuse_value
+
+   !> A value is doubtful or was replaced
+   subroutine warn_of_value(self, name, text)
+      class(file_reader), intent(inout) :: self
+      character(len=*), intent(in) :: name, text
+
+      call add_problem(self, severity%warning, name, text)
+   end subroutine warn_of_value
+
+   !> A problem at the place of a value
+   subroutine add_problem(self, kind, name, text)
+      class(file_reader), intent(inout) :: self
+      !> Member of severity
+      integer, intent(in) :: kind
+      character(len=*), intent(in) :: name, text
+      integer :: line, column
+
+      if (.not. self%is_good) return
+      line = self%lexer%line
+      column = 0
+      call self%place(name, line, column)
+      call self%problems%add(kind, trim(self%shown(name)) // text, line, column)
+   end subroutine add_problem
+
+   !> Reading cannot go on because of a value, or of what was read before when there is no name
+   subroutine stop_reading(self, name, text)
+      class(file_reader), intent(inout) :: self
+      character(len=*), intent(in) :: name, text
+      integer :: line, column
+
+      if (.not. self%is_good) return
+      self%is_good = .false.
+      line = self%lexer%line
+      column = 0
+      call self%place(name, line, column)
+      call fatal_error(self%error, trim(self%shown(name)) // text, error_kind%input, self%lexer%file, line, column)
+   end subroutine stop_reading
+
+   !> Check the bounds of a value that was replaced, or that has one of two names
+   subroutine check_value(self, name, bounds)
+      class(file_reader), intent(inout) :: self
+      character(len=*), intent(in) :: name
+      character(len=*), intent(in), optional :: bounds
+      type(input_value) :: value
+      integer :: k
+
+      k = self%place_of(name)
+      if (k == 0 .or. .not. self%is_good) return
+      value = self%values(k)
+      value%r = self%last%items(k)%r
+      call self%problems%check_bounds(value, bounds)
+   end subroutine check_value
+
+   !> "name = word", with blanks behind
+   pure function show_value(self, name) result(text)
+      class(file_reader), intent(in) :: self
+      character(len=*), intent(in) :: name
+      character(len=shown_length) :: text
+      integer :: k
+
+      k = self%place_of(name)
+      text = name
+      if (k == 0) return
+      if (.not. allocated(self%values(k)%word)) return
+      if (len(self%values(k)%word) > 0) text = name // " = " // self%values(k)%word
+   end function show_value
+
+   !> Line and column of a value
+   subroutine place_value(self, name, line, column)
+      class(file_reader), intent(in) :: self
+      character(len=*), intent(in) :: name
+      integer, intent(inout) :: line, column
+      integer :: k
+
+      k = self%place_of(name)
+      if (k == 0) return
+      if (.not. self%values(k)%given) return
+      line = self%values(k)%line
+      column = self%values(k)%column
+   end subroutine place_value
+end module contact_input_file_reader
