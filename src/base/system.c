@@ -16,7 +16,7 @@
 #include <linux/openat2.h>
 #endif
 
-enum { REFUSED = -1, OF_ANOTHER_KIND = -2, OUTSIDE = -3, HELD = -4 };
+enum { REFUSED = -1, OF_ANOTHER_KIND = -2, OUTSIDE = -3, HELD = -4, LINK = -5 };
 
 int contact_open_input(const char *folder, const char *name, int confined, long long *length, int *cause);
 long long contact_read(int file, char *buffer, long long length, int *cause);
@@ -47,7 +47,7 @@ static int leads_out(const char *name) {
   return 0;
 }
 
-/* Open a file below a folder without following any symbolic link */
+/* Open a file below a folder without following any symbolic link; where one stands in the way, errno is ELOOP */
 static int walk(int folder, const char *name, int flags) {
   char part[256];
   int at = dup(folder);
@@ -55,7 +55,11 @@ static int walk(int folder, const char *name, int flags) {
   while (at >= 0 && part_of(&place, part, sizeof part) != NULL) {
     const int last = place[strspn(place, "/")] == 0;
     const int next = openat(at, part, (last ? flags : O_RDONLY | O_DIRECTORY | O_CLOEXEC) | O_NOFOLLOW);
-    const int cause = errno;
+    struct stat status;
+    int cause = errno;
+    /* a link in the place of a folder is said to be no folder */
+    if (next < 0 && cause == ENOTDIR && fstatat(at, part, &status, AT_SYMLINK_NOFOLLOW) == 0 && S_ISLNK(status.st_mode))
+      cause = ELOOP;
     close(at);
     errno = cause;
     if (last || next < 0) return next;
@@ -66,8 +70,9 @@ static int walk(int folder, const char *name, int flags) {
   return -1;
 }
 
-/* Open a file below a folder; links may lead anywhere below it, and nowhere else */
-static int open_below(const char *folder, const char *name, int flags) {
+/* Open a file below a folder; links may lead anywhere below it, and nowhere else. Where the system cannot see to that, no link
+ * is followed, and `by_parts` is set */
+static int open_below(const char *folder, const char *name, int flags, int *by_parts) {
   const int at = open(folder[0] ? folder : ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (at < 0) return -1;
   int file = -1;
@@ -77,7 +82,8 @@ static int open_below(const char *folder, const char *name, int flags) {
   file = (int)syscall(SYS_openat2, at, name, &how, sizeof how);
 #endif
   /* an older kernel, or one that does not let us */
-  if (file < 0 && (errno == ENOSYS || errno == EPERM)) file = walk(at, name, flags);
+  *by_parts = file < 0 && (errno == ENOSYS || errno == EPERM);
+  if (*by_parts) file = walk(at, name, flags);
   const int cause = errno;
   close(at);
   errno = cause;
@@ -89,11 +95,13 @@ static int open_below(const char *folder, const char *name, int flags) {
 int contact_open_input(const char *folder, const char *name, int confined, long long *length, int *cause) {
   const int flags = O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC;
   struct stat status;
+  int by_parts = 0;
   *cause = 0;
   if (confined && leads_out(name)) return OUTSIDE;
-  const int file = confined ? open_below(folder, name, flags) : open(name, flags);
+  const int file = confined ? open_below(folder, name, flags, &by_parts) : open(name, flags);
   if (file < 0) {
     *cause = errno;
+    if (by_parts && errno == ELOOP) return LINK;
     return confined && (errno == EXDEV || errno == ELOOP) ? OUTSIDE : errno == ENXIO ? OF_ANOTHER_KIND : REFUSED;
   }
   if (fstat(file, &status) != 0 || !S_ISREG(status.st_mode)) {

@@ -21,7 +21,7 @@ module contact_base_system
    type(lock_state_list), parameter :: lock_state = lock_state_list()
 
    !> Results of system.c in place of a descriptor
-   integer(c_int), parameter :: of_another_kind = -2, outside = -3, held = -4
+   integer(c_int), parameter :: of_another_kind = -2, outside = -3, held = -4, link = -5
    !> Longest sentence of the system, and longest description of the holder of a lock
    integer, parameter :: longest_sentence = 120, longest_holder = 200
 
@@ -131,6 +131,9 @@ contains
       if (file == outside) then
          reason = "it is not below the folder of the experiment; a confined run follows no '..', no absolute name and no link " &
             & // "that leaves it"
+      else if (file == link) then
+         reason = "there is a symbolic link in its name; this system cannot tell where links lead (openat2 is missing), so that " &
+            & // "a confined run follows none"
       else
          call explain(file, cause, reason)
       end if

@@ -1,20 +1,28 @@
 #!/usr/bin/env python3
-"""contact_run_with computes by moving heat sources and with the angles at the contact when it is asked to, as the program does.
+"""contact_run_with does what the program does: moving heat sources, angles at the contact, confined runs, one run at a time.
 
 The environment tells CONTACT_PROGRAM, CONTACT_LIBRARY and CONTACT_SOURCE.
 """
 import ctypes
+import fcntl
 import json
 import os
+import shutil
 import subprocess
 import sys
 import tempfile
+import threading
+import time
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "conformance"))
+HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path[:0] = [os.path.join(HERE, "conformance"), os.path.join(HERE, "..", "cli")]
 from checks import SOURCE, check, finish, same
+import small_case
 
 PROGRAM = os.environ["CONTACT_PROGRAM"]
-JSON, MOVING_HEAT, ANGLE_AT_CONTACT, NOTHING = 1, 8, 16, 64
+JSON, HDF5, VTK, MOVING_HEAT, ANGLE_AT_CONTACT, CONFINE, NOTHING = 1, 2, 4, 8, 16, 32, 64
+#: Returned values: 10 and the kind of the error
+FILE_FAILED, BEYOND_LIMIT, LOCKED = 12, 17, 19
 SLICES = """0.0 1.0   OFFSET SCALE
 4   NSLC
 0 0 0   NFEAT NKINK NACCEL
@@ -71,14 +79,84 @@ def total(name, quantity):
         return json.loads(file.readline())["patches"][0]["totals"][quantity]["value"]
 
 
+def confined(run):
+    """Ordinary files below the folder of the experiment, and the limits of --confine"""
+    os.mkdir("inside")
+    shutil.copy("S1002.prw", "inside")
+    shutil.copy("slice_2.prr", "inside/rail.prr")
+    text = YAWED.replace("'rail.slcs'", "'{rail}'")
+    for rail, expected in (("rail.prr", 0), ("../slice_2.prr", FILE_FAILED), (os.path.abspath("slice_2.prr"), FILE_FAILED),
+                           ("link.prr", FILE_FAILED)):
+        if rail == "link.prr":
+            os.symlink("../slice_2.prr", "inside/link.prr")
+        with open("inside/a.inp", "w") as file:
+            file.write(text.format(rail=rail))
+        for mode in (2, 3):
+            status, said = run("inside/a", CONFINE, mode)
+            same(status, expected, f"a confined run, mode {mode}, with {rail}: {said}")
+            check(not expected or "not below the folder" in said or "symbolic link in its name" in said, f"the reason: {said}")
+            status, said = run("inside/a", 0, mode)
+            same(status, 0, f"an ordinary run, mode {mode}, with {rail}: {said}")
+    with open("secret", "w") as file:
+        file.write("keep me\n")
+    for suffix, outputs in (("out", 0), ("jsonl", JSON), ("pvd", VTK)):
+        with open("inside/b.inp", "w") as file:
+            file.write(small_case.case())
+        os.symlink("../secret", f"inside/b.{suffix}")
+        status, said = run("inside/b", CONFINE + outputs)
+        same(status, FILE_FAILED, f"results behind a link, .{suffix}: {said}")
+        with open("secret") as file:
+            same(file.read(), "keep me\n", f"what a link .{suffix} leads to")
+        os.remove(f"inside/b.{suffix}")
+    with open("inside/large.inp", "w") as file:
+        file.write(small_case.case(1001))
+    status, said = run("inside/large", CONFINE)
+    same(status, BEYOND_LIMIT, f"more elements than a confined run has: {said}")
+    check("1002001 elements" in said and "1000000" in said, f"the limit: {said}")
+
+
+def locked(run):
+    """Two runs of one experiment at once, of this process or of others"""
+    with open("twice.inp", "w") as file:
+        file.write(small_case.case(11) * 3 + "0\n")
+    with open("twice.lock", "w") as file:
+        fcntl.flock(file, fcntl.LOCK_EX)
+        status, said = run("twice", JSON + HDF5)
+        same(status, LOCKED, f"while the lock is held: {said}")
+        check("another run is writing the results" in said, f"the reason: {said}")
+        same(sorted(name for name in os.listdir() if name.startswith("twice")), ["twice.inp", "twice.lock"], "nothing was written")
+    status, said = run("twice", JSON + HDF5)
+    same(status, 0, f"when it was given back: {said}")
+    check(not os.path.exists("twice.lock"), "the lock goes with the run")
+
+    with open("long.inp", "w") as file:
+        file.write(small_case.case(40) * 300 + "0\n")
+    first = []
+    thread = threading.Thread(target=lambda: first.append(run("long", JSON)))
+    thread.start()
+    deadline = time.time() + 30
+    while not os.path.exists("long.jsonl") and time.time() < deadline:
+        time.sleep(0.001)
+    second, said = run("long", JSON)
+    same(run("twice", JSON)[0], 0, "another experiment at the same time")
+    thread.join()
+    same(first[0], (0, ""), "the first of two threads with one experiment")
+    same(second, LOCKED, f"the second: {said}")
+    check(f"process {os.getpid()} on" in said, f"who has the lock: {said}")
+    with open("long.jsonl") as file:
+        lines = file.read().splitlines()
+    check(len(lines) == 301 and json.loads(lines[-1])["run"]["complete"], "the results of the first are complete")
+    same(run("long", JSON)[0], 0, "afterwards")
+
+
 def main():
     os.chdir(tempfile.mkdtemp())
     prepare()
     library = ctypes.CDLL(os.environ["CONTACT_LIBRARY"])
-    message = ctypes.create_string_buffer(2000)
 
-    def run(name, outputs):
-        return library.contact_run_with(name.encode(), 2, b"", 1, outputs, message, len(message))
+    def run(name, outputs, mode=2):
+        message = ctypes.create_string_buffer(2000)
+        return library.contact_run_with(name.encode(), mode, b"", 1, outputs, message, len(message)), message.value.decode()
 
     for name, quantity, bit, option in (("warm", "max_temp1", MOVING_HEAT, "--heat=moving-source"),
                                         ("yawed", "deltcp_tr", ANGLE_AT_CONTACT, "--contact-angle=contact")):
@@ -89,11 +167,15 @@ def main():
             same(done.returncode, 0, f"{name} {options}: {done.stderr[-300:]}")
             values[outputs] = total(name, quantity)
             os.remove(name + ".jsonl")
-            same(run(name, JSON + outputs), 0, f"{name}, outputs {outputs}: {message.value.decode()}")
+            status, said = run(name, JSON + outputs)
+            same(status, 0, f"{name}, outputs {outputs}: {said}")
             same(total(name, quantity), values[outputs], f"{name}: {quantity} of the library and of the program")
         check(abs(values[bit]/values[0] - 1.0) > 0.01, f"{name}: the choice acts, {values}")
-    same(run("warm", NOTHING), 1, "a bit that means nothing")
-    check("CONTACT_MOVING_HEAT" in message.value.decode(), "what would have been accepted")
+    status, said = run("warm", NOTHING)
+    same(status, 1, "a bit that means nothing")
+    check("CONTACT_MOVING_HEAT" in said, "what would have been accepted")
+    confined(run)
+    locked(run)
     finish()
 
 

@@ -9,6 +9,7 @@
  * INJECT_FOLDER   files below this folder are meant
  * INJECT_FOR_EVER if set, all later calls fail too
  * INJECT_COUNT    name of a file that receives the number of calls at the end
+ * INJECT_NO_OPENAT2   if set, the system does not know openat2, as before Linux 5.6
  * INJECT_SIZE     requests for less memory are not counted [bytes]
  *
  * A program that is linked with it, or finds inject_memory by dlsym, sets the counting of memory itself:
@@ -25,6 +26,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/syscall.h>
 #include <sys/types.h>
 #include <sys/uio.h>
 #include <unistd.h>
@@ -179,6 +181,22 @@ int open(const char *path, int flags, ...) {
 int open64(const char *path, int flags, ...) {
   MODE_OF(flags);
   return fails("open", -1, path) ? -1 : REAL(open64)(path, flags, mode);
+}
+
+/* Calls without a function of their own */
+long syscall(long number, ...) {
+  long value[6];
+  va_list list;
+  va_start(list, number);
+  for (int k = 0; k < 6; k++) value[k] = va_arg(list, long);
+  va_end(list);
+#ifdef SYS_openat2
+  if (number == SYS_openat2 && getenv("INJECT_NO_OPENAT2") != NULL) {
+    errno = ENOSYS;
+    return -1;
+  }
+#endif
+  return REAL(syscall)(number, value[0], value[1], value[2], value[3], value[4], value[5]);
 }
 
 /* Streams that write by the calls above */
