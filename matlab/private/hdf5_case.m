@@ -31,6 +31,8 @@ function [ g, fname ] = hdf5_case( expnam, icase, wanted )
    if (~isequal(signature, [137 72 68 70 13 10 26 10]))
       error('"%s" is not an HDF5 file.', fname);
    end
-   g = hdf5_group(fname, sprintf('%scase_%04d', prefix, icase), wanted);
+   place = sprintf('%scase_%04d', prefix, icase);
+   g = hdf5_group(fname, place, wanted);
+   hdf5_require_whole(fname, ['/' place], g);
 
 end % function hdf5_case

@@ -46,12 +46,17 @@ module contact_hdf5_file
    integer, parameter :: most_rows = 4096, chunk_rows = 64
    !> Added to the name of the file that is being written, and of a copy until it is complete
    character(len=*), parameter :: unfinished = ".tmp", incomplete = ".part"
+   !> What HDF5 gives where it does not find a piece of an array: a NaN that says "contac" and the smallest element state. Every
+   !> piece is written, so a reader that meets one of them has a damaged file; what a row does not have is another NaN
+   integer(long), parameter :: lost_number = int(z'7FF8636F6E746163', long)
+   integer, parameter :: lost_state = -128
    !> Arrays of at least this size are compressed [bytes]; elements of a chunk at most
    integer, parameter :: large = 4096, most_of_a_chunk = 131072
    !> A usual and cheap level of deflate
    integer, parameter :: effort = 4
-   !> The readable file is brought up to date after this time [s], or this many times the time that a copy takes
-   real(wp), parameter :: shortest_wait = 1.0_wp, wait_per_copy = 20.0_wp
+   !> The readable file is brought up to date after this many times the time that a copy takes; after the fewer when
+   !> that is longer than the time [s]
+   real(wp), parameter :: waits_per_copy = 50.0_wp, fewer_waits = 20.0_wp, usual_wait = 1.0_wp
 
    !> Groups inside each other at most
    integer, parameter :: deepest = 8
@@ -134,7 +139,7 @@ module contact_hdf5_file
       !> Totals of cases and of patches; which of them is open
       type(column_table), private :: cases, patches
       logical, private :: in_patch = .false.
-      real(wp), private :: last_copy = 0.0_wp, wait = shortest_wait
+      real(wp), private :: last_copy = 0.0_wp, wait = 0.0_wp
    contains
       procedure :: open_file
       !> Go on with a file, its rows of /cases and /patches
@@ -506,14 +511,15 @@ contains
    !> Bring the readable file up to date
    subroutine renew(self)
       class(hdf5_file), intent(inout) :: self
-      real(wp) :: before
+      real(wp) :: before, took
 
       before = clock()
       call write_rows(self, self%cases)
       call write_rows(self, self%patches)
       call renew_copy(self)
       self%last_copy = clock()
-      self%wait = max(shortest_wait, wait_per_copy*(self%last_copy - before))
+      took = self%last_copy - before
+      self%wait = min(waits_per_copy*took, max(usual_wait, fewer_waits*took))
    end subroutine renew
 
    !> Write what is left and close
@@ -867,6 +873,7 @@ contains
             call h5pset_obj_track_times_f(properties, .false., status)
             call h5pset_chunk_f(properties, 1, min(dims, int(most_of_a_chunk, hsize_t)), status)
             call h5pset_fletcher32_f(properties, status)
+            call h5pset_fill_value_f(properties, h5t_native_double, transfer(lost_number, 0.0_wp), status)
             call self%check(status)
          end if
       case (item_kind%whole)
@@ -1018,7 +1025,7 @@ contains
       class(hdf5_file), intent(inout) :: self
       type(column_table), intent(inout) :: table
       type(item), intent(in) :: this
-      real(wp), allocatable :: wider(:, :)
+      real(wp), allocatable :: earlier(:), wider(:, :)
       type(column), allocatable :: longer(:)
       integer(hid_t) :: properties, space
       integer(hsize_t) :: chunk(1), dims(1), most(1)
@@ -1042,10 +1049,15 @@ contains
          call h5pset_obj_track_times_f(properties, .false., status)
          call h5pset_chunk_f(properties, 1, chunk, status)
          call h5pset_fletcher32_f(properties, status)
-         call h5pset_fill_value_f(properties, h5t_native_double, ieee_value(0.0_wp, ieee_quiet_nan), status)
+         call h5pset_fill_value_f(properties, h5t_native_double, transfer(lost_number, 0.0_wp), status)
          call h5screate_simple_f(1, dims, space, status, most)
          call h5dcreate_f(table%group, trim(this%name), h5t_ieee_f64le, space, new%id, status, dcpl_id=properties)
          call self%check(status)
+         if (table%written > 0) then
+            allocate(earlier(table%written), source=ieee_value(0.0_wp, ieee_quiet_nan))
+            call h5dwrite_f(new%id, h5t_native_double, earlier, dims, status)
+            call self%check(status)
+         end if
          call self%release(space)
          call self%release(properties)
          if (len_trim(this%unit) > 0) call self%describe(new%id, "units", trim(this%unit))
@@ -1154,8 +1166,14 @@ contains
             & chunk(size(chunk)) = max(1_hsize_t, most_of_a_chunk/product(chunk(:size(chunk) - 1)))
          call h5pcreate_f(h5p_dataset_create_f, properties, status)
          call h5pset_obj_track_times_f(properties, .false., status)
-         call h5pset_fill_time_f(properties, h5d_fill_time_never_f, status)
+         if (kind == h5t_std_i8le) then
+            call h5pset_fill_value_f(properties, h5t_native_integer, lost_state, status)
+         else
+            call h5pset_fill_value_f(properties, h5t_native_double, transfer(lost_number, 0.0_wp), status)
+         end if
          call h5pset_chunk_f(properties, size(dims), chunk, status)
+         ! of the values themselves: a damaged mask of the filters behind it is seen too
+         call h5pset_fletcher32_f(properties, status)
          call h5pset_shuffle_f(properties, status)
          call h5pset_deflate_f(properties, effort, status)
       end if

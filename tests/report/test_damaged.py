@@ -27,12 +27,25 @@ from contact.report.read import MissingResults, read_experiment  # noqa: E402
 PATIENCE = 20
 
 
-def damaged(data, chance):
-    """One of four kinds of damage: a bit, a byte, a cut, a stretch of nonsense"""
-    kind = chance.randrange(4)
+def places_of_indices(data):
+    """Bytes of the trees that tell where the pieces of an array are, the only ones without a checksum in HDF5 1.8"""
+    found = []
+    at = data.find(b"TREE")
+    while at >= 0:
+        if data[at + 4] == 1 and data[at + 5] == 0:
+            entries = int.from_bytes(data[at + 6:at + 8], "little")
+            # length, mask of the filters, offsets in one or two directions and 0, place; the two directions are taken here
+            found += list(range(at + 24, min(len(data), at + 24 + 32*max(1, min(entries, 16)))))
+        at = data.find(b"TREE", at + 4)
+    return found
+
+
+def damaged(data, chance, indices):
+    """One of five kinds of damage: a bit, a byte, a cut, a stretch of nonsense, a bit of an index"""
+    kind = chance.randrange(5)
     changed = bytearray(data)
-    at = chance.randrange(len(changed))
-    if kind == 0:
+    at = chance.choice(indices) if kind == 4 else chance.randrange(len(changed))
+    if kind in (0, 4):
         changed[at] ^= 1 << chance.randrange(8)
     elif kind == 1:
         changed[at] = chance.randrange(256)
@@ -41,7 +54,7 @@ def damaged(data, chance):
     else:
         end = min(len(changed), at + chance.randrange(1, 200))
         changed[at:end] = chance.randbytes(end - at)
-    return bytes(changed), f"{('bit', 'byte', 'cut', 'stretch')[kind]} at {at}"
+    return bytes(changed), f"{('bit', 'byte', 'cut', 'stretch', 'bit of an index')[kind]} at {at}"
 
 
 def read(path):
@@ -88,9 +101,11 @@ def main():
             assert len(good) == 64, good
             with open(whole, "rb") as file:
                 data = file.read()
+            indices = places_of_indices(data)
+            assert len(indices) > 1000, len(indices)
             changed = os.path.join(folder, "damaged.h5")
             for _ in range(count):
-                text, what = damaged(data, chance)
+                text, what = damaged(data, chance, indices)
                 with open(changed, "wb") as file:
                     file.write(text)
                 answer = in_a_child(changed)

@@ -14,6 +14,8 @@ SHOWN_STRESSES = ("sigvm", "sighyd", "sigtr", "sigma1", "sigma3")
 MORE_STRESSES = ("sigma2", "sigxx", "sigyy", "sigzz", "sigxy", "sigxz", "sigyz", "ux", "uy", "uz")
 MOST_POINTS = 20000
 LAYOUT = 1
+# What stands where HDF5 does not find a piece of an array: bits of a NaN, and an element state
+LOST_NUMBER, LOST_STATE = 0x7FF8636F6E746163, -128
 
 
 class MissingResults(Exception):
@@ -54,6 +56,13 @@ def _plain(value: Any) -> Any:
     return None if isinstance(number, float) and not abs(number) < float("inf") else number
 
 
+def _is_lost(values: Any) -> bool:
+    """Are there values that HDF5 has filled in where it did not find a piece of an array? See src/hdf5/file.f90"""
+    if values.dtype == "<f8":
+        return bool((values.view("<u8") == LOST_NUMBER).any())
+    return bool(values.dtype == "i1" and (values == LOST_STATE).any())
+
+
 class _Reader:
     def __init__(self, file: Any, size: int) -> None:
         import h5py
@@ -75,7 +84,10 @@ class _Reader:
         """Contents of a dataset; a damaged one may claim to be of any size"""
         if item.size * item.dtype.itemsize > self._most:
             raise ValueError("%s claims to hold %d values" % (item.name, item.size))
-        return item[()]
+        found = item[()]
+        if item.chunks is not None and _is_lost(found):
+            raise ValueError("a piece of %s is not found" % item.name)
+        return found
 
     def values(self, group: Any) -> dict[str, Any]:
         """Values of a group; groups that several cases share are read once"""
