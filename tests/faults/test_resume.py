@@ -128,15 +128,19 @@ class Campaign:
         self.kill_some(name, text)
 
     def kill_some(self, name, text):
-        """Without HDF5, whose file is renewed once a second: quick cases would all be computed again"""
+        """As by kill -9, with and without the HDF5 file: it holds the first cases, all those that were finished at its last renewal"""
+        for options, sample in ((("--json", "--vtk"), 40 if self.everything else 3), (runs.ALL_FILES, 20 if self.everything else 2)):
+            self.kill(name, text, options, sample)
+
+    def kill(self, name, text, options, sample):
+        """The same with some files and at so many places"""
         good, bad, count = pathlib.Path.cwd() / "killed-good", pathlib.Path.cwd() / "bad", pathlib.Path.cwd() / "count"
-        options = ("--json", "--vtk")
         prepare(good, name, text)
         inject = {"LD_PRELOAD": self.preload, "INJECT_CALL": "any", "INJECT_FOLDER": str(good) + "/", "INJECT_COUNT": str(count)}
         code, said = runs.run(good, name, *options, environment=inject)
         assert code == 0, said
         calls = int(count.read_text())
-        for at in sorted(self.chance.sample(range(1, calls + 1), min(calls, 40 if self.everything else 3))):
+        for at in sorted(self.chance.sample(range(1, calls + 1), min(calls, sample))):
             prepare(bad, name, text)
             code, said = runs.run(bad, name, *options, environment=dict(
                 inject, INJECT_AT=str(at), INJECT_ERROR="-1", INJECT_FOLDER=str(bad) + "/"))
@@ -147,7 +151,8 @@ class Campaign:
                 self.complain(f"{what}: status {code}, {said[-300:]}")
                 continue
             try:
-                runs.finished_cases(bad)
+                held = runs.finished_cases(bad)
+                assert held.get("h5", 0) <= held.get("jsonl", 0) + 1, held
             except (AssertionError, OSError, ValueError, KeyError, SyntaxError) as reason:
                 self.complain(f"{what}: a file cannot be read: {reason!r}")
             code, said = resumed(bad, name)

@@ -51,6 +51,50 @@ end
 fprintf('%d damaged files, %d were told\n', total, said);
 check(said>25, 'damage is told');
 
+% --- the HDF5 file, whose checksums let no changed digit pass
+run_input('sheet', fileread('wheel_on_rail.inp'), '--hdf5', 'profiles/60E1.prr', 'profiles/S1002.prw');
+f = fopen('sheet.h5', 'r');
+whole = fread(f, Inf, 'uint8')';
+fclose(f);
+good = loadcase('sheet.h5', 2);
+% entries of the trees that tell where the pieces of an array are: byte 5 is the kind, 6 the level
+trees = strfind(char(whole), 'TREE');
+trees = trees(whole(trees+4)==1 & whole(trees+5)==0);
+wrong = 0;   told = 0;
+for i = 1 : 40
+   bytes = whole;
+   at = ceil(rand*numel(bytes));
+   switch (mod(i,4))
+      case 0
+         bytes(at) = fix(rand*256);
+      case 1
+         last = min(numel(bytes), at+fix(rand*100));
+         bytes(at:last) = fix(rand(1,last-at+1)*256);
+      case 2
+         bytes = bytes(1:at);
+      case 3
+         at = trees(ceil(rand*numel(trees))) + 24 + fix(rand*32);
+         bytes(at) = bitxor(bytes(at), bitshift(1,fix(rand*8)));
+   end
+   f = fopen('damaged.h5', 'w');
+   fwrite(f, bytes, 'uint8');
+   fclose(f);
+   try
+      found = loadcase('damaged.h5', 2);
+      if (~isequaln(found, good))
+         wrong = wrong + 1;
+         printf('damage %d at %d: other values\n', mod(i,4), at);
+      end
+   catch reason
+      told = told + 1;
+      check(~isempty(strfind(reason.message, 'damaged')) && isempty(strfind(reason.message, char(10))), ...
+            sprintf('damage %d at %d is told as: %s', mod(i,4), at, reason.message));
+   end
+end
+delete('damaged.h5');
+fprintf('40 damaged HDF5 files, %d were told\n', told);
+check(wrong==0, sprintf('%d damaged HDF5 files give other values', wrong));
+
 % --- a run that ended too early
 f = fopen('early.inp', 'w');
 text = fileread('cattaneo.inp');
