@@ -85,12 +85,19 @@ contains
    pure subroutine join_parts(error, text)
       type(error_type), intent(in) :: error
       character(len=:), allocatable, intent(out) :: text
+      !> Longest name of a file that is told as a whole, of which systems take 4096 bytes at most
+      integer, parameter :: longest_name = 1000
       character(len=24) :: place
-      integer :: k
+      integer :: k, length
 
       text = ""
       if (allocated(error%file)) then
-         text = error%file
+         length = len(error%file)
+         if (length <= longest_name) then
+            text = error%file
+         else
+            text = error%file(:longest_name/2) // "..." // error%file(length - longest_name/2 + 1:)
+         end if
          if (error%line > 0) then
             write(place, '(I0)') error%line
             text = text // ":" // trim(place)

@@ -219,11 +219,20 @@ contains
    subroutine line(self, text)
       class(output_file), intent(in) :: self
       character(len=*), intent(in) :: text
-      character(len=len(text) + 1) :: whole
+      !> Longer lines are put together on the heap: stacks are small
+      integer, parameter :: usual = 1000
+      character(len=usual + 1) :: whole
+      character(len=:), allocatable :: longer
 
       ! in one call, so that lines of two threads do not mix
-      whole = text // new_line("a")
-      call self%text_bytes(whole)
+      if (len(text) <= usual) then
+         whole(:len(text)) = text
+         whole(len(text) + 1:len(text) + 1) = new_line("a")
+         call self%text_bytes(whole(:len(text) + 1))
+      else
+         longer = text // new_line("a")
+         call self%text_bytes(longer)
+      end if
    end subroutine line
 
    subroutine text_bytes(self, text)

@@ -436,9 +436,11 @@ contains
       subroutine put_table(name, table)
          character(len=*), intent(in) :: name
          real(wp), intent(in) :: table(:, :)
-         character(len=24*size(table, 2)) :: row
+         character(len=:), allocatable :: row
          integer :: k
 
+         ! of as many numbers as a profile has points: not on the stack
+         allocate(character(len=24*size(table, 2)) :: row)
          call file%line(name // " = [")
          do k = 1, size(table, 1)
             write(row, '(*(ES24.16))') table(k, :)

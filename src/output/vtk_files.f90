@@ -28,8 +28,8 @@ module contact_output_vtk_files
       !> The file of the collection, and the place of its closing lines in it [bytes]
       type(output_file), private :: file
       integer(c_long), private :: last = 0
-      !> Number of cases of the input
-      integer, private :: planned = 0
+      !> Number of cases of the input, and of those of which a file could not be written
+      integer, private :: planned = 0, lost = 0
    contains
       procedure :: open_collection
       procedure :: close_collection
@@ -38,7 +38,11 @@ module contact_output_vtk_files
       procedure :: write_contact
       procedure :: write_pair
       procedure, private :: list_file
+      procedure, private :: list_loss
    end type vtk_files
+
+   !> In the list, where files of a case are not there
+   character(len=*), parameter :: loss = "    <!-- missing: a file of case "
 
    !> One VTK file in the making: the head tells where the arrays behind it begin
    type :: vtk_grid
@@ -77,6 +81,7 @@ contains
       self%base = base
       self%planned = run%planned
       if (present(place)) then
+         call count_losses(base // ".pvd", place, self%lost)
          call open_result_again(self%file, base // ".pvd", place, error, limits)
          if (allocated(error)) return
          self%last = place
@@ -103,10 +108,14 @@ contains
       class(vtk_files), intent(inout) :: self
       type(run_summary), intent(in) :: run
       type(error_type), allocatable, intent(out) :: error
+      character(len=:), allocatable :: remark
 
       if (.not. self%file%is_open()) return
       call self%file%go_to(self%last)
-      call write_end(self, trim(merge("complete,    ", "not complete,", run%is_complete())) // " " // planned_text(run))
+      remark = trim(merge("complete,    ", "not complete,", run%is_complete() .and. self%lost == 0)) // " " // &
+         & trim(planned_text(run))
+      if (self%lost > 0) remark = remark // ", files missing in " // integer_text(self%lost)
+      call write_end(self, remark)
       call close_result(self%file, self%base // ".pvd", error)
    end subroutine close_collection
 
@@ -143,6 +152,44 @@ contains
       call tell_unfinished(self)
    end subroutine list_file
 
+   !> Say in the list that a file of a case could not be written
+   subroutine list_loss(self, case_number)
+      class(vtk_files), intent(inout) :: self
+      integer, intent(in) :: case_number
+
+      self%lost = self%lost + 1
+      call self%file%go_to(self%last)
+      call self%file%line(loss // integer_text(case_number) // " -->")
+      self%last = self%file%place()
+      call tell_unfinished(self)
+   end subroutine list_loss
+
+   !> How many cases of a list have lost a file
+   subroutine count_losses(name, length, lost)
+      character(len=*), intent(in) :: name
+      !> Length of the list [bytes]
+      integer(long), intent(in) :: length
+      integer, intent(out) :: lost
+      character(len=:), allocatable :: list
+      integer(long) :: at
+      integer :: next, status, unit
+
+      lost = 0
+      allocate(character(len=length) :: list)
+      open(newunit=unit, file=name, access="stream", action="read", status="old", iostat=status)
+      if (status /= 0) return
+      read(unit, iostat=status) list
+      close(unit)
+      if (status /= 0) return
+      at = 1
+      do
+         next = index(list(at:), loss)
+         if (next == 0) exit
+         lost = lost + 1
+         at = at + next
+      end do
+   end subroutine count_losses
+
    !> A text as XML wants it
    pure function for_xml(text) result(safe)
       character(len=*), intent(in) :: text
@@ -160,6 +207,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       call write_patch(self, head, spec, contact, 0, error)
+      if (allocated(error)) call self%list_loss(head%number)
    end subroutine write_contact
 
    !> A solved case of module 1
@@ -173,7 +221,9 @@ contains
 
       do k = 1, size(pair%patches)
          call write_patch(self, head, spec, pair%patches(k)%contact, k, error, pair%patches(k))
-         if (allocated(error)) return
+         if (.not. allocated(error)) cycle
+         call self%list_loss(head%number)
+         return
       end do
    end subroutine write_pair
 

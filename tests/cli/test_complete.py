@@ -94,6 +94,18 @@ class Complete(unittest.TestCase):
                          [True, 2, 2, 0, 2])
         self.assertNotIn("Not complete", out)
 
+    def test_surfaces_that_could_not_be_written(self):
+        # a folder stands where the second surface would; the run itself ends at a wrong value, and is resumed
+        os.mkdir(os.path.join(self.folder, "x.0002.vts"))
+        code, run, _, remark = self.run_input(text_of(9, 10, 11))
+        self.assertEqual((code, run["complete"]), (1, True))
+        self.assertEqual(remark, "not complete, 3 of 3 cases, files missing in 1")
+        self.run_input(text_of(9, 10, 11, "word"))
+        code, _, _, remark = self.run_input(text_of(9, 10, 11, 12), "--resume")
+        self.assertEqual((code, remark), (1, "not complete, 4 of 4 cases, files missing in 1"))
+        with open(os.path.join(self.folder, "x.pvd")) as file:
+            self.assertEqual(re.findall("timestep=.([0-9]+)|of case ([0-9]+)", file.read()), [("1", ""), ("", "2"), ("3", ""), ("4", "")])
+
     def test_without_other_files_the_report_tells_it(self):
         with open(os.path.join(self.folder, "y.inp"), "w") as file:
             file.write(text_of(9, -10, 11, 12))

@@ -320,5 +320,46 @@ class Surroundings(Scratch):
         self.assertEqual([name for name in self.names() if name.endswith((".lock", ".tmp"))], [])
 
 
+class SmallStack(Scratch):
+    """Nothing that grows with the input is on a stack"""
+
+    def run_on(self, stack, *arguments):
+        def limit():
+            resource.setrlimit(resource.RLIMIT_STACK, (stack, stack))
+        return self.run_program("--quiet", *arguments, preexec_fn=limit, env=dict(os.environ, OMP_STACKSIZE="128k", OMP_NUM_THREADS="2"))
+
+    def test_large_cases(self):
+        shutil.copytree(SOURCE / "examples" / "profiles", self.folder / "profiles")
+        self.write("grid.inp", case(250, fn=1000) + "0\n")
+        self.write("rail.inp", (SOURCE / "examples" / "single_wheel.inp").read_text(encoding="utf-8"))
+        # blocks below the surface are as large as people like
+        text = (SOURCE / "examples" / "subsurface.inp").read_text(encoding="utf-8")
+        self.write("below.inp", text)
+        points = (self.folder / "profiles" / "60E1.prr").read_text(encoding="utf-8")
+        head, body = points.split("point.begin\n")
+        body, tail = body.split("  point.end", 1)
+        rows = [tuple(map(float, line.split())) for line in body.splitlines()]
+        more = [(a[0] + (b[0] - a[0])*k/30, a[1] + (b[1] - a[1])*k/30) for a, b in zip(rows, rows[1:]) for k in range(30)]
+        (self.folder / "profiles" / "fine.prr").write_text(
+            head + "point.begin\n" + "".join(f"{y:.9f} {z:.9f}\n" for y, z in more) + "  point.end" + tail, encoding="utf-8")
+        text = (SOURCE / "examples" / "wheel_on_rail.inp").read_text(encoding="utf-8").split("1 MODULE")
+        self.write("fine.inp", "1 MODULE".join(text[:2]).replace("60E1.prr", "fine.prr") + "0 MODULE\n")
+        for name in ("grid", "rail", "below", "fine"):
+            status, _, err = self.run_on(192 << 10, "--json", "--hdf5", "--vtk", "2", name)
+            self.assertEqual((status, err), (0, ""), name)
+
+    def test_long_texts(self):
+        shutil.copytree(SOURCE / "examples" / "profiles", self.folder / "profiles")
+        rail = (SOURCE / "examples" / "wheel_on_rail.inp").read_text(encoding="utf-8")
+        for text, expected in (("% " + "x"*10000000 + "\n" + case() + "0\n", ""),
+                               (case().replace("0.3 0.3", "0.3 0.3" + "x"*3000000) + "0\n", "is not a number"),
+                               (rail.replace("S1002.prw", "S"*1000000 + ".prw", 1), "File name too long")):
+            self.write("a.inp", text)
+            status, _, err = self.run_on(192 << 10, "2", "a")
+            self.assertEqual(status, 1 if expected else 0, err[:300])
+            self.assertIn(expected, err)
+            self.assertLess(len(err), 10000)
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -108,6 +108,10 @@ def after_failure(good, folder, code, text):
         what = half_written(folder / name)
         if what and not growing:
             bad.append(f"{name}: {what}")
+        if name.endswith(".pvd"):
+            whole, found = (good / name).read_text(encoding="utf-8"), (folder / name).read_text(encoding="utf-8")
+            if "<!-- complete" in found and found.count("<DataSet") < whole.count("<DataSet"):
+                bad.append(f"{name} says that it is complete")
     return bad
 
 

@@ -12,6 +12,7 @@ program test_banded
    call random_seed(size=length)
    allocate(seed(length), source=20261122)
    call random_seed(put=seed)
+   deallocate(seed)
    do n = 1, 40
       call check_positive(n, 1 + mod(n, 4))
       call check_any(n, mod(n, 4))
