@@ -180,15 +180,18 @@ contains
       end associate
    end function newton_step
 
-   !> The secant through the last two trials; the chord of the bracket where it leads out of it
+   !> The secant through the last two trials where it stays within the bracket; else its chord, or its middle
    !>
-   !> The force rises faster and faster with the penetration: chords alone come near from below in ever smaller steps. The
-   !> slope that follows from the stiffness is of little use here, as it leaves out that friction and steep patches turn.
+   !> The force falls at first and rises faster and faster then: a chord that meets the target near the lower end is far from
+   !> the force, and leads there in ever smaller steps. The slope that follows from the stiffness is of little use here, as it
+   !> leaves out that friction and steep patches turn.
    pure real(wp) function straight_step(self, away) result(z)
       class(force_balance), intent(in) :: self
       !> Distance from the ends of the bracket at least [mm]
       real(wp), intent(in) :: away
-      real(wp) :: rise
+      !> Least part of the bracket at which chords are believed
+      real(wp), parameter :: near_low_end = 0.25_wp
+      real(wp) :: rise, part
 
       associate (last => self%last, low => self%low, high => self%high)
          rise = (last%force - self%before%force)*(last%z - self%before%z)
@@ -196,7 +199,9 @@ contains
             z = last%z + (self%target - last%force)*(last%z - self%before%z)**2/rise
             if (z > low%z + away .and. z < high%z - away) return
          end if
-         z = low%z + (high%z - low%z)*(self%target - low%force)/(high%force - low%force)
+         part = (self%target - low%force)/(high%force - low%force)
+         if (part < near_low_end) part = 0.5_wp
+         z = low%z + (high%z - low%z)*part
       end associate
    end function straight_step
 
