@@ -192,12 +192,14 @@ contains
       !> On the rail, from the contact reference [mm]; the wheel's arc length runs the other way
       real(wp), intent(in) :: s
       real(wp), intent(out) :: point(2), normal(2)
-      real(wp) :: range(2), place, beyond, local(3), tangent(2), across(2), radius, track(3), out(3)
+      real(wp) :: range(2), reached, place, beyond, local(3), tangent(2), across(2), radius, track(3), out(3)
       integer :: step
 
       range = facing%wheel%s_range()
-      place = min(max(facing%s_wheel - s, range(1)), range(2))
-      beyond = facing%s_wheel - s - place
+      reached = facing%s_wheel - s/length_in_section(facing, bodies, facing%s_wheel)
+      reached = facing%s_wheel - s/length_in_section(facing, bodies, 0.5_wp*(facing%s_wheel + reached))
+      place = min(max(reached, range(1)), range(2))
+      beyond = reached - place
       tangent = [facing%wheel%y%slope(place), facing%wheel%z%slope(place)]
       tangent = tangent/norm2(tangent)
       across = facing%wheel%normal(place)
@@ -217,6 +219,23 @@ contains
       point = track(2:3)
       normal = out(2:3)
    end subroutine point_of_wheel
+
+   !> Arc length of the wheel's section across the track for one of its profile: longer than 1 where a wheel is yawed, as the
+   !> section runs obliquely over it
+   pure real(wp) function length_in_section(facing, bodies, place) result(length)
+      type(facing_profiles), intent(in) :: facing
+      type(pair_bodies), intent(in) :: bodies
+      !> On the profile [mm]
+      real(wp), intent(in) :: place
+      real(wp) :: along(3), around(3), range(2), s
+
+      range = facing%wheel%s_range()
+      s = min(max(place, range(1)), range(2))
+      along = [0.0_wp, facing%wheel%y%slope(s), facing%wheel%z%slope(s)]
+      along = matmul(bodies%placement%wheel%axes, along/norm2(along))
+      around = bodies%placement%wheel%axes(:, 1)
+      length = norm2(along(2:) - along(1)/around(1)*around(2:))
+   end function length_in_section
 
    !> Heights of rail and wheel over the reference surface, along the normals of its rows [mm]
    subroutine surface_heights(bodies, curve, grid, rail, wheel)
