@@ -4,7 +4,7 @@
 #   install_octave     the same for GNU Octave, which tests of matlab/ need; goes on without it
 #   install_python_packages   the same for numpy, chromium and others, which only tests need; goes on without them
 #   install_valgrind   the same for valgrind, by which tests look for uninitialised values; goes on without it
-#   install_linters    the same for fortitude, ruff and shellcheck, the rules for Fortran, Python and shell
+#   install_linters    the same for fortitude, ruff, shellcheck and ford, the rules for sources and their pages
 #   install_fuzzer     the same for libFuzzer, which only tests/fuzz/run.sh needs
 #   build PRESET [-DX] configures and builds into build/PRESET
 # shellcheck shell=sh disable=SC2154
@@ -182,21 +182,21 @@ install_valgrind() {
 }
 
 # The versions by which the sources were judged; a folder of their own keeps python3 as it is
-linters="fortitude-lint==0.10.0 ruff==0.17.6"
+linters="fortitude-lint==0.10.0 ruff==0.17.6 ford==7.0.13"
 install_linters() {
   if ! command -v shellcheck >/dev/null 2>&1; then
     say "Installing shellcheck for the tests"
     quiet_apt shellcheck || say "shellcheck could not be installed; its test is skipped"
   fi
   bin=$top/build/lint/bin
-  [ "$(cat "$top/build/lint/versions" 2>/dev/null)" = "$linters" ] && [ -x "$bin/ruff" ] && [ -x "$bin/fortitude" ] && return 0
-  say "Installing fortitude and ruff for the tests"
+  [ "$(cat "$top/build/lint/versions" 2>/dev/null)" = "$linters" ] && [ -x "$bin/ruff" ] && [ -x "$bin/fortitude" ] && [ -x "$bin/ford" ] && return 0
+  say "Installing fortitude, ruff and ford for the tests"
   [ -x "$bin/python3" ] || python3 -m venv "$top/build/lint"
   # shellcheck disable=SC2086
   if "$bin/python3" -m pip install --quiet $linters; then
     printf '%s\n' "$linters" >"$top/build/lint/versions"
   else
-    say "fortitude and ruff could not be installed; their tests are skipped"
+    say "fortitude, ruff and ford could not be installed; their tests are skipped"
   fi
 }
 
