@@ -5,7 +5,7 @@
 program creep_curve
    use, intrinsic :: iso_fortran_env, only : error_unit
    use contact_addon
-   implicit none
+   implicit none (type, external)
    integer, parameter :: wp = kind(1.0d0), element = 1
    real(wp), parameter :: creepages(*) = [0.0_wp, 0.0005_wp, 0.001_wp, 0.002_wp, 0.003_wp, 0.005_wp, 0.008_wp, &
       & 0.012_wp, 0.02_wp, 0.04_wp, 0.1_wp]

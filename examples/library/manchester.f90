@@ -5,7 +5,7 @@
 program manchester
    use, intrinsic :: iso_fortran_env, only : error_unit
    use contact_addon
-   implicit none
+   implicit none (type, external)
    integer, parameter :: wp = kind(1.0d0), element = 1, whole = -1
    !> [mm/s], [mm]
    real(wp), parameter :: speed = 2000.0_wp, radius = 460.0_wp

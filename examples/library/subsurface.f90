@@ -2,7 +2,7 @@
 program subsurface
    use, intrinsic :: iso_fortran_env, only : error_unit
    use contact_addon
-   implicit none
+   implicit none (type, external)
    integer, parameter :: wp = kind(1.0d0), element = 1, problem = 1
    integer, parameter :: nx = 25, nz = 31, points = nx*nz
    real(wp), parameter :: frictions(*) = [0.0001_wp, 0.15_wp, 0.3_wp, 0.5_wp]

@@ -123,7 +123,7 @@ contains
       character(len=*), intent(in) :: why
       character(len=24) :: numbers(3)
 
-      write(numbers(:2), '(G0.6)') requested, found
+      write(numbers(:2), "(G0.6)") requested, found
       numbers(:2) = adjustl(numbers(:2))
       numbers(3) = size_text(found - requested, 2)
       call self%miss(missed_iteration%force, "force, requested " // name // " " // trim(numbers(1)) // " N, found " // &

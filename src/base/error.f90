@@ -99,10 +99,10 @@ contains
             text = error%file(:longest_name/2) // "..." // error%file(length - longest_name/2 + 1:)
          end if
          if (error%line > 0) then
-            write(place, '(I0)') error%line
+            write(place, "(I0)") error%line
             text = text // ":" // trim(place)
             if (error%column > 0) then
-               write(place, '(I0)') error%column
+               write(place, "(I0)") error%column
                text = text // ":" // trim(place)
             end if
          end if

@@ -101,7 +101,7 @@ contains
       character(len=24) :: text
 
       if (.not. self%has_passed()) return
-      write(text, '(G0.4)') self%seconds
+      write(text, "(G0.4)") self%seconds
       call fatal_error(error, "the time limit of " // trim(text) // " s was reached " // where, error_kind%time)
    end subroutine watch
 
@@ -115,9 +115,9 @@ contains
       character(len=160) :: text
 
       if (what == "elements" .and. number > self%elements) then
-         write(text, '(I0, 3A, I0)') number, " ", what, " are more than the limit of ", self%elements
+         write(text, "(I0, 3A, I0)") number, " ", what, " are more than the limit of ", self%elements
       else if (number > self%bytes/bytes_each) then
-         write(text, '(I0, 3A, I0, A, I0, A)') number, " ", what, " need about ", number*bytes_each/1000000_long, &
+         write(text, "(I0, 3A, I0, A, I0, A)") number, " ", what, " need about ", number*bytes_each/1000000_long, &
             & " MB of memory, more than the limit of ", self%bytes/1000000_long, " MB"
       else
          return

@@ -62,7 +62,7 @@ contains
    subroutine log_line(self, text)
       class(log_type), intent(inout) :: self
       character(len=*), intent(in) :: text
-      if (self%screen /= 0) write(self%screen, '(A)') text
+      if (self%screen /= 0) write(self%screen, "(A)") text
       call self%out%line(text)
    end subroutine log_line
 

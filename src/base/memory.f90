@@ -40,7 +40,7 @@ contains
          deallocate(probe)
          return
       end if
-      write(text, '(I0, 3A, I0, A)') number, " ", what, " need about ", number*bytes_each/1000000_long, &
+      write(text, "(I0, 3A, I0, A)") number, " ", what, " need about ", number*bytes_each/1000000_long, &
          & " MB of memory, which is not there"
       call fatal_error(error, trim(text), kind=error_kind%memory)
    end subroutine require_memory

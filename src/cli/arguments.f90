@@ -95,7 +95,7 @@ contains
       end if
       if (.not. allocated(error)) then
          if (asked%mode == mode%licence) then
-            write(output_unit, '(A)') "CONTACT is open source: no licence is needed, and mode 1 has nothing to do."
+            write(output_unit, "(A)") "CONTACT is open source: no licence is needed, and mode 1 has nothing to do."
             return
          end if
          if (asked%resume .and. asked%mode == mode%check) then
@@ -106,7 +106,7 @@ contains
       end if
       if (allocated(error)) then
          flush(output_unit)
-         write(error_unit, '(A)') "contact: " // error%message, usage
+         write(error_unit, "(A)") "contact: " // error%message, usage
          status = failure
          return
       end if
@@ -332,7 +332,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       character(len=:), allocatable :: answer
 
-      write(output_unit, '(A)') "What shall be done?", &
+      write(output_unit, "(A)") "What shall be done?", &
          & "  1  licence management (not needed)", &
          & "  2  read EXPNAM.inp, compute, write the results", &
          & "  3  read and check EXPNAM.inp"
@@ -362,15 +362,15 @@ contains
       character(len=longest_answer) :: line
       integer :: status
 
-      write(output_unit, '(A)', advance="no") question
+      write(output_unit, "(A)", advance="no") question
       flush(output_unit)
-      read(input_unit, '(A)', iostat=status) line
+      read(input_unit, "(A)", iostat=status) line
       if (status == 0) then
          ! a carriage return ends the lines of foreign files
          answer = trim(adjustl(replaced(line, achar(13), " ")))
       else
          answer = ""
-         write(output_unit, '(A)') ""
+         write(output_unit, "(A)") ""
          call fatal_error(error, "the input ended where an answer was expected")
       end if
    end subroutine ask
@@ -388,7 +388,7 @@ contains
 
    !> Answer to --help
    subroutine write_help()
-      write(output_unit, '(A)') &
+      write(output_unit, "(A)") &
          & "Usage: contact [options] [IMODE [EXPNAM]]", &
          & "       contact report EXPNAM | --serve [FOLDER]", &
          & "", &

@@ -69,7 +69,7 @@ contains
          call take_word(k, words(k + 3)%text)
       end do
       call become(words)
-      write(error_unit, '(A)') "contact report: Python 3 is not found; install it together with NumPy and h5py " &
+      write(error_unit, "(A)") "contact report: Python 3 is not found; install it together with NumPy and h5py " &
          & // "(apt-get install python3-h5py)"
       status = 1
    end function run_report

@@ -16,7 +16,7 @@ contains
    subroutine write_versions(unit)
       integer, intent(in) :: unit
 
-      write(unit, '(A)') "contact " // contact_version, "compiled by " // compiler_version(), "HDF5 " // trim(hdf5_version())
+      write(unit, "(A)") "contact " // contact_version, "compiled by " // compiler_version(), "HDF5 " // trim(hdf5_version())
    end subroutine write_versions
 
    !> Number of the HDF5 library this program is linked with, as the library itself says it

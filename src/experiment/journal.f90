@@ -98,7 +98,7 @@ contains
       call self%file%open_file(self%name, reason, confined)
       call self%file%line(heading)
       associate (s => settings)
-         write(text, '(A, 1X, 3(L1, 1X), I0, 1X, L1, ES25.16E3, 2(1X, I0))') trim(s%version), s%json, s%hdf5, s%vtk, &
+         write(text, "(A, 1X, 3(L1, 1X), I0, 1X, L1, ES25.16E3, 2(1X, I0))") trim(s%version), s%json, s%hdf5, s%vtk, &
             & s%heat_source, s%angle_below_axle, s%seconds, s%bytes, s%elements
       end associate
       call write_hashed(self%file, text)
@@ -138,7 +138,7 @@ contains
 
       if (len(self%letters) == 0) return
       associate (c => self%now)
-         write(text, '(16(I0, 1X))') c%cases, c%out, c%json, c%vtk, c%rows, c%errors, c%warnings, c%ended, c%input, c%files
+         write(text, "(16(I0, 1X))") c%cases, c%out, c%json, c%vtk, c%rows, c%errors, c%warnings, c%ended, c%input, c%files
       end associate
       call write_hashed(self%file, trim(text) // " " // self%letters)
       call self%file%flush_now()
@@ -167,7 +167,7 @@ contains
 
       hash = empty_hash
       call add_to_hash(trim(text), hash)
-      write(figures, '(1X, I0)') hash
+      write(figures, "(1X, I0)") hash
       call file%line(trim(text) // trim(figures))
    end subroutine write_hashed
 

@@ -73,7 +73,8 @@ contains
       answer = merge(1_c_int, 0_c_int, is_leftover_rest(text))
    end function is_leftover
 
-   !> Does this follow the name of an experiment in the name of a file in the making, as output/finished_file and hdf5/file have them?
+   !> Does this follow the name of an experiment in the name of a file in the making, as output/finished_file and hdf5/file
+   !> have them?
    !>
    !> Files of one case, <name>[_reNNN].NNNN[letter].{mat,subs,vts,blockN.vts}, and of a run, <name>.{h5,pvd}, with .tmp or .part
    !> behind them; so no file of an experiment is taken whose name begins with that of this one.

@@ -70,7 +70,7 @@ contains
       if (now - self%changed < pause_between) return
       self%changed = now
       self%visible = .true.
-      write(error_unit, '(A)', advance="no") carriage_return // trim(progress_text(done, self%total, now - self%started)) // &
+      write(error_unit, "(A)", advance="no") carriage_return // trim(progress_text(done, self%total, now - self%started)) // &
          & clear_to_end // carriage_return
       flush(error_unit)
    end subroutine show
@@ -81,7 +81,7 @@ contains
 
       if (.not. self%visible) return
       self%visible = .false.
-      write(error_unit, '(A)', advance="no") carriage_return // clear_to_end
+      write(error_unit, "(A)", advance="no") carriage_return // clear_to_end
       flush(error_unit)
    end subroutine hide
 

@@ -49,8 +49,8 @@ module contact_experiment_run
 
    !> What guarded work is told
    type :: guarded_run
-      type(experiment_state), pointer :: state
-      type(run_settings), pointer :: settings
+      type(experiment_state), pointer :: state => null()
+      type(run_settings), pointer :: settings => null()
       !> Why the work was left, member of guard_end
       integer :: cause = guard_end%done
    end type guarded_run
@@ -696,7 +696,7 @@ contains
       if (state%complaints == no_unit) return
       call state%progress%hide()
       if (state%log%screen /= 0) flush(state%log%screen, iostat=status)
-      write(state%complaints, '(A)') text
+      write(state%complaints, "(A)") text
       flush(state%complaints, iostat=status)
    end subroutine write_error
 

@@ -3,7 +3,7 @@
 !> FFTW is seen by this room only; another library takes its place by rewriting `plan`.
 module contact_fft_fftw
    use, intrinsic :: iso_c_binding
-   implicit none
+   implicit none (type, external)
    public
    include 'fftw3.f03'
 

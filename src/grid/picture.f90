@@ -43,7 +43,7 @@ contains
       end do
       last_line = "     X  -->"
       if (motion_kind == motion%transient_rolling .or. motion_kind == motion%steady_rolling) &
-         & write(last_line, '(A, F6.2, A)') "     X  -->        Chi=", chi*180.0_wp/pi, " degrees"
+         & write(last_line, "(A, F6.2, A)") "     X  -->        Chi=", chi*180.0_wp/pi, " degrees"
       call log%line(trim(last_line))
    end subroutine write_picture
 
@@ -79,7 +79,7 @@ contains
       lines = ""
       do iy = window%iy1, window%iy0, -1
          associate (row => lines(window%iy1 - iy + 1))
-            write(row, '(I6)') iy
+            write(row, "(I6)") iy
             do ix = window%ix0, window%ix1
                position = margin + step*(ix - window%ix0 + 1)
                row(position:position) = symbol(division(ix, iy))

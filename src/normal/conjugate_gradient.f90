@@ -290,7 +290,7 @@ contains
          report%residual = worst/scale
          if (present(log)) then
             if (log%shows(6)) then
-               write(line, '(4X,I6,A,I5,A,I5,A,I8,A,ES10.2)') it - 1, ", NormCG: grid", problem%mx, " x", problem%my, ", C=", &
+               write(line, "(4X,I6,A,I5,A,I5,A,I8,A,ES10.2)") it - 1, ", NormCG: grid", problem%mx, " x", problem%my, ", C=", &
                   & count(p > 0.0_wp), ", residual :", report%residual
                call log%trace(6, trim(line))
             end if

@@ -266,10 +266,10 @@ contains
 
       if (.not. log%shows(2)) return
       if (by_temperature) then
-         write(line, '(I5,A,2I6,A,2ES12.3)') iteration%passes, ", Temp-dep: A, S=", adhering, slipping, &
+         write(line, "(I5,A,2I6,A,2ES12.3)") iteration%passes, ", Temp-dep: A, S=", adhering, slipping, &
             & ", |Tk-Tk-1|, .0001 |Tk| : ", iteration%change, tolerance*iteration%size
       else
-         write(line, '(I5,A,2I6,A,2ES12.3)') iteration%passes, ", Vel-dep: A, S=", adhering, slipping, &
+         write(line, "(I5,A,2I6,A,2ES12.3)") iteration%passes, ", Vel-dep: A, S=", adhering, slipping, &
             & ", |Sk-Sk-1|, .001 |Sk| : ", iteration%change, tolerance*iteration%size
       end if
       call log%trace(2, trim(line))

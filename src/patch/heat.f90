@@ -72,7 +72,7 @@ contains
       box = contact_box(result%division)
       peclet = problem%thermal%peclet_number(0.5_wp*(box%ix1 - box%ix0 + 1)*problem%grid%dx, problem%veloc)
       if (peclet >= least_peclet_number) return
-      write(number, '(F12.3)') peclet
+      write(number, "(F12.3)") peclet
       call log%warning("temperatures are those of fast motion, in which no heat flows along the surface; the Peclet number " // &
          & "V a/(2 kappa) = " // trim(adjustl(number)) // " is below 10, and temperatures are too high")
    end subroutine warn_of_slow_motion

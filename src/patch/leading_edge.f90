@@ -70,7 +70,7 @@ contains
       end do
       if (problem%n_forces > 0) workspace%tangential%share = workspace%share
       if (hidden == 0) return
-      write(text, '(I0)') hidden
+      write(text, "(I0)") hidden
       call log%trace(3, "      Tang: contact up to the border of the grid, no leading-edge correction in rows : " // trim(text))
    end subroutine correct_leading_edge
 end module contact_patch_leading_edge

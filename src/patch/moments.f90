@@ -269,7 +269,7 @@ contains
          call elements_left_out(state%now%division, state%now%grid, grid, lost, box)
       end if
       if (lost == 0) return
-      write(number, '(I0)') lost
+      write(number, "(I0)") lost
       write(window, '("x = ", G0.6, " to ", G0.6, ", y = ", G0.6, " to ", G0.6)') box
       call fatal_error(error, "the potential contact leaves out " // trim(number) // " of the elements that were in contact in &
          &the previous case, whose tractions this case continues; a window that contains " // trim(window) // &

@@ -100,7 +100,7 @@ contains
       if (problem%solves_for_pressure()) then
          result%normal%passes = result%normal%passes + 1
          if (log%shows(3)) then
-            write(line, '(A,2I7,A,I6)') "      Norm: final element division: C, E=", result%ncon, &
+            write(line, "(A,2I7,A,I6)") "      Norm: final element division: C, E=", result%ncon, &
                & problem%grid%npot() - result%ncon, "  ItCG=", result%normal%iterations
             call log%trace(3, trim(line))
          end if

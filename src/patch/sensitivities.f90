@@ -51,7 +51,7 @@ contains
       if (problem%motion /= motion%none .and. .not. allocated(problem%simplified) .and. .not. problem%general_step) &
          & call tangential_part()
       if (reached <= accepted*problem%epsens .or. .not. problem%reports_sensitivity) return
-      write(text, '(ES8.1)') reached
+      write(text, "(ES8.1)") reached
       call log%warning("sensitivities are less accurate than EPSENS: a relative residual of " // trim(adjustl(text)) // &
          & " is left after MXSENS iterations")
 

@@ -163,7 +163,7 @@ contains
          call log%trace(2, trim(line))
       end if
       if (.not. log%shows(3)) return
-      write(line, '(A,2I7,A,I6)') "      Tang: final element division: A, S=", count(division == element%adhesion), &
+      write(line, "(A,2I7,A,I6)") "      Tang: final element division: A, S=", count(division == element%adhesion), &
          & count(division == element%slip), "  ItGS=", iterations
       call log%trace(3, trim(line))
    end subroutine trace

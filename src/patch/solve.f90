@@ -128,7 +128,7 @@ contains
       scale = max(approach_scale(result%pen, minval(problem%h), change), maxval(abs(workspace%lift)))
       level = merge(0, 1, result%outer_iterations >= problem%maxout - 1)
       if (log%shows(level)) then
-         write(line, '(I3,A,2ES12.3)') result%outer_iterations, ", Panag/Out: |Uk - Uk-1|,    Eps |Uk| :", change, &
+         write(line, "(I3,A,2ES12.3)") result%outer_iterations, ", Panag/Out: |Uk - Uk-1|,    Eps |Uk| :", change, &
             & problem%eps*scale
          call log%trace(level, trim(line))
       end if
@@ -175,7 +175,7 @@ contains
       if (problem%motion == motion%none .or. problem%n_forces == 0) return
       force = norm2(problem%force(:problem%n_forces))
       if (force < 1.0_wp) return
-      write(text, '(F0.6)') force
+      write(text, "(F0.6)") force
       call fatal_error(error, "the prescribed tangential force is " // trim(text) // &
          & " times the friction bound; forces below 1 can be reached", error_kind%input)
    end subroutine check_problem

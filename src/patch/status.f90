@@ -51,7 +51,7 @@ contains
       do k = 1, n
          if (abs(found(k) - requested(k)) <= allowed*problem%eps*bound) cycle
          if (norm2(requested(:n)) >= bound) then
-            write(largest, '(G0.6)') bound
+            write(largest, "(G0.6)") bound
             call result%status%miss_force(name(k), requested(k), found(k), "friction gives no more than " // &
                & trim(largest) // " N")
          else if (result%nadh + result%nplast == 0) then

@@ -366,8 +366,8 @@ contains
       if (report%method == "TangCG") counter = "  ItCG="
       if (report%method == "Newton-Krylov") counter = "  ItNK="
       plastic = ""
-      if (allocated(solution%plastic)) write(plastic, '(I7)') count(solution%division == element%plastic)
-      write(line, '(2A,2I7,2A,I6)') "      Tang: final element division: A, S", &
+      if (allocated(solution%plastic)) write(plastic, "(I7)") count(solution%division == element%plastic)
+      write(line, "(2A,2I7,2A,I6)") "      Tang: final element division: A, S", &
          & trim(merge(", P=", "=   ", allocated(solution%plastic))), count(solution%division == element%adhesion), &
          & count(solution%division == element%slip), trim(plastic), counter, report%iterations
       call log%trace(3, trim(line))

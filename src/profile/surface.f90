@@ -189,7 +189,7 @@ contains
          last = findloc(features(:, k) > -1.0e-6_wp, .true., 1, back=.true.)
          where (features(:, k) > -1.0e-6_wp)
             features(:, k) = max(0.0_wp, features(:, k))
-         elsewhere
+         else where
             features(:, k) = -1.0_wp
          end where
          features(last, k) = min(features(last, k), range(2) - range(1))

@@ -87,7 +87,7 @@ contains
       real(wp), intent(in) :: creep(2), spin
       real(wp) :: blend(3)
       type(creepage_coefficients) :: c
-      real(wp) :: characteristic, weight, psi, total, common
+      real(wp) :: characteristic, weight, psi, total, mean
 
       c = kalker_coefficients(area%aa, area%bb, nu)
       characteristic = load/(area%aa*area%bb*gg)*hypot(1.0_wp/c%c11, 1.0_wp/c%c22)
@@ -95,9 +95,9 @@ contains
       ! pi a**2/4 over 8 a/3: the factors by which the three flexibilities weigh the creepages
       psi = spin*3.0_wp*pi*area%aa/32.0_wp
       total = hypot(norm2(creep), psi)
-      common = flx(1)
-      if (total > 0.0_wp) common = 1.0_wp/((creep(1)/total)**2/flx(1) + (creep(2)/total)**2/flx(2) + (psi/total)**2/flx(3))
-      blend = (1.0_wp - weight)*flx + weight*common
+      mean = flx(1)
+      if (total > 0.0_wp) mean = 1.0_wp/((creep(1)/total)**2/flx(1) + (creep(2)/total)**2/flx(2) + (psi/total)**2/flx(3))
+      blend = (1.0_wp - weight)*flx + weight*mean
    end function blended_flexibilities
 
    !> Factor k by which stiffness 1/L is reduced [-]

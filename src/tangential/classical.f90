@@ -217,7 +217,7 @@ contains
          end if
          call divide_elements(problem, solution%p, solution%slip, r, solution%division)
          if (log%shows(4)) then
-            write(text, '(4X, I4, A, 2I7)') 1, ", Tang: size of Adhes, Slip area :", &
+            write(text, "(4X, I4, A, 2I7)") 1, ", Tang: size of Adhes, Slip area :", &
                & count(solution%division == element%adhesion), count(solution%division == element%slip)
             call log%trace(4, trim(text))
          end if
@@ -233,11 +233,11 @@ contains
 
       subroutine trace_forces()
          if (.not. log%shows(4)) return
-         write(text, '(4X, I6, A, 2ES15.6, A, I5)') forces%evaluations, ", NR_Fx,    Cksi, Fxk: ", &
+         write(text, "(4X, I6, A, 2ES15.6, A, I5)") forces%evaluations, ", NR_Fx,    Cksi, Fxk: ", &
             & solution%creep(1), force(1), "   ItCG:", report%iterations
          call log%trace(4, trim(text))
          if (problem%n_forces < 2) return
-         write(text, '(4X, I6, A, 2ES15.6)') forces%evaluations, ", NR_Fy,    Ceta, Fyk: ", &
+         write(text, "(4X, I6, A, 2ES15.6)") forces%evaluations, ", NR_Fy,    Ceta, Fyk: ", &
             & solution%creep(2), force(2)
          call log%trace(4, trim(text))
       end subroutine trace_forces

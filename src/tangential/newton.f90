@@ -716,8 +716,8 @@ contains
       character(len=128) :: line
 
       if (.not. log%shows(5)) return
-      write(line, '(4X,I6,A,I5,A,I5,A,ES10.2)') step, ", Newton: grid", problem%mx, " x", problem%my, ", residual :", residual
-      if (problem%n_forces > 0) write(line(len_trim(line) + 1:), '(A,2ES14.6)') ", creepages :", solution%creep(:problem%n_forces)
+      write(line, "(4X,I6,A,I5,A,I5,A,ES10.2)") step, ", Newton: grid", problem%mx, " x", problem%my, ", residual :", residual
+      if (problem%n_forces > 0) write(line(len_trim(line) + 1:), "(A,2ES14.6)") ", creepages :", solution%creep(:problem%n_forces)
       call log%trace(5, trim(line))
    end subroutine trace_step
 

@@ -77,7 +77,7 @@ contains
       character(len=120) :: text
 
       if (.not. log%shows(5)) return
-      write(text, '(I6, 3A, 2ES12.4, A, 2I7)') watch%updates, ", ", method, ": |Pk-Pk-1|, Eps |Pk|:", &
+      write(text, "(I6, 3A, 2ES12.4, A, 2I7)") watch%updates, ", ", method, ": |Pk-Pk-1|, Eps |Pk|:", &
          & watch%dif, watch%eps*watch%size, ", A, S=", count(state == element%adhesion), count(state == element%slip)
       call log%trace(5, trim(text))
    end subroutine trace_iteration

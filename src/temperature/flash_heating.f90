@@ -106,10 +106,10 @@ contains
       class(heat_passage), intent(in) :: self
       !> Temperatures of bodies 1 and 2 [degC], shape (mx, my)
       real(wp), contiguous, intent(inout) :: t1(:, :), t2(:, :)
-      real(wp) :: common, rest
+      real(wp) :: shared, rest
       integer :: ix, iy, first, last, passed, length
 
-      common = self%bodies%interface_temperature()
+      shared = self%bodies%interface_temperature()
       first = merge(size(t1, 1), 1, self%direction > 0)
       last = size(t1, 1) + 1 - first
       do iy = 1, size(t1, 2)
@@ -125,8 +125,8 @@ contains
             else if (passed > 0) then
                rest = 2.0_wp/pi*asin(sqrt(length/(passed - 0.5_wp)))
             end if
-            t1(ix, iy) = self%bodies%bulk(1) + rest*(common - self%bodies%bulk(1))
-            t2(ix, iy) = self%bodies%bulk(2) + rest*(common - self%bodies%bulk(2))
+            t1(ix, iy) = self%bodies%bulk(1) + rest*(shared - self%bodies%bulk(1))
+            t2(ix, iy) = self%bodies%bulk(2) + rest*(shared - self%bodies%bulk(2))
          end do
       end do
    end subroutine conduct

@@ -262,7 +262,7 @@ contains
       integer, intent(in) :: value
       character(len=columns_of(value)) :: text
 
-      write(text, '(I0)') value
+      write(text, "(I0)") value
    end function integer_text
 
    !> A real number in six figures without needless zeros, with blanks behind
@@ -274,9 +274,9 @@ contains
       if (value == 0.0_wp) then
          text = "0"
       else if (abs(value) < 1.0e-4_wp .or. abs(value) >= 1.0e6_wp) then
-         write(text, '(ES12.5)') value
+         write(text, "(ES12.5)") value
       else
-         write(text, '(F14.6)') value
+         write(text, "(F14.6)") value
          last = verify(text, " 0", back=.true.)
          if (text(last:last) == ".") last = last - 1
          text(last + 1:) = ""

@@ -72,8 +72,8 @@ contains
       memory%here%lowest_for_regions = -huge(z)
       if (.not. height_is_unknown) then
          if (z - memory%here%touch > memory%here%placement%wheel_radius) then
-            write(wanted, '(ES10.3)') z
-            write(touching, '(F12.4)') memory%here%touch
+            write(wanted, "(ES10.3)") z
+            write(touching, "(F12.4)") memory%here%touch
             call fatal_error(error, "Z_WS = " // trim(adjustl(wanted)) // " mm presses the wheel deeper into the rail than its &
                &radius; it touches the rail at Z_WS = " // trim(adjustl(touching)) // " mm")
             return
@@ -202,7 +202,7 @@ contains
          call result%status%miss_force("vertical force", target, target + result%force_error, why)
          call log%warning(result%status%reason)
       else if (abs(result%force_error) > balance%tolerance) then
-         write(missed, '(ES8.1)') abs(result%force_error)/target
+         write(missed, "(ES8.1)") abs(result%force_error)/target
          call log%warning("the vertical force is met within " // trim(adjustl(missed)) // " of what is asked for, not within EPS: &
             &grids follow the contact in whole elements, and the force has steps of that size")
       end if
@@ -281,7 +281,7 @@ contains
       character(len=100) :: line
 
       if (.not. log%shows(1)) return
-      write(line, '(4X,I6,A,F12.4,ES12.4,A,ES12.3)') number, ", NR,  z_ws, Fz: ", z, force, ", dFz/dz:", slope
+      write(line, "(4X,I6,A,F12.4,ES12.4,A,ES12.3)") number, ", NR,  z_ws, Fz: ", z, force, ", dFz/dz:", slope
       call log%trace(1, trim(line))
    end subroutine trace_trial
 

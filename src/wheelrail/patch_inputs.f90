@@ -97,7 +97,7 @@ contains
       number = int(grid%mx, long)*int(grid%my, long)
       call problem%limits%check(number, bytes_per_element, "elements", error)
       if (allocated(error) .or. number <= hopeless*problem%most_elements) return
-      write(text, '(A, I0, A, I0, A)') "a contact patch needs ", number, " elements, more than ten times NPOT_MAX = ", &
+      write(text, "(A, I0, A, I0, A)") "a contact patch needs ", number, " elements, more than ten times NPOT_MAX = ", &
          & problem%most_elements, "; larger elements DX and DS, a larger NPOT_MAX, or stiffer bodies"
       call fatal_error(error, trim(text), error_kind%input)
    end subroutine check_size
@@ -115,7 +115,7 @@ contains
       associate (search => problem%spec%search)
          if (abs(grid%dx - search%dx) <= same*search%dx .and. abs(grid%dy - search%ds) <= same*search%ds) return
       end associate
-      write(text, '(A, F0.4, A, F0.4, A, I0, A)') "a contact patch needs larger elements than DX x DS, ", grid%dx, " x ", &
+      write(text, "(A, F0.4, A, F0.4, A, I0, A)") "a contact patch needs larger elements than DX x DS, ", grid%dx, " x ", &
          & grid%dy, " mm, because of NPOT_MAX = ", problem%most_elements, ", but influence coefficients from a file " // &
          & "(C = 9) hold for DX x DS only; a larger NPOT_MAX, or a file for larger elements"
       call fatal_error(error, trim(text), error_kind%input)

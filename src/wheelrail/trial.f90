@@ -91,7 +91,7 @@ contains
       if (.not. (problem%spec%search%angle_below_axle .and. allocated(problem%rail_surface))) return
       turn = turn_of_rail(here%bodies, region%x, region%y)
       if (abs(turn) < noticeable) return
-      write(text, '(A,F6.3,A)') ": its plane has the inclination of the rail's section below the axle, as in the &
+      write(text, "(A,F6.3,A)") ": its plane has the inclination of the rail's section below the axle, as in the &
          &established program. Where wheel and rail touch they are inclined by ", turn, " rad more; lateral forces &
          &miss that part of the normal force. The angle of the contact is taken on request"
       call log%warning(name // trim(text))
@@ -112,7 +112,7 @@ contains
       associate (given => problem%rail_surface%u_range, grid => slot%problem%grid)
          s = problem%spec%wheelset%s + slot%plane%origin(1) + grid%xl + [0.0_wp, grid%mx*grid%dx]
          if (.not. problem%rail_surface%part_beyond(s) > 0.0_wp) return
-         write(text, '(4(A,F0.2),A)') ": its elements stand from S = ", s(1), " to ", s(2), " mm along the track, the &
+         write(text, "(4(A,F0.2),A)") ": its elements stand from S = ", s(1), " to ", s(2), " mm along the track, the &
             &slices of the rail from ", given(1), " to ", given(2), " mm. Beyond them it goes on as at the nearest one."
       end associate
       call log%warning(name // trim(text))

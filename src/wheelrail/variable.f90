@@ -143,7 +143,7 @@ contains
             call find_wheel_row(bodies, seen, x(first(j):last(j)), y(j), wheel(:n), found(:n))
             where (found(:n) .and. row < no_surface)
                row = row - wheel(:n)
-            elsewhere
+            else where
                row = no_surface
             end where
          end associate

@@ -51,7 +51,7 @@ contains
          do i = 1, size(ratios)
             c = kalker_coefficients(ratios(i), 1.0_wp, 0.25_wp*k)
             found = extrapolated(suite, ratios(i), 0.25_wp*k, [80, 160])
-            write(output_unit, '(a, f5.3, a, f4.2, 3(a, f6.3, a, f6.3, a, f5.2), a)') "| ", ratios(i), " | ", 0.25_wp*k, &
+            write(output_unit, "(a, f5.3, a, f4.2, 3(a, f6.3, a, f6.3, a, f5.2), a)") "| ", ratios(i), " | ", 0.25_wp*k, &
                & " | ", c%c11, " | ", found(1), " | ", 100.0_wp*(found(1)/c%c11 - 1.0_wp), &
                & " | ", c%c22, " | ", found(2), " | ", 100.0_wp*(found(2)/c%c22 - 1.0_wp), &
                & " | ", c%c23, " | ", found(3), " | ", 100.0_wp*(found(3)/c%c23 - 1.0_wp), " |"

@@ -58,7 +58,7 @@ contains
                case%spec%new_grid = .false.
                case%spec%new_geometry = .false.
             end if
-            write(what, '(a, f7.1, a, f5.2, a, i0)') "slope", slopes(k), ", layer", layer_thickness, ", step ", step
+            write(what, "(a, f7.1, a, f5.2, a, i0)") "slope", slopes(k), ", layer", layer_thickness, ", step ", step
             call case%run(suite, trim(what))
             du = 0.0_wp
             trial = p - stiffness*steps(step)
@@ -220,7 +220,7 @@ contains
          transient%spec%new_grid = .false.
          transient%spec%new_geometry = .false.
       end do
-      print '(a, 3es12.4)', "transient to steady", transient%result%fx_rel - steady%result%fx_rel, &
+      print "(a, 3es12.4)", "transient to steady", transient%result%fx_rel - steady%result%fx_rel, &
          & maxval(abs(transient%result%px - steady%result%px))/maxval(abs(steady%result%px)), &
          & transient%result%friction_power/steady%result%friction_power - 1.0_wp
       call suite%close_to(transient%result%fx_rel, steady%result%fx_rel, 1.0e-5_wp, "transient to steady: force")

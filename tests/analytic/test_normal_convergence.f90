@@ -40,7 +40,7 @@ contains
       real(wp), parameter :: fn = 30.0_wp
       character(len=32) :: name
 
-      write(name, '(a, f4.1)') "ellipse a/b =", ratio
+      write(name, "(a, f4.1)") "ellipse a/b =", ratio
       case%spec = ellipse_case(1.0_wp, 1.0_wp/ratio, fn, 5, 5)
       call case%run(suite, trim(name))
       associate (hertz => case%result%hertz)

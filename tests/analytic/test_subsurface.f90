@@ -223,7 +223,7 @@ contains
       call suite%check(status == 0, "subsurf.ref_subs can be read")
       if (status /= 0) return
       do
-         read(unit, '(a)', iostat=status) line
+         read(unit, "(a)", iostat=status) line
          if (status /= 0) exit
          if (index(line, "%") > 0) cycle
          ! the line with the numbers of points has three integers
@@ -249,8 +249,8 @@ contains
             & + 5.1e-5_wp*abs(reference))) cycle
          bad = bad + 1
          if (bad > 5) cycle
-         write(*, '(a, 3es12.4)') "stored example at", table(1:3, point)
-         write(*, '(11es13.5)') actual, reference
+         write(*, "(a, 3es12.4)") "stored example at", table(1:3, point)
+         write(*, "(11es13.5)") actual, reference
       end do
       call suite%equal(bad, 0, "points that differ from the stored example")
    end subroutine one_element_file
@@ -279,7 +279,7 @@ contains
       end do
       call suite%check(err(3) < 1e-3_wp, "Hertz stresses on the axis, 64 elements")
       call suite%check(log(err(1)/err(3))/log(4.0_wp) > 1.3_wp, "Hertz stresses converge with order above 1.3")
-      write(*, '(a, 3es10.2, a, f5.2)') "Hertz: errors", err, ", order", log(err(1)/err(3))/log(4.0_wp)
+      write(*, "(a, 3es10.2, a, f5.2)") "Hertz: errors", err, ", order", log(err(1)/err(3))/log(4.0_wp)
    end subroutine hertz_on_axis
 
    !> Averages of the semi-elliptical pressure over each element, by the midpoint rule of 8 x 8
@@ -385,7 +385,7 @@ contains
       do level = 1, 3
          error(level) = maxval(abs(s(:, :, level) - s(:, :, 4)))
       end do
-      write(*, '(a, 3es10.2)') "near the surface: bilinear 20 and 40, constant 20:", error
+      write(*, "(a, 3es10.2)") "near the surface: bilinear 20 and 40, constant 20:", error
       call suite%check(error(3) > 4.0_wp*error(1), "bilinear tractions are four times more accurate near the surface")
       call suite%check(log(error(1)/error(2))/log(2.0_wp) > 1.5_wp, "and converge with order above 1.5")
    end subroutine smoother_when_bilinear

@@ -45,7 +45,7 @@ contains
       character(len=24) :: name
       integer :: k, ix, iy
 
-      write(name, '(a, f6.3)') "Cattaneo, F =", force
+      write(name, "(a, f6.3)") "Cattaneo, F =", force
       cc = aa*(1.0_wp - force)**(1.0_wp/3.0_wp)
       expected = 3.0_wp*mu*fn*2.0_wp/(8.0_wp*aa*gg)*(1.0_wp - (cc/aa)**2)
       do k = 1, size(sizes)
@@ -93,7 +93,7 @@ contains
          call forces(case%spec, -force)
          call case%run(suite, "Mindlin")
          expected = 3.0_wp*mu*10.0_wp*(2.0_wp - nu(k))/(8.0_wp*gg)*(1.0_wp - (1.0_wp - force)**(2.0_wp/3.0_wp))
-         write(*, '(a, f5.2, a, 2es10.2)') "Mindlin, nu", nu(k), ": error of shift, stick radius", &
+         write(*, "(a, f5.2, a, 2es10.2)") "Mindlin, nu", nu(k), ": error of shift, stick radius", &
             & abs(case%result%cksi)/expected - 1.0_wp, sqrt(real(case%result%nadh, wp)/case%result%ncon)/0.5_wp - 1.0_wp
          call suite%close_to(abs(case%result%cksi), expected, 0.005_wp, "Mindlin, shift", relative=.true.)
          call suite%close_to(sqrt(real(case%result%nadh, wp)/case%result%ncon), 0.5_wp, 0.03_wp, &
@@ -117,7 +117,7 @@ contains
       character(len=24) :: name
       integer :: k, ix
 
-      write(name, '(a, f5.2)') "Carter, F =", force
+      write(name, "(a, f5.2)") "Carter, F =", force
       cc = aa*sqrt(1.0_wp - force)
       do k = 1, size(sizes)
          case%spec = line_case(aa, bb, 2.0_wp*load*bb, sizes(k), 1.2_wp)
@@ -237,7 +237,7 @@ contains
       character(len=40) :: name
       integer :: k
 
-      write(name, '(a, f5.2, a, f5.2)') "Spence, nu =", nu, ", mu =", friction
+      write(name, "(a, f5.2, a, f5.2)") "Spence, nu =", nu, ", mu =", friction
       expected = spence_ratio((1.0_wp - 2.0_wp*nu)/(2.0_wp*(1.0_wp - nu)), friction)
       do k = 1, size(sizes)
          call press(suite, sizes(k), nu, friction, .false., ratio)
@@ -246,7 +246,7 @@ contains
          ! the radius of contact is 1, an element is 2.1/n
          call suite%close_to(ratio, expected, 1.05_wp/sizes(k), trim(name) // ": stick radius within half an element")
       end do
-      write(*, '(2a, f8.4, a, f5.2, a, 4es9.1)') trim(name), ": closed form", expected, ", order", order_of(h, e_stick), &
+      write(*, "(2a, f8.4, a, f5.2, a, 4es9.1)") trim(name), ": closed form", expected, ", order", order_of(h, e_stick), &
          & "  errors", e_stick
    end subroutine spence
 
@@ -265,7 +265,7 @@ contains
          call press(suite, n, nu(k), 0.9_wp*beta(k), .false., alone)
          call press(suite, n, nu(k), 0.9_wp*beta(k), .true., full)
          change(k) = full/alone - 1.0_wp
-         write(*, '(a, f6.3, 2(a, f8.4))') "Spence, beta", beta(k), ": stick ratio with pressures of Hertz", alone, &
+         write(*, "(a, f6.3, 2(a, f8.4))") "Spence, beta", beta(k), ": stick ratio with pressures of Hertz", alone, &
             & ", with reaction of shear", full
       end do
       call observed(suite, "Spence, reaction (in beta)", beta, change, 2.5_wp, 0.6_wp, 0.01_wp)

@@ -191,7 +191,7 @@ contains
       real(wp), intent(in) :: eps, seconds
       type(figures), intent(in) :: found, exact
 
-      write(output_unit, '(4a, i0, a, i0, 4(a, es11.4))') group, ",", name, ",", contact, ",", n, ",", eps, ",", seconds, ",", &
+      write(output_unit, "(4a, i0, a, i0, 4(a, es11.4))") group, ",", name, ",", contact, ",", n, ",", eps, ",", seconds, ",", &
          & norm2(found%force - exact%force), ",", abs(found%peak - exact%peak)/exact%peak
       flush(output_unit)
    end subroutine point

@@ -86,10 +86,10 @@ contains
    end function wanted
 
    subroutine make_table()
-      write(output_unit, '(a)') &
+      write(output_unit, "(a)") &
          & "| case | grid | in contact | steps | products | pairs counted | ms | cost in pairs | requests to heap | " // &
          & "residual | goal |"
-      write(output_unit, '(a)') "|---|---|---|---|---|---|---|---|---|---|---|"
+      write(output_unit, "(a)") "|---|---|---|---|---|---|---|---|---|---|---|"
       if (wanted("setup")) call setup_rows()
       if (wanted("normal")) call normal_rows()
       if (wanted("rolling")) call rolling_rows()
@@ -97,8 +97,8 @@ contains
       if (wanted("classical")) call classical_rows()
       if (wanted("line")) call line_rows()
       if (wanted("table")) call table_rows()
-      write(output_unit, '(/, 2(a, i0), a)') "Goals: ", goals - missed, " met, ", missed, " missed."
-      write(output_unit, '(a, f0.0, a)') "Largest memory of the benchmark: ", peak_memory(), " MB."
+      write(output_unit, "(/, 2(a, i0), a)") "Goals: ", goals - missed, " met, ", missed, " missed."
+      write(output_unit, "(a, f0.0, a)") "Largest memory of the benchmark: ", peak_memory(), " MB."
    end subroutine make_table
 
    !> One row; judges the goal
@@ -117,14 +117,14 @@ contains
       met = .true.
       if (goal%pairs > 0.0_wp) then
          met = cost <= goal%pairs
-         write(verdict, '(a, i0, a)') "<= ", nint(goal%pairs), " pairs"
+         write(verdict, "(a, i0, a)") "<= ", nint(goal%pairs), " pairs"
       else if (goal%products > 0.0_wp) then
          met = result%report%products <= goal%products
-         write(verdict, '(a, i0, a)') "<= ", nint(goal%products), " products"
+         write(verdict, "(a, i0, a)") "<= ", nint(goal%products), " products"
       else if (goal%milliseconds > 0.0_wp) then
          met = 1000.0_wp*result%seconds <= goal%milliseconds
-         write(verdict, '(a, f0.2, a)') "<= ", goal%milliseconds, " ms"
-         if (goal%milliseconds < 1.0_wp) write(verdict, '(a, f4.2, a)') "<= ", goal%milliseconds, " ms"
+         write(verdict, "(a, f0.2, a)") "<= ", goal%milliseconds, " ms"
+         if (goal%milliseconds < 1.0_wp) write(verdict, "(a, f4.2, a)") "<= ", goal%milliseconds, " ms"
       end if
       if (.not. result%report%succeeded()) then
          met = .false.
@@ -136,14 +136,14 @@ contains
          verdict = trim(verdict) // merge(": met   ", ": MISSED", met)
       end if
       heap = "-"
-      if (result%allocations >= 0) write(heap, '(i0)') result%allocations
+      if (result%allocations >= 0) write(heap, "(i0)") result%allocations
       products = "-"
-      if (result%report%products > 0) write(products, '(i0)') result%report%products
-      write(milliseconds, '(f12.1)') 1000.0_wp*result%seconds
-      if (result%seconds < 0.1_wp) write(milliseconds, '(f12.3)') 1000.0_wp*result%seconds
-      write(line, '(i0, 3a, f0.1, 3a, f0.1)') result%report%iterations, " | ", trim(products), " | ", &
+      if (result%report%products > 0) write(products, "(i0)") result%report%products
+      write(milliseconds, "(f12.1)") 1000.0_wp*result%seconds
+      if (result%seconds < 0.1_wp) write(milliseconds, "(f12.3)") 1000.0_wp*result%seconds
+      write(line, "(i0, 3a, f0.1, 3a, f0.1)") result%report%iterations, " | ", trim(products), " | ", &
          & result%report%fft_pairs, " | ", trim(adjustl(milliseconds)), " | ", cost
-      write(output_unit, '(5a, i0, 6a, es8.1, 3a)') "| ", name, " | ", grid, " | ", contact, " | ", trim(line), " | ", trim(heap), &
+      write(output_unit, "(5a, i0, 6a, es8.1, 3a)") "| ", name, " | ", grid, " | ", contact, " | ", trim(line), " | ", trim(heap), &
          & " | ", "", result%report%residual, " | ", trim(verdict), " |"
       flush(output_unit)
    end subroutine row
@@ -151,7 +151,7 @@ contains
    !> A row of words for what was not run
    subroutine row_left_out(name, grid, why)
       character(len=*), intent(in) :: name, grid, why
-      write(output_unit, '(7a)') "| ", name, " | ", grid, " | | | | | | | | | ", why, " |"
+      write(output_unit, "(7a)") "| ", name, " | ", grid, " | | | | | | | | | ", why, " |"
       flush(output_unit)
    end subroutine row_left_out
 
@@ -160,7 +160,7 @@ contains
       character(len=:), allocatable :: text
       character(len=24) :: buffer
 
-      write(buffer, '(i0, a, i0)') n, " x ", n
+      write(buffer, "(i0, a, i0)") n, " x ", n
       text = trim(buffer)
    end function square
 
@@ -426,7 +426,7 @@ contains
       character(len=:), allocatable :: text
       character(len=12) :: buffer
 
-      write(buffer, '(i0)') n
+      write(buffer, "(i0)") n
       text = trim(buffer)
    end function number
 
@@ -501,7 +501,7 @@ contains
             call solve_one(table)
          end select
       end do
-      write(output_unit, '(a, i0, a, g0.4, a)') trim(name), k, " cases, ", 1000.0_wp*(cpu_seconds() - start)/k, " ms each"
+      write(output_unit, "(a, i0, a, g0.4, a)") trim(name), k, " cases, ", 1000.0_wp*(cpu_seconds() - start)/k, " ms each"
       call table%release()
    end subroutine profile
 
@@ -524,7 +524,7 @@ contains
          call tangential%run(report)
          first = cpu_seconds() - start
          call measure(tangential, clock, 0.5_wp, result)
-         write(output_unit, '(2f14.4)') 1000.0_wp*result%seconds, 1000.0_wp*first
+         write(output_unit, "(2f14.4)") 1000.0_wp*result%seconds, 1000.0_wp*first
          return
       end do
       error stop "performance_bench --case: unknown contact"
@@ -541,23 +541,23 @@ contains
       read(size_text, *) mx
       call new_table_case(mx, case)
       open(newunit=unit, file=trim(file), status="replace", action="write")
-      write(unit, '(a)') "3    MODULE"
+      write(unit, "(a)") "3    MODULE"
       do k = 1, table_size
          associate (spec => case%spec)
-            write(unit, '(a)') "203100"
-            write(unit, '(a)') merge("022020", "100000", k == 1)
-            write(unit, '(2a)') merge("00001", "01101", k == 1), merge("01", "00", k == table_size)
-            if (k == 1) write(unit, '(a)') "999 100 30 1 1e-5"
-            write(unit, '(f10.1, 3es16.7)') spec%kinematics%fn, table_creepage(k)
+            write(unit, "(a)") "203100"
+            write(unit, "(a)") merge("022020", "100000", k == 1)
+            write(unit, "(2a)") merge("00001", "01101", k == 1), merge("01", "00", k == table_size)
+            if (k == 1) write(unit, "(a)") "999 100 30 1 1e-5"
+            write(unit, "(f10.1, 3es16.7)") spec%kinematics%fn, table_creepage(k)
             if (k > 1) cycle
-            write(unit, '(2f6.2)') spec%friction%sets(1)%fstat, spec%friction%sets(1)%fkin
-            write(unit, '(3es18.10)') 0.0_wp, spec%rolling%dq, spec%rolling%veloc
-            write(unit, '(4f10.2)') spec%material%poiss, spec%material%gg
-            write(unit, '(i0)') spec%grid%ipotcn
-            write(unit, '(2i6, 3f10.4)') mx, mx, spec%grid%aa, spec%grid%bb, spec%grid%scale
+            write(unit, "(2f6.2)") spec%friction%sets(1)%fstat, spec%friction%sets(1)%fkin
+            write(unit, "(3es18.10)") 0.0_wp, spec%rolling%dq, spec%rolling%veloc
+            write(unit, "(4f10.2)") spec%material%poiss, spec%material%gg
+            write(unit, "(i0)") spec%grid%ipotcn
+            write(unit, "(2i6, 3f10.4)") mx, mx, spec%grid%aa, spec%grid%bb, spec%grid%scale
          end associate
       end do
-      write(unit, '(a)') "0    MODULE: end"
+      write(unit, "(a)") "0    MODULE: end"
       close(unit)
       call case%release()
    end subroutine write_input

@@ -195,7 +195,7 @@ contains
       open(newunit=unit, file="/proc/self/status", status="old", action="read", iostat=status)
       if (status /= 0) return
       do
-         read(unit, '(a)', iostat=status) line
+         read(unit, "(a)", iostat=status) line
          if (status /= 0) exit
          if (line(1:6) /= "VmHWM:") cycle
          read(line(7:), *, iostat=status) kilobytes

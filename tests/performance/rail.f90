@@ -44,7 +44,7 @@ program performance_rail
    missed = 0
    call tread_to_flange()
    call crossing()
-   write(*, '(/, a, i0, a)') "Goals: ", missed, " missed."
+   write(*, "(/, a, i0, a)") "Goals: ", missed, " missed."
 
 contains
 
@@ -76,13 +76,13 @@ contains
             if (round < rounds) call forget(session)
          end do
       end associate
-      write(*, '(a)') "21 cases of a wheel S1002 on a rail 60E1 at 0 to 10 mm, 0 to 24 mrad, elements of 0.2 mm, 10 kN; the " // &
+      write(*, "(a)") "21 cases of a wheel S1002 on a rail 60E1 at 0 to 10 mm, 0 to 24 mrad, elements of 0.2 mm, 10 kN; the " // &
          & "best of five rounds, profiles read anew in each."
-      write(*, '(a)') ""
-      write(*, '(a)') "| seconds | of them outside of the contact solver | solutions of patches | goal |"
-      write(*, '(a)') "|---|---|---|---|"
+      write(*, "(a)") ""
+      write(*, "(a)") "| seconds | of them outside of the contact solver | solutions of patches | goal |"
+      write(*, "(a)") "|---|---|---|---|"
       k = minloc(total, 1)
-      write(*, '(a, f5.3, a, i0, a, i0, a)') "| ", total(k), " | ", nint(100.0_wp*outside(k)/total(k)), " % | ", calls, &
+      write(*, "(a, f5.3, a, i0, a, i0, a)") "| ", total(k), " | ", nint(100.0_wp*outside(k)/total(k)), " % | ", calls, &
          & " | 0.5 s, 30 %: " // trim(verdict(total(k) <= 0.5_wp .and. outside(k) <= 0.3_wp*total(k))) // " |"
       call forget(session)
    end subroutine tread_to_flange
@@ -136,18 +136,18 @@ contains
             call smallest_gaps(tensor, here%bodies, pair%wheelset%s, x, by_points%y, by_points%gap, by_points%x)
             other = min(other, bench_clock() - start)
          end do
-         write(*, '(/, a, i0, a, i0, a)') "Search for contact on a crossing, mesh of ", size(x), " x ", here%gap%n, &
+         write(*, "(/, a, i0, a, i0, a)") "Search for contact on a crossing, mesh of ", size(x), " x ", here%gap%n, &
             & " points, elements of 0.2 mm; the best of five times each:"
-         write(*, '(a)') ""
-         write(*, '(a)') "| | ms |"
-         write(*, '(a)') "|---|---|"
-         write(*, '(a, f0.1, a)') "| search of the program by the locus (D = 2), sections of the rail included | ", &
+         write(*, "(a)") ""
+         write(*, "(a)") "| | ms |"
+         write(*, "(a)") "|---|---|"
+         write(*, "(a, f0.1, a)") "| search of the program by the locus (D = 2), sections of the rail included | ", &
             & 1.0e3_wp*own(1), " |"
-         write(*, '(a, f0.1, a)') "| the same by the grid (D = 5) | ", 1.0e3_wp*own(2), " |"
-         write(*, '(a, f4.2, a, f0.1, a)') "| tensor spline at every point, without its set-up of ", 1.0e3_wp*setup, " ms | ", &
+         write(*, "(a, f0.1, a)") "| the same by the grid (D = 5) | ", 1.0e3_wp*own(2), " |"
+         write(*, "(a, f4.2, a, f0.1, a)") "| tensor spline at every point, without its set-up of ", 1.0e3_wp*setup, " ms | ", &
             & 1.0e3_wp*other, " |"
-         write(*, '(a, f0.1, a)') "| the whole case with D = 2, the second time | ", 1.0e3_wp*case, " |"
-         write(*, '(/, a, f0.1, a, f0.1, a)') "Ratio of the searches: ", other/own(1), " with D = 2, ", other/own(2), &
+         write(*, "(a, f0.1, a)") "| the whole case with D = 2, the second time | ", 1.0e3_wp*case, " |"
+         write(*, "(/, a, f0.1, a, f0.1, a)") "Ratio of the searches: ", other/own(1), " with D = 2, ", other/own(2), &
             & " with D = 5; goal for the first: 20 times faster, " // trim(verdict(other >= 20.0_wp*own(1))) // "."
          do kind = 1, size(kinds)
             session%problem%spec%search%location = kinds(kind)
@@ -177,7 +177,7 @@ contains
       call find_regions(by_points, lowest + penetration, search, 2, there, misses)
       if (size(here) /= size(there) .or. size(here) == 0) error stop "the two searches find different contacts"
       moved = max(maxval(abs(here%x - there%x)), maxval(abs(here%y - there%y)))
-      write(*, '(a, f4.2, a, es7.1, a, i0, a, es7.1, a)') "Gaps of both within ", penetration, &
+      write(*, "(a, f4.2, a, es7.1, a, i0, a, es7.1, a)") "Gaps of both within ", penetration, &
          & " mm of the smallest one differ by at most ", difference, " mm, the references of the ", size(here), &
          & " contacts at that penetration by ", moved, " mm."
       if (difference > 1.0e-4_wp .or. moved > 2.0e-3_wp) error stop "the two searches find different gaps"
@@ -194,13 +194,13 @@ contains
 
       u = [(50.0_wp*(k - 1), k=1, slices)]
       open(newunit=list, file="bench_crossing.slcs", status="replace")
-      write(list, '(a)') "0.0 1.0    U_OFFSET, U_SCALE"
-      write(list, '(i0, a)') slices, "    NSLC"
-      write(list, '(a)') "0 0 0    NFEAT, NKINK, NACCEL"
-      write(list, '(a)') "1    U_INTPOL"
+      write(list, "(a)") "0.0 1.0    U_OFFSET, U_SCALE"
+      write(list, "(i0, a)") slices, "    NSLC"
+      write(list, "(a)") "0 0 0    NFEAT, NKINK, NACCEL"
+      write(list, "(a)") "1    U_INTPOL"
       do k = 1, slices
-         write(name, '(a, i0, a)') "bench_slice_", k, ".dat"
-         write(list, '(f10.3, 3a)') u(k), " '", trim(name), "'"
+         write(name, "(a, i0, a)") "bench_slice_", k, ".dat"
+         write(list, "(f10.3, 3a)") u(k), " '", trim(name), "'"
          x = u(k)/u(slices)
          rise = 3.0_wp*x**2*(3.0_wp - 2.0_wp*x)
          aside = 12.0_wp*x
@@ -208,7 +208,7 @@ contains
          do i = -70, 70
             y = 0.5_wp*i
             z = y**2/(2.0_wp*(150.0_wp + 150.0_wp*x)) + (max(0.0_wp, abs(y) - 22.0_wp)/6.0_wp)**2 + 3.0_wp - rise
-            write(file, '(2f16.9)') y + aside, z
+            write(file, "(2f16.9)") y + aside, z
          end do
          close(file)
       end do

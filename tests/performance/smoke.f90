@@ -118,7 +118,7 @@ contains
       character(len=:), allocatable :: text
       character(len=24) :: buffer
 
-      write(buffer, '(f0.1)') value
+      write(buffer, "(f0.1)") value
       text = "(found " // trim(buffer) // ")"
    end function found
 end program performance_smoke

@@ -12,9 +12,9 @@ program performance_subsurface
    integer :: k
 
    call omp_set_num_threads(1)
-   write(*, '(a)') "One thread, processor time. Circle of 0.86 of the window loaded with px, py, pn; all centres, 40 depths"
-   write(*, '(a)') "   window  tractions loaded   transforms   per depth  direct, a point  equal cost   direct, all  largest"
-   write(*, '(a)') "                    elements      s           ms           us        points/depth       s      difference"
+   write(*, "(a)") "One thread, processor time. Circle of 0.86 of the window loaded with px, py, pn; all centres, 40 depths"
+   write(*, "(a)") "   window  tractions loaded   transforms   per depth  direct, a point  equal cost   direct, all  largest"
+   write(*, "(a)") "                    elements      s           ms           us        points/depth       s      difference"
    do k = 1, size(sizes)
       call measure(sizes(k), .false.)
       if (k < 4) call measure(sizes(k), .true.)
@@ -65,7 +65,7 @@ contains
             worst = max(worst, maxval(abs(sd(:, n + few*(iz - 1)) - s(:, n*step, 1 + (n - 1)*step, iz))))
          end do
       end do
-      write(*, '(i5, a, i0, t13, a, i9, f11.3, f12.2, f13.1, i15, f16.1, es13.1)') m, " x ", m, &
+      write(*, "(i5, a, i0, t13, a, i9, f11.3, f12.2, f13.1, i15, f16.1, es13.1)") m, " x ", m, &
          & merge("bilinear", "constant", bilinear), count(p(:, :, 3) > 0.0_wp), layers, layers/nz*1e3_wp, direct*1e6_wp, &
          & nint(layers/nz/direct), direct*m**2*nz, worst/maxval(abs(s))
       if (number_of_terms(load) == 0) error stop
@@ -82,6 +82,6 @@ contains
       call cpu_time(t0)
       call stress_invariants(s, v(:, 1), v(:, 2), v(:, 3), v(:, 4), v(:, 5), v(:, 6))
       call cpu_time(t1)
-      write(*, '(a, f6.3, a)') "invariants of 200,000 points:", t1 - t0, " s"
+      write(*, "(a, f6.3, a)") "invariants of 200,000 points:", t1 - t0, " s"
    end subroutine measure_invariants
 end program performance_subsurface

@@ -25,7 +25,7 @@ program test_approximate_methods
    integer :: shape_
 
    call suite%start("approximate methods in cases")
-   write(*, '(a, t26, a, t36, 4a12)') "rail", "method", "force", "pressure", "area", "Fx"
+   write(*, "(a, t26, a, t36, 4a12)") "rail", "method", "force", "pressure", "area", "Fx"
    do shape_ = 1, size(shape_name)
       call against_full(suite, shape_)
    end do
@@ -156,7 +156,7 @@ contains
             do step = 1, 6
                m = mod(step, 3) + 1
                call set_case(2, methods(m), case)
-               write(what, '(a, 3i2)') "sequence", kind, theory, step
+               write(what, "(a, 3i2)") "sequence", kind, theory, step
                case%spec%motion = kinds(kind)
                if (theory == 2) case%spec%material_model = material_model%fastsim
                if (kinds(kind) == motion%shift) then

@@ -49,20 +49,20 @@ contains
       material = combine(poiss, gg)
       call fill_table(t, material, width, dy, nx, ny)
       open(newunit=unit, file=file, status="replace", action="write")
-      write(unit, '(a, i0, a)') " ", matrices, " 1  % nmatrix, iaconvex"
-      write(unit, '(a)') " 0 312", " 1 0"
-      write(unit, '(2i6, 2f12.6)') nx, ny, width, dy
+      write(unit, "(a, i0, a)") " ", matrices, " 1  % nmatrix, iaconvex"
+      write(unit, "(a)") " 0 312", " 1 0"
+      write(unit, "(2i6, 2f12.6)") nx, ny, width, dy
       do matrix = 1, matrices
          if (matrices > 1) then
-            write(unit, '(a)') "% matrix"
-            write(unit, '(i0, a)') matrix, " 0.0 0.0"
+            write(unit, "(a)") "% matrix"
+            write(unit, "(i0, a)") matrix, " 0.0 0.0"
          end if
          do l = -ny + 1, ny - 1
             do i = 1, n
-               write(unit, '(a)') merge("% offset", "offset  ", i == 1)
+               write(unit, "(a)") merge("% offset", "offset  ", i == 1)
             end do
             do k = 0, nx - 1
-               write(unit, '(i0, f9.4, 9es25.16)') k, k*width, material%gg*[t%nn(k, l), -t%xn(k, l), -t%yn(k, l), &
+               write(unit, "(i0, f9.4, 9es25.16)") k, k*width, material%gg*[t%nn(k, l), -t%xn(k, l), -t%yn(k, l), &
                   & t%xn(k, l), t%xx(k, l), t%xy(k, l), t%yn(k, l), t%xy(k, l), t%yy(k, l)]
             end do
          end do
@@ -355,11 +355,11 @@ contains
       open(newunit=to, file=changed, status="replace", action="write")
       k = 0
       do
-         read(from, '(a)', iostat=status) text
+         read(from, "(a)", iostat=status) text
          if (status /= 0) exit
          k = k + 1
          if (k == line) text = words
-         write(to, '(a)') trim(text)
+         write(to, "(a)") trim(text)
       end do
       close(from)
       close(to)

@@ -20,7 +20,7 @@ program test_contact_properties
 
    call suite%start("contact properties")
    random%state = 5926535897932384626_int64
-   write(*, '(a, i0)') "seed ", random%state
+   write(*, "(a, i0)") "seed ", random%state
    do k = 1, 30
       call conditions(suite, random, kinds(mod(k, 3) + 1), mod(k, 5) == 0)
    end do
@@ -359,7 +359,7 @@ contains
       call two%run(suite, "two threads")
       call omp_set_num_threads(before)
       associate (a => one%result, b => two%result)
-         write(*, '(a, 2es9.1)') "one and two threads: difference of forces, tractions", &
+         write(*, "(a, 2es9.1)") "one and two threads: difference of forces, tractions", &
             & hypot(a%fx - b%fx, a%fy - b%fy)/(a%mu_scal*a%fn), maxval(hypot(a%px - b%px, a%py - b%py))/(a%mu_scal*a%pmax)
          call suite%close_to([b%fx, b%fy, b%pen], [a%fx, a%fy, a%pen], 1.0e-10_wp, "threads: totals", relative=.true.)
          call suite%close_to([b%px, b%py, b%pn], [a%px, a%py, a%pn], 1.0e-10_wp*a%pmax, "threads: tractions")

@@ -64,7 +64,7 @@ contains
       do k = 1, size(kinds)
          do i = 1, size(sizes, 2)
             do f = 0, 1
-               write(what, '(A, I3, A, I3, A, I0)') names(k), sizes(1, i), " x", sizes(2, i), ", F = ", f
+               write(what, "(A, I3, A, I3, A, I0)") names(k), sizes(1, i), " x", sizes(2, i), ", F = ", f
                case%spec = formula_case(kinds(k), sizes(1, i), sizes(2, i))
                call creep(case%spec, motion%steady_rolling, ksi=5.0e-4_wp, eta=2.0e-4_wp, mu=0.3_wp)
                if (f == 1) call forces(case%spec, 0.5_wp)

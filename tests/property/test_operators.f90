@@ -20,7 +20,7 @@ program test_operators
    integer :: k
 
    call suite%start("operators")
-   write(*, '(a, i0)') "seed ", random%state
+   write(*, "(a, i0)") "seed ", random%state
    do k = 1, size(shapes, 2)
       call products(suite, random, shapes(1, k), shapes(2, k))
    end do
@@ -44,7 +44,7 @@ contains
       integer :: ix, iy, direction
       character(len=24) :: name
 
-      write(name, '(i0, a, i0)') mx, " x ", my
+      write(name, "(i0, a, i0)") mx, " x ", my
       dx = random%logarithmic(0.05_wp, 1.0_wp)
       dy = random%logarithmic(0.05_wp, 1.0_wp)
       material = combine([random%uniform(0.0_wp, 0.2_wp), random%uniform(0.3_wp, 0.5_wp)], &

@@ -140,7 +140,7 @@ contains
       call plain%run(suite, "plain rail")
       text = "0 1" // nl // "5" // nl // "0 0 0" // nl // "1" // nl
       do k = -2, 2
-         write(number, '(i0)') 50*k
+         write(number, "(i0)") 50*k
          text = text // trim(number) // " '" // environment("CONTACT_SOURCE") // "/examples/profiles/60E1.prr'" // nl
       end do
       call write_file("equal.slcs", text)

@@ -185,7 +185,7 @@ contains
       file = environment("CONTACT_SOURCE") // "/examples/profiles/60E1.prr"
       text = "0 1 U_OFFSET" // nl // "6" // nl // "0 0 0" // nl // "1" // nl
       do k = 1, 6
-         write(place, '(f12.3)') -200.0_wp + 80.0_wp*(k - 1)
+         write(place, "(f12.3)") -200.0_wp + 80.0_wp*(k - 1)
          text = text // place // " '" // file // "'" // nl
       end do
       call write_file("equal.slcs", text)

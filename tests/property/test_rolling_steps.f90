@@ -50,7 +50,7 @@ contains
       real(wp), parameter :: of_fx(3) = [1.0e-3_wp, 5.0e-3_wp, 1.0e-2_wp], of_mz(3) = [1.0e-3_wp, 0.06_wp, 0.12_wp]
 
       do m = 1, 3
-         write(what, '(a, i0, a, f4.0)') "DQ = ", m, " DX, CHI = ", chi*180.0_wp/pi
+         write(what, "(a, i0, a, f4.0)") "DQ = ", m, " DX, CHI = ", chi*180.0_wp/pi
          case%spec = steady%spec
          case%spec%motion = motion%transient_rolling
          case%spec%rolling%dq = m*side
@@ -81,7 +81,7 @@ contains
       real(wp), parameter :: error_of_creepage = 0.02_wp
 
       do n_forces = 1, 2
-         write(what, '(a, i0, a, f4.0)') "DQ = 3 DX with ", n_forces, " forces, CHI = ", chi*180.0_wp/pi
+         write(what, "(a, i0, a, f4.0)") "DQ = 3 DX with ", n_forces, " forces, CHI = ", chi*180.0_wp/pi
          case%spec = steady%spec
          case%spec%motion = motion%transient_rolling
          case%spec%rolling%dq = 3.0_wp*side
@@ -120,7 +120,7 @@ contains
 
       of_fx = merge(5.0e-3_wp, 2.5e-2_wp, poiss > 0.0_wp)
       do m = 1, 4
-         write(what, '(a, i0, a, f4.0, a, f5.2)') "ConvexGS, DQ = ", m, " DX, CHI = ", chi*180.0_wp/pi, ", POISS ", poiss
+         write(what, "(a, i0, a, f4.0, a, f5.2)") "ConvexGS, DQ = ", m, " DX, CHI = ", chi*180.0_wp/pi, ", POISS ", poiss
          case%spec = steady%spec
          case%spec%solver = merge(solver_choice%default, solver_choice%convex_gs, m == 1)
          case%spec%iteration%eps = 1.0e-6_wp
@@ -149,7 +149,7 @@ contains
 
       do k = 0, 11
          chi = k*pi/6.0_wp
-         write(what, '(a, i0)') "ConvexGS, CHI = ", 30*k
+         write(what, "(a, i0)") "ConvexGS, CHI = ", 30*k
          case%spec = steady%spec
          case%spec%solver = solver_choice%convex_gs
          case%spec%iteration%eps = 1.0e-6_wp

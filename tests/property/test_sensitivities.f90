@@ -86,7 +86,7 @@ contains
             numerical(:, side) = [case%result%fn, case%result%fx_rel, case%result%fy_rel, case%result%mz]
          end do
          numerical(:, 1) = (numerical(:, 2) - numerical(:, 1))/(2.0_wp*steps(input))
-         write(*, '(3a, 4es12.4, a, 4es12.4)') what, ", ", input_name(input), table(:, input), "   differences", numerical(:, 1)
+         write(*, "(3a, 4es12.4, a, 4es12.4)") what, ", ", input_name(input), table(:, input), "   differences", numerical(:, 1)
          call suite%close_to(table(:, input)/scale, numerical(:, 1)/scale, 1.0e-4_wp*maxval(abs(numerical(:, 1)/scale)), &
             & what // ", column " // input_name(input))
       end do
@@ -152,7 +152,7 @@ contains
          ! F/(mu Fn) = 1 - (1 - S/S_max)**(3/2), S_max = 3 mu Fn (2 - nu)/(16 G a) per body
          largest = 2.0_wp*3.0_wp*0.4_wp*9.0_wp*2.0_wp/(16.0_wp*200.0_wp)
          slope = -1.5_wp/largest*(1.0_wp - share(k))**(1.0_wp/3.0_wp)
-         print '(a, f6.3, 2es12.4)', "Mindlin, F =", share(k), case%result%sensitivity(2, 2), slope
+         print "(a, f6.3, 2es12.4)", "Mindlin, F =", share(k), case%result%sensitivity(2, 2), slope
          call suite%close_to(case%result%sensitivity(2, 2), slope, 0.02_wp, "Mindlin's tangent stiffness", relative=.true.)
          ! across, friction turns the tractions with the shift: Fx/Sx
          call suite%close_to(case%result%sensitivity(3, 3), -share(k)/case%result%cksi, 0.02_wp, &

@@ -28,16 +28,16 @@ program test_solvers_agree
    integer :: agreed(8) = 0
 
    call suite%start("solvers agree")
-   write(*, '(a, i0)') "seed ", random%state
+   write(*, "(a, i0)") "seed ", random%state
    refused = 0
    tried = 0
    do k = 1, n_problems
       call one_problem(suite, random, k)
    end do
-   write(*, '(a, 6i4)') "tried  for choices G = 0...5:", tried
-   write(*, '(a, 6i4)') "not converged, as reported:  ", refused
+   write(*, "(a, 6i4)") "tried  for choices G = 0...5:", tried
+   write(*, "(a, 6i4)") "not converged, as reported:  ", refused
    do k = 1, count(agreed > 0)
-      write(*, '(2a, i4, 2(a, es8.1))') methods(k), "ended", agreed(k), " problems; largest difference of forces", worst(1, k), &
+      write(*, "(2a, i4, 2(a, es8.1))") methods(k), "ended", agreed(k), " problems; largest difference of forces", worst(1, k), &
          & ", of tractions", worst(2, k)
    end do
    call suite%equal(count(agreed > 0), 4, "TangCG, ConvexGS, SteadyGS and GDsteady took part")
@@ -94,7 +94,7 @@ contains
       angle = random%uniform(0.0_wp, 6.283_wp)
       if (n_forces == 1) call forces(case%spec, size_*cos(angle))
       if (n_forces == 2) call forces(case%spec, size_*cos(angle), size_*sin(angle))
-      write(text, '(a, i0, 3(a, i0), 5(a, es8.1))') "problem ", number, ": T=", kind, " F=", n_forces, " grid ", mx, &
+      write(text, "(a, i0, 3(a, i0), 5(a, es8.1))") "problem ", number, ": T=", kind, " F=", n_forces, " grid ", mx, &
          & " x", real(my, wp), " bb", bb, " nu", nu, " mu", mu, " force", size_
       name = trim(text)
 
@@ -112,7 +112,7 @@ contains
          call case%release()
          return
       end if
-      if (case%result%tangential%gave_up /= "") write(*, '(2a)') "FALL-BACK  ", name
+      if (case%result%tangential%gave_up /= "") write(*, "(2a)") "FALL-BACK  ", name
       px = case%result%px
       py = case%result%py
       fx = case%result%grid%dx*case%result%grid%dy*sum(px)/(mu*fn)
@@ -135,14 +135,14 @@ contains
             dp = sqrt(sum((r%px - px)**2) + sum((r%py - py)**2))/bound
             if (.not. r%tangential%succeeded()) then
                refused(steady(k)) = refused(steady(k)) + 1
-               write(*, '(4a, i0, 4(a, es8.1))') "GAVE UP ", trim(r%tangential%method), " ", name, r%tangential%ended, &
+               write(*, "(4a, i0, 4(a, es8.1))") "GAVE UP ", trim(r%tangential%method), " ", name, r%tangential%ended, &
                   & " forces differ", df, ", tractions", dp, " residual", r%tangential%residual
                cycle
             end if
             if (df > tol_force .or. dp > tol_traction) then
-               write(*, '(4a, 4(a, es8.1))') "DIFFERS ", trim(r%tangential%method), " ", name, &
+               write(*, "(4a, 4(a, es8.1))") "DIFFERS ", trim(r%tangential%method), " ", name, &
                   & " forces differ", df, ", tractions", dp, " residual", r%tangential%residual
-               if (r%tangential%gave_up /= "") write(*, '(2a)') "   after fall-back from ", trim(r%tangential%gave_up)
+               if (r%tangential%gave_up /= "") write(*, "(2a)") "   after fall-back from ", trim(r%tangential%gave_up)
             end if
             call remember(trim(r%tangential%method), df, dp)
             call suite%close_to(df, 0.0_wp, tol_force, name // ": forces by " // trim(r%tangential%method))

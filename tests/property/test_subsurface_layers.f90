@@ -79,7 +79,7 @@ contains
       end do
       ! at many depths the direct sum over second differences is the less accurate one
       tolerance = merge(1e-11_wp, 1e-12_wp, bilinear)
-      write(*, '(3a, 2es9.1)') merge("bilinear, ", "constant, ", bilinear), what, ":", worst
+      write(*, "(3a, 2es9.1)") merge("bilinear, ", "constant, ", bilinear), what, ":", worst
       call suite%check(worst(1) < tolerance, what // ": displacements")
       call suite%check(worst(2) < tolerance, what // ": stresses")
    end subroutine compare

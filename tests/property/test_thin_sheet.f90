@@ -92,7 +92,7 @@ contains
             if (all(next .eqv. contact)) exit
             contact = next
          end do
-         write(what, '(a, es8.1)') "dense, FLXZ = ", flxz
+         write(what, "(a, es8.1)") "dense, FLXZ = ", flxz
          case%spec = sheet_case(flxz, n)
          case%spec%normal = normal_control%approach
          case%spec%kinematics%pen = pen

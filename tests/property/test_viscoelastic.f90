@@ -16,18 +16,18 @@ program test_viscoelastic
    integer :: k, other
 
    call suite%start("viscoelastic bodies")
-   write(output_unit, '(a, i0)') "state of the random numbers: ", random%state
+   write(output_unit, "(a, i0)") "state of the random numbers: ", random%state
    other = 0
    do k = 1, count_
       case%spec = scene()
-      write(what, '(a, i0, a, 2f6.2, a, 2es9.1)') "scene ", k, ", FG", case%spec%material%fg, ", lengths", &
+      write(what, "(a, i0, a, 2f6.2, a, 2es9.1)") "scene ", k, ", FG", case%spec%material%fg, ", lengths", &
          & case%spec%material%tc*case%spec%rolling%veloc/case%spec%grid%dx
       call case%run(suite, trim(what))
       call fulfilled(case%result, case%spec%iteration%eps, trim(what))
       if (case%result%normal%method /= "NormCG") other = other + 1
       call case%release()
    end do
-   write(output_unit, '(i0, a, i0, a)') other, " of ", count_, " scenes were left by NormCG"
+   write(output_unit, "(i0, a, i0, a)") other, " of ", count_, " scenes were left by NormCG"
    call suite%check(other > 0, "some scenes need more than conjugate gradients")
    call suite%finish()
 

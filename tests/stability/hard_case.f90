@@ -121,13 +121,13 @@ contains
       character(len=*), intent(in) :: title
 
       open(newunit=table, file="table.md", status="replace", action="write")
-      write(table, '(a)') "## " // title, "", &
+      write(table, "(a)") "## " // title, "", &
          & "| case | contact | stick | normal: it / prod / residual | tangential | it | prod | residual | recomputed | ended |", &
          & "|---|---|---|---|---|---|---|---|---|---|"
    end subroutine open_table
 
    subroutine close_table()
-      write(table, '(a)') ""
+      write(table, "(a)") ""
       close(table)
    end subroutine close_table
 
@@ -467,21 +467,21 @@ contains
 
       if (table == 0) return
       if (allocated(run%error)) then
-         write(table, '(a)') "| " // name // " | | | | | | | | | refused: " // run%error%message // " |"
+         write(table, "(a)") "| " // name // " | | | | | | | | | refused: " // run%error%message // " |"
          flush(table)
          return
       end if
       associate (res => run%result, n => run%result%normal, t => run%result%tangential)
-         write(normal, '(i0, a, i0, a, es8.1)') n%iterations, " / ", n%products, " / ", max(0.0_wp, n%residual)
+         write(normal, "(i0, a, i0, a, es8.1)") n%iterations, " / ", n%products, " / ", max(0.0_wp, n%residual)
          method = trim(t%method)
          if (method == "") method = "-"
          if (t%gave_up /= "") method = trim(t%gave_up) // ", then " // method
-         write(counts(1), '(i0, a, i0)') res%ncon, " | ", res%nadh
-         write(counts(2), '(i0)') t%iterations
-         write(counts(3), '(i0)') t%products
-         write(counts(4), '(es8.1)') max(0.0_wp, t%residual)
-         write(counts(5), '(es8.1)') max(found%friction, found%gap, found%penetration)
-         write(table, '(a)') "| " // name // " | " // trim(counts(1)) // " | " // trim(normal) // " | " // method // " | " // &
+         write(counts(1), "(i0, a, i0)") res%ncon, " | ", res%nadh
+         write(counts(2), "(i0)") t%iterations
+         write(counts(3), "(i0)") t%products
+         write(counts(4), "(es8.1)") max(0.0_wp, t%residual)
+         write(counts(5), "(es8.1)") max(found%friction, found%gap, found%penetration)
+         write(table, "(a)") "| " // name // " | " // trim(counts(1)) // " | " // trim(normal) // " | " // method // " | " // &
             & trim(counts(2)) // " | " // trim(counts(3)) // " | " // trim(adjustl(counts(4))) // " | " // &
             & trim(adjustl(counts(5))) // " | " // endings(n, t, merge(run%warnings, 0, res%outer_iterations > 1)) // " |"
          flush(table)
@@ -526,7 +526,7 @@ contains
          text = "diverged"
       end select
       if (report%succeeded()) return
-      write(residual, '(es8.1)') report%residual
+      write(residual, "(es8.1)") report%residual
       text = text // " at " // trim(adjustl(residual))
    end function ended_text
 

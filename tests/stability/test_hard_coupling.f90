@@ -34,7 +34,7 @@ contains
                spec%iteration%maxout = passes(m)
                spec%kinematics%cksi = 1.0e-3_wp
                spec%kinematics%cphi = 3.0e-4_wp
-               write(label, '(a, f6.3, a, i0, a, i0)') "K ", material%ak, ", T=", t, ", MAXOUT ", passes(m)
+               write(label, "(a, f6.3, a, i0, a, i0)") "K ", material%ak, ", T=", t, ", MAXOUT ", passes(m)
                if (passes(m) == 10) then
                   ! ten passes may be too few; then a message says so
                   call expect_passes(run, spec, trim(label))
@@ -52,7 +52,7 @@ contains
             end do
             spec%friction%sets(1)%fstat = 10.0_wp
             spec%force = 0
-            write(label, '(a, f6.3, a, i0)') "K ", material%ak, ", mu 10, T=", t
+            write(label, "(a, f6.3, a, i0)") "K ", material%ak, ", mu 10, T=", t
             call expect_passes(run, spec, trim(label))
             spec = given_case(t, 15, 15)
             call set_bodies(k, spec)
@@ -60,9 +60,9 @@ contains
             spec%normal = normal_control%approach
             spec%kinematics%pen = 5.0e-3_wp
             spec%kinematics%cksi = 1.0e-3_wp
-            write(label, '(a, f6.3, a, i0)') "K ", material%ak, ", N=0, T=", t
+            write(label, "(a, f6.3, a, i0)") "K ", material%ak, ", N=0, T=", t
             call expect_solution(suite, run, spec, trim(label), slack=50.0_wp)
-            write(label, '(a, f6.3, a, i0)') "K ", material%ak, ", one element, T=", t
+            write(label, "(a, f6.3, a, i0)") "K ", material%ak, ", one element, T=", t
             spec = given_case(t, 1, 1)
             call set_bodies(k, spec)
             spec%iteration%maxout = 10

@@ -71,7 +71,7 @@ contains
       spec%pressure = pressure_model%parabolical
       call expect_solution(suite, run, spec, "parabolic pressure")
       do t = motion%shift, motion%transient_rolling
-         write(label, '(a, i0)') "T=", t
+         write(label, "(a, i0)") "T=", t
          spec = rolling(0.0_wp, 0.0_wp, 0.0_wp)
          spec%motion = t
          call expect_solution(suite, run, spec, "zero shift, " // trim(label))
@@ -105,7 +105,7 @@ contains
 
       do t = motion%shift, motion%steady_rolling
          do k = 1, size(share)
-            write(label, '(a, i0, a, f6.4)') "T=", t, ", ", share(k)
+            write(label, "(a, i0, a, f6.4)") "T=", t, ", ", share(k)
             spec = rolling(0.0_wp, 0.0_wp, 0.0_wp)
             spec%motion = t
             if (t == motion%shift) spec%rolling%dq = 1.0_wp
@@ -126,7 +126,7 @@ contains
             call expect_solution(suite, run, spec, "F=2 with spin, " // trim(label))
          end do
          do k = 1, size(too_much)
-            write(label, '(a, i0, a, f7.4)') "T=", t, ", ", too_much(k)
+            write(label, "(a, i0, a, f7.4)") "T=", t, ", ", too_much(k)
             spec = rolling(0.0_wp, 0.0_wp, 0.0_wp)
             spec%motion = t
             spec%force = 1
@@ -161,14 +161,14 @@ contains
 
       do t = motion%shift, motion%steady_rolling
          do k = 1, size(mu)
-            write(label, '(a, es7.0, a, i0)') "mu", mu(k), ", T=", t
+            write(label, "(a, es7.0, a, i0)") "mu", mu(k), ", T=", t
             spec = rolling(5.0e-4_wp, -3.0e-4_wp, 3.0e-4_wp)
             spec%motion = t
             spec%friction%sets(1)%fstat = mu(k)
             call expect_solution(suite, run, spec, trim(label))
          end do
          do k = 1, size(nu)
-            write(label, '(a, f3.1, a, i0)') "nu ", nu(k), ", T=", t
+            write(label, "(a, f3.1, a, i0)") "nu ", nu(k), ", T=", t
             spec = rolling(5.0e-4_wp, -3.0e-4_wp, 3.0e-4_wp)
             spec%motion = t
             spec%material%poiss = nu(k)
@@ -197,7 +197,7 @@ contains
       real(wp), parameter :: pi = acos(-1.0_wp)
 
       do t = motion%transient_rolling, motion%steady_rolling
-         write(label, '(a, i0)') "T=", t
+         write(label, "(a, i0)") "T=", t
          spec = rolling(5.0e-4_wp, 3.0e-4_wp, 4.0e-4_wp)
          spec%motion = t
          spec%iteration%eps = 1.0e-9_wp

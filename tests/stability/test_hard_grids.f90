@@ -46,7 +46,7 @@ contains
          spec = elliptic_case(motion%steady_rolling, 80, 80, aa(k), bb(k))
          spec%kinematics%fn = 3000.0_wp
          call creepages(spec, 1.0e-3_wp, 3.0e-4_wp, 3.0e-4_wp)
-         write(label, '(a, f3.1, a, f3.1)') "axes ", aa(k), " x ", bb(k)
+         write(label, "(a, f3.1, a, f3.1)") "axes ", aa(k), " x ", bb(k)
          call compare(spec, trim(label), 81)
       end do
    end subroutine axes
@@ -60,7 +60,7 @@ contains
       do k = 1, size(sizes, 2)
          spec = elliptic_case(motion%steady_rolling, sizes(1, k), sizes(2, k), 3.0_wp, 5.0_wp)
          call creepages(spec, 5.0e-4_wp, -3.0e-4_wp, 3.0e-4_wp)
-         write(label, '(a, i0, a, i0)') "3 x 5, grid ", sizes(1, k), " x ", sizes(2, k)
+         write(label, "(a, i0, a, i0)") "3 x 5, grid ", sizes(1, k), " x ", sizes(2, k)
          call compare(spec, trim(label), most)
       end do
    end subroutine grids
@@ -76,20 +76,20 @@ contains
          spec = elliptic_case(motion%steady_rolling, 80, 80, 3.0_wp, 5.0_wp)
          call creepages(spec, 5.0e-4_wp, 0.0_wp, 3.0e-4_wp)
          spec%friction%sets(1)%fstat = mu(k)
-         write(label, '(a, es8.1)') "mu ", mu(k)
+         write(label, "(a, es8.1)") "mu ", mu(k)
          call compare(spec, trim(label), 50)
       end do
       do k = 1, size(spin)
          spec = elliptic_case(motion%steady_rolling, 80, 80, 3.0_wp, 5.0_wp)
          call creepages(spec, 0.0_wp, 0.0_wp, spin(k))
-         write(label, '(a, es8.1)') "spin ", spin(k)
+         write(label, "(a, es8.1)") "spin ", spin(k)
          call compare(spec, trim(label), 79)
       end do
       do k = 1, size(nu)
          spec = elliptic_case(motion%steady_rolling, 80, 80, 3.0_wp, 5.0_wp)
          call creepages(spec, 5.0e-4_wp, 0.0_wp, 6.0e-4_wp)
          spec%material%poiss = nu(k)
-         write(label, '(a, f3.1)') "nu ", nu(k)
+         write(label, "(a, f3.1)") "nu ", nu(k)
          call compare(spec, trim(label), most)
       end do
    end subroutine parameters

@@ -35,14 +35,14 @@ contains
                if (.not. matters(spec, place)) cycle
                ! an infinite distance means that contact is impossible there
                if (place == 15 .and. kind == 2) cycle
-               write(label, '(a, i0, a, i0, a, i0)') "place ", place, ", value ", kind, ", T=", t
+               write(label, "(a, i0, a, i0, a, i0)") "place ", place, ", value ", kind, ", T=", t
                call run_case(run, spec)
                call suite%check(has_message(run), trim(label) // " is refused with a message")
             end do
             ! the session is still good
             spec = given_case(t, 7, 7)
             spec%kinematics%cksi = 1.0e-4_wp
-            write(label, '(a, i0, a, i0)') "after value ", kind, ", T=", t
+            write(label, "(a, i0, a, i0)") "after value ", kind, ", T=", t
             call expect_solution(suite, run, spec, trim(label))
          end do
       end do

@@ -214,7 +214,7 @@ contains
          pair%spec%link = time_link%continue_all
          pair%spec%estimate = estimate_choice%previous
       end do
-      write(line, '(2(a,f0.3))') ": ", jump(1), " N where patches change, elsewhere ", jump(2)
+      write(line, "(2(a,f0.3))") ": ", jump(1), " N where patches change, elsewhere ", jump(2)
       call suite%check(changes >= 10 .and. most == 2 .and. fewest == 1, name // ": patches join and separate")
       call suite%check(jump(1) <= 1.5_wp*jump(2), name // ": friction does not jump" // trim(line))
       call pair%release()

@@ -30,7 +30,7 @@ contains
          seed = seeds(draw)
          call random_numbers(seed, heights)
          do kind = 1, 3
-            write(*, '(a, i0, a, i0)') "rough surface, seed ", seeds(draw), ", kind ", kind
+            write(*, "(a, i0, a, i0)") "rough surface, seed ", seeds(draw), ", kind ", kind
             do t = motion%none, motion%steady_rolling
                spec = given_case(t, n, n)
                spec%geometry%ibase = 9
@@ -38,9 +38,9 @@ contains
                spec%kinematics%cksi = merge(1.0e-4_wp, 1.0e-3_wp, t == motion%shift)
                spec%kinematics%ceta = 0.3_wp*spec%kinematics%cksi
                spec%kinematics%cphi = 1.0e-4_wp
-               write(label, '(a, i0, a, i0, a, i0)') "seed ", seeds(draw), ", kind ", kind, ", T=", t
+               write(label, "(a, i0, a, i0, a, i0)") "seed ", seeds(draw), ", kind ", kind, ", T=", t
                call expect_solution(suite, run, spec, trim(label))
-               if (draw == 1) write(*, '(a, i0, a)') "   ", islands(run%result%division), " islands"
+               if (draw == 1) write(*, "(a, i0, a)") "   ", islands(run%result%division), " islands"
                spec%normal = normal_control%approach
                spec%kinematics%pen = 0.8_wp*run%result%pen + 0.2_wp*minval(run%result%h)
                call expect_solution(suite, run, spec, trim(label) // ", N=0")
@@ -50,7 +50,7 @@ contains
                   spec%force = tangential
                   spec%kinematics%fx = -0.7_wp
                   spec%kinematics%fy = 0.5_wp
-                  write(label, '(a, i0, a, i0, a, i0, a, i0)') "seed ", seeds(draw), ", kind ", kind, ", T=", t, ", F=", tangential
+                  write(label, "(a, i0, a, i0, a, i0, a, i0)") "seed ", seeds(draw), ", kind ", kind, ", T=", t, ", F=", tangential
                   call expect_solution(suite, run, spec, trim(label))
                end do
             end do

@@ -35,7 +35,7 @@ contains
       integer, intent(in) :: step
       character(len=8) :: label
 
-      write(label, '(i0)') step
+      write(label, "(i0)") step
       if (looked_at(step)) then
          call expect_solution(suite, run, spec, name // ", step " // trim(label), slack=1.05_wp)
          return
@@ -143,7 +143,7 @@ contains
                end do
             end do
             spec%kinematics%cksi = merge(2.0e-5_wp, 5.0e-4_wp, t == motion%shift)
-            write(label, '(a, i0, a, i0)') "split and merge, T=", t, ", step ", step
+            write(label, "(a, i0, a, i0)") "split and merge, T=", t, ", step ", step
             call expect_solution(suite, run, spec, trim(label), silent=mod(step, 10) /= 0)
             spec%link = time_link%continue_all
             spec%estimate = estimate_choice%previous

@@ -40,7 +40,7 @@ contains
 
       do window = 1, 5, 4
          do t = motion%none, motion%steady_rolling
-            write(label, '(a, i0, a, i0)') "one element, window ", window, ", T=", t
+            write(label, "(a, i0, a, i0)") "one element, window ", window, ", T=", t
             spec = given_case(t, window, window)
             spec%kinematics%fn = 0.05_wp
             call expect_solution(suite, run, spec, trim(label))
@@ -55,12 +55,12 @@ contains
             do k = 1, size(share)
                spec%force = 1
                spec%kinematics%fx = -share(k)
-               write(label, '(a, i0, a, i0, a, f6.4)') "one element, window ", window, ", T=", t, ", F=1 ", share(k)
+               write(label, "(a, i0, a, i0, a, f6.4)") "one element, window ", window, ", T=", t, ", F=1 ", share(k)
                call expect_solution(suite, run, spec, trim(label))
                spec%force = 2
                spec%kinematics%fx = 0.6_wp*share(k)
                spec%kinematics%fy = 0.8_wp*share(k)
-               write(label, '(a, i0, a, i0, a, f6.4)') "one element, window ", window, ", T=", t, ", F=2 ", share(k)
+               write(label, "(a, i0, a, i0, a, f6.4)") "one element, window ", window, ", T=", t, ", F=2 ", share(k)
                call expect_solution(suite, run, spec, trim(label))
             end do
          end do
@@ -78,7 +78,7 @@ contains
 
       do k = 1, size(sizes, 2)
          do t = motion%shift, motion%steady_rolling
-            write(label, '(i0, a, i0, a, i0)') sizes(1, k), " x ", sizes(2, k), ", T=", t
+            write(label, "(i0, a, i0, a, i0)") sizes(1, k), " x ", sizes(2, k), ", T=", t
             spec = given_case(t, sizes(1, k), sizes(2, k))
             spec%kinematics%fn = 5.0_wp*maxval(sizes(:, k))
             call set_creepage(spec)
@@ -97,7 +97,7 @@ contains
          spec%geometry%b(3) = 0.0_wp
          spec%kinematics%fn = 500.0_wp*spec%grid%dy
          spec%kinematics%cksi = merge(2.0e-4_wp, 1.0e-2_wp, t /= motion%shift)
-         write(label, '(a, i0)') "two-dimensional, dy/dx 1e5, T=", t
+         write(label, "(a, i0)") "two-dimensional, dy/dx 1e5, T=", t
          call expect_solution(suite, run, spec, trim(label))
          spec%force = 1
          spec%kinematics%fx = -0.657_wp
@@ -123,7 +123,7 @@ contains
             spec%grid%xl = spec%grid%xl + moves(1, k)
             spec%grid%yl = spec%grid%yl + moves(2, k)
             call set_creepage(spec)
-            write(label, '(a, i0)') "contact at the edge: " // trim(sides(k)) // ", T=", t
+            write(label, "(a, i0)") "contact at the edge: " // trim(sides(k)) // ", T=", t
             call expect_solution(suite, run, spec, trim(label))
             call suite%check(any(run%result%division([1, 21], :) > element%exterior) &
                & .or. any(run%result%division(:, [1, 23]) > element%exterior), trim(label) // ": touches the edge")
@@ -134,7 +134,7 @@ contains
          spec = given_case(t, 20, 20)
          spec%kinematics%fn = 1.0e5_wp
          call set_creepage(spec)
-         write(label, '(a, i0)') "whole window in contact, T=", t
+         write(label, "(a, i0)") "whole window in contact, T=", t
          call expect_solution(suite, run, spec, trim(label))
          call suite%equal(run%result%ncon, 400, trim(label) // ": all elements")
          spec%normal = normal_control%approach
@@ -144,7 +144,7 @@ contains
          spec = given_case(t, 20, 20)
          spec%geometry%b = 0.0_wp
          call set_creepage(spec)
-         write(label, '(a, i0)') "flat punch, T=", t
+         write(label, "(a, i0)") "flat punch, T=", t
          call expect_solution(suite, run, spec, trim(label))
          spec%geometry%b(6) = -1.0_wp
          call expect_solution(suite, run, spec, trim(label) // ", moved by 1 mm")
@@ -163,12 +163,12 @@ contains
          spec = given_case(t, 11, 12)
          spec%kinematics%fn = 0.0_wp
          call set_creepage(spec)
-         write(label, '(a, i0)') "FN 0, T=", t
+         write(label, "(a, i0)") "FN 0, T=", t
          call expect_solution(suite, run, spec, trim(label))
          call suite%equal(run%result%ncon, 0, trim(label) // ": no contact")
          spec%normal = normal_control%approach
          spec%kinematics%pen = -0.1_wp
-         write(label, '(a, i0)') "PEN below the lowest point, T=", t
+         write(label, "(a, i0)") "PEN below the lowest point, T=", t
          call expect_solution(suite, run, spec, trim(label))
          call suite%equal(run%result%ncon, 0, trim(label) // ": no contact")
          if (t > motion%none) then
@@ -213,7 +213,7 @@ contains
       do t = motion%shift, motion%steady_rolling
          do k = 1, size(ratio)
             spec = elliptic_case(t, 25, 25, sqrt(ratio(k)), 1.0_wp/sqrt(ratio(k)))
-            write(label, '(a, f5.2, a, i0)') "ellipse ratio ", ratio(k), ", T=", t
+            write(label, "(a, f5.2, a, i0)") "ellipse ratio ", ratio(k), ", T=", t
             call set_creepage(spec)
             call expect_solution(suite, run, spec, trim(label))
             spec%force = 2
@@ -224,7 +224,7 @@ contains
          do k = 1, size(sides)
             ! a round contact, dx/dy as given
             spec = elliptic_case(t, nint(28.0_wp/sqrt(sides(k))), nint(28.0_wp*sqrt(sides(k))), 1.0_wp, 1.0_wp)
-            write(label, '(a, f5.2, a, i0)') "element ratio ", sides(k), ", T=", t
+            write(label, "(a, f5.2, a, i0)") "element ratio ", sides(k), ", T=", t
             call set_creepage(spec)
             call expect_solution(suite, run, spec, trim(label))
             spec%force = 1
@@ -247,7 +247,7 @@ contains
          spec%geometry%iplan = 3
          spec%geometry%pl = [-1.0_wp, -0.2_wp, -1.0_wp, 1.0_wp, 0.3_wp, 0.8_wp, -0.4_wp, 0.9_wp]
          call set_creepage(spec)
-         write(label, '(a, i0)') "two rectangles, T=", t
+         write(label, "(a, i0)") "two rectangles, T=", t
          call expect_solution(suite, run, spec, trim(label))
          spec%geometry%b = 0.0_wp
          call expect_solution(suite, run, spec, trim(label) // ", flat")
@@ -259,7 +259,7 @@ contains
          spec%geometry%iplan = 2
          spec%geometry%pl(1:6) = [1.0_wp, 0.0_wp, 1.0_wp, 0.0_wp, 0.0_wp, -0.25_wp]
          call set_creepage(spec)
-         write(label, '(a, i0)') "disc, T=", t
+         write(label, "(a, i0)") "disc, T=", t
          call expect_solution(suite, run, spec, trim(label))
          spec%geometry%pl(6) = 1.0_wp
          call expect_refusal(suite, run, spec, trim(label) // ", empty planform", "planform")

@@ -12,7 +12,7 @@ program test_hard_solvers
    call suite%start("hard cases for all solvers")
    call open_table("All solvers")
    call all_solvers()
-   write(*, '(2(i0, a))') converged, " of ", ended, " cases converged, the others say so"
+   write(*, "(2(i0, a))") converged, " of ", ended, " cases converged, the others say so"
    call close_table()
    call suite%finish()
 
@@ -34,7 +34,7 @@ contains
                call hard_example(t, k, spec, what)
                spec%solver = choices(s)
                spec%iteration%eps = 1.0e-5_wp
-               write(label, '(2a, i0, 2a)') what, ", T=", t, ", ", names(s)
+               write(label, "(2a, i0, 2a)") what, ", T=", t, ", ", names(s)
                ! sweeps end when the tractions no longer change, which is not yet the residual
                call expect_statement(suite, run, spec, trim(label), slack=merge(1.05_wp, 200.0_wp, s == 1))
                ended = ended + 1

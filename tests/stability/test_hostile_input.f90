@@ -103,7 +103,7 @@ contains
       seed = 20240917_int64
       given = environment("CONTACT_TEST_SEED")
       if (len(given) > 0) read(given, *) seed
-      write(*, '(a, i0)') "seed (CONTACT_TEST_SEED): ", seed
+      write(*, "(a, i0)") "seed (CONTACT_TEST_SEED): ", seed
       state = max(1_int64, modulo(seed, 2147483646_int64))
       total = 0
       do k = 1, mutations

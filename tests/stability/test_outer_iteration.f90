@@ -42,7 +42,7 @@ contains
       real(wp), parameter :: p0 = 10.0_wp, modulus = 1000.0_wp
       real(wp) :: size_
 
-      write(what, '(a, i0, a, f5.2, a, f5.1)') "T=", t, ", K", k, ", mu", mu(j)
+      write(what, "(a, i0, a, f5.2, a, f5.1)") "T=", t, ", K", k, ", mu", mu(j)
       do l = 1, size(level)
          case%spec = ellipse_case(2.0_wp, 2.0_wp, p0*acos(-1.0_wp)*4.0_wp/1.5_wp, 15, 15, eps=eps)
          case%spec%material%gg = merge([modulus, 1.0e12_wp], [1.0e12_wp, modulus], k > 0.0_wp)
@@ -69,7 +69,7 @@ contains
          call suite%check(case%result%residual <= 10.0_wp*eps, trim(what) // ": the contact conditions hold")
          if (j <= size(plain)) call suite%check(passes(l) <= plain(j), trim(what) // ": not more passes than without acceleration")
       end do
-      write(output_unit, '(a, t30, a, 4i6)') trim(what), "passes", passes
+      write(output_unit, "(a, t30, a, 4i6)") trim(what), "passes", passes
       call case%release()
    end subroutine creepages
 end program test_outer_iteration

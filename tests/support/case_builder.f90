@@ -243,7 +243,7 @@ contains
       !> Expected order, its tolerance, and the largest error on the finest grid
       real(wp), intent(in) :: order, band, finest
 
-      write(output_unit, '(a, t36, a, f5.2, a, *(es9.1))') name, "order", order_of(h, error), "  errors", error
+      write(output_unit, "(a, t36, a, f5.2, a, *(es9.1))") name, "order", order_of(h, error), "  errors", error
       call suite%close_to(order_of(h, error), order, band, name // ": order")
       call suite%close_to(error(size(error)), 0.0_wp, finest, name // ": error on the finest grid")
    end subroutine observed

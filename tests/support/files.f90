@@ -26,7 +26,7 @@ contains
 
       open(newunit=unit, file=name, status="replace")
       do i = 1, size(y)
-         write(unit, '(2f24.14)') y(i), z(i)
+         write(unit, "(2f24.14)") y(i), z(i)
       end do
       close(unit)
    end subroutine write_profile

@@ -74,7 +74,7 @@ contains
       logical, intent(in), optional :: relative
       character(len=160) :: values
 
-      write(values, '(3(a, es24.16e3))') "actual", actual, ", expected", expected, &
+      write(values, "(3(a, es24.16e3))") "actual", actual, ", expected", expected, &
          & ", tolerance", tolerance
       call count_check(self, is_close(actual, expected, tolerance, relative), what, trim(values))
    end subroutine close_scalar
@@ -90,13 +90,13 @@ contains
       integer :: i
 
       if (size(actual) /= size(expected)) then
-         write(values, '(2(a, i0))') "size ", size(actual), ", expected size ", size(expected)
+         write(values, "(2(a, i0))") "size ", size(actual), ", expected size ", size(expected)
          call count_check(self, .false., what, trim(values))
          return
       end if
       do i = 1, size(actual)
          if (is_close(actual(i), expected(i), tolerance, relative)) cycle
-         write(values, '(a, i0, 3(a, es24.16e3))') "element ", i, ": actual", actual(i), &
+         write(values, "(a, i0, 3(a, es24.16e3))") "element ", i, ": actual", actual(i), &
             & ", expected", expected(i), ", tolerance", tolerance
          call count_check(self, .false., what, trim(values))
          return
@@ -122,7 +122,7 @@ contains
       character(len=*), intent(in) :: what
       character(len=60) :: values
 
-      write(values, '(2(a, i0))') "actual ", actual, ", expected ", expected
+      write(values, "(2(a, i0))") "actual ", actual, ", expected ", expected
       call count_check(self, actual == expected, what, trim(values))
    end subroutine equal_integer
 
@@ -145,7 +145,7 @@ contains
       character(len=*), intent(in) :: what, why
 
       self%skipped = self%skipped + 1
-      write(output_unit, '(5a)') "SKIPPED ", suite_name(self), ": ", what, " - " // why
+      write(output_unit, "(5a)") "SKIPPED ", suite_name(self), ": ", what, " - " // why
       flush(output_unit)
    end subroutine skip_part
 
@@ -153,13 +153,13 @@ contains
    subroutine finish_suite(self)
       class(test_suite), intent(in) :: self
 
-      write(output_unit, '(2a, 3(i0, a))') suite_name(self), ": ", self%passed, " passed, ", &
+      write(output_unit, "(2a, 3(i0, a))") suite_name(self), ": ", self%passed, " passed, ", &
          & self%failed, " failed, ", self%skipped, " skipped"
       flush(output_unit)
       if (self%failed > 0) stop 1, quiet=.true.
       if (self%passed > 0) return
       if (self%skipped > 0) stop skip_status, quiet=.true.
-      write(output_unit, '(a)') "FAILED: nothing was checked"
+      write(output_unit, "(a)") "FAILED: nothing was checked"
       stop 1, quiet=.true.
    end subroutine finish_suite
 
@@ -189,22 +189,22 @@ contains
 
    !> Whether two numbers agree; NaN agrees with nothing, an infinity with itself.
    !> NaN is sorted out first because a comparison with it traps in debug builds.
-   pure function is_close(actual, expected, tolerance, relative) result(close)
+   pure function is_close(actual, expected, tolerance, relative) result(is_near)
       real(wp), intent(in) :: actual, expected, tolerance
       logical, intent(in), optional :: relative
-      logical :: close
+      logical :: is_near
       real(wp) :: allowed
 
-      close = .false.
+      is_near = .false.
       if (ieee_is_nan(actual) .or. ieee_is_nan(expected) .or. ieee_is_nan(tolerance)) return
-      close = actual == expected
-      if (close .or. .not. (ieee_is_finite(actual) .and. ieee_is_finite(expected))) return
+      is_near = actual == expected
+      if (is_near .or. .not. (ieee_is_finite(actual) .and. ieee_is_finite(expected))) return
       allowed = tolerance
       if (present(relative)) then
          if (relative) allowed = tolerance * abs(expected)
       end if
       ! Halves, so that the difference of two huge numbers does not overflow
-      close = abs(0.5_wp * actual - 0.5_wp * expected) <= 0.5_wp * allowed
+      is_near = abs(0.5_wp * actual - 0.5_wp * expected) <= 0.5_wp * allowed
    end function is_close
 
    !> Count one check and print it if it failed
@@ -218,8 +218,8 @@ contains
          return
       end if
       self%failed = self%failed + 1
-      write(output_unit, '(4a)') "FAILED ", suite_name(self), ": ", what
-      if (len(values) > 0) write(output_unit, '(2a)') "       ", values
+      write(output_unit, "(4a)") "FAILED ", suite_name(self), ": ", what
+      if (len(values) > 0) write(output_unit, "(2a)") "       ", values
       flush(output_unit)
    end subroutine count_check
 

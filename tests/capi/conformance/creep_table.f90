@@ -10,7 +10,7 @@ program creep_table
    use contact_base_kinds, only : wp
    use contact_test_harness, only : test_suite
    use omp_lib, only : omp_get_max_threads, omp_get_thread_num, omp_get_wtime, omp_set_num_threads
-   implicit none
+   implicit none (type, external)
    include "caddon_flags.inc"
    external :: cntc_initializefirst, cntc_initialize, cntc_setglobalflags, cntc_setflags, cntc_setfrictionmethod
    external :: cntc_setmaterialparameters, cntc_setreferencevelocity, cntc_setnormalforce, cntc_setcreepages

@@ -6,9 +6,9 @@
 !> 25.2.0 (win64, serial), as printed there; forces within 0.2 % of the largest component of the case,
 !> pressures within 0.5 %, numbers of elements within 2.
 program two_elements
-   use iso_c_binding, only : C_CHAR
+   use, intrinsic :: iso_c_binding, only : C_CHAR
    use contact_test_harness, only : test_suite
-   implicit none
+   implicit none (type, external)
 #include "caddon_flags.inc"
 #include "contact_addon.ifc"
    integer, parameter :: icp = 2
@@ -19,7 +19,7 @@ program two_elements
    type(test_suite) :: suite
 
    call suite%start("two result elements of basic contact")
-   outdir = ' '
+   outdir = " "
    do ire = 1, 2
       ierror = 0
       call cntc_initialize(ire=ire, imodul=3, ifcver=ifcver, ierror=ierror, c_outdir=outdir, len_outdir=1)

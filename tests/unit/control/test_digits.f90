@@ -166,7 +166,7 @@ contains
       call suite%check(status == 0, "doc/user/" // page // " is there")
       if (status /= 0) return
       do
-         read(unit, '(a)', iostat=status) line
+         read(unit, "(a)", iostat=status) line
          if (status /= 0) exit
          do k = 1, size(digit_table)
             if (.not. wanted(k)) cycle

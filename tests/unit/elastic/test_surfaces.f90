@@ -274,7 +274,7 @@ contains
                model%inclination%uniform = method == 0
                alpha = model%inclination%angle([(first + (i - 1)*dy, i = 1, my)])
                do direction = -1, 1, 2
-                  write(name, '(a, i0, a, i0)') "conformal, variant ", variant, ", method ", method
+                  write(name, "(a, i0, a, i0)") "conformal, variant ", variant, ", method ", method
                   call new_compliance(model, operator)
                   call operator%prepare(model, dx, dy, mx, my, direction, first)
                   call suite%check(operator%has_table() .eqv. (method == 0 .and. variant == 4), name // ": one table for all")

@@ -47,7 +47,7 @@ contains
                call build_grid(spec, hertz, grid, error)
                call suite%check(.not. allocated(error), "grid")
                frame = frame_of(spec)
-               write(what, '(a, i0, 2(a, i0), a, f5.1)') "IPOTCN = ", option, ", ", spec%mx, " x ", spec%my, &
+               write(what, "(a, i0, 2(a, i0), a, f5.1)") "IPOTCN = ", option, ", ", spec%mx, " x ", spec%my, &
                   & ", SCALE = ", spec%scale
                call suite%equal(frame%mx, grid%mx, trim(what) // ": MX")
                call suite%equal(frame%my, grid%my, trim(what) // ": MY")

@@ -858,7 +858,7 @@ contains
       text = ""
       fences = 0
       do while (fences < 2)
-         read(unit, '(a)', iostat=status) line
+         read(unit, "(a)", iostat=status) line
          if (status /= 0) exit
          if (line(1:3) == "```") then
             fences = fences + 1
@@ -886,7 +886,7 @@ contains
 
       text = ""
       do k = 1, 101
-         write(number, '(i0)') k
+         write(number, "(i0)") k
          text = text // "3 " // trim(number) // nl // new_case("")
       end do
       call reader%open_text(text // "0", "test")

@@ -67,7 +67,7 @@ contains
             pn = pressure_of(pressure_model%kpec, grid, gap)
             force(i) = sum(pn)*grid%dx*grid%dy
          end do
-         write(what, '(A,I0,A,ES9.2,A)') "KPEC without jumps, series ", series, ": largest step", &
+         write(what, "(A,I0,A,ES9.2,A)") "KPEC without jumps, series ", series, ": largest step", &
             & maxval(abs(force(1:) - force(:n - 1)))/force(0), " of FN"
          call suite%check(maxval(abs(force(1:) - force(:n - 1))) < 1.0e-3_wp*force(0), trim(what))
       end do
@@ -227,7 +227,7 @@ contains
                area = pi*hertz%aa*hertz%bb
                worst = max(worst, abs([sum(pn)*grid%dx*grid%dy/hertz%fn, count(pn > 0.0_wp)*grid%dx*grid%dy/area, &
                   & maxval(pn)/(1.5_wp*hertz%fn/area)] - 1.0_wp))
-               write(what, '(2a, f6.2, a, i4)') trim(name_of(m)), ", curvature ratio", ratios(k), ", grid of", sizes(j)
+               write(what, "(2a, f6.2, a, i4)") trim(name_of(m)), ", curvature ratio", ratios(k), ", grid of", sizes(j)
                tolerance = 0.5_wp/real(sizes(j), wp)
                call suite%close_to(sum(pn)*grid%dx*grid%dy, hertz%fn, tolerance, what // ": force", relative=.true.)
                call suite%close_to(maxval(abs(pn - exact), exact > 0.4_wp*maxval(exact))/maxval(exact), 0.0_wp, tolerance, &
@@ -235,7 +235,7 @@ contains
                call suite%check(all(abs(pn - pn(grid%mx:1:-1, :)) <= 1.0e-9_wp*maxval(pn)), what // ": symmetric along x")
                deallocate(exact)
             end do
-            print '(2a,i4,a,3f8.4)', trim(name_of(m)), ", grid of", sizes(j), &
+            print "(2a,i4,a,3f8.4)", trim(name_of(m)), ", grid of", sizes(j), &
                & ": largest relative error of force, area, highest pressure", worst
          end do
       end do
@@ -255,7 +255,7 @@ contains
             grid = window(24, 25, 6.0_wp, 6.0_wp)
             pn = pressure_of(methods(m), grid, quadratic_gap(grid, 2.5e-3_wp, ratios(j)*2.5e-3_wp, 0.03_wp))
             do k = 1, size(factors)
-               write(what, '(2a, f6.2, a, es8.1)') trim(name_of(m)), ", curvature ratio", ratios(j), ", lengths times", factors(k)
+               write(what, "(2a, f6.2, a, es8.1)") trim(name_of(m)), ", curvature ratio", ratios(j), ", lengths times", factors(k)
                grid = window(24, 25, 6.0_wp*factors(k), 6.0_wp*factors(k))
                other = pressure_of(methods(m), grid, quadratic_gap(grid, 2.5e-3_wp/factors(k), ratios(j)*2.5e-3_wp/factors(k), &
                   & 0.03_wp*factors(k)))

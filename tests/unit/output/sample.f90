@@ -104,14 +104,14 @@ contains
       open(newunit=unit, file=name, status="old", action="read")
       count = 0
       do
-         read(unit, '(a)', iostat=status) buffer
+         read(unit, "(a)", iostat=status) buffer
          if (status /= 0) exit
          count = count + 1
       end do
       rewind(unit)
       allocate(lines(count))
       do i = 1, count
-         read(unit, '(a)', advance="no", size=length, iostat=status) buffer
+         read(unit, "(a)", advance="no", size=length, iostat=status) buffer
          lines(i)%text = buffer(1:length)
       end do
       close(unit)

@@ -97,7 +97,7 @@ contains
       do i = 1, 4000
          number = 10.0_wp**(-30.0_wp + 0.0151_wp*real(i, wp))*(1.0_wp + 0.37_wp*sin(real(i, wp)))
          if (mod(i, 2) == 0) number = -number
-         write(expected, '(g12.4, g11.3, g14.6, es12.3)') number, number, number, number
+         write(expected, "(g12.4, g11.3, g14.6, es12.3)") number, number, number, number
          if (expected(1:49) /= general(number, 12, 4) // general(number, 11, 3) // general(number, 14, 6) &
             & // scientific(number, 12, 3)) different = different + 1
       end do

@@ -64,7 +64,7 @@ contains
          do motion = 0, 3
             do force = 0, merge(2, 0, motion > 0)
                do normal = 0, 1
-                  write(label, '(a, 4i2)') "O, T, F, N =", level, motion, force, normal
+                  write(label, "(a, 4i2)") "O, T, F, N =", level, motion, force, normal
                   call fill_sample(spec, result, 12, 10)
                   spec%output_level = level
                   spec%motion = motion

@@ -122,6 +122,6 @@ contains
       character(len=*), intent(in) :: what
       real(wp), intent(in) :: difference(:)
 
-      print '(2a, es10.2)', what, ": ", maxval(abs(difference))
+      print "(2a, es10.2)", what, ": ", maxval(abs(difference))
    end subroutine report
 end program test_own_profiles

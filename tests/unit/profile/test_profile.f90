@@ -370,7 +370,7 @@ contains
                z = 0.002_wp*y**2 + max(0.0_wp, abs(y) - 25.0_wp)*4.0_wp
                if (i == 5) y = y + moved(1, k)
                if (i == 5) z = z + moved(2, k)
-               write(row, '(2F20.10)') y, z
+               write(row, "(2F20.10)") y, z
                text = text // row // nl
             end do
             call write_file(request%file, text)

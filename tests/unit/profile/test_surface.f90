@@ -40,7 +40,7 @@ contains
       character(len=:), allocatable :: text
       character(len=26) :: buffer
 
-      write(buffer, '(es24.16)') value
+      write(buffer, "(es24.16)") value
       text = trim(adjustl(buffer))
    end function number
 
@@ -76,10 +76,10 @@ contains
       integer :: i
 
       text = "% test" // nl // "0.0 1.0 U_OFFSET U_SCALE" // nl
-      write(k, '(i0)') n
+      write(k, "(i0)") n
       text = text // trim(k) // " NSLC" // nl // head // nl
       do i = 1, n
-         write(k, '(i0)') i
+         write(k, "(i0)") i
          text = text // number(step*(i - 1)) // " 'slice" // trim(k) // ".txt'" // nl
       end do
       text = text // features
@@ -112,7 +112,7 @@ contains
       integer :: i
 
       do i = 1, 6
-         write(k, '(i0)') i
+         write(k, "(i0)") i
          call write_slice("slice" // k // ".txt", 0.0_wp, 0.0_wp)
       end do
       call write_file("test.slcs", slices_text(6, 10.0_wp, "0 0 0" // nl // "1", ""))
@@ -148,7 +148,7 @@ contains
       integer :: i
 
       do i = 1, 7
-         write(k, '(i0)') i
+         write(k, "(i0)") i
          u = 10.0_wp*(i - 1)
          call write_slice("slice" // k // ".txt", 0.1_wp*u, 1.0e-5_wp*u**3 - 0.02_wp*u)
       end do
@@ -179,7 +179,7 @@ contains
       do level = 1, 2
          n = 10*2**level + 1
          do i = 1, n
-            write(k, '(i0)') i
+            write(k, "(i0)") i
             u = 100.0_wp*(i - 1)/(n - 1)
             call write_slice("slice" // trim(k) // ".txt", 0.0_wp, 0.1_wp*sin(u/15.0_wp))
          end do
@@ -205,7 +205,7 @@ contains
       integer :: i
 
       do i = 1, 9
-         write(k, '(i0)') i
+         write(k, "(i0)") i
          call write_slice("slice" // k // ".txt", 0.0_wp, 0.5_wp*i)
       end do
       call write_file("test.slcs", slices_text(9, 10.0_wp, "0 0 0" // nl // "2", ""))
@@ -216,7 +216,7 @@ contains
          call suite%close_to(section%curve%height(0.0_wp), 0.5_wp + 0.25_wp*i, 1.0e-9_wp, "a straight rise stays")
       end do
       do i = 1, 9
-         write(k, '(i0)') i
+         write(k, "(i0)") i
          call write_slice("slice" // k // ".txt", 0.0_wp, merge(-0.6_wp, 0.0_wp, i == 5))
       end do
       call load(suite, profile, "hump")
@@ -238,7 +238,7 @@ contains
 
       features = ""
       do i = 1, 10
-         write(k, '(i0)') i
+         write(k, "(i0)") i
          if (i <= 5) then
             call write_slice("slice" // trim(k) // ".txt", 0.0_wp, 0.0_wp, first=0.0_wp)
             features = features // number(10.0_wp*(i - 1)) // " -1 0. 999." // nl
@@ -275,7 +275,7 @@ contains
          text = text // number(-0.05_wp*j) // " " // number(0.005_wp*abs(j)) // nl
       end do
       do i = 1, 5
-         write(k, '(i0)') i
+         write(k, "(i0)") i
          call write_file("slice" // k // ".txt", text)
       end do
       call write_file("test.slcs", slices_text(5, 0.1_wp, "0 0 0" // nl // "2", ""))
@@ -298,7 +298,7 @@ contains
       integer :: i, j
 
       do i = 1, 5
-         write(k, '(i0)') i
+         write(k, "(i0)") i
          text = ""
          do j = -100, 100
             text = text // number(-0.2_wp*j) // " " // number(0.01_wp*j + 0.1_wp*merge(1, 0, i == 3)) // nl
@@ -346,7 +346,7 @@ contains
       integer :: i
 
       do i = 1, 6
-         write(k, '(i0)') i
+         write(k, "(i0)") i
          call write_slice("slice" // k // ".txt", 0.0_wp, 0.0_wp)
       end do
       call refused(suite, "", "U_OFFSET", 1, "an empty slices file")
@@ -363,7 +363,7 @@ contains
       call refused(suite, slices_text(6, 1.0_wp, "2 0 0" // nl // "1", "1 0 9"), "position 1", 12, "features of another slice")
       text = ""
       do i = 1, 6
-         write(k, '(i0)') i - 1
+         write(k, "(i0)") i - 1
          text = text // k // merge("  0. 20. 99. ", " -1  20. 99. ", i < 3) // nl
       end do
       call refused(suite, slices_text(6, 1.0_wp, "3 0 0" // nl // "1", text), "one after the other", 6, "a part in two slices")

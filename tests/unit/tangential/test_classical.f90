@@ -116,12 +116,12 @@ contains
       call solve_classical(problem, operator, method, solution, report, log)
       f = 0.0_wp
       if (sum(problem%bound) > 0.0_wp) f = force(problem, solution)
-      print '(a, a24, 1x, a9, i5, i6, f8.0, es10.2, 2f10.6, i6, 2es14.6, i3)', "  ", what, method_name(method), report%iterations, &
+      print "(a, a24, 1x, a9, i5, i6, f8.0, es10.2, 2f10.6, i6, 2es14.6, i3)", "  ", what, method_name(method), report%iterations, &
          & report%products, report%fft_pairs, report%residual, f, count(solution%division == element%adhesion), &
          & solution%creep, report%ended
       call suite%check(all(hypot(solution%p(:, :, 1), solution%p(:, :, 2)) <= problem%bound*(1.0_wp + 1e-12_wp)), &
          & what // ", " // method_name(method) // ": admissible")
-      if (report%gave_up /= "") print '(6x, 2a)', "gave up: ", trim(report%gave_up)
+      if (report%gave_up /= "") print "(6x, 2a)", "gave up: ", trim(report%gave_up)
    end subroutine solve
 
    !> Conditions of one element, by definition
@@ -178,7 +178,7 @@ contains
          call solve(problem, operator, rolling(k), solution, report, "fastsim 44x44")
          f = force(problem, solution)
          call suite%check(report%succeeded(), "fastsim: " // method_name(rolling(k)) // " converges")
-         print '(a, f10.6, i5)', '   Fy/(mu Fn) = ', f(2)*sum(problem%bound)*problem%dx*problem%dy/(mu*fn), &
+         print "(a, f10.6, i5)", "   Fy/(mu Fn) = ", f(2)*sum(problem%bound)*problem%dx*problem%dy/(mu*fn), &
             & count(solution%division == element%adhesion)
          call suite%close_to(f(2)*sum(problem%bound)*problem%dx*problem%dy/(mu*fn), -0.60992_wp, 1.0e-4_wp, &
             & "fastsim: Fy by " // method_name(rolling(k)))
@@ -202,7 +202,7 @@ contains
       do i = 1, 5
          call ellipse(20, cases(:, i), 1, .true., problem, operator, 1.02_wp)
          problem%eps = 1.0e-7_wp
-         write(what, '(a, i0)') "creepages ", i
+         write(what, "(a, i0)") "creepages ", i
          call solve(problem, operator, classical_method%steady_gs, reference, report, what)
          call suite%check(report%ended == ending%converged, "SteadyGS converges, " // what)
          call suite%check(report%residual < 1.0e-5_wp, "SteadyGS solves, " // what)
@@ -224,7 +224,7 @@ contains
       call fill_shifted_table(shifted, combined_material(82000.0_wp, 0.28_wp, 0.0_wp), problem%dx, problem%dy, &
          & problem%mx + 1, problem%my, problem%dx*0.9_wp, 0.4_wp*problem%dx)
       call solve_classical(problem, operator, classical_method%convex_gs, solution, report, log, shifted)
-      print '(a, i5, es10.2)', '   oblique', report%iterations, report%residual
+      print "(a, i5, es10.2)", "   oblique", report%iterations, report%residual
       call suite%check(report%ended == ending%converged .and. report%residual < 1.0e-4_wp, "ConvexGS, oblique direction")
       call operator%release()
    end subroutine steady_solvers_agree
@@ -243,7 +243,7 @@ contains
          call ellipse(24, cases(:, i), 1, .false., problem, operator, 1.02_wp)
          problem%eps = 1.0e-7_wp
          problem%omegah = 1.0_wp
-         write(what, '(a, i0)') "shift ", i
+         write(what, "(a, i0)") "shift ", i
          call solve(problem, operator, classical_method%convex_gs, reference, report, what)
          call suite%check(report%succeeded() .and. report%residual < 1.0e-5_wp, "ConvexGS solves, " // what)
          call solve(problem, operator, classical_method%tang_cg, solution, report, what)
@@ -271,7 +271,7 @@ contains
          do k = 1, 4
             steady = k /= classical_method%tang_cg
             call ellipse(n, [4e-4_wp, 2e-4_wp, 1e-4_wp], 1, steady, problem, operator, 1.0_wp, m)
-            write(what, '(i0, a, i0)') n, " x ", m
+            write(what, "(i0, a, i0)") n, " x ", m
             call solve(problem, operator, k, solution, report, trim(what))
             call suite%check(report%succeeded() .and. report%residual < 1.0e-4_wp, method_name(k) // " solves " // trim(what))
          end do
@@ -337,7 +337,7 @@ contains
                problem%eps = 1.0e-5_wp
                problem%target = targets(:, i)*sum(problem%bound)
                if (n == 1) problem%target(2) = 0.0_wp
-               write(what, '(a, i0, a, i0)') "force ", i, ", F=", n
+               write(what, "(a, i0, a, i0)") "force ", i, ", F=", n
                call solve(problem, operator, rolling(k), solution, report, trim(what))
                f = force(problem, solution)
                call suite%check(report%succeeded(), method_name(rolling(k)) // " converges, " // trim(what))
@@ -371,7 +371,7 @@ contains
                problem%eps = 1.0e-5_wp
                problem%target = targets(:, i)*sum(problem%bound)
                if (n == 1) problem%target(2) = 0.0_wp
-               write(what, '(a, i0, a, i0)') "shift force ", i, ", F=", n
+               write(what, "(a, i0, a, i0)") "shift force ", i, ", F=", n
                call solve(problem, operator, methods(k), solution, report, trim(what))
                f = force(problem, solution)
                call suite%check(report%succeeded(), method_name(methods(k)) // " converges, " // trim(what))

@@ -120,7 +120,7 @@ contains
             right = right .and. point%plastic <= norm2(d)*(1.0_wp + 1.0e-10_wp)
          end if
       end do
-      print '(a, 3i6)', "  adhering, slipping, yielding elements:", states
+      print "(a, 3i6)", "  adhering, slipping, yielding elements:", states
       call suite%check(worst < 1.0e-10_wp, "element problems: hardening and softening laws")
       call suite%check(worst_direction < 1.0e-10_wp, "element problems: plastic displacement along the traction")
       call suite%check(right, "element problems: bounds")
@@ -158,7 +158,7 @@ contains
          do k = 1, size(slopes)
             do forces = 0, 2
                if (forces > 0 .and. kind == 2) cycle
-               write(what, '(a, es9.1, a, i1)') trim(merge("shift ", merge("chi=0 ", "chi=pi", kind == 2), kind == 1)) &
+               write(what, "(a, es9.1, a, i1)") trim(merge("shift ", merge("chi=0 ", "chi=pi", kind == 2), kind == 1)) &
                   & // ", slope", slopes(k), ", F=", forces
                call ellipse(20, kind > 1, merge(-1, 1, kind == 3), problem, operator)
                call make_yield(problem, 120.0_wp, slopes(k))
@@ -312,7 +312,7 @@ contains
 
       total = [sum(change(:, :, 1)), sum(change(:, :, 2))]
       expected = [sum(ahead%p(:, :, 1) - here%p(:, :, 1)), sum(ahead%p(:, :, 2) - here%p(:, :, 2))]/h
-      print '(6x, 2a, 4es14.6)', "derivative ", what, total, expected
+      print "(6x, 2a, 4es14.6)", "derivative ", what, total, expected
       call suite%check(norm2(total - expected) <= 1.0e-4_wp*norm2(expected), "derivative of the force " // what)
    end subroutine differ
 
@@ -434,7 +434,7 @@ contains
          call solve_classical(problem, operator, method, solution, report, log)
       end if
       call system_clock(finish)
-      print '(2x, a32, 1x, a14, i5, i6, f8.3, es9.1, 2f10.6, 3i5, 2es13.5)', what, report%method, report%iterations, &
+      print "(2x, a32, 1x, a14, i5, i6, f8.3, es9.1, 2f10.6, 3i5, 2es13.5)", what, report%method, report%iterations, &
          & report%products, real(finish - start, wp)/rate, report%residual, sum(solution%p(:, :, 1))/sum(problem%bound), &
          & sum(solution%p(:, :, 2))/sum(problem%bound), count(solution%division == element%adhesion), &
          & count(solution%division == element%slip), count(solution%division == element%plastic), solution%creep
@@ -450,7 +450,7 @@ contains
       dp = maxval(abs(one%p - other%p))/maxval(abs(one%p))
       du = maxval(abs(one%plastic - other%plastic))/max(maxval(abs(one%plastic)), tiny(du))
       dt = maxval(abs(one%limit - other%limit))/maxval(one%limit)
-      print '(6x, a, 3es10.2)', "differences:", dp, du, dt
+      print "(6x, a, 3es10.2)", "differences:", dp, du, dt
       call suite%check(max(dp, dt) < 2.0e-5_wp .and. du < 1.0e-3_wp, what // ": the same solution")
    end subroutine compare
 

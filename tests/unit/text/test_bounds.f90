@@ -111,7 +111,7 @@ contains
          expected(k) = manual_row(bounds_table(k))
       end do
       do
-         read(unit, '(a)', iostat=status) line
+         read(unit, "(a)", iostat=status) line
          if (status /= 0) exit
          do k = 1, size(bounds_table)
             if (line == expected(k)) seen(k) = .true.

@@ -95,7 +95,7 @@ contains
 
       call search(shape, target, guess, with_slope, most, .false., balance)
       call force_at(shape, balance%z - 0.7_wp, force, slope)
-      write(what, '(a,i0,a,es9.2,a,i0,a,i0)') "shape ", shape, ", force ", target, ": trials ", balance%trials, ", ended ", &
+      write(what, "(a,i0,a,es9.2,a,i0,a,i0)") "shape ", shape, ", force ", target, ": trials ", balance%trials, ", ended ", &
          & balance%ended
       if (shape == jump_up .and. target > 1.0e5_wp*0.1_wp**1.5_wp .and. target < 1.0e5_wp*0.1_wp**1.5_wp + 1.0e3_wp) then
          call suite%check(balance%ended == balance_ending%jump, trim(what) // ", inside the jump")

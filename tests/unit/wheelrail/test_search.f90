@@ -269,7 +269,7 @@ contains
       pair%search%dx = 0.2_wp
       pair%search%ds = 0.2_wp
       do k = 1, size(cases, 2)
-         write(what, '(a,f5.1)') "y =", cases(1, k)
+         write(what, "(a,f5.1)") "y =", cases(1, k)
          pair%wheelset%y = cases(1, k)
          pair%wheelset%roll = cases(2, k)
          pair%wheelset%yaw = cases(3, k)

@@ -49,10 +49,10 @@ contains
       character(len=30) :: number
       integer :: i
 
-      write(number, '(i0)') n
+      write(number, "(i0)") n
       text = "0 1 U_OFFSET" // nl // trim(number) // nl // "0 0 0" // nl // "1" // nl
       do i = 1, n
-         write(number, '(f20.12)') first + (i - 1)*step
+         write(number, "(f20.12)") first + (i - 1)*step
          text = text // number // " '" // file // "'" // nl
       end do
    end function same_slices
@@ -203,7 +203,7 @@ contains
 
       text = "0 1" // nl // "5" // nl // "0 0 0" // nl // "1" // nl
       do i = 1, 5
-         write(k, '(i0)') i
+         write(k, "(i0)") i
          text = text // "  " // trim(number(100.0_wp*(i - 3))) // " 'plane" // k // ".txt'" // nl
          call write_file("plane" // k // ".txt", plane_table(-10.0_wp*(i - 3)))
       end do
@@ -242,7 +242,7 @@ contains
       real(wp), intent(in) :: value
       character(len=24) :: text
 
-      write(text, '(f18.10)') value
+      write(text, "(f18.10)") value
    end function number
 
    !> A flat profile at a height, 80 mm wide
@@ -310,7 +310,7 @@ contains
 
       text = "0 1" // nl // "41" // nl // "0 0 0" // nl // "1" // nl
       do i = 1, 41
-         write(k, '(i0)') i
+         write(k, "(i0)") i
          theta = 0.01_wp*(i - 21)
          call write_file(name // trim(k) // ".txt", straight(-depth*exp(-(theta/width)**2)))
          text = text // number(theta) // " '" // name // trim(k) // ".txt'" // nl
@@ -466,7 +466,7 @@ contains
 
       text = "0 1" // nl // "31" // nl // "0 0 0" // nl // "1" // nl
       do i = 1, 31
-         write(k, '(i0)') i
+         write(k, "(i0)") i
          u = 10.0_wp*(i - 16)
          points = ""
          do j = -40, 40
@@ -614,7 +614,7 @@ contains
 
       text = "0 1" // nl // "21" // nl // "0 0 0" // nl // "1" // nl
       do i = 1, 21
-         write(k, '(i0)') i
+         write(k, "(i0)") i
          u = 10.0_wp*(i - 11)
          points = ""
          do j = -60, 60
@@ -680,16 +680,16 @@ contains
       bodies%wheel = round%curve
       call place_bodies(bodies, s_ws, 0.0_wp, pair%search%dx, nose%surface, round%surface)
       call cpu_time(end)
-      print '(2a, f8.3, a)', name, ": sections in", end - start, " s"
+      print "(2a, f8.3, a)", name, ": sections in", end - start, " s"
       call measure_variable_gap(bodies, pair%search%ds, .true., gap)
       call cpu_time(start)
-      print '(2a, f8.3, a)', name, ": gap in", start - end, " s"
+      print "(2a, f8.3, a)", name, ": gap in", start - end, " s"
       call find_regions(gap, 0.0_wp, pair%search, 2, regions, misses)
       call suite%check(size(regions) > 0, name // ": contact is found")
       if (size(regions) == 0) return
       z = 0.0_wp
       call find_rail(bodies, track, regions(1)%x, regions(1)%y, z, found)
-      print '(a, i0, a, 4f12.4, a, 4f12.4)', "  patches ", size(regions), ", first", regions(1)%x, regions(1)%y, z, &
+      print "(a, i0, a, 4f12.4, a, 4f12.4)", "  patches ", size(regions), ", first", regions(1)%x, regions(1)%y, z, &
          & regions(1)%alpha, ", published", expected
       call suite%close_to([regions(1)%x, regions(1)%y, z], expected(:3), 1.0e-3_wp, name // ": place of the contact reference")
       ! where wheel and rail touch they have the same tangent; the published angles of the second and the fourth of these
