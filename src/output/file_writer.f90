@@ -1,0 +1,134 @@
+!> The archive that writes a case as an input file
+module contact_output_file_writer
+   use contact_base_kinds, only : wp
+   use contact_cases_archive, only : case_archive, item_kind
+   use contact_cases_spec, only : case_digits
+   use contact_text_words, only : integer_text
+   implicit none (type, external)
+   private
+
+   public :: file_writer, put_words
+
+   !> Sixteen figures tell numbers apart
+   integer, parameter :: width = 24
+   !> Longest list that is written on one line, and numbers per line of longer ones
+   integer, parameter :: short_list = 8, per_line = 4
+
+   !> Writes the numbers of each line, and their names as a comment
+   type, extends(case_archive) :: file_writer
+      !> Fortran unit
+      integer :: unit = 0
+      !> What is said behind the names of the next lines
+      character(len=:), allocatable :: remark
+   contains
+      procedure :: end_line => write_line
+      procedure :: list => write_list
+   end type file_writer
+
+contains
+
+   !> Write the items in hand
+   subroutine write_line(self)
+      class(file_writer), intent(inout) :: self
+      character(len=:), allocatable :: values, names
+      integer :: k
+
+      values = ""
+      names = ""
+      do k = 1, self%line%count
+         associate (item => self%line%items(k))
+            if (k > 1) values = values // " "
+            select case (item%kind)
+            case (item_kind%integer, item_kind%branch)
+               values = values // integer_text(item%i)
+            case (item_kind%text)
+               values = values // "'" // item%s%value // "'"
+            case default
+               values = values // numbers([item%r])
+            end select
+            names = names // " " // trim(item%name)
+         end associate
+      end do
+      if (allocated(self%remark)) names = names // self%remark
+      call put_line(self%unit, values, names(2:))
+      call self%finish_line()
+   end subroutine write_line
+
+   !> Write a list
+   subroutine write_list(self, name, values, n, units, bounds)
+      class(file_writer), intent(inout) :: self
+      character(len=*), intent(in) :: name
+      real(wp), allocatable, intent(inout) :: values(:)
+      integer, intent(in) :: n
+      !> Those of input files
+      character(len=*), intent(in), optional :: units(:)
+      character(len=*), intent(in), optional :: bounds
+      integer :: first, step
+
+      if (present(units) .or. present(bounds)) continue
+      step = merge(n, per_line, n <= short_list)
+      do first = 1, n, max(1, step)
+         call put_line(self%unit, numbers(values(first:min(n, first + step - 1))), name)
+      end do
+   end subroutine write_list
+
+   !> Values, then their names; a comment for readers in both senses
+   subroutine put_line(unit, values, names)
+      integer, intent(in) :: unit
+      character(len=*), intent(in) :: values, names
+      integer :: status
+
+      write(unit, '(A)', iostat=status) " " // values // "   % " // names
+   end subroutine put_line
+
+   !> Real numbers with all their figures, with blanks behind
+   pure function number_row(values) result(text)
+      real(wp), intent(in) :: values(:)
+      character(len=width*size(values)) :: text
+      character(len=width) :: word
+      integer :: k, last
+
+      text = ""
+      last = -1
+      do k = 1, size(values)
+         write(word, '(ES23.15E3)') values(k)
+         if (abs(values(k)) < 1.0e6_wp .and. abs(values(k)) >= 0.0_wp) then
+            if (abs(values(k) - anint(values(k))) <= 0.0_wp) write(word, '(F10.1)') values(k)
+         end if
+         text(last + 2:) = adjustl(word)
+         last = len_trim(text)
+      end do
+   end function number_row
+
+   !> The same without the blanks
+   pure function numbers(values) result(text)
+      real(wp), intent(in) :: values(:)
+      character(len=len_trim(number_row(values))) :: text
+
+      text = number_row(values)
+   end function numbers
+
+   !> The three control words
+   subroutine put_words(unit, digits, is_pair)
+      integer, intent(in) :: unit
+      type(case_digits), intent(in) :: digits
+      !> Is it a case of module 1, which has a digit more?
+      logical, intent(in) :: is_pair
+      character(len=7) :: word
+
+      associate (d => digits)
+         if (is_pair) then
+            write(word, '(7I1)') d%c1, d%p, d%b, d%t, d%n, d%f, d%s
+            call put_line(unit, word, "CPBTNFS")
+         else
+            write(word, '(6I1)') d%p, d%b, d%t, d%n, d%f, d%s
+            call put_line(unit, trim(word), "PBTNFS")
+         end if
+         write(word, '(7I1)') d%v, d%l, d%d, d%c, d%m, d%z, d%e
+         call put_line(unit, word // " " // integer_text(10*d%gapwgt + d%m2), "VLDCMZE, GAPWGT M2")
+         write(word, '(7I1)') d%h, d%g, d%i, d%a, d%o, d%w, d%r
+         call put_line(unit, word, "HGIAOWR")
+      end associate
+   end subroutine put_words
+
+end module contact_output_file_writer
