@@ -1,7 +1,7 @@
 """A source as FORD can read it: the preprocessor of doc/develop/ford.md.
 
-FORD 7.0 does not parse expressions with commas in the length of a character variable, does not find includes of libraries, and takes
-"word: text" in a comment for settings of its own.
+FORD 7.0 does not parse expressions with commas in the length of a character variable, does not find includes of libraries, and
+takes "word: text" in a comment for settings of its own.
 """
 import re
 import sys

@@ -104,7 +104,8 @@ class Complete(unittest.TestCase):
         code, _, _, remark = self.run_input(text_of(9, 10, 11, 12), "--resume")
         self.assertEqual((code, remark), (1, "not complete, 4 of 4 cases, files missing in 1"))
         with open(os.path.join(self.folder, "x.pvd")) as file:
-            self.assertEqual(re.findall("timestep=.([0-9]+)|of case ([0-9]+)", file.read()), [("1", ""), ("", "2"), ("3", ""), ("4", "")])
+            self.assertEqual(re.findall("timestep=.([0-9]+)|of case ([0-9]+)", file.read()),
+                             [("1", ""), ("", "2"), ("3", ""), ("4", "")])
 
     def test_without_other_files_the_report_tells_it(self):
         with open(os.path.join(self.folder, "y.inp"), "w") as file:

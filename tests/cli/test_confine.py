@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """A confined run: files below the folder of the experiment only, ordinary ones, and limits of what the run may take.
 
-The environment tells CONTACT_PROGRAM and CONTACT_SOURCE, and by INJECT_NO_OPENAT2 that the system has no openat2 (tests/faults/inject.c).
+The environment tells CONTACT_PROGRAM and CONTACT_SOURCE, and by INJECT_NO_OPENAT2 that the system has no openat2
+(tests/faults/inject.c).
 """
 import os
 import pathlib

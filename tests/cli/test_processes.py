@@ -326,7 +326,8 @@ class SmallStack(Scratch):
     def run_on(self, stack, *arguments):
         def limit():
             resource.setrlimit(resource.RLIMIT_STACK, (stack, stack))
-        return self.run_program("--quiet", *arguments, preexec_fn=limit, env=dict(os.environ, OMP_STACKSIZE="128k", OMP_NUM_THREADS="2"))
+        return self.run_program("--quiet", *arguments, preexec_fn=limit,
+                                env=dict(os.environ, OMP_STACKSIZE="128k", OMP_NUM_THREADS="2"))
 
     def test_large_cases(self):
         shutil.copytree(SOURCE / "examples" / "profiles", self.folder / "profiles")

@@ -128,8 +128,9 @@ class Campaign:
         self.kill_some(name, text)
 
     def kill_some(self, name, text):
-        """As by kill -9, with and without the HDF5 file: it holds the first cases, all those that were finished at its last renewal"""
-        for options, sample in ((("--json", "--vtk"), 40 if self.everything else 3), (runs.ALL_FILES, 20 if self.everything else 2)):
+        """As by kill -9, with and without the HDF5 file: it holds the cases that were finished at its last renewal"""
+        for options, sample in ((("--json", "--vtk"), 40 if self.everything else 3),
+                                (runs.ALL_FILES, 20 if self.everything else 2)):
             self.kill(name, text, options, sample)
 
     def kill(self, name, text, options, sample):
