@@ -11,7 +11,7 @@ import sys
 
 SOURCE = os.environ["CONTACT_SOURCE"]
 sys.path.insert(0, os.path.join(SOURCE, "src/capi"))
-import make_interface  # noqa: E402
+import make_interface
 
 KINDS = {"integer(c_int)": "int", "real(c_double)": "real", "character(kind=c_char)": "text"}
 failures = []

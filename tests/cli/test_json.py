@@ -13,7 +13,7 @@ import unittest
 PROGRAM = os.environ["CONTACT_PROGRAM"]
 SOURCE = os.environ["CONTACT_SOURCE"]
 sys.path.insert(0, os.path.join(SOURCE, "tests", "regression"))
-import out_file  # noqa: E402
+import out_file
 
 EMPTY = """3
 200100

@@ -25,7 +25,7 @@ except ImportError as reason:
 PROGRAM = os.environ["CONTACT_PROGRAM"]
 SOURCE = os.environ["CONTACT_SOURCE"]
 sys.path.insert(0, os.path.join(SOURCE, "python"))
-from contact.report import write_page  # noqa: E402
+from contact.report import write_page
 
 # Number of different colours on a canvas: a canvas that was not drawn has one
 COLOURS = """id => { const c = document.getElementById(id), p = c.getContext('2d')

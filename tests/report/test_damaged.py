@@ -22,7 +22,7 @@ except ImportError as reason:
 
 SOURCE = pathlib.Path(os.environ["CONTACT_SOURCE"])
 sys.path.insert(0, str(SOURCE / "python"))
-from contact.report.read import MissingResults, read_experiment  # noqa: E402
+from contact.report.read import MissingResults, read_experiment
 
 PATIENCE = 20
 

@@ -27,12 +27,12 @@ except ImportError as reason:
 PROGRAM = os.environ["CONTACT_PROGRAM"]
 SOURCE = os.environ["CONTACT_SOURCE"]
 sys.path.insert(0, os.path.join(SOURCE, "python"))
-from contact.report import (  # noqa: E402
+from contact.report import (
     MissingResults,
     read_experiment,
     server,
 )
-from contact.report.server import Server  # noqa: E402
+from contact.report.server import Server
 
 
 def make_results(folder, name):
