@@ -7,8 +7,12 @@ module contact_capi_pair_settings
    use contact_capi_messages, only : complain, count_fits, fits, say
    use contact_capi_problem, only : library_problem
    use contact_capi_registry, only : enter, leave, scope
+   use contact_capi_setter, only : new_setter, setter
+   use contact_cases_rail_inputs, only : visit_deviations, visit_dimensions, visit_flexibility, visit_position, visit_springs, &
+      & visit_velocity
    use contact_control_units, only : inward, quantity
    use contact_text_words, only : integer_text
+   use contact_wheelrail_spec, only : rail_spec, wheelset_spec
    implicit none (type, external)
    private
 
@@ -17,8 +21,6 @@ module contact_capi_pair_settings
 
    !> What is set together
    character(len=*), parameter :: track_group = "track", deviations_group = "deviations of the rail"
-   !> There is no tape line [mm]
-   real(wp), parameter :: no_tape = 1000.0_wp
 
 contains
 
@@ -140,20 +142,13 @@ contains
       type(entry_type), intent(in) :: this
       real(wp), intent(in) :: values(6)
       type(library_problem), intent(inout) :: problem
-      real(wp) :: v(6)
+      type(rail_spec) :: rail
+      type(setter) :: a
 
-      associate (rail => problem%spec%wheel_rail%rail, length => inward(problem%units, quantity%length), &
-         & velocity => inward(problem%units, quantity%velocity), angle => inward(problem%units, quantity%angle))
-         v = values*[length, length, angle, velocity, velocity, angle]
-         if (.not. fits(this, "DYRAIL DZRAIL DROLLR VYRAIL VZRAIL VROLLR", v)) return
-         rail%dy = v(1)
-         rail%dz = v(2)
-         rail%roll = v(3)
-         rail%vy = v(4)
-         rail%vz = v(5)
-         rail%vroll = v(6)
-      end associate
-      problem%spec%digits%z = 3
+      rail = problem%spec%wheel_rail%rail
+      a = new_setter(this, problem%units, values)
+      call visit_deviations(a, rail)
+      call take_rail(a, rail, problem)
    end subroutine set_deviations
 
    !> Springs and static forces of a massless rail
@@ -161,23 +156,25 @@ contains
       type(entry_type), intent(in) :: this
       real(wp), intent(in) :: values(:)
       type(library_problem), intent(inout) :: problem
-      real(wp) :: v(5)
+      type(rail_spec) :: rail
+      type(setter) :: a
 
-      v(5) = 1.0_wp
-      v(:size(values)) = values
-      associate (rail => problem%spec%wheel_rail%rail, stiffness => inward(problem%units, quantity%stiffness), &
-         & force => inward(problem%units, quantity%force))
-         v(:4) = v(:4)*[stiffness, force, stiffness, force]
-         if (size(values) >= 5) v(5) = v(5)*inward(problem%units, quantity%length)
-         if (.not. fits(this, "KYRAIL FYRAIL KZRAIL FZRAIL DYSTEP0", v)) return
-         rail%ky = v(1)
-         rail%fy = v(2)
-         rail%kz = v(3)
-         rail%fz = v(4)
-         rail%first_step = v(5)
-      end associate
-      problem%spec%digits%z = 3
+      rail = problem%spec%wheel_rail%rail
+      a = new_setter(this, problem%units, values)
+      call visit_springs(a, rail)
+      call take_rail(a, rail, problem)
    end subroutine set_springs
+
+   !> Store what was set for the rail
+   subroutine take_rail(a, rail, problem)
+      type(setter), intent(in) :: a
+      type(rail_spec), intent(in) :: rail
+      type(library_problem), intent(inout) :: problem
+
+      if (.not. a%is_good) return
+      problem%spec%wheel_rail%rail = rail
+      problem%spec%digits%z = 3
+   end subroutine take_rail
 
    !> Dimensions of the wheelset
    subroutine cntc_setwheelsetdimensions(ire, ewheel, nparam, params) bind(c, name="inside_cntc_setwheelsetdimensions")
@@ -207,17 +204,14 @@ contains
       integer, intent(in) :: method
       real(wp), intent(in) :: values(:)
       type(library_problem), intent(inout) :: problem
-      real(wp) :: v(4)
+      type(wheelset_spec) :: wheelset
+      type(setter) :: a
 
-      v(4) = no_tape
-      v(:size(values)) = values*inward(problem%units, quantity%length)
-      if (.not. fits(this, "FBDIST FBPOS NOMRADW YTAPE", v)) return
-      associate (wheelset => problem%spec%wheel_rail%wheelset)
-         wheelset%fbdist = v(1)
-         wheelset%fbpos = v(2)
-         wheelset%nomradw = v(3)
-         wheelset%ytape = v(4)
-      end associate
+      wheelset = problem%spec%wheel_rail%wheelset
+      a = new_setter(this, problem%units, values)
+      call visit_dimensions(a, wheelset)
+      if (.not. a%is_good) return
+      problem%spec%wheel_rail%wheelset = wheelset
       call note_dimensions(method, problem)
    end subroutine set_dimensions
 
@@ -241,26 +235,20 @@ contains
       real(c_double), intent(in), optional :: params(*)
       type(library_problem), pointer :: problem
       type(entry_type) :: this
+      type(wheelset_spec) :: wheelset
+      type(setter) :: a
       real(wp), allocatable :: v(:)
-      real(wp) :: length, angle
       integer :: method
 
       call begin("cntc_setWheelsetPosition", ire, ewheel, nparam, params, this, problem, method, v)
       if (.not. associated(problem)) return
       if (takes_values(this, method, size(v), 6, 6)) then
-         length = inward(problem%units, quantity%length)
-         angle = inward(problem%units, quantity%angle)
-         v = v*[length, length, length, angle, angle, angle]
-         if (fits(this, "S_WS Y_WS Z_WS ROLL YAW PITCH", v)) then
-            associate (wheelset => problem%spec%wheel_rail%wheelset)
-               wheelset%s = v(1)
-               wheelset%x = 0.0_wp
-               wheelset%y = v(2)
-               wheelset%z = v(3)
-               wheelset%roll = v(4)
-               wheelset%yaw = v(5)
-               wheelset%pitch = v(6)
-            end associate
+         wheelset = problem%spec%wheel_rail%wheelset
+         a = new_setter(this, problem%units, v)
+         ! on rollers as well; which place the first value is will be seen when the case is solved
+         call visit_position(a, wheelset, roller=.false., with_force=.false.)
+         if (a%is_good) then
+            problem%spec%wheel_rail%wheelset = wheelset
             problem%spec%digits%e = max(1, problem%spec%digits%e)
          end if
       end if
@@ -288,29 +276,23 @@ contains
       real(c_double), intent(in), optional :: params(*)
       type(library_problem), pointer :: problem
       type(entry_type) :: this
+      type(wheelset_spec) :: wheelset
+      type(setter) :: a
       real(wp), allocatable :: v(:)
-      real(wp) :: velocity, angle
       integer :: method
       logical :: is_roller
 
       call begin("cntc_setWheelsetVelocity", ire, ewheel, nparam, params, this, problem, method, v)
       if (.not. associated(problem)) return
       if (takes_values(this, method, size(v), 6, 6)) then
-         velocity = inward(problem%units, quantity%velocity)
-         angle = inward(problem%units, quantity%angle)
+         wheelset = problem%spec%wheel_rail%wheelset
          is_roller = problem%spec%digits%c1 >= 4
-         v = v*[merge(angle, velocity, is_roller), velocity, velocity, angle, angle, angle]
-         if (fits(this, trim(merge("RPITCH", "VS    ", is_roller)) // " VY VZ VROLL VYAW VPITCH", v)) then
+         a = new_setter(this, problem%units, v)
+         call visit_velocity(a, wheelset, is_roller, with_force=.false.)
+         if (a%is_good) then
             if (method == 1) call say(1, this, "method 1 is taken for 2")
-            associate (wheelset => problem%spec%wheel_rail%wheelset)
-               wheelset%vs = merge(0.0_wp, v(1), is_roller)
-               if (is_roller) wheelset%rpitch = v(1)
-               wheelset%vy = v(2)
-               wheelset%vz = v(3)
-               wheelset%vroll = v(4)
-               wheelset%vyaw = v(5)
-               wheelset%vpitch = v(6)
-            end associate
+            if (is_roller) wheelset%vs = 0.0_wp
+            problem%spec%wheel_rail%wheelset = wheelset
             if (problem%spec%digits%e <= 1) problem%spec%digits%e = max(2, method)
          end if
       end if
@@ -323,8 +305,9 @@ contains
       real(c_double), intent(in), optional :: params(*)
       type(library_problem), pointer :: problem
       type(entry_type) :: this
+      type(wheelset_spec) :: wheelset
+      type(setter) :: a
       real(wp), allocatable :: v(:)
-      real(wp) :: length, velocity, angle
       integer :: method
       logical :: given
 
@@ -332,27 +315,19 @@ contains
       if (.not. associated(problem)) return
       given = method == 4 .or. method == 5
       if (takes_values(this, method, size(v), merge(12, 0, given), merge(12, 1, given))) then
-         associate (wheelset => problem%spec%wheel_rail%wheelset, e => problem%spec%digits%e)
-            if (.not. given) then
+         wheelset = problem%spec%wheel_rail%wheelset
+         associate (e => problem%spec%digits%e)
+            if (given) then
+               a = new_setter(this, problem%units, v)
+               call visit_flexibility(a, wheelset)
+               if (a%is_good) e = merge(5, 4, method == 5 .or. e == 3 .or. e == 5)
+            else
                wheelset%flexible = 0.0_wp
                wheelset%flexible_rate = 0.0_wp
                if (e >= 4) e = e - 2
-            else
-               length = inward(problem%units, quantity%length)
-               velocity = inward(problem%units, quantity%velocity)
-               angle = inward(problem%units, quantity%angle)
-               v = v*[length, length, length, angle, angle, angle, velocity, velocity, velocity, angle, angle, angle]
-               if (fits(this, "DXWHL DYWHL DZWHL DROLLW DYAWW DPITCHW VXWHL VYWHL VZWHL VROLLW VYAWW VPITCHW", v)) then
-                  wheelset%flexible = v(1:6)
-                  wheelset%flexible_rate = v(7:12)
-                  if (method == 5 .or. e == 3 .or. e == 5) then
-                     e = 5
-                  else
-                     e = 4
-                  end if
-               end if
             end if
          end associate
+         if (a%is_good) problem%spec%wheel_rail%wheelset = wheelset
       end if
       call leave(problem)
    end subroutine cntc_setwheelsetflexibility

@@ -64,8 +64,9 @@ module contact_cases_archive
       type(archive_line) :: line, last
       !> Do values come in?
       logical :: is_reading = .false.
-      !> Of two coefficients of Coulomb friction, does the smaller one count? Else the static one
-      logical :: smaller_friction = .false.
+      !> Do the rules of the published interface of the library hold? The smaller one of two coefficients of Coulomb friction
+      !> counts there, not the static one, and distances of patches are not compared
+      logical :: of_library = .false.
       !> Was everything good so far, so that going on makes sense?
       logical :: is_good = .true.
    contains

@@ -245,7 +245,7 @@ contains
          if (abs(set%fstat - set%fkin) > same_friction*abs(set%fstat)) call a%warn("FKIN", " differs from FSTAT; " // &
             & "Coulomb friction has one coefficient: in an input file " // trim(a%shown("FSTAT")) // &
             & ", by cntc_setFrictionMethod the smaller one")
-         if (a%smaller_friction) set%fstat = min(set%fstat, set%fkin)
+         if (a%of_library) set%fstat = min(set%fstat, set%fkin)
          set%fkin = set%fstat
       case (friction_model%linear, friction_model%rational, friction_model%exponential)
          call a%real("FKIN", set%fkin)

@@ -40,8 +40,8 @@ contains
       if (.not. a%is_reading) return
       search%a_sep = max(0.0_wp, search%a_sep)
       search%d_sep = max(0.0_wp, search%d_sep)
-      if (search%d_sep < search%d_comb) call a%refuse("D_SEP", " is smaller than " // trim(a%shown("D_COMB")) // &
-         & "; patches must combine before they separate")
+      if (search%d_sep < search%d_comb .and. .not. a%of_library) call a%refuse("D_SEP", " is smaller than " // &
+         & trim(a%shown("D_COMB")) // "; patches must combine before they separate")
       if (.not. a%was_given("D_TURN")) search%d_turn = 2.0_wp*search%d_sep - search%d_comb
    end subroutine visit_search
 

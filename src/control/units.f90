@@ -8,7 +8,7 @@ module contact_control_units
    implicit none (type, external)
    private
 
-   public :: unit_convention, convention_code, find_convention, quantity, quantity_type, orientation, inward, outward
+   public :: unit_convention, convention_code, find_convention, quantity, quantity_type, quantity_of, orientation, inward, outward
 
    type :: convention_code_list
       integer :: contact = 1934, simpack = 1935, si = 1936, imperial = 1937
@@ -89,6 +89,28 @@ contains
          known = .true.
       end do
    end subroutine find_convention
+
+   !> The quantity that has a unit of the table of bounds; a number for units that caller and program share
+   elemental type(quantity_type) function quantity_of(unit) result(what)
+      character(len=*), intent(in) :: unit
+
+      select case (unit)
+      case ("mm"); what = quantity%length
+      case ("1/mm"); what = quantity%curvature
+      case ("rad", "rad/s"); what = quantity%angle
+      case ("rad/mm"); what = quantity%spin
+      case ("mm/s"); what = quantity%velocity
+      case ("s/mm"); what = quantity%per_velocity
+      case ("N", "N/s"); what = quantity%force
+      case ("N/mm2"); what = quantity%pressure
+      case ("N/mm3"); what = quantity%pressure_slope
+      case ("N/mm"); what = quantity%stiffness
+      case ("mm3/N"); what = quantity%compliance
+      case ("W/(mm degC)"); what = quantity%conductivity
+      case ("kg/mm3"); what = quantity%density
+      case default; what = quantity%number
+      end select
+   end function quantity_of
 
    !> Factor from the units of a caller to internal ones
    elemental real(wp) function inward(units, what) result(factor)

@@ -143,6 +143,10 @@ module contact_text_bounds
       & -1.0e6_wp, 1.0e6_wp, .false., "a change of FREF"), &
       & number_bounds("DTHEAT", "degC", "range of temperatures of the change", &
       & 0.0_wp, 1.0e5_wp, .true., "the law would jump; far above what any material bears"), &
+      & number_bounds("POLACH_A", "-", "A of the law of Polach: friction at large slip over the static one", &
+      & 0.0_wp, 1.0_wp, .false., "a part of the static coefficient"), &
+      & number_bounds("POLACH_B", "s/mm", "B of the law of Polach: decay with slip velocity", &
+      & 0.0_wp, 1.0e10_wp, .false., "friction falls with slip"), &
       & number_bounds("NVF", "integer", "number of control points of friction", &
       & 1.0_wp, 10.0_wp, .false., "as many control points as the format has"), &
       & number_bounds("SVF", "mm", "position of a control point along the track", &
