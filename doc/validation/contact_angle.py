@@ -40,9 +40,8 @@ def run(program, path):
     shutil.copytree(os.path.dirname(os.path.dirname(path)), folder, dirs_exist_ok=True)
     here = os.path.join(folder, os.path.basename(os.path.dirname(path)))
     name = os.path.basename(path)
-    subprocess.run(
-        [os.path.abspath(program), "--contact-angle", "contact", "2", name], cwd=here, stdout=subprocess.DEVNULL, check=False
-    )
+    subprocess.run([os.path.abspath(program), "--contact-angle", "contact", "2", name], cwd=here, stdout=subprocess.DEVNULL,
+                   check=False)
     return os.path.join(here, name + ".out")
 
 

@@ -50,10 +50,8 @@ def main(folder):
     published = compare_out.read(os.path.join(folder, "examples/mbench_a22_varfric.ref_out"))[CASE]
     first, second = published[1], published[2]
     between = (first["YCP(TR)"] * second["FN"] + second["YCP(TR)"] * first["FN"]) / (first["FN"] + second["FN"])
-    gaps = [
-        pair.patch(first, published[0]["Z_WS"], None, between, 1e3),
-        pair.patch(second, published[0]["Z_WS"], None, 0.0, between),
-    ]
+    gaps = [pair.patch(first, published[0]["Z_WS"], None, between, 1e3),
+            pair.patch(second, published[0]["Z_WS"], None, 0.0, between)]
     cosines = [np.cos(first["DELTCP(TR)"]), np.cos(second["DELTCP(TR)"])]
     total = first["FN"] + second["FN"]
     print("published: FN %.1f and %.1f N, approach %.6f and %.6f mm, largest pressure %.1f and %.1f N/mm2" % tuple(

@@ -10,18 +10,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import cntc
-from ._element import (
-    Element,
-    Field,
-    Patch,
-    Stresses,
-    buried_ends,
-    fail_if,
-    read_patch,
-    read_stresses,
-    warn_of_border,
-    warn_of_few_elements,
-)
+from ._element import (Element, Field, Patch, Stresses, buried_ends, fail_if, read_patch, read_stresses, warn_of_border,
+                       warn_of_few_elements)
 from .errors import ContactWarning
 
 # Values of the flag own_angle

@@ -12,11 +12,9 @@ IDS = {"patch": "result element and contact patch or problem (default 1, 1)",
        "pair": "result element of a wheel-rail problem (default 1)"}
 IDEBUG = ("idebug", "1: tell error codes; 2: also remarks; 0: silent (default: that of cntc_initlibrary)")
 #: Functions of matlab/ that belong to no routine, by the title of the section of Contents.m where they stand first
-FURTHER = {
-    "Begin and end": ["cntc_buildmex", "cntc_initlibrary", "cntc_managelicense", "cntc_getmagicnumbers", "cntc_closelibrary"],
-    "Settings of both modules": ["cntc_setmaterialproperties"],
-    "Results": ["cntc_getcpresults"],
-}
+FURTHER = {"Begin and end": ["cntc_buildmex", "cntc_initlibrary", "cntc_managelicense", "cntc_getmagicnumbers",
+                             "cntc_closelibrary"], "Settings of both modules": ["cntc_setmaterialproperties"],
+           "Results": ["cntc_getcpresults"]}
 
 
 class Function:
@@ -79,9 +77,8 @@ class Function:
         name, places, lines = self.routine.name, {item: k for k, item in enumerate(self.given(), 1)}, []
 
         def default(argument, value, note=""):
-            lines.extend(
-                [f"   if (nargin<{places[argument]} || isempty({argument}))", f"      {argument} = {value};{note}", "   end"]
-            )
+            lines.extend([f"   if (nargin<{places[argument]} || isempty({argument}))", f"      {argument} = {value};{note}",
+                          "   end"])
 
         if self.kind == "element":
             default("ire", "1")
@@ -89,11 +86,8 @@ class Function:
             ids = ["ire"] if self.kind == "pair" else ["ire", "icp"]
             for item in ids:
                 lines += [f"   if (nargin<{places[item]})", f"      {item} = [];", "   end"]
-            lines.append(
-                "   ire = cntc_ids(ire);"
-                if self.kind == "pair"
-                else f"   [ire, icp] = cntc_ids(ire, icp, '{self.kind}', '{name}');"
-            )
+            lines.append("   ire = cntc_ids(ire);" if self.kind == "pair"
+                         else f"   [ire, icp] = cntc_ids(ire, icp, '{self.kind}', '{name}');")
         for argument, (value, shown) in self.defaults.items():
             default(outer(argument), value, f"   % {shown.replace('_', '.', 1)}" if value != shown else "")
         if self.idebug:

@@ -132,9 +132,8 @@ def shifted(field, kx, ky):
     my, mx = field.shape
     result = np.zeros_like(field)
     if abs(kx) < mx and abs(ky) < my:
-        result[max(0, -ky) : my - max(0, ky), max(0, -kx) : mx - max(0, kx)] = field[
-            max(0, ky) : my + min(0, ky), max(0, kx) : mx + min(0, kx)
-        ]
+        result[max(0, -ky) : my - max(0, ky), max(0, -kx) : mx - max(0, kx)] = field[max(0, ky) : my + min(0, ky), max(0, kx) : mx
+                                                                                     + min(0, kx)]
     return result
 
 
@@ -203,13 +202,8 @@ class ViscoelasticHalfSpaces(HalfSpaces):
             return body.table(name, ahead)
         # ends of panels: where the place crosses the side of an element, and steps of the decay
         step = abs(self.dx/length)
-        ends = np.concatenate(
-            [
-                np.arange(0, min(30, 2 * self.mx * step), step / 2),
-                np.linspace(0, 30, 31),
-                np.geomspace(0.1 * min(step, 1.0), 30, 40),
-            ]
-        )
+        ends = np.concatenate([np.arange(0, min(30, 2 * self.mx * step), step / 2), np.linspace(0, 30, 31),
+                               np.geomspace(0.1 * min(step, 1.0), 30, 40)])
         ends = np.unique(np.round(ends, 12))
         place, weight = np.polynomial.legendre.leggauss(4)
         total = 0.0

@@ -58,10 +58,8 @@ def roughen(rng, recipe):
     elif what == "noise":
         recipe.update(spacing=[0.2, rng.uniform(0.3, 0.8)], noise=10**rng.uniform(-3.3, -2.2))
     else:
-        bells = [
-            [rng.uniform(0, 3), rng.uniform(-8, 12), rng.uniform(6, 20)],
-            [rng.uniform(0, 2), rng.uniform(-38, -20), rng.uniform(4, 9)],
-        ]
+        bells = [[rng.uniform(0, 3), rng.uniform(-8, 12), rng.uniform(6, 20)],
+                 [rng.uniform(0, 2), rng.uniform(-38, -20), rng.uniform(4, 9)]]
         recipe.setdefault("wear", []).extend(bells)
     return what
 

@@ -193,12 +193,10 @@ def places(scene, case, placed, record, totals, patches, findings):
         return
     if not 1e-6 < touch[1] < placed.wheel.length - 1e-6:
         # an edge touches where no tangent plane is shared; the program has no patch there, or one that is cut off, and says so
-        if not (
-            "buried" in record or any("wheel profile" in patch.get("border", {}).get("reached", "") for patch in record["patches"])
-        ):
-            findings.append(
-                judge.finding("gap", "an end of the wheel's profile stands within the rail, and nothing is said", depth, 0.0)
-            )
+        if not ("buried" in record or any("wheel profile" in patch.get("border", {}).get("reached", "")
+                                          for patch in record["patches"])):
+            findings.append(judge.finding("gap", "an end of the wheel's profile stands within the rail, and nothing is said", depth,
+                                          0.0))
         return
     steep = max(abs(math.tan(patch["deltcp_tr"])) for patch in patches)
     slack = 2e-5 * (1.0 + min(steep, 20.0))  # of the sampled curves, vertically [mm]

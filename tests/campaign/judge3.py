@@ -149,12 +149,9 @@ def judge_border(k, f, record, findings):
     """Contact that the border of the window cuts off is told; where the gap does not change towards the border a body ends"""
     h, inside = f["h"], f["eldiv"] > 0
     cut = []
-    for side, (size, outer, inner) in {
-        "x low": (f["mx"], np.s_[:, 0], np.s_[:, 1]),
-        "x high": (f["mx"], np.s_[:, -1], np.s_[:, -2]),
-        "y low": (f["my"], np.s_[0], np.s_[1]),
-        "y high": (f["my"], np.s_[-1], np.s_[-2]),
-    }.items():
+    for side, (size, outer, inner) in {"x low": (f["mx"], np.s_[:, 0], np.s_[:, 1]),
+                                       "x high": (f["mx"], np.s_[:, -1], np.s_[:, -2]), "y low": (f["my"], np.s_[0], np.s_[1]),
+                                       "y high": (f["my"], np.s_[-1], np.s_[-2])}.items():
         if size >= 3 and (inside[outer] & (np.abs(h[outer] - h[inner]) > 1e-6*np.abs(h[outer]))).any():
             cut.append(side)
     told = record["patches"][0].get("border", {})
@@ -289,13 +286,8 @@ def judge_totals(scene, k, run, f, findings):
         if t.get(name) is not None and not plastic:
             power = (px*f["sx"] + py*f["sy"]).sum()*f.area*step/1000
             size = (np.hypot(px, py)*np.hypot(f["sx"], f["sy"])).sum()*f.area*step/1000
-            exceeds(
-                findings,
-                "totals",
-                f"{name} of case {k}: {t[name]:.7g}, fields {power:.7g}",
-                judge.relative(t[name] - power, size),
-                1e-6 + 20 * f["error"],
-            )
+            exceeds(findings, "totals", f"{name} of case {k}: {t[name]:.7g}, fields {power:.7g}",
+                    judge.relative(t[name] - power, size), 1e-6 + 20 * f["error"])
     if not is_converged(run.cases[k - 1]):
         return
     if case["N"]:
@@ -306,13 +298,8 @@ def judge_totals(scene, k, run, f, findings):
     wanted = {1: ("x",), 2: ("x", "y")}.get(case["F"], ())
     for name in wanted:
         got = t["f" + name]/(mu*t["fn"])
-        exceeds(
-            findings,
-            "force",
-            f"F{name} of case {k}: {case[name]:.7g} wanted",
-            abs(got - case[name]),
-            ALLOWANCE * scene["eps"] + 1e-8,
-        )
+        exceeds(findings, "force", f"F{name} of case {k}: {case[name]:.7g} wanted", abs(got - case[name]), ALLOWANCE * scene["eps"]
+                + 1e-8)
 
 
 def half_spaces(scene, f):
@@ -626,20 +613,14 @@ def judge_yield(scene, k, f, growth, limit_before, slip, findings):
     # relative to the yield limit; the solvers' tolerance is relative to the bound of friction
     tolerance = 10*scene["eps"]*max(1.0, (f["mu"]*f["pn"]).max()/tau) + 1e-9 + 20*f["error"]
     if (~plastic & inside).any():
-        exceeds(
-            findings,
-            "yield",
-            f"plastic flow of elements that do not yield, case {k}",
-            size[~plastic & inside].max() / scale,
-            tolerance,
-        )
+        exceeds(findings, "yield", f"plastic flow of elements that do not yield, case {k}", size[~plastic & inside].max() / scale,
+                tolerance)
     want = np.maximum(limit_before + slope*size, 0.1*tau)
     exceeds(findings, "yield", f"yield limit of case {k}", np.abs(want - f["taucrt"])[inside].max()/tau,
             tolerance + abs(slope)*scale/tau*tolerance)
     if plastic.any():
-        exceeds(
-            findings, "yield", f"traction of yielding elements, case {k}", np.abs(pt - f["taucrt"])[plastic].max() / tau, tolerance
-        )
+        exceeds(findings, "yield", f"traction of yielding elements, case {k}", np.abs(pt - f["taucrt"])[plastic].max() / tau,
+                tolerance)
         cross = np.abs(growth[0]*f["py"] - growth[1]*f["px"])[plastic].max()/(scale*tau)
         exceeds(findings, "yield", f"direction of plastic flow, case {k}", cross, 10*tolerance)
         along = (growth[0]*f["px"] + growth[1]*f["py"])[plastic].min()/(scale*tau)
@@ -752,13 +733,8 @@ def judge_temperature(scene, k, f, findings):
         return
     scale = max(rise.max(), abs(t1 - t2), 1e-6*abs(middle), 1e-12)
     for name in ("temp1", "temp2"):
-        exceeds(
-            findings,
-            "temperature",
-            f"{name} of case {k}",
-            np.abs(f[name] - middle - rise)[chosen].max() / scale,
-            1e-6 + 20 * f["error"],
-        )
+        exceeds(findings, "temperature", f"{name} of case {k}", np.abs(f[name] - middle - rise)[chosen].max() / scale, 1e-6
+                + 20 * f["error"])
 
 
 def judge_stress(scene, k, run, f, findings):
@@ -846,15 +822,8 @@ def judge_hertz(scene, k, run, f, findings):
     h = hz["A"]*f.x[np.newaxis, :]**2 + hz["B"]*f.y[:, np.newaxis]**2
     exceeds(findings, "hertz", f"undeformed distance of case {k}", judge.relative(f["h"] - h, h.max()), 1e-6 + 2*f["error"])
     elements = min(f["mx"], f["my"])/scale
-    if (
-        d["B"] == 0
-        and d["C"] in (2, 3)
-        and d["M"] != 1
-        and elements >= 6
-        and scale >= 1.05
-        and scene["maxout"] >= 1
-        and is_converged(run.cases[k - 1])
-    ):
+    if (d["B"] == 0 and d["C"] in (2, 3) and d["M"] != 1 and elements >= 6 and scale >= 1.05 and scene["maxout"] >= 1
+        and is_converged(run.cases[k - 1])):
         coupling = abs(elastic.combined(scene["g"], scene["nu"])[2])
         limit = 1.0/elements + coupling
         for name in ("pen", "fn", "pmax"):
@@ -1054,9 +1023,8 @@ def scaled(s, length=1000.0, modulus=0.001):
         elif grid["iplan"] == 3:
             grid["plan"] = [value*ell for value in grid["plan"]]
     else:
-        factors = {-1: [1 / ell, 1 / ell], -2: [1 / ell, 1], -3: [ell, ell], -4: [1 / ell, ell], -5: [ell, ell], -6: [ell] * 3}[
-            grid["ipotcn"]
-        ]
+        factors = {-1: [1 / ell, 1 / ell], -2: [1 / ell, 1], -3: [ell, ell], -4: [1 / ell, ell], -5: [ell, ell],
+                   -6: [ell] * 3}[grid["ipotcn"]]
         grid["values"] = times(grid["values"], factors + [1])
     if "rolling" in s:
         s["rolling"][1] *= ell
@@ -1153,16 +1121,8 @@ def interleaved(scene, run, tools, findings):
 def refined(scene, run, fields, tools, findings):
     """Half the size of elements: forces change by no more than the borders of the contact are uncertain"""
     d, grid, case = scene["digits"], scene["grid"], scene["cases"][0]
-    if (
-        d["B"]
-        or d["L"]
-        or d["V"]
-        or d["M"] not in (0, 4)
-        or d["T"] == 2
-        or d["C"] not in (2, 3)
-        or d["E"]
-        or grid.get("ibase") == 9
-    ):
+    if (d["B"] or d["L"] or d["V"] or d["M"] not in (0, 4) or d["T"] == 2 or d["C"] not in (2, 3) or d["E"]
+        or grid.get("ibase") == 9):
         return
     if "material" in scene and scene["material"][2] > 0:
         return
@@ -1187,13 +1147,8 @@ def refined(scene, run, fields, tools, findings):
     mu = scale_of_friction(scene)
     for name, scale in (("fn", t2["fn"]), ("fx", mu*t2["fn"]), ("fy", mu*t2["fn"])):
         if t1.get(name) is not None and scale > 0 and (d["T"] or name == "fn"):
-            exceeds(
-                findings,
-                "refined",
-                f"{name.upper()}: {t1[name]:.5g}, finer {t2[name]:.5g}",
-                abs(t1[name] - t2[name]) / scale,
-                limit,
-            )
+            exceeds(findings, "refined", f"{name.upper()}: {t1[name]:.5g}, finer {t2[name]:.5g}", abs(t1[name] - t2[name]) / scale,
+                    limit)
     area = f2.area*(f2["eldiv"] > 0).sum()
     exceeds(findings, "refined", "contact area", abs(fields[1].area*elements/area - 1), 2*limit)
     if case["N"] and grid["ipotcn"] > 0:

@@ -60,13 +60,8 @@ def _digits(rng):
     d["S"] = one_of(rng, (6, 0), (1, 3))
     d["G"] = one_of(rng, (6, 0), (1, 2), (1, 3), (1, 4), (1, 5))
     if rng.random() < 0.02:
-        for name, values in (
-            ("M", (0, 1, 2, 3, 4, 5)),
-            ("C", (2, 3, 4, 9)),
-            ("L", (0, 2, 3, 4, 6)),
-            ("H", (0, 3)),
-            ("B", (0, 2, 3, 4, 5, 6)),
-        ):
+        for name, values in (("M", (0, 1, 2, 3, 4, 5)), ("C", (2, 3, 4, 9)), ("L", (0, 2, 3, 4, 6)), ("H", (0, 3)),
+                             ("B", (0, 2, 3, 4, 5, 6))):
             d[name] = rng.choice(values)
     return d
 
@@ -77,16 +72,10 @@ def _scene(rng):
     big = rng.random() < 0.03
     # a few far from what is usual, in one respect or another
     wild = rng.random() < 0.15
-    mx = (
-        rng.randint(20, 60)
-        if big
-        else rng.choice([1, 2, rng.randint(3, 24), rng.randint(3, 24), rng.randint(3, 24), rng.randint(3, 24)])
-    )
-    my = (
-        rng.randint(20, 60)
-        if big
-        else rng.choice([1, rng.randint(2, 20), rng.randint(3, 20), rng.randint(3, 20), rng.randint(3, 20)])
-    )
+    mx = (rng.randint(20, 60) if big else rng.choice([1, 2, rng.randint(3, 24), rng.randint(3, 24), rng.randint(3, 24),
+                                                      rng.randint(3, 24)]))
+    my = (rng.randint(20, 60) if big else rng.choice([1, rng.randint(2, 20), rng.randint(3, 20), rng.randint(3, 20),
+                                                      rng.randint(3, 20)]))
     # rubber to steel
     g1 = logarithmic(rng, 0.3, 1e5)
     g2 = g1 if rng.random() < 0.6 else logarithmic(rng, 0.3, 1e5)
@@ -120,12 +109,9 @@ def _scene(rng):
     similar = abs((1 - 2*nu1)/g1 - (1 - 2*nu2)/g2)*g < 4e-4 and d["C"] in (2, 3)
     scene["maxout"] = rng.choice([1, 1, 20]) if similar else rng.choice([20, 20, 100, 1])
     scene["maxin"] = 200 if d["L"] else 100
-    scene["omega"] = {
-        2: [0.9, 1.0, 0, 1],
-        3: [0.9, 1.0, 0, 1],
-        4: [rng.choice([-1, 0, 1]), 1],
-        5: rng.choice([[0.5, 1, 1, 1, 1, 1, 1, 1], [1, 0.99, 1, 1, 0, 1, 1, 1], [-2, 0.97, 2, 1, 0, 2, 1, 1]]),
-    }.get(d["G"])
+    scene["omega"] = {2: [0.9, 1.0, 0, 1], 3: [0.9, 1.0, 0, 1], 4: [rng.choice([-1, 0, 1]), 1],
+                      5: rng.choice([[0.5, 1, 1, 1, 1, 1, 1, 1], [1, 0.99, 1, 1, 0, 1, 1, 1],
+                                     [-2, 0.97, 2, 1, 0, 2, 1, 1]])}.get(d["G"])
     if d["S"]:
         scene["points"] = [[3, a*1e-2, a*0.3]]
     scene["cases"] = [_case(rng, scene, k, n, pen, fn, slip, a, b, mx, my) for k in range(rng.choice([1, 1, 1, 2, 2, 3]))]
@@ -145,14 +131,10 @@ def _grid(rng, scene, mx, my, a, b, dx, dy, curvature, across, pen, wild):
     grid = {"ipotcn": ip, "mx": mx, "my": my}
     scene["grid"] = grid
     if ip < 0:
-        grid["values"] = {
-            -1: [curvature, across],
-            -2: [curvature, a / b],
-            -3: [a, b],
-            -4: [curvature, b],
-            -5: [a, b],
-            -6: [a, b, b * rng.uniform(0.3, 1.5)],
-        }[ip] + [rng.choice([1.1, 1.2, rng.uniform(0.5 if wild else 1.05, 3 if wild else 2)])]
+        grid["values"] = {-1: [curvature, across], -2: [curvature, a / b], -3: [a, b], -4: [curvature, b], -5: [a, b],
+                          -6: [a, b, b * rng.uniform(0.3, 1.5)]}[ip] + [rng.choice([1.1, 1.2,
+                                                                                    rng.uniform(0.5 if wild else 1.05, 3 if wild
+                                                                                                else 2)])]
         return
     # sometimes off the middle
     xl = -0.5*mx*dx + rng.choice([0, 0, rng.uniform(-0.2, 0.2)*a])
@@ -249,14 +231,9 @@ def _surface(rng, scene, a, b, g, pen):
     if d["C"] == 4:
         count = rng.choice([2, 3, 5])
         angle = rng.uniform(-0.4, 0.4)
-        scene["angles"] = [
-            rng.choice([0, 1]),
-            rng.randint(1, 4),
-            [
-                [-2 * b + 4 * b * i / (count - 1), angle * (-1 + 2 * i / (count - 1)) + rng.uniform(-0.02, 0.02)]
-                for i in range(count)
-            ],
-        ]
+        scene["angles"] = [rng.choice([0, 1]), rng.randint(1, 4),
+                           [[-2 * b + 4 * b * i / (count - 1), angle * (-1 + 2 * i / (count - 1)) + rng.uniform(-0.02, 0.02)]
+                            for i in range(count)]]
     if d["H"] == 3:
         body = [rng.uniform(0, 50), logarithmic(rng, 100, 1000), logarithmic(rng, 0.01, 0.1), 7.85e-6]
         scene["heat"] = [body, body if rng.random() < 0.5 else [rng.uniform(0, 50)] + body[1:]]
@@ -537,32 +514,10 @@ def reduce(scene):
     def unrestricted(s):
         s["eps"] = 1e-5
 
-    for change in (
-        last_cases(1),
-        last_cases(2),
-        first_cases,
-        digit("S", 0, "points"),
-        digit("H", 0, "heat"),
-        coulomb,
-        one_friction,
-        digit("E", 0),
-        digit("G", 0),
-        digit("B", 0, "sheet"),
-        no_move,
-        digit("C", 2, "angles"),
-        digit("M", 0, "material"),
-        plain_cases,
-        no_plan,
-        plain_gap,
-        same_bodies,
-        zero("phi"),
-        zero("y"),
-        zero("x"),
-        smaller("mx", "dx"),
-        smaller("my", "dy"),
-        rounded,
-        unrestricted,
-    ):
+    for change in (last_cases(1), last_cases(2), first_cases, digit("S", 0, "points"), digit("H", 0, "heat"), coulomb, one_friction,
+                   digit("E", 0), digit("G", 0), digit("B", 0, "sheet"), no_move, digit("C", 2, "angles"),
+                   digit("M", 0, "material"), plain_cases, no_plan, plain_gap, same_bodies, zero("phi"), zero("y"), zero("x"),
+                   smaller("mx", "dx"), smaller("my", "dy"), rounded, unrestricted):
         simpler = changed(change)
         if simpler is not None:
             yield simpler

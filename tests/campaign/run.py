@@ -197,13 +197,8 @@ def replay(options):
         folder = os.path.join(options.store, f"scratch{os.getpid()}")
         findings = judged(module, scene, options, folder)
         if options.reduce and status_of(findings) == "disagreement":
-            scene, findings = minimise.smallest(
-                kind_of(module),
-                scene,
-                findings,
-                lambda simpler, kind=module, folder=folder: judged(kind, simpler, options, folder),
-                options.minimise,
-            )
+            scene, findings = minimise.smallest(kind_of(module), scene, findings, lambda simpler, kind=module,
+                                                folder=folder: judged(kind, simpler, options, folder), options.minimise)
             keep(kind_of(module), scene, findings, os.path.join(options.store, "minimal"))
         shutil.rmtree(folder, ignore_errors=True)
         bad = bad or status_of(findings) == "disagreement"

@@ -59,20 +59,10 @@ def flat(draw):
     rail = dict(body="rail", shape=["60E1"], format="simpack")
     wheel = dict(body="wheel", shape=["S1002"], format="table", slices=slices, interpol=1)
     side = draw.choice((0, 1))
-    return dict(
-        rail=rail,
-        wheel=wheel,
-        side=side,
-        roller=draw.random() < 0.3,
-        free=False,
-        fz=math.exp(draw.uniform(7, 12)),
-        dx=draw.choice((0.7, 1.0)),
-        y=draw.choice((0.0, draw.uniform(-4, 5))),
-        yaw=draw.choice((0.0, draw.uniform(-0.01, 0.01))),
-        varied="pitch",
-        range=[-1.6 * half, 1.6 * half],
-        name=f"flat of {length:.0f} mm, {depth:.2f} mm deep, rounded {rounded}",
-    )
+    return dict(rail=rail, wheel=wheel, side=side, roller=draw.random() < 0.3, free=False, fz=math.exp(draw.uniform(7, 12)),
+                dx=draw.choice((0.7, 1.0)), y=draw.choice((0.0, draw.uniform(-4, 5))),
+                yaw=draw.choice((0.0, draw.uniform(-0.01, 0.01))), varied="pitch", range=[-1.6 * half, 1.6 * half],
+                name=f"flat of {length:.0f} mm, {depth:.2f} mm deep, rounded {rounded}")
 
 
 def split(draw):
@@ -84,21 +74,11 @@ def split(draw):
     wheel = dict(body="wheel", shape=["barrel", draw.choice((-400.0, 500.0, 2000.0)), 40.0], format="table")
     if wheel["shape"][1] < 0:
         wheel["shape"] = ["cylinder", 40.0]
-    return dict(
-        rail=rail,
-        wheel=wheel,
-        side=draw.choice((0, 1)),
-        roller=draw.random() < 0.3,
-        free=True,
-        fz=math.exp(draw.uniform(5, 12)),
-        dx=draw.choice((0.3, 0.5)),
-        y=0.0,
-        yaw=draw.choice((0.0, draw.uniform(-0.02, 0.02))),
-        pitch=0.0,
-        varied="y",
-        range=[draw.uniform(-6, -1), draw.uniform(1, 6)],
-        name=f"groove of {depth:.3f} mm, width {width:.1f} mm, {wheel['shape']}",
-    )
+    return dict(rail=rail, wheel=wheel, side=draw.choice((0, 1)), roller=draw.random() < 0.3, free=True,
+                fz=math.exp(draw.uniform(5, 12)), dx=draw.choice((0.3, 0.5)), y=0.0,
+                yaw=draw.choice((0.0, draw.uniform(-0.02, 0.02))), pitch=0.0, varied="y",
+                range=[draw.uniform(-6, -1), draw.uniform(1, 6)],
+                name=f"groove of {depth:.3f} mm, width {width:.1f} mm, {wheel['shape']}")
 
 
 FAMILIES = {"flat": flat, "split": split}
@@ -120,9 +100,8 @@ def text(d, rail, wheel, places, by_force):
         pieces.append(CASE % values)
         if k == 0:
             pieces.append(FIRST % values)
-        pieces.append(
-            PLACE % dict(y=sign * here["y"], load=load, yaw=sign * d["yaw"], pitch=here.get("pitch", 0.0), speed=values["speed"])
-        )
+        pieces.append(PLACE % dict(y=sign * here["y"], load=load, yaw=sign * d["yaw"], pitch=here.get("pitch", 0.0),
+                                   speed=values["speed"]))
     return "".join(pieces).replace(" 0011002 VLDCMZE", " 0111002 VLDCMZE") + " 0 MODULE\n"
 
 
@@ -188,11 +167,8 @@ def judge(program, d, points, verbose):
                     f"{pens[i]:.6f} and {pens[i + 1]:.6f} mm, patches {len(swept[i]['patches'])}, {len(swept[i + 1]['patches'])}"
                 )
     if verbose:
-        print(
-            f"  {d['name']}, FZ {d['fz']:.0f} N, roller {d['roller']}: patches {sorted(patches)}, most trials {most}, "
-            f"jumps told {told}",
-            flush=True,
-        )
+        print(f"  {d['name']}, FZ {d['fz']:.0f} N, roller {d['roller']}: patches {sorted(patches)}, most trials {most}, "
+              f"jumps told {told}", flush=True)
     return wrong
 
 

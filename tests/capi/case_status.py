@@ -241,12 +241,8 @@ def by_library3(name, state, missed, code, reason):
         if name == "force":
             forces = cntc.getcontactforces(problem.number, 1)
             px = cntc.gettractions(problem.number, 1)[1]
-            close(
-                forces[1],
-                np.prod(cntc.getgriddiscretization(problem.number, 1)) * np.sum(px),
-                1e-9 * abs(forces[0]),
-                "a missed force is the sum of its tractions",
-            )
+            close(forces[1], np.prod(cntc.getgriddiscretization(problem.number, 1)) * np.sum(px), 1e-9 * abs(forces[0]),
+                  "a missed force is the sum of its tractions")
             close(abs(forces[1]), 10.0, 1e-3, "full sliding")
             # what was asked for is still asked for
             for _ in range(2):

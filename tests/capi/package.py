@@ -270,11 +270,8 @@ def doubts():
         problem.set_friction(0.3)
         problem.set_normal_force(9.1954)
         problem.set_creepages(0.001)
-        for first, border in (
-            ((-0.5, -0.5), ("x low", "x high", "y low", "y high")),
-            ((-2.2, -0.6), ("y low",)),
-            ((-2.2, -2.2), ()),
-        ):
+        for first, border in (((-0.5, -0.5), ("x low", "x high", "y low", "y high")), ((-2.2, -0.6), ("y low",)),
+                              ((-2.2, -2.2), ())):
             mx = 10 if len(border) == 4 else 44
             problem.set_grid(mx, mx, 0.1, 0.1, *first)
             problem.set_distance(lambda x, y: 0.5 * (x**2 + y**2))
@@ -297,9 +294,8 @@ def doubts():
         same((result.elements_across, across.tolist()), (3, [3]), "elements across")
         same([text.split(":")[0] for text in told], ["contact is only 3 elements wide"], "warning of few elements")
     with open(os.path.join(PROFILES, "60E1.prr"), encoding="utf-8") as file:
-        rows = np.array(
-            [[float(word) for word in line.split()[:2]] for line in file if re.match(r"\s*[-0-9.]+\s+[-0-9.]+\s*$", line)]
-        )
+        rows = np.array([[float(word) for word in line.split()[:2]] for line in file
+                         if re.match(r"\s*[-0-9.]+\s+[-0-9.]+\s*$", line)])
     for side in ("right", "left"):
         with contact.WheelRail(side) as pair:
             braked_wheel(pair)
@@ -371,19 +367,7 @@ def output():
 
 
 if __name__ == "__main__":
-    for part in (
-        results,
-        distance,
-        prescribed_and_transient,
-        errors,
-        many,
-        threads,
-        wheel_on_rail,
-        older_scripts,
-        documents,
-        doubts,
-        temperatures,
-        output,
-    ):
+    for part in (results, distance, prescribed_and_transient, errors, many, threads, wheel_on_rail, older_scripts, documents,
+                 doubts, temperatures, output):
         part()
     finish()

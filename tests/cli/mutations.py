@@ -20,23 +20,8 @@ PROGRAM = os.environ["CONTACT_PROGRAM"]
 SOURCE = os.environ["CONTACT_SOURCE"]
 EXAMPLES = os.path.join(SOURCE, "examples")
 #: What takes the place of a number
-NONSENSE = (
-    "nan",
-    "inf",
-    "-inf",
-    "1e300",
-    "-1e300",
-    "1e20",
-    "-1e20",
-    "1e9",
-    "0",
-    "-1",
-    "1e-300",
-    "1e-9",
-    "word",
-    "180",
-    "99999999999",
-)
+NONSENSE = ("nan", "inf", "-inf", "1e300", "-1e300", "1e20", "-1e20", "1e9", "0", "-1", "1e-300", "1e-9", "word", "180",
+            "99999999999")
 #: Seconds that a run may take
 PATIENCE = 5.0 * float(os.environ.get("CONTACT_SLOWER", "1"))
 #: Examples whose first case is small
@@ -116,9 +101,8 @@ def run(mutation):
                 continue
             with open(os.path.join(folder, name), errors="replace") as file:
                 for line in file:
-                    if any(word in line for word in ("ERROR", "Warning", "WARNING", '"failure"', '"end of run"')) or PICTURE.match(
-                        line
-                    ):
+                    if any(word in line for word in ("ERROR", "Warning", "WARNING", '"failure"',
+                                                     '"end of run"')) or PICTURE.match(line):
                         continue
                     if BAD.search(line):
                         return f"status {done.returncode}, {name}: {line.strip()[:160]}"

@@ -54,9 +54,8 @@ class Cli(unittest.TestCase):
 
     def run_program(self, *arguments, answers=None, environment=None):
         given = dict(stdin=subprocess.DEVNULL) if answers is None else dict(input=answers)
-        return subprocess.run(
-            [PROGRAM, *arguments], cwd=self.folder, capture_output=True, text=True, timeout=60, env=environment, **given
-        )
+        return subprocess.run([PROGRAM, *arguments], cwd=self.folder, capture_output=True, text=True, timeout=60, env=environment,
+                              **given)
 
     def fails(self, run, *texts):
         """The run ended with an error, in order, that tells these texts on the standard error stream"""

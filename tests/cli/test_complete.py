@@ -70,9 +70,8 @@ class Complete(unittest.TestCase):
     def test_wrong_value_in_the_second_case(self):
         code, run, out, remark = self.run_input(text_of(9, -10, 11, 12))
         self.assertEqual(code, 1)
-        self.assertEqual(
-            [run[name] for name in ("complete", "cases_planned", "input_readable", "cases_finished")], [False, 4, True, 1]
-        )
+        self.assertEqual([run[name] for name in ("complete", "cases_planned", "input_readable", "cases_finished")],
+                         [False, 4, True, 1])
         self.assertIn("FN", run["reason"])
         self.assertIn(" Not complete: 1 of 4 cases finished\n", out)
         self.assertEqual(remark, "not complete, 1 of 4 cases")
@@ -80,9 +79,8 @@ class Complete(unittest.TestCase):
     def test_text_that_cannot_be_read(self):
         code, run, out, remark = self.run_input(text_of(9, 10, "word", 12))
         self.assertEqual(code, 1)
-        self.assertEqual(
-            [run[name] for name in ("complete", "cases_planned", "input_readable", "cases_finished")], [False, 3, False, 2]
-        )
+        self.assertEqual([run[name] for name in ("complete", "cases_planned", "input_readable", "cases_finished")],
+                         [False, 3, False, 2])
         self.assertIn("word", run["reason"])
         self.assertIn(" Not complete: 2 of at least 3 cases finished\n", out)
         self.assertEqual(remark, "not complete, 2 of at least 3 cases")

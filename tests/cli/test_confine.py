@@ -65,11 +65,8 @@ class Confined(unittest.TestCase):
         """Refused by a check and by a run, and without --confine for no such reason"""
         self.write(text)
         for mode in ("3", "2"):
-            for place, words in (
-                (self.folder, ["a"]),
-                (self.folder.parent, ["inside/a"]),
-                (self.outside, [str(self.folder / "a")]),
-            ):
+            for place, words in ((self.folder, ["a"]), (self.folder.parent, ["inside/a"]),
+                                 (self.outside, [str(self.folder / "a")])):
                 status, _, err = self.run_program("--confine", mode, *words, cwd=place)
                 self.assertEqual(status, 1, (mode, words, err))
                 self.assertIn(why, err, (mode, words))

@@ -185,16 +185,9 @@ class Refusals(Doors):
 
     def test_first_case_keeps_nothing(self):
         """Digits that keep values which no case has given"""
-        for digits, word in (
-            ({"vldcmze": "0021020"}, "C = 1"),
-            ({"vldcmze": "0020020"}, "C = 0"),
-            ({"vldcmze": "0022010"}, "Z = 1"),
-            ({"vldcmze": "0022021"}, "E = 1"),
-            ({"third": "1000201"}, "H = 1"),
-            ({"vldcmze": "0122020"}, "L = 1"),
-            ({"vldcmze": "0012020"}, "D = 1"),
-            ({"pbtnfs": "203101"}, "S = 1"),
-        ):
+        for digits, word in (({"vldcmze": "0021020"}, "C = 1"), ({"vldcmze": "0020020"}, "C = 0"),
+                             ({"vldcmze": "0022010"}, "Z = 1"), ({"vldcmze": "0022021"}, "E = 1"), ({"third": "1000201"}, "H = 1"),
+                             ({"vldcmze": "0122020"}, "L = 1"), ({"vldcmze": "0012020"}, "D = 1"), ({"pbtnfs": "203101"}, "S = 1")):
             self.refused(self.case3(**digits), word, "first case")
         text = "1\n" + NEW1.format(**PLAIN1) + "0\n"
         for old, new, word in (("0022033", "0021033", "C = 1"), ("0022033", "0012033", "D = 1"), ("0022033", "0022013", "Z = 1"),
@@ -231,21 +224,8 @@ class Refusals(Doors):
         for first_case, kept, words in (
                 (first(e=9, shape=plain.strip(), slip=slips), dict(z=2, e=1, shape=plain), "E = 1 keeps the extra rigid"),
                 (first(e=0, shape="9 1\n" + numbers.strip(), slip=""), dict(z=1, e=0, shape=""), "IBASE = 9, one per element")):
-            for change in (
-                dict(mx=7),
-                dict(mx=5),
-                dict(my=6),
-                dict(my=4),
-                dict(dx=0.33),
-                dict(dx=0.27),
-                dict(dy=0.44),
-                dict(dy=0.36),
-                dict(x=-0.9),
-                dict(x=-1.1),
-                dict(y=-1.0),
-                dict(y=-1.4),
-                {},
-            ):
+            for change in (dict(mx=7), dict(mx=5), dict(my=6), dict(my=4), dict(dx=0.33), dict(dx=0.27), dict(dy=0.44),
+                           dict(dy=0.36), dict(x=-0.9), dict(x=-1.1), dict(y=-1.0), dict(y=-1.4), {}):
                 text = second(window=window(**change), **kept)
                 run, out, _ = self.run_text(first_case + text, "3")
                 if change:
@@ -266,9 +246,8 @@ class Refusals(Doors):
         # the right half of the first window
         moved = moved.replace("10 20 -1 -1", "10 20 0 -1")
         for p in "01":
-            self.refused(
-                text + "3\n" + moved.format(p=p) + "0\n", "leaves out", "elements that were in contact", "P=2", modes=("2",)
-            )
+            self.refused(text + "3\n" + moved.format(p=p) + "0\n", "leaves out", "elements that were in contact", "P=2",
+                         modes=("2",))
         run, _, _ = self.run_text(text + "3\n" + moved.format(p="2") + "0\n")
         self.assertEqual(run.returncode, 0, run.stderr)
         run, _out, _ = self.run_text(text + "3\n" + moved.replace("10 20 0 -1", "30 20 -1 -1").format(p="0") + "0\n")
@@ -302,9 +281,8 @@ class Words(Doors):
     def test_gauge_point_below_the_profile(self):
         text = "1\n" + NEW1.format(**PLAIN1) + "0\n"
         self.assertNotIn("gauge end", self.run_text(text)[1])
-        self.assertIn(
-            "its gauge end is taken for the gauge point", self.run_text(text.replace("14 0 1435 0\n", "150 0 1435 0\n"))[1]
-        )
+        self.assertIn("its gauge end is taken for the gauge point",
+                      self.run_text(text.replace("14 0 1435 0\n", "150 0 1435 0\n"))[1])
 
     def test_no_results(self):
         run, out, _ = self.run_text("3\n" + NEW3.format(**{**PLAIN3, "third": "0000001"}) + "0\n")

@@ -303,9 +303,8 @@ class EndsAheadOfTheAxle(Program):
                 depth, place = self.depth(end, -yaw if left else yaw, 0.05, roller)
                 told = [line for line in warnings if "within the rail where no contact patch is" in line]
                 self.assertEqual(len(told), 1, warnings)
-                found = re.search(
-                    r"the (\w+) end of the wheel profile stands (\S+) mm within .* at x = (\S+), y = (\S+), z", told[0]
-                )
+                found = re.search(r"the (\w+) end of the wheel profile stands (\S+) mm within .* at x = (\S+), y = (\S+), z",
+                                  told[0])
                 self.assertEqual(found.group(1), name)
                 self.assertIn(found.group(0), " Warning: " + cases[0]["buried"][name])
                 if not outside:
@@ -510,10 +509,8 @@ class Profiles(Program):
         for text, sign in ((cases[1], 1), (cases[1].replace("1203100", "0203100"), -1)):
             records, _, out = self.run_text(" 1 MODULE" + text.replace("0001201", "0001401"))
             totals = records[0]["patches"][0]["totals"]
-            for title, columns in (
-                ("RAIL PROFILE USED, TRACK COORDINATES,", 3),
-                ("PRINCIPAL WHEEL PROFILE, TRACK COORDINATES,", 4),
-            ):
+            for title, columns in (("RAIL PROFILE USED, TRACK COORDINATES,", 3),
+                                   ("PRINCIPAL WHEEL PROFILE, TRACK COORDINATES,", 4)):
                 _head, rest = out.split(title)
                 number = int(rest.split()[0])
                 rows = [[float(word) for word in row.split()] for row in rest.split("\n")[2:2 + number]]

@@ -90,9 +90,8 @@ class Hdf5(unittest.TestCase):
                     field = group["fields/" + name]
                     self.assertEqual(field.shape, (11, 13))
                     self.assertTrue(field.attrs["units"] and field.attrs["long_name"])
-                    np.testing.assert_allclose(
-                        field[...].ravel(), columns[column], rtol=1e-5, atol=1e-9 * abs(columns[column]).max()
-                    )
+                    np.testing.assert_allclose(field[...].ravel(), columns[column], rtol=1e-5,
+                                               atol=1e-9 * abs(columns[column]).max())
                 np.testing.assert_array_equal(group["fields/eldiv"][...].ravel(), columns["IGS"])
                 slip = np.hypot(group["fields/sx"][...], group["fields/sy"][...]).ravel()
                 np.testing.assert_allclose(slip, columns["SREL"], rtol=1e-5, atol=1e-12)

@@ -125,9 +125,8 @@ class Friction(Runs):
                 "7 5 -1.75 -1.25 0.5 0.5\n1 1\n0.01 0 0.01 0 0 0\n" + "".join(f"{v} {v}\n" for v in values) + "0\n")
         _, out = self.run_text(text)
         rows = re.findall(r"^ +(\d+) +(0\.\d+) +(0\.\d+) *$", out[out.index("FRICTION LAW"):out.index("KINEMATIC")], re.MULTILINE)
-        self.assertEqual(
-            [(int(k), float(a), float(b)) for k, a, b in rows], [(k + 1, v, v) for k, v in enumerate(values)], out[:3000]
-        )
+        self.assertEqual([(int(k), float(a), float(b)) for k, a, b in rows], [(k + 1, v, v) for k, v in enumerate(values)],
+                         out[:3000])
 
 
 if __name__ == "__main__":

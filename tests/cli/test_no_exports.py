@@ -46,10 +46,8 @@ class NoExports(unittest.TestCase):
         shutil.copytree(os.path.join(SOURCE, "examples", "profiles"), os.path.join(self.folder, "profiles"))
         for name in ("subsurface", "wheel_on_rail"):
             shutil.copy(os.path.join(SOURCE, "examples", name + ".inp"), self.folder)
-        expected = {
-            "subsurface": r"subsurface(\.000[1-4]\.subs|\.out)",
-            "wheel_on_rail": r"wheel_on_rail(\.00\d\d[a-z]\.mat|\.out)",
-        }
+        expected = {"subsurface": r"subsurface(\.000[1-4]\.subs|\.out)",
+                    "wheel_on_rail": r"wheel_on_rail(\.00\d\d[a-z]\.mat|\.out)"}
         for name, pattern in expected.items():
             before = set(os.listdir(self.folder))
             subprocess.run([PROGRAM, "--quiet", "2", name], cwd=self.folder, stdin=subprocess.DEVNULL, check=True, timeout=300)
@@ -81,9 +79,8 @@ class NoExports(unittest.TestCase):
         def traced(cases, *options):
             self.table(cases)
             trace = os.path.join(self.folder, "calls.trace")
-            self.run_program(
-                STRACE, "-f", "-qq", "-o", trace, "-e", "trace=file,write,pwrite64,read", PROGRAM, "--quiet", *options, "2", "table"
-            )
+            self.run_program(STRACE, "-f", "-qq", "-o", trace, "-e", "trace=file,write,pwrite64,read", PROGRAM, "--quiet", *options,
+                             "2", "table")
             with open(trace, errors="replace") as file:
                 return file.read()
 

@@ -13,81 +13,13 @@ import unittest
 PROGRAM = os.environ["CONTACT_PROGRAM"]
 EXAMPLES = os.path.join(os.environ["CONTACT_SOURCE"], "examples")
 NUMBER = r"[-+]?\d[\w.+-]*|[-+]?\.\d+"
-WHOLE = {
-    "MODULE",
-    "P",
-    "B",
-    "T",
-    "N",
-    "F",
-    "S",
-    "L",
-    "D",
-    "C",
-    "M",
-    "Z",
-    "E",
-    "H",
-    "G",
-    "I",
-    "A",
-    "O",
-    "W",
-    "R",
-    "M2",
-    "C1",
-    "V",
-    "X",
-    "MAXGS",
-    "MAXIN",
-    "MAXNR",
-    "MAXOUT",
-    "NPOT_MAX",
-    "IPOTCN",
-    "MX",
-    "MY",
-    "IBASE",
-    "IPLAN",
-    "NN",
-    "NX",
-    "NY",
-    "NZ",
-    "ISUBS",
-    "MATFIL",
-    "MATFIL_S",
-    "OUTPUT",
-    "OUTPUT_S",
-    "NVF",
-    "MIRRORY",
-    "MIRRORZ",
-    "ISMOOTH",
-    "INISLP",
-    "KDOWFB",
-    "IF_METH",
-    "VARIANT",
-    "IXL",
-    "IXINC",
-    "IXH",
-    "IYL",
-    "IYINC",
-    "IYH",
-}
+WHOLE = set("""MODULE P B T N F S L D C M Z E H G I A O W R M2 C1 V X MAXGS MAXIN MAXNR MAXOUT NPOT_MAX IPOTCN MX MY IBASE IPLAN NN
+    NX NY NZ ISUBS MATFIL MATFIL_S OUTPUT OUTPUT_S NVF MIRRORY MIRRORZ ISMOOTH INISLP KDOWFB IF_METH VARIANT IXL IXINC IXH IYL IYINC
+    IYH""".split())
 # Numbers that have a longer name in messages; with "|" what the same place means in two forms of a line
-LONGER = {
-    "POISS": "POISS1 POISS2",
-    "GG": "GG1 GG2",
-    "GAUGSQ": "GAUGSQ|RAILY0",
-    "RAILY0": "GAUGSQ|RAILY0",
-    "GAUGWD": "GAUGWD|RAILZ0",
-    "RAILZ0": "GAUGWD|RAILZ0",
-    "DX": "VS",
-    "DY": "DYRAIL VY",
-    "DZ": "DZRAIL VZ",
-    "DROLL": "VROLL",
-    "DYAW": "VYAW",
-    "DPITCH": "VPITCH",
-    "DENSITY": "DENS1 DENS2",
-}
+LONGER = {"POISS": "POISS1 POISS2", "GG": "GG1 GG2", "GAUGSQ": "GAUGSQ|RAILY0", "RAILY0": "GAUGSQ|RAILY0",
+          "GAUGWD": "GAUGWD|RAILZ0", "RAILZ0": "GAUGWD|RAILZ0", "DX": "VS", "DY": "DYRAIL VY", "DZ": "DZRAIL VZ", "DROLL": "VROLL",
+          "DYAW": "VYAW", "DPITCH": "VPITCH", "DENSITY": "DENS1 DENS2"}
 
 
 def lines_with_names(path):
@@ -104,11 +36,8 @@ def lines_with_names(path):
 
 def is_named(told, name):
     """Is it the number that the comment names?"""
-    return (
-        told in (name.replace("B1", "B(1)"), *LONGER.get(name, "").split())
-        or told.startswith(name)
-        or (len(name) > 1 and name in told)
-    )
+    return (told in (name.replace("B1", "B(1)"), *LONGER.get(name, "").split()) or told.startswith(name)
+            or (len(name) > 1 and name in told))
 
 
 class Places(unittest.TestCase):

@@ -222,17 +222,8 @@ class Surroundings(Scratch):
             lines = (self.folder / "a.jsonl").read_text(encoding="utf-8").splitlines()
             return [{key: value for key, value in json.loads(line).items() if key != "seconds"} for line in lines]
         wanted = outputs()
-        for variable in (
-            "STDERR_UNIT=6",
-            "STDOUT_UNIT=0",
-            "STDIN_UNIT=6",
-            "OPTIONAL_PLUS=1",
-            "UNBUFFERED_ALL=1",
-            "CONVERT_UNIT=big_endian",
-            "DEFAULT_RECL=20",
-            "FORMATTED_BUFFER_SIZE=1",
-            "LIST_SEPARATOR=x",
-        ):
+        for variable in ("STDERR_UNIT=6", "STDOUT_UNIT=0", "STDIN_UNIT=6", "OPTIONAL_PLUS=1", "UNBUFFERED_ALL=1",
+                         "CONVERT_UNIT=big_endian", "DEFAULT_RECL=20", "FORMATTED_BUFFER_SIZE=1", "LIST_SEPARATOR=x"):
             name, value = variable.split("=")
             status, _, err = self.run_program("--json", "2", "a", env=dict(os.environ, **{"GFORTRAN_" + name: value}))
             self.assertEqual((status, err), (0, ""), variable)
@@ -265,47 +256,22 @@ class Surroundings(Scratch):
         (folder / "full").mkdir()
         os.symlink("/dev/full", folder / "full" / "a.out")
         (folder / "file").write_text("")
-        table = [
-            (["2", "b c"], 0, ""),
-            (["--", "2", "-dash"], 0, ""),
-            (["2", "./-dash"], 0, ""),
-            (["2", "-dash"], 1, "no option '-dash'"),
-            (["2", "ünïcode"], 0, ""),
-            (["2", "sub/../a"], 0, ""),
-            (["2", ".."], 0, ""),
-            (["2", "new\nline"], 0, ""),
-            (["2", "x" * 200], 0, ""),
-            (["2", "x" * 300], 1, "too long"),
-            (["2", "x/" * 3000 + "y"], 1, "too long"),
-            (["2", "a;b"], 0, ""),
-            (["2", "$(touch pwned)"], 0, ""),
-            (["2", "%n%s"], 0, ""),
-            (["2", "sub/"], 1, "names no experiment"),
-            (["2", "/"], 1, "names no experiment"),
-            (["2", "sub/missing"], 1, "No such file"),
-            (["2", ""], 1, "input ended"),
-            (["", "a"], 1, "is not a mode"),
-            (["2\n", "a"], 1, "is not a mode"),
-            (["-1", "a"], 1, "no option"),
-            (["99999999999999999999", "a"], 1, "is not a mode"),
-            (["--nonsense", "2", "a"], 1, "no option '--nonsense'"),
-            (["--quiet", "--quiet", "2", "a"], 0, ""),
-            (["--quiet=yes", "2", "a"], 1, "takes no value"),
-            (["--output-dir=sub", "--output-dir", ".", "2", "a"], 0, ""),
-            (["--output-dir=", "2", "a"], 1, "needs the name"),
-            (["--output-dir"], 1, "needs the name"),
-            (["--output-dir=missing", "2", "a"], 1, "No such file"),
-            (["--output-dir=file", "2", "a"], 1, "Not a directory"),
-            (["--output-dir=full", "2", "a"], 1, "not complete"),
-            (["--threads=0", "2", "a"], 1, "1 to 4096"),
-            (["--threads=99999999999", "2", "a"], 1, "1 to 4096"),
-            (["--threads=4097", "2", "a"], 1, "1 to 4096"),
-            (["--limit-output=nan", "2", "a"], 1, "positive number"),
-            (["--limit-run-time=1,2", "2", "a"], 1, "positive number"),
-            (["--json=x", "2", "a"], 1, "no other value"),
-            (["--" + "y" * 100000], 1, "no option"),
-            (["--limit-time", "1 2", "2", "a"], 1, "positive number"),
-        ]
+        table = [(["2", "b c"], 0, ""), (["--", "2", "-dash"], 0, ""), (["2", "./-dash"], 0, ""),
+                 (["2", "-dash"], 1, "no option '-dash'"), (["2", "ünïcode"], 0, ""), (["2", "sub/../a"], 0, ""),
+                 (["2", ".."], 0, ""), (["2", "new\nline"], 0, ""), (["2", "x" * 200], 0, ""), (["2", "x" * 300], 1, "too long"),
+                 (["2", "x/" * 3000 + "y"], 1, "too long"), (["2", "a;b"], 0, ""), (["2", "$(touch pwned)"], 0, ""),
+                 (["2", "%n%s"], 0, ""), (["2", "sub/"], 1, "names no experiment"), (["2", "/"], 1, "names no experiment"),
+                 (["2", "sub/missing"], 1, "No such file"), (["2", ""], 1, "input ended"), (["", "a"], 1, "is not a mode"),
+                 (["2\n", "a"], 1, "is not a mode"), (["-1", "a"], 1, "no option"),
+                 (["99999999999999999999", "a"], 1, "is not a mode"), (["--nonsense", "2", "a"], 1, "no option '--nonsense'"),
+                 (["--quiet", "--quiet", "2", "a"], 0, ""), (["--quiet=yes", "2", "a"], 1, "takes no value"),
+                 (["--output-dir=sub", "--output-dir", ".", "2", "a"], 0, ""), (["--output-dir=", "2", "a"], 1, "needs the name"),
+                 (["--output-dir"], 1, "needs the name"), (["--output-dir=missing", "2", "a"], 1, "No such file"),
+                 (["--output-dir=file", "2", "a"], 1, "Not a directory"), (["--output-dir=full", "2", "a"], 1, "not complete"),
+                 (["--threads=0", "2", "a"], 1, "1 to 4096"), (["--threads=99999999999", "2", "a"], 1, "1 to 4096"),
+                 (["--threads=4097", "2", "a"], 1, "1 to 4096"), (["--limit-output=nan", "2", "a"], 1, "positive number"),
+                 (["--limit-run-time=1,2", "2", "a"], 1, "positive number"), (["--json=x", "2", "a"], 1, "no other value"),
+                 (["--" + "y" * 100000], 1, "no option"), (["--limit-time", "1 2", "2", "a"], 1, "positive number")]
         if os.geteuid() != 0:
             (folder / "sealed").mkdir(mode=0o500)
             table.append((["--output-dir=sealed", "2", "a"], 1, "Permission denied"))

@@ -21,74 +21,23 @@ KINDS = {"fn": (2, 1, 1, 1, 1), "fx": (2, 1, -1, 1, -1), "fy": (2, 1, 1, -1, -1)
          "ncon": (0, 0, 1, 1, 1), "nadh": (0, 0, 1, 1, 1), "nslip": (0, 0, 1, 1, 1), "contact_area": (2, 0, 1, 1, 1),
          "border_elements": (0, 0, 1, 1, 1), "fx_rel": (0, 0, -1, 1, -1), "fy_rel": (0, 0, 1, -1, -1), "mu_scal": (0, 0, 1, 1, 1)}
 
-BASE = dict(
-    p=2,
-    b=0,
-    t=3,
-    n=1,
-    f=0,
-    l=0,
-    c=2,
-    m=0,
-    g=0,
-    eps=1e-9,
-    maxout=1,
-    solver="",
-    mx=14,
-    my=12,
-    xl=-2.1,
-    yl=-1.9,
-    dx=0.3,
-    dy=0.4,
-    shape=[0.011, 0.002, 0.014, 3e-4, 5e-4, 1e-4],
-    fn=6000.0,
-    pen=0.04,
-    cx=0.002,
-    cy=-0.001,
-    spin=4e-4,
-    chi=0.0,
-    dq=0.3,
-    veloc=20000.0,
-    poiss=[0.28, 0.28],
-    gg=[82000.0, 82000.0],
-    mu=0.3,
-    fg=[1.0, 1.5],
-    tc=[1e-5, 3e-5],
-    flx=[4e-5],
-    reduction=[0.8, 0.3, 0.9],
-    layer=[9000.0, 0.02, 120.0, 3000.0],
-    falling=[0.2, 0.15, 40.0, 0.05, 500.0],
-    memory=[0.01, 5.0],
-)
-CONFIGURATIONS = {
-    "frictionless": dict(t=0),
-    "approach": dict(n=0, eps=1e-10),
-    "shift": dict(t=1),
-    "transient": dict(t=2),
-    "steady": {},
-    "steady, forces": dict(f=2, cx=-0.4, cy=0.3),
-    "steady, force": dict(f=1, cx=0.5),
-    "transient, forces": dict(t=2, f=2, cx=-0.4, cy=0.3),
-    "shift, force": dict(t=1, f=1, cx=0.5),
-    "bilinear": dict(c=3),
-    "dissimilar": dict(poiss=[0.28, 0.4], gg=[82000.0, 9000.0], maxout=20),
-    "dissimilar shift": dict(t=1, poiss=[0.1, 0.45], gg=[82000.0, 2000.0], maxout=20, fn=500.0),
-    "ConvexGS": dict(t=2, g=2, solver="0.9 1.0 0 0.5"),
-    "SteadyGS": dict(g=3, solver="0.9 1.0 0 0.5"),
-    "GDsteady": dict(g=5, solver="1.0 0.5 2 1.5 0.01 2.5 1.2 1.3", eps=1e-7),
-    "viscoelastic": dict(m=1),
-    "viscoelastic, dissimilar": dict(m=1, maxout=20, poiss=[0.3, 0.4], gg=[900.0, 500.0], fn=100.0),
-    "Fastsim": dict(b=2, m=2),
-    "Fastsim, three": dict(b=3, m=3),
-    "FaStrip": dict(b=2, m=5),
-    "FaStrip plain": dict(b=2, m=6),
-    "layer": dict(m=4),
-    "layer, shift": dict(m=4, t=1),
-    "elastic layer": dict(m=4, layer=[9000.0, 0.02, 0.0, 0.0]),
-    "linear falling": dict(l=2),
-    "rational falling": dict(l=3),
-    "exponential falling": dict(l=4, t=2),
-}
+BASE = dict(p=2, b=0, t=3, n=1, f=0, l=0, c=2, m=0, g=0, eps=1e-9, maxout=1, solver="", mx=14, my=12, xl=-2.1, yl=-1.9, dx=0.3,
+            dy=0.4, shape=[0.011, 0.002, 0.014, 3e-4, 5e-4, 1e-4], fn=6000.0, pen=0.04, cx=0.002, cy=-0.001, spin=4e-4, chi=0.0,
+            dq=0.3, veloc=20000.0, poiss=[0.28, 0.28], gg=[82000.0, 82000.0], mu=0.3, fg=[1.0, 1.5], tc=[1e-5, 3e-5], flx=[4e-5],
+            reduction=[0.8, 0.3, 0.9], layer=[9000.0, 0.02, 120.0, 3000.0], falling=[0.2, 0.15, 40.0, 0.05, 500.0],
+            memory=[0.01, 5.0])
+CONFIGURATIONS = {"frictionless": dict(t=0), "approach": dict(n=0, eps=1e-10), "shift": dict(t=1), "transient": dict(t=2),
+                  "steady": {}, "steady, forces": dict(f=2, cx=-0.4, cy=0.3), "steady, force": dict(f=1, cx=0.5),
+                  "transient, forces": dict(t=2, f=2, cx=-0.4, cy=0.3), "shift, force": dict(t=1, f=1, cx=0.5),
+                  "bilinear": dict(c=3), "dissimilar": dict(poiss=[0.28, 0.4], gg=[82000.0, 9000.0], maxout=20),
+                  "dissimilar shift": dict(t=1, poiss=[0.1, 0.45], gg=[82000.0, 2000.0], maxout=20, fn=500.0),
+                  "ConvexGS": dict(t=2, g=2, solver="0.9 1.0 0 0.5"), "SteadyGS": dict(g=3, solver="0.9 1.0 0 0.5"),
+                  "GDsteady": dict(g=5, solver="1.0 0.5 2 1.5 0.01 2.5 1.2 1.3", eps=1e-7), "viscoelastic": dict(m=1),
+                  "viscoelastic, dissimilar": dict(m=1, maxout=20, poiss=[0.3, 0.4], gg=[900.0, 500.0], fn=100.0),
+                  "Fastsim": dict(b=2, m=2), "Fastsim, three": dict(b=3, m=3), "FaStrip": dict(b=2, m=5),
+                  "FaStrip plain": dict(b=2, m=6), "layer": dict(m=4), "layer, shift": dict(m=4, t=1),
+                  "elastic layer": dict(m=4, layer=[9000.0, 0.02, 0.0, 0.0]), "linear falling": dict(l=2),
+                  "rational falling": dict(l=3), "exponential falling": dict(l=4, t=2)}
 
 
 def numbers(*values):
@@ -176,14 +125,8 @@ class Relations(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             with open(os.path.join(folder, "x.inp"), "w", encoding="utf-8") as file:
                 file.write("".join(map(two_cases, cases)) + "0\n")
-            run = subprocess.run(
-                [PROGRAM, "--quiet", "--json", "2", "x"],
-                cwd=folder,
-                stdin=subprocess.DEVNULL,
-                capture_output=True,
-                text=True,
-                timeout=120,
-            )
+            run = subprocess.run([PROGRAM, "--quiet", "--json", "2", "x"], cwd=folder, stdin=subprocess.DEVNULL,
+                                 capture_output=True, text=True, timeout=120)
             self.assertEqual(run.returncode, 0, run.stderr)
             with open(os.path.join(folder, "x.jsonl"), encoding="utf-8") as file:
                 records = [case for case in map(json.loads, file) if case["case"]]
@@ -235,9 +178,8 @@ class Relations(unittest.TestCase):
                 self.assertGreater(abs(found[2*k]["fx"]) + abs(found[2*k]["fy"]), 0.02*found[2*k]["fn"], name)
             if cases[k]["f"]:
                 self.assertAlmostEqual(found[2*k]["fx_rel"], cases[k]["cx"], delta=1e-8)
-        pairs = {
-            (round(row["fx"], 1), round(row["fy"], 1), round(row["fn"], 1), round(row.get("cksi", 0), 6)) for row in found[::2]
-        }
+        pairs = {(round(row["fx"], 1), round(row["fy"], 1), round(row["fn"], 1), round(row.get("cksi", 0), 6))
+                 for row in found[::2]}
         self.assertGreaterEqual(len(pairs), len(CONFIGURATIONS) - 4)
 
     def test_mirror_image_in_x(self):

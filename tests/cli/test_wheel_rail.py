@@ -61,19 +61,8 @@ class Case(unittest.TestCase):
              flexible=None, rates=None, rail_rates="0 0 0", **other):
         mirror = 1 if side in (1, 5) else -1
         track = " 14 0 1435 0.025" if side < 4 else " -1 %g 0 %g" % (mirror*752.0, NOMRADR)
-        values = dict(
-            bound=0,
-            tang=3,
-            normal=1,
-            force=0,
-            location=2,
-            mater=0,
-            ewheel=5 if flexible else 3,
-            mu=0.3,
-            physics="",
-            flow=0,
-            damping="",
-        )
+        values = dict(bound=0, tang=3, normal=1, force=0, location=2, mater=0, ewheel=5 if flexible else 3, mu=0.3, physics="",
+                      flow=0, damping="")
         values.update(other)
         lines = ""
         if flexible:
@@ -155,14 +144,8 @@ class Velocities(Case):
         y, roll, yaw = mirror*rng.uniform(-4, 5), rng.uniform(-4e-3, 4e-3), rng.uniform(-0.02, 0.02)
         vy, vz, vroll, vyaw = rng.uniform(-30, 30), rng.uniform(-20, 20), rng.uniform(-0.02, 0.02), rng.uniform(-0.02, 0.02)
         vpitch = -V/NOMRADW*rng.uniform(0.99, 1.01)
-        deviations = [
-            rng.uniform(-1, 1),
-            rng.uniform(-1, 1),
-            rng.uniform(-1, 1),
-            rng.uniform(-4e-3, 4e-3),
-            rng.uniform(-4e-3, 4e-3),
-            0.0,
-        ]
+        deviations = [rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-4e-3, 4e-3),
+                      rng.uniform(-4e-3, 4e-3), 0.0]
         rates = [rng.uniform(-20, 20), rng.uniform(-20, 20), rng.uniform(-20, 20)] + [rng.uniform(-0.1, 0.1) for _ in range(3)]
         rail = [rng.uniform(-20, 20), rng.uniform(-20, 20), rng.uniform(-0.02, 0.02)]
         if not flexible:
@@ -171,9 +154,8 @@ class Velocities(Case):
         results, _ = self.solve(self.case(side, y, 60000.0, roll, yaw, forward, vy, vz, vroll, vyaw, vpitch,
                                           deviations if flexible else None, rates, rail_rates="%.9g %.9g %.9g" % tuple(rail)))
         totals = {name: value["value"] for name, value in results[0]["totals"].items() if isinstance(value, dict)}
-        wheel = Wheel(
-            side, y, totals["z_ws"], roll, yaw, [V if side < 4 else 0.0, vy, vz], [vroll, vpitch, vyaw], deviations, rates
-        )
+        wheel = Wheel(side, y, totals["z_ws"], roll, yaw, [V if side < 4 else 0.0, vy, vz], [vroll, vpitch, vyaw], deviations,
+                      rates)
         turning = Wheel(side, y, totals["z_ws"], roll, yaw, [0.0]*3, [0.0, vpitch, 0.0], deviations, [0.0]*6)
         self.assertTrue(results[0]["patches"])
         for patch in results[0]["patches"]:
@@ -231,9 +213,8 @@ class Forces(Case):
         """F = 1: the nominal radius is not the one on which the wheel rolls, so that it slides fully at -VS/NOMRADW"""
         for shift in (28.0, -28.0):
             self.shifted_wheel(shift)
-            cases = [
-                self.case(force=1, vpitch=fx).replace("profiles/S1002.prw", "shifted.txt") for fx in (-9000, -3000, 0, 4000, 9000)
-            ]
+            cases = [self.case(force=1, vpitch=fx).replace("profiles/S1002.prw", "shifted.txt")
+                     for fx in (-9000, -3000, 0, 4000, 9000)]
             results, out = self.solve(*cases)
             for fx, case in zip((-9000, -3000, 0, 4000, 9000), results):
                 self.assertTrue(case["converged"], (shift, fx))

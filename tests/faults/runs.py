@@ -97,9 +97,8 @@ def difference(good, file):
 def differences(good, folder):
     """All differences of two folders of results"""
     names = {file.name for file in good.iterdir() if file.is_file()}, {file.name for file in folder.iterdir() if file.is_file()}
-    found = [f"{name} is missing" for name in sorted(names[0] - names[1])] + [
-        f"{name} is left" for name in sorted(names[1] - names[0])
-    ]
+    found = [f"{name} is missing" for name in sorted(names[0] - names[1])] + [f"{name} is left"
+                                                                              for name in sorted(names[1] - names[0])]
     for name in sorted(names[0] & names[1]):
         what = difference(good / name, folder / name)
         if what:

@@ -64,9 +64,8 @@ def run(folder, kind, preload, **inject):
     """Exit status and messages of a run into an empty folder"""
     name, options = prepare(folder, kind)
     settings = {key: str(value) for key, value in inject.items() if value is not None}
-    return runs.run(
-        folder, name, *options, environment=dict(LD_PRELOAD=preload, INJECT_FOLDER=str(folder) + "/", **settings), timeout=60
-    )
+    return runs.run(folder, name, *options, environment=dict(LD_PRELOAD=preload, INJECT_FOLDER=str(folder) + "/", **settings),
+                    timeout=60)
 
 
 def half_written(file):

@@ -49,13 +49,8 @@ def run(folder, name, preload, at, for_ever=False, count=None):
         text = (EXAMPLES / f"{example}.inp").read_text(encoding="utf-8")
         (folder / f"{example}.inp").write_text(first_case(text, name), encoding="utf-8")
     (folder / "profiles").symlink_to(EXAMPLES / "profiles")
-    settings = {
-        "LD_PRELOAD": preload,
-        "INJECT_CALL": "memory",
-        "INJECT_AT": str(at),
-        "OMP_NUM_THREADS": "1",
-        "OPENBLAS_NUM_THREADS": "1",
-    }
+    settings = {"LD_PRELOAD": preload, "INJECT_CALL": "memory", "INJECT_AT": str(at), "OMP_NUM_THREADS": "1",
+                "OPENBLAS_NUM_THREADS": "1"}
     if for_ever:
         settings["INJECT_FOR_EVER"] = "1"
     if count:
@@ -87,9 +82,8 @@ def complaints(code, text, good, folder, expected):
     left = [f"{name.name} is left" for name in folder.iterdir() if name.suffix in (".tmp", ".part")]
     if code == expected == 0:
         now = contents(folder)
-        return left + [
-            f"{name} differs in spite of success" for name in sorted(set(good) | set(now)) if good.get(name) != now.get(name)
-        ]
+        return left + [f"{name} differs in spite of success" for name in sorted(set(good) | set(now))
+                       if good.get(name) != now.get(name)]
     return left + ([] if "ERROR" in text or "rror" in text else [f"no message with exit status {code}"])
 
 
@@ -116,10 +110,8 @@ def main():
                 code, text = run(folder, name, preload, place, for_ever)
                 found = complaints(code, text, good, folder, expected)
                 for complaint in found:
-                    print(
-                        f"FAILED {name}, request {place} of {count}{' and all later ones' if for_ever else ''}: {complaint}",
-                        flush=True,
-                    )
+                    print(f"FAILED {name}, request {place} of {count}{' and all later ones' if for_ever else ''}: {complaint}",
+                          flush=True)
                 bad += bool(found)
                 right += not found and code == 0
                 told += not found and code != 0

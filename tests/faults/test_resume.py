@@ -45,9 +45,8 @@ def sequences():
     steps = (-0.3, -0.6, -0.875, -0.5, 0.2)
     plain = shift(-0.2, first=True) + "".join(shift(fx) for fx in steps)
     repeated = shift(-0.2, first=True) + shift(-0.5) + shift(-0.6, link=3) + shift(-0.7, link=1) + shift(-0.8, estimate=0)
-    fresh = (
-        shift(-0.2, first=True) + shift(-0.5) + shift(-0.6, link=2, estimate=0) + shift(-0.7) + shift(-0.8, link=2) + shift(-0.1)
-    )
+    fresh = (shift(-0.2, first=True) + shift(-0.5) + shift(-0.6, link=2, estimate=0) + shift(-0.7) + shift(-0.8, link=2)
+             + shift(-0.1))
     mixed = (shift(-0.2, first=True, element="1") + shift(-0.3, first=True, element="2") + shift(-0.5, element="1")
              + shift(-0.6, element="2", stored=3) + shift(-0.7, element="1") + shift(-0.8, element="2") + shift(-0.1, element="1"))
     return {name: text + "0 MODULE\n" for name, text in
@@ -161,9 +160,8 @@ class Campaign:
                 code, said = runs.run(bad, name, *options)
             self.checks += 1
             self.went_on += "finished before" in said
-            left = [
-                complaint for complaint in runs.differences(good, bad) if not complaint.endswith((".tmp is left", ".part is left"))
-            ]
+            left = [complaint for complaint in runs.differences(good, bad)
+                    if not complaint.endswith((".tmp is left", ".part is left"))]
             if code or left:
                 self.complain(f"{what}: {code}, {left[:2] or said[-300:]}")
 

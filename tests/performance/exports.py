@@ -63,24 +63,14 @@ for kind in ("creepages", "forces"):
         for _ in range(ROUNDS):
             for k, (program, way) in enumerate(rows):
                 best[k] = min(best[k], seconds([program, "--quiet", *way, "2", "table"], folder))
-                files = [
-                    os.path.join(folder, name)
-                    for name in os.listdir(folder)
-                    if name.startswith("table.") and not name.endswith(".inp")
-                ]
+                files = [os.path.join(folder, name) for name in os.listdir(folder) if name.startswith("table.")
+                         and not name.endswith(".inp")]
                 sizes[k] = sum(os.path.getsize(name) for name in files)
                 for name in files:
                     os.remove(name)
         for k, (program, way) in enumerate(rows):
             count = calls(program, way, folder)
-            print(
-                "| %s | %s | %.2f | %.1f | %s |"
-                % (
-                    kind,
-                    " ".join(way) or ("none" if program == programs[0] else "none, " + sys.argv[2]),
-                    1e3 * best[k] / CASES,
-                    sizes[k] / CASES / 1e3,
-                    "-" if count is None else "%.1f" % count,
-                ),
-                flush=True,
-            )
+            print("| %s | %s | %.2f | %.1f | %s |" % (kind, " ".join(way)
+                                                      or ("none" if program == programs[0] else "none, " + sys.argv[2]),
+                                                      1e3 * best[k] / CASES, sizes[k] / CASES / 1e3, "-" if count is None
+                                                      else "%.1f" % count), flush=True)

@@ -123,12 +123,8 @@ def top_level(code, start, signs):
     for k in range(start, len(code)):
         c = code[k]
         depth += (c in "([{") - (c in ")]}")
-        if (
-            depth == 0
-            and c in signs
-            and re.search(r"[\w)\]]\s*$", code[start:k])
-            and not re.search(r"\d[ed]$", code[:k], re.IGNORECASE)
-        ):
+        if (depth == 0 and c in signs and re.search(r"[\w)\]]\s*$", code[start:k])
+            and not re.search(r"\d[ed]$", code[:k], re.IGNORECASE)):
             found.append(k)
     return found
 

@@ -97,11 +97,8 @@ def check_mat(path):
     table = rows[6:]
     numbers = [row[0] for row in table]
     mx, my = rows[3][:2]
-    if (
-        numbers != sorted(set(numbers))
-        or any(not 1 <= i <= mx * my for i in numbers)
-        or any(row[1] not in (0, 1, 2, 3) for row in table)
-    ):
+    if (numbers != sorted(set(numbers)) or any(not 1 <= i <= mx * my for i in numbers)
+        or any(row[1] not in (0, 1, 2, 3) for row in table)):
         wrong.append("%s: numbers or states of elements" % path)
     if any(row[1] == 0 and (row[4] or row[5] or row[6] or row[10]) for row in table):
         wrong.append("%s: tractions or slip out of contact" % path)
@@ -133,11 +130,8 @@ def check_subs(path):
         if len(names) != columns or len(points) != nx * ny * nz:
             wrong.append("%s:%d: a block of %d x %d x %d points has %d" % (path, k + 1, nx, ny, nz, len(points)))
         for i, point in enumerate(points):
-            if (
-                point[0] != points[i % nx][0]
-                or point[1] != points[i % (nx * ny) // nx * nx][1]
-                or point[2] != points[i // (nx * ny) * nx * ny][2]
-            ):
+            if (point[0] != points[i % nx][0] or point[1] != points[i % (nx * ny) // nx * nx][1]
+                or point[2] != points[i // (nx * ny) * nx * ny][2]):
                 wrong.append("%s:%d: order of points" % (path, k + 4 + i))
                 break
         k += 3 + nx * ny * nz

@@ -83,10 +83,8 @@ class Browser(unittest.TestCase):
         page.on("console", lambda message: self.troubles.append(message.text) if message.type in ("error", "warning")
                 and "willReadFrequently" not in message.text else None)
         page.on("pageerror", lambda error: self.troubles.append(str(error)))
-        page.on(
-            "request",
-            lambda request: None if request.url.startswith(("file:", "data:", "blob:")) else self.troubles.append(request.url),
-        )
+        page.on("request", lambda request: None if request.url.startswith(("file:", "data:", "blob:"))
+                else self.troubles.append(request.url))
         page.goto(address)
         page.wait_for_function(SETTLED, arg=0, timeout=60000)
         return page
@@ -113,9 +111,8 @@ class Browser(unittest.TestCase):
         # zoom and pan change the view, a double click shows all again
         before = page.evaluate("contactReport.state.view")
         page.mouse.wheel(0, -300)
-        page.wait_for_function(
-            "w => contactReport.state.view[1] - contactReport.state.view[0] < 0.8 * w", arg=before[1] - before[0]
-        )
+        page.wait_for_function("w => contactReport.state.view[1] - contactReport.state.view[0] < 0.8 * w",
+                               arg=before[1] - before[0])
         zoomed = page.evaluate("contactReport.state.view")
         page.mouse.down()
         page.mouse.move(box["x"] + 120, box["y"] + 60, steps=4)

@@ -27,11 +27,7 @@ except ImportError as reason:
 PROGRAM = os.environ["CONTACT_PROGRAM"]
 SOURCE = os.environ["CONTACT_SOURCE"]
 sys.path.insert(0, os.path.join(SOURCE, "python"))
-from contact.report import (
-    MissingResults,
-    read_experiment,
-    server,
-)
+from contact.report import (MissingResults, read_experiment, server)
 from contact.report.server import Server
 
 
@@ -162,18 +158,8 @@ class Serving(unittest.TestCase):
     def test_only_inputs_of_the_folder(self):
         files = json.loads(self.ask("GET", "/files")[1])
         self.assertEqual([file["name"] for file in files], ["--version", "cattaneo", "wrong"])
-        for name in (
-            "link",
-            "..%2Foutside%2Fsecret",
-            "../outside/secret",
-            "folder",
-            "other",
-            "other.txt",
-            "",
-            "cattaneo.inp",
-            "%00",
-            "cattaneo;id",
-        ):
+        for name in ("link", "..%2Foutside%2Fsecret", "../outside/secret", "folder", "other", "other.txt", "", "cattaneo.inp",
+                     "%00", "cattaneo;id"):
             for path in ("/run", "/check"):
                 self.assertEqual(self.ask("POST", "%s?name=%s" % (path, name))[0], 404, name)
             self.assertEqual(self.ask("GET", "/result?name=" + name)[0], 404, name)
@@ -311,37 +297,22 @@ class Hostile(unittest.TestCase):
 
     def test_hostile_requests(self):
         own = self.own
-        requests = [
-            b"POST /run?name=cattaneo HTTP/1.1\r\n" + own + "Content-Length: \u00b2\r\n\r\n".encode("latin-1"),
-            b"POST /run?name=cattaneo HTTP/1.1\r\n" + own + b"Content-Length: -1\r\n\r\n",
-            b"POST /run?name=cattaneo HTTP/1.1\r\n" + own + b"Content-Length: 99999999999999999999\r\n\r\n",
-            b"POST /run?name=cattaneo HTTP/1.1\r\n" + own + b"Content-Length: 1\r\nContent-Length: 0\r\n\r\n",
-            b"POST /run?name=cattaneo HTTP/1.1\r\n" + own + b"Transfer-Encoding: chunked\r\n\r\n0\r\n\r\n",
-            b"POST /run HTTP/1.1\r\n" + own + b"Content-Length: 70000\r\n\r\n" + b"x" * 70000,
-            b"GET http://[ HTTP/1.1\r\n" + own + b"\r\n",
-            b"GET //[ HTTP/1.1\r\n" + own + b"\r\n",
-            b"GET /result?name=%00 HTTP/1.1\r\n" + own + b"\r\n",
-            b"GET /result?name=../../etc/passwd HTTP/1.1\r\n" + own + b"\r\n",
-            b"GET /../../etc/passwd HTTP/1.1\r\n" + own + b"\r\n",
-            b"GET /\0 HTTP/1.1\r\n" + own + b"\r\n",
-            b"GET /?" + b"a=1&" * 10000 + b" HTTP/1.1\r\n" + own + b"\r\n",
-            b"GET /" + b"a" * 70000 + b" HTTP/1.1\r\n" + own + b"\r\n",
-            b"GET /\r\n",
-            b"GET\r\n",
-            b"\r\n",
-            b"\0\0\0\0\r\n\r\n",
-            b"GET / HTTP/9.9\r\n\r\n",
-            b"GET / HTTP/1.1\r\n\r\n",
-            b"BREW /pot HTTP/1.1\r\n" + own + b"\r\n",
-            b"HEAD / HTTP/1.1\r\n" + own + b"\r\n",
-            b"PUT / HTTP/1.1\r\n" + own + b"\r\n",
-            b"GET / HTTP/1.1\r\n" + own + b"A: b\r\n" * 200 + b"\r\n",
-            b"GET / HTTP/1.1\r\n" + own + b"A: " + b"b" * 70000 + b"\r\n\r\n",
-            b"GET / HTTP/1.1\r\nHost: evil.example\r\n\r\n",
-            b"GET / HTTP/1.1\r\n" + own + own + b"\r\n",
-            b"GET / HTTP/1.1\r\n" + own + b"Origin: http://127.0.0.1.evil.example\r\n\r\n",
-            b"\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03" + bytes(200),
-        ]
+        requests = [b"POST /run?name=cattaneo HTTP/1.1\r\n" + own + "Content-Length: \u00b2\r\n\r\n".encode("latin-1"),
+                    b"POST /run?name=cattaneo HTTP/1.1\r\n" + own + b"Content-Length: -1\r\n\r\n",
+                    b"POST /run?name=cattaneo HTTP/1.1\r\n" + own + b"Content-Length: 99999999999999999999\r\n\r\n",
+                    b"POST /run?name=cattaneo HTTP/1.1\r\n" + own + b"Content-Length: 1\r\nContent-Length: 0\r\n\r\n",
+                    b"POST /run?name=cattaneo HTTP/1.1\r\n" + own + b"Transfer-Encoding: chunked\r\n\r\n0\r\n\r\n",
+                    b"POST /run HTTP/1.1\r\n" + own + b"Content-Length: 70000\r\n\r\n" + b"x" * 70000, b"GET http://[ HTTP/1.1\r\n"
+                    + own + b"\r\n", b"GET //[ HTTP/1.1\r\n" + own + b"\r\n", b"GET /result?name=%00 HTTP/1.1\r\n" + own + b"\r\n",
+                    b"GET /result?name=../../etc/passwd HTTP/1.1\r\n" + own + b"\r\n", b"GET /../../etc/passwd HTTP/1.1\r\n" + own
+                    + b"\r\n", b"GET /\0 HTTP/1.1\r\n" + own + b"\r\n", b"GET /?" + b"a=1&" * 10000 + b" HTTP/1.1\r\n" + own
+                    + b"\r\n", b"GET /" + b"a" * 70000 + b" HTTP/1.1\r\n" + own + b"\r\n", b"GET /\r\n", b"GET\r\n", b"\r\n",
+                    b"\0\0\0\0\r\n\r\n", b"GET / HTTP/9.9\r\n\r\n", b"GET / HTTP/1.1\r\n\r\n", b"BREW /pot HTTP/1.1\r\n" + own
+                    + b"\r\n", b"HEAD / HTTP/1.1\r\n" + own + b"\r\n", b"PUT / HTTP/1.1\r\n" + own + b"\r\n", b"GET / HTTP/1.1\r\n"
+                    + own + b"A: b\r\n" * 200 + b"\r\n", b"GET / HTTP/1.1\r\n" + own + b"A: " + b"b" * 70000 + b"\r\n\r\n",
+                    b"GET / HTTP/1.1\r\nHost: evil.example\r\n\r\n", b"GET / HTTP/1.1\r\n" + own + own + b"\r\n",
+                    b"GET / HTTP/1.1\r\n" + own + b"Origin: http://127.0.0.1.evil.example\r\n\r\n",
+                    b"\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03" + bytes(200)]
         for request in requests:
             answer = self.send(request, shut=True)
             status = re.match(rb"HTTP/1\.[01] (\d+)", answer)
@@ -349,11 +320,9 @@ class Hostile(unittest.TestCase):
                 self.assertIn(int(status[1]), (400, 403, 404, 413, 414, 431, 501, 505), (request[:80], answer[:80]))
             self.assertNotIn(b"root:", answer)
         random = Random(14)
-        seeds = [
-            b"GET /files HTTP/1.1\r\n" + own + b"\r\n",
-            b"POST /check?name=cattaneo HTTP/1.1\r\n" + own + b"Content-Length: 3\r\n\r\nabc",
-            b"GET /result?name=cattaneo HTTP/1.1\r\n" + own + b"Origin: http://127.0.0.1\r\n\r\n",
-        ]
+        seeds = [b"GET /files HTTP/1.1\r\n" + own + b"\r\n", b"POST /check?name=cattaneo HTTP/1.1\r\n" + own
+                 + b"Content-Length: 3\r\n\r\nabc", b"GET /result?name=cattaneo HTTP/1.1\r\n" + own
+                 + b"Origin: http://127.0.0.1\r\n\r\n"]
         for _ in range(300):
             data = bytearray(random.choice(seeds))
             for _ in range(random.randint(1, 6)):
@@ -370,9 +339,8 @@ class Hostile(unittest.TestCase):
                 data = data or bytearray(b"\n")
             answer = self.send(bytes(data), shut=True)
             status = re.match(rb"HTTP/1\.[01] (\d+)", answer)
-            self.assertTrue(
-                status is None or int(status[1]) in (200, 400, 403, 404, 409, 411, 413, 414, 431, 501, 505), answer[:80]
-            )
+            self.assertTrue(status is None or int(status[1]) in (200, 400, 403, 404, 409, 411, 413, 414, 431, 501, 505),
+                            answer[:80])
         self.ended_well()
 
     def test_slow_and_many(self):
@@ -394,14 +362,8 @@ class Hostile(unittest.TestCase):
 
     def test_ports(self):
         for port in ("99999", "-1", "x", "", "\u00b2"):
-            run = subprocess.run(
-                [PROGRAM, "report", "--serve", self.folder, "--port", port],
-                stdin=subprocess.DEVNULL,
-                env=self.environment(),
-                capture_output=True,
-                text=True,
-                timeout=60,
-            )
+            run = subprocess.run([PROGRAM, "report", "--serve", self.folder, "--port", port], stdin=subprocess.DEVNULL,
+                                 env=self.environment(), capture_output=True, text=True, timeout=60)
             self.assertEqual(run.returncode, 2, run.stderr)
             self.assertIn("ports are the numbers", run.stderr)
             self.assertNotIn("Traceback", run.stderr)

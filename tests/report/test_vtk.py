@@ -46,12 +46,8 @@ class Vtk(unittest.TestCase):
         self.folder = scratch.name
 
     def run_example(self, name):
-        subprocess.run(
-            [PROGRAM, "--quiet", "--vtk", "--json", "--output-dir", self.folder, "2", os.path.join(SOURCE, "examples", name)],
-            check=True,
-            stdin=subprocess.DEVNULL,
-            timeout=120,
-        )
+        subprocess.run([PROGRAM, "--quiet", "--vtk", "--json", "--output-dir", self.folder, "2",
+                        os.path.join(SOURCE, "examples", name)], check=True, stdin=subprocess.DEVNULL, timeout=120)
         with open(os.path.join(self.folder, name + ".jsonl")) as file:
             return [case for case in map(json.loads, file) if case["case"]]
 
@@ -118,9 +114,8 @@ class Vtk(unittest.TestCase):
             self.assertEqual(data.GetNumberOfArrays(), len(arrays) - 1)
             for k in range(data.GetNumberOfArrays()):
                 array = data.GetArray(k)
-                self.assertEqual(
-                    array.GetTuple(array.GetNumberOfTuples() // 2), arrays[array.GetName()][array.GetNumberOfTuples() // 2]
-                )
+                self.assertEqual(array.GetTuple(array.GetNumberOfTuples() // 2),
+                                 arrays[array.GetName()][array.GetNumberOfTuples() // 2])
 
     def test_without_the_flag_nothing_is_written(self):
         subprocess.run([PROGRAM, "--quiet", "--output-dir", self.folder, "2", os.path.join(SOURCE, "examples", "cattaneo")],

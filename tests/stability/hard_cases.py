@@ -79,13 +79,9 @@ def report(build):
                    f"{sum(map(failed, solved))} | {sum(products)/len(products):.0f} | {max(products)} | "
                    f"{max(case['recomputed'] for case in solved if not failed(case)):.1e} |")
     for name, title, cases in groups:
-        out += [
-            "",
-            f"## {title} ({name})",
-            "",
-            "| case | contact | method | iterations | products | residual | recomputed | ended |",
-            "|---|---|---|---|---|---|---|---|",
-        ]
+        out += ["", f"## {title} ({name})", "",
+                "| case | contact | method | iterations | products | residual | recomputed | ended |",
+                "|---|---|---|---|---|---|---|---|"]
         for case in listed(cases):
             out.append(f"| {case['name']} | {case['contact']} | {case['method']} | {case['iterations']} | {case['products']} | "
                        f"{case['residual']} | {case['recomputed']:.1e} | {case['ended']} |")

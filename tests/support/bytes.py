@@ -281,10 +281,8 @@ def do_store(store, arguments, tools):
             if tools["limit"] and files is None:
                 again.append(task)
                 continue
-            index[f"{door}/{name}"] = {
-                "seconds": round(seconds, 2),
-                "files": {file: digest for file, (digest, _) in (files or {}).items()},
-            }
+            index[f"{door}/{name}"] = {"seconds": round(seconds, 2),
+                                       "files": {file: digest for file, (digest, _) in (files or {}).items()}}
             for file, (_, text) in (files or {}).items():
                 if text is not None:
                     place = place_of(store, door, name, file)
@@ -309,9 +307,8 @@ def stored_text(store, door, name, file):
 def told(old, new, ignored, lines):
     """The first differing lines; None when what differs is ignored"""
     def split(text):
-        return [
-            line for line in text.decode("utf-8", errors="backslashreplace").split("\n") if not (ignored and ignored.search(line))
-        ]
+        return [line for line in text.decode("utf-8", errors="backslashreplace").split("\n")
+                if not (ignored and ignored.search(line))]
     before, after = split(old), split(new)
     if before == after:
         return None
@@ -375,12 +372,10 @@ def main():
     parser.add_argument("store")
     parser.add_argument("--exe", default=os.environ.get("CONTACT_PROGRAM"), help="program; default CONTACT_PROGRAM")
     parser.add_argument("--library", default=os.environ.get("CONTACT_LIBRARY"), help="shared library; default CONTACT_LIBRARY")
-    parser.add_argument(
-        "--inputs", default=os.environ.get("CONTACT_REFERENCE"), help="folder of more inputs; default CONTACT_REFERENCE"
-    )
-    parser.add_argument(
-        "--source", default=os.path.dirname(os.path.dirname(HERE)), help="sources from which a store takes examples"
-    )
+    parser.add_argument("--inputs", default=os.environ.get("CONTACT_REFERENCE"),
+                        help="folder of more inputs; default CONTACT_REFERENCE")
+    parser.add_argument("--source", default=os.path.dirname(os.path.dirname(HERE)),
+                        help="sources from which a store takes examples")
     parser.add_argument("--python", help="compare: use this Python package instead of the stored one")
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--patience", type=float, default=900.0, help="seconds that one run may take")

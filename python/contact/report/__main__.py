@@ -23,9 +23,8 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("-o", "--output", metavar="FILE", help="name of the HTML file; default EXPNAM.html")
     parser.add_argument("--serve", nargs="?", const=".", metavar="FOLDER",
                         help="serve the .inp files of a folder (default: this one) on the loopback address")
-    parser.add_argument(
-        "--port", type=port_number, default=DEFAULT_PORT, help="port of the server, 0 for any free one (default %(default)s)"
-    )
+    parser.add_argument("--port", type=port_number, default=DEFAULT_PORT,
+                        help="port of the server, 0 for any free one (default %(default)s)")
     asked = parser.parse_args(arguments)
     if (asked.experiment is None) == (asked.serve is None):
         parser.error("name an experiment, or ask for --serve")

@@ -238,22 +238,11 @@ def _read(file: Any, path: str) -> tuple[dict[str, Any], list[dict[str, str]]]:
         label = str(ident["case"])
         if ident["result_element"]:
             label = "%d:%s" % (ident["result_element"], label)
-        case = {
-            "label": label,
-            "number": ident["case"],
-            "module": ident["module"],
-            "solved": bool(head["solved"]),
-            "converged": bool(head["converged"]),
-            "status": "solved",
-            "seconds": _plain(head["seconds"]),
-            "inputs": reader.input_of(group),
-            "totals": {
-                name: _plain(head[name])
-                for name in case_rows
-                if ident["module"] == 1 and name not in ("case", "line", "solved", "converged", "status_code", "missed", "seconds")
-            },
-            "patches": [],
-        }
+        case = {"label": label, "number": ident["case"], "module": ident["module"], "solved": bool(head["solved"]),
+                "converged": bool(head["converged"]), "status": "solved", "seconds": _plain(head["seconds"]),
+                "inputs": reader.input_of(group), "totals": {name: _plain(head[name]) for name in case_rows if ident["module"] == 1
+                                                             and name not in ("case", "line", "solved", "converged", "status_code",
+                                                                              "missed", "seconds")}, "patches": []}
         if "status" in group:
             case.update(reader.values(group["status"]))
         elif "failure" in group:  # files of earlier versions

@@ -410,9 +410,8 @@ def refusals():
         for value in bad:
             give(value)
             text = last_error(1, 1)[1]
-            check(
-                word in text or (word == "options" and "Hertzian option" in text), f"{routine}: {value} is refused at once: {text}"
-            )
+            check(word in text or (word == "options" and "Hertzian option" in text),
+                  f"{routine}: {value} is refused at once: {text}")
             same(cntc.calculate(1, 1), -99, f"{routine}: {word} = {value} is not forgotten")
             text = last_error(1, 1)[1]
             check("was refused" in text and routine in text.lower(), f"{routine} is named: {text}")
@@ -562,9 +561,8 @@ def grids():
         case_a(1, 1, units)
         same(cntc.calculate(1, 1), 0, "an ellipse")
         a1, b1, aa, bb, rho, cp, scale, bneg, bpos, aob = cntc.gethertzcontact(1, 1)
-        close(
-            [aa, bb, scale, bneg, bpos, aob], [4.25 * big, 7 * big, 21 / 17, 7 * big, 7 * big, 4.25 / 7], 1e-9, f"{units}: ellipse"
-        )
+        close([aa, bb, scale, bneg, bpos, aob], [4.25 * big, 7 * big, 21 / 17, 7 * big, 7 * big, 4.25 / 7], 1e-9,
+              f"{units}: ellipse")
         close([rho, cp], [2 / (a1 + b1), np.sqrt(aa * bb)], [1e-9 * rho, 1e-9], f"{units}: effective radius and size")
         # pressure of an ellipse from its force and area
         fn = cntc.getcontactforces(1, 1)[0]
@@ -583,12 +581,8 @@ def grids():
         cntc.setnormalforce(1, 1, 33000)
         cntc.setmaterialparameters(1, 1, 3, [0.28, 0.28, 82e3 / big**2, 82e3 / big**2, 1, 1, 1])
         same(cntc.calculate(1, 1), 0, "two half ellipses")
-        close(
-            np.array(cntc.gethertzcontact(1, 1)) / [1, 1, big, big, big, big, 1, big, big, 1],
-            [0, 0, 4.2, 0, 0, 0, 1.25, 3.1, 5.1, 1],
-            1e-9,
-            f"{units}: two half ellipses",
-        )
+        close(np.array(cntc.gethertzcontact(1, 1)) / [1, 1, big, big, big, big, 1, big, big, 1],
+              [0, 0, 4.2, 0, 0, 0, 1.25, 3.1, 5.1, 1], 1e-9, f"{units}: two half ellipses")
         cntc.finalize(1)
 
 

@@ -23,9 +23,8 @@ def ask(task, length, kind, method=1, reals=(1.0,)):
 def lengths(task, kind, full, label, **how):
     """Arrays that are shorter hold the beginning of the whole list, longer ones nothing more"""
     n = len(full)
-    for length in sorted(
-        {2, 3, n // 3 - 1, n // 3, n // 3 + 1, n // 2, 2 * n // 3, 2 * n // 3 + 1, n - 1, n} & set(range(2, n + 1))
-    ):
+    for length in sorted({2, 3, n // 3 - 1, n // 3, n // 3 + 1, n // 2, 2 * n // 3, 2 * n // 3 + 1, n - 1,
+                          n} & set(range(2, n + 1))):
         np.testing.assert_array_equal(ask(task, length, kind, **how), full[:length], f"{label}, task {task}, {length} of {n}")
     longer = ask(task, n + 4, kind, **how)
     np.testing.assert_array_equal(longer[:n], full)
@@ -54,10 +53,8 @@ def plain():
             between = lists[5][:-1] + 0.5 * ((np.diff(lists[5]) + math.pi) % (2 * math.pi) - math.pi)
             chord = np.arctan2(np.diff(z), np.diff(y))
             off = np.abs((chord - between + math.pi) % (2 * math.pi) - math.pi)
-            check(
-                smooth.sum() > 0.7 * n and float(off[smooth].max()) < 0.03,
-                f"body {kind}, sampling {method}: angles {off[smooth].max()}",
-            )
+            check(smooth.sum() > 0.7 * n and float(off[smooth].max()) < 0.03,
+                  f"body {kind}, sampling {method}: angles {off[smooth].max()}")
 
 
 def surface():

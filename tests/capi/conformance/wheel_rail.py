@@ -512,18 +512,8 @@ def from_inputs():
 
 
 if __name__ == "__main__":
-    scenarios = (
-        conventions,
-        patch_as_in_matlab,
-        mirrored,
-        profile_values,
-        slices,
-        replay,
-        replay_values,
-        options,
-        varying,
-        from_inputs,
-    )
+    scenarios = (conventions, patch_as_in_matlab, mirrored, profile_values, slices, replay, replay_values, options, varying,
+                 from_inputs)
     chosen = [scenario for scenario in scenarios if scenario.__name__ in sys.argv[1:]]
     if not chosen:
         raise SystemExit("usage: wheel_rail.py " + " | ".join(scenario.__name__ for scenario in scenarios))

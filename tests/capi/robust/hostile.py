@@ -156,17 +156,10 @@ def ask(generator):
         LIBRARY.contact_case_status(ire, icp, generator.choice([None, ctypes.byref(ctypes.c_int())]), buffer, length)
     else:
         name = generator.choice([None, b"", b"/", b"nothing_here", b"\xff\xfe", b"a" * 5000, b"."])
-        LIBRARY.contact_run_limited(
-            name,
-            generator.choice([2, 3, *INTEGERS[:3]]),
-            generator.choice([None, b"", EMPTY.name.encode()]),
-            generator.choice([-1, 0, 1, 2]),
-            generator.choice([0, 1, 7, 8, -1]),
-            0,
-            *(ctypes.c_double(generator.choice(REALS)) for _ in range(3)),
-            buffer,
-            length,
-        )
+        LIBRARY.contact_run_limited(name, generator.choice([2, 3, *INTEGERS[:3]]),
+                                    generator.choice([None, b"", EMPTY.name.encode()]), generator.choice([-1, 0, 1, 2]),
+                                    generator.choice([0, 1, 7, 8, -1]), 0, *(ctypes.c_double(generator.choice(REALS))
+                                                                             for _ in range(3)), buffer, length)
 
 
 EMPTY = tempfile.TemporaryDirectory()
