@@ -6,7 +6,7 @@ module contact_capi_setter
    use contact_capi_messages, only : complain, warn
    use contact_cases_archive, only : case_archive
    use contact_control_units, only : inward, quantity_of, unit_convention
-   use contact_text_bounds, only : bounds_of, bounds_table, describe_breach
+   use contact_text_bounds, only : bounds_table, describe_breach
    use contact_text_words, only : integer_text
    implicit none (type, external)
    private
@@ -65,16 +65,16 @@ contains
    !> Give the items in hand their values, unless one of them is beyond its bounds
    subroutine set_line(self)
       class(setter), intent(inout) :: self
-      real(wp) :: values(size(self%line%items))
+      real(wp) :: values(size(self%items))
       integer :: k
 
-      do k = 1, self%line%count
+      do k = 1, self%count
          if (.not. self%is_good) exit
          call take(self, k, values(k))
       end do
       if (self%is_good) then
-         do k = 1, self%line%count
-            associate (item => self%line%items(k))
+         do k = 1, self%count
+            associate (item => self%items(k))
                if (associated(item%i)) item%i = nint(values(k))
                if (associated(item%r)) item%r = values(k)
             end associate
@@ -89,10 +89,9 @@ contains
       !> In the line
       integer, intent(in) :: place
       real(wp), intent(out) :: value
-      integer :: k, row
+      integer :: k
 
-      associate (item => self%line%items(place))
-         row = bounds_of(item%name)
+      associate (item => self%items(place), row => self%items(place)%row)
          value = item%default
          if (associated(item%i) .and. allocated(self%whole_numbers)) then
             self%integers_taken = self%integers_taken + 1
@@ -180,9 +179,9 @@ contains
       k = self%place_of(name)
       if (k == 0) return
       if (present(bounds)) then
-         call check_bounds(self, bounds, self%last%items(k)%r, name)
+         call check_bounds(self, bounds, self%items(k)%r, name)
       else
-         call check_bounds(self, name, self%last%items(k)%r)
+         call check_bounds(self, name, self%items(k)%r)
       end if
    end subroutine check_number
 end module contact_capi_setter

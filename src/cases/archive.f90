@@ -14,7 +14,7 @@ module contact_cases_archive
    implicit none (type, external)
    private
 
-   public :: archive_item, archive_line, case_archive, item_kind, text_variable
+   public :: archive_item, case_archive, item_kind, text_variable
 
    !> Most numbers on a line; length of a number with its name
    integer, parameter :: most_items = 12
@@ -37,8 +37,8 @@ module contact_cases_archive
    type :: archive_item
       !> Name as in the input files; "A|B" when it is A or B, depending on another number of the line
       character(len=13) :: name = ""
-      !> Member of item_kind
-      integer :: kind = 0
+      !> Member of item_kind, and row of the table of bounds, 0 when it has none
+      integer :: kind = 0, row = 0
       !> May it be missing? Then it is the default
       logical :: is_optional = .false.
       real(wp) :: default = 0.0_wp
@@ -52,16 +52,12 @@ module contact_cases_archive
       type(text_variable), pointer :: s => null()
    end type archive_item
 
-   !> The items of the line in hand
-   type :: archive_line
-      integer :: count = 0
-      type(archive_item) :: items(most_items)
-   end type archive_line
-
    !> One format or use
    type, abstract :: case_archive
-      !> The line in hand, and the one that ended last
-      type(archive_line) :: line, last
+      !> The items of the line in hand, or of the one that ended last until the next begins
+      type(archive_item) :: items(most_items)
+      integer :: count = 0
+      logical, private :: has_ended = .false.
       !> Do values come in?
       logical :: is_reading = .false.
       !> Do the rules of the published interface of the library hold? The smaller one of two coefficients of Coulomb friction
@@ -102,7 +98,7 @@ module contact_cases_archive
    end type case_archive
 
    abstract interface
-      !> Handle the items of `line`, and make it `last`
+      !> Handle the items, and call `finish_line`
       subroutine end_line_interface(self)
          import :: case_archive
          class(case_archive), intent(inout) :: self
@@ -134,9 +130,12 @@ contains
       integer, intent(in) :: kind
       real(wp), intent(in), optional :: default
 
-      self%line%count = self%line%count + 1
-      associate (item => self%line%items(self%line%count))
+      if (self%has_ended) self%count = 0
+      self%has_ended = .false.
+      self%count = self%count + 1
+      associate (item => self%items(self%count))
          item%name = name
+         item%row = bounds_of(name)
          item%kind = kind
          item%is_optional = present(default)
          item%default = 0.0_wp
@@ -156,16 +155,15 @@ contains
       real(wp), intent(in), optional :: default
       !> Are bounds checked by the caller?
       logical, intent(in), optional :: unchecked
-      integer :: kind, row
 
-      kind = item_kind%real
-      row = bounds_of(name)
-      if (row > 0) then
-         if (bounds_table(row)%unit == "rad" .or. bounds_table(row)%unit == "rad/s") kind = item_kind%angle
-      end if
-      call add_item(self, name, kind, default)
-      self%line%items(self%line%count)%r => value
-      if (present(unchecked)) self%line%items(self%line%count)%is_unchecked = unchecked
+      call add_item(self, name, item_kind%real, default)
+      associate (item => self%items(self%count))
+         if (item%row > 0) then
+            if (bounds_table(item%row)%unit == "rad" .or. bounds_table(item%row)%unit == "rad/s") item%kind = item_kind%angle
+         end if
+         item%r => value
+         if (present(unchecked)) item%is_unchecked = unchecked
+      end associate
    end subroutine note_real
 
    !> Note the components of a vector: name1, name2, ...
@@ -200,8 +198,8 @@ contains
       else
          call add_item(self, name, kind)
       end if
-      self%line%items(self%line%count)%i => value
-      if (present(unchecked)) self%line%items(self%line%count)%is_unchecked = unchecked
+      self%items(self%count)%i => value
+      if (present(unchecked)) self%items(self%count)%is_unchecked = unchecked
    end subroutine note_integer
 
    !> Note a text
@@ -211,7 +209,7 @@ contains
       type(text_variable), intent(inout), target :: value
 
       call add_item(self, name, item_kind%text)
-      self%line%items(self%line%count)%s => value
+      self%items(self%count)%s => value
    end subroutine note_text
 
    !> Was an item of the last line given?
@@ -222,7 +220,7 @@ contains
 
       k = self%place_of(name)
       was_given = .false.
-      if (k > 0) was_given = self%last%items(k)%given
+      if (k > 0) was_given = self%items(k)%given
    end function was_given
 
    !> Place of an item in the last line, 0 when it is not there
@@ -230,8 +228,8 @@ contains
       class(case_archive), intent(in) :: self
       character(len=*), intent(in) :: name
 
-      do k = 1, self%last%count
-         if (self%last%items(k)%name == name) return
+      do k = 1, self%count
+         if (self%items(k)%name == name) return
       end do
       k = 0
    end function place_of
@@ -240,8 +238,7 @@ contains
    pure subroutine finish_line(self)
       class(case_archive), intent(inout) :: self
 
-      self%last = self%line
-      self%line%count = 0
+      self%has_ended = .true.
    end subroutine finish_line
 
    !> Formats without groups
@@ -317,7 +314,7 @@ contains
       k = self%place_of(name)
       text = name
       if (k == 0) return
-      associate (item => self%last%items(k))
+      associate (item => self%items(k))
          if (associated(item%r)) text = name // " = " // real_text(item%r)
          if (associated(item%i)) text = name // " = " // integer_text(item%i)
       end associate

@@ -4,7 +4,7 @@ module contact_input_file_reader
    use contact_base_kinds, only : wp
    use contact_cases_archive, only : archive_item, case_archive, item_kind, shown_length
    use contact_input_problems, only : problem_list, severity
-   use contact_text_bounds, only : bounds_of, bounds_table
+   use contact_text_bounds, only : bounds_of, bounds_table, is_within
    use contact_text_lexer, only : input_lexer, input_value
    implicit none (type, external)
    private
@@ -43,31 +43,31 @@ contains
       reader%is_reading = .true.
       reader%lexer => lexer
       reader%problems => problems
-      allocate(reader%values(size(reader%line%items)))
+      allocate(reader%values(size(reader%items)))
    end function new_file_reader
 
    !> Read the items in hand; those beyond their bounds are told
    subroutine read_line(self)
       class(file_reader), intent(inout) :: self
-      character(len=size(self%line%items)) :: types
-      character(len=16*size(self%line%items)) :: names
+      character(len=size(self%items)) :: types
+      character(len=16*size(self%items)) :: names
       integer :: k, n, last
 
-      n = self%line%count
+      n = self%count
       if (self%is_good .and. n > 0) then
          types = ""
          names = ""
          last = 0
          do k = 1, n
-            types(k:k) = letter_of(self%line%items(k))
-            names(last + 1:) = self%line%items(k)%name
+            types(k:k) = letter_of(self%items(k))
+            names(last + 1:) = self%items(k)%name
             last = len_trim(names) + 1
          end do
          call self%lexer%read_group(types(:n), trim(names), self%values(:n), self%error)
          self%is_good = .not. allocated(self%error)
          if (self%is_good) then
             do k = 1, n
-               call take_value(self, self%line%items(k), self%values(k))
+               call take_value(self, self%items(k), self%values(k))
             end do
          end if
       end if
@@ -103,7 +103,14 @@ contains
          item%s%value = value%s
          return
       end if
-      if (.not. item%is_unchecked) call self%problems%check_bounds(value)
+      if (.not. item%is_unchecked) then
+         ! the name is looked up once more for what is wrong only
+         if (item%row == 0) then
+            call self%problems%check_bounds(value)
+         else if (.not. is_within(item%row, value%r)) then
+            call self%problems%check_bounds(value)
+         end if
+      end if
       select case (item%kind)
       case (item_kind%integer); item%i = value%i
       ! only the sign has a meaning
@@ -191,7 +198,7 @@ contains
       k = self%place_of(name)
       if (k == 0 .or. .not. self%is_good) return
       value = self%values(k)
-      value%r = self%last%items(k)%r
+      value%r = self%items(k)%r
       call self%problems%check_bounds(value, bounds)
    end subroutine check_value
 

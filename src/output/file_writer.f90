@@ -35,8 +35,8 @@ contains
 
       values = ""
       names = ""
-      do k = 1, self%line%count
-         associate (item => self%line%items(k))
+      do k = 1, self%count
+         associate (item => self%items(k))
             if (k > 1) values = values // " "
             select case (item%kind)
             case (item_kind%integer, item_kind%branch)

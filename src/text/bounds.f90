@@ -11,7 +11,7 @@ module contact_text_bounds
    implicit none (type, external)
    private
 
-   public :: number_bounds, bounds_table, bounds_of, describe_breach, check_number
+   public :: number_bounds, bounds_table, bounds_of, is_within, describe_breach, check_number
 
    !> Bounds of one number
    type :: number_bounds
@@ -514,6 +514,16 @@ contains
       row = 0
    end function row_of
 
+   !> Is a value within the bounds of a row of the table?
+   pure logical function is_within(row, value)
+      integer, intent(in) :: row
+      real(wp), intent(in) :: value
+
+      is_within = .false.
+      if (.not. (ieee_is_finite(value) .and. value <= bounds_table(row)%highest)) return
+      is_within = value > bounds_table(row)%lowest .or. (value >= bounds_table(row)%lowest .and. .not. bounds_table(row)%is_open)
+   end function is_within
+
    !> "GG1 = 1e-30 is below its lower bound 1.00000E-05 N/mm2: from the softest gels ..."
    subroutine describe_breach(name, word, value, complaint, shown)
       !> As in the input files
@@ -534,10 +544,7 @@ contains
          complaint = name // " has no bounds in the table of this program, which is a fault of it"
          return
       end if
-      if (ieee_is_finite(value) .and. value <= bounds_table(row)%highest) then
-         if (value > bounds_table(row)%lowest) return
-         if (value >= bounds_table(row)%lowest .and. .not. bounds_table(row)%is_open) return
-      end if
+      if (is_within(row, value)) return
       bounds = bounds_table(row)
       who = name
       if (present(shown)) who = shown
