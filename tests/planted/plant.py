@@ -225,7 +225,7 @@ class Store:
         """passed, failed, skipped or late; seconds"""
         test = self.tests[name]
         environment = {**os.environ, "OMP_NUM_THREADS": "1", **test["environment"], "CONTACT_REFERENCE": "/nonexistent",
-                       **{key: str(value) for key, value in more.items()}}
+                       "CONTACT_PYTHON": str(self.source / "python"), **{key: str(value) for key, value in more.items()}}
         os.makedirs(test["folder"], exist_ok=True)
         started = time.monotonic()
 
