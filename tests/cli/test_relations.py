@@ -137,6 +137,7 @@ class Relations(unittest.TestCase):
             totals = record["patches"][0]["totals"]
             found.append({name: entry["value"] if isinstance(entry, dict) else entry for name, entry in totals.items()})
             found[-1]["status"] = record["status"]
+            found[-1].update((name, value) for name, value in record["patches"][0]["solver"].items() if "iterations" in name)
         return found
 
     def compare(self, change, sign, power_of_length=0, power_of_modulus=0, tolerance=1e-6):
@@ -181,6 +182,17 @@ class Relations(unittest.TestCase):
         pairs = {(round(row["fx"], 1), round(row["fy"], 1), round(row["fn"], 1), round(row.get("cksi", 0), 6))
                  for row in found[::2]}
         self.assertGreaterEqual(len(pairs), len(CONFIGURATIONS) - 4)
+
+    def test_what_was_before_does_not_count(self):
+        """Each first case in the other order of cases, to the last bit; the second one continues its own first one"""
+        cases = [dict(copy.deepcopy(BASE), aa=1.6, bb=1.9, **values) for values in CONFIGURATIONS.values()]
+        for k, case in enumerate(cases):
+            # neighbours have other windows, forces and creepages
+            case.update(xl=-2.1 - 0.1*(k % 3), fn=case["fn"]*(1.0 + 0.1*(k % 4)), spin=1e-4*(k % 5))
+        forwards, backwards = self.solve(cases), self.solve(cases[::-1])
+        for k, name in enumerate(CONFIGURATIONS):
+            for step in (0, 1):
+                self.assertEqual(forwards[2*k + step], backwards[2*(len(cases) - 1 - k) + step], (name, step))
 
     def test_mirror_image_in_x(self):
         self.compare(image_x, 2)
