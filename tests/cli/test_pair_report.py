@@ -10,6 +10,7 @@ import re
 import subprocess
 import tempfile
 import unittest
+import unittest.mock
 
 PROGRAM = os.environ["CONTACT_PROGRAM"]
 PROFILES = os.path.join(os.environ["CONTACT_SOURCE"], "examples", "profiles")
@@ -203,6 +204,19 @@ class PairReport(unittest.TestCase):
             for way in "yz":
                 force = totals[f"f{way}_tr"] + printed[f"F{way.upper()}_RAIL"]
                 self.assertAlmostEqual(totals[f"d{way}_defl"]*springs[f"K{way.upper()}_RAIL"], force, delta=1e-3*60000)
+
+    def test_standing_wheel(self):
+        """Nothing moves: a rolling velocity of 0 is no reason for anything that is not a number"""
+        standing = CASE.replace("20000 {s}17 3 {s}0.0017 {s}0.0021 -43.5", "0 0 0 0 0 0").replace(
+            "{s}1.1 2.2 {s}0.0013", "0 0 0").replace("1.1 {s}1.2 1.3 {s}0.014 {s}0.015 0.16", "0 0 0 0 0 0")
+        for d in (2, 3, 4):
+            with unittest.mock.patch(__name__ + ".CASE", standing):
+                for reports, records in self.run_both(dict(PLAIN, d=d)):
+                    totals = records[0]["totals"]
+                    self.assertAlmostEqual(value(totals["fz_tr"]), 60000, delta=0.06)
+                    # friction at rest: what is printed are numbers, and no force is larger than friction allows
+                    self.assertLess(math.hypot(value(totals["fx_tr"]), 0), 0.35*60000*1.2)
+                    self.assertNotIn("NaN", reports[0])
 
     def test_words_of_the_problem(self):
         for step, words in ((dict(n=0, z=-2.88), "PRESCRIBED POSITION, FULL"), (dict(t=0), "PRESCRIBED VERTICAL FORCE, FULL"),

@@ -1,5 +1,8 @@
 #!/usr/bin/env python3
 """Every flag with every value within and around its range: what is stored, what is refused, what a calculation makes of it"""
+import ctypes
+import ctypes.util
+
 import numpy as np
 from checks import check, finish, profiles, same
 from contact import cntc
@@ -107,6 +110,18 @@ def unknown():
     check(cntc.calculate(4, -1) < 0, "elements without length")
 
 
+def threads():
+    """The largest number of threads is what OpenMP has now; it grows with what a host asks OpenMP for"""
+    openmp = ctypes.CDLL(ctypes.util.find_library("gomp"), mode=ctypes.RTLD_GLOBAL)
+    first = call("cntc_getmaxnumthreads")
+    for number in (first + 2, first + 5):
+        openmp.omp_set_num_threads(number)
+        same(call("cntc_getmaxnumthreads"), number, "threads of OpenMP")
+    openmp.omp_set_num_threads(1)
+    same(call("cntc_getmaxnumthreads"), first + 5, "what there was once stays")
+
+
 ranges()
 unknown()
+threads()
 finish()
