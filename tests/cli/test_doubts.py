@@ -94,6 +94,11 @@ class Border(Program):
             self.assertEqual(told, [], better)
             self.assertEqual(patches[0]["totals"]["border_elements"], 0)
             self.assertAlmostEqual(patches[0]["totals"]["pmax"]["value"], hertz_pressure(), delta=0.02*hertz_pressure())
+            # as the contact it lies around the origin, within the elements that one on a coarse grid has
+            first = [float(word) for word in better.split()[3:5]]
+            for low, number, side in zip(first, better.split()[1:3], grid.split()[4:]):
+                high = low + int(number)*float(side)
+                self.assertLess(abs(low + high), 2.1*float(side), better)
             # and it is not much too large: twice the contact at most, and some elements
             columns, radius = int(better.split()[1]), 1.719
             self.assertLess(columns*float(grid.split()[4]), 2.0*2.0*radius)

@@ -85,7 +85,8 @@ class PairReport(unittest.TestCase):
         for c1, s in ((1, ""), (0, "-")):
             text = "".join(CASE.format(c1=c1, s=s, folder=PROFILES, **{**PLAIN, **step}).replace("2033", "2035") for step in steps)
             with open(os.path.join(self.folder, "x.inp"), "w", encoding="utf-8") as file:
-                file.write(text.replace("{s}", s) + "0\n")
+                # two signs are none
+                file.write(text.replace("{s}", s).replace("--", "") + "0\n")
             run = subprocess.run([PROGRAM, "--quiet", "--json", "2", "x"], cwd=self.folder, stdin=subprocess.DEVNULL,
                                  capture_output=True, text=True, timeout=60)
             self.assertEqual(run.returncode, 0, run.stderr)
@@ -204,6 +205,26 @@ class PairReport(unittest.TestCase):
             for way in "yz":
                 force = totals[f"f{way}_tr"] + printed[f"F{way.upper()}_RAIL"]
                 self.assertAlmostEqual(totals[f"d{way}_defl"]*springs[f"K{way.upper()}_RAIL"], force, delta=1e-3*60000)
+
+    def test_rolling_backwards(self):
+        """The mirror image along the track: longitudinal velocities, yaw and pitch change their signs, and so do FX, MY, MZ"""
+        backwards = CASE.replace("100 {s}6.5 {z} {s}0.004 {s}0.006 0.05", "100 {s}6.5 {z} {s}0.004 -{s}0.006 -0.05").replace(
+            "20000 {s}17 3 {s}0.0017 {s}0.0021 -43.5", "-20000 {s}17 3 {s}0.0017 -{s}0.0021 43.5").replace(
+            "0.011 {s}0.012 0.013 {s}0.0014 {s}0.0015 0.016", "-0.011 {s}0.012 0.013 {s}0.0014 -{s}0.0015 -0.016").replace(
+            "1.1 {s}1.2 1.3 {s}0.014 {s}0.015 0.16\n", "-1.1 {s}1.2 1.3 {s}0.014 -{s}0.015 -0.16\n")
+        odd = {"fx_tr", "fx_ws", "my_r_tr", "mz_r_tr", "my_w_ws", "mz_w_ws", "yaw_ws", "vpitch_ws", "fx", "mz", "bar_fx", "bar_mn",
+               "xcp_tr", "xcp_w", "fx_rel", "cphi", "cksi"}
+        for d in (2, 3, 4):
+            forwards = self.run_both(dict(PLAIN, d=d))
+            with unittest.mock.patch(__name__ + ".CASE", backwards):
+                back = self.run_both(dict(PLAIN, d=d))
+            for one, other in zip(forwards, back):
+                for a, b in [(one[1][0], other[1][0]), (one[1][0]["patches"][0], other[1][0]["patches"][0])]:
+                    for name, entry in a["totals"].items():
+                        if name in ("force_trials", "s_ws"):
+                            continue
+                        expected = value(entry)*(-1 if name in odd else 1)
+                        self.assertAlmostEqual(value(b["totals"][name]), expected, delta=1e-4*abs(expected) + 1e-7, msg=(d, name))
 
     def test_standing_wheel(self):
         """Nothing moves: a rolling velocity of 0 is no reason for anything that is not a number"""

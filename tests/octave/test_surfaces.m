@@ -33,3 +33,15 @@ for order = [1 -1]
       check(isequal(isnan(y), [true false true]) && isequal(isnan(z), isnan(y)), 'NaN beyond the ends');
    end
 end
+
+% A surface of revolution: a ball of 460 mm, its axis above (wheel) and below (roller), and what does not turn
+x = -470:47:470;
+for radius = [460 -460]
+   z = revolve(-3, x, radius);
+   outside = abs(x)>abs(abs(radius)-sign(radius)*3);
+   check(isequal(isnan(z), outside) && any(outside), 'no height beyond the surface');
+   at = ~outside;
+   % the same distance from the axis everywhere
+   check_near(hypot(z(at)+radius, x(at)), (radius-3)*sign(radius)+0*x(at), 1e-9, 'distance from the axis');
+end
+check_near(revolve([1;2]*ones(size(x)), x, Inf), [1;2]*ones(size(x)), 0, 'a rail');
