@@ -106,6 +106,47 @@ class Outputs(unittest.TestCase):
                 self.assertLess(abs((direction - angle + 180) % 360 - 180), 0.15, line)
         self.assertEqual(found, sum(row["IGS"] > 0 for row in elements.values()))
 
+    def test_picture(self):
+        """The picture of the contact, character by character from the .mat file: windows, numbers of columns, wide and narrow"""
+        case = ("3\n203100\n022020\n0002301\n999 100 30 1 1e-5\n{load} 0.001 0.0004 0\n0.3 0.3\n{chi} {dx} 1000\n"
+                "0.28 0.28 82000 82000\n1\n{mx} {my} {x} {y} {dx} {dy}\n1 1\n{b} 0 0.01 0 0 0\n")
+        # columns: with the contact nearly full or in the middle; up to 46 have a blank before each, from 10 and 200 on one more digit
+        for mx, my, x, dx, dy, chi in ((9, 9, -0.9, 0.2, 0.2, 0), (12, 30, -2.4, 0.4, 0.3, "180d"), (46, 9, -1.0, 0.0435, 0.2, 0),
+                                       (47, 9, -1.0, 0.0426, 0.2, 0), (60, 12, -3.0, 0.1, 0.3, 0), (210, 7, -1.0, 0.0095, 0.25, 0),
+                                       (199, 7, -1.0, 0.01, 0.25, 0), (120, 7, -1.0, 0.01, 0.25, 0), (8, 8, 5.0, 0.2, 0.2, 0),
+                                       (30, 8, 5.0, 0.2, 0.2, 0)):
+            load = 0.005 if x > 0 else 400
+            text = case.format(load=load, chi=chi, dx=dx, dy=dy, mx=mx, my=my, x=x, y=-0.5*my*dy, b=0.01)
+            out = self.run_text((text.replace("203100", "203000") if x > 0 else text) + "0\n")
+            states = [int(row["IGS"]) for row in self.elements()]
+            columns = [ix for ix in range(mx) if any(states[ix::mx])]
+            rows = [iy for iy in range(my) if any(states[iy*mx:(iy + 1)*mx])]
+
+            def window(touched, size):
+                if not touched:
+                    middle = (size + 1)//2 - 1
+                    return max(0, middle - 5), min(size - 1, middle + 5)
+                if touched[0] < 5 and touched[-1] >= size - 5:
+                    return 0, size - 1
+                return max(0, touched[0] - 1), min(size - 1, touched[-1] + 1)
+
+            (x0, x1), (y0, y1) = window(columns, mx), window(rows, my)
+            gap = " " if x1 - x0 + 1 <= 46 else ""
+            expected = []
+            for iy in range(y1, y0 - 1, -1):
+                marks = [".*S|"[states[ix + mx*iy]] for ix in range(x0, x1 + 1)]
+                if iy in (y0, y1):
+                    for end in (0, -1):
+                        marks[end] = "o" if marks[end] == "." else marks[end]
+                expected.append(f"{iy + 1:6d}  " + "".join(gap + mark for mark in marks))
+            for unit in (100, 10, 1):
+                if x1 - x0 + 1 >= {1: 1, 10: 10, 100: 200}[unit]:
+                    numbers = "".join(gap + (str(ix//unit % 10) if ix % unit == 0 else " ") for ix in range(x0 + 1, x1 + 2))
+                    expected.append(("        " + numbers).rstrip())
+            expected.append("     X  -->        Chi=%6.2f degrees" % (180 if chi else 0))
+            shown = out.split("ADHESION AND SLIP-AREA`S:\n")[1].split("\n")[:len(expected)]
+            self.assertEqual([line.rstrip() for line in shown], expected, (mx, my))
+
     def test_times(self):
         """The table of times: parts within the whole, the whole within what was waited for"""
         text = LAYER.format(load=2000, limit=60.0, slope=0.0).replace("16 18 -2.0 -2.25 0.25 0.25",

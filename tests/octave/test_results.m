@@ -88,6 +88,8 @@ b = loadstrs('subsurface', 1);
 check(b.npoints==b.nx*b.ny*b.nz && isequal(size(b.sigvm),[b.nx b.ny b.nz]), 'shape of a block');
 check(all(diff(b.x)>0) && all(diff(b.z)>0), 'coordinates increase');
 out = parse_out3('subsurface');
+plain = parse_out3('cattaneo');
+check(~isfield(plain,'subs') || isempty(plain.subs), 'no stresses below the surface where none were computed');
 check_near(max(b.sigvm(:)), out.subs.sigvm.val(1,1,1), 0.6e-3*max(b.sigvm(:)), 'largest von Mises stress');
 if (isfield(b,'sigxx'))
    mises = sqrt(((b.sigma1-b.sigma2).^2+(b.sigma2-b.sigma3).^2+(b.sigma3-b.sigma1).^2)/2);

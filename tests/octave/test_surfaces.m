@@ -34,6 +34,22 @@ for order = [1 -1]
    end
 end
 
+% A contact at the first or last point of a profile, and on a profile that turns by more than half a circle
+for at = [-1.2 1.2]
+   angle = (-1.2:0.0005:1.2);
+   c = struct('py', radius*sin(angle)', 'pz', -radius*cos(angle)', 'delta', at, 'y', radius*sin(at), 'z', -radius*cos(at), ...
+              'conformal', true);
+   s = -sign(at)*(0.5:0.5:4);
+   [y, z] = points_on_surface(c, s);
+   check_near(y,  radius*sin(at+s/radius), 1e-3, 'y beside an end');
+   check_near(z, -radius*cos(at+s/radius), 1e-3, 'z beside an end');
+end
+angle = (-2.6:0.0005:2.6);
+c = struct('py', radius*sin(angle)', 'pz', -radius*cos(angle)', 'delta', 0.9, 'y', radius*sin(0.9), 'z', -radius*cos(0.9), 'conformal', true);
+[y, z] = points_on_surface(c, [-3 3]);
+check_near(y,  radius*sin(0.9+[-3 3]/radius), 1e-3, 'y on a long arc');
+check_near(z, -radius*cos(0.9+[-3 3]/radius), 1e-3, 'z on a long arc');
+
 % A surface of revolution: a ball of 460 mm, its axis above (wheel) and below (roller), and what does not turn
 x = -470:47:470;
 for radius = [460 -460]

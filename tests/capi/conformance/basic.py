@@ -199,6 +199,14 @@ def sensitivities():
         forces.append(one / [1, 0.3 * one[0], 0.3 * one[0], 1])
     difference = (forces[0] - forces[1]) / 2e-6
     close(found[:, 0], difference, 1e-5 * np.abs(found[:, 0]) + 1e-4, "differences by the approach")
+    # The table in the .out file
+    cntc.setflags(1, 1, CNTC["ic_output"], 2)
+    same(cntc.calculate(1, 1), 0, "error code")
+    found = cntc.getsensitivities(1, 1)
+    lines = log_text().split("DF/DPEN     DF/DKSI     DF/DETA     DF/DPHI\n")[-1].splitlines()
+    for force, line, expected in zip(("FN", "FX", "FY"), lines, found):
+        same(line.split()[0], force, "names of forces in the table")
+        close([float(word) for word in line.split()[1:]], expected[:4], 5.1e-3 * np.abs(expected[:4]) + 1e-9, f"table, row {force}")
 
 
 def codes():
@@ -556,6 +564,18 @@ def grids():
             same(code, 0 if good else -34, f"{case}, elements of {dx} x {dy}: {told}")
             check(good or "element" in told or "differs" in told, f"{case}, elements of {dx} x {dy}: {told}")
             cntc.finalize(number)
+    # a window that moves by whole elements is good, along each side; by whole millimetres it is not
+    for x, y, good in ((0.8, 0.0, True), (0.0, 0.7, True), (-0.4, 1.05, True), (1.0, 0.0, False), (0.0, 1.0, False), (0.0, -1.0, False),
+                       (-1.0, 0.0, False), (0.2, 0.0, False), (0.0, 0.175, False)):
+        start(1)
+        case_a(1)
+        same(solve(1, 0.4, 0.35, fresh)[0], 0, "the first window")
+        cntc.setpotcontact(1, 1, 1, [22, 26, -4.4 + x, -4.55 + y, 0.4, 0.35])
+        cntc.setflags(1, 1, [CNTC["ic_pvtime"], CNTC["ic_iestim"]], [0, 1])
+        code = cntc.calculate(1, 1, idebug=0)
+        # contact may reach the side of a window that has moved
+        same(code if code < 0 else 0, 0 if good else -34, f"a window moved by {x}, {y}: {last_error(1, 1)[1]}")
+        cntc.finalize(1)
     for units, big in (("un_cntc", 1.0), ("un_si", 1e-3)):
         start(1)
         case_a(1, 1, units)

@@ -110,6 +110,30 @@ def unknown():
     check(cntc.calculate(4, -1) < 0, "elements without length")
 
 
+def rollers():
+    """A roller needs its radius, and is well with it"""
+    pair(5)
+    cntc.setflags(5, -1, [CNTC["ic_config"]], [5])
+    check(cntc.calculate(5, -1) < 0, "a roller without a radius is refused")
+    check("nominal radius of the roller" in last_error(5, -1)[1], "the radius is asked for")
+    cntc.settrackdimensions(5, 3, [14.0, 0.0, 1435.0, 0.0, 500.0] + 6 * [0.0])
+    same(cntc.calculate(5, -1), 0, f"a roller with its radius: {last_error(5, -1)}")
+
+
+def refused_in_parts():
+    """Track and deviations that were refused together are healed together, or one after the other"""
+    pair(6)
+    nan = float("nan")
+    track, deviations = [14.0, 0.0, 1435.0, 0.0, 0.0], [0.0] * 6
+    for cures in ([(3, track + deviations)], [(1, track), (2, deviations)], [(2, deviations), (1, track)]):
+        for wrong in ([nan] + track[1:] + deviations, track + [nan] + deviations[1:]):
+            cntc.settrackdimensions(6, 3, wrong)
+            for method, values in cures:
+                check(cntc.calculate(6, -1) < 0, f"refused before method {method}")
+                cntc.settrackdimensions(6, method, values)
+            same(cntc.calculate(6, -1), 0, f"healed by {[method for method, _ in cures]}: {last_error(6, -1)}")
+
+
 def threads():
     """The largest number of threads is what OpenMP has now; it grows with what a host asks OpenMP for"""
     openmp = ctypes.CDLL(ctypes.util.find_library("gomp"), mode=ctypes.RTLD_GLOBAL)
@@ -123,5 +147,7 @@ def threads():
 
 ranges()
 unknown()
+rollers()
+refused_in_parts()
 threads()
 finish()
