@@ -195,6 +195,42 @@ def refusals():
     return complaints
 
 
+def damaged_journals():
+    """One character of what a run has noted of itself is another one: the run begins anew or is refused, and no file gets wrong"""
+    good, bad, complaints = pathlib.Path.cwd() / "good", pathlib.Path.cwd() / "bad", []
+    text = sequences()["plain"]
+    prepare(good, "x", text)
+    runs.run(good, "x", "--json")
+    plain(good)
+    chance = random.Random(SEED)
+    prepare(bad, "x", text.replace("9.1954 0.2", "9.1954 nonsense"))
+    runs.run(bad, "x", "--json")
+    kept = {file.name: file.read_bytes() for file in bad.iterdir()}
+    noted = kept["x.unfinished"]
+    ends = [k for k, byte in enumerate(noted) if byte == 10]
+    # some characters of the settings, and of the lines of cases
+    places = [k for k in range(ends[0] + 1, ends[1]) if noted[k:k + 1].strip()]
+    for at in sorted(chance.sample(places, 12) + chance.sample(range(ends[1] + 1, len(noted)), 8)):
+        for name, content in kept.items():
+            (bad / name).write_bytes(content)
+        other = {84: 70, 70: 84}.get(noted[at], 49 if noted[at] == 48 else 48)
+        if other == noted[at]:
+            continue
+        (bad / "x.inp").write_text(text)
+        (bad / "x.unfinished").write_bytes(noted[:at] + bytes([other]) + noted[at + 1:])
+        code, said = resumed(bad, "x")
+        if code == 1 and said.count("ERROR") == 1:
+            continue
+        if "ordinary run" in said:
+            code, said = runs.run(bad, "x", "--json")
+        plain(bad)
+        complaints += [f"journal damaged at {at}: {code}, {complaint}" for complaint in runs.differences(good, bad)]
+        for file in bad.iterdir():
+            if file.name not in kept:
+                file.unlink()
+    return complaints
+
+
 def profile_is_seen():
     """A profile that has changed since"""
     bad = pathlib.Path.cwd() / "bad"
@@ -224,7 +260,7 @@ def main():
         campaign.run_one(name, None)
         if campaign.everything:
             print(f"{name}: {time.time() - before:.0f} s", flush=True)
-    for complaint in refusals() + profile_is_seen():
+    for complaint in refusals() + damaged_journals() + profile_is_seen():
         campaign.complain(complaint)
     print(f"seed {SEED}: {campaign.checks} interrupted runs, {campaign.went_on} went on behind finished cases, {campaign.failed} "
           f"complaints, {time.time() - started:.0f} s")

@@ -45,10 +45,11 @@ for at = [-1.2 1.2]
    check_near(z, -radius*cos(at+s/radius), 1e-3, 'z beside an end');
 end
 angle = (-2.6:0.0005:2.6);
-c = struct('py', radius*sin(angle)', 'pz', -radius*cos(angle)', 'delta', 0.9, 'y', radius*sin(0.9), 'z', -radius*cos(0.9), 'conformal', true);
+c = struct('py', radius*sin(angle)', 'pz', -radius*cos(angle)', 'delta', -0.9, ...
+           'y', radius*sin(-0.9), 'z', -radius*cos(-0.9), 'conformal', true);
 [y, z] = points_on_surface(c, [-3 3]);
-check_near(y,  radius*sin(0.9+[-3 3]/radius), 1e-3, 'y on a long arc');
-check_near(z, -radius*cos(0.9+[-3 3]/radius), 1e-3, 'z on a long arc');
+check_near(y,  radius*sin(-0.9+[-3 3]/radius), 1e-3, 'y on a long arc');
+check_near(z, -radius*cos(-0.9+[-3 3]/radius), 1e-3, 'z on a long arc');
 
 % A surface of revolution: a ball of 460 mm, its axis above (wheel) and below (roller), and what does not turn
 x = -470:47:470;
