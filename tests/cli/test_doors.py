@@ -203,6 +203,14 @@ class Refusals(Doors):
             file.write("1 1\n0 312\nword\n")
         self.refused(text, "none.txt:3:")
 
+    def test_words_of_digits_with_a_sign(self):
+        """Each of the three words, at its place, in both modules"""
+        for module, case in (("3", NEW3.format(**PLAIN3)), ("1", NEW1.format(**PLAIN1))):
+            lines = case.split("\n")
+            for k in range(3):
+                changed = lines[:k] + ["  -" + lines[k]] + lines[k + 1:]
+                self.refused(f"{module}\n" + "\n".join(changed) + "0\n", f"x.inp:{k + 2}:3: ", f"= -{lines[k]} is negative")
+
     def test_table_of_too_many_coefficients(self):
         """99800 x (2 x 279 - 1) x 9 numbers are more than 5e8, one row of offsets less is not"""
         with open(os.path.join(self.folder, "large.txt"), "w") as file:
