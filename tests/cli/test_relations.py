@@ -52,7 +52,7 @@ def two_cases(c):
         parts += [c["cx"] if c["f"] else c["cx"]*share, c["cy"]*factor, c["spin"]*share]
         return numbers(*parts)
     lines = ["3", f"{c['p']}{c['b']}{c['t']}{c['n']}{c['f']}0", f"{c['l']}2{c['c']}{c['m']}20", f"0{c['g']}00001",
-             f"999 200 60 {c['maxout']} {c['eps']:g}"]
+             f"{c.get('maxgs', 999)} 200 60 {c['maxout']} {c['eps']:g}"]
     lines += [c["solver"]] if c["solver"] else []
     lines.append(kinematics(1.0))
     lines += [numbers(*c["falling"]), numbers(*c["memory"])] if c["l"] else [numbers(c["mu"], c["mu"])]
@@ -138,6 +138,7 @@ class Relations(unittest.TestCase):
             found.append({name: entry["value"] if isinstance(entry, dict) else entry for name, entry in totals.items()})
             found[-1]["status"] = record["status"]
             found[-1].update((name, value) for name, value in record["patches"][0]["solver"].items() if "iterations" in name)
+            found[-1]["solver"] = record["patches"][0]["solver"]
         return found
 
     def compare(self, change, sign, power_of_length=0, power_of_modulus=0, tolerance=1e-6):
@@ -182,6 +183,33 @@ class Relations(unittest.TestCase):
         pairs = {(round(row["fx"], 1), round(row["fy"], 1), round(row["fn"], 1), round(row.get("cksi", 0), 6))
                  for row in found[::2]}
         self.assertGreaterEqual(len(pairs), len(CONFIGURATIONS) - 4)
+
+    def test_converged_means_residuals_within_the_tolerance(self):
+        """At tolerances that are met and that cannot be met, with enough iterations and with too few"""
+        ended = set()
+        for change in (dict(eps=1e-4), dict(eps=3e-16), dict(eps=1e-12, maxgs=2), dict(eps=1e-6, maxgs=4)):
+            cases = [dict(copy.deepcopy(BASE), aa=1.6, bb=1.9, **{**values, **change}) for values in CONFIGURATIONS.values()]
+            for k, row in enumerate(self.solve(cases)):
+                label = (list(CONFIGURATIONS)[k//2], k % 2, change, row["solver"])
+                good = True
+                for part in ("normal", "tangential"):
+                    if f"{part}_residual" not in row["solver"]:
+                        continue
+                    # the classical solvers look at the size of updates
+                    classical = row["solver"][f"{part}_method"] in ("ConvexGS", "SteadyGS", "GDsteady")
+                    factor = 10 if classical else 1 + 1e-9
+                    within = row["solver"][f"{part}_residual"] <= row["solver"][f"{part}_tolerance"]*factor
+                    converged = row["solver"][f"{part}_ended"] == "converged"
+                    ended.add((part, row["solver"][f"{part}_ended"]))
+                    self.assertTrue(within or not converged, label)
+                    self.assertTrue(converged or not within or classical, label)
+                    good = good and converged
+                if not good:
+                    self.assertEqual(row["status"], "not converged", label)
+                elif row["status"] != "solved":
+                    # forces and outer iterations have tolerances of their own
+                    self.assertTrue(cases[k//2]["f"] or cases[k//2]["maxout"] > 1 or cases[k//2]["l"], label)
+        self.assertGreater(len(ended), 4, ended)
 
     def test_what_was_before_does_not_count(self):
         """Each first case in the other order of cases, to the last bit; the second one continues its own first one"""
