@@ -203,6 +203,23 @@ class Refusals(Doors):
             file.write("1 1\n0 312\nword\n")
         self.refused(text, "none.txt:3:")
 
+    def test_signs_of_forces(self):
+        """A force relative to friction is taken or not whatever way it points, alone or with the other one"""
+        def told(fx, fy, f):
+            text = self.case3(pbtnfs=f"2031{f}0").replace("9 0.002 0 0", f"9 {fx} {fy} 0")
+            run, _, _ = self.run_text(text, "3")
+            same_words = run.stderr.replace("below its lower", "above its upper")
+            return run.returncode, re.sub(r"-|x.inp:\d+:\d+:", "", same_words)
+
+        verdicts = set()
+        for f in (1, 2):
+            for size_x, size_y in ((0.8, 0.3), (0.8, 0.8), (1.5, 0.0), (1.5, 0.3), (0.3, 1.5), (1.5, 1.5), (1.0, 0.0), (0.7, 0.7)):
+                expected = told(size_x, size_y, f)
+                verdicts.add(expected[0])
+                for x, y in ((-1, 1), (1, -1), (-1, -1)):
+                    self.assertEqual(told(x*size_x, y*size_y, f), expected, (f, x*size_x, y*size_y))
+        self.assertEqual(verdicts, {0, 1})
+
     def test_words_of_digits_with_a_sign(self):
         """Each of the three words, at its place, in both modules"""
         for module, case in (("3", NEW3.format(**PLAIN3)), ("1", NEW1.format(**PLAIN1))):
