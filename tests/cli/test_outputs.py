@@ -110,7 +110,7 @@ class Outputs(unittest.TestCase):
         """The picture of the contact, character by character from the .mat file: windows, numbers of columns, wide and narrow"""
         case = ("3\n203100\n022020\n0002301\n999 100 30 1 1e-5\n{load} 0.001 0.0004 0\n0.3 0.3\n{chi} {dx} 1000\n"
                 "0.28 0.28 82000 82000\n1\n{mx} {my} {x} {y} {dx} {dy}\n1 1\n{b} 0 0.01 0 0 0\n")
-        # columns: with the contact nearly full or in the middle; up to 46 have a blank before each, from 10 and 200 on one more digit
+        # with the contact nearly full or in the middle; up to 46 columns have a blank before each, from 10 and 200 on one more digit
         for mx, my, x, dx, dy, chi in ((9, 9, -0.9, 0.2, 0.2, 0), (12, 30, -2.4, 0.4, 0.3, "180d"), (46, 9, -1.0, 0.0435, 0.2, 0),
                                        (47, 9, -1.0, 0.0426, 0.2, 0), (60, 12, -3.0, 0.1, 0.3, 0), (210, 7, -1.0, 0.0095, 0.25, 0),
                                        (199, 7, -1.0, 0.01, 0.25, 0), (120, 7, -1.0, 0.01, 0.25, 0), (8, 8, 5.0, 0.2, 0.2, 0),
