@@ -3,6 +3,7 @@
 
 The environment tells CONTACT_PROGRAM and CONTACT_SOURCE.
 """
+import json
 import math
 import os
 import re
@@ -105,6 +106,30 @@ class Outputs(unittest.TestCase):
                 angle = math.degrees(math.atan2(element["PY"], element["PX"]))
                 self.assertLess(abs((direction - angle + 180) % 360 - 180), 0.15, line)
         self.assertEqual(found, sum(row["IGS"] > 0 for row in elements.values()))
+
+    def test_rigid_slip_of_forces(self):
+        """With forces prescribed, the rigid slip is that of the creepages that were found"""
+        for digits, motion in (("203110", "0.4 0.0003 0.0001"), ("203120", "0.4 -0.3 0.0001"), ("202120", "0.4 -0.3 0.0001"),
+                               ("203120", "-0.2 0.5 -0.0003")):
+            text = LAYER.format(load=2000, limit=60.0, slope=0.0).replace("203100", digits).replace("-0.002 0.0003 0.0001", motion)
+            out = self.run_text(text.replace("022420", "022020").replace("4000 0.02 60.0 0.0\n", "").replace("0001501", "0011651"), "--json")
+            with open(os.path.join(self.folder, "x.jsonl"), encoding="utf-8") as file:
+                totals = json.loads(file.readline())["patches"][0]["totals"]
+            cksi, ceta = totals["cksi"]["value"], totals["ceta"]["value"]
+            spin = float(motion.split()[2])
+            # slip is that on the way of a step, half an element away at most; three digits are printed
+            tolerance = abs(spin)*0.5*0.25 + 5e-3*(abs(cksi) + abs(ceta))
+            y, count = 0.0, 0
+            for line in out[out.index("H-PEN        PN      TRCBND"):].splitlines()[1:]:
+                row = re.match(r" Y = +(\S+) +ROW", line)
+                if row:
+                    y = float(row.group(1))
+                elif re.fullmatch(r"[ \d.E+-]+", line) and len(line.split()) == 9:
+                    x, slip_x, slip_y = (float(line.split()[k]) for k in (0, 7, 8))
+                    count += 1
+                    self.assertAlmostEqual(slip_x, cksi - spin*y, delta=tolerance)
+                    self.assertAlmostEqual(slip_y, ceta + spin*x, delta=tolerance)
+            self.assertGreater(count, 100)
 
     def test_picture(self):
         """The picture of the contact, character by character from the .mat file: windows, numbers of columns, wide and narrow"""

@@ -229,6 +229,9 @@ check_near(ws([1 2 5])', [0 -3 -0.004], 1e-9, 'position comes back');
 check_near(cntc_getwheelsetvelocity(1)([1 6])', [20000 -43.5], 1e-9, 'velocity comes back');
 check(cntc_getcontactlocation(1,1)(6)>0, 'contact on the other side');
 sol = cntc_getcpresults(1, 1);
+check(isequal([sol.config, sol.d_digit, sol.mater.m_digit, sol.kincns.t_digit, sol.h_digit], ...
+              double(cntc_getflags(1, -1, [CNTC.ic_config, CNTC.ic_discns, CNTC.ic_mater, CNTC.ic_tang, CNTC.ic_heat]))(:)') && ...
+      sol.d_digit~=sol.mater.m_digit, 'digits of getcpresults');
 check(sol.config==0, 'left');
 opt.rw_surf = 'prr';
 plot3d(sol, opt);
