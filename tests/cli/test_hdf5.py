@@ -182,6 +182,39 @@ class Hdf5(unittest.TestCase):
                 np.testing.assert_allclose(np.arctan2(np.diff(z), np.diff(y)), middle, atol=2e-3)
             self.assertGreater(found, 0)
 
+    def test_inputs_of_each_case(self):
+        """Groups that two cases have in common are written once: each case still has the inputs it has in a file of its own"""
+        texts = [FIRST.format(creep=-1e-5)]
+        # one number after the other is another one, then all are as in the first case
+        for old, new in (("2000 -0.000010000 0 0", "2100 -0.000010000 0 0"), ("2000 -0.000010000 0 0", "2000 -0.000020000 0 0"),
+                         ("0.3 0.3", "0.31 0.31"), ("0.28 0.28 82000 82000", "0.28 0.28 82000 81000"),
+                         ("0.28 0.28 82000 82000", "0.29 0.28 82000 82000"), ("13 11 -1.3", "15 11 -1.3"), ("-1.3 -1.1 0.2", "-1.3 -1.3 0.2"),
+                         ("0.01 0 0.01 0 0 0", "0.01 0 0.012 0 0 0"), ("0.01 0 0.01 0 0 0", "0.01 0 0.01 0 0 1e-4"),
+                         ("0 0.2 1000", "0 0.2 1500"), ("0.3 0.3", "0.3 0.3")):
+            self.assertIn(old, texts[0])
+            texts.append(texts[0].replace(old, new))
+
+        def inputs(name, case):
+            found = {}
+            with h5py.File(self.path(name)) as file:
+                file[f"case_{case:04d}/inputs"].visititems(
+                    lambda place, item: found.update({place: np.array(item[()]).tolist()}) if isinstance(item, h5py.Dataset) else None)
+            return found
+
+        with open(self.path("all.inp"), "w", encoding="utf-8") as file:
+            file.write("".join(texts) + "0\n")
+        self.run_program("--hdf5", "2", "all")
+        seen = []
+        for k, text in enumerate(texts, 1):
+            with open(self.path("one.inp"), "w", encoding="utf-8") as file:
+                file.write(text + "0\n")
+            self.run_program("--hdf5", "2", "one")
+            alone = inputs("one.h5", 1)
+            self.assertEqual(inputs("all.h5", k), alone, k)
+            seen.append(alone)
+        self.assertEqual([k for k, other in enumerate(seen[1:-1], 1) if other == seen[0]], [6, 7], "windows stand with the patches")
+        self.assertEqual(seen[0], seen[-1])
+
     def test_case_without_result(self):
         with open(self.path("faulty.inp"), "w") as file:
             file.write(FIRST.format(creep=0) + FIRST.format(creep=0).replace("0.28 0.28 8", "0.28 0.98 8") + "0\n")

@@ -197,6 +197,24 @@ class Outputs(unittest.TestCase):
         self.assertIn(".subs", self.run.stderr)
         self.assertIn("writing the .subs file", self.run.stderr)
 
+    def test_each_kind_of_file_is_named(self):
+        """A folder stands in the place of a file: the name, and what was being done"""
+        text = LAYER.format(load=2000, limit=0.0, slope=0.0).replace("0001501", "0011501")
+        for name, options in (("x.0001.mat", ()), ("x.out", ()), ("x.jsonl", ("--json",)), ("x.h5", ("--hdf5",))):
+            place = os.path.join(self.folder, name)
+            for left in os.listdir(self.folder):
+                os.remove(os.path.join(self.folder, left))
+            os.mkdir(place)
+            with open(os.path.join(self.folder, "x.inp"), "w", encoding="utf-8") as file:
+                file.write(text)
+            run = subprocess.run([PROGRAM, "--quiet", *options, "2", "x"], cwd=self.folder, stdin=subprocess.DEVNULL,
+                                 capture_output=True, text=True, timeout=120)
+            self.assertEqual(run.returncode, 1, name)
+            self.assertIn(name, run.stderr)
+            if name.endswith(".mat"):
+                self.assertIn("writing the .mat file", run.stderr)
+            os.rmdir(place)
+
     def test_where_contact_angles_are_taken(self):
         """--contact-angle takes two words, and nothing else"""
         for option, status in ((["--contact-angle=contact"], 0), (["--contact-angle", "established"], 0),

@@ -79,15 +79,15 @@ class PairReport(unittest.TestCase):
         self.addCleanup(scratch.cleanup)
         self.folder = scratch.name
 
-    def run_both(self, *steps):
+    def run_both(self, *steps, roller=False, options=()):
         """Cases one after the other, on the right and on the left: reports and records"""
         sides = []
-        for c1, s in ((1, ""), (0, "-")):
+        for c1, s in ((5, ""), (4, "-")) if roller else ((1, ""), (0, "-")):
             text = "".join(CASE.format(c1=c1, s=s, folder=PROFILES, **{**PLAIN, **step}).replace("2033", "2035") for step in steps)
             with open(os.path.join(self.folder, "x.inp"), "w", encoding="utf-8") as file:
                 # two signs are none
                 file.write(text.replace("{s}", s).replace("--", "") + "0\n")
-            run = subprocess.run([PROGRAM, "--quiet", "--json", "2", "x"], cwd=self.folder, stdin=subprocess.DEVNULL,
+            run = subprocess.run([PROGRAM, "--quiet", "--json", *options, "2", "x"], cwd=self.folder, stdin=subprocess.DEVNULL,
                                  capture_output=True, text=True, timeout=60)
             self.assertEqual(run.returncode, 0, run.stderr)
             with open(os.path.join(self.folder, "x.out"), encoding="utf-8") as file:
@@ -225,6 +225,62 @@ class PairReport(unittest.TestCase):
                             continue
                         expected = value(entry)*(-1 if name in odd else 1)
                         self.assertAlmostEqual(value(b["totals"][name]), expected, delta=1e-4*abs(expected) + 1e-7, msg=(d, name))
+
+    def test_roller(self):
+        """A roller turns in place of a track: its names, its numbers, and the other side as a mirror image"""
+        track = CASE.replace("0.3 0.025 {s}1e-6\n", "0.3 500\n").replace("20000 {s}17 3", "40 {s}17 3").replace("100 {s}6.5", "1.5 {s}6.5")
+        with unittest.mock.patch(__name__ + ".CASE", track):
+            sides = self.run_both(PLAIN, roller=True)
+        for left, (reports, records) in enumerate(sides):
+            self.assertIn("WHEEL-ROLLER CONTACT, " + ("LEFT" if left else "RIGHT"), reports[0])
+            self.assertIn("FORCES AND MOMENTS ON ROLLER", reports[0])
+            printed = {}
+            for name, word in rows_of(reports[0]):
+                printed.setdefault(name, float(word))
+            sign = -1 if left else 1
+            for name, number in (("X_WS", 1.5), ("Y_WS", 6.5*sign), ("ROLL_WS", 0.004*sign), ("YAW_WS", 0.006*sign), ("PITCH_WS", 0.05),
+                                 ("VPITCH_ROL", 40), ("VY_WS", 17*sign), ("VZ_WS", 3), ("VROLL_WS", 0.0017*sign),
+                                 ("VYAW_WS", 0.0021*sign), ("VPITCH_WS", -43.5), ("RAILY0", 752*sign), ("RAILZ0", 0.3)):
+                self.assertAlmostEqual(printed[name], number, delta=1e-3*abs(number), msg=name)
+            self.assertNotIn("S_WS", printed)
+            self.assertNotIn("VX_WS", printed)
+            # the moment of friction about the roller's axis is what its surface has as a lever
+            self.assertAlmostEqual(printed["FX(TR)"], value(records[0]["totals"]["fx_tr"]), delta=6e-4*abs(printed["FX(TR)"]) + 0.6)
+        for a, b in zip(sides[0][1], sides[1][1]):
+            for name, entry in a["totals"].items():
+                expected = value(entry)*(-1 if name in ODD else 1)
+                self.assertAlmostEqual(value(b["totals"][name]), expected, delta=1e-7*abs(expected) + 1e-12, msg=name)
+
+    def test_places_of_the_bodies(self):
+        """Rail and wheel in the track, in the HDF5 file and in the head of the .mat file: what was given, and what turns with it"""
+        try:
+            import h5py
+        except ImportError:
+            self.skipTest("h5py is not installed")
+        expected = {"roll_r": 0.003 - 0.025, "y_r": 752.3, "z_r": 0.4, "roll_w": 0.004 + 0.0014, "yaw_w": 0.006 + 0.0015}
+        odd = ("roll_r", "y_r", "roll_w", "yaw_w", "y_w")
+        found = []
+        for c1, s in ((1, ""), (0, "-")):
+            text = CASE.format(c1=c1, s=s, folder=PROFILES, **dict(PLAIN, a=1)).replace("2033", "2035").replace("{s}", s)
+            with open(os.path.join(self.folder, "x.inp"), "w", encoding="utf-8") as file:
+                file.write(text + "0\n")
+            subprocess.run([PROGRAM, "--quiet", "--hdf5", "2", "x"], cwd=self.folder, check=True)
+            with h5py.File(os.path.join(self.folder, "x.h5")) as file:
+                markers = {name: float(item[()]) for name, item in file["case_0001/markers"].items()}
+            for name, number in expected.items():
+                sign = -1 if s and name in odd else 1
+                # axes that are turned one after the other mix roll and yaw a little
+                self.assertAlmostEqual(markers[name], sign*number, delta=2e-5 if "w" in name else 1e-9, msg=(name, s))
+            with open(os.path.join(self.folder, "x.0001a.mat"), encoding="utf-8") as file:
+                rows = [[float(word) for word in line.split()] for line in file if not line.startswith("%")]
+            # time, x, s, y, z, roll of the rail; x, y, z, roll, yaw, pitch of the wheel in the second row
+            self.assertIn(round(markers["roll_r"], 6), [round(number, 6) for number in rows[0]])
+            self.assertIn(round(markers["y_r"], 3), [round(number, 3) for number in rows[0]])
+            for name in ("roll_w", "yaw_w", "y_w", "z_w"):
+                self.assertTrue(any(abs(number - markers[name]) <= 1e-4*abs(markers[name]) + 1e-6 for number in rows[1]), (name, rows[1]))
+            found.append(markers)
+        for name in found[0]:
+            self.assertAlmostEqual(found[1][name], found[0][name]*(-1 if name in odd else 1), delta=1e-6, msg=name)
 
     def test_standing_wheel(self):
         """Nothing moves: a rolling velocity of 0 is no reason for anything that is not a number"""

@@ -201,6 +201,8 @@ class Relations(unittest.TestCase):
                     within = row["solver"][f"{part}_residual"] <= row["solver"][f"{part}_tolerance"]*factor
                     converged = row["solver"][f"{part}_ended"] == "converged"
                     ended.add((part, row["solver"][f"{part}_ended"]))
+                    if classical and row["solver"][f"{part}_ended"] == "iteration limit":
+                        self.assertEqual(row["solver"][f"{part}_iterations"], cases[k//2].get("maxgs", 999), label)
                     self.assertTrue(within or not converged, label)
                     self.assertTrue(converged or not within or classical, label)
                     good = good and converged

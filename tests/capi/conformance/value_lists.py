@@ -98,6 +98,21 @@ def surface():
     check("does not vary" in last_error(1, -1)[1], "a rail that does not vary is told")
 
 
+def states():
+    """Why a profile cannot be used: not given, no such file, or a file that is none"""
+    same(cntc.initialize(1, 1)[1], 0, "initialize")
+    same(ask(-1, 2, 0)[1], 1.0, "not given")
+    cntc.setprofileinputfname(1, "no_such_file.prr", [0], [1.0, 0.0])
+    same(ask(-1, 2, 0)[1], 2.0, "no such file")
+    with open("nonsense.prr", "w", encoding="utf-8") as file:
+        file.write("nothing\nof\nuse\n")
+    cntc.setprofileinputfname(1, "nonsense.prr", [0], [1.0, 0.0])
+    same(ask(-1, 2, 0)[1], 99.0, "a file that is no profile")
+    cntc.setprofileinputfname(1, profiles()[0], [0], [1.0, 0.0])
+    same(list(ask(-1, 2, 0)), [0.0, 0.0], "a good one")
+
+
+states()
 plain()
 surface()
 finish()

@@ -15,9 +15,39 @@ program test_formats
    call check_smart()
    call check_special()
    call check_descriptors()
+   call check_signs()
    call suite%finish()
 
 contains
+
+   !> A number below 0 has the digits of the one above, and a minus sign, where there is room for it
+   subroutine check_signs()
+      real(wp) :: number
+      integer :: k
+
+      do k = -30, 30
+         number = 1.2345678_wp*10.0_wp**k
+         call suite%equal(without_sign(fixed(-number, 20, 4)), without_sign(fixed(number, 20, 4)), "fixed")
+         call suite%equal(without_sign(general(-number, 14, 4)), without_sign(general(number, 14, 4)), "general")
+         call suite%equal(without_sign(smart(-number, 14, 4, 4)), without_sign(smart(number, 14, 4, 4)), "smart")
+         call suite%equal(without_sign(scientific(-number, 14, 4)), without_sign(scientific(number, 14, 4)), "scientific")
+         call suite%check(index(fixed(-number, 20, 4), "-") > 0 .or. number < 1.0e-4_wp, "a sign")
+         call suite%check(index(fixed(-number, 12, 4), "*") == 0, "no stars")
+      end do
+   end subroutine check_signs
+
+   !> The text from its first digit or point on, without the first minus sign
+   function without_sign(text) result(rest)
+      character(len=*), intent(in) :: text
+      character(len=len(text)) :: rest
+      integer :: k
+
+      rest = adjustl(text)
+      k = index(rest, "-")
+      if (k == 1) rest = rest(2:)
+      ! a zero in front of the point gives way to the sign
+      if (rest(1:2) == "0.") rest = rest(2:)
+   end function without_sign
 
    subroutine check_general()
       character(len=12), parameter :: wide(9) = ["  0.9900E-02", "  0.1000E-01", "  0.9990E-01", "  0.1000    ", &
