@@ -149,6 +149,26 @@ def locked(run):
     same(run("long", JSON)[0], 0, "afterwards")
 
 
+def limited(library):
+    """Each limit of contact_run_limited acts alone, and 0 is none: a case of 20 x 20 elements"""
+    with open("small.inp", "w") as file:
+        file.write("3\n203100\n022020\n0001201\n999 100 30 1 1e-5\n100 0.001 0 0\n0.3 0.3\n0 0.1 1000\n0.28 0.28 82000 82000\n1\n"
+                   "20 20 -1 -1 0.1 0.1\n1 1\n0.01 0 0.01 0 0 0\n0\n")
+    message = ctypes.create_string_buffer(2000)
+    for limits, expected in (((0, 0, 0), 0), ((100, 1000, 400), 0), ((0, 0, 399), "elements"), ((0, 0, 1), "elements"),
+                             ((0, 0.01, 0), "memory"), ((0, 0, 0.5), 0)):
+        library.contact_run_limited.argtypes = [ctypes.c_char_p, ctypes.c_int, ctypes.c_char_p, *3*[ctypes.c_int],
+                                                *3*[ctypes.c_double], ctypes.c_char_p, ctypes.c_int]
+        status = library.contact_run_limited(b"small", 2, b"", 1, 0, 0, *limits, message, len(message))
+        with open("small.out") as file:
+            out = file.read()
+        if expected:
+            check(status != 0, f"limits {limits}: {status}")
+            check(expected in out and "1 refused" in out, f"limits {limits}: {out[-300:]}")
+        elif limits != (0, 0, 0.5):
+            same(status, 0, f"limits {limits}")
+
+
 def main():
     os.chdir(tempfile.mkdtemp())
     prepare()
@@ -171,6 +191,7 @@ def main():
             same(status, 0, f"{name}, outputs {outputs}: {said}")
             same(total(name, quantity), values[outputs], f"{name}: {quantity} of the library and of the program")
         check(abs(values[bit]/values[0] - 1.0) > 0.01, f"{name}: the choice acts, {values}")
+    limited(library)
     status, said = run("warm", NOTHING)
     same(status, 1, "a bit that means nothing")
     check("CONTACT_MOVING_HEAT" in said, "what would have been accepted")

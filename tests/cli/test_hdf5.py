@@ -188,7 +188,8 @@ class Hdf5(unittest.TestCase):
         # one number after the other is another one, then all are as in the first case
         for old, new in (("2000 -0.000010000 0 0", "2100 -0.000010000 0 0"), ("2000 -0.000010000 0 0", "2000 -0.000020000 0 0"),
                          ("0.3 0.3", "0.31 0.31"), ("0.28 0.28 82000 82000", "0.28 0.28 82000 81000"),
-                         ("0.28 0.28 82000 82000", "0.29 0.28 82000 82000"), ("13 11 -1.3", "15 11 -1.3"), ("-1.3 -1.1 0.2", "-1.3 -1.3 0.2"),
+                         ("0.28 0.28 82000 82000", "0.29 0.28 82000 82000"), ("13 11 -1.3", "15 11 -1.3"),
+                         ("-1.3 -1.1 0.2", "-1.3 -1.3 0.2"),
                          ("0.01 0 0.01 0 0 0", "0.01 0 0.012 0 0 0"), ("0.01 0 0.01 0 0 0", "0.01 0 0.01 0 0 1e-4"),
                          ("0 0.2 1000", "0 0.2 1500"), ("0.3 0.3", "0.3 0.3")):
             self.assertIn(old, texts[0])
@@ -198,7 +199,7 @@ class Hdf5(unittest.TestCase):
             found = {}
             with h5py.File(self.path(name)) as file:
                 file[f"case_{case:04d}/inputs"].visititems(
-                    lambda place, item: found.update({place: np.array(item[()]).tolist()}) if isinstance(item, h5py.Dataset) else None)
+                    lambda place, item: found.update({place: np.array(item[()]).tolist()} if isinstance(item, h5py.Dataset) else {}))
             return found
 
         with open(self.path("all.inp"), "w", encoding="utf-8") as file:

@@ -112,7 +112,8 @@ class Outputs(unittest.TestCase):
         for digits, motion in (("203110", "0.4 0.0003 0.0001"), ("203120", "0.4 -0.3 0.0001"), ("202120", "0.4 -0.3 0.0001"),
                                ("203120", "-0.2 0.5 -0.0003")):
             text = LAYER.format(load=2000, limit=60.0, slope=0.0).replace("203100", digits).replace("-0.002 0.0003 0.0001", motion)
-            out = self.run_text(text.replace("022420", "022020").replace("4000 0.02 60.0 0.0\n", "").replace("0001501", "0011651"), "--json")
+            text = text.replace("022420", "022020").replace("4000 0.02 60.0 0.0\n", "")
+            out = self.run_text(text.replace("0001501", "0011651"), "--json")
             with open(os.path.join(self.folder, "x.jsonl"), encoding="utf-8") as file:
                 totals = json.loads(file.readline())["patches"][0]["totals"]
             cksi, ceta = totals["cksi"]["value"], totals["ceta"]["value"]
@@ -135,7 +136,7 @@ class Outputs(unittest.TestCase):
         """The picture of the contact, character by character from the .mat file: windows, numbers of columns, wide and narrow"""
         case = ("3\n203100\n022020\n0002301\n999 100 30 1 1e-5\n{load} 0.001 0.0004 0\n0.3 0.3\n{chi} {dx} 1000\n"
                 "0.28 0.28 82000 82000\n1\n{mx} {my} {x} {y} {dx} {dy}\n1 1\n{b} 0 0.01 0 0 0\n")
-        # with the contact nearly full or in the middle; up to 46 columns have a blank before each, from 10 and 200 on one more digit
+        # contact nearly everywhere or in the middle; up to 46 columns have a blank before each, from 10 and 200 on a digit more
         for mx, my, x, dx, dy, chi in ((9, 9, -0.9, 0.2, 0.2, 0), (12, 30, -2.4, 0.4, 0.3, "180d"), (46, 9, -1.0, 0.0435, 0.2, 0),
                                        (47, 9, -1.0, 0.0426, 0.2, 0), (60, 12, -3.0, 0.1, 0.3, 0), (210, 7, -1.0, 0.0095, 0.25, 0),
                                        (199, 7, -1.0, 0.01, 0.25, 0), (120, 7, -1.0, 0.01, 0.25, 0), (8, 8, 5.0, 0.2, 0.2, 0),

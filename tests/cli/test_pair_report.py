@@ -226,9 +226,25 @@ class PairReport(unittest.TestCase):
                         expected = value(entry)*(-1 if name in odd else 1)
                         self.assertAlmostEqual(value(b["totals"][name]), expected, delta=1e-4*abs(expected) + 1e-7, msg=(d, name))
 
+    def test_digits_of_the_curvature(self):
+        """As many decimals as fit four digits"""
+        for curvature, text in (("2.5e-4", "2.500E-04"), ("1e-6", "1.000E-06"), ("0", "0.000"), ("9.99996e-5", "1.000E-04"),
+                                ("0.125", "0.1250")):
+            with unittest.mock.patch(__name__ + ".CASE", CASE.replace("{s}1e-6", curvature)):
+                with open(os.path.join(self.folder, "x.inp"), "w", encoding="utf-8") as file:
+                    values = dict(PLAIN, t=0, n=0, z=-100)
+                    text_of_case = CASE.format(c1=1, s="", folder=PROFILES, **values).replace("2033", "2035")
+                    file.write(text_of_case.replace("{s}", "") + "0\n")
+                subprocess.run([PROGRAM, "--quiet", "2", "x"], cwd=self.folder, stdin=subprocess.DEVNULL, capture_output=True,
+                               timeout=60)
+                with open(os.path.join(self.folder, "x.out"), encoding="utf-8") as file:
+                    line = re.search(r"CANT +CURV\n(.*)", file.read()).group(1)
+                self.assertEqual(line, "    -1.000    752.0000      0.3000      0.0250" + text.rjust(12))
+
     def test_roller(self):
         """A roller turns in place of a track: its names, its numbers, and the other side as a mirror image"""
-        track = CASE.replace("0.3 0.025 {s}1e-6\n", "0.3 500\n").replace("20000 {s}17 3", "40 {s}17 3").replace("100 {s}6.5", "1.5 {s}6.5")
+        track = CASE.replace("0.3 0.025 {s}1e-6\n", "0.3 500\n").replace("20000 {s}17 3", "40 {s}17 3")
+        track = track.replace("100 {s}6.5", "1.5 {s}6.5")
         with unittest.mock.patch(__name__ + ".CASE", track):
             sides = self.run_both(PLAIN, roller=True)
         for left, (reports, records) in enumerate(sides):
@@ -238,7 +254,8 @@ class PairReport(unittest.TestCase):
             for name, word in rows_of(reports[0]):
                 printed.setdefault(name, float(word))
             sign = -1 if left else 1
-            for name, number in (("X_WS", 1.5), ("Y_WS", 6.5*sign), ("ROLL_WS", 0.004*sign), ("YAW_WS", 0.006*sign), ("PITCH_WS", 0.05),
+            for name, number in (("X_WS", 1.5), ("Y_WS", 6.5*sign), ("ROLL_WS", 0.004*sign), ("YAW_WS", 0.006*sign),
+                                 ("PITCH_WS", 0.05),
                                  ("VPITCH_ROL", 40), ("VY_WS", 17*sign), ("VZ_WS", 3), ("VROLL_WS", 0.0017*sign),
                                  ("VYAW_WS", 0.0021*sign), ("VPITCH_WS", -43.5), ("RAILY0", 752*sign), ("RAILZ0", 0.3)):
                 self.assertAlmostEqual(printed[name], number, delta=1e-3*abs(number), msg=name)
@@ -277,7 +294,8 @@ class PairReport(unittest.TestCase):
             self.assertIn(round(markers["roll_r"], 6), [round(number, 6) for number in rows[0]])
             self.assertIn(round(markers["y_r"], 3), [round(number, 3) for number in rows[0]])
             for name in ("roll_w", "yaw_w", "y_w", "z_w"):
-                self.assertTrue(any(abs(number - markers[name]) <= 1e-4*abs(markers[name]) + 1e-6 for number in rows[1]), (name, rows[1]))
+                allowed = 1e-4*abs(markers[name]) + 1e-6
+                self.assertTrue(any(abs(number - markers[name]) <= allowed for number in rows[1]), (name, rows[1]))
             found.append(markers)
         for name in found[0]:
             self.assertAlmostEqual(found[1][name], found[0][name]*(-1 if name in odd else 1), delta=1e-6, msg=name)

@@ -49,8 +49,10 @@ def sequences():
              + shift(-0.1))
     mixed = (shift(-0.2, first=True, element="1") + shift(-0.3, first=True, element="2") + shift(-0.5, element="1")
              + shift(-0.6, element="2", stored=3) + shift(-0.7, element="1") + shift(-0.8, element="2") + shift(-0.1, element="1"))
+    # contact that is cut off: a larger window is named once
+    cut = plain.replace("13 13 -1.3 -1.3 0.2 0.2", "5 5 -0.5 -0.5 0.2 0.2")
     return {name: text + "0 MODULE\n" for name, text in
-            (("plain", plain), ("repeated", repeated), ("fresh", fresh), ("mixed", mixed))}
+            (("plain", plain), ("cut", cut), ("repeated", repeated), ("fresh", fresh), ("mixed", mixed))}
 
 
 def prepare(folder, name, text):

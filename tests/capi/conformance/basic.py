@@ -565,8 +565,8 @@ def grids():
             check(good or "element" in told or "differs" in told, f"{case}, elements of {dx} x {dy}: {told}")
             cntc.finalize(number)
     # a window that moves by whole elements is good, along each side; by whole millimetres it is not
-    for x, y, good in ((0.8, 0.0, True), (0.0, 0.7, True), (-0.4, 1.05, True), (1.0, 0.0, False), (0.0, 1.0, False), (0.0, -1.0, False),
-                       (-1.0, 0.0, False), (0.2, 0.0, False), (0.0, 0.175, False)):
+    for x, y, good in ((0.8, 0.0, True), (0.0, 0.7, True), (-0.4, 1.05, True), (1.0, 0.0, False), (0.0, 1.0, False),
+                       (0.0, -1.0, False), (-1.0, 0.0, False), (0.2, 0.0, False), (0.0, 0.175, False)):
         start(1)
         case_a(1)
         same(solve(1, 0.4, 0.35, fresh)[0], 0, "the first window")
