@@ -25,6 +25,11 @@ function(contact_test name)
     # -O3 takes up to 40 s and 1.6 GB for one program, and what is tested is compiled with it anyway
     target_compile_options(${target} PRIVATE $<$<AND:$<COMPILE_LANGUAGE:Fortran>,$<CONFIG:Release>>:-O1>)
   endif()
+  if(CONTACT_SANITIZE)
+    # What is tested has all instruments. A test with all of them, optimised, takes a minute to compile; this way some seconds.
+    # Options of the sources come behind those of the target
+    set_source_files_properties(${arg_SOURCES} PROPERTIES COMPILE_OPTIONS "-O0;-fno-sanitize=undefined")
+  endif()
   contact_link_rooms(${target} base ${arg_ROOMS})
   contact_command_test(${name} LABEL ${arg_LABEL} TIMEOUT ${arg_TIMEOUT} COMMAND ${target})
 endfunction()

@@ -24,4 +24,6 @@ if not (os.path.isdir(os.path.join(reference, "examples")) and os.path.isfile(to
     print("SKIPPED: no reference data in %s" % reference)
     sys.exit(77)
 command = [sys.executable, "-B", tool, os.environ["CONTACT_PROGRAM"]] + INPUTS
-sys.exit(subprocess.run(command + ["--verbose"]).returncode)
+# instrumented programs take longer
+patience = 300 * float(os.environ.get("CONTACT_SLOWER", "1"))
+sys.exit(subprocess.run(command + ["--verbose", "--timeout", str(patience)]).returncode)
