@@ -41,7 +41,7 @@ static int routine_count;
 /* What outputs hold before a call */
 static const int unset = -777777;
 
-/* "in int lenarr" or "out real values[]"; returns what follows */
+/* "in int lenarr" or "out real values[lenarr]"; returns what follows */
 static const char *read_argument(const char *text, struct argument *argument)
 {
   char direction[8], kind[8], name[24];
@@ -52,7 +52,10 @@ static const char *read_argument(const char *text, struct argument *argument)
   snprintf(argument->name, sizeof argument->name, "%s", name);
   text += n;
   argument->is_array = *text == '[';
-  if (argument->is_array) text += 2;
+  if (argument->is_array) {
+    text = strchr(text, ']');
+    if (text) text++;
+  }
   return text;
 }
 
