@@ -55,7 +55,7 @@ function [ CNTC ] = cntc_getmagicnumbers( )
 % Flags that only this library has
 %
 %   CNTC.own_heat     temperatures: 0 as the established program, 1 by moving sources
-%   CNTC.own_border   read only, where contact is cut off: sum of 1 x low, 2 x high, 4 y low, 8 y high side of the grid; 16 inner, 32 outer end of the rail profile; 64 inner, 128 outer end of the wheel profile; 256 a hidden part of a profile; with icp -1 also 512 inner, 1024 outer end of the wheel profile that stands within the rail where no patch is
+%   CNTC.own_border   read only, where contact is cut off: sum of 1 x low, 2 x high, 4 y low, 8 y high side of the grid; 16 inner, 32 outer end of the rail profile; 64 inner, 128 outer end of the wheel profile; 256 a hidden part of a profile; with icp -1 also 512 inner, 1024 outer end of the wheel profile that stands within the rail where no patch is, 2048 another place along the track where they overlap
 %   CNTC.own_stepped  read only, points of subs_calculate nearer to the surface than DX/4 and off the centres of elements
 %   CNTC.own_angle    contact angles on rails that vary along the track: 0 as the established program, of the section below the axle; 1 of wheel and rail where they touch
 %   CNTC.own_across   read only, elements across the contact in its narrower direction, 0 without contact; fewer than 5 are a rough result

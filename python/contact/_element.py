@@ -199,9 +199,9 @@ def read_patch(ire: int, icp: int) -> Patch:
 
 
 def buried_ends(ire: int) -> tuple[str, ...]:
-    """Ends of the wheel's profile that stand within the rail where no patch is: bits after those of the sides"""
+    """Where wheel and rail overlap and no patch is, see WheelRailResult.buried: bits after those of the sides"""
     border = int(cntc.getflags(ire, -1, [CNTC["own_border"]])[0])
-    return tuple(name for bit, name in enumerate(("inner", "outer"), len(_SIDES)) if border >> bit & 1)
+    return tuple(name for bit, name in enumerate(("inner", "outer", "beside"), len(_SIDES)) if border >> bit & 1)
 
 
 def warn_of_border(patch: Patch, what: str) -> None:

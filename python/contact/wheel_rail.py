@@ -85,8 +85,9 @@ class WheelRailResult:
         How the case ended: ``"solved"``, or ``"not converged"`` and what was missed, of which a
         :class:`NotConvergedWarning` tells as well.
     buried
-        Ends of the wheel's profile, ``"inner"`` or ``"outer"``, that stand within the rail where no patch is: an edge that
-        touches there carries no load in this result. A :class:`ContactWarning` tells of them as well.
+        Where wheel and rail overlap and no patch is: ``"inner"`` or ``"outer"`` for ends of the wheel's profile that stand within
+        the rail, ``"beside"`` for another place along the track. Contact there carries no load in this result, and a
+        :class:`ContactWarning` tells of it.
     """
 
     patches: tuple[WheelRailPatch, ...]
@@ -242,12 +243,10 @@ class WheelRail(Element):
         forces = Forces(*(Wrench(force, moment) for force, moment in values))
         buried = buried_ends(number)
         if buried:
-            warnings.warn(
-                f"the {' and the '.join(buried)} end of the wheel profile stands within the rail where no contact patch is: "
-                "an edge that touches there carries no load here",
-                ContactWarning,
-                stacklevel=2,
-            )
+            where = " and ".join("another place along the track" if name == "beside" else f"the {name} end of the wheel profile"
+                                 for name in buried)
+            warnings.warn(f"{where}: wheel and rail overlap where no contact patch is, and carry no load there", ContactWarning,
+                          stacklevel=2)
         return WheelRailResult(patches, forces, cntc.getwheelsetposition(number), cntc.getwheelsetvelocity(number),
                                self._status, self._reason, buried)
 

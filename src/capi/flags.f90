@@ -273,7 +273,8 @@ contains
       !> Patch of module 1, or less than 1 for all
       integer, intent(in) :: icp
       integer, intent(out) :: border, stepped, across
-      !> Bit of the inner end of the wheel's profile that stands within the rail; the next one is that of the outer end
+      !> Bit of the inner end of the wheel's profile that stands within the rail; the next ones are those of the outer end, and
+      !> of another place along the track
       integer, parameter :: first_buried = 9
       integer :: k
 
@@ -293,6 +294,7 @@ contains
       do k = 1, size(problem%pair_result%buried)
          if (problem%pair_result%buried(k)%depth > 0.0_wp) border = ibset(border, first_buried + k - 1)
       end do
+      if (problem%pair_result%beside%depth > 0.0_wp) border = ibset(border, first_buried + 2)
 
    contains
 

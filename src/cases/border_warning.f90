@@ -19,7 +19,7 @@ module contact_cases_border_warning
    implicit none (type, external)
    private
 
-   public :: border_words, buried_words, is_same, warn_of_border, warn_of_buried_ends
+   public :: beside_words, border_words, buried_words, is_same, warn_of_border, warn_of_buried_ends
 
    !> Names of the ends of profiles by their y in a right-hand pair; the inner one is that towards the middle of the track
    character(len=5), parameter :: end_names(2) = ["inner", "outer"]
@@ -75,7 +75,7 @@ contains
       is_same = a%mx == b%mx .and. a%my == b%my .and. all(abs([a%xl - b%xl, a%yl - b%yl, a%dx - b%dx, a%dy - b%dy]) <= 0.0_wp)
    end function is_same
 
-   !> Warn of ends of the wheel's profile that stand within the rail where no patch is
+   !> Warn of places where wheel and rail overlap and no patch is
    subroutine warn_of_buried_ends(spec, pair, log)
       type(case_spec), intent(in) :: spec
       type(pair_result), intent(in) :: pair
@@ -89,6 +89,8 @@ contains
          call log%warning(trim(words) // ". An edge that touches there carries load in reality, none here: take a profile of the &
             &wheel that goes on beyond it, or another position")
       end do
+      if (pair%beside%depth > 0.0_wp) call log%warning(trim(beside_words(spec, pair%beside)) // ". The search along the contact &
+         &locus keeps one place for each lateral position; the search over a grid (D = 5) keeps all")
    end subroutine warn_of_buried_ends
 
    !> A coordinate to a hundredth of a millimetre
@@ -115,6 +117,19 @@ contains
          &rail where no contact patch is, at x = " // place_text(buried%place(1)) // ", y = " // place_text(y) // ", z = " // &
          & place_text(buried%place(3)) // " mm"
    end function buried_words
+
+   !> Where wheel and rail overlap at another place along the track
+   function beside_words(spec, beside) result(words)
+      type(case_spec), intent(in) :: spec
+      type(buried_end), intent(in) :: beside
+      character(len=buried_length) :: words
+      real(wp) :: y
+
+      y = beside%place(2)
+      if (spec%wheel_rail%left) y = -y
+      words = "wheel and rail overlap by " // real_text(beside%depth) // " mm at x = " // place_text(beside%place(1)) // &
+         & ", y = " // place_text(y) // " mm as well, where no contact patch is"
+   end function beside_words
 
    !> Sides and ends in words; blank when there are none
    subroutine border_words(spec, border, words)

@@ -72,7 +72,7 @@ module contact_control_flags
       & flag_row(flag%ncase, "  ", 0, huge(1)), &
       & flag_row(flag%own_heat, "  ", 0, 1), &
       & flag_row(flag%own_angle, "  ", 0, 1), &
-      & flag_row(flag%own_border, "  ", 0, 2047, out_of_range%refused, .false., .true.), &
+      & flag_row(flag%own_border, "  ", 0, 4095, out_of_range%refused, .false., .true.), &
       & flag_row(flag%own_stepped, "  ", 0, huge(1), out_of_range%refused, .false., .true.), &
       & flag_row(flag%own_across, "  ", 0, huge(1), out_of_range%refused, .false., .true.)]
 

@@ -7,7 +7,7 @@ module contact_output_case_record
    use contact_base_choices, only : motion
    use contact_base_kinds, only : wp
    use contact_base_solve_report, only : ending, solve_report
-   use contact_cases_border_warning, only : border_words, buried_words
+   use contact_cases_border_warning, only : beside_words, border_words, buried_words
    use contact_cases_spec, only : case_spec
    use contact_grid_element_division, only : element
    use contact_output_record, only : record_writer
@@ -162,6 +162,8 @@ contains
       call record%number("smallest_gap", "mm", "smallest vertical gap, negative: overlap", pair%smallest_gap)
       call record%count("force_trials", "heights tried in a search for the vertical force, at most", pair%most_trials)
       call record%close_group()
+      if (pair%beside%depth > 0.0_wp) call record%text("beside", "another place along the track where wheel and rail &
+         &overlap, which carries no load here", trim(beside_words(spec, pair%beside)))
       if (.not. any(pair%buried%depth > 0.0_wp)) return
       call record%open_group("buried")
       do k = 1, size(pair%buried)

@@ -27,6 +27,9 @@ module contact_wheelrail_gap
       !> Gap over an even mesh along the track as well, shape (x_table, y), as far as it is within `depth` of the smallest one.
       !> Weights of regions come from it; where it is unallocated from `gap` and `kappa`
       real(wp), allocatable :: x_table(:), table(:, :)
+      !> Another place along the track with a smallest gap of its own, apart from the one above, and that gap [mm]; shape (n).
+      !> Allocated where a search that keeps one place for each lateral position may pass over it
+      real(wp), allocatable :: x_beside(:), beside(:)
       !> Penetration that the mesh serves [mm]
       real(wp) :: depth = huge(1.0_wp)
    end type gap_curve
@@ -153,6 +156,7 @@ contains
       integer :: i, k
 
       if (allocated(gap%table)) deallocate(gap%table)
+      if (allocated(gap%beside)) deallocate(gap%beside, gap%x_beside)
       gap%depth = huge(gap%depth)
       range = rail%y_range()
       gap%dy = max(mesh_share*ds, least_mesh)

@@ -7,7 +7,7 @@ module contact_wheelrail_gather
    use contact_wheelrail_geometry, only : pair_geometry
    use contact_wheelrail_memory, only : pair_memory, patch_slot
    use contact_wheelrail_problem, only : friction_by_row, pair_problem
-   use contact_wheelrail_profile_ends, only : find_buried_ends, mark_profile_ends
+   use contact_wheelrail_profile_ends, only : find_buried_ends, find_spot_beside, mark_profile_ends
    use contact_wheelrail_result, only : buried_end, pair_patch, pair_result
    implicit none (type, external)
    private
@@ -68,7 +68,11 @@ contains
             result%moment_wheel = result%moment_wheel + moment + cross(memory%slot(k)%plane%origin - p%wheel%origin, force)
          end do
          result%buried = buried_end()
-         if (.not. problem%geometry_only) call find_buried_ends(problem, memory, result%buried)
+         result%beside = buried_end()
+         if (.not. problem%geometry_only) then
+            call find_buried_ends(problem, memory, result%buried)
+            call find_spot_beside(memory, result%beside)
+         end if
          result%force_wheelset = matmul(result%force_track, p%wheelset%axes)
          result%moment_wheel = matmul(result%moment_wheel, p%wheelset%axes)
       end associate

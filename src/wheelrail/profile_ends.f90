@@ -18,7 +18,7 @@ module contact_wheelrail_profile_ends
    implicit none (type, external)
    private
 
-   public :: find_buried_ends, mark_profile_ends
+   public :: find_buried_ends, find_spot_beside, mark_profile_ends
 
    !> Undeformed distances above this value stand for a surface that is missing [mm]; those above excluded_threshold for
    !> elements that may not touch, whatever the surfaces do
@@ -171,6 +171,29 @@ contains
          end do
       end subroutine look_around
    end subroutine find_buried_ends
+
+   !> Overlap outside of all patches at a lateral position where the bodies touch elsewhere along the track
+   pure subroutine find_spot_beside(memory, beside)
+      !> With patches that are solved
+      type(pair_memory), intent(in) :: memory
+      !> The deepest one, vertically
+      type(buried_end), intent(out) :: beside
+      !> Less is rounding [mm]
+      real(wp), parameter :: least = 1.0e-5_wp
+      real(wp) :: depth, place(3)
+      integer :: i, j
+
+      associate (gap => memory%here%gap)
+         if (.not. allocated(gap%beside)) return
+         do j = 1, gap%n
+            depth = memory%z_ws - memory%here%gap_height - gap%beside(j)
+            if (depth <= max(least, beside%depth)) cycle
+            place = [gap%x_beside(j), gap%y(j), gap%z(j)]
+            if (any([(holds(memory%slot(i), place), i=1, memory%used)])) cycle
+            beside = buried_end(depth, place)
+         end do
+      end associate
+   end subroutine find_spot_beside
 
    !> How far a point is below the surface of a section of the rail [mm]; negative above it, and where there is no surface above
    pure function depth_within(rail, point) result(depth)

@@ -50,7 +50,7 @@ module contact_wheelrail_result
       real(wp), allocatable :: s(:), x(:), y(:), z(:)
    end type profile_points
 
-   !> An end of the wheel's profile that stands within the rail where no patch is
+   !> A place where the bodies overlap and no patch is: an end of the wheel's profile, or another place along the track
    type :: buried_end
       !> Depth below the surface of the rail [mm]; 0: none
       real(wp) :: depth = 0.0_wp
@@ -83,6 +83,9 @@ module contact_wheelrail_result
       type(pair_patch), allocatable :: patches(:)
       !> Ends of the wheel's profile within the rail, which carry no load here: those of the lower and the higher y
       type(buried_end) :: buried(2)
+      !> Overlap at another place along the track, at a lateral position with contact: a search that keeps one place for each
+      !> lateral position leaves it out
+      type(buried_end) :: beside
       !> Profiles as used; filled when the output level asks for them
       type(profile_points) :: rail_profile, wheel_profile
       !> Evaluations of the total force, and how far it is from the prescribed one [N]

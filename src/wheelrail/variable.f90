@@ -86,6 +86,8 @@ contains
       else
          call fill_valley(bodies, gap%x_table, gap%y, first, last, table)
       end if
+      if (allocated(gap%beside)) deallocate(gap%beside, gap%x_beside)
+      if (.not. weighs_table) call find_beside(bodies, first, last, table, gap)
       call find_smallest(bodies, gap, table, first, last, xc, corner)
       if (weighs_table) then
          call move_alloc(table, gap%table)
@@ -203,6 +205,65 @@ contains
       end do
       call fill(bodies, x, y, from, to, table)
    end subroutine fill_valley
+
+   !> Places with a smallest gap of their own along the track, in rows of the coarse mesh that were searched throughout, and in rows
+   !> next to those that have one
+   subroutine find_beside(bodies, first, last, table, gap)
+      type(pair_bodies), intent(inout) :: bodies
+      !> See `fill`
+      integer, intent(in) :: first(:), last(:)
+      !> As `fill_valley` left it
+      real(wp), intent(inout) :: table(:, :)
+      !> `x_beside` and `beside` are set
+      type(gap_curve), intent(inout) :: gap
+      integer :: from(gap%n), to(gap%n)
+      integer :: j, low, high
+
+      allocate(gap%x_beside(gap%n), source=0.0_wp)
+      allocate(gap%beside(gap%n), source=no_surface)
+      do j = 1, gap%n
+         if (mod(j - 1, coarse) > 0 .and. j < gap%n) cycle
+         call second_smallest(gap%x_table, table(:, j), gap%x_beside(j), gap%beside(j))
+      end do
+      if (minval(gap%beside) >= no_surface) return
+      from = size(gap%x_table) + 1
+      to = 0
+      do j = 1, gap%n
+         low = j - mod(j - 1, coarse)
+         high = min(low + coarse, gap%n)
+         if (j == low .or. j == high .or. min(gap%beside(low), gap%beside(high)) >= no_surface) cycle
+         from(j) = first(j)
+         to(j) = last(j)
+      end do
+      call fill(bodies, gap%x_table, gap%y, from, to, table)
+      do j = 1, gap%n
+         if (from(j) <= to(j)) call second_smallest(gap%x_table, table(:, j), gap%x_beside(j), gap%beside(j))
+      end do
+   end subroutine find_beside
+
+   !> The second smallest of the minima of a row
+   pure subroutine second_smallest(x, g, place, value)
+      real(wp), intent(in) :: x(:), g(:)
+      !> `no_surface` where there is one minimum only
+      real(wp), intent(out) :: place, value
+      !> Gaps between two minima are larger by this at least [mm]
+      real(wp), parameter :: ridge = 1.0e-4_wp
+      real(wp) :: highest
+      integer :: i, side, lowest
+
+      place = 0.0_wp
+      value = no_surface
+      lowest = minloc(g, 1)
+      do side = -1, 1, 2
+         highest = g(lowest)
+         do i = lowest + side, merge(size(g), 1, side > 0), side
+            highest = max(highest, g(i))
+            if (g(i) >= value .or. g(i) > highest - ridge) cycle
+            place = x(i)
+            value = g(i)
+         end do
+      end do
+   end subroutine second_smallest
 
    !> Height of the rail at points of a mesh, section after section
    subroutine fill_rail(bodies, x, y, first, last, table)

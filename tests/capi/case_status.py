@@ -302,7 +302,7 @@ def buried_end():
             with warnings.catch_warnings(record=True) as heard:
                 warnings.simplefilter("always")
                 result = pair.solve()
-            told = [str(w.message) for w in heard if "end of the wheel profile stands within the rail" in str(w.message)]
+            told = [str(w.message) for w in heard if "inner end of the wheel profile: wheel and rail overlap" in str(w.message)]
             same(result.buried, ends, f"yaw {yaw}: ends within the rail in Python")
             same(len(told), len(ends), f"yaw {yaw}: warnings of them")
             same(int(cntc.getflags(pair.number, -1, [cntc.CNTC["own_border"]])[0]), bits, f"yaw {yaw}: bits of the library")

@@ -327,6 +327,47 @@ class EndsAheadOfTheAxle(Program):
             self.assertEqual(warnings, [])
 
 
+class TwoPlacesAlongTheTrack(Program):
+    """A dip of the rail: the wheel stands on both of its sides, at the same lateral position"""
+
+    def dip(self, location, z):
+        first, slices = self.first_case(location), []
+        y = [0.5*k for k in range(-70, 71)]
+        for k in range(-25, 26):
+            u, depth = 4.0*k, 0.6*math.cos(math.pi*4.0*k/40.0)**2 if abs(k) < 5 else 0.0
+            with open(os.path.join(self.folder, f"rail{k}.txt"), "w", encoding="utf-8") as file:
+                file.write("".join(f"{v} {v*v/600.0 + depth:.9f}\n" for v in y))
+            slices.append(f"{u} 'rail{k}.txt'\n")
+        with open(os.path.join(self.folder, "rail.slcs"), "w", encoding="utf-8") as file:
+            file.write(f"0.0 1.0   OFFSET SCALE\n{len(slices)}   NSLC\n0 0 0   NFEAT NKINK NACCEL\n1   INTPOL\n" + "".join(slices))
+        return first.replace("0.0 0.0 60000. 0.0 0.0 0.0", f"3.0 0.0 {z} 0.0 0.0 0.0").replace("1203100", "1203000") \
+            .replace("'profiles/60E1.prr' 0 1.0 0.0", "'rail.slcs' 0 1.0 0.0").replace("14.0 0 1435.0 0.025", "-1 752.0 0.0 0.025")
+
+    def first_case(self, location):
+        shutil.copytree(os.path.join(EXAMPLES, "profiles"), os.path.join(self.folder, "profiles"), dirs_exist_ok=True)
+        with open(os.path.join(EXAMPLES, "wheel_on_rail.inp"), encoding="utf-8") as file:
+            return " 1 MODULE" + file.read().split(" 1 MODULE")[1].replace("0022033", f"00{location}2033")
+
+    def test_the_second_place_is_told(self):
+        both, _, _ = self.run_text(self.dip("5", -1.85))
+        self.assertEqual(len(both[0]["patches"]), 2)
+        second = min(both[0]["patches"], key=lambda patch: patch["totals"]["fn"]["value"])["totals"]
+        cases, warnings, _ = self.run_text(self.dip("2", -1.85))
+        told = [line for line in warnings if "as well, where no contact patch is" in line]
+        self.assertEqual(len(told), 1, warnings)
+        self.assertIn("D = 5", told[0])
+        self.assertIn(cases[0]["beside"], told[0])
+        found = re.search(r"at x = (\S+), y = (\S+) mm", told[0])
+        self.assertAlmostEqual(float(found.group(1)), second["xcp_tr"]["value"], delta=1.0)
+        self.assertAlmostEqual(float(found.group(2)), second["ycp_tr"]["value"], delta=2.0)
+
+    def test_nothing_is_told_of_one_place(self):
+        for location, z in (("2", -2.0), ("5", -1.85)):
+            cases, warnings, _ = self.run_text(self.dip(location, z))
+            self.assertNotIn("beside", cases[0])
+            self.assertEqual([line for line in warnings if "as well" in line], [])
+
+
 class FewElements(Program):
     """Contact of a few elements has a rough area and force, whatever its residual: FZ was off by four on two elements"""
 
