@@ -22,6 +22,8 @@ module contact_cases_estimate
       integer(long) :: elements = 0
       !> Is that number only an upper bound?
       logical :: at_most = .false.
+      !> Are there more elements than NPOT_MAX? Those of a shift or of transient rolling stand on the rail and are not enlarged
+      logical :: beyond_most = .false.
       !> Memory [bytes] and processor time [s]
       real(wp) :: bytes = 0.0_wp, seconds = 0.0_wp
    end type case_cost
@@ -35,6 +37,8 @@ module contact_cases_estimate
    !> Factors: friction that changes with slip; turns of pressures and tractions at most; trials for a prescribed force
    real(wp), parameter :: changing_friction = 1.7_wp, trials = 8.0_wp
    integer, parameter :: turns = 8
+   !> Times NPOT_MAX that are refused where elements are not enlarged; see check_size of contact_wheelrail_patch_inputs
+   integer(long), parameter :: hopeless = 10_long
    !> Typical radius of curvature in wheel-rail contact [mm], and the side of the grid relative to the contact
    real(wp), parameter :: typical_radius = 400.0_wp, margin = 1.25_wp
 
@@ -45,6 +49,7 @@ contains
       type(case_spec), intent(in) :: spec
       type(case_cost), intent(out) :: cost
       type(potential_contact) :: grid
+      type(combined_material) :: material
       real(wp) :: n, tangential
 
       cost%seconds = every_case
@@ -82,7 +87,11 @@ contains
       cost%seconds = cost%seconds + pressures*n + tangential
       if (.not. allocated(spec%wheel_rail)) return
       cost%seconds = cost%seconds + every_search
-      if (spec%normal == normal_control%force .or. spec%force > 0) cost%seconds = cost%seconds + trials*pressures*n
+      if (.not. (spec%normal == normal_control%force .or. spec%force > 0)) return
+      cost%seconds = cost%seconds + trials*pressures*n
+      ! tractions change the pressures of unlike bodies: every trial needs them
+      material = combine(spec%material%poiss, spec%material%gg)
+      if (material%coupled()) cost%seconds = cost%seconds + trials*tangential
    end subroutine estimate_cost
 
    !> Does the outer iteration turn?
@@ -103,10 +112,13 @@ contains
 
       cost%elements = spec%iteration%npot_max
       cost%at_most = .true.
+      if (spec%motion == motion%shift .or. spec%motion == motion%transient_rolling) &
+         & cost%elements = hopeless*int(spec%iteration%npot_max, long)
       if (spec%normal /= normal_control%force) return
       material = combine(spec%material%poiss, spec%material%gg)
       a = (0.75_wp*max(0.0_wp, spec%wheel_rail%wheelset%fz)*typical_radius*(1.0_wp - material%nu)/material%gg)**(1.0_wp/3.0_wp)
       n = (2.0_wp*margin*a)**2/(spec%wheel_rail%search%dx*spec%wheel_rail%search%ds)
+      cost%beyond_most = cost%elements > spec%iteration%npot_max .and. n > real(spec%iteration%npot_max, wp)
       if (n >= real(cost%elements, wp)) return
       cost%elements = nint(n, long)
       cost%at_most = .false.
@@ -115,7 +127,7 @@ contains
    !> A cost in words, with blanks behind
    pure function cost_text(cost) result(text)
       type(case_cost), intent(in) :: cost
-      character(len=100) :: text
+      character(len=240) :: text
       character(len=12) :: memory, time
 
       write(memory, '(I0)') int(cost%bytes/1.0e6_wp, long) + 1_long
@@ -124,5 +136,7 @@ contains
       if (cost%seconds >= 1.0_wp .and. cost%seconds < 1.0e6_wp) write(time, '(I0)') nint(cost%seconds)
       write(text, '(2A, I0, 5A)') trim(merge("at most", "about  ", cost%at_most)), " ", cost%elements, " elements, ", &
          & trim(memory), " MB, ", trim(adjustl(time)), " s"
+      if (cost%beyond_most) text = trim(text) // ": more elements than NPOT_MAX, which are not enlarged in shifts and transient &
+         &rolling; larger DX and DS make it quick"
    end function cost_text
 end module contact_cases_estimate

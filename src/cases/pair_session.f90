@@ -1,7 +1,7 @@
 !> Wheel on rail through its cases: specification in, result out
 module contact_cases_pair_session
    use contact_base_choices, only : contact_location, estimate_choice, force_control, kernel_model, material_model, &
-      & normal_control, pressure_model, sensitivity_choice, stress_choice, time_link, variation
+      & motion, normal_control, pressure_model, sensitivity_choice, stress_choice, time_link, variation
    use contact_base_error, only : add_context, error_kind, error_type, fatal_error
    use contact_base_kinds, only : long, wp
    use contact_base_log, only : log_type
@@ -210,6 +210,8 @@ contains
       character(len=*), intent(in) :: folder
       type(log_type), intent(inout) :: log
       type(error_type), allocatable, intent(out) :: error
+      !> Of DQREL [-]
+      real(wp), parameter :: step_tolerance = 0.01_wp
       type(case_spec), allocatable :: first_set
       type(patch_result) :: no_hertz
 
@@ -261,6 +263,12 @@ contains
          if (.not. allocated(error)) call set_simplified_theory(spec, no_hertz, template, log, error)
          if (.not. allocated(error)) call set_yield_limit(spec, template, error)
          if (allocated(error)) return
+         ! as in module 3: particles of a layer are followed from element to element
+         if (template%remembers_yield .and. spec%motion == motion%transient_rolling &
+            & .and. abs(problem%spec%search%dqrel - 1.0_wp) > step_tolerance) then
+            problem%spec%search%dqrel = 1.0_wp
+            call log%warning("a layer that yields advances by one element per step: DQREL is set to 1")
+         end if
          if (allocated(template%damping)) deallocate(template%damping)
          if (spec%has_damping) then
             allocate(template%damping)

@@ -313,6 +313,7 @@ contains
       if (cost%elements > total%elements) then
          total%elements = cost%elements
          total%at_most = cost%at_most
+         total%beyond_most = cost%beyond_most
       end if
       total%bytes = max(total%bytes, cost%bytes)
       total%seconds = total%seconds + cost%seconds
@@ -506,7 +507,7 @@ contains
       associate (slot => state%slots(k))
          if (this%spec%solve) then
             call estimate_cost(this%spec, cost)
-            if (cost%seconds > large_seconds .or. cost%bytes > large_bytes) call state%log%line( &
+            if (cost%seconds > large_seconds .or. cost%bytes > large_bytes .or. cost%beyond_most) call state%log%line( &
                & " Estimate of this case on one thread: " // trim(cost_text(cost)))
          end if
          solving_before = state%solving%wall

@@ -465,7 +465,7 @@ def slices(scene, tools, run, cases, findings):
     same["pair"]["track"] = [-1.0, float(origin[1]), float(origin[2]), same["pair"]["track"][3]]
     same["pair"]["rail"]["slices"] = [[case["s"] + 100.0 * (k - 3), 0.0, 0.0] for k in range(7)]
     compared(findings, "slices", cases[:1], results(scene1.solve(same, tools, "same"), scene["side"]), 2e-2,
-             position=0.3 * scene["grid"][1] + geometry1.SLICED_PLACE, patches=False, height=2e-6, elements=30)
+             position=0.3 * scene["grid"][1] + geometry1.SLICED_PLACE, patches=False, height=geometry1.SLICED, elements=30)
 
 
 def refined_grid(scene, tools, run, cases, findings):

@@ -115,6 +115,15 @@ contains
       call suite%check(approach%elements == 1000 .and. approach%at_most, "without a force the size is not known")
       ! eight trials
       call suite%close_to((cost%seconds - 2.1e-3_wp)/(approach%seconds - 2.1e-3_wp), 9.0_wp, 1.0e-6_wp, "trials for a force")
+      ! steps of transient rolling: elements stand on the rail, whatever NPOT_MAX is, up to what is refused
+      spec%normal = normal_control%force
+      spec%motion = motion%transient_rolling
+      spec%iteration%npot_max = 5000
+      call estimate_cost(spec, cost)
+      call suite%check(cost%elements == finer%elements .and. cost%beyond_most .and. .not. cost%at_most, "steps beyond NPOT_MAX")
+      spec%iteration%npot_max = 100
+      call estimate_cost(spec, cost)
+      call suite%check(cost%elements == 1000 .and. cost%beyond_most .and. cost%at_most, "steps far beyond NPOT_MAX")
    end subroutine wheel_and_rail
 
    subroutine words(suite)
@@ -128,5 +137,8 @@ contains
          & "about 7 elements, 1 MB, 1 s", "one second")
       call suite%equal(trim(cost_text(case_cost(elements=7, bytes=0.0_wp, seconds=3.0e7_wp))), &
          & "about 7 elements, 1 MB, 3.E+07 s", "a year")
+      call suite%equal(trim(cost_text(case_cost(elements=63744, bytes=9.5e7_wp, seconds=4.0_wp, beyond_most=.true.))), &
+         & "about 63744 elements, 96 MB, 4 s: more elements than NPOT_MAX, which are not enlarged in shifts and transient " // &
+         & "rolling; larger DX and DS make it quick", "more than NPOT_MAX")
    end subroutine words
 end program test_estimate
