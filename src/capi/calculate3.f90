@@ -103,7 +103,7 @@ contains
       character(len=80) :: line
 
       if (problem%spec%output_level < 1) return
-      write(line, '(A, I6, A, I3, A, I3)') " Case", problem%cases, " for contact problem", problem%icp, &
+      write(line, "(A, I6, A, I3, A, I3)") " Case", problem%cases, " for contact problem", problem%icp, &
          & " on result element", problem%ire
       call log%line("")
       call log%line(trim(line))

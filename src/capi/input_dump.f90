@@ -29,11 +29,11 @@ contains
       call open_input_dump()
       unit = input_dump()
       if (unit == 0) return
-      write(line, '(I4, 2I5, A, I0)') 3, problem%ire, problem%icp, "   % MODULE, RE, CP: case ", problem%cases
+      write(line, "(I4, 2I5, A, I0)") 3, problem%ire, problem%icp, "   % MODULE, RE, CP: case ", problem%cases
       !$omp critical (contact_printing)
-      write(unit, '(A)', iostat=status) trim(line)
+      write(unit, "(A)", iostat=status) trim(line)
       call write_contact_case(unit, problem%spec, problem%result)
-      write(unit, '(A)', iostat=status) ""
+      write(unit, "(A)", iostat=status) ""
       !$omp end critical (contact_printing)
    end subroutine dump_contact_case
 
@@ -67,11 +67,11 @@ contains
       call open_input_dump()
       unit = input_dump()
       if (unit == 0) return
-      write(line, '(I4, I5, A, I0)') 1, problem%ire, "   % MODULE, RE: case ", problem%cases
+      write(line, "(I4, I5, A, I0)") 1, problem%ire, "   % MODULE, RE: case ", problem%cases
       !$omp critical (contact_printing)
-      write(unit, '(A)', iostat=status) trim(line)
+      write(unit, "(A)", iostat=status) trim(line)
       call write_pair_case(unit, written)
-      write(unit, '(A)', iostat=status) ""
+      write(unit, "(A)", iostat=status) ""
       !$omp end critical (contact_printing)
    end subroutine dump_pair_case
 
@@ -102,7 +102,7 @@ contains
          call file%start(path, error)
          if (.not. allocated(error)) then
             do k = 1, size(profile%points, 2)
-               write(point, '(2ES25.16)') profile%points(:, k)
+               write(point, "(2ES25.16)") profile%points(:, k)
                call file%line(point)
             end do
             call file%finish(error)

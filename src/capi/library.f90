@@ -55,7 +55,7 @@ module contact_capi_library
       integer :: last_code = 0
    end type library_state
 
-   type(library_state), target, save :: library
+   type(library_state), target :: library
 
 contains
 

@@ -443,7 +443,7 @@ contains
          allocate(character(len=24*size(table, 2)) :: row)
          call file%line(name // " = [")
          do k = 1, size(table, 1)
-            write(row, '(*(ES24.16))') table(k, :)
+            write(row, "(*(ES24.16))") table(k, :)
             call file%line(row)
          end do
          call file%line("];")

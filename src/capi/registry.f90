@@ -387,7 +387,7 @@ contains
          end do
          call write_timers()
          if (library%input_dump /= 0) then
-            write(library%input_dump, '(A)') " 0  MODULE"
+            write(library%input_dump, "(A)") " 0  MODULE"
             close(library%input_dump)
          end if
          library%input_dump = 0

@@ -130,11 +130,11 @@ contains
       character(len=240) :: text
       character(len=12) :: memory, time
 
-      write(memory, '(I0)') int(cost%bytes/1.0e6_wp, long) + 1_long
-      write(time, '(ES9.0)') cost%seconds
-      if (cost%seconds < 1.0e6_wp) write(time, '(F9.3)') cost%seconds
-      if (cost%seconds >= 1.0_wp .and. cost%seconds < 1.0e6_wp) write(time, '(I0)') nint(cost%seconds)
-      write(text, '(2A, I0, 5A)') trim(merge("at most", "about  ", cost%at_most)), " ", cost%elements, " elements, ", &
+      write(memory, "(I0)") int(cost%bytes/1.0e6_wp, long) + 1_long
+      write(time, "(ES9.0)") cost%seconds
+      if (cost%seconds < 1.0e6_wp) write(time, "(F9.3)") cost%seconds
+      if (cost%seconds >= 1.0_wp .and. cost%seconds < 1.0e6_wp) write(time, "(I0)") nint(cost%seconds)
+      write(text, "(2A, I0, 5A)") trim(merge("at most", "about  ", cost%at_most)), " ", cost%elements, " elements, ", &
          & trim(memory), " MB, ", trim(adjustl(time)), " s"
       if (cost%beyond_most) text = trim(text) // ": more elements than NPOT_MAX, which are not enlarged in shifts and transient &
          &rolling; larger DX and DS make it quick"

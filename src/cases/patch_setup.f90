@@ -235,7 +235,7 @@ contains
       end if
       pn = pn*(fn/total)
       if (abs(total - fn) <= rough*fn) return
-      write(percent, '(I0)') nint(100*min(total/fn, 1.0e6_wp))
+      write(percent, "(I0)") nint(100*min(total/fn, 1.0e6_wp))
       call log%warning("the grid is too coarse or too small for pressures by formula: at the centres of its elements they " // &
          & "add up to " // trim(percent) // " % of FN. They are scaled to carry FN")
    end subroutine carry_force

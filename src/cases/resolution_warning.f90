@@ -27,7 +27,7 @@ contains
 
       if (.not. is_coarse(result)) return
       across = max(1, elements_across(result%division))
-      write(sides, '(G0.3)') enough_sides(result)
+      write(sides, "(G0.3)") enough_sides(result)
       text = "contact is " // integer_text(across(1)) // " x " // integer_text(across(2)) // " elements wide at most. With &
          &fewer than " // integer_text(enough_elements) // " its area, forces and pressures are rough; about ten would be &
          &there with DX = " // trim(sides(1)) // ", " // name_y // " = " // trim(sides(2)) // " mm"

@@ -58,7 +58,7 @@ contains
          if (.not. allocated(error)) &
             & call block_stresses(load, spec%subsurface%blocks(k), area, spec%limits, result%subsurface(k), error)
          if (.not. allocated(error)) cycle
-         write(text, '(A, I0)') "subsurface block ", k
+         write(text, "(A, I0)") "subsurface block ", k
          call add_context(error, trim(text))
          deallocate(result%subsurface)
          return
@@ -138,7 +138,7 @@ contains
 
       call expand_points(block, load%grid, points)
       if (points%n() > most_points) then
-         write(text, '(A, I0, A, I0, A)') "the block has ", points%n(), " points, more than ", most_points, &
+         write(text, "(A, I0, A, I0, A)") "the block has ", points%n(), " points, more than ", most_points, &
             & " are not computed at once; several smaller blocks"
          call fatal_error(error, trim(text))
       else

@@ -8,7 +8,8 @@ option(CONTACT_FUZZ "Report every branch that is taken to tests/fuzz, which is t
 add_library(contact_warnings INTERFACE)
 target_compile_options(contact_warnings INTERFACE
   $<$<COMPILE_LANGUAGE:Fortran>:-std=f2018 -Wall -Wextra -Wimplicit-interface -Wimplicit-procedure
-    -Wtrampolines -Wno-compare-reals -Wno-uninitialized -Wno-maybe-uninitialized -frecursive -ffree-line-length-132>
+    -Wtrampolines -Wno-compare-reals -Wno-uninitialized -Wno-maybe-uninitialized -fimplicit-none -frecursive
+    -ffree-line-length-132>
   $<$<COMPILE_LANGUAGE:C,CXX>:-Wall -Wextra>)
 # -Wno-uninitialized: gfortran takes the bounds of an unallocated array that is about to be assigned for
 # uninitialized (12.2); debug builds set reals to signalling NaN

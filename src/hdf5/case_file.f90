@@ -209,8 +209,8 @@ contains
       integer, intent(in) :: case_number, result_element, contact_problem
       character(len=48) :: name
 
-      write(name, '(A, I0.4)') "case_", case_number
-      if (result_element > 0) write(name, '(A, I0.3, A, I0.4)') "re", result_element, "_case_", case_number
+      write(name, "(A, I0.4)") "case_", case_number
+      if (result_element > 0) write(name, "(A, I0.3, A, I0.4)") "re", result_element, "_case_", case_number
       if (contact_problem > 1) name = trim(name) // "_cp" // integer_text(contact_problem)
    end function name_of
 

@@ -64,9 +64,9 @@ contains
       character(len=48) :: text
 
       if (run%readable) then
-         write(text, '(I0, A, I0, A)') run%finished, " of ", run%planned, merge(" case ", " cases", run%planned == 1)
+         write(text, "(I0, A, I0, A)") run%finished, " of ", run%planned, merge(" case ", " cases", run%planned == 1)
       else
-         write(text, '(I0, A, I0, A)') run%finished, " of at least ", run%planned, merge(" case ", " cases", run%planned == 1)
+         write(text, "(I0, A, I0, A)") run%finished, " of at least ", run%planned, merge(" case ", " cases", run%planned == 1)
       end if
    end function planned_text
 

@@ -78,7 +78,7 @@ contains
       character(len=*), intent(in) :: values, names
       integer :: status
 
-      write(unit, '(A)', iostat=status) " " // values // "   % " // names
+      write(unit, "(A)", iostat=status) " " // values // "   % " // names
    end subroutine put_line
 
    !> Real numbers with all their figures, with blanks behind
@@ -91,9 +91,9 @@ contains
       text = ""
       last = -1
       do k = 1, size(values)
-         write(word, '(ES23.15E3)') values(k)
+         write(word, "(ES23.15E3)") values(k)
          if (abs(values(k)) < 1.0e6_wp .and. abs(values(k)) >= 0.0_wp) then
-            if (abs(values(k) - anint(values(k))) <= 0.0_wp) write(word, '(F10.1)') values(k)
+            if (abs(values(k) - anint(values(k))) <= 0.0_wp) write(word, "(F10.1)") values(k)
          end if
          text(last + 2:) = adjustl(word)
          last = len_trim(text)
@@ -118,15 +118,15 @@ contains
 
       associate (d => digits)
          if (is_pair) then
-            write(word, '(7I1)') d%c1, d%p, d%b, d%t, d%n, d%f, d%s
+            write(word, "(7I1)") d%c1, d%p, d%b, d%t, d%n, d%f, d%s
             call put_line(unit, word, "CPBTNFS")
          else
-            write(word, '(6I1)') d%p, d%b, d%t, d%n, d%f, d%s
+            write(word, "(6I1)") d%p, d%b, d%t, d%n, d%f, d%s
             call put_line(unit, trim(word), "PBTNFS")
          end if
-         write(word, '(7I1)') d%v, d%l, d%d, d%c, d%m, d%z, d%e
+         write(word, "(7I1)") d%v, d%l, d%d, d%c, d%m, d%z, d%e
          call put_line(unit, word // " " // integer_text(10*d%gapwgt + d%m2), "VLDCMZE, GAPWGT M2")
-         write(word, '(7I1)') d%h, d%g, d%i, d%a, d%o, d%w, d%r
+         write(word, "(7I1)") d%h, d%g, d%i, d%a, d%o, d%w, d%r
          call put_line(unit, word, "HGIAOWR")
       end associate
    end subroutine put_words

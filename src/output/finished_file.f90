@@ -38,7 +38,7 @@ contains
       character(len=len(case_text) + 16) :: mark
 
       mark = ""
-      if (result_element > 0) write(mark, '(A, I0.3)') "_re", result_element
+      if (result_element > 0) write(mark, "(A, I0.3)") "_re", result_element
       if (patch > 0 .and. patch <= 26) then
          mark = trim(mark) // "." // trim(case_text) // achar(iachar("a") + patch - 1)
       else if (case_text /= "") then

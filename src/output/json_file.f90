@@ -265,7 +265,7 @@ contains
       character(len=12) :: figures
 
       call self%key(name)
-      write(figures, '(I0)') value
+      write(figures, "(I0)") value
       call self%add(trim(figures))
       associate (unused => title)
       end associate
@@ -365,7 +365,7 @@ contains
       else if (exponent < 0 .and. exponent >= -4) then
          text = "0." // repeat("0", -exponent - 1) // figures
       else
-         write(exponent_text, '(I0)') exponent
+         write(exponent_text, "(I0)") exponent
          text = figures(1:1) // "e" // exponent_text
          if (len(figures) > 1) text = figures(1:1) // "." // figures(2:) // "e" // exponent_text
       end if
@@ -390,7 +390,7 @@ contains
          if (byte >= 32 .and. (byte < 127 .or. good) .and. text(i:i) /= '"' .and. text(i:i) /= "\") cycle
          call self%add(text(first:i - 1))
          if (byte < 32) then
-            write(code, '(Z4.4)') byte
+            write(code, "(Z4.4)") byte
             call self%add("\u" // code)
          else if (byte >= 127) then
             call self%add("?")

@@ -56,7 +56,7 @@ contains
       integer, intent(in) :: case_number
       character(len=12) :: text
 
-      write(text, '(I0.4)') case_number
+      write(text, "(I0.4)") case_number
    end function case_text
 
    !> Name of the file: <base>[_reNNN].<case, at least four digits>[<patch>].mat

@@ -23,9 +23,9 @@ contains
 
       text = ""
       if (case_number <= 9999) then
-         write(text, '(I4.4)') case_number
+         write(text, "(I4.4)") case_number
       else if (case_number <= 999999) then
-         write(text, '(I6.6)') case_number
+         write(text, "(I6.6)") case_number
       end if
    end function case_text
 

@@ -242,7 +242,7 @@ contains
       character(len=12) :: case_text, block_text
       integer :: k, part
 
-      write(case_text, '(I0.4)') head%number
+      write(case_text, "(I0.4)") head%number
       part = max(0, number - 1)
       name = case_file_name(self%base, case_text, "vts", head%result_element, number)
       call write_surface(name, spec, contact, error, place)
@@ -250,7 +250,7 @@ contains
       if (allocated(contact%subsurface)) then
          do k = 1, size(contact%subsurface)
             if (allocated(error)) exit
-            write(block_text, '(A, I0)') "block", k
+            write(block_text, "(A, I0)") "block", k
             name = case_file_name(self%base, case_text, trim(block_text) // ".vts", head%result_element, number)
             call write_block(name, spec, contact%subsurface(k), error, place)
             if (.not. allocated(error)) call self%list_file(name, head%number, 100*k + part)
@@ -405,7 +405,7 @@ contains
       grid%points = points
       grid%on_cells = on_cells
       allocate(grid%numbers(size_of_all), grid%lengths(0))
-      write(extent, '(5(I0, 1X), I0)') 0, points(1) - 1, 0, points(2) - 1, 0, points(3) - 1
+      write(extent, "(5(I0, 1X), I0)") 0, points(1) - 1, 0, points(2) - 1, 0, points(3) - 1
       grid%head = '<?xml version="1.0"?>' // new_line("a") // '<VTKFile type="StructuredGrid" version="1.0" byte_order="' &
          & // byte_order() // '" header_type="UInt64">' // new_line("a") // '<StructuredGrid WholeExtent="' // trim(extent) &
          & // '">' // new_line("a") // '<Piece Extent="' // trim(extent) // '">' // new_line("a") &
@@ -429,7 +429,7 @@ contains
       real(wp), intent(in) :: values(:)
       character(len=120) :: rest
 
-      write(rest, '(A, I0, A, I0, A)') '" NumberOfComponents="', components, '" format="appended" offset="', grid%offset, '"/>'
+      write(rest, "(A, I0, A, I0, A)") '" NumberOfComponents="', components, '" format="appended" offset="', grid%offset, '"/>'
       grid%head = grid%head // '<DataArray type="Float64" Name="' // name // trim(rest) // new_line("a")
       grid%numbers(grid%used + 1:grid%used + size(values)) = values
       grid%used = grid%used + size(values)

@@ -199,7 +199,7 @@ class Hdf5(unittest.TestCase):
             found = {}
             with h5py.File(self.path(name)) as file:
                 file[f"case_{case:04d}/inputs"].visititems(
-                    lambda place, item: found.update({place: np.array(item[()]).tolist()} if isinstance(item, h5py.Dataset) else {}))
+                    lambda place, item: found.update({place: np.array(item[()]).tolist()} if hasattr(item, "dtype") else {}))
             return found
 
         with open(self.path("all.inp"), "w", encoding="utf-8") as file:

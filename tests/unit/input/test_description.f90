@@ -279,7 +279,7 @@ contains
       rewind(unit)
       text = ""
       do
-         read(unit, '(A)', iostat=status) line
+         read(unit, "(A)", iostat=status) line
          if (status /= 0) exit
          text = text // trim(line) // new_line("a")
       end do
