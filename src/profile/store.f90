@@ -11,9 +11,9 @@ module contact_profile_store
    use contact_profile_prepare, only : extension_of, read_profile
    use contact_profile_request, only : profile_request, same_request
    use contact_profile_slices_file, only : read_slices_file, slices_list
-   use contact_profile_surface, only : new_surface, profile_surface
+   use contact_profile_surface, only : new_surface, profile_surface, surface_cut
    use contact_text_lexer, only : input_lexer
-   use contact_text_words, only : integer_text
+   use contact_text_words, only : integer_text, real_text
    implicit none (type, external)
    private
 
@@ -166,7 +166,56 @@ contains
       allocate(profile%surface)
       call new_surface(request%side, list, curves, request%file, profile%surface, error)
       profile%curve = curves(1)
+      if (.not. allocated(error)) call warn_of_swing(profile%surface, list, curves, request%file, log)
    end subroutine load_profile
+
+   !> Tell where the surface swings away from the slices on both sides, half way between them
+   !>
+   !> Splines along u through slices whose outlines differ suddenly, without a feature where a part begins or ends, leave both of
+   !> them by many times what these differ.
+   subroutine warn_of_swing(surface, list, curves, file, log)
+      type(profile_surface), intent(in) :: surface
+      type(slices_list), intent(in) :: list
+      !> One per slice
+      type(profile_curve), intent(in) :: curves(:)
+      character(len=*), intent(in) :: file
+      type(log_type), intent(inout) :: log
+      !> Swings that count [mm], and relative to what the slices differ [-]; places across the profile
+      real(wp), parameter :: large = 0.5_wp, relative = 1.0_wp
+      integer, parameter :: places = 15
+      type(surface_cut) :: section
+      real(wp) :: y(places), z(places, 3), range(2), swing, largest
+      logical :: found(places, 3)
+      integer :: i, k, worst
+
+      largest = 0.0_wp
+      worst = 0
+      do k = 1, size(curves) - 1
+         call surface%cut(0.5_wp*(list%slices(k)%u + list%slices(k + 1)%u), section)
+         if (.not. section%present) cycle
+         associate (before => curves(k)%y_range(), after => curves(k + 1)%y_range(), between => section%curve%y_range())
+            range = [max(before(1), after(1), between(1)), min(before(2), after(2), between(2))]
+         end associate
+         if (range(2) <= range(1)) cycle
+         ! slopes at the ends of profiles are steep
+         y = [(range(1) + (range(2) - range(1))*i/(places + 1), i = 1, places)]
+         call curves(k)%heights(y, z(:, 1), found(:, 1))
+         call curves(k + 1)%heights(y, z(:, 2), found(:, 2))
+         call section%curve%heights(y, z(:, 3), found(:, 3))
+         do i = 1, places
+            if (.not. all(found(i, :))) cycle
+            swing = max(minval(z(i, :2)) - z(i, 3), z(i, 3) - maxval(z(i, :2)))
+            if (swing <= max(large, largest, relative*abs(z(i, 1) - z(i, 2)))) cycle
+            largest = swing
+            worst = k
+         end do
+      end do
+      if (worst == 0) return
+      call log%warning(file // ":" // integer_text(list%slices(worst)%line) // ": between slices " // integer_text(worst) // &
+         & " and " // integer_text(worst + 1) // " the surface leaves both of them by " // real_text(largest) // " mm: their " // &
+         & "outlines change suddenly. What the program finds there is not the shape of the body; features (NFEAT) mark where " // &
+         & "a part begins or ends, or more slices describe it")
+   end subroutine warn_of_swing
 
    pure logical function is_slices_file(request)
       type(profile_request), intent(in) :: request

@@ -15,6 +15,7 @@ program test_surface
 
    call suite%start("surface")
    call prism(suite)
+   call swing(suite)
    call along(suite)
    call order(suite)
    call approximating(suite)
@@ -101,6 +102,54 @@ contains
       if (allocated(error)) call suite%check(.false., what // ": " // full_text(error))
       if (.not. allocated(error)) call suite%check(allocated(profile%surface), what // " is a surface")
    end subroutine load
+
+   !> Outlines that change suddenly make the surface swing between slices, which is told; a feature, or a slow change, ends it
+   subroutine swing(suite)
+      type(test_suite), intent(inout) :: suite
+      type(log_type) :: log
+      integer :: i
+
+      do i = 1, 10
+         call write_slice("slice" // achar(iachar("0") + mod(i, 10)) // ".txt", 0.0_wp, 0.0_wp, &
+            & merge(-20.0_wp, 8.0_wp, i <= 5))
+      end do
+      call write_file("test.slcs", replaced_last(slices_text(10, 10.0_wp, "0 0 0" // nl // "1", "")))
+      call load_slices(suite, log)
+      call suite%equal(log%warnings, 1, "a surface that swings between its slices")
+      call write_file("test.slcs", replaced_last(slices_text(10, 10.0_wp, "0 0 0" // nl // "2", "")))
+      call load_slices(suite, log)
+      call suite%equal(log%warnings, 0, "control points do not let it swing")
+      do i = 1, 10
+         call write_slice("slice" // achar(iachar("0") + mod(i, 10)) // ".txt", 0.0_wp, 0.5_wp*i, -20.0_wp + 0.2_wp*i)
+      end do
+      call write_file("test.slcs", replaced_last(slices_text(10, 10.0_wp, "0 0 0" // nl // "1", "")))
+      call load_slices(suite, log)
+      call suite%equal(log%warnings, 0, "outlines that change slowly")
+
+   end subroutine swing
+
+   !> The tenth slice is called slice0
+   function replaced_last(text) result(other)
+      character(len=*), intent(in) :: text
+      character(len=:), allocatable :: other
+      integer :: k
+
+      k = index(text, "slice10")
+      other = text(:k + 4) // text(k + 6:)
+   end function replaced_last
+
+   subroutine load_slices(suite, log)
+      type(test_suite), intent(inout) :: suite
+      type(log_type), intent(out) :: log
+      type(profile_request) :: request
+      type(prepared_profile) :: profile
+      type(error_type), allocatable :: error
+
+      request%file = "test.slcs"
+      request%mirror_z = -1
+      call load_profile(request, profile, log, error)
+      if (allocated(error)) call suite%check(.false., "slices that swing: " // full_text(error))
+   end subroutine load_slices
 
    !> The same slice everywhere is the prismatic profile
    subroutine prism(suite)
