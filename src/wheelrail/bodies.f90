@@ -14,7 +14,7 @@ module contact_wheelrail_bodies
    implicit none (type, external)
    private
 
-   public :: pair_bodies, strip, place_bodies, rail_section, find_rail, find_wheel, find_rail_row, find_wheel_row
+   public :: pair_bodies, strip, place_bodies, search_reach, rail_section, find_rail, find_wheel, find_rail_row, find_wheel_row
 
    !> Sections on an even mesh
    type :: strip
@@ -49,8 +49,10 @@ module contact_wheelrail_bodies
 
    !> Distance of sections along the surface at most [mm]
    real(wp), parameter :: furthest_section = 1.0_wp
-   !> How far sections reach to both sides, of the wheel's radius
-   real(wp), parameter :: reach = 0.16_wp
+   !> How far contact is sought along the track to both sides, and sections beyond it, of the wheel's radius
+   real(wp), parameter :: reach = 0.125_wp, furthest = 0.5_wp, beyond = 0.035_wp
+   !> Slope of the steepest flank on which contact is sought, dz/dy: 80 degrees
+   real(wp), parameter :: steepest_flank = 5.67_wp
    !> Share of the distance of sections that is none
    real(wp), parameter :: rounding = 1.0e-9_wp
    !> Least dy/ds of a rail: a steeper one counts as vertical
@@ -74,7 +76,7 @@ contains
       integer :: n
 
       distance = min(furthest_section, dx)
-      n = ceiling(reach*bodies%placement%wheel_radius/distance)
+      n = ceiling((search_reach(bodies) + beyond*bodies%placement%wheel_radius)/distance)
       call lay_out(bodies%rail_strip, rail_surface, n, bodies%placement%wheel%origin(1), distance)
       call lay_out(bodies%wheel_strip, wheel_surface, n, 0.0_wp, distance/bodies%placement%wheel_radius)
       if (allocated(bodies%rail_strip)) then
@@ -84,6 +86,16 @@ contains
       ! With positive pitch the bottom shows what was in front of it, at a negative angle
       if (allocated(bodies%wheel_strip)) bodies%wheel_strip%origin = -pitch
    end subroutine place_bodies
+
+   !> How far from the wheel contact is sought along the track [mm]: on the flank of a yawed wheel it is ahead of the axle or behind
+   !> it by the radius times slope and yaw
+   pure real(wp) function search_reach(bodies) result(length)
+      type(pair_bodies), intent(in) :: bodies
+
+      associate (yaw => abs(bodies%placement%wheel%yaw()))
+         length = max(reach, min(furthest, steepest_flank*tan(min(yaw, 1.0_wp))))*bodies%placement%wheel_radius
+      end associate
+   end function search_reach
 
    !> A strip without sections: n of them to both sides of its middle
    subroutine lay_out(along, surface, n, middle, step)

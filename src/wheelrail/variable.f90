@@ -6,7 +6,7 @@
 module contact_wheelrail_variable
    use contact_base_kinds, only : wp
    use contact_grid_potential_contact, only : potential_contact
-   use contact_wheelrail_bodies, only : find_rail_row, find_wheel, find_wheel_row, pair_bodies
+   use contact_wheelrail_bodies, only : find_rail_row, find_wheel, find_wheel_row, pair_bodies, search_reach
    use contact_wheelrail_flat_patch, only : nothing_there, settle_distance
    use contact_wheelrail_frame, only : frame
    use contact_wheelrail_gap, only : gap_curve, no_surface, smallest_in_row
@@ -24,8 +24,8 @@ module contact_wheelrail_variable
    real(wp), parameter :: least_depth = 0.2_wp
    !> The surfaces may be nearer to each other inside a coarse cell than at its corners by this [mm]
    real(wp), parameter :: hidden = 0.1_wp
-   !> Lateral mesh relative to the elements, and search along the track to both sides, of the radius
-   real(wp), parameter :: mesh_share = 0.3_wp, reach = 0.125_wp
+   !> Lateral mesh relative to the elements
+   real(wp), parameter :: mesh_share = 0.3_wp
 
 contains
 
@@ -46,7 +46,7 @@ contains
 
       dx = fine_x
       if (allocated(bodies%rail_strip)) dx = bodies%rail_strip%step*max(1, nint(fine_x/bodies%rail_strip%step))
-      nxc = 2*ceiling(reach*bodies%placement%wheel_radius/(coarse*dx)) + 1
+      nxc = 2*ceiling(search_reach(bodies)/(coarse*dx)) + 1
       xc = bodies%placement%wheel%origin(1) + [(dx*coarse*(i - (nxc + 1)/2), i=1, nxc)]
       range = lateral_range(bodies, xc)
       gap%dy = mesh_share*ds

@@ -39,7 +39,7 @@ def settings(pair, scene):
         method = scene["pair"][body].get("smooth") or [0, 0.0]
         name = next(name for name in held if name == words[0].strip("'"))
         cntc.setprofileinputfname(pair.number, os.path.abspath(name), [kind, 0, int(words[1]), int(words[4]), 0, method[0]],
-                                  [float(words[2]), method[1], 0.0, np.deg2rad(150.0), np.deg2rad(30.0), np.deg2rad(6.0), 2.0])
+                                  [float(words[2]), method[1], 0.5, np.deg2rad(150.0), np.deg2rad(30.0), np.deg2rad(6.0), 2.0])
     pair.set_wheelset(*scene["pair"]["wheelset"])
 
 

@@ -361,6 +361,18 @@ class TwoPlacesAlongTheTrack(Program):
         self.assertAlmostEqual(float(found.group(1)), second["xcp_tr"]["value"], delta=1.0)
         self.assertAlmostEqual(float(found.group(2)), second["ycp_tr"]["value"], delta=2.0)
 
+    def test_flank_far_from_the_axle(self):
+        """At 0.1 rad of yaw the flange touches 90 mm from the point below the axle: every search goes as far"""
+        found = {}
+        for location in ("2", "5"):
+            text = self.first_case(location).replace("0.0 0.0 60000. 0.0 0.0 0.0", "0.0 5.0 60000. 0.0 0.1 0.0")
+            cases, _, _ = self.run_text(text)
+            self.assertEqual(len(cases[0]["patches"]), 1)
+            found[location] = (cases[0]["totals"]["z_ws"]["value"], cases[0]["patches"][0]["totals"]["deltcp_tr"]["value"])
+        self.assertLess(found["2"][1], -1.0)
+        self.assertAlmostEqual(found["5"][0], found["2"][0], delta=1e-3)
+        self.assertAlmostEqual(found["5"][1], found["2"][1], delta=5e-3)
+
     def test_nothing_is_told_of_one_place(self):
         for location, z in (("2", -2.0), ("5", -1.85)):
             cases, warnings, _ = self.run_text(self.dip(location, z))
