@@ -20,6 +20,8 @@ from small_case import case, endless
 
 PROGRAM = os.environ["CONTACT_PROGRAM"]
 SOURCE = pathlib.Path(os.environ["CONTACT_SOURCE"])
+#: Sanitizers take address space without limit and stacks of any size (tests/support/sanitize.sh sets this)
+IS_INSTRUMENTED = "CONTACT_SLOWER" in os.environ
 
 
 class Scratch(unittest.TestCase):
@@ -198,6 +200,7 @@ class Surroundings(Scratch):
         self.assertEqual(status, 1)
         self.assertIn("no ordinary file", err)
 
+    @unittest.skipIf(IS_INSTRUMENTED, "sanitizers need address space")
     def test_small_limits_of_the_system(self):
         def limited(*limits):
             def limit():
@@ -286,6 +289,7 @@ class Surroundings(Scratch):
         self.assertEqual([name for name in self.names() if name.endswith((".lock", ".tmp"))], [])
 
 
+@unittest.skipIf(IS_INSTRUMENTED, "sanitizers need stack")
 class SmallStack(Scratch):
     """Nothing that grows with the input is on a stack"""
 
