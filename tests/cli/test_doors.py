@@ -238,8 +238,9 @@ class Refusals(Doors):
 
     def test_lists_of_another_grid(self):
         """One value per element stays with the elements it was given for, whatever changes and in either direction"""
-        def window(mx=6, my=5, x=-1.0, y=-1.2, dx=0.3, dy=0.4):
-            return f"{mx} {my} {x} {y} {dx} {dy}"
+        def window(mx=6, my=5, x=-0.85, y=-1.0, dx=0.3, dy=0.4):
+            # by the centre of the first element, which stays where sizes change
+            return f"{mx} {my} {x - 0.5*dx:.6g} {y - 0.5*dy:.6g} {dx} {dy}"
 
         first = ("3\n203100\n002202{e}\n0000201\n200 100 30 1 1e-5\n9 0.002 0 0\n0.4 0.4\n0 0.3 1000\n0.28 0.28 200 200\n1\n"
                  + window() + "\n{shape}\n{slip}").format
@@ -250,7 +251,7 @@ class Refusals(Doors):
                 (first(e=9, shape=plain.strip(), slip=slips), dict(z=2, e=1, shape=plain), "E = 1 keeps the extra rigid"),
                 (first(e=0, shape="9 1\n" + numbers.strip(), slip=""), dict(z=1, e=0, shape=""), "IBASE = 9, one per element")):
             for change in (dict(mx=7), dict(mx=5), dict(my=6), dict(my=4), dict(dx=0.33), dict(dx=0.27), dict(dy=0.44),
-                           dict(dy=0.36), dict(x=-0.9), dict(x=-1.1), dict(y=-1.0), dict(y=-1.4), {}):
+                           dict(dy=0.36), dict(x=-0.75), dict(x=-0.95), dict(y=-0.9), dict(y=-1.2), {}):
                 text = second(window=window(**change), **kept)
                 run, out, _ = self.run_text(first_case + text, "3")
                 if change:

@@ -184,6 +184,22 @@ class Relations(unittest.TestCase):
                  for row in found[::2]}
         self.assertGreaterEqual(len(pairs), len(CONFIGURATIONS) - 4)
 
+    def test_without_contact(self):
+        """Nothing touches, or nothing is pressed: no forces by any solver, whatever is prescribed, and no doubt about it"""
+        cases = []
+        for values in CONFIGURATIONS.values():
+            case = dict(copy.deepcopy(BASE), aa=1.6, bb=1.9, **values)
+            if case["b"] or (case["n"] == 0):
+                continue
+            for f in {0, 1, 2} if case["g"] != 5 and case["m"] != 1 else {case["f"]}:
+                cases.append(dict(case, n=0, pen=-0.01, f=f, cx=-0.4 if f else 0.002, cy=0.3 if f == 2 else -0.001))
+        self.assertGreater(len(cases), 40)
+        for k, row in enumerate(self.solve(cases)):
+            label = (k // 2, cases[k // 2]["t"], cases[k // 2]["f"], cases[k // 2]["g"], cases[k // 2]["m"])
+            self.assertEqual((row["status"], row["ncon"]), ("solved", 0), label)
+            for name in ("fn", "fx", "fy", "mz", "elastic_energy", "pmax", "contact_area"):
+                self.assertEqual(row[name], 0, (label, name))
+
     def test_converged_means_residuals_within_the_tolerance(self):
         """At tolerances that are met and that cannot be met, with enough iterations and with too few"""
         ended = set()
