@@ -3,7 +3,10 @@
 import gc
 import os
 import re
+import shutil
+import subprocess
 import sys
+import tempfile
 import threading
 import warnings
 
@@ -352,6 +355,32 @@ def temperatures():
     cntc.finalize(number)
 
 
+def places():
+    """Where the library is looked for when nothing is said: files that are there, then names for the system"""
+    from contact import _library
+    chosen = os.environ.pop("CONTACT_LIBRARY")
+    try:
+        found = _library.candidates()
+        with tempfile.TemporaryDirectory() as folder:
+            # an installation: share/contact/python/contact beside bin
+            package = os.path.join(folder, "share", "contact", "python", "contact")
+            os.makedirs(package)
+            os.mkdir(os.path.join(folder, "bin"))
+            shutil.copy(_library.__file__, package)
+            name = os.path.join(os.path.realpath(folder), "bin", _library._names()[-1])
+            with open(name, "w", encoding="utf-8"):
+                pass
+            code = "import runpy, sys; print(runpy.run_path(sys.argv[1])['candidates']()[0])"
+            told = subprocess.run([sys.executable, "-c", code, os.path.join(package, "_library.py")], capture_output=True, text=True,
+                                  env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)})
+            same(os.path.realpath(told.stdout.strip()), name, f"the library of an installation {told.stderr[-300:]}")
+    finally:
+        os.environ["CONTACT_LIBRARY"] = chosen
+    for place in found:
+        check(os.path.isfile(place) or os.sep not in place, f"{place} is a file, or a name")
+    same(_library.candidates(), [chosen], "what is chosen is the only one")
+
+
 def output():
     """Files go where they are wanted"""
     contact.output_to("results", "run")
@@ -368,6 +397,6 @@ def output():
 
 if __name__ == "__main__":
     for part in (results, distance, prescribed_and_transient, errors, many, threads, wheel_on_rail, older_scripts, documents,
-                 doubts, temperatures, output):
+                 doubts, temperatures, places, output):
         part()
     finish()

@@ -236,6 +236,16 @@ class Refusals(Doors):
             "0.28 0.28", "'large.txt'\n0.28 0.28") + "0\n"
         self.refused(text, "99800 by 279 elements with 1 matrices needs too many coefficients; accepted are 5e8")
 
+    def test_backslashes_in_names_of_profiles(self):
+        """Names as they are written elsewhere, with folders, from the root on and from here"""
+        text = "1\n" + NEW1.format(**PLAIN1) + "0\n"
+        os.mkdir(os.path.join(self.folder, "sub"))
+        for name in (os.path.join(PROFILES, "60E1.prr"), "./60E1.prr", "sub/../60E1.prr"):
+            for written in (name, name.replace("/", "\\")):
+                run, _, records = self.run_text(text.replace("60E1.prr", written))
+                self.assertEqual(run.returncode, 0, (written, run.stderr))
+                self.assertEqual(records[0]["status"], "solved")
+
     def test_lists_of_another_grid(self):
         """One value per element stays with the elements it was given for, whatever changes and in either direction"""
         def window(mx=6, my=5, x=-0.85, y=-1.0, dx=0.3, dy=0.4):

@@ -137,9 +137,10 @@ class PairReport(unittest.TestCase):
         return names, sides
 
     def test_plane_patch(self):
-        names, _ = self.compare([PLAIN])
+        names, sides = self.compare([PLAIN])
         self.assertLessEqual(set(GIVEN) | set(GIVEN_ODD), names | {"ZIGTHRS", "KINKHIG", "KINKLOW", "KINKWID", "MAXOMIT"})
         self.assertLessEqual(set(FOUND), names | {"FX/FN", "FS/FN", "BAR_FN", "BAR_FX", "BAR_FS", "TILDE_FN", "DY_DEFL", "DZ_DEFL"})
+        self.assertNotIn("SPINXO", sides[0][0][0])
         # finer choices of profiles stand in longer reports
         names, _sides = self.compare([dict(PLAIN, o=3)])
         self.assertLessEqual({"ZIGTHRS", "KINKHIG", "KINKLOW", "KINKWID", "MAXOMIT"}, names)
@@ -178,6 +179,10 @@ class PairReport(unittest.TestCase):
         """Two steps of transient rolling, whose reference of spin leaves the origin; the rail on springs"""
         for extra in (dict(t=2), dict(t=1)):
             _names, sides = self.compare([dict(PLAIN, **extra), dict(PLAIN, p=0, **extra)])
+            for reports, records in sides:
+                for report, record in zip(reports, records):
+                    totals = record["patches"][0]["totals"]
+                    self.assertEqual("SPINXO" in report, value(totals.get("mz_elem", totals["mz"])) != value(totals["mz"]))
             origins = [re.findall(r"SPINXO +SPINYO\n +(\S+) +(\S+)", report) for reports, _ in sides for report in reports]
             for right, left in zip(origins[:2], origins[2:]):
                 self.assertEqual(len(right), len(left))

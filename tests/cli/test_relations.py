@@ -34,7 +34,8 @@ CONFIGURATIONS = {"frictionless": dict(t=0), "approach": dict(n=0, eps=1e-10), "
                   "ConvexGS": dict(t=2, g=2, solver="0.9 1.0 0 0.5"), "SteadyGS": dict(g=3, solver="0.9 1.0 0 0.5"),
                   "GDsteady": dict(g=5, solver="1.0 0.5 2 1.5 0.01 2.5 1.2 1.3", eps=1e-7), "viscoelastic": dict(m=1),
                   "viscoelastic, dissimilar": dict(m=1, maxout=20, poiss=[0.3, 0.4], gg=[900.0, 500.0], fn=100.0),
-                  "Fastsim": dict(b=2, m=2), "Fastsim, three": dict(b=3, m=3), "FaStrip": dict(b=2, m=5),
+                  "Fastsim": dict(b=2, m=2), "Fastsim, forces": dict(b=2, m=2, f=2, cx=-0.4, cy=0.3),
+                  "FaStrip, force": dict(b=3, m=5, f=1, cx=0.5), "Fastsim, three": dict(b=3, m=3), "FaStrip": dict(b=2, m=5),
                   "FaStrip plain": dict(b=2, m=6), "layer": dict(m=4), "layer, shift": dict(m=4, t=1),
                   "elastic layer": dict(m=4, layer=[9000.0, 0.02, 0.0, 0.0]), "linear falling": dict(l=2),
                   "rational falling": dict(l=3), "exponential falling": dict(l=4, t=2)}
@@ -248,6 +249,31 @@ class Relations(unittest.TestCase):
 
     def test_exchanged_bodies(self):
         self.compare(exchanged, 4)
+
+    def test_moved_window(self):
+        """The same bodies at another place: creepages are those of the origin, and so is the moment"""
+        move = 0.75, -0.5
+        names = [name for name, values in CONFIGURATIONS.items() if not values.get("b")]
+        before = [dict(copy.deepcopy(BASE), aa=1.6, bb=1.9, **copy.deepcopy(CONFIGURATIONS[name])) for name in names]
+        after = []
+        for case in before:
+            b1, b2, b3, b4, b5, b6 = case["shape"]
+            x, y = move
+            after.append(dict(copy.deepcopy(case), xl=case["xl"] + x, yl=case["yl"] + y, shape=[
+                b1, b2, b3, b4 - 2*b1*x - b2*y, b5 - 2*b3*y - b2*x, b6 + b1*x*x + b2*x*y + b3*y*y - b4*x - b5*y]))
+            if case["t"]:
+                after[-1]["cx"] += 0.0 if case["f"] else case["spin"]*y
+                after[-1]["cy"] -= 0.0 if case["f"] == 2 else case["spin"]*x
+        found = self.solve(before + after)
+        half = len(found)//2
+        for k, (a, b) in enumerate(zip(found[:half], found[half:])):
+            label = (names[k//2], k % 2)
+            for name in ("fn", "fx", "fy", "pen", "pmax", "elastic_energy", "friction_power", "friction_work", "ncon"):
+                if name in a:
+                    allowed = 1e-6*max(abs(a[name]), 1e-2*a["fn"] if name in ("fx", "fy") else 0.0)
+                    self.assertAlmostEqual(b[name], a[name], delta=allowed, msg=(label, name))
+            moment = a["mz"] + move[0]*a["fy"] - move[1]*a["fx"]
+            self.assertAlmostEqual(b["mz"], moment, delta=1e-5*(abs(moment) + abs(a["fx"]) + abs(a["fy"])) + 1e-9, msg=label)
 
     def test_lengths(self):
         self.compare(longer, None, power_of_length=1, tolerance=1e-11)
