@@ -363,16 +363,15 @@ def places():
         found = _library.candidates()
         with tempfile.TemporaryDirectory() as folder:
             # an installation: share/contact/python/contact beside bin
-            package = os.path.join(folder, "share", "contact", "python", "contact")
-            os.makedirs(package)
+            python = os.path.join(folder, "share", "contact", "python")
+            shutil.copytree(os.path.dirname(_library.__file__), os.path.join(python, "contact"))
             os.mkdir(os.path.join(folder, "bin"))
-            shutil.copy(_library.__file__, package)
             name = os.path.join(os.path.realpath(folder), "bin", _library._names()[-1])
             with open(name, "w", encoding="utf-8"):
                 pass
-            code = "import runpy, sys; print(runpy.run_path(sys.argv[1])['candidates']()[0])"
-            told = subprocess.run([sys.executable, "-c", code, os.path.join(package, "_library.py")], capture_output=True, text=True,
-                                  env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)})
+            told = subprocess.run([sys.executable, "-c", "from contact import _library; print(_library.candidates()[0])"],
+                                  capture_output=True, text=True, cwd=folder,
+                                  env={**os.environ, "PYTHONPATH": os.pathsep.join([python, *sys.path])})
             same(os.path.realpath(told.stdout.strip()), name, f"the library of an installation {told.stderr[-300:]}")
     finally:
         os.environ["CONTACT_LIBRARY"] = chosen

@@ -192,8 +192,8 @@ class Relations(unittest.TestCase):
             case = dict(copy.deepcopy(BASE), aa=1.6, bb=1.9, **values)
             if case["b"] or (case["n"] == 0):
                 continue
-            for f in {0, 1, 2} if case["g"] != 5 and case["m"] != 1 else {case["f"]}:
-                cases.append(dict(case, n=0, pen=-0.01, f=f, cx=-0.4 if f else 0.002, cy=0.3 if f == 2 else -0.001))
+            cases.extend(dict(case, n=0, pen=-0.01, f=f, cx=-0.4 if f else 0.002, cy=0.3 if f == 2 else -0.001)
+                         for f in ({0, 1, 2} if case["g"] != 5 and case["m"] != 1 else {case["f"]}))
         self.assertGreater(len(cases), 40)
         for k, row in enumerate(self.solve(cases)):
             label = (k // 2, cases[k // 2]["t"], cases[k // 2]["f"], cases[k // 2]["g"], cases[k // 2]["m"])
