@@ -230,6 +230,21 @@ class Relations(unittest.TestCase):
                     self.assertTrue(cases[k//2]["f"] or cases[k//2]["maxout"] > 1 or cases[k//2]["l"], label)
         self.assertGreater(len(ended), 4, ended)
 
+    def test_as_many_iterations_as_are_allowed(self):
+        """A classical solver that needs n iterations ends well with MAXGS = n, and not with one less"""
+        for name in ("ConvexGS", "SteadyGS", "GDsteady"):
+            case = dict(copy.deepcopy(BASE), aa=1.6, bb=1.9, **CONFIGURATIONS[name])
+            needed = self.solve([case])[0]["solver"]["tangential_iterations"]
+            self.assertGreater(needed, 3)
+            for number in (1, 2, 3, needed - 1, needed):
+                solver = self.solve([dict(case, maxgs=number)])[0]["solver"]
+                # GDsteady judges the size of a step by MAXGS, and may need one less
+                ended = "converged" if number == needed or (name, number) == ("GDsteady", needed - 1) else "iteration limit"
+                self.assertEqual(solver["tangential_ended"], ended, (name, number, needed))
+                self.assertLessEqual(solver["tangential_iterations"], number)
+                if ended != "converged":
+                    self.assertEqual(solver["tangential_iterations"], number, name)
+
     def test_what_was_before_does_not_count(self):
         """Each first case in the other order of cases, to the last bit; the second one continues its own first one"""
         cases = [dict(copy.deepcopy(BASE), aa=1.6, bb=1.9, **values) for values in CONFIGURATIONS.values()]
