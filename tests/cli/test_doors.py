@@ -236,6 +236,20 @@ class Refusals(Doors):
             "0.28 0.28", "'large.txt'\n0.28 0.28") + "0\n"
         self.refused(text, "99800 by 279 elements with 1 matrices needs too many coefficients; accepted are 5e8")
 
+    def test_solvers(self):
+        """G chooses the solver of steady rolling in both modules, and G = 1 keeps it"""
+        chosen = ((0, "", "Newton-Krylov"), (2, "\n0.9 1 0 0.5", "ConvexGS"), (3, "\n0.9 1 0 0.5", "SteadyGS"), (4, "\n0 0.5", "Newton-Krylov"),
+                  (5, "\n1.0 0.5 2 1.5 0.01 2.5 1.2 1.3", "GDsteady"))
+        for module, new, plain, kept in (("3", NEW3, PLAIN3, KEPT3), ("1", NEW1, PLAIN1, KEPT1)):
+            for digit, settings, solver in chosen:
+                case = new.format(**{**plain, "third": f"0{digit}00201", "iteration": "200 100 30 1 1e-5" + settings,
+                                     **({"side": "1.0"} if module == "1" else {})})
+                if module == "1":
+                    case = case.replace("0000201", f"0{digit}00201")
+                _, _, records = self.run_text(f"{module}\n{case}{module}\n{kept}0\n")
+                found = [record["patches"][0]["solver"]["tangential_method"] for record in records]
+                self.assertEqual(found, [solver, solver], (module, digit))
+
     def test_backslashes_in_names_of_profiles(self):
         """Names as they are written elsewhere, with folders, from the root on and from here"""
         text = "1\n" + NEW1.format(**PLAIN1) + "0\n"

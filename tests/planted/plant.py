@@ -42,7 +42,7 @@ ROOMS = {"input": 24, "control": 12, "capi": 30, "output": 22, "hdf5": 10, "expe
          "friction": 3, "temperature": 2, "subsurface": 5, "tangential": 8, "simplified": 4, "patch": 8, "wheelrail": 14}
 # These look at sources or at pictures, need a static library or the clock, or take long
 NOT_THESE = re.compile(r"capi_statics|capi_consumer|capi_types|capi_generated|harness|house|performance|make_profiles|planted|"
-                       r"octave_figures|force_search|worn_profiles|capi_wheel$|faults|fuzz")
+                       r"octave_figures|force_search|worn_profiles|capi_wheel$|faults_of|fuzz")
 # Scripts are not measured: tests that run them, quickest first
 SCRIPTS = {"python": re.compile(r"capi_(?!host)|report_|hdf5_file|campaign|json|doubts"), "matlab": re.compile("octave")}
 # Lines that gcov does not see because the process was ended from outside
