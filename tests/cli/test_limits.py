@@ -59,6 +59,14 @@ class Limits(unittest.TestCase):
         self.assertLess(self.seconds, 30.0)
         self.assertIn("1 solved, 1 not converged, 0 refused", done.stdout)
 
+    def test_time_inside_a_search_for_forces(self):
+        """The search ends with the solution that ran out of time, and says so"""
+        for digits, forces in (("203110", "2000 0.5 0 0"), ("203120", "2000 0.5 0.2 0")):
+            text = endless(80).replace("203100", digits).replace("2000 0.001 0 0", forces)
+            _, lines = self.run_program(text + case(10) + "0\n", "--limit-time", "0.5")
+            self.assertEqual([line.get("iteration") for line in lines], ["time", None])
+            self.assertLess(self.seconds, 30.0)
+
     def test_time_of_wheel_and_rail(self):
         with open(os.path.join(SOURCE, "examples", "wheel_on_rail.inp")) as file:
             text = file.read()

@@ -235,16 +235,17 @@ class PairReport(unittest.TestCase):
         """As many decimals as fit four digits"""
         for curvature, text in (("2.5e-4", "2.500E-04"), ("1e-6", "1.000E-06"), ("0", "0.000"), ("9.99996e-5", "1.000E-04"),
                                 ("0.125", "0.1250")):
-            with unittest.mock.patch(__name__ + ".CASE", CASE.replace("{s}1e-6", curvature)):
+            for track, numbers in (("-1 {s}752.0 0.3 0.025 ", "    -1.000    752.0000      0.3000      0.0250"),
+                                   ("14 0 1435 0.025 ", "    14.000    1435.000      0.0250")):
+                case = CASE.replace("-1 {s}752.0 0.3 0.025 {s}1e-6", track + curvature)
+                text_of_case = case.format(c1=1, s="", folder=PROFILES, **dict(PLAIN, t=0, n=0, z=-100)).replace("2033", "2035")
                 with open(os.path.join(self.folder, "x.inp"), "w", encoding="utf-8") as file:
-                    values = dict(PLAIN, t=0, n=0, z=-100)
-                    text_of_case = CASE.format(c1=1, s="", folder=PROFILES, **values).replace("2033", "2035")
                     file.write(text_of_case.replace("{s}", "") + "0\n")
                 subprocess.run([PROGRAM, "--quiet", "2", "x"], cwd=self.folder, stdin=subprocess.DEVNULL, capture_output=True,
                                timeout=60)
                 with open(os.path.join(self.folder, "x.out"), encoding="utf-8") as file:
                     line = re.search(r"CANT +CURV\n(.*)", file.read()).group(1)
-                self.assertEqual(line, "    -1.000    752.0000      0.3000      0.0250" + text.rjust(12))
+                self.assertEqual(line, numbers + text.rjust(12))
 
     def test_roller(self):
         """A roller turns in place of a track: its names, its numbers, and the other side as a mirror image"""

@@ -98,6 +98,8 @@ class Places(unittest.TestCase):
                     told = self.check_only([row for row, _ in rows[:k]] + [line[:place.start()] + "@7" + line[place.end():]])
                     self.assertIn(f"x.inp:{k + 1}:{place.start() + 1}: ", told, (path, name))
                     self.assertIn('"@7"', told)
+                    # the words of the first line of a case come before its number
+                    self.assertRegex(told, r"case \d+\)|MODULE", (path, name))
         self.assertGreater(len(done), 100)
 
 

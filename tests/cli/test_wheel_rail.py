@@ -384,6 +384,7 @@ class Tables(Case):
         (flat, table, again), out = self.solve(self.pair(**values), given, given)
         self.assertEqual([len(result["patches"]) for result in (flat, table, again)], [count]*3)
         self.assertEqual(out.count("Influence coefficients from"), 1, "the file is read once")
+        self.assertRegex(out, r"Influence coefficients from .*, body 1 \(rail *\) above")
         self.assertIn("tabulated influence coefficients", out)
         # what the force search leaves, relative to the load and to levers of 100 mm
         for a, b in [(flat, table)] + list(zip(flat["patches"], table["patches"])):

@@ -72,6 +72,7 @@ contains
       call suite%check(index(lines, "of the last trial") < index(lines, "and a second one") .and. &
          & index(lines, "and a second one") < index(lines, "after it") &
          & .and. index(lines, "of the last trial") > 0, "in their order")
+      call suite%check(index(lines, new_line("a") // new_line("a")) == 0, "each on a line of its own, and nothing between")
 
       call begin(log)
       log%level = 4
