@@ -9,7 +9,7 @@ module contact_wheelrail_variable
    use contact_wheelrail_bodies, only : find_rail_row, find_wheel, find_wheel_row, pair_bodies, search_reach
    use contact_wheelrail_flat_patch, only : nothing_there, settle_distance
    use contact_wheelrail_frame, only : frame
-   use contact_wheelrail_gap, only : gap_curve, no_surface, smallest_in_row
+   use contact_wheelrail_gap, only : gap_curve, measure_gap, no_surface, smallest_in_row
    implicit none (type, external)
    private
 
@@ -41,12 +41,24 @@ contains
       real(wp), intent(in), optional :: depth
       real(wp), allocatable :: corner(:, :), table(:, :), xc(:), yc(:)
       integer, allocatable :: first(:), last(:)
-      real(wp) :: range(2), limit, dx
+      type(gap_curve) :: locus
+      logical, allocatable :: near(:)
+      logical :: prismatic
+      real(wp) :: range(2), limit, dx, along
       integer :: nxc, nyc, i, j, ic, jc
 
       dx = fine_x
       if (allocated(bodies%rail_strip)) dx = bodies%rail_strip%step*max(1, nint(fine_x/bodies%rail_strip%step))
-      nxc = 2*ceiling(search_reach(bodies)/(coarse*dx)) + 1
+      along = search_reach(bodies)
+      ! of prismatic bodies the locus is known: a flank may come near in less than a coarse cell, and far from the wheel
+      prismatic = .not. (allocated(bodies%rail_strip) .or. allocated(bodies%wheel_strip))
+      if (prismatic) then
+         call measure_gap(bodies%rail, bodies%wheel, bodies%placement, ds, locus)
+         near = locus%gap < min(minval(locus%gap) + least_depth + hidden, 0.5_wp*no_surface)
+         if (any(near)) along = max(along, min(2.0_wp*coarse*dx + maxval(abs(locus%x - bodies%placement%wheel%origin(1)), near), &
+            & 0.5_wp*bodies%placement%wheel_radius))
+      end if
+      nxc = 2*ceiling(along/(coarse*dx)) + 1
       xc = bodies%placement%wheel%origin(1) + [(dx*coarse*(i - (nxc + 1)/2), i=1, nxc)]
       range = lateral_range(bodies, xc)
       gap%dy = mesh_share*ds
@@ -63,7 +75,9 @@ contains
       call fill(bodies, xc, yc, spread(1, 1, nyc), spread(nxc, 1, nyc), corner)
 
       ! of each row along the track what is from the first to the last cell that may be near
-      limit = min(minval(corner) + gap%depth + hidden, 0.5_wp*no_surface)
+      limit = minval(corner)
+      if (prismatic) limit = min(limit, minval(locus%gap))
+      limit = min(limit + gap%depth + hidden, 0.5_wp*no_surface)
       allocate(first(gap%n), source=(nxc - 1)*coarse + 1)
       allocate(last(gap%n), source=0)
       do jc = 1, nyc - 1
@@ -76,6 +90,14 @@ contains
             end associate
          end do
       end do
+      if (prismatic) then
+         do j = 1, min(gap%n, locus%n)
+            if (.not. locus%gap(j) < limit) cycle
+            ic = nint((locus%x(j) - xc(1))/dx) + 1
+            first(j) = min(first(j), max(ic - coarse, 1))
+            last(j) = max(last(j), min(ic + coarse, (nxc - 1)*coarse + 1))
+         end do
+      end if
       i = min(minval(first), (nxc - 1)*coarse)
       gap%x_table = xc(1) + [(dx*(ic - 1), ic=i, max(maxval(last), i + 1))]
       first = first - (i - 1)
