@@ -41,6 +41,7 @@ program test_hostile_input
    call prefixes(suite, valid)
    call mutated(suite, valid)
    call extremes(suite, valid)
+   deallocate(valid)
    call suite%finish()
 
 contains
