@@ -1,8 +1,8 @@
 !> The way of the numbers of a case into and out of every format
 !>
 !> The modules contact_cases_inputs, contact_cases_grid_inputs and contact_cases_rail_inputs name the numbers of each group of
-!> the input, in their order, once. What happens with them is decided by a child of `case_archive`: the reader of input files
-!> gives them values, the setter of the library too, writers and records look at them, a check looks at their bounds.
+!> the input, in their order, once. What happens with them is decided by a child of `case_archive`: the reader of input files and
+!> the setter of the library give them values, the writer of input files looks at them.
 !>
 !> The numbers of one line are noted first (`real`, `integer`, `text`) and handled together by `end_line`, so that a complaint
 !> can tell the whole line. Variables that are noted must therefore have the attribute `target`, and hold new values after
@@ -16,7 +16,7 @@ module contact_cases_archive
 
    public :: archive_item, case_archive, item_kind, text_variable
 
-   !> Most numbers on a line; length of a number with its name
+   !> Most numbers on a line, and length of a number with its name
    integer, parameter :: most_items = 12
    integer, parameter, public :: shown_length = 64
 
@@ -75,9 +75,6 @@ module contact_cases_archive
       procedure(end_line_interface), deferred :: end_line
       !> A list of numbers with lines of its own
       procedure(list_interface), deferred :: list
-      !> Begin and end a group; formats without groups do nothing
-      procedure :: open => open_nothing
-      procedure :: close => close_nothing
       !> A number of the last line is wrong, doubtful or replaced; nothing where values do not come in
       procedure :: refuse => say_nothing
       !> Reading cannot go on, with the reason
@@ -240,23 +237,6 @@ contains
 
       self%has_ended = .true.
    end subroutine finish_line
-
-   !> Formats without groups
-   subroutine open_nothing(self, name)
-      class(case_archive), intent(inout) :: self
-      character(len=*), intent(in) :: name
-
-      associate (unused => self, no_name => name)
-      end associate
-   end subroutine open_nothing
-
-   !> Formats without groups
-   subroutine close_nothing(self)
-      class(case_archive), intent(inout) :: self
-
-      associate (unused => self)
-      end associate
-   end subroutine close_nothing
 
    !> Values that do not come in are right
    subroutine say_nothing(self, name, text)

@@ -65,11 +65,12 @@ contains
       character(len=*), intent(in), optional :: bounds
       integer :: first, step
 
-      if (present(units) .or. present(bounds)) continue
-      step = merge(n, per_line, n <= short_list)
-      do first = 1, n, max(1, step)
-         call put_line(self%unit, numbers(values(first:min(n, first + step - 1))), name)
-      end do
+      associate (files_have => present(units), their_own => present(bounds))
+         step = merge(n, per_line, n <= short_list)
+         do first = 1, n, max(1, step)
+            call put_line(self%unit, numbers(values(first:min(n, first + step - 1))), name)
+         end do
+      end associate
    end subroutine write_list
 
    !> Values, then their names; a comment for readers in both senses
