@@ -199,7 +199,8 @@ contains
       if (k == 0 .or. .not. self%is_good) return
       value = self%values(k)
       value%r = self%items(k)%r
-      call self%problems%check_bounds(value, bounds)
+      if (present(bounds)) value%name = bounds
+      call self%problems%check_bounds(value)
    end subroutine check_value
 
    !> "name = word", with blanks behind
