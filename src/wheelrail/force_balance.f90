@@ -174,11 +174,35 @@ contains
          if (.not. (last%slope > 0.0_wp .and. last%force > 0.0_wp) &
             & .or. abs(chord - last%slope) > alike*abs(last%slope)) then
             z = interpolated(self)
+            if (creeps(self)) z = secant(self)
             return
          end if
          z = newton_from(self, last)
       end associate
    end function newton_step
+
+   !> Did the last two trials end on the same side of the target, one nearer than the other, so that one end of the bracket stays?
+   !>
+   !> Where the force rises faster and faster, as on a flank, chords of the bracket only creep on.
+   pure logical function creeps(self)
+      class(force_balance), intent(in) :: self
+
+      creeps = .false.
+      if (.not. self%has_high .or. .not. self%before%z > self%touch .or. .not. self%before%force > 0.0_wp) return
+      if ((self%before%force - self%target)*(self%last%force - self%target) <= 0.0_wp) return
+      creeps = (self%last%force - self%before%force)*(self%last%z - self%before%z) > 0.0_wp &
+         & .and. abs(self%last%force - self%target) < abs(self%before%force - self%target)
+   end function creeps
+
+   !> Where F**(2/3) meets the target on the straight line through the last two trials
+   pure real(wp) function secant(self) result(z)
+      class(force_balance), intent(in) :: self
+      real(wp), parameter :: power = 2.0_wp/3.0_wp
+
+      associate (last => self%last, before => self%before)
+         z = last%z + (last%z - before%z)*(self%target**power - last%force**power)/(last%force**power - before%force**power)
+      end associate
+   end function secant
 
    !> The secant through the last two trials where it stays within the bracket; else its chord, or its middle
    !>

@@ -7,7 +7,7 @@ program test_force_balance
    implicit none (type, external)
    !> Shapes of the force as a function of the penetration
    integer, parameter :: hertz = 1, second_patch = 2, jump_down = 3, jump_up = 4, fold = 5, bounded = 6, broken = 7, &
-      & carried = 8
+      & carried = 8, flank = 9
    type(test_suite) :: suite
    real(wp) :: target
    integer :: k
@@ -25,6 +25,9 @@ program test_force_balance
    call reaches(suite, fold, 5.0e3_wp, 0.1_wp, .false., 40)
    do k = 0, 3
       call reaches(suite, carried, 10.0_wp**k, 0.05_wp, .true., 24)
+   end do
+   do k = 2, 5
+      call reaches(suite, flank, 10.0_wp**k, 0.02_wp, .true., 11)
    end do
    call over_a_jump(suite)
    call jump_with_slopes(suite)
@@ -57,6 +60,10 @@ contains
          ! friction lifts the wheel until a flank takes over; slopes leave out that the flank turns
          force = -4.0e3_wp*d + 2.0e7_wp*max(0.0_wp, d - 0.2_wp)**2.5_wp
          slope = -4.0e3_wp + 1.5e7_wp*max(0.0_wp, d - 0.2_wp)**1.5_wp
+      case (flank)
+         ! a wheel that climbs: the force rises faster and faster, and slopes know a quarter of that
+         force = 2.0e3_wp*(exp(10.0_wp*max(0.0_wp, d)) - 1.0_wp)
+         slope = 5.0e3_wp*exp(10.0_wp*max(0.0_wp, d))
       case (broken)
          force = 0.0_wp
          if (d > 0.1_wp) force = ieee_value(force, ieee_quiet_nan)
