@@ -32,8 +32,12 @@ def run(folder, name, *options, environment=None, timeout=300):
 
 
 def without_times(text):
-    """A report or JSON lines without times"""
+    """A report or JSON lines without times, and as it is without the warning of a lock that could not be had"""
     text = re.sub(rb"(?m)^\|.*\n", b"", text)
+    text, unlocked = re.subn(rb"(?m)^ *Warning: the experiment could not be locked .*\n", b"", text)
+    if unlocked:
+        text = re.sub(rb", warnings: *(\d+)",
+                      lambda count: b", warnings: %3d" % (int(count[1]) - 1) if int(count[1]) > 1 else b".", text)
     return re.sub(rb'"seconds": *[^,}]*', b"", text)
 
 
