@@ -9,7 +9,7 @@ module contact_capi_contact
    use contact_capi_problem, only : library_problem
    use contact_capi_registry, only : enter, leave, scope
    use contact_capi_setter, only : new_setter, setter
-   use contact_cases_grid_inputs, only : visit_distance, visit_grid
+   use contact_cases_grid_inputs, only : largest_grid, visit_distance, visit_grid
    use contact_cases_rail_inputs, only : visit_search
    use contact_cases_spec, only : geometry_spec, grid_spec
    use contact_control_units, only : inward, quantity
@@ -21,8 +21,6 @@ module contact_capi_contact
    public :: cntc_setpotcontact, cntc_sethertzcontact, cntc_setundeformeddistc, cntc_setpenetration, cntc_setnormalforce
    public :: cntc_setcreepages, cntc_setextrarigidslip, cntc_setreferencevelocity
 
-   !> Largest number of elements, as in input files
-   real(wp), parameter :: most_elements = 2.0e6_wp
    !> Smallest velocity: a body that stands still counts as such [mm/s]
    real(wp), parameter :: least_velocity = 1.0e-9_wp
    !> What both routines for the potential contact set
@@ -162,7 +160,7 @@ contains
       case (2)
          n = 7
          if (size(v) > 0) then
-            if (v(1) >= 2.0_wp .and. v(1) < most_elements) n = 5 + nint(v(1))
+            if (v(1) >= 2.0_wp .and. v(1) < largest_grid) n = 5 + nint(v(1))
          end if
       case (3)
          n = 8

@@ -1,14 +1,14 @@
 !> Entries for what both modules know: solvers, materials, temperatures, friction, rolling
 module contact_capi_physics
    use, intrinsic :: iso_c_binding, only : c_double, c_int
-   use contact_base_choices, only : friction_model, material_model, pressure_model, variation_of => variation
+   use contact_base_choices, only : friction_model, material_model, pressure_model, variation
    use contact_base_kinds, only : wp
    use contact_capi_arguments, only : integer_of, integers_of, real_of, reals_of
    use contact_capi_library, only : entry_type
    use contact_capi_messages, only : complain, count_fits, fits, say
    use contact_capi_problem, only : library_problem
    use contact_capi_registry, only : enter, leave, scope
-   use contact_capi_setter, only : new_setter, setter
+   use contact_capi_setter, only : least_value, new_setter, setter
    use contact_cases_inputs, only : visit_damping, visit_elastic, visit_friction_memory, visit_friction_set, visit_heat, &
       & visit_iteration, visit_material_model, visit_sheet
    use contact_cases_spec, only : case_spec, damping_spec, friction_set, friction_spec, heat_spec, iteration_spec, material_spec
@@ -22,10 +22,6 @@ module contact_capi_physics
    public :: cntc_setsolverflags, cntc_setmaterialparameters, cntc_settemperaturedata, cntc_settimestep
    public :: cntc_setrollingstepsize, cntc_setfrictionmethod, cntc_settangentialforces
 
-   !> Smallest coefficient of friction [-]
-   real(wp), parameter :: least_friction = 1.0e-6_wp
-   !> Smallest half-value slip velocity [mm/s]
-   real(wp), parameter :: least_speed = 1.0e-4_wp
    !> Bodies with a smaller difference parameter need no outer iteration [-]
    real(wp), parameter :: quasi_identical = 1.0e-4_wp
    !> Prescribed tangential forces by the friction bound are shortened to this, because the bound itself is
@@ -317,10 +313,10 @@ contains
       type(library_problem), intent(inout) :: problem
       type(friction_spec), target :: friction
       type(setter) :: a
-      integer :: k, law, variation
+      integer :: k, law, member
 
       law = choice_of("L", merge(4, method, method == 5), problem%module_number)
-      variation = choice_of("V", varies, problem%module_number)
+      member = choice_of("V", varies, problem%module_number)
       friction%memdst = problem%spec%friction%memdst
       friction%mem_s0 = problem%spec%friction%mem_s0
       allocate(friction%sets(points))
@@ -328,15 +324,15 @@ contains
       a = new_setter(this, problem%units, values)
       do k = 1, points
          if (method == 5) then
-            call set_polach(a, variation, friction, k)
+            call set_polach(a, member, friction, k)
          else
-            call visit_friction_set(a, law, variation, friction%sets(k))
+            call visit_friction_set(a, law, member, friction%sets(k))
             call visit_friction_memory(a, law, friction)
          end if
          if (.not. a%is_good) return
          associate (set => friction%sets(k))
             if (law == friction_model%temperature) then
-               set%dfheat = max(least_friction - set%fref, set%dfheat)
+               set%dfheat = max(least_value("FREF") - set%fref, set%dfheat)
                set%fkin = set%fref + set%dfheat
             end if
             if (k == 1) cycle
@@ -348,7 +344,7 @@ contains
       associate (spec => problem%spec)
          spec%digits%v = varies
          spec%digits%l = merge(4, method, method == 5)
-         spec%variation = variation
+         spec%variation = member
          spec%friction_law = law
          spec%friction = friction
       end associate
@@ -365,8 +361,8 @@ contains
       real(wp), target :: ratio, decay
 
       associate (set => friction%sets(k))
-         if (varies == variation_of%by_angle) call a%real("ALPHA", set%position)
-         if (varies == variation_of%by_position) call a%real("SVF", set%position)
+         if (varies == variation%by_angle) call a%real("ALPHA", set%position)
+         if (varies == variation%by_position) call a%real("SVF", set%position)
          call a%real("FSTAT", set%fstat)
          call a%real("POLACH_A", ratio)
          call a%real("POLACH_B", decay)
@@ -374,7 +370,7 @@ contains
          if (.not. a%is_good) return
          set%fkin = ratio*set%fstat
          set%coef1 = set%fstat - set%fkin
-         set%sabsh1 = max(least_speed, log(2.0_wp)/max(tiny(1.0_wp), decay))
+         set%sabsh1 = max(least_value("SABSH1"), log(2.0_wp)/max(tiny(1.0_wp), decay))
          friction%memdst = 0.001_wp
          friction%mem_s0 = 10.0_wp
       end associate

@@ -11,7 +11,7 @@ module contact_capi_setter
    implicit none (type, external)
    private
 
-   public :: new_setter, setter
+   public :: least_value, new_setter, setter
 
    !> A number that is not refused below a value that the models need, but raised to it: not negative ones, nor NaN
    type :: raised_number
@@ -89,7 +89,6 @@ contains
       !> In the line
       integer, intent(in) :: place
       real(wp), intent(out) :: value
-      integer :: k
 
       associate (item => self%items(place), row => self%items(place)%row)
          value = item%default
@@ -104,12 +103,21 @@ contains
             if (associated(item%i)) value = anint(value)
             if (row > 0) value = value*inward(self%units, quantity_of(trim(bounds_table(row)%unit)))
          end if
-         do k = 1, size(raised_numbers)
-            if (raised_numbers(k)%name == item%name) value = raised(value, raised_numbers(k)%least)
-         end do
+         value = raised(value, least_value(item%name))
          if (.not. item%is_unchecked) call check_bounds(self, trim(item%name), value)
       end associate
    end subroutine take
+
+   !> The value to which a smaller number is raised; below all numbers for those that are not raised
+   pure real(wp) function least_value(name)
+      character(len=*), intent(in) :: name
+      integer :: k
+
+      least_value = -huge(least_value)
+      do k = 1, size(raised_numbers)
+         if (raised_numbers(k)%name == name) least_value = raised_numbers(k)%least
+      end do
+   end function least_value
 
    !> Complain about a value beyond its bounds
    subroutine check_bounds(self, name, value, shown)

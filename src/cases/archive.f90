@@ -1,4 +1,4 @@
-!> The way of the numbers of a case into and out of every format
+!> How the numbers of a case go into and out of every format
 !>
 !> The modules contact_cases_inputs, contact_cases_grid_inputs and contact_cases_rail_inputs name the numbers of each group of
 !> the input, in their order, once. What happens with them is decided by a child of `case_archive`: the reader of input files and
@@ -77,9 +77,9 @@ module contact_cases_archive
       procedure(list_interface), deferred :: list
       !> A number of the last line is wrong, doubtful or replaced; nothing where values do not come in
       procedure :: refuse => say_nothing
-      !> Reading cannot go on, with the reason
-      procedure :: fail => fail_at_nothing
       procedure :: warn => say_nothing
+      !> Reading cannot go on, with the reason; the name is blank when no number of the last line is to blame
+      procedure :: fail => say_nothing
       !> Check the bounds of a number of the last line that was noted as unchecked
       procedure :: check => check_nothing
       !> Where an item of the last line stands in its file
@@ -249,17 +249,6 @@ contains
       associate (unused => self, no_name => name, no_text => text)
       end associate
    end subroutine say_nothing
-
-   !> Values that do not come in are right
-   subroutine fail_at_nothing(self, name, text)
-      class(case_archive), intent(inout) :: self
-      !> Item of the last line, "" when no item is to blame
-      character(len=*), intent(in) :: name
-      character(len=*), intent(in) :: text
-
-      associate (unused => self, no_name => name, no_text => text)
-      end associate
-   end subroutine fail_at_nothing
 
    !> Values that do not come in are right
    subroutine check_nothing(self, name, bounds)

@@ -7,7 +7,7 @@ module contact_cases_inputs
    use contact_base_kinds, only : wp
    use contact_cases_archive, only : case_archive, shown_length, text_variable
    use contact_cases_spec, only : damping_spec, friction_set, friction_spec, heat_spec, iteration_spec, kinematics_spec, &
-      & material_spec, rolling_spec, subsurface_spec
+      & largest_yield_limit, material_spec, rolling_spec, subsurface_spec
    use contact_text_words, only : integer_text, real_text
    implicit none (type, external)
    private
@@ -28,8 +28,6 @@ module contact_cases_inputs
    !> Most control points of friction, and their least distance [rad] or [mm]
    integer, parameter :: most_points = 10
    real(wp), parameter :: least_step = 1.0e-6_wp
-   !> Yield limits from here on are never reached [N/mm2]
-   real(wp), parameter :: unreachable_yield = 1.0e10_wp
    !> Offset of the spin contribution unless another one is given [-]
    real(wp), parameter :: spin_offset = 1.0_wp/6.0_wp
 
@@ -59,13 +57,11 @@ contains
       end if
 
       select case (solver)
-      case (solver_choice%convex_gs, solver_choice%gauss_seidel)
-         call a%real("OMEGAH", iteration%omegah)
-         call a%real("OMEGAS", iteration%omegas)
-         call a%integer("INISLP", iteration%inislp, branch=.true.)
-         call a%real("OMGSLP", iteration%omgslp)
-         call a%end_line()
-      case (solver_choice%default_friction)
+      case (solver_choice%convex_gs, solver_choice%gauss_seidel, solver_choice%default_friction)
+         if (solver /= solver_choice%default_friction) then
+            call a%real("OMEGAH", iteration%omegah)
+            call a%real("OMEGAS", iteration%omegas)
+         end if
          call a%integer("INISLP", iteration%inislp, branch=.true.)
          call a%real("OMGSLP", iteration%omgslp)
          call a%end_line()
@@ -341,7 +337,7 @@ contains
          return
       end select
       call a%end_line()
-      if (a%is_reading .and. material%tau_c0 >= unreachable_yield) material%tau_c0 = 0.0_wp
+      if (a%is_reading .and. material%tau_c0 >= largest_yield_limit) material%tau_c0 = 0.0_wp
    end subroutine visit_material_model
 
    !> Angle correction for conformal contact; the inclinations are those of the profiles

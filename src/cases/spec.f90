@@ -14,7 +14,7 @@ module contact_cases_spec
 
    public :: case_spec, case_digits, iteration_spec, kinematics_spec, friction_set, friction_spec
    public :: rolling_spec, material_spec, damping_spec, heat_spec, grid_spec, geometry_spec
-   public :: subsurface_spec
+   public :: subsurface_spec, largest_yield_limit
 
    !> Control digits exactly as the case gave them; for the echo and for checks at the door only
    type :: case_digits

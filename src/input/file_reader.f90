@@ -103,14 +103,8 @@ contains
          item%s%value = value%s
          return
       end if
-      if (.not. item%is_unchecked) then
-         ! the name is looked up once more for what is wrong only
-         if (item%row == 0) then
-            call self%problems%check_bounds(value)
-         else if (.not. is_within(item%row, value%r)) then
-            call self%problems%check_bounds(value)
-         end if
-      end if
+      ! the name is looked up once more for what is wrong only
+      if (.not. (item%is_unchecked .or. is_within(item%row, value%r))) call self%problems%check_bounds(value)
       select case (item%kind)
       case (item_kind%integer); item%i = value%i
       ! only the sign has a meaning

@@ -41,8 +41,6 @@ module contact_input_problems
       procedure :: number_of
       procedure :: is_usable
       procedure :: check_bounds
-      procedure :: check_integer
-      procedure :: check_real
    end type problem_list
 
 contains
@@ -118,33 +116,6 @@ contains
       end if
       if (allocated(complaint)) call self%add(severity%error, complaint, value%line, value%column)
    end subroutine check_bounds
-
-   !> An integer must lie within bounds that depend on others, which are inclusive
-   subroutine check_integer(self, value, lowest, highest)
-      class(problem_list), intent(inout) :: self
-      type(input_value), intent(in) :: value
-      integer, intent(in) :: lowest, highest
-
-      if (value%i >= lowest .and. value%i <= highest) return
-      call self%add(severity%error, value%name // " = " // value%word // " is outside its range " // &
-         & integer_text(lowest) // " to " // integer_text(highest), value%line, value%column)
-   end subroutine check_integer
-
-   !> A number must not be smaller, and not larger, than bounds that depend on others
-   subroutine check_real(self, value, lowest, highest)
-      class(problem_list), intent(inout) :: self
-      type(input_value), intent(in) :: value
-      real(wp), intent(in) :: lowest
-      real(wp), intent(in), optional :: highest
-
-      if (value%r < lowest) then
-         call self%add(severity%error, value%name // " = " // value%word // " is below its lower bound " // &
-            & real_text(lowest), value%line, value%column)
-      else if (present(highest)) then
-         if (value%r > highest) call self%add(severity%error, value%name // " = " // value%word // &
-            & " is above its upper bound " // real_text(highest), value%line, value%column)
-      end if
-   end subroutine check_real
 
    !> The words that begin a printed problem
    pure function opening(problem) result(words)

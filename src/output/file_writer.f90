@@ -3,6 +3,7 @@ module contact_output_file_writer
    use contact_base_kinds, only : wp
    use contact_cases_archive, only : case_archive, item_kind
    use contact_cases_spec, only : case_digits
+   use contact_control_digits, only : encode_words, word_text
    use contact_text_words, only : integer_text
    implicit none (type, external)
    private
@@ -110,26 +111,21 @@ contains
    end function numbers
 
    !> The three control words
-   subroutine put_words(unit, digits, is_pair)
+   subroutine put_words(unit, digits, module_number)
       integer, intent(in) :: unit
       type(case_digits), intent(in) :: digits
-      !> Is it a case of module 1, which has a digit more?
-      logical, intent(in) :: is_pair
-      character(len=7) :: word
+      !> 1 or 3
+      integer, intent(in) :: module_number
+      integer :: word1, word2, word3, second
 
-      associate (d => digits)
-         if (is_pair) then
-            write(word, "(7I1)") d%c1, d%p, d%b, d%t, d%n, d%f, d%s
-            call put_line(unit, word, "CPBTNFS")
-         else
-            write(word, "(6I1)") d%p, d%b, d%t, d%n, d%f, d%s
-            call put_line(unit, trim(word), "PBTNFS")
-         end if
-         write(word, "(7I1)") d%v, d%l, d%d, d%c, d%m, d%z, d%e
-         call put_line(unit, word // " " // integer_text(10*d%gapwgt + d%m2), "VLDCMZE, GAPWGT M2")
-         write(word, "(7I1)") d%h, d%g, d%i, d%a, d%o, d%w, d%r
-         call put_line(unit, word, "HGIAOWR")
-      end associate
+      call encode_words(digits, word1, word2, word3, second)
+      if (module_number == 1) then
+         call put_line(unit, achar(iachar("0") + digits%c1) // word_text(word1, 6), "CPBTNFS")
+      else
+         call put_line(unit, word_text(word1, 6), "PBTNFS")
+      end if
+      call put_line(unit, word_text(word2, 7) // " " // integer_text(second), "VLDCMZE, GAPWGT M2")
+      ! without the digit X: there is no fourth word
+      call put_line(unit, word_text(word3, 7), "HGIAOWR")
    end subroutine put_words
-
 end module contact_output_file_writer

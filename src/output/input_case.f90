@@ -49,7 +49,7 @@ contains
       end associate
       box = bounding_box(1, result%grid%mx, 1, result%grid%my)
       if (spec%grid%ipotcn > 0 .and. allocated(result%division)) box = kept_window(result%division)
-      call put_words(unit, written%digits, is_pair=.false.)
+      call put_words(unit, written%digits, module_number=3)
       if (written%digits%g /= 1) call visit_iteration(a, written%iteration, written%solver, with_elements=.false.)
       call visit_kinematics(a, written%kinematics, written%normal, written%force)
       call put_friction(a, written)
@@ -156,7 +156,7 @@ contains
 
       a%unit = unit
       written = spec
-      call put_words(unit, spec%digits, is_pair=.true.)
+      call put_words(unit, spec%digits, module_number=1)
       if (spec%digits%g /= 1) call visit_iteration(a, written%iteration, spec%solver, with_elements=.true.)
       call put_friction(a, written)
       call put_materials(a, written)

@@ -514,13 +514,15 @@ contains
       row = 0
    end function row_of
 
-   !> Is a value within the bounds of a row of the table?
+   !> Is a value within the bounds of a row of the table? Not where there is no such row
    pure logical function is_within(row, value)
+      !> 0: none
       integer, intent(in) :: row
       real(wp), intent(in) :: value
 
       is_within = .false.
-      if (.not. (ieee_is_finite(value) .and. value <= bounds_table(row)%highest)) return
+      if (row == 0 .or. .not. ieee_is_finite(value)) return
+      if (value > bounds_table(row)%highest) return
       is_within = value > bounds_table(row)%lowest .or. (value >= bounds_table(row)%lowest .and. .not. bounds_table(row)%is_open)
    end function is_within
 
