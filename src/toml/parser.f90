@@ -1,0 +1,481 @@
+!> The parser of TOML 1.0, as far as input files need it
+!>
+!> Left out, and refused by name: dates and times, strings over several lines, integers that are not decimal, inf and nan.
+!> What is accepted means what it means to other parsers of TOML 1.0; a test compares it with that of Python.
+module contact_toml_parser
+   use contact_base_error, only : error_kind, error_type, fatal_error
+   use contact_text_lexer, only : printable
+   use contact_text_words, only : integer_text
+   use contact_toml_document, only : toml_document, toml_kind, toml_node
+   use contact_toml_numbers, only : read_number
+   use contact_toml_scanner, only : check_encoding, end_of_word, end_statement, fail, is_line_end, is_quote, next_line, shown, &
+      & skip_blanks, skip_lines, take_string, took, toml_scanner
+   implicit none (type, external)
+   private
+
+   public :: parse_toml, is_bare_key
+
+   !> Deepest nesting of arrays and inline tables, most parts of a dotted key
+   integer, parameter :: deepest = 20, longest_key = 20
+   !> Most nodes of a document
+   integer, parameter :: most_nodes = 20000000
+
+   character(len=*), parameter :: figures = "0123456789"
+   character(len=*), parameter :: letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+   !> What a key without quotes consists of, and a value that is no string
+   character(len=*), parameter :: bare = letters // figures // "_-", word_letters = bare // "+.:"
+
+   !> Part of a key: where it is in the store of the document, and its place in the text
+   type :: key_part
+      integer :: first = 1, last = 0, line = 0, column = 0
+   end type key_part
+
+   !> A text that is being parsed
+   type, extends(toml_scanner) :: toml_parser
+      !> Arrays and inline tables around what is read
+      integer :: depth = 0
+      !> Tables that dotted keys have made since the last header
+      integer, allocatable :: pending(:)
+      integer :: pending_count = 0
+   end type toml_parser
+
+contains
+
+   !> Parse a text
+   subroutine parse_toml(text, file, document, error)
+      !> In UTF-8; lines end with LF or CR-LF
+      character(len=*), intent(in) :: text
+      !> Name of the file in messages
+      character(len=*), intent(in) :: file
+      type(toml_document), intent(out) :: document
+      type(error_type), allocatable, intent(out) :: error
+      type(toml_parser) :: p
+      integer :: table
+
+      p%text = text
+      p%file = file
+      allocate(p%pending(8))
+      call document%begin(text)
+      call check_encoding(p)
+      table = 1
+      do while (.not. allocated(p%error))
+         call skip_blanks(p)
+         if (p%at > len(p%text)) exit
+         if (is_line_end(p)) then
+            call next_line(p)
+            cycle
+         end if
+         select case (p%text(p%at:p%at))
+         case ("#")
+            continue
+         case ("[")
+            call take_header(p, document, table)
+         case default
+            call take_pair(p, document, table, is_inline=.false.)
+         end select
+         if (.not. allocated(p%error)) call end_statement(p)
+      end do
+      if (allocated(p%error)) call move_alloc(p%error, error)
+   end subroutine parse_toml
+
+   !> Can a key be written without quotes?
+   pure logical function is_bare_key(key)
+      character(len=*), intent(in) :: key
+
+      is_bare_key = len(key) > 0 .and. verify(key, bare) == 0
+   end function is_bare_key
+
+   !> A key of one or more parts
+   subroutine take_key(p, document, parts, n)
+      type(toml_parser), intent(inout) :: p
+      type(toml_document), intent(inout) :: document
+      type(key_part), intent(out) :: parts(longest_key)
+      !> Number of parts
+      integer, intent(out) :: n
+      integer :: last
+
+      n = 0
+      do
+         call skip_blanks(p)
+         if (n == longest_key) then
+            call fail(p, "a key has more than " // integer_text(longest_key) // " parts")
+            return
+         end if
+         n = n + 1
+         parts(n)%line = p%line
+         parts(n)%column = p%at - p%line_first + 1
+         last = end_of_word(p, bare)
+         if (last >= p%at) then
+            parts(n)%first = p%at
+            parts(n)%last = last
+            p%at = last + 1
+         else if (is_quote(p)) then
+            call keep_string(p, document, parts(n)%first, parts(n)%last)
+         else
+            call fail(p, trim(shown(p)) // " stands where a key should be; a key consists of letters, figures, - and _, " // &
+               & "or is in quotes")
+         end if
+         if (allocated(p%error)) return
+         call skip_blanks(p)
+         if (.not. took(p, ".")) return
+      end do
+   end subroutine take_key
+
+   !> Go to a table below another one, or make it; that of an array of tables is its last
+   subroutine enter(p, document, part, table, with_arrays)
+      type(toml_parser), intent(inout) :: p
+      type(toml_document), intent(inout) :: document
+      type(key_part), intent(in) :: part
+      !> On entry the one above
+      integer, intent(inout) :: table
+      !> May an array of tables stand for its last table?
+      logical, intent(in) :: with_arrays
+      type(toml_node) :: node
+      integer :: below
+
+      below = document%child(table, document%store(part%first:part%last))
+      if (below == 0) then
+         node%kind = toml_kind%table
+         node%key_first = part%first
+         node%key_last = part%last
+         node%key_line = part%line
+         node%key_column = part%column
+         node%line = part%line
+         node%column = part%column
+         call document%add(table, node, below)
+         table = below
+         return
+      end if
+      if (document%nodes(below)%has_tables .and. with_arrays) then
+         table = document%nodes(below)%last
+      else if (document%nodes(below)%kind == toml_kind%table) then
+         table = below
+      else
+         call fail_twice(p, document, part, below, "is no table and has no keys")
+      end if
+   end subroutine enter
+
+   !> A key is already there
+   subroutine fail_twice(p, document, part, index, what)
+      type(toml_parser), intent(inout) :: p
+      type(toml_document), intent(in) :: document
+      type(key_part), intent(in) :: part
+      !> The node that it names
+      integer, intent(in) :: index
+      !> What is wrong with it
+      character(len=*), intent(in) :: what
+
+      if (allocated(p%error)) return
+      associate (node => document%nodes(index))
+         call fatal_error(p%error, '"' // printable(document%store(part%first:part%last)) // '" ' // what // &
+            & "; it was given in line " // integer_text(node%key_line), error_kind%input, p%file, part%line, part%column)
+      end associate
+   end subroutine fail_twice
+
+   !> [key] or [[key]]
+   subroutine take_header(p, document, table)
+      type(toml_parser), intent(inout) :: p
+      type(toml_document), intent(inout) :: document
+      !> The table that it opens
+      integer, intent(inout) :: table
+      type(key_part) :: parts(longest_key)
+      type(toml_node) :: node
+      integer :: below, k, n, start
+      logical :: is_array
+
+      do k = 1, p%pending_count
+         document%nodes(p%pending(k))%is_explicit = .true.
+      end do
+      p%pending_count = 0
+      start = p%at
+      p%at = p%at + 1
+      is_array = took(p, "[")
+      call take_key(p, document, parts, n)
+      if (allocated(p%error)) return
+      if (.not. took(p, "]")) then
+         call fail(p, trim(shown(p)) // ' stands where the "]" of the header should be')
+         return
+      end if
+      if (is_array) then
+         if (.not. took(p, "]")) then
+            call fail(p, trim(shown(p)) // ' stands where the second "]" of the header should be')
+            return
+         end if
+      end if
+      table = 1
+      do k = 1, n - 1
+         call enter(p, document, parts(k), table, with_arrays=.true.)
+         if (allocated(p%error)) return
+         if (document%nodes(table)%is_frozen) then
+            call fail_twice(p, document, parts(k), table, "is complete, nothing can be added")
+            return
+         end if
+      end do
+      below = document%child(table, document%store(parts(n)%first:parts(n)%last))
+      if (is_array) then
+         if (below == 0) then
+            node%kind = toml_kind%array
+            node%has_tables = .true.
+            node%is_explicit = .true.
+            call place_node(parts(n))
+            call document%add(table, node, below)
+         else if (.not. document%nodes(below)%has_tables) then
+            call fail_twice(p, document, parts(n), below, "is no array of tables")
+            return
+         end if
+         node = toml_node(kind=toml_kind%table)
+         call place_node(parts(n))
+         call document%add(below, node, table)
+      else
+         if (below > 0) then
+            if (document%nodes(below)%is_explicit .or. document%nodes(below)%is_frozen) then
+               call fail_twice(p, document, parts(n), below, "cannot be opened a second time")
+               return
+            end if
+         end if
+         call enter(p, document, parts(n), table, with_arrays=.true.)
+         if (allocated(p%error)) return
+         document%nodes(table)%is_explicit = .true.
+         document%nodes(table)%key_line = parts(n)%line
+         document%nodes(table)%key_column = parts(n)%column
+         document%nodes(table)%line = p%line
+         document%nodes(table)%column = start - p%line_first + 1
+      end if
+      call check_size(p, document)
+
+   contains
+
+      !> Key and place of the node
+      subroutine place_node(part)
+         type(key_part), intent(in) :: part
+
+         node%key_first = part%first
+         node%key_last = part%last
+         node%key_line = part%line
+         node%key_column = part%column
+         node%line = p%line
+         node%column = start - p%line_first + 1
+      end subroutine place_node
+   end subroutine take_header
+
+   !> key = value
+   recursive subroutine take_pair(p, document, table, is_inline)
+      type(toml_parser), intent(inout) :: p
+      type(toml_document), intent(inout) :: document
+      !> Where it belongs
+      integer, intent(in) :: table
+      !> In an inline table?
+      logical, intent(in) :: is_inline
+      type(key_part) :: parts(longest_key)
+      type(toml_node) :: node
+      integer :: below, k, n, index, made(longest_key)
+
+      call take_key(p, document, parts, n)
+      if (allocated(p%error)) return
+      if (.not. took(p, "=")) then
+         call fail(p, trim(shown(p)) // ' stands where the "=" behind a key should be')
+         return
+      end if
+      call skip_blanks(p)
+
+      below = table
+      do k = 1, n - 1
+         call enter(p, document, parts(k), below, with_arrays=.false.)
+         if (allocated(p%error)) return
+         made(k) = below
+         if (document%nodes(below)%is_frozen) call fail_twice(p, document, parts(k), below, "is complete, nothing can be added")
+         if (document%nodes(below)%is_explicit) call fail_twice(p, document, parts(k), below, &
+            & "has a header of its own, under which its keys belong")
+         if (allocated(p%error)) return
+      end do
+      index = document%child(below, document%store(parts(n)%first:parts(n)%last))
+      if (index > 0) then
+         call fail_twice(p, document, parts(n), index, "is given twice")
+         return
+      end if
+      node%key_first = parts(n)%first
+      node%key_last = parts(n)%last
+      node%key_line = parts(n)%line
+      node%key_column = parts(n)%column
+      call take_value(p, document, below, node)
+      if (allocated(p%error) .or. is_inline) return
+      do k = 1, n - 1
+         if (p%pending_count == size(p%pending)) p%pending = [p%pending, p%pending]
+         p%pending_count = p%pending_count + 1
+         p%pending(p%pending_count) = made(k)
+      end do
+   end subroutine take_pair
+
+   !> A value, which becomes a child
+   recursive subroutine take_value(p, document, parent, node)
+      type(toml_parser), intent(inout) :: p
+      type(toml_document), intent(inout) :: document
+      integer, intent(in) :: parent
+      !> With its key
+      type(toml_node), intent(inout) :: node
+      integer :: index
+
+      node%line = p%line
+      node%column = p%at - p%line_first + 1
+      if (p%at > len(p%text) .or. is_line_end(p)) then
+         call fail(p, trim(shown(p)) // " stands where a value should be")
+         return
+      end if
+      select case (p%text(p%at:p%at))
+      case ("""", "'")
+         node%kind = toml_kind%string
+         call keep_string(p, document, node%text_first, node%text_last)
+      case ("[", "{")
+         node%kind = merge(toml_kind%array, toml_kind%table, p%text(p%at:p%at) == "[")
+         node%is_frozen = .true.
+      case default
+         call take_word(p, node)
+      end select
+      if (allocated(p%error)) return
+      call document%add(parent, node, index)
+      call check_size(p, document)
+      if (node%kind == toml_kind%array) call take_array(p, document, index)
+      if (node%kind == toml_kind%table) call take_inline_table(p, document, index)
+   end subroutine take_value
+
+   !> [value, value, ...], over any number of lines
+   recursive subroutine take_array(p, document, array)
+      type(toml_parser), intent(inout) :: p
+      type(toml_document), intent(inout) :: document
+      integer, intent(in) :: array
+      type(toml_node) :: node
+
+      call go_deeper(p)
+      p%at = p%at + 1
+      do
+         call skip_lines(p)
+         if (allocated(p%error)) return
+         if (took(p, "]")) exit
+         node = toml_node()
+         call take_value(p, document, array, node)
+         if (allocated(p%error)) return
+         call skip_lines(p)
+         if (allocated(p%error)) return
+         if (took(p, ",")) cycle
+         if (took(p, "]")) exit
+         call fail(p, trim(shown(p)) // ' stands where "," or "]" should be, in the array that begins in line ' // &
+            & integer_text(document%nodes(array)%line))
+         return
+      end do
+      p%depth = p%depth - 1
+   end subroutine take_array
+
+   !> { key = value, ... } on one line
+   recursive subroutine take_inline_table(p, document, table)
+      type(toml_parser), intent(inout) :: p
+      type(toml_document), intent(inout) :: document
+      integer, intent(in) :: table
+
+      call go_deeper(p)
+      if (allocated(p%error)) return
+      ! the table itself is complete when it ends
+      document%nodes(table)%is_frozen = .false.
+      p%at = p%at + 1
+      call skip_blanks(p)
+      if (.not. took(p, "}")) then
+         do
+            call take_pair(p, document, table, is_inline=.true.)
+            if (allocated(p%error)) return
+            call skip_blanks(p)
+            if (took(p, "}")) exit
+            if (took(p, ",")) cycle
+            call fail(p, trim(shown(p)) // ' stands where "," or "}" should be; an inline table ends on the line where it begins')
+            return
+         end do
+      end if
+      document%nodes(table)%is_frozen = .true.
+      call freeze_below(document, table)
+      p%depth = p%depth - 1
+   end subroutine take_inline_table
+
+   !> What dotted keys made inside an inline table is complete too
+   recursive subroutine freeze_below(document, table)
+      type(toml_document), intent(inout) :: document
+      integer, intent(in) :: table
+      integer :: k
+
+      k = document%nodes(table)%first
+      do while (k > 0)
+         if (document%nodes(k)%kind == toml_kind%table .and. .not. document%nodes(k)%is_frozen) then
+            document%nodes(k)%is_frozen = .true.
+            call freeze_below(document, k)
+         end if
+         k = document%nodes(k)%next
+      end do
+   end subroutine freeze_below
+
+   !> One array or inline table more around what follows
+   subroutine go_deeper(p)
+      type(toml_parser), intent(inout) :: p
+
+      p%depth = p%depth + 1
+      if (p%depth > deepest) call fail(p, "arrays and inline tables are nested more than " // integer_text(deepest) // " deep")
+   end subroutine go_deeper
+
+   !> A document has a size that it cannot exceed
+   subroutine check_size(p, document)
+      type(toml_parser), intent(inout) :: p
+      type(toml_document), intent(in) :: document
+
+      if (document%count >= most_nodes) call fail(p, "there are more than " // integer_text(most_nodes) // " values")
+   end subroutine check_size
+
+   !> A string, which is in the text or, with escapes, added to the store
+   subroutine keep_string(p, document, first, last)
+      type(toml_parser), intent(inout) :: p
+      type(toml_document), intent(inout) :: document
+      !> Where it is in the store of the document
+      integer, intent(out) :: first, last
+      character(len=:), allocatable :: resolved
+
+      call take_string(p, resolved, first, last)
+      if (allocated(resolved) .and. .not. allocated(p%error)) call document%keep(resolved, first, last)
+   end subroutine keep_string
+
+   !> true, false, an integer or a number
+   subroutine take_word(p, node)
+      type(toml_parser), intent(inout) :: p
+      type(toml_node), intent(inout) :: node
+      integer :: last, start
+
+      start = p%at
+      last = end_of_word(p, word_letters)
+      associate (word => p%text(start:last))
+         node%text_first = start
+         node%text_last = last
+         if (len(word) == 0) then
+            call fail(p, trim(shown(p)) // " stands where a value should be")
+         else if (word == "true" .or. word == "false") then
+            node%kind = toml_kind%logical
+            node%l = word == "true"
+         else if (scan(word(1:1), figures // "+-.") == 0) then
+            if (word == "inf" .or. word == "nan") then
+               call take_number(p, word, node)
+            else
+               call fail(p, '"' // printable(word) // '" is no value; a text needs quotes, "' // printable(word) // '"')
+            end if
+         else
+            call take_number(p, word, node)
+         end if
+      end associate
+      p%at = last + 1
+   end subroutine take_word
+
+   !> An integer or a number
+   subroutine take_number(p, word, node)
+      type(toml_parser), intent(inout) :: p
+      character(len=*), intent(in) :: word
+      type(toml_node), intent(inout) :: node
+      character(len=:), allocatable :: complaint
+      logical :: is_real
+
+      call read_number(word, is_real, node%i, node%r, complaint)
+      node%kind = merge(toml_kind%real, toml_kind%integer, is_real)
+      if (allocated(complaint)) call fail(p, '"' // printable(word) // '" ' // complaint)
+   end subroutine take_number
+end module contact_toml_parser
