@@ -16,6 +16,8 @@ module contact_control_digits
 
    !> Length of the words for a value, and of the list of all values of a digit
    integer, parameter, public :: text_length = 80, list_length = 28
+   !> Length of the word for a value in the readable format
+   integer, parameter, public :: word_length = 18
 
    !> One value of one control digit
    type :: digit_row
@@ -31,6 +33,8 @@ module contact_control_digits
       logical :: built
       !> What it means; for what is not built: the name of the effect
       character(len=text_length) :: text
+      !> The choice in the readable format; blank where it is said by what a case gives, or not at all
+      character(len=word_length) :: word = ""
    end type digit_row
 
    integer, parameter :: both = 0, module_1 = 1, module_3 = 3
@@ -40,80 +44,98 @@ module contact_control_digits
       & "C1", "P", "B", "T", "N", "F", "S", "V", "L", "D", "C", "M", "Z", "E", "M2", "X", "H", "G", "I", "A", "O", "W", "R"]
 
    type(digit_row), parameter :: word1_rows(*) = [ &
-      & digit_row("C1", 0, 0, module_1, .true., "left wheel on the track"), &
-      & digit_row("C1", 1, 1, module_1, .true., "right wheel on the track"), &
-      & digit_row("C1", 4, 4, module_1, .true., "left wheel on a roller"), &
-      & digit_row("C1", 5, 5, module_1, .true., "right wheel on a roller"), &
-      & digit_row("P", 0, time_link%continue_all, both, .true., "new time step: the previous case gives the previous tractions"), &
-      & digit_row("P", 1, time_link%continue_normal, both, .true., "as 0 for the pressures; previous shear tractions are zero"), &
-      & digit_row("P", 2, time_link%initiate, both, .true., "new sequence: no previous tractions"), &
-      & digit_row("P", 3, time_link%repeat_step, both, .true., "new iteration: previous tractions stay as they are"), &
-      & digit_row("B", 0, pressure_model%full, both, .true., "full solution of the normal problem"), &
-      & digit_row("B", 1, pressure_model%thin_sheet, both, .true., "elastic thin sheet with a vertical flexibility"), &
-      & digit_row("B", 2, pressure_model%elliptical, module_3, .true., "Hertzian: elliptical pressure and traction bound"), &
-      & digit_row("B", 3, pressure_model%parabolical, module_3, .true., "Hertzian ellipse with a parabolical traction bound"), &
-      & digit_row("B", 4, pressure_model%sdec, module_3, .true., "simple double-elliptical contact (SDEC)"), &
-      & digit_row("B", 5, pressure_model%kpec, both, .true., "Kik-Piotrowski approach with ellipse correction (KPEC)"), &
-      & digit_row("B", 6, pressure_model%analyn, both, .true., "modified ANALYN approach"), &
-      & digit_row("T", 0, motion%none, both, .true., "frictionless compression"), &
-      & digit_row("T", 1, motion%shift, both, .true., "shift, or rolling with material-fixed coordinates"), &
-      & digit_row("T", 2, motion%transient_rolling, both, .true., "transient rolling, moving coordinates"), &
-      & digit_row("T", 3, motion%steady_rolling, both, .true., "steady rolling, direct method"), &
-      & digit_row("N", 0, normal_control%approach, both, .true., "approach PEN prescribed"), &
-      & digit_row("N", 1, normal_control%force, both, .true., "normal force FN prescribed"), &
-      & digit_row("F", 0, force_control%creepages, module_3, .true., "creepages CKSI and CETA prescribed"), &
-      & digit_row("F", 1, force_control%fx_and_ceta, module_3, .true., "force FX and creepage CETA prescribed"), &
-      & digit_row("F", 2, force_control%fx_and_fy, module_3, .true., "forces FX and FY prescribed"), &
-      & digit_row("F", 0, force_control%creepages, module_1, .true., "velocities prescribed"), &
+      & digit_row("C1", 0, 0, module_1, .true., "left wheel on the track", "left_on_track"), &
+      & digit_row("C1", 1, 1, module_1, .true., "right wheel on the track", "right_on_track"), &
+      & digit_row("C1", 4, 4, module_1, .true., "left wheel on a roller", "left_on_roller"), &
+      & digit_row("C1", 5, 5, module_1, .true., "right wheel on a roller", "right_on_roller"), &
+      & digit_row("P", 0, time_link%continue_all, both, .true., &
+      & "new time step: the previous case gives the previous tractions", "continue_all"), &
+      & digit_row("P", 1, time_link%continue_normal, both, .true., &
+      & "as 0 for the pressures; previous shear tractions are zero", "continue_normal"), &
+      & digit_row("P", 2, time_link%initiate, both, .true., "new sequence: no previous tractions", "initiate"), &
+      & digit_row("P", 3, time_link%repeat_step, both, .true., &
+      & "new iteration: previous tractions stay as they are", "repeat_step"), &
+      & digit_row("B", 0, pressure_model%full, both, .true., "full solution of the normal problem", "full"), &
+      & digit_row("B", 1, pressure_model%thin_sheet, both, .true., &
+      & "elastic thin sheet with a vertical flexibility", "thin_sheet"), &
+      & digit_row("B", 2, pressure_model%elliptical, module_3, .true., &
+      & "Hertzian: elliptical pressure and traction bound", "elliptical"), &
+      & digit_row("B", 3, pressure_model%parabolical, module_3, .true., &
+      & "Hertzian ellipse with a parabolical traction bound", "parabolical"), &
+      & digit_row("B", 4, pressure_model%sdec, module_3, .true., "simple double-elliptical contact (SDEC)", "sdec"), &
+      & digit_row("B", 5, pressure_model%kpec, both, .true., "Kik-Piotrowski approach with ellipse correction (KPEC)", "kpec"), &
+      & digit_row("B", 6, pressure_model%analyn, both, .true., "modified ANALYN approach", "analyn"), &
+      & digit_row("T", 0, motion%none, both, .true., "frictionless compression", "none"), &
+      & digit_row("T", 1, motion%shift, both, .true., "shift, or rolling with material-fixed coordinates", "shift"), &
+      & digit_row("T", 2, motion%transient_rolling, both, .true., "transient rolling, moving coordinates", "transient_rolling"), &
+      & digit_row("T", 3, motion%steady_rolling, both, .true., "steady rolling, direct method", "steady_rolling"), &
+      & digit_row("N", 0, normal_control%approach, both, .true., "approach PEN prescribed", "approach"), &
+      & digit_row("N", 1, normal_control%force, both, .true., "normal force FN prescribed", "force"), &
+      & digit_row("F", 0, force_control%creepages, module_3, .true., "creepages CKSI and CETA prescribed", "creepages"), &
+      & digit_row("F", 1, force_control%fx_and_ceta, module_3, .true., "force FX and creepage CETA prescribed", "fx_and_ceta"), &
+      & digit_row("F", 2, force_control%fx_and_fy, module_3, .true., "forces FX and FY prescribed", "fx_and_fy"), &
+      & digit_row("F", 0, force_control%creepages, module_1, .true., "velocities prescribed", "velocities"), &
       & digit_row("F", 1, force_control%longitudinal_force, module_1, .true., &
-      & "longitudinal force in place of the pitch velocity"), &
-      & digit_row("F", 3, force_control%massless_rail, module_1, .true., "rail without mass on springs"), &
-      & digit_row("S", 0, stress_choice%none, both, .true., "no subsurface stresses"), &
-      & digit_row("S", 1, stress_choice%keep, both, .true., "subsurface stresses in the points in store"), &
+      & "longitudinal force in place of the pitch velocity", "longitudinal_force"), &
+      & digit_row("F", 3, force_control%massless_rail, module_1, .true., "rail without mass on springs", "massless_rail"), &
+      & digit_row("S", 0, stress_choice%none, both, .true., "no subsurface stresses", "none"), &
+      & digit_row("S", 1, stress_choice%keep, both, .true., "subsurface stresses in the points in store", "stored_points"), &
       & digit_row("S", 2, stress_choice%new_output, both, .true., "as 1, with new output digits"), &
       & digit_row("S", 3, stress_choice%new_points, both, .true., "new output digits and new subsurface points")]
 
    type(digit_row), parameter :: word2_rows(*) = [ &
-      & digit_row("V", 0, variation%none, both, .true., "one set of friction parameters"), &
-      & digit_row("V", 3, variation%by_row, module_3, .true., "friction parameters for each row of the grid"), &
-      & digit_row("V", 1, variation%by_angle, module_1, .true., "friction parameters by the inclination of the rail surface"), &
-      & digit_row("V", 2, variation%by_position, module_1, .true., "friction parameters by the position along the track"), &
-      & digit_row("L", 0, friction_model%coulomb, both, .true., "Coulomb friction"), &
+      & digit_row("V", 0, variation%none, both, .true., "one set of friction parameters", "none"), &
+      & digit_row("V", 3, variation%by_row, module_3, .true., "friction parameters for each row of the grid", "by_row"), &
+      & digit_row("V", 1, variation%by_angle, module_1, .true., &
+      & "friction parameters by the inclination of the rail surface", "by_angle"), &
+      & digit_row("V", 2, variation%by_position, module_1, .true., &
+      & "friction parameters by the position along the track", "by_position"), &
+      & digit_row("L", 0, friction_model%coulomb, both, .true., "Coulomb friction", "coulomb"), &
       & digit_row("L", 1, 1, both, .true., "keep the friction law of the previous case"), &
-      & digit_row("L", 2, friction_model%linear, both, .true., "friction falling with slip velocity, piecewise linear"), &
-      & digit_row("L", 3, friction_model%rational, both, .true., "friction falling with slip velocity, rational"), &
-      & digit_row("L", 4, friction_model%exponential, both, .true., "friction falling with slip velocity, exponential"), &
-      & digit_row("L", 6, friction_model%temperature, both, .true., "friction changing with surface temperature"), &
+      & digit_row("L", 2, friction_model%linear, both, .true., "friction falling with slip velocity, piecewise linear", "linear"), &
+      & digit_row("L", 3, friction_model%rational, both, .true., "friction falling with slip velocity, rational", "rational"), &
+      & digit_row("L", 4, friction_model%exponential, both, .true., &
+      & "friction falling with slip velocity, exponential", "exponential"), &
+      & digit_row("L", 6, friction_model%temperature, both, .true., "friction changing with surface temperature", "temperature"), &
       & digit_row("D", 0, 0, module_3, .true., "keep the potential contact area"), &
       & digit_row("D", 1, 1, module_3, .true., "form the potential contact area from the values in store"), &
       & digit_row("D", 2, 2, module_3, .true., "read the potential contact area"), &
       & digit_row("D", 0, 0, module_1, .true., "keep the settings of search and discretisation"), &
       & digit_row("D", 1, 1, module_1, .true., "keep the settings of search and discretisation"), &
-      & digit_row("D", 2, contact_location%locus, module_1, .true., "flat contact, contact locus"), &
-      & digit_row("D", 3, contact_location%locus_extended, module_1, .true., "flat contact, contact locus, extended rigid slip"), &
-      & digit_row("D", 4, contact_location%conformal, module_1, .true., "conformal contact, contact locus"), &
-      & digit_row("D", 5, contact_location%grid, module_1, .true., "flat contact, search over a grid"), &
-      & digit_row("D", 6, contact_location%steep_grid, module_1, .true., "flat contact, search over a finer grid"), &
-      & digit_row("D", 7, contact_location%first_contact, module_1, .true., "flat contact, first point of contact as reference"), &
+      & digit_row("D", 2, contact_location%locus, module_1, .true., "flat contact, contact locus", "locus"), &
+      & digit_row("D", 3, contact_location%locus_extended, module_1, .true., &
+      & "flat contact, contact locus, extended rigid slip", "locus_extended"), &
+      & digit_row("D", 4, contact_location%conformal, module_1, .true., "conformal contact, contact locus", "conformal"), &
+      & digit_row("D", 5, contact_location%grid, module_1, .true., "flat contact, search over a grid", "grid"), &
+      & digit_row("D", 6, contact_location%steep_grid, module_1, .true., "flat contact, search over a finer grid", "steep_grid"), &
+      & digit_row("D", 7, contact_location%first_contact, module_1, .true., &
+      & "flat contact, first point of contact as reference", "first_contact"), &
       & digit_row("D", 8, contact_location%oblique_locus, module_1, .false., &
-      & "contact locus in an oblique view that fits few profiles"), &
+      & "contact locus in an oblique view that fits few profiles", "oblique_locus"), &
       & digit_row("D", 9, contact_location%oblique_grid, module_1, .false., &
-      & "grid search in an oblique view that fits few profiles"), &
+      & "grid search in an oblique view that fits few profiles", "oblique_grid"), &
       & digit_row("C", 0, 0, module_3, .true., "keep the influence coefficients"), &
       & digit_row("C", 1, 1, both, .true., "form the influence coefficients from the values in store"), &
-      & digit_row("C", 2, kernel_model%piecewise_constant, both, .true., "half-space, piecewise constant; read materials"), &
-      & digit_row("C", 3, kernel_model%bilinear, both, .true., "half-space with bilinear tractions"), &
-      & digit_row("C", 4, kernel_model%conformal, both, .true., "half-space with angle correction for conformal contact"), &
-      & digit_row("C", 9, kernel_model%tabulated, both, .true., "numerical influence coefficients from a file"), &
+      & digit_row("C", 2, kernel_model%piecewise_constant, both, .true., &
+      & "half-space, piecewise constant; read materials", "piecewise_constant"), &
+      & digit_row("C", 3, kernel_model%bilinear, both, .true., "half-space with bilinear tractions", "bilinear"), &
+      & digit_row("C", 4, kernel_model%conformal, both, .true., &
+      & "half-space with angle correction for conformal contact", "conformal"), &
+      & digit_row("C", 9, kernel_model%tabulated, both, .true., "numerical influence coefficients from a file", "tabulated"), &
       & digit_row("C", 0, 0, module_1, .true., "as 1"), &
-      & digit_row("M", 0, material_model%elastic, both, .true., "elastic"), &
-      & digit_row("M", 1, material_model%viscoelastic, both, .true., "viscoelastic"), &
-      & digit_row("M", 2, material_model%fastsim_single, both, .true., "simplified theory, one flexibility (modified Fastsim)"), &
-      & digit_row("M", 3, material_model%fastsim, both, .true., "simplified theory, three flexibilities (modified Fastsim)"), &
-      & digit_row("M", 4, material_model%interfacial_layer, both, .true., "interfacial layer with near-surface plasticity"), &
-      & digit_row("M", 5, material_model%fastrip, both, .true., "modified FaStrip"), &
-      & digit_row("M", 6, material_model%fastrip_plain, both, .true., "FaStrip as published, without slope reduction"), &
-      & digit_row("M", 7, material_model%fastrip_sliding, both, .true., "as 6, with the correction of full sliding"), &
+      & digit_row("M", 0, material_model%elastic, both, .true., "elastic", "elastic"), &
+      & digit_row("M", 1, material_model%viscoelastic, both, .true., "viscoelastic", "viscoelastic"), &
+      & digit_row("M", 2, material_model%fastsim_single, both, .true., &
+      & "simplified theory, one flexibility (modified Fastsim)", "fastsim_single"), &
+      & digit_row("M", 3, material_model%fastsim, both, .true., &
+      & "simplified theory, three flexibilities (modified Fastsim)", "fastsim"), &
+      & digit_row("M", 4, material_model%interfacial_layer, both, .true., &
+      & "interfacial layer with near-surface plasticity", "interfacial_layer"), &
+      & digit_row("M", 5, material_model%fastrip, both, .true., "modified FaStrip", "fastrip"), &
+      & digit_row("M", 6, material_model%fastrip_plain, both, .true., &
+      & "FaStrip as published, without slope reduction", "fastrip_plain"), &
+      & digit_row("M", 7, material_model%fastrip_sliding, both, .true., &
+      & "as 6, with the correction of full sliding", "fastrip_sliding"), &
       & digit_row("Z", 0, 0, module_3, .true., "keep the undeformed distance and planform"), &
       & digit_row("Z", 1, 1, module_3, .true., "form the undeformed distance from the values in store"), &
       & digit_row("Z", 2, 2, module_3, .true., "read the undeformed distance and planform"), &
@@ -121,37 +143,43 @@ module contact_control_digits
       & digit_row("Z", 1, 1, module_1, .true., "read the track dimensions"), &
       & digit_row("Z", 2, 2, module_1, .true., "read the deviations of the rail"), &
       & digit_row("Z", 3, 3, module_1, .true., "read track dimensions, rail profile and deviations"), &
-      & digit_row("E", 0, slip_source%none, module_3, .true., "no extra term in the rigid slip"), &
+      & digit_row("E", 0, slip_source%none, module_3, .true., "no extra term in the rigid slip", "none"), &
       & digit_row("E", 1, slip_source%keep, module_3, .true., "keep the extra term of the previous case"), &
-      & digit_row("E", 2, slip_source%no_spin_y, module_3, .true., "extra term that cancels the lateral part of the spin"), &
-      & digit_row("E", 3, slip_source%no_spin_x, module_3, .true., "extra term that cancels the longitudinal part of the spin"), &
-      & digit_row("E", 9, slip_source%given, module_3, .true., "read an extra term for each element"), &
+      & digit_row("E", 2, slip_source%no_spin_y, module_3, .true., &
+      & "extra term that cancels the lateral part of the spin", "no_spin_y"), &
+      & digit_row("E", 3, slip_source%no_spin_x, module_3, .true., &
+      & "extra term that cancels the longitudinal part of the spin", "no_spin_x"), &
+      & digit_row("E", 9, slip_source%given, module_3, .true., "read an extra term for each element", "given"), &
       & digit_row("E", 0, 0, module_1, .true., "keep wheelset, position and velocity"), &
       & digit_row("E", 1, 1, module_1, .true., "read the position of the wheelset"), &
       & digit_row("E", 2, 2, module_1, .true., "read position and velocity"), &
       & digit_row("E", 3, 3, module_1, .true., "read wheelset dimensions, wheel profile, position and velocity"), &
       & digit_row("E", 4, 4, module_1, .true., "as 2, with the flexible deviations of the wheelset"), &
       & digit_row("E", 5, 5, module_1, .true., "as 3, with the flexible deviations of the wheelset"), &
-      & digit_row("M2", 0, 0, both, .true., "no damping"), &
+      & digit_row("M2", 0, 0, both, .true., "no damping", "none"), &
       & digit_row("M2", 1, 1, both, .true., "keep the damping of the previous case"), &
-      & digit_row("M2", 2, 2, both, .true., "force-based proportional damping")]
+      & digit_row("M2", 2, 2, both, .true., "force-based proportional damping", "proportional")]
 
    type(digit_row), parameter :: word3_rows(*) = [ &
       & digit_row("X", 0, 0, both, .true., "no fourth control word"), &
       & digit_row("X", 1, 1, both, .true., "a fourth control word follows, which is read and ignored"), &
-      & digit_row("H", 0, heat_model%none, both, .true., "no surface temperatures"), &
+      & digit_row("H", 0, heat_model%none, both, .true., "no surface temperatures", "none"), &
       & digit_row("H", 1, heat_model%keep, both, .true., "surface temperatures with the values in store"), &
-      & digit_row("H", 3, heat_model%given, both, .true., "surface temperatures with new values"), &
-      & digit_row("G", 0, solver_choice%default, both, .true., "default solvers"), &
+      & digit_row("H", 3, heat_model%given, both, .true., "surface temperatures with new values", "flash"), &
+      & digit_row("G", 0, solver_choice%default, both, .true., "default solvers", "default"), &
       & digit_row("G", 1, 1, both, .true., "keep the solver settings of the previous case"), &
-      & digit_row("G", 2, solver_choice%convex_gs, both, .true., "ConvexGS always, relaxation is read"), &
-      & digit_row("G", 3, solver_choice%gauss_seidel, both, .true., "SteadyGS in steady rolling, relaxation is read"), &
-      & digit_row("G", 4, solver_choice%default_friction, both, .true., "default solvers, slip velocity iteration is read"), &
-      & digit_row("G", 5, solver_choice%gd_steady, both, .true., "GDsteady in steady rolling, its parameters are read"), &
-      & digit_row("I", 0, estimate_choice%fresh, both, .true., "start from zero tractions"), &
-      & digit_row("I", 1, estimate_choice%previous, both, .true., "start from the previous solution, regularised"), &
-      & digit_row("I", 2, estimate_choice%previous_normal, both, .true., "start from the previous pressures only"), &
-      & digit_row("I", 3, estimate_choice%unchanged, both, .true., "start from the previous solution, untouched"), &
+      & digit_row("G", 2, solver_choice%convex_gs, both, .true., "ConvexGS always, relaxation is read", "convex_gs"), &
+      & digit_row("G", 3, solver_choice%gauss_seidel, both, .true., &
+      & "SteadyGS in steady rolling, relaxation is read", "gauss_seidel"), &
+      & digit_row("G", 4, solver_choice%default_friction, both, .true., &
+      & "default solvers, slip velocity iteration is read", "default_friction"), &
+      & digit_row("G", 5, solver_choice%gd_steady, both, .true., &
+      & "GDsteady in steady rolling, its parameters are read", "gd_steady"), &
+      & digit_row("I", 0, estimate_choice%fresh, both, .true., "start from zero tractions", "fresh"), &
+      & digit_row("I", 1, estimate_choice%previous, both, .true., "start from the previous solution, regularised", "previous"), &
+      & digit_row("I", 2, estimate_choice%previous_normal, both, .true., &
+      & "start from the previous pressures only", "previous_normal"), &
+      & digit_row("I", 3, estimate_choice%unchanged, both, .true., "start from the previous solution, untouched", "unchanged"), &
       & digit_row("A", 0, 0, both, .true., "no .mat file"), &
       & digit_row("A", 1, 1, both, .true., ".mat file with the elements in contact"), &
       & digit_row("A", 2, 2, both, .true., ".mat file with all elements"), &

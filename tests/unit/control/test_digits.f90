@@ -13,6 +13,7 @@ program test_digits
    call surplus_digits(suite)
    call questions(suite)
    call manual(suite)
+   call readable_words(suite)
    call suite%finish()
 
 contains
@@ -179,4 +180,23 @@ contains
       end do
       close(unit)
    end subroutine look_for_rows
+
+   !> A word of the readable format means one value of a digit in each module
+   subroutine readable_words(suite)
+      type(test_suite), intent(inout) :: suite
+      character(len=*), parameter :: letters = "abcdefghijklmnopqrstuvwxyz_"
+      integer :: j, k
+
+      do k = 1, size(digit_table)
+         associate (row => digit_table(k))
+            call suite%check(verify(trim(row%word), letters) == 0, "word of " // row%name)
+            if (row%word == "") cycle
+            do j = 1, k - 1
+               if (digit_table(j)%name /= row%name .or. digit_table(j)%word /= row%word) cycle
+               call suite%check(digit_table(j)%module_number /= row%module_number .and. digit_table(j)%module_number /= 0 &
+                  & .and. row%module_number /= 0, "one value of " // row%name // " is called " // trim(row%word))
+            end do
+         end associate
+      end do
+   end subroutine readable_words
 end program test_digits
