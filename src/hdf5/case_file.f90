@@ -61,7 +61,7 @@ contains
       call file%text("reason", "", "the run goes on, or was ended from outside")
       call file%close_attributes()
       call file%renew()
-      if (file%failed) call file%close_file(error)
+      if (file%has_failed()) call file%close_file(error)
    end subroutine tell_start
 
    subroutine open_again(self, name, error)
@@ -74,10 +74,8 @@ contains
 
    subroutine abandon(self)
       class(hdf5_case_file), intent(inout) :: self
-      type(error_type), allocatable :: ignored
 
-      self%file%failed = .true.
-      call self%file%close_file(ignored)
+      call self%file%abandon()
    end subroutine abandon
 
    subroutine go_on(self, cases, patches, run, error)
@@ -111,7 +109,7 @@ contains
       type(run_summary), intent(in) :: run
       type(error_type), allocatable, intent(out) :: error
 
-      if (self%file%is_open) then
+      if (self%file%is_open()) then
          call self%file%drop_attribute("reason")
          call self%file%open_group("")
          call describe_run(self%file, run)

@@ -1,0 +1,127 @@
+!> Groups and fields of the cases before: where the next case has the same, the object on disk is linked again
+module contact_hdf5_kept
+   use hdf5, only : h5olink_f, hid_t, hsize_t
+   use contact_base_kinds, only : wp
+   use contact_hdf5_container, only : hdf5_container
+   use contact_hdf5_values, only : same_number, value_list
+   implicit none (type, external)
+   private
+
+   public :: kept_list, kept_object
+
+   !> A group or a field that was written and can be linked
+   type :: kept_object
+      !> Place in a case, such as "1.1/patch_1/fields/pn", behind the name of the contact problem
+      character(len=:), allocatable :: place
+      !> The open object; -1 before the first is written
+      integer(hid_t) :: id = -1
+      !> Of a field: its values and their shape
+      real(wp), allocatable :: values(:)
+      integer(hsize_t), allocatable :: dims(:)
+      !> Of a group
+      type(value_list), allocatable :: group
+   contains
+      !> Link it
+      procedure :: link
+      !> Is it an array with these values?
+      procedure :: holds
+   end type kept_object
+
+   !> All of them
+   type :: kept_list
+      type(kept_object), allocatable :: objects(:)
+      integer, private :: count = 0
+      !> The one found last, because they come in the same order in each case
+      integer, private :: last = 0
+   contains
+      procedure :: find
+      procedure :: replace
+      procedure :: release
+   end type kept_list
+
+contains
+
+   !> The object at a place; a new one when there is none
+   subroutine find(self, place, k)
+      class(kept_list), intent(inout) :: self
+      !> See kept_object
+      character(len=*), intent(in) :: place
+      !> Its number in `objects`
+      integer, intent(out) :: k
+      type(kept_object), allocatable :: longer(:)
+      integer :: i
+
+      do i = 0, self%count - 1
+         k = modulo(self%last + i, self%count) + 1
+         if (self%objects(k)%place /= place) cycle
+         self%last = k
+         return
+      end do
+      if (.not. allocated(self%objects)) allocate(self%objects(50))
+      if (self%count == size(self%objects)) then
+         allocate(longer(2*self%count))
+         do i = 1, self%count
+            longer(i)%id = self%objects(i)%id
+            call move_alloc(self%objects(i)%place, longer(i)%place)
+            call move_alloc(self%objects(i)%values, longer(i)%values)
+            call move_alloc(self%objects(i)%dims, longer(i)%dims)
+            call move_alloc(self%objects(i)%group, longer(i)%group)
+         end do
+         call move_alloc(longer, self%objects)
+      end if
+      self%count = self%count + 1
+      k = self%count
+      self%objects(k)%place = place
+      self%last = k
+   end subroutine find
+
+   !> Link the object into a group
+   subroutine link(self, container, group, name)
+      class(kept_object), intent(in) :: self
+      type(hdf5_container), intent(inout) :: container
+      !> Open group
+      integer(hid_t), intent(in) :: group
+      character(len=*), intent(in) :: name
+      integer :: status
+
+      call h5olink_f(self%id, group, name, status)
+      call container%check(status)
+   end subroutine link
+
+   !> Is the object an array of this shape with the same values?
+   pure logical function holds(self, values, dims)
+      class(kept_object), intent(in) :: self
+      !> All values in their order, and the shape
+      real(wp), intent(in) :: values(:)
+      integer(hsize_t), intent(in) :: dims(:)
+
+      holds = .false.
+      if (.not. allocated(self%values)) return
+      if (.not. all(self%dims == dims)) return
+      holds = all(same_number(self%values, values))
+   end function holds
+
+   !> The object on disk is another one from now on
+   subroutine replace(self, container, k, id)
+      class(kept_list), intent(inout) :: self
+      type(hdf5_container), intent(inout) :: container
+      !> Number in `objects`
+      integer, intent(in) :: k
+      !> The new object, open
+      integer(hid_t), intent(in) :: id
+
+      if (self%objects(k)%id >= 0) call container%release(self%objects(k)%id)
+      self%objects(k)%id = id
+   end subroutine replace
+
+   !> Close all objects
+   subroutine release(self, container)
+      class(kept_list), intent(inout) :: self
+      type(hdf5_container), intent(inout) :: container
+      integer :: k
+
+      do k = 1, self%count
+         if (self%objects(k)%id >= 0) call container%release(self%objects(k)%id)
+      end do
+   end subroutine release
+end module contact_hdf5_kept

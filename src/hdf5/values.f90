@@ -1,0 +1,234 @@
+!> Values as datasets: named values of a group, kept in memory until the group is complete, and arrays
+module contact_hdf5_values
+   use hdf5, only : h5dcreate_f, h5dwrite_f, h5screate_simple_f, h5t_ieee_f64le, h5t_native_double, h5t_native_integer, &
+      & h5t_std_i32le, h5t_std_i8le, hid_t, hsize_t
+   use contact_base_kinds, only : long, wp
+   use contact_hdf5_container, only : hdf5_container, large, max_chunk, max_text_length
+   implicit none (type, external)
+   private
+
+   public :: item_kind, name_length, named_value, same_number, value_list, write_array
+
+   !> Longest name of a value, unit, description [characters]
+   integer, parameter :: name_length = 32, unit_length = 16, title_length = 80
+
+   type :: item_kind_list
+      integer :: real_number = 1, real_numbers = 2, whole = 3, text = 4, flag = 5
+   end type item_kind_list
+   type(item_kind_list), parameter :: item_kind = item_kind_list()
+
+   !> One named value
+   type :: named_value
+      character(len=name_length) :: name
+      character(len=unit_length) :: unit
+      character(len=title_length) :: title
+      !> Member of item_kind
+      integer :: kind = 0
+      !> Of a number, an integer or a flag (1 or 0)
+      real(wp) :: value = 0.0_wp
+      !> Of several numbers
+      real(wp), allocatable :: values(:)
+      !> Of a text
+      character(len=:), allocatable :: text
+   contains
+      !> Has the other the same name and value?
+      procedure :: is_same
+      !> Write it as a dataset
+      procedure :: write
+   end type named_value
+
+   !> The values of one group in their order
+   type :: value_list
+      integer :: count = 0
+      !> The first `count` are in use
+      type(named_value), allocatable :: items(:)
+   contains
+      procedure :: add
+      procedure :: keep_texts
+      !> Have the lists the same names and values?
+      procedure :: equals
+   end type value_list
+
+contains
+
+   !> Append a value
+   subroutine add(self, name, unit, title, kind, value, values, text)
+      class(value_list), intent(inout) :: self
+      !> Name, unit ("-" for a ratio, "" where none is worth telling), and what it is
+      character(len=*), intent(in) :: name, unit, title
+      !> Member of item_kind
+      integer, intent(in) :: kind
+      !> Of a single number
+      real(wp), intent(in) :: value
+      !> Of several numbers
+      real(wp), intent(in), optional :: values(:)
+      !> Cut at max_text_length
+      character(len=*), intent(in), optional :: text
+      type(named_value), allocatable :: longer(:)
+
+      if (.not. allocated(self%items)) allocate(self%items(100))
+      if (self%count == size(self%items)) then
+         allocate(longer(2*self%count))
+         longer(:self%count) = self%items
+         call move_alloc(longer, self%items)
+      end if
+      self%count = self%count + 1
+      associate (this => self%items(self%count))
+         this%name = name
+         this%unit = unit
+         this%title = title
+         this%kind = kind
+         this%value = value
+         if (allocated(this%values)) deallocate(this%values)
+         if (allocated(this%text)) deallocate(this%text)
+         if (present(values)) this%values = values
+         if (present(text)) this%text = text(:min(len(text), max_text_length))
+      end associate
+   end subroutine add
+
+   !> Drop all but texts
+   subroutine keep_texts(self)
+      class(value_list), intent(inout) :: self
+      integer :: i, k
+
+      k = 0
+      do i = 1, self%count
+         if (self%items(i)%kind /= item_kind%text) cycle
+         k = k + 1
+         if (i > k) self%items(k) = self%items(i)
+      end do
+      self%count = k
+   end subroutine keep_texts
+
+   !> Have two lists the same names and values?
+   pure logical function equals(self, other)
+      class(value_list), intent(in) :: self
+      type(value_list), intent(in) :: other
+      integer :: i
+
+      equals = .false.
+      if (self%count /= other%count) return
+      do i = 1, self%count
+         if (.not. self%items(i)%is_same(other%items(i))) return
+      end do
+      equals = .true.
+   end function equals
+
+   !> Have two values the same name and value?
+   pure logical function is_same(self, other) result(same)
+      class(named_value), intent(in) :: self
+      type(named_value), intent(in) :: other
+
+      same = .false.
+      if (self%name /= other%name .or. self%kind /= other%kind) return
+      if (.not. same_number(self%value, other%value)) return
+      if (allocated(other%values)) then
+         if (size(self%values) /= size(other%values)) return
+         if (.not. all(same_number(self%values, other%values))) return
+      end if
+      if (allocated(other%text)) then
+         if (len(self%text) /= len(other%text)) return
+         if (self%text /= other%text) return
+      end if
+      same = .true.
+   end function is_same
+
+   !> Equal bit by bit: a NaN equals itself, 0 and -0 differ
+   elemental logical function same_number(a, b) result(same)
+      real(wp), intent(in) :: a, b
+      same = transfer(a, 0_long) == transfer(b, 0_long)
+   end function same_number
+
+   !> Write the value as a dataset of its group
+   subroutine write(self, container, group, described)
+      class(named_value), intent(in), target :: self
+      type(hdf5_container), intent(inout) :: container
+      !> Open group
+      integer(hid_t), intent(in) :: group
+      !> With its unit and description as attributes, if it has a unit?
+      logical, intent(in) :: described
+      integer(hid_t) :: data, kind, properties, space
+      integer(hsize_t) :: dims(1)
+      integer :: status
+      logical :: with_unit
+
+      with_unit = described .and. len_trim(self%unit) > 0
+      properties = container%bare
+      if (with_unit) properties = container%compact
+      dims = 1
+      space = container%scalar
+      select case (self%kind)
+      case (item_kind%real_number)
+         kind = h5t_ieee_f64le
+      case (item_kind%real_numbers)
+         kind = h5t_ieee_f64le
+         dims = size(self%values, kind=hsize_t)
+         call h5screate_simple_f(1, dims, space, status)
+         ! too large for a header, whose checksum would cover them
+         if (size(self%values)*8 >= large) call container%chunked(min(dims, int(max_chunk, hsize_t)), properties, &
+            & compressed=.false., states=.false.)
+      case (item_kind%whole)
+         kind = h5t_std_i32le
+      case (item_kind%flag)
+         kind = h5t_std_i8le
+      case default
+         kind = container%text_type(len(self%text))
+      end select
+      call h5dcreate_f(group, trim(self%name), kind, space, data, status, dcpl_id=properties)
+      call container%check(status)
+      if (all(properties /= [container%bare, container%compact])) call container%release(properties)
+      select case (self%kind)
+      case (item_kind%real_number)
+         call h5dwrite_f(data, h5t_native_double, self%value, dims, status)
+      case (item_kind%real_numbers)
+         if (size(self%values) > 0) call h5dwrite_f(data, h5t_native_double, self%values, dims, status)
+         call container%release(space)
+      case (item_kind%whole, item_kind%flag)
+         call h5dwrite_f(data, h5t_native_integer, nint(self%value), dims, status)
+      case default
+         call h5dwrite_f(data, kind, self%text, dims, status)
+      end select
+      call container%check(status)
+      if (with_unit) then
+         call container%set_text(data, "units", trim(self%unit))
+         call container%set_text(data, "long_name", trim(self%title))
+      end if
+      call container%release(data)
+   end subroutine write
+
+   !> Write an array of any rank as a dataset
+   subroutine write_array(container, group, name, unit, title, values, dims, kind, data)
+      type(hdf5_container), intent(inout) :: container
+      !> Open group
+      integer(hid_t), intent(in) :: group
+      !> Name, unit ("" for none), and what it is
+      character(len=*), intent(in) :: name, unit, title
+      !> Shape
+      integer(hsize_t), intent(in) :: dims(:)
+      real(wp), intent(in), target :: values(product(dims))
+      !> Type on disk: of numbers, or of element states
+      integer(hid_t), intent(in) :: kind
+      !> The open dataset
+      integer(hid_t), intent(out) :: data
+      integer(hid_t) :: properties, space
+      integer(hsize_t) :: chunk(size(dims))
+      integer :: status
+
+      properties = container%compact
+      if (8*size(values) >= large) then
+         chunk = dims
+         if (product(chunk) > max_chunk) &
+            & chunk(size(chunk)) = max(1_hsize_t, max_chunk/product(chunk(:size(chunk) - 1)))
+         call container%chunked(chunk, properties, compressed=.true., states=kind == h5t_std_i8le)
+      end if
+      call h5screate_simple_f(size(dims), dims, space, status)
+      call h5dcreate_f(group, name, kind, space, data, status, dcpl_id=properties)
+      call container%check(status)
+      call h5dwrite_f(data, h5t_native_double, values, [size(values, kind=hsize_t)], status)
+      call container%check(status)
+      if (len(unit) > 0) call container%set_text(data, "units", unit)
+      call container%set_text(data, "long_name", title)
+      call container%release(space)
+      if (properties /= container%compact) call container%release(properties)
+   end subroutine write_array
+end module contact_hdf5_values
