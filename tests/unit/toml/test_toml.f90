@@ -1,10 +1,13 @@
 !> The tree of a text in TOML, places, and what is refused; values are compared with another parser by test_toml_values.py
 program test_toml
+   use contact_base_constants, only : pi
    use contact_base_error, only : error_type, full_text
    use contact_base_kinds, only : wp
    use contact_test_harness, only : test_suite
    use contact_toml_document, only : toml_document, toml_kind
+   use contact_text_nearest, only : edit_distance, nearest_word
    use contact_toml_parser, only : parse_toml
+   use contact_toml_quantities, only : read_quantity
    implicit none (type, external)
    character, parameter :: nl = achar(10)
    type(test_suite) :: suite
@@ -14,6 +17,8 @@ program test_toml
    call places(suite)
    call refusals(suite)
    call long_arrays(suite)
+   call quantities(suite)
+   call neighbours(suite)
    call suite%finish()
 
 contains
@@ -108,4 +113,76 @@ contains
       call parse_toml(text, "x.toml", d, error)
       call suite%check(.not. allocated(error) .and. d%count == 100001, "a table of many keys")
    end subroutine long_arrays
+
+   !> Numbers with units
+   subroutine quantities(suite)
+      type(test_suite), intent(inout) :: suite
+
+      call is_quantity(suite, "460 mm", "mm", 460.0_wp)
+      call is_quantity(suite, "0.46 m", "mm", 460.0_wp)
+      call is_quantity(suite, "0.3 um", "mm", 0.3e-3_wp)
+      call is_quantity(suite, "10 kN", "N", 1.0e4_wp)
+      call is_quantity(suite, "-12 deg", "rad", -12.0_wp*(pi/180.0_wp))
+      call is_quantity(suite, "82 GPa", "N/mm2", 82000.0_wp)
+      call is_quantity(suite, "8_2e-1 GPa", "N/mm2", 8200.0_wp)
+      call is_quantity(suite, "1.5 m/s", "mm/s", 1500.0_wp)
+      call is_quantity(suite, "36 km/h", "mm/s", 36.0e6_wp*(1.0_wp/3600.0_wp))
+      call is_quantity(suite, "2 1/m", "1/mm", 2.0e-3_wp)
+      call is_quantity(suite, "7850 kg/m3", "kg/mm3", 7850.0e-9_wp)
+      call is_quantity(suite, "450 J/(kg K)", "J/(kg degC)", 450.0_wp)
+      call is_quantity(suite, "50 W/(m K)", "W/(mm degC)", 0.05_wp)
+      call is_quantity(suite, "0.1 %", "- or mm", 1.0e-3_wp)
+      call is_quantity(suite, "1 um", "- or mm", 1.0e-3_wp)
+      call is_quantity(suite, "1 N/um", "N/mm", 1000.0_wp)
+      call is_no_quantity(suite, "5 kN", "mm", 'has the unit "kN", wanted is mm or a unit that can be converted to it')
+      call is_no_quantity(suite, "5 furlong", "mm", 'has the unit "furlong", which is not known; wanted is mm')
+      call is_no_quantity(suite, "300 K", "degC", "is in kelvin; temperatures are in degC")
+      call is_no_quantity(suite, "5 mm", "integer", "has a unit, but a plain number is wanted")
+      call is_no_quantity(suite, "5 mm//s", "mm/s", 'has the unit "mm//s", which is not known; wanted is mm/s')
+      call is_no_quantity(suite, "5 mm/(s", "mm/s", 'has the unit "mm/(s", which is not known; wanted is mm/s')
+      call is_no_quantity(suite, "1e307 km", "mm", "is too large or too small for a number")
+      call is_no_quantity(suite, "mm", "mm", 'is no number with a unit; "460 mm" is one, with a blank between them')
+   end subroutine quantities
+
+   !> A text is this number
+   subroutine is_quantity(suite, text, unit, expected)
+      type(test_suite), intent(inout) :: suite
+      character(len=*), intent(in) :: text, unit
+      real(wp), intent(in) :: expected
+      character(len=:), allocatable :: complaint
+      real(wp) :: value
+
+      call read_quantity(text, unit, value, complaint)
+      if (allocated(complaint)) then
+         call suite%check(.false., text // " " // complaint)
+      else
+         call suite%close_to(value, expected, 0.0_wp, text // " in " // unit)
+      end if
+   end subroutine is_quantity
+
+   !> A text is no such number
+   subroutine is_no_quantity(suite, text, unit, words)
+      type(test_suite), intent(inout) :: suite
+      character(len=*), intent(in) :: text, unit, words
+      character(len=:), allocatable :: complaint
+      real(wp) :: value
+
+      call read_quantity(text, unit, value, complaint)
+      call suite%check(allocated(complaint), "refused: " // text)
+      if (allocated(complaint)) call suite%equal(complaint, words, text)
+   end subroutine is_no_quantity
+
+   !> Mistyped words
+   subroutine neighbours(suite)
+      type(test_suite), intent(inout) :: suite
+      character(len=8), parameter :: words(4) = [character(len=8) :: "friction", "fstat", "fkin", "grid"]
+
+      call suite%equal(edit_distance("kitten", "sitting"), 3, "distance")
+      call suite%equal(edit_distance("grdi", "grid"), 1, "letters swapped")
+      call suite%equal(edit_distance("", "grid"), 4, "distance from nothing")
+      call suite%equal(nearest_word("fricton", words), 1, "a letter is missing")
+      call suite%equal(nearest_word("ftsat", words), 2, "letters swapped in a word of a list")
+      call suite%equal(nearest_word("material", words), 0, "nothing similar")
+      call suite%equal(nearest_word("", words), 0, "no word")
+   end subroutine neighbours
 end program test_toml

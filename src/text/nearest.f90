@@ -1,0 +1,55 @@
+!> The word of a list that is most like a mistyped one
+module contact_text_nearest
+   implicit none (type, external)
+   private
+
+   public :: edit_distance, nearest_word
+
+   !> Longest words that are compared
+   integer, parameter :: longest = 32
+
+contains
+
+   !> Number of letters to be put in, left out, changed or swapped with the next, to get from one word to the other
+   pure integer function edit_distance(first, second) result(distance)
+      !> Not longer than 32 letters
+      character(len=*), intent(in) :: first, second
+      integer :: d(-1:longest, -1:longest), i, j
+
+      d = 2*longest
+      do i = 0, len(first)
+         d(i, 0) = i
+      end do
+      do j = 0, len(second)
+         d(0, j) = j
+      end do
+      do j = 1, len(second)
+         do i = 1, len(first)
+            d(i, j) = min(d(i - 1, j) + 1, d(i, j - 1) + 1, d(i - 1, j - 1) + merge(0, 1, first(i:i) == second(j:j)))
+            if (min(i, j) < 2) cycle
+            if (first(i - 1:i) == second(j:j) // second(j - 1:j - 1)) d(i, j) = min(d(i, j), d(i - 2, j - 2) + 1)
+         end do
+      end do
+      distance = d(len(first), len(second))
+   end function edit_distance
+
+   !> Place of the most similar word in a list, 0 when none is similar: more than a third of its letters would change
+   pure integer function nearest_word(word, list) result(place)
+      character(len=*), intent(in) :: word
+      !> Words with blanks behind; blank ones do not count
+      character(len=*), intent(in) :: list(:)
+      integer :: best, distance, k, n
+
+      place = 0
+      if (len(word) == 0 .or. len(word) > longest) return
+      best = huge(best)
+      do k = 1, size(list)
+         n = len_trim(list(k))
+         if (n == 0 .or. n > longest) cycle
+         distance = edit_distance(word, list(k)(:n))
+         if (distance >= best .or. 3*distance > max(3, len(word), n)) cycle
+         best = distance
+         place = k
+      end do
+   end function nearest_word
+end module contact_text_nearest
