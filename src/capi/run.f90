@@ -5,7 +5,7 @@ module contact_capi_run
    use contact_base_error, only : error_kind, error_type, fatal_error, full_text
    use contact_base_guard, only : do_guarded, end_text, guard_end
    use contact_base_kinds, only : long
-   use contact_base_limits, only : fill_limits
+   use contact_base_limits, only : case_limits, fill_limits
    use contact_capi_arguments, only : give_message
    use contact_capi_host, only : give_floats_back, hold_floats
    use contact_experiment_run, only : run_experiment, run_settings
@@ -146,21 +146,19 @@ contains
       type(run_settings) :: settings
       type(error_type), allocatable :: error
 
+      ! before the first comparison: a limit that is not a number must not stop a host that traps invalid operations
+      call hold_floats()
       call take_text(experiment, settings%experiment)
       call take_text(output_dir, settings%output_folder)
       settings%check_only = mode == mode_check
       settings%threads = int(threads)
       settings%strict = strict /= 0_c_int
-      if (seconds > 0.0_c_double) settings%limits%deadline%seconds = seconds
-      if (megabytes > 0.0_c_double) settings%limits%bytes = int(1.0e6_c_double*megabytes, long)
-      if (elements > 0.0_c_double) settings%limits%elements = int(elements, long)
       if (btest(outputs, json_bit)) settings%exports%json = ""
       settings%exports%hdf5 = btest(outputs, hdf5_bit)
       settings%exports%vtk = btest(outputs, vtk_bit)
       if (btest(outputs, heat_bit)) settings%heat_source = heat_source%moving
       if (btest(outputs, angle_bit)) settings%angle_below_axle = .false.
       settings%limits%confined = btest(outputs, confine_bit)
-      if (settings%limits%confined) call fill_limits(settings%limits, settings%run_deadline%seconds, settings%output_bytes)
       if (len_trim(settings%experiment) == 0) then
          call fatal_error(error, "contact_run: the name of the experiment is missing")
       else if (mode /= mode_run .and. mode /= mode_check) then
@@ -170,17 +168,15 @@ contains
       else if (outputs < 0 .or. outputs > all_outputs) then
          call fatal_error(error, "contact_run_with: the outputs are not a sum of CONTACT_WRITE_JSON, _HDF5, _VTK, " // &
             & "CONTACT_MOVING_HEAT, CONTACT_ANGLE_AT_CONTACT and CONTACT_CONFINE")
-      else if (.not. all([seconds, megabytes, elements] >= 0.0_c_double &
-         & .and. [seconds, megabytes, elements] < 1.0e12_c_double)) then
-         call fatal_error(error, "contact_run_limited: a limit is negative, not a number, or 1e12 and more; 0 stands for none")
+      else
+         call set_limits(settings%limits, error)
       end if
+      if (settings%limits%confined) call fill_limits(settings%limits, settings%run_deadline%seconds, settings%output_bytes)
       status = 0
       if (allocated(error)) then
          status = wrong_call
       else
-         call hold_floats()
          call run_experiment(settings, error)
-         call give_floats_back()
          if (allocated(error)) status = first_failure + int(error%kind, c_int)
       end if
       if (allocated(error)) then
@@ -188,6 +184,31 @@ contains
       else
          call give_message("", message, message_length)
       end if
+      call give_floats_back()
+
+   contains
+
+      !> The limits of the caller, or an error about the first that cannot be one
+      subroutine set_limits(limits, problem)
+         type(case_limits), intent(inout) :: limits
+         type(error_type), allocatable, intent(out) :: problem
+         character(len=*), parameter :: names(3) = [character(len=9) :: "seconds", "megabytes", "elements"]
+         real(c_double) :: asked(3)
+         character(len=16) :: text
+         integer :: k
+
+         asked = [seconds, megabytes, elements]
+         do k = 1, size(asked)
+            if (asked(k) >= 0.0_c_double .and. asked(k) < 1.0e12_c_double) cycle
+            write(text, "(G0.6)") asked(k)
+            call fatal_error(problem, "contact_run_limited: " // trim(names(k)) // " is " // trim(text) // &
+               & ", not a limit from 0 to below 1e12; 0 stands for none")
+            return
+         end do
+         if (seconds > 0.0_c_double) limits%deadline%seconds = seconds
+         if (megabytes > 0.0_c_double) limits%bytes = int(1.0e6_c_double*megabytes, long)
+         if (elements > 0.0_c_double) limits%elements = int(elements, long)
+      end subroutine set_limits
    end subroutine run_unguarded
 
    !> A null-terminated text as a Fortran one, "" for a null pointer

@@ -28,6 +28,9 @@ module contact_experiment_journal
    !> How a case ended, in one letter; a capital where a larger grid was named in a warning, which is not said again
    type(case_letter_list), parameter :: case_letter = case_letter_list()
 
+   !> All of them, with their capitals
+   character(len=*), parameter :: known_letters = "snrtiSNRTI"
+
    !> With what the run was asked for, as far as results depend on it
    type :: journal_settings
       !> Version of the program
@@ -209,8 +212,9 @@ contains
       associate (s => settings)
          read(body, *, iostat=status) s%version, s%json, s%hdf5, s%vtk, s%heat_source, s%angle_below_axle, s%seconds, s%bytes, &
             & s%elements
+         if (status /= 0) return
+         if (.not. (s%seconds >= 0.0_wp .and. s%bytes >= 0 .and. s%elements >= 0)) return
       end associate
-      if (status /= 0) return
       found = .true.
       place = behind
       seen = ""
@@ -220,7 +224,8 @@ contains
          read(body, *, iostat=status) c%cases, c%out, c%json, c%vtk, c%rows, c%errors, c%warnings, c%ended, c%input, c%files
          if (status /= 0) return
          seen = seen // body(index(body, " ", back=.true.) + 1:)
-         if (len(seen) /= c%cases .or. any([c%out, c%json, c%vtk] > ends) .or. any(c%rows > rows)) return
+         if (len(seen) /= c%cases .or. .not. follows(c, last) .or. verify(seen, known_letters) > 0) return
+         if (any([c%out, c%json, c%vtk] > ends) .or. any(c%rows > rows)) return
          last = c
          letters = seen
          place = behind
@@ -249,6 +254,15 @@ contains
          is_whole = .true.
       end subroutine take_line
    end subroutine read_journal
+
+   !> Can a run come from one moment to another? No count and no place ever goes down
+   pure logical function follows(next, before)
+      type(checkpoint), intent(in) :: next, before
+
+      follows = next%cases > before%cases .and. all(next%rows >= before%rows) .and. all(next%ended >= before%ended) &
+         & .and. all([next%out, next%json, next%vtk] >= [before%out, before%json, before%vtk]) &
+         & .and. all([next%errors, next%warnings] >= [before%errors, before%warnings]) .and. sum(next%ended) <= next%cases
+   end function follows
 
    !> The letter of a case
    pure function letter_of(status, solved) result(letter)

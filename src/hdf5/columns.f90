@@ -5,7 +5,8 @@ module contact_hdf5_columns
    use, intrinsic :: ieee_arithmetic, only : ieee_quiet_nan, ieee_value
    use hdf5, only : h5dcreate_f, h5dget_space_f, h5dopen_f, h5dread_f, h5dset_extent_f, h5dwrite_f, h5gcreate_f, &
       & h5gget_obj_info_idx_f, h5gn_members_f, h5gopen_f, h5s_select_set_f, h5s_unlimited_f, h5screate_simple_f, &
-      & h5sget_simple_extent_dims_f, h5sselect_hyperslab_f, h5t_ieee_f64le, h5t_native_double, hid_t, hsize_t
+      & h5sget_simple_extent_dims_f, h5sget_simple_extent_ndims_f, h5sselect_hyperslab_f, h5t_ieee_f64le, h5t_native_double, &
+      & hid_t, hsize_t
    use contact_base_kinds, only : wp
    use contact_hdf5_container, only : hdf5_container
    use contact_hdf5_values, only : item_kind, name_length, named_value
@@ -77,7 +78,7 @@ contains
       character(len=name_length) :: title
       integer(hsize_t) :: limit(1), rows(1)
       integer(hid_t) :: space
-      integer :: k, kind, n, status
+      integer :: k, kind, n, rank, status
 
       call h5gopen_f(container%file, name, self%group, status)
       call container%check(status)
@@ -95,10 +96,15 @@ contains
          if (container%failed) return
          self%used = k
          call h5dget_space_f(self%columns(k)%id, space, status)
-         call h5sget_simple_extent_dims_f(space, rows, limit, status)
+         call h5sget_simple_extent_ndims_f(space, rank, status)
+         call container%check(status)
+         rows = 0
+         ! a damaged file may have anything under the name of a column
+         if (rank == 1) call h5sget_simple_extent_dims_f(space, rows, limit, status)
          call container%check(status)
          call container%release(space)
-         if (k > 1 .and. self%written /= rows(1)) container%failed = .true.
+         if (rank /= 1 .or. rows(1) > huge(1) .or. (k > 1 .and. self%written /= rows(1))) container%failed = .true.
+         if (container%failed) return
          self%written = int(rows(1))
       end do
    end subroutine reopen

@@ -6,6 +6,7 @@ The environment tells CONTACT_PROGRAM, CONTACT_LIBRARY and CONTACT_SOURCE.
 import ctypes
 import fcntl
 import json
+import math
 import os
 import shutil
 import subprocess
@@ -167,6 +168,16 @@ def limited(library):
             check(expected in out and "1 refused" in out, f"limits {limits}: {out[-300:]}")
         elif limits != (0, 0, 0.5):
             same(status, 0, f"limits {limits}")
+    os.remove("small.out")
+    for place, name in enumerate(("seconds", "megabytes", "elements")):
+        for number in (math.nan, math.inf, -math.inf, -1.0, -1e-300, 1e300, 1e12):
+            limits = [0.0]*3
+            limits[place] = number
+            status = library.contact_run_limited(b"small", 2, b"", 1, 0, 0, *limits, message, len(message))
+            same(status, 1, f"{name} = {number} is a wrong call")
+            said = message.value.decode()
+            check(f": {name} is " in said and "from 0 to below 1e12" in said, f"{name} = {number}: {said}")
+            check(not os.path.exists("small.out"), f"{name} = {number}: nothing is written")
 
 
 def main():

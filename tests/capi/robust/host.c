@@ -117,6 +117,13 @@ static void traps(void) {
   }
   cntc_setverticalforce(INT(12), REAL(1e300));
   calculate(12, -1);
+  const double limits[] = {NAN, -NAN, INFINITY, -INFINITY, 1e300, -1e300, -1e-300, 1e12};
+  for (int k = 0; k < 3*(int)(sizeof limits/sizeof limits[0]); k++) {
+    double asked[3] = {0};
+    asked[k % 3] = limits[k/3];
+    check(contact_run_limited("no_such_experiment", CONTACT_RUN, NULL, 1, 0, 0, asked[0], asked[1], asked[2], NULL, 0) == 1,
+          "a limit that is none is a wrong call");
+  }
   check(fegetexcept() == (FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW), "the traps of the host are as they were");
   fedisableexcept(FE_ALL_EXCEPT);
 }
