@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 """A call that touches a file fails, or the process is killed there, at every place of a small run.
 
-usage: test_files.py LIBRARY_TO_PRELOAD [STEP]
+usage: test_files.py LIBRARY_TO_PRELOAD [STEP [FIRST]]
 
 After a failure: success with right files, or an error, and nothing half-written that could be taken for whole. After a kill:
-every file can be read, and holds all cases up to the last but one or two. Every STEP-th place is tried, 37 if not told otherwise.
+every file can be read, and holds all cases up to the last but one or two. Every STEP-th place is tried, 37 if not told otherwise;
+FIRST, from 0 to below STEP, chooses which of them, so that STEP runs try all places.
 """
 import errno
 import pathlib
@@ -117,7 +118,7 @@ def after_failure(good, folder, code, text):
 
 def main():
     """All kinds, all faults"""
-    preload, step = sys.argv[1], int(sys.argv[2]) if len(sys.argv) > 2 else 37
+    preload, step, first = sys.argv[1], *(int(word) for word in (sys.argv[2:] + ["37", "0"][len(sys.argv) - 2:])[:2])
     good, folder, count_file = ROOM / "good", ROOM / "bad", ROOM / "count"
     table, complaints, started, turn = {}, 0, time.time(), 0
     for kind in KINDS:
@@ -128,7 +129,7 @@ def main():
             row = table.setdefault((kind, call), [count, 0, 0, 0])
             for place in range(1, count + 1):
                 turn += 1
-                if turn % step:
+                if turn % step != first:
                     continue
                 code, text = run(folder, kind, preload, INJECT_CALL=call, INJECT_AT=place, INJECT_ERROR=error,
                                  INJECT_FOR_EVER=1 if for_ever else None)
