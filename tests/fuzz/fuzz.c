@@ -11,9 +11,13 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <time.h>
 #include <unistd.h>
 
-static char folder[128];
+double fuzz_slow = 2.0;
+int fuzz_slow_count;
+
+static char folder[128], start[PATH_MAX];
 static pid_t owner;
 /* Names of the files that stay */
 static char *kept[64];
@@ -44,7 +48,7 @@ void fuzz_write(const char *name, const char *text, size_t length)
 {
   FILE *file = fopen(name, "w");
   if (!file || fwrite(text, 1, length, file) != length || fclose(file) != 0) {
-    fprintf(stderr, "%s/%s cannot be written: %s\n", folder, name, strerror(errno));
+    fprintf(stderr, "%s%s%s cannot be written: %s\n", *name == '/' ? "" : folder, *name == '/' ? "" : "/", name, strerror(errno));
     _exit(70);
   }
 }
@@ -84,6 +88,7 @@ void fuzz_enter(void)
     "0 'flat/slice_13.prw'\n3 'flat/slice_14.prw'\n";
   const char *source = getenv("CONTACT_SOURCE"), *place = getenv("CONTACT_FUZZ_PLACE");
   char from[PATH_MAX], to[64];
+  if (!getcwd(start, sizeof start)) strcpy(start, "/tmp");
   if (!source) {
     fprintf(stderr, "CONTACT_SOURCE must name the top of the sources\n");
     exit(70);
@@ -129,13 +134,37 @@ static void tidy(const char *name)
 void fuzz_keep(void) { each_file(keep); }
 void fuzz_tidy(void) { each_file(tidy); }
 
+static double processor_time(void)
+{
+  struct timespec now;
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return (double)now.tv_sec + 1e-9*(double)now.tv_nsec;
+}
+
+/* A text that took long is lost otherwise: nothing is wrong with its answer */
+static void keep_slow(const char *text, size_t length, double seconds)
+{
+  static char name[PATH_MAX + 100];
+  const char *place = getenv("CONTACT_FUZZ_FOUND");
+  uint32_t hash = 2166136261u;
+  for (size_t k = 0; k < length; k++) hash = (hash ^ (unsigned char)text[k])*16777619u;
+  snprintf(name, sizeof name, "%s/slow-%s-%08x", place ? place : start, fuzz_name, (unsigned)hash);
+  fuzz_write(name, text, length);
+  fprintf(stderr, "SLOW in the target %s: %.1f s of processor time; the text is in %s\n", fuzz_name, seconds, name);
+  fuzz_slow_count++;
+}
+
 void fuzz_execute(const char *text, size_t length)
 {
   static char copy[fuzz_longest + 1];
+  double begin;
   if (length > fuzz_longest) length = fuzz_longest;
   memcpy(copy, text, length);
   copy[length] = '\0';
+  begin = processor_time();
   fuzz_text(copy, length);
+  begin = processor_time() - begin;
+  if (begin > fuzz_slow) keep_slow(copy, length, begin);
   fuzz_tidy();
 }
 

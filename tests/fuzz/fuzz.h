@@ -24,8 +24,12 @@ void fuzz_enter(void);
 void fuzz_tidy(void);
 /* Remember all files that are there now */
 void fuzz_keep(void);
-/* One text to the library, and the files that it wrote removed */
+/* One text to the library, and the files that it wrote removed. A text that takes more processor time than fuzz_slow is kept as
+ * slow-NAME-HASH in the folder that CONTACT_FUZZ_FOUND names, or else in the working directory, and told: a finding */
 void fuzz_execute(const char *text, size_t length);
+/* Processor time from which a text is slow [s], and how many of them there were */
+extern double fuzz_slow;
+extern int fuzz_slow_count;
 
 /* Report what is wrong and end the process by SIGABRT */
 _Noreturn void fuzz_fail(const char *format, ...) __attribute__((format(printf, 1, 2)));

@@ -3,6 +3,8 @@
  *   fuzz_NAME ROUNDS SEED PATIENCE FILE...     files or folders; PATIENCE: seconds of processor time that one text may take
  *                                              (and twenty times as many by the clock, if it waits)
  *
+ * A text that takes more than a tenth of that is kept, and the exit status is 1: times CONTACT_SLOWER, where that is set.
+ *
  * The text at hand is written to the file fuzz_NAME.found in the working directory when something is wrong with it. */
 #define _GNU_SOURCE
 #include <dirent.h>
@@ -109,6 +111,7 @@ int main(int argc, char **argv)
   rounds = atol(argv[1]);
   state = strtoull(argv[2], NULL, 10);
   patience = (unsigned)atoi(argv[3]);
+  fuzz_slow = 0.1*patience*(getenv("CONTACT_SLOWER") ? atof(getenv("CONTACT_SLOWER")) : 1.0);
   for (int k = 4; k < argc; k++) add_all(argv[k]);
   if (!getcwd(found, sizeof found - 40) || count == 0) {
     fprintf(stderr, "no texts\n");
@@ -131,7 +134,7 @@ int main(int argc, char **argv)
     at_hand_length = fuzz_mutate(at_hand, texts[one].length, fuzz_longest, texts[other].text, texts[other].length, &state);
     execute(patience);
   }
-  printf("%s: %d texts repeated, %ld changed (seed %s)\n", fuzz_name, count, rounds, argv[2]);
+  printf("%s: %d texts repeated, %ld changed (seed %s), %d slow\n", fuzz_name, count, rounds, argv[2], fuzz_slow_count);
   for (int k = 0; k < count; k++) free(texts[k].text);
-  return 0;
+  return fuzz_slow_count > 0;
 }

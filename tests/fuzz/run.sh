@@ -7,8 +7,8 @@
 #   --minimise    no fuzzing; keep the smallest set of texts that takes the same branches
 #
 # May be stopped and started again at any time: texts that take new branches are kept in build/fuzzing/NAME, what was found
-# goes to build/fuzzing/found, and the sum of all runs stands in build/fuzzing/statistics. The exit status is 1 when
-# something was found. A text is repeated by build/fuzz/tests/fuzz_NAME FILE, with CONTACT_SOURCE set to the top of the sources.
+# goes to build/fuzzing/found (slow-... are texts that take more than 2 s of processor time), and the sum of all runs stands
+# in build/fuzzing/statistics. The exit status is 1 when something was found. A text is repeated by build/fuzz/tests/fuzz_NAME FILE, with CONTACT_SOURCE set to the top of the sources.
 set -u
 top=$(cd "$(dirname "$0")/../.." && pwd) || exit 1
 . "$top/tests/support/setup.sh"
@@ -35,7 +35,7 @@ install_fuzzer
 build "$preset"
 work=$top/build/fuzzing
 mkdir -p "$work/found" "$work/place"
-export CONTACT_SOURCE="$top" OMP_NUM_THREADS=1 CONTACT_FUZZ_PLACE
+export CONTACT_SOURCE="$top" OMP_NUM_THREADS=1 CONTACT_FUZZ_PLACE CONTACT_FUZZ_FOUND="$work/found"
 export ASAN_OPTIONS=allocator_may_return_null=1:handle_abort=1 UBSAN_OPTIONS=print_stacktrace=1
 export LSAN_OPTIONS="suppressions=$top/tests/support/leaks.supp:print_suppressions=0"
 CONTACT_FUZZ_PLACE=$(mktemp -d /dev/shm/contact-fuzz-XXXXXX 2>/dev/null || mktemp -d)
@@ -45,6 +45,9 @@ trap 'exit 130' INT TERM
 # Words of the dictionary, and the names of the routines
 cp "$top/tests/fuzz/words.dict" "$work/words.dict"
 sed -n 's/^\(\(cntc\|subs\)_[a-z0-9_]*\)(.*/"\1"/p' "$top/src/capi/interface.txt" >>"$work/words.dict"
+
+# How many slow texts of a target were kept
+slow_of() { find "$work/found" -name "slow-$1-*" | wc -l; }
 
 # How many files a folder has
 files_of() { find "$1" -type f | wc -l; }
@@ -72,6 +75,7 @@ for name in $targets; do
   seconds=$((minutes * 60 / count))
   begin=$(date +%s)
   new=0
+  slow=$(slow_of "$name")
   executions=0
   while left=$((seconds - $(date +%s) + begin)) && [ $left -gt 0 ] && [ $new -lt 20 ]; do
     "$program" -entropic=0 -max_total_time=$left -timeout=120 -rss_limit_mb=4000 -max_len=4096 -dict="$work/words.dict" \
@@ -85,6 +89,7 @@ for name in $targets; do
     cp "$work/log" "$work/found/$name-$begin-$new.log"
   done
   seconds=$(($(date +%s) - begin))
+  new=$((new + $(slow_of "$name") - slow))
   # branches that all texts take, these findings left out
   "$program" -runs=0 -entropic=0 -timeout=120 "$texts" "$top/tests/fuzz/corpus/$name" >"$work/log" 2>&1
   printf '%s %s %s %s %s %s\n' "$name" "$preset" "$executions" "$seconds" "$new" "$(figure branches)" >>"$work/statistics"
