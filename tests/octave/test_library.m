@@ -198,6 +198,7 @@ for i = 1 : numel(names)
 end
 p = read_profile('profiles/60E1.prr');
 check_near(interp1(sol.prr.ProfileY,sol.prr.ProfileZ,-20:5:20), interp1(p.ProfileY,p.ProfileZ,-20:5:20), 2e-3, 'rail profile');
+check(sol.config==1, 'right');
 opt = plot3d;
 opt.rw_surf = 'both';
 plot3d(sol, opt);

@@ -40,11 +40,35 @@ program test_solvers_agree
       write(*, "(2a, i4, 2(a, es8.1))") methods(k), "ended", agreed(k), " problems; largest difference of forces", worst(1, k), &
          & ", of tractions", worst(2, k)
    end do
+   call every_iteration(suite)
    call suite%equal(count(agreed > 0), 4, "TangCG, ConvexGS, SteadyGS and GDsteady took part")
    call suite%equal(refused(solver_choice%default), 0, "Newton-Krylov, with its fall-back, always converges")
    call suite%finish()
 
 contains
+
+   !> A solver that is allowed n iterations makes all n of them before it gives up
+   subroutine every_iteration(suite)
+      type(test_suite), intent(inout) :: suite
+      type(test_case) :: case
+      type(error_type), allocatable :: error
+      integer :: k, n
+
+      case%spec = ellipse_case(1.0_wp, 1.0_wp, 5.0_wp, 15, 15, 1.2_wp, eps=1.0e-12_wp)
+      call creep(case%spec, motion%steady_rolling, 0.003_wp, 0.001_wp, 0.0_wp, 0.3_wp)
+      do k = 2, size(steady)
+         case%spec%solver = steady(k)
+         do n = 1, 3
+            case%spec%iteration%maxgs = n
+            call case%try(error)
+            call suite%check(.not. allocated(error), "few iterations are no error")
+            if (allocated(error)) cycle
+            call suite%equal(case%result%tangential%iterations, n, "iterations of " // trim(case%result%tangential%method))
+            call suite%check(.not. case%result%tangential%succeeded(), "it says that it gave up")
+         end do
+      end do
+      call case%release()
+   end subroutine every_iteration
 
    !> Keep the largest differences of a method
    subroutine remember(method, df, dp)

@@ -1,6 +1,8 @@
-!> Names of the files of an experiment, text of the progress line, stopwatch
+!> Names of the files of an experiment, text of the progress line, stopwatch, letters of the journal
 program test_experiment
+   use contact_base_case_status, only : case_state, case_status, missed_iteration
    use contact_base_kinds, only : wp
+   use contact_experiment_journal, only : advised, is_advised, letter_of
    use contact_experiment_place, only : experiment_place, locate_experiment
    use contact_experiment_progress, only : progress_text
    use contact_experiment_stopwatch, only : stopwatch
@@ -12,9 +14,35 @@ program test_experiment
    call places(suite)
    call progress(suite)
    call stopwatches(suite)
+   call letters(suite)
    call suite%finish()
 
 contains
+
+   !> How a case ended: a letter of its own for each, whose capital keeps it and tells that a larger grid was named
+   subroutine letters(suite)
+      type(test_suite), intent(inout) :: suite
+      character(len=*), parameter :: expected = "snrti"
+      character(len=1) :: letter
+      type(case_status) :: status(5)
+      logical :: named
+      integer :: k
+
+      status(2)%state = case_state%not_converged
+      status(3)%state = case_state%refused
+      status(4)%state = case_state%not_converged
+      status(4)%iteration = missed_iteration%time
+      status([1, 5])%state = case_state%solved
+      do k = 1, size(status)
+         letter = letter_of(status(k), solved=k /= 5)
+         call suite%equal(letter, expected(k:k), "letter of an end")
+         call is_advised(letter, named)
+         call suite%check(letter == expected(k:k) .and. .not. named, "without a remark " // letter)
+         letter = advised(letter)
+         call is_advised(letter, named)
+         call suite%check(letter == expected(k:k) .and. named, "with a remark " // letter)
+      end do
+   end subroutine letters
 
    !> From what a user types to the names of files
    subroutine places(suite)

@@ -14,7 +14,7 @@ program test_search
    use contact_test_harness, only : environment, test_suite
    use contact_wheelrail_flat_patch, only : patch_frame, patch_grid, start_places, undeformed_distance
    use contact_wheelrail_frame, only : frame
-   use contact_wheelrail_gap, only : gap_curve, measure_gap, rail_in_track
+   use contact_wheelrail_gap, only : gap_curve, measure_gap, no_surface, rail_in_track, smallest_in_row
    use contact_wheelrail_placement, only : gauge_point, pair_placement, place_pair
    use contact_wheelrail_regions, only : contact_region, find_regions, smallest_gap
    use contact_wheelrail_spec, only : wheel_rail_spec
@@ -24,6 +24,7 @@ program test_search
    type(test_suite) :: suite
 
    call suite%start("contact search")
+   call lowest_of_a_row(suite)
    call sphere_on_plane(suite)
    call mirrored_wheel(suite)
    call locus_on_roller(suite)
@@ -31,6 +32,27 @@ program test_search
    call suite%finish()
 
 contains
+
+   !> The lowest place of a parabola, between points; of a row that ends beside its lowest point, that point
+   subroutine lowest_of_a_row(suite)
+      type(test_suite), intent(inout) :: suite
+      real(wp), parameter :: x(5) = [-2.0_wp, -1.0_wp, 0.0_wp, 1.0_wp, 2.0_wp], bottom = 0.3_wp
+      real(wp) :: g(5), place, lowest
+      integer :: side
+
+      g = 0.5_wp + (x - bottom)**2
+      call smallest_in_row(x, g, place, lowest)
+      call suite%close_to(place, bottom, 1.0e-12_wp, "between points")
+      call suite%close_to(lowest, 0.5_wp, 1.0e-12_wp, "the lowest gap")
+      do side = -1, 1, 2
+         g = 0.5_wp + (x - bottom)**2
+         g(3 + side) = no_surface
+         if (side > 0) g(3 + 2*side) = no_surface
+         call smallest_in_row(x, g, place, lowest)
+         call suite%close_to(place, 0.0_wp, 1.0e-300_wp, "beside the end of the surface")
+         call suite%close_to(lowest, 0.5_wp + bottom**2, 1.0e-12_wp, "the gap of this point")
+      end do
+   end subroutine lowest_of_a_row
 
    !> A profile given by points in a file
    subroutine profile_of(file, side, curve, error)
