@@ -18,7 +18,7 @@ module contact_wheelrail_profile_ends
    implicit none (type, external)
    private
 
-   public :: find_buried_ends, find_spot_beside, mark_profile_ends
+   public :: depth_within, find_buried_ends, find_spot_beside, mark_profile_ends
 
    !> Undeformed distances above this value stand for a surface that is missing [mm]; those above excluded_threshold for
    !> elements that may not touch, whatever the surfaces do

@@ -16,6 +16,7 @@ program test_search
    use contact_wheelrail_frame, only : frame
    use contact_wheelrail_gap, only : gap_curve, measure_gap, no_surface, rail_in_track, smallest_in_row
    use contact_wheelrail_placement, only : gauge_point, pair_placement, place_pair
+   use contact_wheelrail_profile_ends, only : depth_within
    use contact_wheelrail_regions, only : contact_region, find_regions, smallest_gap
    use contact_wheelrail_spec, only : wheel_rail_spec
    implicit none (type, external)
@@ -25,6 +26,7 @@ program test_search
 
    call suite%start("contact search")
    call lowest_of_a_row(suite)
+   call depth_below_a_rail(suite)
    call sphere_on_plane(suite)
    call mirrored_wheel(suite)
    call locus_on_roller(suite)
@@ -53,6 +55,39 @@ contains
          call suite%close_to(lowest, 0.5_wp + bottom**2, 1.0e-12_wp, "the gap of this point")
       end do
    end subroutine lowest_of_a_row
+
+   !> Depth of points below a rail with crests and hollows: the distance to the nearest of very many points of it
+   subroutine depth_below_a_rail(suite)
+      type(test_suite), intent(inout) :: suite
+      type(profile_curve) :: rail
+      type(error_type), allocatable :: error
+      real(wp), allocatable :: curve(:, :)
+      real(wp) :: y(81), z(81), point(2), distance, s
+      integer :: i, j, k
+
+      y = [(real(i, wp), i=-40, 40)]
+      z = 8.0_wp*cos(y/6.0_wp)
+      call write_profile("waves.txt", y, z)
+      call profile_of("waves.txt", profile_side%rail, rail, error)
+      call suite%check(.not. allocated(error), "a rail with waves")
+      if (allocated(error)) return
+      allocate(curve(2, 80001))
+      associate (nodes => rail%y%s)
+         do k = 0, size(curve, 2) - 1
+            s = nodes(1) + (nodes(size(nodes)) - nodes(1))*k/(size(curve, 2) - 1)
+            curve(:, k + 1) = [rail%y%value(s), rail%z%value(s)]
+         end do
+      end associate
+      do i = 10000, 70000, 3000
+         do j = 1, 4
+            point = curve(:, i) + [0.0_wp, 1.5_wp*j]
+            distance = sqrt(minval((curve(1, :) - point(1))**2 + (curve(2, :) - point(2))**2))
+            ! chords of 1 mm are up to 0.03 mm away from crests
+            call suite%close_to(depth_within(rail, point), distance, 0.04_wp, "depth below a rail")
+         end do
+         call suite%check(depth_within(rail, curve(:, i) - [0.0_wp, 1.0_wp]) <= 0.0_wp, "above the rail")
+      end do
+   end subroutine depth_below_a_rail
 
    !> A profile given by points in a file
    subroutine profile_of(file, side, curve, error)

@@ -33,6 +33,7 @@ program test_variable
    if (ready) call wave(suite)
    if (ready) call dent(suite)
    if (ready) call dip(suite)
+   if (ready) call widening(suite)
    if (ready) call ends(suite)
    if (ready) call moving_head(suite)
    call published(suite)
@@ -399,6 +400,54 @@ contains
       call suite%close_to(worst, 0.0_wp, 2.0e-5_wp, "heights between sections")
    end subroutine dent
 
+   !> A wheel that gets wider around its axle: between two sections there is surface where both of them have some
+   subroutine widening(suite)
+      type(test_suite), intent(inout) :: suite
+      type(prepared_profile) :: plane, wheel
+      type(wheel_rail_spec) :: pair
+      type(pair_bodies) :: bodies
+      character(len=:), allocatable :: text
+      character(len=1) :: k
+      real(wp) :: place, y, z(3), z_y, z_u
+      logical :: found(3)
+      integer :: i, j, one_only
+
+      call write_file("flat.txt", plane_table(0.0_wp))
+      call load(suite, "flat.txt", profile_side%rail, plane)
+      text = "0 1" // nl // "6" // nl // "0 0 0" // nl // "1" // nl
+      do i = 1, 6
+         write(k, "(i0)") i
+         call write_file("wide" // k // ".txt", straight(0.0_wp, 0.7_wp + 0.05_wp*i))
+         text = text // number(0.02_wp*(i - 3.5_wp)) // " 'wide" // k // ".txt'" // nl
+      end do
+      call write_file("wide.slcw", text)
+      call load(suite, "wide.slcw", profile_side%wheel, wheel)
+      if (.not. ready) return
+      pair = pair_at(0.0_wp, 0.0_wp)
+      call place_pair(pair, wheel%curve, 0.0_wp, 0.0_wp, 0.0_wp, [0.0_wp, 0.0_wp], bodies%placement)
+      bodies%rail = rail_in_track(plane%curve, bodies%placement)
+      bodies%wheel = wheel%curve
+      call place_bodies(bodies, 0.0_wp, 0.0_wp, 0.4_wp, plane%surface, wheel%surface)
+      one_only = 0
+      associate (strip => bodies%wheel_strip)
+         do i = -30, 30
+            place = strip%first + (strip%number_at(0.0_wp) - 1 + i + 0.4_wp)*strip%step
+            do j = 0, 160
+               y = 28.0_wp + 0.08_wp*j
+               call strip%at(place, y, z(1), z_y, found(1))
+               associate (number => strip%number_at(0.0_wp) + i)
+                  call strip%sections(number)%at(y, z(2), z_y, z_u, found(2))
+                  call strip%sections(number + 1)%at(y, z(3), z_y, z_u, found(3))
+               end associate
+               if (found(2) .neqv. found(3)) one_only = one_only + 1
+               if (found(1) .neqv. all(found(2:))) call suite%check(.false., "surface where one section has none, y =" // number(y))
+               if (found(1)) call suite%check(abs(z(1) - 0.5_wp*(z(2) + z(3))) < 0.1_wp, "a height between the two")
+            end do
+         end do
+      end associate
+      call suite%check(one_only > 20, "places beyond the end of one section only")
+   end subroutine widening
+
    !> Beyond the last slice a rail goes on as it ends; a wheel smaller than the coarse mesh still meets one
    subroutine ends(suite)
       type(test_suite), intent(inout) :: suite
@@ -544,14 +593,19 @@ contains
    end subroutine search_everywhere
 
    !> Points of a straight profile at a height [mm]
-   function straight(z) result(text)
+   function straight(z, scale) result(text)
       real(wp), intent(in) :: z
+      !> Of the lateral positions; 1 when it is absent
+      real(wp), intent(in), optional :: scale
       character(len=:), allocatable :: text
+      real(wp) :: factor
       integer :: j
 
+      factor = 1.0_wp
+      if (present(scale)) factor = scale
       text = ""
       do j = -40, 40
-         text = text // number(-real(j, wp)) // " " // number(z) // nl
+         text = text // number(-factor*real(j, wp)) // " " // number(z) // nl
       end do
    end function straight
 
