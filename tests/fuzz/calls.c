@@ -274,11 +274,26 @@ static void judge(struct routine *this, struct value *values)
   }
 }
 
-/* A wheel that is placed deep in its rail asks for no more than 400 elements, until the text says otherwise */
+/* Result elements that have a limit, or for which the text has set one */
+enum { most_limited = 16 };
+static char is_limited[most_limited];
+
+/* A wheel that is placed deep in its rail asks for no more than 400 elements, until the text says otherwise. By default a
+ * patch may have 200000, which takes seconds */
 static void limit_elements(int ire)
 {
+  if (ire >= 0 && ire < most_limited) is_limited[ire] = 1;
   int whole = -1, one = 1, flag = CNTC_ic_npomax, most = 400;
   cntc_setflags(&ire, &whole, &one, &flag, &most);
+}
+
+/* Do these flags set the number of elements? */
+static int sets_limit(struct routine *this, struct value *values)
+{
+  struct value *flags = find(this, values, "params");
+  for (size_t i = 0; flags && flags->array && i < flags->length; i++)
+    if (((int *)flags->array)[i] == CNTC_ic_npomax) return 1;
+  return 0;
 }
 
 /* One call */
@@ -303,10 +318,15 @@ static void call(const char *line, const char *end)
     pointers[k] = this->arguments[k].is_array ? values[k].array : this->arguments[k].kind == 'i' ? (void *)&values[k].i : &values[k].r;
   }
   if (!makes_large(this, values)) {
+    int ire = values[0].is_null ? -1 : values[0].i;
+    /* elements that were made by another call than cntc_initialize */
+    if (strcmp(this->name, "cntc_calculate") == 0 && ire >= 0 && ire < most_limited && !is_limited[ire]) limit_elements(ire);
+    if (strcmp(this->name, "cntc_setflags") == 0 && ire >= 0 && ire < most_limited && sets_limit(this, values)) is_limited[ire] = 1;
+    if (strcmp(this->name, "cntc_finalize") == 0 && ire >= 0 && ire < most_limited) is_limited[ire] = 0;
     this->entry(pointers[0], pointers[1], pointers[2], pointers[3], pointers[4], pointers[5], pointers[6], pointers[7], pointers[8],
       pointers[9], pointers[10], pointers[11]);
     judge(this, values);
-    if (strcmp(this->name, "cntc_initialize") == 0 && !values[0].is_null) limit_elements(values[0].i);
+    if (strcmp(this->name, "cntc_initialize") == 0 && !values[0].is_null) limit_elements(ire);
   }
   for (int k = 0; k < this->count; k++) free(values[k].array);
 }
@@ -314,6 +334,7 @@ static void call(const char *line, const char *end)
 void fuzz_text(const char *text, size_t length)
 {
   const char *end = text + length;
+  memset(is_limited, 0, sizeof is_limited);
   for (int n = 0; text < end && n < most_calls; n++) {
     const char *last = memchr(text, '\n', (size_t)(end - text));
     if (!last) last = end;
