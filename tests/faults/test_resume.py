@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 """A run that ended too early goes on with --resume, and its files are those of an uninterrupted run.
 
-usage: test_resume.py LIBRARY_TO_PRELOAD [--all]
+usage: test_resume.py LIBRARY_TO_PRELOAD [--all [MOST]]
 
 Runs end in two ways: at an error of the input that is mended afterwards, in front of each case, which leaves whole files; and as by
-kill -9 at any call that writes, closes, renames or opens a file. --all takes all examples and all cases of each, which takes some
-minutes; without it a choice is taken.
+kill -9 at any call that writes, closes, renames or opens a file. --all takes all examples, MOST cases of each and as many places
+of a kill (all cases and 40 places unless given, which takes hours); without it a choice is taken.
 """
 import json
 import os
@@ -77,8 +77,8 @@ def resumed(folder, name):
 
 
 class Campaign:
-    def __init__(self, preload, everything):
-        self.preload, self.everything = preload, everything
+    def __init__(self, preload, everything, most):
+        self.preload, self.everything, self.most = preload, everything, most
         self.chance = random.Random(SEED)
         self.failed = self.checks = self.went_on = 0
 
@@ -116,8 +116,8 @@ class Campaign:
         starts = [case["line"] for case in cases[:-1]]
         self.code = 0
         boundaries = list(range(1, len(starts)))
-        if not self.everything and len(boundaries) > 2:
-            boundaries = sorted(self.chance.sample(boundaries, 2))
+        if len(boundaries) > self.most:
+            boundaries = sorted(self.chance.sample(boundaries, self.most))
         for k in boundaries:
             prepare(bad, name, text)
             (bad / f"{name}.inp").write_text("\n".join("nonsense" if i + 1 == starts[k] else line for i, line in enumerate(lines)))
@@ -130,8 +130,9 @@ class Campaign:
 
     def kill_some(self, name, text):
         """As by kill -9, with and without the HDF5 file: it holds the cases that were finished at its last renewal"""
-        for options, sample in ((("--json", "--vtk"), 40 if self.everything else 3),
-                                (runs.ALL_FILES, 20 if self.everything else 2)):
+        most = min(self.most, 40)
+        for options, sample in ((("--json", "--vtk"), most if self.everything else 3),
+                                (runs.ALL_FILES, most // 2 if self.everything else 2)):
             self.kill(name, text, options, sample)
 
     def kill(self, name, text, options, sample):
@@ -253,7 +254,8 @@ def profile_is_seen():
 def main():
     """Examples and sequences"""
     started = time.time()
-    campaign = Campaign(sys.argv[1], "--all" in sys.argv)
+    everything = "--all" in sys.argv
+    campaign = Campaign(sys.argv[1], everything, int(sys.argv[3]) if len(sys.argv) > 3 else 10**9 if everything else 2)
     for name, text in sequences().items():
         campaign.run_one(name, text)
     names = sorted(file.stem for file in runs.EXAMPLES.glob("*.inp")) if campaign.everything else CHOICE
