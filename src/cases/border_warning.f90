@@ -89,8 +89,15 @@ contains
          call log%warning(trim(words) // ". An edge that touches there carries load in reality, none here: take a profile of the &
             &wheel that goes on beyond it, or another position")
       end do
-      if (pair%beside%depth > 0.0_wp) call log%warning(trim(beside_words(spec, pair%beside)) // ". The search along the contact &
-         &locus keeps one place for each lateral position; the search over a grid (D = 5) keeps all")
+      if (.not. pair%beside%depth > 0.0_wp) return
+      if (pair%beside%beyond_reach) then
+         call log%warning(trim(beside_words(spec, pair%beside)) // ". Contact is sought up to an eighth of the radius of the wheel &
+            &ahead of it and behind, farther below a flank in yaw; a steep ramp, or a flank of more than 80 degrees, may touch &
+            &there, and carries no load here")
+      else
+         call log%warning(trim(beside_words(spec, pair%beside)) // ". The search along the contact locus keeps one place for &
+            &each lateral position; the search over a grid (D = 5) keeps all")
+      end if
    end subroutine warn_of_buried_ends
 
    !> A coordinate to a hundredth of a millimetre

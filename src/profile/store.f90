@@ -11,7 +11,7 @@ module contact_profile_store
    use contact_profile_prepare, only : extension_of, read_profile
    use contact_profile_request, only : profile_request, same_request
    use contact_profile_slices_file, only : read_slices_file, slices_list
-   use contact_profile_surface, only : new_surface, profile_surface, surface_cut
+   use contact_profile_surface, only : large_swing, new_surface, profile_surface, surface_cut
    use contact_text_lexer, only : input_lexer
    use contact_text_words, only : integer_text, real_text
    implicit none (type, external)
@@ -180,8 +180,8 @@ contains
       type(profile_curve), intent(in) :: curves(:)
       character(len=*), intent(in) :: file
       type(log_type), intent(inout) :: log
-      !> Swings that count [mm], and relative to what the slices differ [-]; places across the profile
-      real(wp), parameter :: large = 0.5_wp, relative = 1.0_wp
+      !> Swings that count, relative to what the slices differ [-]; places across the profile
+      real(wp), parameter :: relative = 1.0_wp
       integer, parameter :: places = 15
       type(surface_cut) :: section
       real(wp) :: y(places), z(places, 3), range(2), swing, largest
@@ -205,7 +205,7 @@ contains
          do i = 1, places
             if (.not. all(found(i, :))) cycle
             swing = max(minval(z(i, :2)) - z(i, 3), z(i, 3) - maxval(z(i, :2)))
-            if (swing <= max(large, largest, relative*abs(z(i, 1) - z(i, 2)))) cycle
+            if (swing <= max(large_swing, largest, relative*abs(z(i, 1) - z(i, 2)))) cycle
             largest = swing
             worst = k
          end do

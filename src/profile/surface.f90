@@ -36,6 +36,8 @@ module contact_profile_surface
       integer :: side = profile_side%rail
       !> First and last position: [mm] along the track, [rad] around the wheel
       real(wp) :: u_range(2) = 0.0_wp
+      !> Positions of the slices
+      real(wp), allocatable :: slices(:)
       !> Lines; those at kinks
       integer :: lines = 0
       logical, allocatable, private :: is_kink(:)
@@ -69,6 +71,8 @@ module contact_profile_surface
 
    !> Distance of lines across the profile [mm]
    real(wp), parameter :: line_distance = 0.5_wp
+   !> A surface that leaves the slices on both sides by more than this is told when it is read [mm]
+   real(wp), parameter, public :: large_swing = 0.5_wp
    !> Least dy/ds where slopes are asked for; vertical walls have none
    real(wp), parameter :: vertical = 1.0e-6_wp
    !> What rounding may do to the ends of the range, of its length
@@ -103,6 +107,7 @@ contains
       u = [(list%slices(k)%u, k=1, slices)]
       surface%side = side
       surface%u_range = [u(1), u(slices)]
+      surface%slices = u
       call limit_features(list, curves, file, features, error)
       if (allocated(error)) return
 

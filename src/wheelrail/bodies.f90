@@ -7,14 +7,15 @@
 module contact_wheelrail_bodies
    use contact_base_kinds, only : wp
    use contact_profile_curve, only : profile_curve
-   use contact_profile_surface, only : profile_surface, surface_cut
+   use contact_profile_surface, only : large_swing, profile_surface, surface_cut
    use contact_wheelrail_flat_patch, only : wheel_height, wheel_row
    use contact_wheelrail_frame, only : frame
    use contact_wheelrail_placement, only : pair_placement
    implicit none (type, external)
    private
 
-   public :: pair_bodies, strip, place_bodies, search_reach, rail_section, find_rail, find_wheel, find_rail_row, find_wheel_row
+   public :: pair_bodies, strip, place_bodies, search_reach, widest_reach, rail_section, find_rail, find_wheel
+   public :: find_rail_row, find_wheel_row, slice_pair
 
    !> Sections on an even mesh
    type :: strip
@@ -24,8 +25,8 @@ module contact_wheelrail_bodies
       type(surface_cut), allocatable :: sections(:)
       logical, allocatable :: made(:)
       !> What they are sections of, the position u on it of place 0, and the axes they are seen from (see `cut`)
-      type(profile_surface), private :: surface
-      real(wp), private :: origin = 0.0_wp, axes(3) = 0.0_wp
+      type(profile_surface) :: surface
+      real(wp) :: origin = 0.0_wp, axes(3) = 0.0_wp
    contains
       !> Make a section if it is not there yet
       procedure :: need
@@ -46,6 +47,15 @@ module contact_wheelrail_bodies
       !> See search_spec
       logical :: angle_below_axle = .false.
    end type pair_bodies
+
+   !> The slices before and behind a place, for questions about places near each other
+   type :: slice_pair
+      integer, private :: before = 0
+      type(surface_cut), private :: cut(2)
+   contains
+      !> How far a rail stands above both of them
+      procedure :: swing
+   end type slice_pair
 
    !> Distance of sections along the surface at most [mm]
    real(wp), parameter :: furthest_section = 1.0_wp
@@ -76,7 +86,7 @@ contains
       integer :: n
 
       distance = min(furthest_section, dx)
-      n = ceiling((search_reach(bodies) + beyond*bodies%placement%wheel_radius)/distance)
+      n = ceiling((widest_reach(bodies) + beyond*bodies%placement%wheel_radius)/distance)
       call lay_out(bodies%rail_strip, rail_surface, n, bodies%placement%wheel%origin(1), distance)
       call lay_out(bodies%wheel_strip, wheel_surface, n, 0.0_wp, distance/bodies%placement%wheel_radius)
       if (allocated(bodies%rail_strip)) then
@@ -96,6 +106,12 @@ contains
          length = max(reach, min(furthest, steepest_flank*tan(min(yaw, 1.0_wp))))*bodies%placement%wheel_radius
       end associate
    end function search_reach
+
+   !> How far from the wheel contact may be [mm]
+   pure real(wp) function widest_reach(bodies) result(length)
+      type(pair_bodies), intent(in) :: bodies
+      length = furthest*bodies%placement%wheel_radius
+   end function widest_reach
 
    !> A strip without sections: n of them to both sides of its middle
    subroutine lay_out(along, surface, n, middle, step)
@@ -124,6 +140,38 @@ contains
       call self%surface%continued(self%origin + self%first + (number - 1)*self%step, self%sections(number), self%axes)
       self%made(number) = .true.
    end subroutine need
+
+   !> How far a rail stands above the slices on both sides at a place [mm]; 0 for less than what is told when it is read
+   !>
+   !> What a spline makes of sudden changes is no body that anything could touch.
+   real(wp) function swing(self, along, x, y, z)
+      class(slice_pair), intent(inout) :: self
+      type(strip), intent(in) :: along
+      !> In track coordinates; z is the height of the rail there [mm]
+      real(wp), intent(in) :: x, y, z
+      real(wp) :: height(1, 2)
+      logical :: found(1, 2)
+      integer :: k, i
+
+      swing = 0.0_wp
+      associate (slices => along%surface%slices)
+         k = count(slices <= along%origin + x)
+         if (k == 0 .or. k == size(slices)) return
+         if (k /= self%before) then
+            do i = 1, 2
+               call along%surface%cut(slices(k + i - 1), self%cut(i), along%axes)
+            end do
+            self%before = k
+         end if
+      end associate
+      do i = 1, 2
+         if (.not. self%cut(i)%present) return
+         call self%cut(i)%curve%heights([y], height(:, i), found(:, i))
+      end do
+      if (.not. all(found)) return
+      swing = minval(height) - z
+      if (swing < large_swing) swing = 0.0_wp
+   end function swing
 
    !> The nearest section; 0 beyond the ends
    pure integer function number_at(self, place)

@@ -13,6 +13,9 @@ module contact_wheelrail_gap
 
    public :: gap_curve, measure_gap, rail_in_track, locus_point, roller_drop, smallest_in_row
 
+   !> Gap where rail or wheel is missing [mm]
+   real(wp), parameter, public :: no_surface = 999.0_wp
+
    !> Gap on an even mesh over the rail, track coordinates
    type :: gap_curve
       !> Number of points, and their distance [mm]
@@ -27,15 +30,14 @@ module contact_wheelrail_gap
       !> Gap over an even mesh along the track as well, shape (x_table, y), as far as it is within `depth` of the smallest one.
       !> Weights of regions come from it; where it is unallocated from `gap` and `kappa`
       real(wp), allocatable :: x_table(:), table(:, :)
-      !> Another place along the track with a smallest gap of its own, apart from the one above, and that gap [mm]; shape (n).
-      !> Allocated where a search that keeps one place for each lateral position may pass over it
-      real(wp), allocatable :: x_beside(:), beside(:)
+      !> The same table where regions do not come from it: what they leave out is found there
+      real(wp), allocatable :: unweighed(:, :)
+      !> The smallest gap beyond the reach of the search along the track [mm], if it may close, and its place x, y [mm]
+      real(wp) :: far = no_surface, far_place(2) = 0.0_wp
       !> Penetration that the mesh serves [mm]
       real(wp) :: depth = huge(1.0_wp)
    end type gap_curve
 
-   !> Gap where rail or wheel is missing [mm]
-   real(wp), parameter, public :: no_surface = 999.0_wp
    !> Mesh width relative to the elements
    real(wp), parameter :: mesh_share = 0.3_wp
    !> Smallest mesh width [mm]
@@ -156,7 +158,8 @@ contains
       integer :: i, k
 
       if (allocated(gap%table)) deallocate(gap%table)
-      if (allocated(gap%beside)) deallocate(gap%beside, gap%x_beside)
+      if (allocated(gap%unweighed)) deallocate(gap%unweighed)
+      gap%far = no_surface
       gap%depth = huge(gap%depth)
       range = rail%y_range()
       gap%dy = max(mesh_share*ds, least_mesh)

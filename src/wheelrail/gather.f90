@@ -71,7 +71,7 @@ contains
          result%beside = buried_end()
          if (.not. problem%geometry_only) then
             call find_buried_ends(problem, memory, result%buried)
-            call find_spot_beside(memory, result%beside)
+            call find_spot_beside(problem, memory, result%beside)
          end if
          result%force_wheelset = matmul(result%force_track, p%wheelset%axes)
          result%moment_wheel = matmul(result%moment_wheel, p%wheelset%axes)

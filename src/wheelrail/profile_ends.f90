@@ -10,7 +10,10 @@ module contact_wheelrail_profile_ends
    use contact_grid_element_division, only : element
    use contact_patch_result, only : border_contact
    use contact_profile_curve, only : profile_curve
+   use contact_profile_surface_hull, only : stretch_hull
+   use contact_wheelrail_bodies, only : slice_pair
    use contact_wheelrail_frame, only : frame
+   use contact_wheelrail_gap_bound, only : rail_extent
    use contact_wheelrail_geometry, only : pair_geometry, rail_at
    use contact_wheelrail_memory, only : pair_memory, patch_slot
    use contact_wheelrail_problem, only : pair_problem
@@ -52,7 +55,7 @@ contains
                   if (next >= 1 .and. next <= grid%my) then
                      if (h(ix, next) < missing .or. h(ix, next) > excluded_threshold) cycle
                   end if
-                  if (.not. known) call find_ends(problem, here, slot%plane%origin(1), ends)
+                  if (.not. known) call find_ends(problem, here, slot%plane%origin, ends)
                   known = .true.
                   distance = norm2(ends - in_sections(here, point_of(slot, ix, next)), dim=1)
                   found = minloc(distance)
@@ -82,12 +85,11 @@ contains
       !> Angle to both sides [rad], steps on a prismatic rail and on one that varies [mm], points to refine, and how often
       real(wp), parameter :: furthest = pi/6.0_wp, fine = 1.0_wp, coarse = 5.0_wp
       integer, parameter :: parts = 10, rounds = 3
-      !> Sections of a rail that varies may be higher than the one at the wheelset [mm]
-      real(wp), parameter :: higher = 20.0_wp
       !> Less depth is rounding [mm]
       real(wp), parameter :: least = 1.0e-5_wp
       type(profile_curve) :: rail
-      real(wp) :: end(2), radius, middle, half, step, top, y_range(2), angle, reach
+      type(slice_pair) :: slices
+      real(wp) :: end(2), middle, half, step, top, y_range(2), angle, reach
       integer :: i, k, n, round
 
       associate (here => memory%here, wheel => memory%here%placement%wheel, r0 => memory%here%placement%wheel_radius)
@@ -95,22 +97,21 @@ contains
          top = minval(rail%z%nodes())
          y_range = rail%y_range()
          step = fine
-         if (allocated(problem%rail_surface)) then
-            top = top - higher
-            y_range = [-huge(1.0_wp), huge(1.0_wp)]
+         if (allocated(here%bodies%rail_strip)) then
+            call rail_extent(here%bodies%rail_strip, wheel%origin(1) + [-1.0_wp, 1.0_wp]*furthest*r0, y_range, top)
+            if (y_range(2) < y_range(1)) return
             step = coarse
          end if
          do k = 1, 2
-            end = end_of(problem%wheel, k)
-            radius = r0 + end(2)
+            end = wheel_end(problem, here, k, 0.0_wp)
             ! heights are those of the axle at this end, and the radius times the cosine of the angle from the lowest point
             middle = atan2(wheel%axes(3, 1), wheel%axes(3, 3))
-            reach = hypot(wheel%axes(3, 1), wheel%axes(3, 3))*radius
+            reach = hypot(wheel%axes(3, 1), wheel%axes(3, 3))*(r0 + end(2))
             half = (top - (wheel%origin(3) + wheel%axes(3, 2)*end(1) - wheel%axes(3, 3)*r0))/reach
             if (half >= 1.0_wp) cycle
             half = min(furthest, acos(max(half, 0.0_wp)))
             if (.not. passes(y_range)) cycle
-            n = ceiling(half*radius/step)
+            n = ceiling(half*(r0 + end(2))/step)
             buried(k)%depth = -huge(1.0_wp)
             angle = middle
             call look_around(half/max(n, 1), n)
@@ -131,7 +132,7 @@ contains
    contains
 
       !> Does the circle come to where the rail is?
-      pure logical function passes(y_range)
+      logical function passes(y_range)
          !> Of the rail [mm]
          real(wp), intent(in) :: y_range(2)
          real(wp) :: y(3), place(3)
@@ -144,11 +145,13 @@ contains
          passes = maxval(y) > y_range(1) .and. minval(y) < y_range(2)
       end function passes
 
-      pure function on_circle(angle) result(place)
+      function on_circle(angle) result(place)
          !> From the lowest point of the wheel [rad]
          real(wp), intent(in) :: angle
-         real(wp) :: place(3)
+         real(wp) :: place(3), radius
 
+         if (allocated(problem%wheel_surface)) end = wheel_end(problem, memory%here, k, angle)
+         radius = memory%here%placement%wheel_radius + end(2)
          place = memory%here%placement%wheel%to_parent([radius*sin(angle), end(1), &
             & radius*cos(angle) - memory%here%placement%wheel_radius])
       end function on_circle
@@ -166,31 +169,53 @@ contains
             if (allocated(problem%rail_surface)) rail = section_at(problem, memory%here, place(1))
             depth = depth_within(rail, in_rail_section(memory%here, place))
             if (depth <= buried(k)%depth) cycle
+            if (depth > 0.0_wp .and. allocated(memory%here%bodies%rail_strip)) then
+               associate (z => rail%height(place(2)))
+                  if (place(3) - z < slices%swing(memory%here%bodies%rail_strip, place(1), place(2), z)) cycle
+               end associate
+            end if
             buried(k) = buried_end(depth, place)
             angle = middle + m*step
          end do
       end subroutine look_around
    end subroutine find_buried_ends
 
-   !> Overlap outside of all patches at a lateral position where the bodies touch elsewhere along the track
-   pure subroutine find_spot_beside(memory, beside)
+   !> Overlap outside of all patches: where the gap has a smallest value of its own along the track, the search keeps the smallest
+   !> of them at each lateral position
+   subroutine find_spot_beside(problem, memory, beside)
+      type(pair_problem), intent(in) :: problem
       !> With patches that are solved
       type(pair_memory), intent(in) :: memory
       !> The deepest one, vertically
       type(buried_end), intent(out) :: beside
       !> Less is rounding [mm]
       real(wp), parameter :: least = 1.0e-5_wp
-      real(wp) :: depth, place(3)
-      integer :: i, j
+      type(profile_curve) :: rail
+      real(wp) :: depth, place(3), before, behind
+      integer :: i, j, k
 
       associate (gap => memory%here%gap)
-         if (.not. allocated(gap%beside)) return
+         depth = memory%z_ws - memory%here%gap_height - gap%far
+         if (depth > least) then
+            rail = section_at(problem, memory%here, gap%far_place(1))
+            place = [gap%far_place, rail%height(gap%far_place(2))]
+            if (.not. any([(holds(memory%slot(i), place), i=1, memory%used)])) &
+               & beside = buried_end(depth, place, beyond_reach=.true.)
+         end if
+         if (.not. allocated(gap%unweighed)) return
          do j = 1, gap%n
-            depth = memory%z_ws - memory%here%gap_height - gap%beside(j)
-            if (depth <= max(least, beside%depth)) cycle
-            place = [gap%x_beside(j), gap%y(j), gap%z(j)]
-            if (any([(holds(memory%slot(i), place), i=1, memory%used)])) cycle
-            beside = buried_end(depth, place)
+            do k = 1, size(gap%x_table)
+               associate (g => gap%unweighed(k, j))
+                  depth = memory%z_ws - memory%here%gap_height - g
+                  if (depth <= max(least, beside%depth)) cycle
+                  before = gap%unweighed(max(1, k - 1), j)
+                  behind = gap%unweighed(min(size(gap%x_table), k + 1), j)
+                  if (before < g .or. behind <= g .and. k < size(gap%x_table)) cycle
+               end associate
+               place = [gap%x_table(k), gap%y(j), gap%z(j)]
+               if (any([(holds(memory%slot(i), place), i=1, memory%used)])) cycle
+               beside = buried_end(depth, place)
+            end do
          end do
       end associate
    end subroutine find_spot_beside
@@ -262,19 +287,21 @@ contains
    end function holds
 
    !> Ends of the sections of rail and wheel, each in the coordinates of `in_sections` [mm]: (y z, low and high end, rail and wheel)
-   subroutine find_ends(problem, here, x, ends)
+   subroutine find_ends(problem, here, point, ends)
       type(pair_problem), intent(in) :: problem
       type(pair_geometry), intent(in) :: here
-      !> Where the section of a rail that varies is taken, in track coordinates [mm]
-      real(wp), intent(in) :: x
+      !> Where the sections of bodies that vary are taken, in track coordinates [mm]
+      real(wp), intent(in) :: point(3)
       real(wp), intent(out) :: ends(2, 2, 2)
       type(profile_curve) :: rail
+      real(wp) :: local(3)
       integer :: k
 
-      rail = section_at(problem, here, x)
+      rail = section_at(problem, here, point(1))
+      local = here%placement%wheel%to_local(point)
       do k = 1, 2
          ends(:, k, 1) = end_of(rail, k)
-         ends(:, k, 2) = end_of(problem%wheel, k)
+         ends(:, k, 2) = wheel_end(problem, here, k, atan2(local(1), local(3) + here%placement%wheel_radius))
       end do
    end subroutine find_ends
 
@@ -320,6 +347,33 @@ contains
          if (r > 0.0_wp) section(2) = r - hypot(point(1), r - point(3))
       end associate
    end function in_rail_section
+
+   !> y and z of an end of the wheel's profile [mm], in its section at an angle
+   function wheel_end(problem, here, k, angle) result(point)
+      type(pair_problem), intent(in) :: problem
+      type(pair_geometry), intent(in) :: here
+      !> See `end_of`
+      integer, intent(in) :: k
+      !> From the lowest point of the wheel; does not matter to a round one [rad]
+      real(wp), intent(in) :: angle
+      real(wp) :: point(2)
+      real(wp), allocatable :: y(:, :), z(:, :)
+      integer :: first, last
+
+      if (.not. allocated(problem%wheel_surface)) then
+         point = end_of(problem%wheel, k)
+         return
+      end if
+      allocate(y(problem%wheel_surface%lines, 4), z(problem%wheel_surface%lines, 4))
+      call stretch_hull(problem%wheel_surface, [1.0_wp, 1.0_wp]*(angle + here%bodies%wheel_strip%origin), y, z, first, last)
+      if (last < first) then
+         point = end_of(problem%wheel, k)
+      else if ((y(first, 1) <= y(last, 1)) .eqv. k == 1) then
+         point = [y(first, 1), z(first, 1)]
+      else
+         point = [y(last, 1), z(last, 1)]
+      end if
+   end function wheel_end
 
    !> y and z of an end of a profile [mm]
    pure function end_of(curve, k) result(point)

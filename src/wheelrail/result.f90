@@ -56,6 +56,8 @@ module contact_wheelrail_result
       real(wp) :: depth = 0.0_wp
       !> Where it is deepest, in track coordinates [mm]
       real(wp) :: place(3) = 0.0_wp
+      !> Is it farther along the track than contact is sought?
+      logical :: beyond_reach = .false.
    end type buried_end
 
    !> The pair

@@ -6,10 +6,13 @@
 module contact_wheelrail_variable
    use contact_base_kinds, only : wp
    use contact_grid_potential_contact, only : potential_contact
-   use contact_wheelrail_bodies, only : find_rail_row, find_wheel, find_wheel_row, pair_bodies, search_reach
+   use contact_wheelrail_bodies, only : find_rail_row, find_wheel, find_wheel_row, pair_bodies, search_reach, &
+      & slice_pair, strip, widest_reach
    use contact_wheelrail_flat_patch, only : nothing_there, settle_distance
    use contact_wheelrail_frame, only : frame
+   use contact_wheelrail_gap_bound, only : bound_gap, rail_extent
    use contact_wheelrail_gap, only : gap_curve, measure_gap, no_surface, smallest_in_row
+   use contact_wheelrail_gap_mesh, only : fill, rail_heights
    implicit none (type, external)
    private
 
@@ -22,7 +25,8 @@ module contact_wheelrail_variable
    !> Gaps are found on the fine mesh up to this above the smallest [mm]: as much as most wheels penetrate rails. Elsewhere
    !> they are interpolated, with errors of about a hundredth of a millimetre
    real(wp), parameter :: least_depth = 0.2_wp
-   !> The surfaces may be nearer to each other inside a coarse cell than at its corners by this [mm]
+   !> Prismatic bodies may be nearer to each other inside a coarse cell than at its corners by this [mm]; the contact locus tells
+   !> where they are nearer still
    real(wp), parameter :: hidden = 0.1_wp
    !> Lateral mesh relative to the elements
    real(wp), parameter :: mesh_share = 0.3_wp
@@ -34,34 +38,36 @@ contains
       type(pair_bodies), intent(inout) :: bodies
       !> Lateral size of the elements [mm]
       real(wp), intent(in) :: ds
-      !> Are weights of regions to come from the table? Otherwise only the smallest gaps are kept
+      !> Are weights of regions to come from the table? Otherwise it is kept to see what they leave out
       logical, intent(in) :: weighs_table
       type(gap_curve), intent(inout) :: gap
       !> Penetration that will be asked for [mm], if it is known to be large
       real(wp), intent(in), optional :: depth
-      real(wp), allocatable :: corner(:, :), table(:, :), xc(:), yc(:)
+      real(wp), allocatable :: corner(:, :), table(:, :), xc(:), yc(:), least(:)
       integer, allocatable :: first(:), last(:)
       type(gap_curve) :: locus
       logical, allocatable :: near(:)
       logical :: prismatic
-      real(wp) :: range(2), limit, dx, along
-      integer :: nxc, nyc, i, j, ic, jc
+      real(wp) :: range(2), dx, along, origin
+      integer :: nxc, nyc, i, j, ic
 
       dx = fine_x
       if (allocated(bodies%rail_strip)) dx = bodies%rail_strip%step*max(1, nint(fine_x/bodies%rail_strip%step))
+      origin = bodies%placement%wheel%origin(1)
       along = search_reach(bodies)
       ! of prismatic bodies the locus is known: a flank may come near in less than a coarse cell, and far from the wheel
       prismatic = .not. (allocated(bodies%rail_strip) .or. allocated(bodies%wheel_strip))
       if (prismatic) then
          call measure_gap(bodies%rail, bodies%wheel, bodies%placement, ds, locus)
          near = locus%gap < min(minval(locus%gap) + least_depth + hidden, 0.5_wp*no_surface)
-         if (any(near)) along = max(along, min(2.0_wp*coarse*dx + maxval(abs(locus%x - bodies%placement%wheel%origin(1)), near), &
+         if (any(near)) along = max(along, min(2.0_wp*coarse*dx + maxval(abs(locus%x - origin), near), &
             & 0.5_wp*bodies%placement%wheel_radius))
       end if
       nxc = 2*ceiling(along/(coarse*dx)) + 1
-      xc = bodies%placement%wheel%origin(1) + [(dx*coarse*(i - (nxc + 1)/2), i=1, nxc)]
-      range = lateral_range(bodies, xc)
+      xc = origin + [(dx*coarse*(i - (nxc + 1)/2), i=1, nxc)]
       gap%dy = mesh_share*ds
+      range = lateral_range(bodies, xc)
+      if (allocated(bodies%rail_strip)) call widen_rows(bodies%rail_strip, xc([1, nxc]), coarse*gap%dy, range)
       gap%n = ceiling((range(2) - range(1))/gap%dy) + 1
       gap%y = [(range(1) + (j - 1)*gap%dy, j=1, gap%n)]
       gap%kappa = 0.5_wp/bodies%placement%wheel_radius
@@ -73,14 +79,46 @@ contains
       yc = gap%y(1) + [(gap%dy*coarse*(j - 1), j=1, nyc)]
       allocate(corner(nxc, nyc))
       call fill(bodies, xc, yc, spread(1, 1, nyc), spread(nxc, 1, nyc), corner)
-
-      ! of each row along the track what is from the first to the last cell that may be near
-      limit = minval(corner)
-      if (prismatic) limit = min(limit, minval(locus%gap))
-      limit = min(limit + gap%depth + hidden, 0.5_wp*no_surface)
       allocate(first(gap%n), source=(nxc - 1)*coarse + 1)
       allocate(last(gap%n), source=0)
-      do jc = 1, nyc - 1
+      allocate(least(gap%n), source=-no_surface)
+      gap%far = no_surface
+      if (prismatic) then
+         call choose_by_corners(gap, locus, xc, corner, first, last)
+      else
+         call choose_by_bounds(bodies, gap, xc, minval(corner), first, last, least)
+      end if
+      i = min(minval(first), (nxc - 1)*coarse)
+      gap%x_table = xc(1) + [(dx*(ic - 1), ic=i, max(maxval(last), i + 1))]
+      first = first - (i - 1)
+      last = last - (i - 1)
+      allocate(table(size(gap%x_table), gap%n), source=no_surface)
+      call fill(bodies, gap%x_table, gap%y, first, last, table)
+      call find_smallest(bodies, gap, table, first, last, xc, corner)
+      where (last < first .and. gap%gap < no_surface) gap%gap = max(gap%gap, least)
+      if (allocated(gap%table)) deallocate(gap%table)
+      if (allocated(gap%unweighed)) deallocate(gap%unweighed)
+      if (weighs_table) then
+         call move_alloc(table, gap%table)
+      else
+         call move_alloc(table, gap%unweighed)
+      end if
+   end subroutine measure_variable_gap
+
+   !> Of each row along the track what is from the first to the last cell that may be near: prismatic bodies
+   subroutine choose_by_corners(gap, locus, xc, corner, first, last)
+      !> With its rows and its depth, and that of the contact locus
+      type(gap_curve), intent(in) :: gap, locus
+      !> Places along the track and gaps of the coarse mesh [mm], shape (x, y)
+      real(wp), intent(in) :: xc(:), corner(:, :)
+      !> Numbers on the fine mesh, which begins with the coarse one; on entry no point is chosen
+      integer, intent(inout) :: first(:), last(:)
+      real(wp) :: limit
+      integer :: ic, jc, j, nxc
+
+      nxc = size(xc)
+      limit = min(min(minval(corner), minval(locus%gap)) + gap%depth + hidden, 0.5_wp*no_surface)
+      do jc = 1, size(corner, 2) - 1
          j = (jc - 1)*coarse + 1
          do ic = 1, nxc - 1
             if (minval(corner(ic:ic + 1, jc:jc + 1)) > limit) cycle
@@ -90,33 +128,144 @@ contains
             end associate
          end do
       end do
-      if (prismatic) then
-         do j = 1, min(gap%n, locus%n)
-            if (.not. locus%gap(j) < limit) cycle
-            ic = nint((locus%x(j) - xc(1))/dx) + 1
-            first(j) = min(first(j), max(ic - coarse, 1))
-            last(j) = max(last(j), min(ic + coarse, (nxc - 1)*coarse + 1))
+      do j = 1, min(gap%n, locus%n)
+         if (.not. locus%gap(j) < limit) cycle
+         ic = nint((locus%x(j) - xc(1))*coarse/(xc(2) - xc(1))) + 1
+         first(j) = min(first(j), max(ic - coarse, 1))
+         last(j) = max(last(j), min(ic + coarse, (nxc - 1)*coarse + 1))
+      end do
+   end subroutine choose_by_corners
+
+   !> The same of bodies that vary, by lower bounds of the gap: what is left out is farther away, whatever its shape
+   subroutine choose_by_bounds(bodies, gap, xc, smallest, first, last, least)
+      type(pair_bodies), intent(inout) :: bodies
+      !> With its rows and its depth; `far` and `far_place` are set
+      type(gap_curve), intent(inout) :: gap
+      !> Places of the coarse mesh along the track [mm]
+      real(wp), intent(in) :: xc(:)
+      !> A gap that is known [mm]
+      real(wp), intent(in) :: smallest
+      !> See `choose_by_corners`
+      integer, intent(inout) :: first(:), last(:)
+      !> Lower bounds of the gaps of rows [mm]
+      real(wp), intent(inout) :: least(:)
+      !> How often a smaller gap is looked for where the bound is lowest, and by how much it may be larger than the bound [mm]
+      integer, parameter :: tries = 20
+      real(wp), parameter :: near_enough = 0.05_wp
+      real(wp), allocatable :: low(:, :)
+      real(wp) :: limit, here, place(2), step
+      integer :: cells, j, ic
+
+      cells = size(xc) - 1
+      step = (xc(2) - xc(1))/coarse
+      allocate(low(cells, gap%n))
+      call bound_gap(bodies, xc, gap%y, low)
+      do j = 1, gap%n
+         least(j) = minval(low(:, j))
+      end do
+      limit = smallest
+      call look_closer(bodies, xc, gap%y, low, step, near_enough, tries, limit, place, without_swings=.false.)
+      limit = min(limit + gap%depth, 0.5_wp*no_surface)
+      do j = 1, gap%n
+         do ic = 1, cells
+            if (low(ic, j) > limit) cycle
+            first(j) = min(first(j), (ic - 1)*coarse + 1)
+            last(j) = ic*coarse + 1
          end do
-      end if
-      i = min(minval(first), (nxc - 1)*coarse)
-      gap%x_table = xc(1) + [(dx*(ic - 1), ic=i, max(maxval(last), i + 1))]
-      first = first - (i - 1)
-      last = last - (i - 1)
-      allocate(table(size(gap%x_table), gap%n), source=no_surface)
-      if (weighs_table) then
-         call fill(bodies, gap%x_table, gap%y, first, last, table)
-      else
-         call fill_valley(bodies, gap%x_table, gap%y, first, last, table)
-      end if
-      if (allocated(gap%beside)) deallocate(gap%beside, gap%x_beside)
-      if (.not. weighs_table) call find_beside(bodies, first, last, table, gap)
-      call find_smallest(bodies, gap, table, first, last, xc, corner)
-      if (weighs_table) then
-         call move_alloc(table, gap%table)
-      else if (allocated(gap%table)) then
-         deallocate(gap%table)
-      end if
-   end subroutine measure_variable_gap
+      end do
+      call look_beyond(-1)
+      call look_beyond(1)
+
+   contains
+
+      !> Beyond the reach of the search on one side: the smallest gap, if it is one that may close
+      subroutine look_beyond(side)
+         !> Sign along the track
+         integer, intent(in) :: side
+         !> Cells are as long as so many of the coarse mesh; in most cases the first ones are enough
+         integer, parameter :: together(2) = [8, 2]
+         !> An overlap is told as it is found after so many cells more
+         integer, parameter :: enough = 5
+         real(wp), allocatable :: edges(:), beyond(:, :)
+         integer :: n, i, k
+
+         here = min(limit, gap%far)
+         do k = 1, size(together)
+            associate (origin => bodies%placement%wheel%origin(1), length => together(k)*(xc(2) - xc(1)), &
+               & start => merge(xc(1), xc(cells + 1), side < 0))
+               n = ceiling((widest_reach(bodies) - abs(start - origin))/length)
+               if (n <= 0) return
+               edges = [(start + length*i, i=merge(-n, 0, side < 0), merge(0, n, side < 0))]
+            end associate
+            if (allocated(beyond)) deallocate(beyond)
+            allocate(beyond(n, gap%n))
+            call bound_gap(bodies, edges, gap%y, beyond)
+            if (minval(beyond) >= here) return
+         end do
+         call look_closer(bodies, edges, gap%y, beyond, step, 0.0_wp, enough, here, place, without_swings=.true.)
+         if (here >= min(limit, gap%far)) return
+         gap%far = here
+         gap%far_place = place
+      end subroutine look_beyond
+   end subroutine choose_by_bounds
+
+   !> Gaps of cells whose bound is lowest, until none can be smaller than what is known, or enough cells were looked at
+   subroutine look_closer(bodies, edges, y, low, step, margin, most, smallest, place, without_swings)
+      type(pair_bodies), intent(inout) :: bodies
+      !> Ends of cells, and rows [mm]
+      real(wp), intent(in) :: edges(:), y(:)
+      !> Lower bounds [mm], shape (cells, rows)
+      real(wp), intent(in) :: low(:, :)
+      !> Fine mesh along the track; gaps that are smaller by less than the margin do not matter [mm]
+      real(wp), intent(in) :: step, margin
+      !> Cells that are looked at after one that is nearer than `smallest`; with a margin in all
+      integer, intent(in) :: most
+      !> What is known on entry, what is found on exit [mm], and its place x, y if it is smaller
+      real(wp), intent(inout) :: smallest
+      real(wp), intent(inout) :: place(2)
+      !> Leave out what a rail makes of sudden changes between slices? It was told when the rail was read
+      logical, intent(in) :: without_swings
+      type(slice_pair) :: slices
+      real(wp) :: waiting(size(low, 1), size(low, 2)), least(size(low, 2))
+      real(wp), allocatable :: row(:, :), x(:)
+      real(wp) :: z(1)
+      logical :: found(1)
+      integer :: cell(2), i, n, looked, stride
+      integer, parameter :: few = 4
+
+      n = nint((edges(2) - edges(1))/step)
+      allocate(row(n + 1, 1))
+      waiting = low
+      least = minval(low, 1)
+      looked = 0
+      do while (looked < most)
+         cell(2) = minloc(least, 1)
+         if (least(cell(2)) >= min(smallest - margin, 0.5_wp*no_surface)) exit
+         cell(1) = minloc(waiting(:, cell(2)), 1)
+         ! most sections are made for nothing, so a few come first
+         do stride = merge(few, 1, mod(n, few) == 0), 1, -(few - 1)
+            x = edges(cell(1)) + [(i*step, i=0, n, stride)]
+            row = no_surface
+            call fill(bodies, x, y(cell(2):cell(2)), [1], [size(x)], row(:size(x), :))
+            i = minloc(row(:, 1), 1)
+            if (row(i, 1) < smallest) exit
+         end do
+         i = min(i, size(x))
+         if (without_swings .and. allocated(bodies%rail_strip) .and. row(i, 1) < smallest) then
+            call rail_heights(bodies, x(i), y(cell(2):cell(2)), z, found)
+            row(i, 1) = row(i, 1) + slices%swing(bodies%rail_strip, x(i), y(cell(2)), z(1))
+            if (looked == 0) looked = 1
+         end if
+         if (row(i, 1) < smallest) then
+            smallest = row(i, 1)
+            place = [x(i), y(cell(2))]
+            if (looked == 0) looked = 1
+         end if
+         if (looked > 0 .or. margin > 0.0_wp) looked = looked + 1
+         waiting(cell(1), cell(2)) = no_surface
+         least(cell(2)) = minval(waiting(:, cell(2)))
+      end do
+   end subroutine look_closer
 
    !> Lateral range of a rail that varies: of its sections at some places
    function lateral_range(bodies, x) result(range)
@@ -144,201 +293,21 @@ contains
       if (range(1) > range(2)) range = 0.0_wp
    end function lateral_range
 
-   !> Vertical gap at points of a mesh; the rail has sections at its places x
-   subroutine fill(bodies, x, y, first, last, table)
-      type(pair_bodies), intent(inout) :: bodies
-      !> Rising
-      real(wp), intent(in) :: x(:), y(:)
-      !> Points that are wanted in each row along the track, none if the last one is before the first; the others stay
-      integer, intent(in) :: first(:), last(:)
-      !> Shape (x, y)
-      real(wp), intent(inout) :: table(:, :)
-      type(frame) :: track, seen
-      real(wp) :: wheel(size(x))
-      logical :: found(size(x))
-      integer :: j
+   !> Lateral positions that a rail has between its sections and beyond their range, in whole steps
+   subroutine widen_rows(along, range_x, step, range)
+      type(strip), intent(in) :: along
+      !> Of the track [mm], and the step [mm]
+      real(wp), intent(in) :: range_x(2), step
+      !> In track coordinates [mm]
+      real(wp), intent(inout) :: range(2)
+      !> Boxes are a little wider than what they hold: less than this part of a step is left out
+      real(wp), parameter :: least = 0.1_wp
+      real(wp) :: wide(2), top
 
-      call fill_rail(bodies, x, y, first, last, table)
-      seen = bodies%placement%wheel%seen_from_here(track)
-      do j = 1, size(y)
-         if (first(j) > last(j)) cycle
-         associate (row => table(first(j):last(j), j), n => last(j) - first(j) + 1)
-            if (minval(row) >= no_surface) cycle
-            call find_wheel_row(bodies, seen, x(first(j):last(j)), y(j), wheel(:n), found(:n))
-            where (found(:n) .and. row < no_surface)
-               row = row - wheel(:n)
-            else where
-               row = no_surface
-            end where
-         end associate
-      end do
-   end subroutine fill
-
-   !> The same where only the smallest gap of each row counts
-   !>
-   !> Rows of the coarse mesh are searched throughout. What is smallest in the rows between lies between the places found
-   !> there, or a little beyond; a row whose smallest gap is at an end of that stretch is searched throughout, too.
-   subroutine fill_valley(bodies, x, y, first, last, table)
-      type(pair_bodies), intent(inout) :: bodies
-      !> See `fill`; on entry the table has no surface
-      real(wp), intent(in) :: x(:), y(:)
-      integer, intent(in) :: first(:), last(:)
-      real(wp), intent(inout) :: table(:, :)
-      !> Points beyond the places found
-      integer, parameter :: beyond = 3
-      integer :: from(size(y)), to(size(y)), lowest(size(y))
-      logical :: open
-      integer :: j, low, high
-
-      from = size(x) + 1
-      to = 0
-      do j = 1, size(y)
-         if (mod(j - 1, coarse) > 0 .and. j < size(y)) cycle
-         from(j) = first(j)
-         to(j) = last(j)
-      end do
-      call fill(bodies, x, y, from, to, table)
-      lowest = minloc(table, 1)
-      do j = 1, size(y)
-         low = j - mod(j - 1, coarse)
-         high = min(low + coarse, size(y))
-         if (j == low .or. j == high) then
-            from(j) = size(x) + 1
-            to(j) = 0
-         else
-            from(j) = first(j)
-            to(j) = last(j)
-            if (max(table(lowest(low), low), table(lowest(high), high)) >= no_surface) cycle
-            from(j) = max(first(j), min(lowest(low), lowest(high)) - beyond)
-            to(j) = min(last(j), max(lowest(low), lowest(high)) + beyond)
-         end if
-      end do
-      call fill(bodies, x, y, from, to, table)
-      do j = 1, size(y)
-         lowest(j) = minloc(table(:, j), 1)
-         open = from(j) <= to(j) .and. (table(lowest(j), j) >= no_surface .or. lowest(j) == from(j) .or. lowest(j) == to(j))
-         if (open .and. (from(j) > first(j) .or. to(j) < last(j))) then
-            from(j) = first(j)
-            to(j) = last(j)
-         else
-            from(j) = size(x) + 1
-            to(j) = 0
-         end if
-      end do
-      call fill(bodies, x, y, from, to, table)
-   end subroutine fill_valley
-
-   !> Places with a smallest gap of their own along the track, in rows of the coarse mesh that were searched throughout, and in rows
-   !> next to those that have one
-   subroutine find_beside(bodies, first, last, table, gap)
-      type(pair_bodies), intent(inout) :: bodies
-      !> See `fill`
-      integer, intent(in) :: first(:), last(:)
-      !> As `fill_valley` left it
-      real(wp), intent(inout) :: table(:, :)
-      !> `x_beside` and `beside` are set
-      type(gap_curve), intent(inout) :: gap
-      integer :: from(gap%n), to(gap%n)
-      integer :: j, low, high
-
-      allocate(gap%x_beside(gap%n), source=0.0_wp)
-      allocate(gap%beside(gap%n), source=no_surface)
-      do j = 1, gap%n
-         if (mod(j - 1, coarse) > 0 .and. j < gap%n) cycle
-         call second_smallest(gap%x_table, table(:, j), gap%x_beside(j), gap%beside(j))
-      end do
-      if (minval(gap%beside) >= no_surface) return
-      from = size(gap%x_table) + 1
-      to = 0
-      do j = 1, gap%n
-         low = j - mod(j - 1, coarse)
-         high = min(low + coarse, gap%n)
-         if (j == low .or. j == high .or. min(gap%beside(low), gap%beside(high)) >= no_surface) cycle
-         from(j) = first(j)
-         to(j) = last(j)
-      end do
-      call fill(bodies, gap%x_table, gap%y, from, to, table)
-      do j = 1, gap%n
-         if (from(j) <= to(j)) call second_smallest(gap%x_table, table(:, j), gap%x_beside(j), gap%beside(j))
-      end do
-   end subroutine find_beside
-
-   !> The second smallest of the minima of a row
-   pure subroutine second_smallest(x, g, place, value)
-      real(wp), intent(in) :: x(:), g(:)
-      !> `no_surface` where there is one minimum only
-      real(wp), intent(out) :: place, value
-      !> Gaps between two minima are larger by this at least [mm]
-      real(wp), parameter :: ridge = 1.0e-4_wp
-      real(wp) :: highest
-      integer :: i, side, lowest
-
-      place = 0.0_wp
-      value = no_surface
-      lowest = minloc(g, 1)
-      do side = -1, 1, 2
-         highest = g(lowest)
-         do i = lowest + side, merge(size(g), 1, side > 0), side
-            highest = max(highest, g(i))
-            if (g(i) >= value .or. g(i) > highest - ridge) cycle
-            place = x(i)
-            value = g(i)
-         end do
-      end do
-   end subroutine second_smallest
-
-   !> Height of the rail at points of a mesh, section after section
-   subroutine fill_rail(bodies, x, y, first, last, table)
-      type(pair_bodies), intent(inout) :: bodies
-      !> See `fill`
-      real(wp), intent(in) :: x(:), y(:)
-      integer, intent(in) :: first(:), last(:)
-      real(wp), intent(inout) :: table(:, :)
-      real(wp) :: z(size(y)), rho
-      logical :: wanted(size(y)), found(size(y))
-      integer :: rows(size(y))
-      integer :: i, k, n
-
-      do i = minval(first), maxval(last)
-         wanted = first <= i .and. i <= last
-         n = count(wanted)
-         if (n == 0) cycle
-         rows(:n) = pack([(k, k=1, size(y))], wanted)
-         call rail_heights(bodies, x(i), y(rows(:n)), z(:n), found(:n))
-         if (bodies%placement%roller_radius > 0.0_wp) then
-            do k = 1, n
-               rho = bodies%placement%roller_radius - z(k)
-               found(k) = found(k) .and. abs(x(i)) < rho
-               if (found(k)) z(k) = bodies%placement%roller_radius - sqrt(rho**2 - x(i)**2)
-            end do
-         end if
-         table(i, rows(:n)) = merge(z(:n), no_surface, found(:n))
-      end do
-   end subroutine fill_rail
-
-   !> Heights of the rail's section at a place where it has one
-   subroutine rail_heights(bodies, x, y, z, found)
-      type(pair_bodies), intent(inout) :: bodies
-      real(wp), intent(in) :: x
-      !> Rising
-      real(wp), intent(in) :: y(:)
-      real(wp), intent(out) :: z(:)
-      logical, intent(out) :: found(:)
-      integer :: k
-
-      if (.not. allocated(bodies%rail_strip)) then
-         call bodies%rail%heights(y, z, found)
-         return
-      end if
-      z = 0.0_wp
-      found = .false.
-      associate (along => bodies%rail_strip)
-         k = along%number_at(x)
-         if (k == 0) return
-         call along%need(k)
-         if (along%sections(k)%present) call along%sections(k)%curve%heights(y, z, found)
-      end associate
-   end subroutine rail_heights
+      call rail_extent(along, range_x, wide, top)
+      range(1) = range(1) - step*max(0, ceiling((range(1) - wide(1))/step - least))
+      range(2) = range(2) + step*max(0, ceiling((wide(2) - range(2))/step - least))
+   end subroutine widen_rows
 
    !> Place and value of the smallest gap along the track at each lateral position; the rail there
    subroutine find_smallest(bodies, gap, table, first, last, xc, corner)

@@ -1,0 +1,312 @@
+!> How small the gap between two bodies can be in parts of the track, at least
+!>
+!> Where a profile varies the gap is a surface, and points of a mesh tell nothing about what is between them. Here it is bounded
+!> from below over stretches of track: lines of a surface lie within the hulls of their control points
+!> (contact_profile_surface_hull), circles of a wheel within three of their points and a sagitta. Across the profile, bodies are
+!> polygons of these points; what splines add to chords is estimated from second differences, with a factor of four.
+module contact_wheelrail_gap_bound
+   use contact_base_kinds, only : wp
+   use contact_profile_curve, only : profile_curve
+   use contact_profile_surface_hull, only : stretch_breaks, stretch_hull
+   use contact_wheelrail_bodies, only : pair_bodies, strip
+   use contact_wheelrail_gap, only : no_surface
+   implicit none (type, external)
+   private
+
+   public :: bound_gap, rail_extent
+
+   !> Longest chord of a profile that does not vary [mm]
+   real(wp), parameter :: longest_chord = 0.5_wp
+   !> What a spline adds to a chord, of the second difference of points: an eighth on parabolas
+   real(wp), parameter :: bulge_share = 0.5_wp
+   !> Neighbours whose second differences count
+   integer, parameter :: neighbours = 3
+   !> Chords steeper than this count as walls, with no more than the heights of their ends [-]
+   real(wp), parameter :: wall = 20.0_wp
+   !> Circles are sampled at so many places of a stretch
+   integer, parameter :: stations = 3
+   !> What interpolation between sections and rounding may do to heights [mm]
+   real(wp), parameter :: rounding = 1.0e-5_wp
+
+contains
+
+   !> Lower bound of the vertical gap [mm], for each lateral position over each stretch of track
+   subroutine bound_gap(bodies, edges, y, low)
+      type(pair_bodies), intent(in) :: bodies
+      !> Ends of the stretches, rising, and lateral positions at even distances, in track coordinates [mm]
+      real(wp), intent(in) :: edges(:), y(:)
+      !> Shape (stretches, lateral positions); `no_surface` where one body is missing
+      real(wp), intent(out) :: low(:, :)
+      real(wp) :: rail(size(y)), wheel(size(y)), near, rho(size(y))
+      real(wp), allocatable :: profile(:, :)
+      logical :: found(size(y))
+      integer :: i
+
+      if (.not. allocated(bodies%wheel_strip)) call sample(bodies%wheel, profile)
+      if (.not. allocated(bodies%rail_strip)) then
+         call bodies%rail%heights(y, rail, found)
+         where (.not. found) rail = no_surface
+      end if
+      do i = 1, size(edges) - 1
+         if (allocated(bodies%rail_strip)) call rail_above(bodies%rail_strip, edges(i:i + 1), y, rail)
+         wheel = no_surface
+         if (allocated(bodies%wheel_strip)) then
+            call varying_wheel_below(bodies, edges(i:i + 1), y, wheel)
+         else
+            call round_wheel_below(bodies, profile, edges(i:i + 1), y, wheel)
+         end if
+         low(i, :) = rail
+         if (bodies%placement%roller_radius > 0.0_wp) then
+            near = max(0.0_wp, edges(i), -edges(i + 1))
+            rho = bodies%placement%roller_radius - rail
+            where (rail < no_surface .and. near < rho)
+               low(i, :) = bodies%placement%roller_radius - sqrt(max(0.0_wp, rho**2 - near**2))
+            else where
+               low(i, :) = no_surface
+            end where
+         end if
+         where (low(i, :) < no_surface .and. wheel < no_surface)
+            low(i, :) = low(i, :) + wheel - rounding
+         else where
+            low(i, :) = no_surface
+         end where
+      end do
+   end subroutine bound_gap
+
+   !> Box that holds a stretch of a rail that varies
+   subroutine rail_extent(along, range_x, range_y, top)
+      type(strip), intent(in) :: along
+      !> Of the track [mm]
+      real(wp), intent(in) :: range_x(2)
+      !> In track coordinates [mm]; the second one below the first one where there is no rail
+      real(wp), intent(out) :: range_y(2)
+      !> The least z [mm]
+      real(wp), intent(out) :: top
+      real(wp), allocatable :: breaks(:)
+      real(wp) :: y(along%surface%lines, 4), z(along%surface%lines, 4)
+      integer :: i, first, last
+
+      range_y = [huge(1.0_wp), -huge(1.0_wp)]
+      top = huge(top)
+      call stretch_breaks(along%surface, range_x + along%origin, breaks)
+      do i = 1, size(breaks) - 1
+         call stretch_hull(along%surface, breaks(i:i + 1), y, z, first, last)
+         if (last < first) cycle
+         call see_from(along%axes, y(first:last, :), z(first:last, :))
+         range_y = [min(range_y(1), minval(y(first:last, :))), max(range_y(2), maxval(y(first:last, :)))]
+         top = min(top, minval(z(first:last, :)))
+      end do
+   end subroutine rail_extent
+
+   !> Highest places of a rail that varies, over a stretch of track: z down, so the least z
+   subroutine rail_above(along, range_x, y, rail)
+      type(strip), intent(in) :: along
+      !> [mm]
+      real(wp), intent(in) :: range_x(2), y(:)
+      real(wp), intent(out) :: rail(:)
+      real(wp), allocatable :: breaks(:)
+      real(wp) :: py(along%surface%lines, 4), pz(along%surface%lines, 4)
+      integer :: i, first, last
+
+      rail = no_surface
+      call stretch_breaks(along%surface, range_x + along%origin, breaks)
+      do i = 1, size(breaks) - 1
+         call stretch_hull(along%surface, breaks(i:i + 1), py, pz, first, last)
+         if (last < first) cycle
+         call see_from(along%axes, py(first:last, :), pz(first:last, :))
+         call lower_envelope(py(first:last, :), pz(first:last, :), 0.0_wp, y, rail)
+      end do
+   end subroutine rail_above
+
+   !> Lowest places of a round wheel over a stretch of track, as the least -z
+   subroutine round_wheel_below(bodies, profile, range_x, y, below)
+      type(pair_bodies), intent(in) :: bodies
+      !> Points y, z of its profile, shape (points, 2) [mm]
+      real(wp), intent(in) :: profile(:, :)
+      real(wp), intent(in) :: range_x(2), y(:)
+      real(wp), intent(inout) :: below(:)
+      real(wp) :: py(size(profile, 1), stations), pz(size(profile, 1), stations), angle(size(profile, 1))
+      integer :: k
+
+      do k = 1, stations
+         call find_angles(bodies, profile(:, 1), profile(:, 2), station(range_x, k), angle)
+         call on_circles(bodies, profile(:, 1), profile(:, 2), angle, py(:, k), pz(:, k))
+      end do
+      call lower_envelope(py, -pz, sagitta(bodies, range_x), y, below)
+   end subroutine round_wheel_below
+
+   !> The same of a wheel that is out of round
+   subroutine varying_wheel_below(bodies, range_x, y, below)
+      type(pair_bodies), intent(in) :: bodies
+      real(wp), intent(in) :: range_x(2), y(:)
+      real(wp), intent(inout) :: below(:)
+      real(wp), allocatable :: breaks(:), py(:, :), pz(:, :), angle(:)
+      real(wp) :: wy(bodies%wheel_strip%surface%lines, 4), wz(bodies%wheel_strip%surface%lines, 4), range(2)
+      integer :: i, k, m, first, last
+
+      associate (along => bodies%wheel_strip, lines => bodies%wheel_strip%surface%lines)
+         ! angles at which the lines of the section at the bottom pass both ends of the stretch
+         allocate(py(lines, 4*stations), pz(lines, 4*stations), angle(lines))
+         range = range_x/bodies%placement%wheel_radius
+         call stretch_hull(along%surface, [1.0_wp, 1.0_wp]*along%origin, wy, wz, first, last)
+         if (last >= first) then
+            range = [huge(1.0_wp), -huge(1.0_wp)]
+            do k = 1, stations, stations - 1
+               call find_angles(bodies, wy(first:last, 1), wz(first:last, 1), station(range_x, k), angle(first:last))
+               range = [min(range(1), asin(minval(angle(first:last)))), max(range(2), asin(maxval(angle(first:last))))]
+            end do
+         end if
+         call stretch_breaks(along%surface, range + along%origin, breaks)
+         do i = 1, size(breaks) - 1
+            call stretch_hull(along%surface, breaks(i:i + 1), wy, wz, first, last)
+            if (last < first) cycle
+            do k = 1, stations
+               call find_angles(bodies, wy(first:last, 1), wz(first:last, 1), station(range_x, k), angle(first:last))
+               do m = 1, 4
+                  call on_circles(bodies, wy(first:last, m), wz(first:last, m), angle(first:last)*(wz(first:last, 1) &
+                     & + bodies%placement%wheel_radius)/(wz(first:last, m) + bodies%placement%wheel_radius), &
+                     & py(first:last, (k - 1)*4 + m), pz(first:last, (k - 1)*4 + m))
+               end do
+            end do
+            call lower_envelope(py(first:last, :), -pz(first:last, :), sagitta(bodies, range_x), y, below)
+         end do
+      end associate
+   end subroutine varying_wheel_below
+
+   !> Where the circles of a wheel's profile pass a place along the track
+   subroutine find_angles(bodies, y, z, x, s)
+      type(pair_bodies), intent(in) :: bodies
+      !> Of the profile [mm], and the place [mm]
+      real(wp), intent(in) :: y(:), z(:), x
+      !> Sine of the angle from the bottom of the wheel
+      real(wp), intent(out) :: s(:)
+      !> Every one is nearer by the product of roll and yaw
+      integer, parameter :: steps = 3
+      integer :: step
+
+      associate (axes => bodies%placement%wheel%axes, origin => bodies%placement%wheel%origin, r => bodies%placement%wheel_radius)
+         s = (x - origin(1) - axes(1, 2)*y - axes(1, 3)*z)/(axes(1, 1)*(r + z))
+         s = max(-0.9_wp, min(0.9_wp, s))
+         if (.not. abs(axes(1, 3)) > 0.0_wp) return
+         do step = 1, steps
+            s = (x - origin(1) - axes(1, 2)*y - axes(1, 3)*((r + z)*sqrt(1.0_wp - s**2) - r))/(axes(1, 1)*(r + z))
+            s = max(-0.9_wp, min(0.9_wp, s))
+         end do
+      end associate
+   end subroutine find_angles
+
+   !> Points on the circles of a wheel's profile, in track coordinates
+   subroutine on_circles(bodies, y, z, s, track_y, track_z)
+      type(pair_bodies), intent(in) :: bodies
+      !> Of the profile [mm], and the sine of the angle from the bottom
+      real(wp), intent(in) :: y(:), z(:), s(:)
+      !> [mm]
+      real(wp), intent(out) :: track_y(:), track_z(:)
+
+      associate (axes => bodies%placement%wheel%axes, origin => bodies%placement%wheel%origin, r => bodies%placement%wheel_radius)
+         track_y = origin(2) + axes(2, 1)*(r + z)*s + axes(2, 2)*y + axes(2, 3)*((r + z)*sqrt(1.0_wp - s**2) - r)
+         track_z = origin(3) + axes(3, 1)*(r + z)*s + axes(3, 2)*y + axes(3, 3)*((r + z)*sqrt(1.0_wp - s**2) - r)
+      end associate
+   end subroutine on_circles
+
+   !> Place of a station on a stretch [mm]
+   pure real(wp) function station(range_x, k)
+      real(wp), intent(in) :: range_x(2)
+      integer, intent(in) :: k
+      station = range_x(1) + (k - 1)*(range_x(2) - range_x(1))/(stations - 1)
+   end function station
+
+   !> How far circles of the wheel reach below the chords between stations [mm]
+   real(wp) function sagitta(bodies, range_x)
+      type(pair_bodies), intent(in) :: bodies
+      real(wp), intent(in) :: range_x(2)
+      real(wp) :: s
+
+      associate (r => bodies%placement%wheel_radius, x => bodies%placement%wheel%origin(1))
+         s = min(0.9_wp, maxval(abs(range_x - x))/r + 0.1_wp)
+         sagitta = ((range_x(2) - range_x(1))/(stations - 1))**2/(8.0_wp*0.9_wp*r*sqrt(1.0_wp - s**2)**3)
+      end associate
+   end function sagitta
+
+   !> Points of a profile that does not vary, with short chords
+   subroutine sample(curve, points)
+      type(profile_curve), intent(in) :: curve
+      !> y, z, shape (points, 2) [mm]
+      real(wp), allocatable, intent(out) :: points(:, :)
+      real(wp), allocatable :: s(:)
+      integer :: i, k, n, parts
+
+      associate (nodes => curve%y%s)
+         n = 1
+         do i = 2, size(nodes)
+            n = n + ceiling((nodes(i) - nodes(i - 1))/longest_chord)
+         end do
+         allocate(s(n))
+         s(1) = nodes(1)
+         n = 1
+         do i = 2, size(nodes)
+            parts = ceiling((nodes(i) - nodes(i - 1))/longest_chord)
+            s(n + 1:n + parts) = nodes(i - 1) + [(k*(nodes(i) - nodes(i - 1))/parts, k=1, parts)]
+            n = n + parts
+         end do
+      end associate
+      points = reshape([curve%y%value(s), curve%z%value(s)], [n, 2])
+   end subroutine sample
+
+   !> Seen from other axes: origin (y, z) and roll angle, see `cut` of a surface
+   pure subroutine see_from(axes, y, z)
+      real(wp), intent(in) :: axes(3)
+      real(wp), intent(inout) :: y(:, :), z(:, :)
+      real(wp) :: before(size(y, 1), size(y, 2))
+
+      before = y - axes(1)
+      z = z - axes(2)
+      y = cos(axes(3))*before + sin(axes(3))*z
+      z = cos(axes(3))*z - sin(axes(3))*before
+   end subroutine see_from
+
+   !> The least z that a surface can have at lateral positions, where that is less than what is there already
+   pure subroutine lower_envelope(y, z, extra, places, low)
+      !> Control points, shape (points across, control points of each) [mm]
+      real(wp), intent(in) :: y(:, :), z(:, :)
+      !> How far the surface may lie beyond the hull of the control points [mm]
+      real(wp), intent(in) :: extra
+      !> At even distances [mm]
+      real(wp), intent(in) :: places(:)
+      real(wp), intent(inout) :: low(:)
+      real(wp) :: middle(size(y, 1), 2), bend(size(y, 1)), bulge, slope, least, ends(2), step
+      integer :: i, j, n, first, last
+
+      n = size(y, 1)
+      if (n < 2) return
+      middle(:, 1) = sum(y, 2)/size(y, 2)
+      middle(:, 2) = sum(z, 2)/size(z, 2)
+      bend = 0.0_wp
+      do i = 2, n - 1
+         bend(i) = hypot(middle(i - 1, 1) - 2.0_wp*middle(i, 1) + middle(i + 1, 1), &
+            & middle(i - 1, 2) - 2.0_wp*middle(i, 2) + middle(i + 1, 2))
+      end do
+      step = 1.0_wp
+      if (size(places) > 1) step = places(2) - places(1)
+      do i = 1, n - 1
+         bulge = bulge_share*maxval(bend(max(1, i - neighbours + 1):min(n, i + neighbours)))
+         ends = [minval(y(i:i + 1, :)) - bulge, maxval(y(i:i + 1, :)) + bulge]
+         first = max(1, ceiling((ends(1) - places(1))/step) + 1)
+         last = min(size(places), floor((ends(2) - places(1))/step) + 1)
+         if (first > last) cycle
+         associate (rise => middle(i + 1, 2) - middle(i, 2), run => middle(i + 1, 1) - middle(i, 1))
+            if (abs(rise) >= wall*abs(run)) then
+               least = minval(z(i:i + 1, :)) - bulge - extra
+               low(first:last) = min(low(first:last), least)
+               cycle
+            end if
+            slope = rise/run
+         end associate
+         least = minval(z(i:i + 1, :) - middle(i, 2) - slope*(y(i:i + 1, :) - middle(i, 1))) &
+            & - bulge*sqrt(1.0_wp + slope**2) - extra
+         do j = first, last
+            low(j) = min(low(j), middle(i, 2) + slope*(places(j) - middle(i, 1)) + least)
+         end do
+      end do
+   end subroutine lower_envelope
+end module contact_wheelrail_gap_bound

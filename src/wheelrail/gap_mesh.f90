@@ -1,0 +1,96 @@
+!> The vertical gap at points of a mesh over the track, row by row
+module contact_wheelrail_gap_mesh
+   use contact_base_kinds, only : wp
+   use contact_wheelrail_bodies, only : find_wheel_row, pair_bodies
+   use contact_wheelrail_frame, only : frame
+   use contact_wheelrail_gap, only : no_surface
+   implicit none (type, external)
+   private
+
+   public :: fill, rail_heights
+
+contains
+
+   !> Vertical gap at points of a mesh; the rail has sections at its places x
+   subroutine fill(bodies, x, y, first, last, table)
+      type(pair_bodies), intent(inout) :: bodies
+      !> Rising
+      real(wp), intent(in) :: x(:), y(:)
+      !> Points that are wanted in each row along the track, none if the last one is before the first; the others stay
+      integer, intent(in) :: first(:), last(:)
+      !> Shape (x, y)
+      real(wp), intent(inout) :: table(:, :)
+      type(frame) :: track, seen
+      real(wp) :: wheel(size(x))
+      logical :: found(size(x))
+      integer :: j
+
+      call fill_rail(bodies, x, y, first, last, table)
+      seen = bodies%placement%wheel%seen_from_here(track)
+      do j = 1, size(y)
+         if (first(j) > last(j)) cycle
+         associate (row => table(first(j):last(j), j), n => last(j) - first(j) + 1)
+            if (minval(row) >= no_surface) cycle
+            call find_wheel_row(bodies, seen, x(first(j):last(j)), y(j), wheel(:n), found(:n))
+            where (found(:n) .and. row < no_surface)
+               row = row - wheel(:n)
+            else where
+               row = no_surface
+            end where
+         end associate
+      end do
+   end subroutine fill
+
+   !> Height of the rail at points of a mesh, section after section
+   subroutine fill_rail(bodies, x, y, first, last, table)
+      type(pair_bodies), intent(inout) :: bodies
+      !> See `fill`
+      real(wp), intent(in) :: x(:), y(:)
+      integer, intent(in) :: first(:), last(:)
+      real(wp), intent(inout) :: table(:, :)
+      real(wp) :: z(size(y)), rho
+      logical :: wanted(size(y)), found(size(y))
+      integer :: rows(size(y))
+      integer :: i, k, n
+
+      do i = minval(first), maxval(last)
+         wanted = first <= i .and. i <= last
+         n = count(wanted)
+         if (n == 0) cycle
+         rows(:n) = pack([(k, k=1, size(y))], wanted)
+         call rail_heights(bodies, x(i), y(rows(:n)), z(:n), found(:n))
+         if (bodies%placement%roller_radius > 0.0_wp) then
+            do k = 1, n
+               rho = bodies%placement%roller_radius - z(k)
+               found(k) = found(k) .and. abs(x(i)) < rho
+               if (found(k)) z(k) = bodies%placement%roller_radius - sqrt(rho**2 - x(i)**2)
+            end do
+         end if
+         table(i, rows(:n)) = merge(z(:n), no_surface, found(:n))
+      end do
+   end subroutine fill_rail
+
+   !> Heights of the rail's section at a place where it has one
+   subroutine rail_heights(bodies, x, y, z, found)
+      type(pair_bodies), intent(inout) :: bodies
+      real(wp), intent(in) :: x
+      !> Rising
+      real(wp), intent(in) :: y(:)
+      real(wp), intent(out) :: z(:)
+      logical, intent(out) :: found(:)
+      integer :: k
+
+      if (.not. allocated(bodies%rail_strip)) then
+         call bodies%rail%heights(y, z, found)
+         return
+      end if
+      z = 0.0_wp
+      found = .false.
+      associate (along => bodies%rail_strip)
+         k = along%number_at(x)
+         if (k == 0) return
+         call along%need(k)
+         if (along%sections(k)%present) call along%sections(k)%curve%heights(y, z, found)
+      end associate
+   end subroutine rail_heights
+end module contact_wheelrail_gap_mesh
