@@ -29,8 +29,14 @@ contains
 
       if (allocated(problem%friction)) deallocate(problem%friction)
       problem%remembers_friction = .false.
-      problem%mu = spec%friction%sets(1)%fstat
+      problem%mu = 0.0_wp
+      ! there are none behind a case that was to give them and was refused
+      if (allocated(spec%friction%sets)) problem%mu = spec%friction%sets(1)%fstat
       if (spec%motion == motion%none) return
+      if (.not. allocated(spec%friction%sets)) then
+         call fatal_error(error, "no coefficient of friction has been given")
+         return
+      end if
       by_row = spec%variation == variation%by_row
       if (spec%friction_law == friction_model%coulomb .and. size(spec%friction%sets) == 1 .and. .not. by_row) return
       if (size(spec%friction%sets) /= 1 .and. size(spec%friction%sets) /= problem%grid%my) then
