@@ -19,6 +19,8 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include "../capi/robust/pair.h"
+
 enum { most_values = 4000, largest_message = 400, most_elements = 201*201 };
 
 /* What a scenario gave: values, and whether the caller was told of trouble */
@@ -121,36 +123,17 @@ static void contact_problem(struct outcome *o, int ire) {
 
 static void contact(struct outcome *o) { contact_problem(o, 1); }
 
-static void set_profile(int ire, const char *file, int which) {
-  char name[1000];
-  const double reals[] = {1.0, 0.0};
-  const int length = snprintf(name, sizeof name, "%s/profiles/%s", examples, file), one = 1, two = 2;
-  cntc_setprofileinputfname(&ire, name, &length, &one, &which, &two, reals);
-}
-
 /* Module 1: profiles from files, two positions */
 static void pair(struct outcome *o) {
-  const int ire = 1, whole = -1, module = 1, zero = 0, one = 1, two = 2, three = 3, four = 4, five = 5, six = 6, eleven = 11, count = 24;
-  const int flags[] = {CNTC_ic_config, CNTC_ic_tang, CNTC_ic_flow, CNTC_ic_output}, digits[] = {0, 3, 0, 0};
-  const double material[] = {0.28, 0.28, 82000.0, 82000.0}, friction[] = {0.3, 0.3};
-  const double grid[] = {1.0, 1.0, 1.5708, 8.0, 4.0}, track[11] = {14.0, 0.0, 1435.0, 0.025}, wheelset[] = {1360.0, -70.0, 460.0};
-  const double velocity[6] = {2000.0, 0.0, 0.0, 0.0, 0.0, -4.34657}, fz = 10000.0, chi = 0.0, step = 1.0;
+  const int ire = 1, whole = -1, module = 1, one = 1, six = 6, count = 24, eight = 8;
   double position[6] = {0.0, 1.0, 0.0, 0.0, 0.0024, 0.0}, totals[24] = {0}, location[8] = {0};
-  int version = 0, error = 0, eight = 8;
+  char profiles[900];
+  int version = 0, error = 0;
 
   cntc_initialize(&ire, &module, &version, &error, " ", &one);
   look(o, 0, 0, error);
-  cntc_setflags(&ire, &whole, &four, flags, digits);
-  cntc_setmaterialparameters(&ire, &whole, &zero, &four, material);
-  cntc_setfrictionmethod(&ire, &whole, &zero, &two, friction);
-  cntc_setpotcontact(&ire, &whole, &whole, &five, grid);
-  cntc_setrollingstepsize(&ire, &whole, &chi, &step);
-  cntc_settrackdimensions(&ire, &three, &eleven, track);
-  cntc_setwheelsetdimensions(&ire, &three, &three, wheelset);
-  set_profile(ire, "60E1.prr", 0);
-  set_profile(ire, "S1002.prw", 1);
-  cntc_setwheelsetvelocity(&ire, &two, &six, velocity);
-  cntc_setverticalforce(&ire, &fz);
+  snprintf(profiles, sizeof profiles, "%s/profiles", examples);
+  set_up_pair(ire, profiles, 1.0);
   for (int k = 0; k < 2; k++) {
     position[1] = 1.0 - 0.8*k;
     cntc_setwheelsetposition(&ire, &one, &six, position);

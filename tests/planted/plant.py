@@ -2,6 +2,7 @@
 """Plant faults in a copy of the sources and see which of them the tests catch.
 
 usage: plant.py [--seed N] [--count N] [--store FOLDER] [--again] [--renew] [--measure] [--only ROOM ...] [--limit S] [--table]
+                [--chosen-at COMMIT] [--every N]
 
     --seed N        faults that are chosen [1]
     --count N       how many, over all rooms, most of them at the doors [240]
@@ -12,6 +13,9 @@ usage: plant.py [--seed N] [--count N] [--store FOLDER] [--again] [--renew] [--m
     --only ROOM     these rooms only
     --limit S       seconds of tests for one fault [240]
     --table         only write the table of what is known
+    --chosen-at C   choose from the sources of this commit, so that a seed means the faults of an earlier campaign; judge them in
+                    the sources of now, as far as their lines are still there
+    --every N       judge every N-th of the faults only
 
 One after the other: write the fault, compile its file, link, run the tests that reach the line until one fails. Which tests
 reach a line is measured once with gcov, and again with --measure. Results are lines of FOLDER/results.jsonl, the last one of a
@@ -30,6 +34,7 @@ import shutil
 import signal
 import subprocess
 import sys
+import tempfile
 import time
 
 import faults
@@ -349,6 +354,15 @@ class Store:
             order[room] = chosen
         return order
 
+    def order_at(self, commit, seed):
+        """The same with the sources of a commit"""
+        with tempfile.TemporaryDirectory() as folder:
+            old = Store(folder)
+            old.source.mkdir()
+            archive = subprocess.run(["git", "-C", TOP, "archive", commit], check=True, capture_output=True).stdout
+            subprocess.run(["tar", "-x", "-C", old.source], input=archive, check=True)
+            return old.choose(seed)
+
     def order_of_tests(self, fault, room, caught):
         """Tests that reach the fault: those first that catch much in little time"""
         if room in SCRIPTS:
@@ -453,10 +467,11 @@ class Store:
         """Choose and judge until each room has its number"""
         self.load()
         self.read_reach()
-        order = self.read("order-%d.json" % options.seed)
+        name = "order-%d%s.json" % (options.seed, "-" + options.chosen_at if options.chosen_at else "")
+        order = self.read(name)
         if order is None:
-            order = self.choose(options.seed)
-            self.write("order-%d.json" % options.seed, order)
+            order = self.order_at(options.chosen_at, options.seed) if options.chosen_at else self.choose(options.seed)
+            self.write(name, order)
         order = {room: [faults.Fault(*item) for item in items] for room, items in order.items()}
         latest = latest_results(self)
         caught = collections.Counter()
@@ -473,6 +488,12 @@ class Store:
                     if result["told"] == "survived" and result["room"] in quota and not judged_by_hand(result):
                         self.tell(self.judge(faults.Fault(*[result[k] for k in faults.Fault._fields]), result["room"],
                                              options.limit, caught), options)
+                return
+            if options.every > 1:
+                listed = [(room, fault) for room in quota for fault in order[room][:quota[room]]]
+                for room, fault in listed[options.every//2::options.every]:
+                    if identity(fault._asdict()) not in latest:
+                        self.tell(self.judge(fault, room, options.limit, caught), options)
                 return
             done = dict.fromkeys(quota, 0)
             places = {room: iter(order[room]) for room in quota}
@@ -556,6 +577,8 @@ def main():
     parser.add_argument("--only", nargs="+", choices=list(ROOMS))
     parser.add_argument("--limit", type=float, default=240)
     parser.add_argument("--table", action="store_true")
+    parser.add_argument("--chosen-at")
+    parser.add_argument("--every", type=int, default=1)
     options = parser.parse_args()
     store = Store(options.store)
     if not options.table:

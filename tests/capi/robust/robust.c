@@ -13,6 +13,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "pair.h"
+
 /* Exported, in no header */
 extern void cntc_calculate1(const int *ire, int *ierror);
 extern void cntc_calculate3(const int *ire, const int *icp, int *ierror);
@@ -258,32 +260,12 @@ enum { places = 3, totals = 24 };
 static double pairs_alone[workers][places][totals], pairs_together[workers][places][totals];
 static const char *profiles;
 
-static void set_profile(int ire, const char *file, int kind) {
-  char name[1000];
-  int length = snprintf(name, sizeof name, "%s/%s", profiles, file), one = 1, two = 2;
-  double reals[2] = {1.0, 0.0};
-  cntc_setprofileinputfname(&ire, name, &length, &one, &kind, &two, reals);
-}
-
 static void roll_all(int worker, double (*list)[totals]) {
-  int ire = worker + 1, whole = -1, k, zero = 0, one = 1, two = 2, three = 3, four = 4, five = 5, six = 6, eleven = 11;
-  int flags[4] = {CNTC_ic_config, CNTC_ic_tang, CNTC_ic_output, CNTC_ic_flow}, values[4] = {0, 3, 0, 0}, length = totals;
-  double material[4] = {0.28, 0.28, 82000, 82000}, friction[2] = {0.3, 0.3}, grid[5] = {0.8, 0.8, 1.5708, 8.0, 4.0};
-  double track[11] = {14.0, 0.0, 1435.0, 0.025}, wheelset[3] = {1360.0, -70.0, 460.0}, position[6] = {0.0, 0.0, 0.0, 0.0, 0.002, 0.0};
-  double velocity[6] = {2000.0, 0.0, 0.0, 0.0, 0.0, -4.34657}, fz = 10000.0, chi = 0.0, step = 1.0;
+  const int ire = worker + 1, whole = -1, one = 1, six = 6, length = totals;
+  double position[6] = {0.0, 0.0, 0.0, 0.0, 0.002, 0.0};
   start(ire, 1);
-  cntc_setflags(&ire, &whole, &four, flags, values);
-  cntc_setmaterialparameters(&ire, &whole, &zero, &four, material);
-  cntc_setfrictionmethod(&ire, &whole, &zero, &two, friction);
-  cntc_setpotcontact(&ire, &whole, &whole, &five, grid);
-  cntc_setrollingstepsize(&ire, &whole, &chi, &step);
-  cntc_settrackdimensions(&ire, &three, &eleven, track);
-  cntc_setwheelsetdimensions(&ire, &three, &three, wheelset);
-  set_profile(ire, "60E1.prr", 0);
-  set_profile(ire, "S1002.prw", 1);
-  cntc_setwheelsetvelocity(&ire, &two, &six, velocity);
-  cntc_setverticalforce(&ire, &fz);
-  for (k = 0; k < places; k++) {
+  set_up_pair(ire, profiles, 0.8);
+  for (int k = 0; k < places; k++) {
     position[1] = 0.5 * worker - 0.7 * k;
     cntc_setwheelsetposition(&ire, &one, &six, position);
     list[k][0] = NAN;
