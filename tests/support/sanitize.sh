@@ -1,7 +1,7 @@
 # What sh tests/run.sh --sanitize does; sourced by it with $top set to the checkout. Ends the shell.
 #
 # Each part runs whatever the ones before found, and the exit status is 0 when none found anything.
-# shellcheck shell=sh disable=SC2154
+# shellcheck shell=sh disable=SC2154,SC2034
 
 failures=
 # part NAME COMMAND...
@@ -42,12 +42,13 @@ part "Address and undefined-behaviour sanitizers, leaks" \
 part "The same for a traced program" \
   env ASAN_OPTIONS=detect_leaks=0 ctest --test-dir "$top/build/sanitize" --output-on-failure -R '^no_exports$'
 
-(cd "$top" && cmake --preset sanitize-thread && cmake --build --preset sanitize-thread -j "$jobs") ||
-  fail "The build failed; its messages stand above."
+build sanitize-thread -DCONTACT_TESTS=ON
 # units of libgfortran lock in both orders, with a try that the sanitizer does not see; it wants addresses without surprises
 part "Thread sanitizer" env TSAN_OPTIONS=detect_deadlocks=0 OMP_NUM_THREADS=8 \
   setarch -R ctest --test-dir "$top/build/sanitize-thread" --output-on-failure -L '^threads$'
 
+# only what valgrind runs; the other tests are named here, not run
+build_targets=memcheck
 build release -DCONTACT_TESTS=ON
 part "Valgrind" ctest --test-dir "$top/build/release" --output-on-failure -j2 -L '^memcheck$'
 

@@ -6,7 +6,7 @@
 #   install_valgrind   the same for valgrind, by which tests look for uninitialised values; goes on without it
 #   install_linters    the same for fortitude, ruff, shellcheck and ford, the rules for sources and their pages
 #   install_fuzzer     the same for libFuzzer, which only tests/fuzz/run.sh needs
-#   build PRESET [-DX] configures and builds into build/PRESET
+#   build PRESET [-DX] configures and builds into build/PRESET; all of it, or what the build preset $build_targets names
 # shellcheck shell=sh disable=SC2154
 
 say() { printf '%s\n' "== $*"; }
@@ -208,6 +208,7 @@ install_fuzzer() {
 
 # build PRESET [options of cmake]
 # A folder that was configured before keeps its generator.
+build_targets=
 build() {
   preset=$1
   shift
@@ -217,7 +218,7 @@ build() {
   fi
   say "Building ($preset)"
   # shellcheck disable=SC2086
-  (cd "$top" && cmake --preset "$preset" $generator "$@" && cmake --build --preset "$preset" -j "$jobs") ||
+  (cd "$top" && cmake --preset "$preset" $generator "$@" && cmake --build --preset "${build_targets:-$preset}" -j "$jobs") ||
     fail "The build failed; its messages stand above."
 }
 
