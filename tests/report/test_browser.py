@@ -9,7 +9,6 @@ import shutil
 import subprocess
 import sys
 import tempfile
-import time
 import unittest
 
 BROWSER = shutil.which("chromium") or shutil.which("chromium-browser")
@@ -32,6 +31,8 @@ COLOURS = """id => { const c = document.getElementById(id), p = c.getContext('2d
   .getImageData(0, 0, c.width, c.height).data;
 const seen = new Set(); for (let i = 0; i < p.length; i += 4) seen.add(p[i] * 65536 + p[i + 1] * 256 + p[i + 2]);
 return seen.size; }"""
+# [ms]; how long a step takes on a busy machine says nothing of the page
+PATIENCE = 200_000
 SETTLED = "index => window.contactReport && contactReport.state.ready && contactReport.state.index === index"
 
 MANY = """3
@@ -61,7 +62,8 @@ class Browser(unittest.TestCase):
     def setUpClass(cls):
         cls.scratch = tempfile.TemporaryDirectory()
         cls.playwright = sync_playwright().start()
-        cls.browser = cls.playwright.chromium.launch(executable_path=BROWSER, args=["--no-sandbox", "--disable-gpu"])
+        cls.browser = cls.playwright.chromium.launch(executable_path=BROWSER, args=["--no-sandbox", "--disable-gpu"],
+                                                     timeout=PATIENCE)
 
     @classmethod
     def tearDownClass(cls):
@@ -75,9 +77,16 @@ class Browser(unittest.TestCase):
                        check=True, stdin=subprocess.DEVNULL, timeout=300)
         return "file://" + write_page(os.path.join(folder, name + ".h5"))
 
-    def open(self, address):
-        page = self.browser.new_page(viewport={"width": 1400, "height": 1300})
+    def new_page(self, **options):
+        page = self.browser.new_page(**options)
+        page.set_default_timeout(PATIENCE)
         self.addCleanup(page.close)
+        return page
+
+    def open(self, address):
+        page = self.new_page(viewport={"width": 1400, "height": 1300})
+        self.processor = page.context.new_cdp_session(page)
+        self.processor.send("Performance.enable", {"timeDomain": "threadTicks"})
         self.troubles = []
         # reading the colours of a canvas again and again is what these tests do, not the page
         page.on("console", lambda message: self.troubles.append(message.text) if message.type in ("error", "warning")
@@ -86,8 +95,13 @@ class Browser(unittest.TestCase):
         page.on("request", lambda request: None if request.url.startswith(("file:", "data:", "blob:"))
                 else self.troubles.append(request.url))
         page.goto(address)
-        page.wait_for_function(SETTLED, arg=0, timeout=60000)
+        page.wait_for_function(SETTLED, arg=0)
         return page
+
+    def processor_time(self):
+        """What the last opened page has taken so far [s]"""
+        told = self.processor.send("Performance.getMetrics")["metrics"]
+        return next(item["value"] for item in told if item["name"] == "TaskDuration")
 
     def test_shift_of_a_ball(self):
         page = self.open(self.page_of("cattaneo"))
@@ -104,8 +118,8 @@ class Browser(unittest.TestCase):
         # the middle of the contact sticks, and its pressure is the largest
         box = page.locator("#map-pn").bounding_box()
         page.mouse.move(box["x"] + 58 + (box["width"] - 142) / 2, box["y"] + 12 + (box["height"] - 52) / 2)
+        page.wait_for_function("document.getElementById('readout').innerText.includes('adhesion')")
         told = page.inner_text("#readout").replace("\n", " ")
-        self.assertIn("adhesion", told)
         largest = page.evaluate("Math.max(...contactReport.state.fields.pn)")
         self.assertRegex(told, r"pn\s*%.2f" % largest)
         # zoom and pan change the view, a double click shows all again
@@ -117,10 +131,9 @@ class Browser(unittest.TestCase):
         page.mouse.down()
         page.mouse.move(box["x"] + 120, box["y"] + 60, steps=4)
         page.mouse.up()
-        self.assertGreater(abs(page.evaluate("contactReport.state.view")[0] - zoomed[0]), 1e-3)
+        page.wait_for_function("x => Math.abs(contactReport.state.view[0] - x) > 1e-3", arg=zoomed[0])
         page.mouse.dblclick(box["x"] + 150, box["y"] + 100)
-        for old, new in zip(before, page.evaluate("contactReport.state.view")):
-            self.assertAlmostEqual(old, new, places=9)
+        page.wait_for_function("w => contactReport.state.view.every((x, k) => Math.abs(x - w[k]) < 1e-9)", arg=before)
         self.assertEqual(self.troubles, [])
 
     def test_wheel_on_rail(self):
@@ -161,6 +174,7 @@ class Browser(unittest.TestCase):
         at = page.evaluate("([x, z]) => ({ x: contactReport.plots.block.X(x), y: contactReport.plots.block.Y(z) })",
                            [float(points["x"][10]), float(points["z"][1])])
         page.hover("#map-block", position=at)
+        page.wait_for_function("document.getElementById('readout').innerText.includes('von Mises')")
         told = page.inner_text("#readout").replace("\n", " ")
         self.assertRegex(told, "von Mises stress ?%s" % float("%.5g" % values[1, place, 10]))
         # another plane, its place, another stress
@@ -183,8 +197,7 @@ class Browser(unittest.TestCase):
     def test_narrow_and_other_side(self):
         page = self.open(self.page_of("wheel_on_rail"))
         page.set_viewport_size({"width": 400, "height": 800})
-        page.wait_for_timeout(200)
-        self.assertLessEqual(page.evaluate("document.documentElement.scrollWidth"), 400)
+        page.wait_for_function("document.documentElement.scrollWidth <= 400")
         # right and left side: the contact is in view on both
         for index in (0, 5):
             page.evaluate("contactReport.go(%d)" % index)
@@ -200,9 +213,8 @@ class Browser(unittest.TestCase):
             file.writelines((MANY if k == 0 else NEXT).format(creep=-4e-6 * k) for k in range(1000))
             file.write("0\n")
         address = self.page_of("many", path)
-        started = time.monotonic()
         page = self.open(address)
-        self.assertLess(time.monotonic() - started, 30.0)
+        self.assertLess(self.processor_time(), 30.0)
         self.assertEqual(page.input_value("#curve-x"), "cksi")
         page.fill("#slider", "999")
         page.wait_for_function(SETTLED, arg=999)
@@ -220,8 +232,7 @@ class Browser(unittest.TestCase):
         threading.Thread(target=server.serve_forever, daemon=True).start()
         self.addCleanup(server.server_close)
         self.addCleanup(server.shutdown)
-        page = self.browser.new_page()
-        self.addCleanup(page.close)
+        page = self.new_page()
         troubles = []
         page.on("console", lambda message: troubles.append(message.text) if message.type == "error" else None)
         page.goto("http://127.0.0.1:%d/" % server.server_port)
@@ -234,6 +245,7 @@ class Browser(unittest.TestCase):
         with page.expect_popup() as popup:
             page.click("tr[data-name=cattaneo] a")
         result = popup.value
+        result.set_default_timeout(PATIENCE)
         result.wait_for_function(SETTLED, arg=0)
         self.assertGreater(result.evaluate(COLOURS, "map-pn"), 20)
         self.assertEqual([text for text in troubles if "favicon" not in text and "404" not in text], [])

@@ -313,6 +313,7 @@ contains
       call dubious(suite, "3=0500001|4=100 100 30 1 1e-5;0.9 0.1 1 1. -1. 2. 3. 1.", "D_LIN")
       call right(suite, "3=0400001|4=100 100 30 1 1e-5;-1 0.5")
       call wrong(suite, "2=0021020|7=|8=", "C = 1 keeps the materials, but this is the first case")
+      call wrong(suite, "2=0022010|11=|12=", "Z = 1 forms the undeformed distance from the values in store, but this is the first")
    end subroutine all_groups
 
    !> What digits keep
@@ -679,6 +680,8 @@ contains
       call suite%check(spec%iteration%maxout == 1, "MAXOUT becomes 1 for similar bodies")
       call dubious(suite, "8=.3 .4 1 1", "dissimilar materials, AK = 0.05;")
       call right(suite, "4=100 100 30 10 1e-5|8=.3 .4 1 1")
+      call dubious(suite, "8=.4 .3 1 1", "dissimilar materials, AK = -0.05;")
+      call right(suite, "4=100 100 30 10 1e-5|8=.4 .3 1 1")
       call dubious(suite, "2=0024020|8=0 1 1;0 0;.3 .3 1 1", "dissimilar shapes")
       call right(suite, "1=200100|4=100 100 30 10 1e-5|7=")
    end subroutine outer_iteration
