@@ -13,7 +13,7 @@ module contact_tangential_gd_steady
    use contact_base_solve_report, only : ending, solve_report
    use contact_elastic_compliance, only : compliance
    use contact_grid_element_division, only : element
-   use contact_tangential_problem, only : slip_of, tangential_problem
+   use contact_tangential_problem, only : residual_scale, slip_of, tangential_problem, true_residual
    use contact_tangential_sweep, only : trace_iteration, update_watch
    implicit none (type, external)
    private
@@ -34,6 +34,8 @@ module contact_tangential_gd_steady
    !> Relative tolerance and evaluations of the line search
    real(wp), parameter :: line_tolerance = 1.0e-3_wp
    integer, parameter :: line_limit = 99
+   !> Tolerance of the updates from then on, where they are small and the residual is not
+   real(wp), parameter :: sharper = 0.3_wp
    !> Iterations without a smaller residual that count as stagnation
    integer, parameter :: patience = 30
 
@@ -43,7 +45,7 @@ contains
    subroutine gd_steady(problem, operator, eps, creep, p, state, report, log)
       type(tangential_problem), intent(in) :: problem
       class(compliance), intent(inout) :: operator
-      !> Tolerance of the updates
+      !> Tolerance of the updates and, with given creepages, of the true residual
       real(wp), intent(in) :: eps
       real(wp), intent(in) :: creep(2)
       !> Tractions [N/mm2], shape (mx, my, 2); admissible estimate on entry
@@ -58,7 +60,7 @@ contains
       real(wp), allocatable :: weight(:, :)
       !> Compliance of an element on itself, its change carried one element downstream [mm/(N/mm2)]
       real(wp) :: own(2)
-      real(wp) :: alpha, alpha0, usual, f, progress, old_size, new_size, least, factor
+      real(wp) :: alpha, alpha0, usual, f, progress, old_size, new_size, least, factor, scale
       integer :: k, iteration, mode, held, since_best
       logical :: moved
 
@@ -67,6 +69,7 @@ contains
       own = operator%diagonal(2:3) - [operator%table%xx(1, 0), operator%table%yy(1, 0)]
       watch = update_watch(eps=eps, n_contact=count(problem%contact), largest_bound=maxval(problem%bound), &
          & deadline=problem%deadline)
+      scale = residual_scale(problem, operator)
       call slip_of(problem, operator, p, creep, slip)
       usual = 0.0_wp
       held = 0
@@ -113,6 +116,13 @@ contains
          call watch%judge(sum(((p - before)*factor)**2), sum(p**2), problem%maxgs, report%ended)
          call trace_iteration(log, watch, "GDsteady", state)
          if (report%ended == ending%converged .and. moved) report%ended = ending%not_started
+         ! small updates are no small residual; prescribed forces are missed until the end
+         if (report%ended == ending%converged .and. problem%n_forces == 0) then
+            if (true_residual(problem, p, slip, scale) > eps) then
+               report%ended = ending%not_started
+               watch%eps = sharper*watch%eps
+            end if
+         end if
          if (report%ended /= ending%not_started) exit
       end do
       if (report%ended /= ending%converged) then

@@ -25,6 +25,7 @@ program test_classical
    call element_problems()
    call known_values()
    call steady_solvers_agree()
+   call gd_steady_means_the_residual()
    call shift_solvers_agree()
    call shapes()
    call mirrored()
@@ -228,6 +229,30 @@ contains
       call suite%check(report%ended == ending%converged .and. report%residual < 1.0e-4_wp, "ConvexGS, oblique direction")
       call operator%release()
    end subroutine steady_solvers_agree
+
+   !> Converged GDsteady: the true residual is within the tolerance, at tolerances of all sizes
+   subroutine gd_steady_means_the_residual()
+      type(tangential_problem) :: problem
+      type(tangential_solution) :: solution
+      type(elastic_operator) :: operator
+      type(solve_report) :: report
+      real(wp), parameter :: cases(3, 3) = reshape([5e-4_wp, 2e-4_wp, 1e-4_wp, 1e-3_wp, -7e-4_wp, 3e-4_wp, 5e-5_wp, 2e-4_wp, &
+         & -1e-4_wp], [3, 3])
+      integer :: i, k, converged
+
+      converged = 0
+      do i = 1, size(cases, 2)
+         call ellipse(20, cases(:, i), 1, .true., problem, operator, 1.02_wp)
+         do k = 2, 12
+            problem%eps = 10.0_wp**(-0.5_wp*k)
+            call solve(problem, operator, classical_method%gd_steady, solution, report, "tolerances")
+            if (report%ended /= ending%converged) cycle
+            converged = converged + 1
+            call suite%check(report%residual <= problem%eps, "GDsteady: converged means the residual")
+         end do
+      end do
+      call suite%check(converged > 20, "GDsteady converges")
+   end subroutine gd_steady_means_the_residual
 
    subroutine shift_solvers_agree()
       type(tangential_problem) :: problem
