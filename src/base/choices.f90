@@ -7,8 +7,8 @@ module contact_base_choices
    private
 
    public :: time_link, pressure_model, motion, normal_control, force_control, friction_model
-   public :: kernel_model, material_model, solver_choice, estimate_choice, slip_source, heat_model, heat_source, heat_source_name
-   public :: variation, stress_choice, contact_location
+   public :: kernel_model, material_model, solver_choice, estimate_choice, slip_source, heat_source, heat_source_name
+   public :: variation, contact_location
    public :: sensitivity_choice
    public :: has_slope_reduction, is_fastrip, is_simplified
 
@@ -44,7 +44,7 @@ module contact_base_choices
    end type force_control_list
    type(force_control_list), parameter :: force_control = force_control_list()
 
-   !> Friction law (L, the last one that was not "keep")
+   !> Friction law (L)
    type :: friction_model_list
       integer :: coulomb = 0, linear = 2, rational = 3, exponential = 4, temperature = 6
    end type friction_model_list
@@ -56,7 +56,7 @@ module contact_base_choices
    end type variation_list
    type(variation_list), parameter :: variation = variation_list()
 
-   !> Influence coefficients (C, the last one that was not "keep")
+   !> Influence coefficients (C)
    type :: kernel_model_list
       integer :: piecewise_constant = 2, bilinear = 3, conformal = 4, tabulated = 9
    end type kernel_model_list
@@ -70,7 +70,7 @@ module contact_base_choices
    end type material_model_list
    type(material_model_list), parameter :: material_model = material_model_list()
 
-   !> Tangential solver (G, the last one that was not "keep")
+   !> Tangential solver (G)
    type :: solver_choice_list
       !> Newton-Krylov with automatic fall-back
       integer :: default = 0
@@ -93,15 +93,9 @@ module contact_base_choices
 
    !> Extra term of the rigid slip (E)
    type :: slip_source_list
-      integer :: none = 0, keep = 1, no_spin_y = 2, no_spin_x = 3, given = 9
+      integer :: none = 0, no_spin_y = 2, no_spin_x = 3, given = 9
    end type slip_source_list
    type(slip_source_list), parameter :: slip_source = slip_source_list()
-
-   !> Surface temperature (H)
-   type :: heat_model_list
-      integer :: none = 0, keep = 1, given = 3
-   end type heat_model_list
-   type(heat_model_list), parameter :: heat_model = heat_model_list()
 
    !> How the heat of friction of an element acts on itself
    type :: heat_source_list
@@ -111,12 +105,6 @@ module contact_base_choices
    type(heat_source_list), parameter :: heat_source = heat_source_list()
    !> Names of the members of heat_source, from 0 on
    character(len=13), parameter :: heat_source_name(0:1) = ["established  ", "moving source"]
-
-   !> Subsurface points (S)
-   type :: stress_choice_list
-      integer :: none = 0, keep = 1, new_output = 2, new_points = 3
-   end type stress_choice_list
-   type(stress_choice_list), parameter :: stress_choice = stress_choice_list()
 
    !> How the contact of wheel and rail is located and described (D of module 1)
    type :: contact_location_list

@@ -57,9 +57,6 @@ contains
       call enter_calculation(this, allowed, problem, code)
       if (associated(problem)) then
          call forget_complaint(problem)
-         ! a first case overrides these digits for itself only
-         problem%given_link = problem%spec%digits%p
-         problem%given_estimate = problem%spec%digits%i
          call say(1, this, "calculating...")
          threads = omp_get_max_threads()
          call omp_set_num_threads(threads_inside())
@@ -79,8 +76,6 @@ contains
          else
             call calculate_contact(this, problem, code)
          end if
-         problem%spec%digits%p = problem%given_link
-         problem%spec%digits%i = problem%given_estimate
          call problem%total%halt()
          call problem%watch%halt()
          if (problem%module_number == 1) call book_patches(problem, problem%watch%cpu - cpu, problem%watch%wall - wall)

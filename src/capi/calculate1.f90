@@ -1,7 +1,7 @@
 !> Wheel on rail of a caller from its settings to its results and files (module 1)
 module contact_capi_calculate1
    use contact_base_case_status, only : case_status
-   use contact_base_choices, only : heat_model, motion
+   use contact_base_choices, only : motion
    use contact_base_error, only : error_kind, error_type, fatal_error, full_text
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
@@ -13,9 +13,10 @@ module contact_capi_calculate1
    use contact_capi_problem, only : library_problem, most_patches
    use contact_cases_pair_session, only : solve_pair_case
    use contact_cases_spec, only : case_spec
-   use contact_control_digits, only : digit_names, digit_value, is_known
+   use contact_control_digits, only : case_digits, digit_names, digit_value, is_known
    use contact_control_library_codes, only : code_of_pair, library_code
-   use contact_input_control, only : check_physics, control_words, name_choices, refuse_unbuilt_digits
+   use contact_control_translation, only : take_digits
+   use contact_input_control, only : check_physics, control_words, refuse_unbuilt_digits
    use contact_input_problems, only : problem_list
    use contact_output_pair_files, only : write_pair_files
    use contact_output_report_pair, only : write_pair
@@ -37,15 +38,16 @@ contains
       type(log_type) :: log
       character(len=:), allocatable :: folder
       type(case_status) :: status
+      type(case_digits) :: digits
 
       log = library_log()
       problem%cases = problem%cases + 1
       call check_data(problem, code, error)
       if (.not. allocated(error)) then
-         call choose(this, problem)
+         call choose(this, problem, digits)
          call write_case_line(log, problem)
          code = library_code%other
-         call check_settings(problem%spec, error)
+         call check_settings(digits, problem%spec, error)
          if (.not. allocated(error)) call dump_pair_case(this, problem)
          call find_working_folder(folder)
          if (.not. allocated(error)) call solve_pair_case(problem%pair, problem%spec, folder, log, problem%pair_result, error)
@@ -102,24 +104,25 @@ contains
       type(library_problem), intent(in) :: problem
 
       is_transient = .false.
-      if (problem%spec%digits%t /= motion%shift .and. problem%spec%digits%t /= motion%transient_rolling) return
+      if (problem%digits%t /= motion%shift .and. problem%digits%t /= motion%transient_rolling) return
       is_transient = size(problem%pair_result%patches) > 0
    end function is_transient
 
    !> From digits to choices; a first case has nothing to continue
-   subroutine choose(this, problem)
+   subroutine choose(this, problem, digits)
       type(entry_type), intent(in) :: this
       type(library_problem), intent(inout) :: problem
+      !> Those that act
+      type(case_digits), intent(out) :: digits
 
+      digits = problem%digits
       associate (spec => problem%spec, wheelset => problem%spec%wheel_rail%wheelset)
          if (.not. problem%has_result) then
-            if (spec%digits%p /= 2) call say(1, this, "the first case starts a new sequence, P = 2")
-            spec%digits%p = 2
-            spec%digits%i = 0
+            if (digits%p /= 2) call say(1, this, "the first case starts a new sequence, P = 2")
+            digits%p = 2
+            digits%i = 0
          end if
-         call name_choices(spec, 1)
-         if (spec%digits%h == heat_model%keep) spec%heat_model = heat_model%given
-         spec%new_grid = .true.
+         call take_digits(digits, 1, spec)
          ! the first coordinate is that along the track, on rollers that of the wheelset beside the top of the roller
          if (spec%wheel_rail%roller) then
             wheelset%x = wheelset%x + wheelset%s
@@ -152,7 +155,8 @@ contains
    end subroutine write_case_line
 
    !> Refuse digits and combinations that cannot be solved, by name
-   subroutine check_settings(spec, error)
+   subroutine check_settings(digits, spec, error)
+      type(case_digits), intent(in) :: digits
       type(case_spec), intent(in) :: spec
       type(error_type), allocatable, intent(out) :: error
       type(problem_list) :: problems
@@ -162,7 +166,7 @@ contains
 
       do k = 1, size(digit_names)
          name = trim(digit_names(k))
-         digit = digit_value(spec%digits, name)
+         digit = digit_value(digits, name)
          if (.not. is_known(name, digit, 1)) then
             call fatal_error(error, name // " = " // integer_text(digit) // " is not a known digit of wheel-rail contact")
             return
@@ -175,6 +179,7 @@ contains
       end if
       if (allocated(error)) return
       call problems%start("")
+      words%digits = digits
       call refuse_unbuilt_digits(words, 1, spec, problems)
       call check_physics(words, spec, problems)
       call first_problem(problems, error)

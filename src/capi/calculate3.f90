@@ -1,7 +1,7 @@
 !> A contact problem of a caller from its settings to its results and files (module 3)
 module contact_capi_calculate3
    use contact_base_case_status, only : case_status
-   use contact_base_choices, only : estimate_choice, force_control, heat_model, motion, normal_control, slip_source, time_link
+   use contact_base_choices, only : estimate_choice, force_control, motion, normal_control, slip_source, time_link
    use contact_base_error, only : error_type, fatal_error, full_text
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
@@ -12,12 +12,14 @@ module contact_capi_calculate3
    use contact_capi_problem, only : library_problem
    use contact_cases_session, only : solve_case
    use contact_cases_spec, only : case_spec
+   use contact_control_digits, only : case_digits
+   use contact_control_translation, only : take_digits
    use contact_control_library_codes, only : code_of_contact, library_code
    use contact_grid_potential_contact, only : potential_contact
    use contact_input_checks3, only : check_case
-   use contact_input_control, only : check_physics, control_words, name_choices, refuse_unbuilt_digits
+   use contact_input_control, only : check_physics, control_words, refuse_unbuilt_digits
    use contact_input_grid_frame, only : frame_of, grid_frame
-   use contact_input_groups, only : case_lines
+   use contact_input_file_reader, only : file_reader
    use contact_input_problems, only : problem_list, severity
    use contact_output_mat_file, only : mat_place, write_mat_file
    use contact_output_report, only : write_case
@@ -41,16 +43,17 @@ contains
       type(log_type) :: log
       character(len=:), allocatable :: folder
       type(case_status) :: status
+      type(case_digits) :: digits
 
       log = library_log()
       problem%cases = problem%cases + 1
-      call choose(this, problem)
+      call choose(this, problem, digits)
       call write_case_line(log, problem)
-      call check_settings(problem%spec, error)
+      call check_settings(digits, problem%spec, error)
       code = library_code%other
       if (.not. allocated(error)) then
          code = library_code%discretisation
-         call check_coefficients(problem%spec, problem%coefficients, error)
+         call check_coefficients(digits%c == 0, problem%spec, problem%coefficients, error)
       end if
       if (.not. allocated(error)) then
          call find_working_folder(folder)
@@ -78,21 +81,21 @@ contains
    end subroutine calculate_contact
 
    !> From digits to choices; a first case has nothing to continue
-   subroutine choose(this, problem)
+   subroutine choose(this, problem, digits)
       type(entry_type), intent(in) :: this
       type(library_problem), intent(inout) :: problem
+      !> Those that act
+      type(case_digits), intent(out) :: digits
 
+      digits = problem%digits
       associate (spec => problem%spec)
          if (.not. problem%has_result) then
-            if (spec%digits%p /= 2) call say(1, this, "the first case starts a new sequence, P = 2")
-            spec%digits%p = 2
-            spec%digits%i = 0
+            if (digits%p /= 2) call say(1, this, "the first case starts a new sequence, P = 2")
+            digits%p = 2
+            digits%i = 0
          end if
-         call name_choices(spec, 3)
-         if (spec%digits%h == heat_model%keep) spec%heat_model = heat_model%given
-         if (spec%digits%e == slip_source%keep) spec%slip_source = slip_source%given
-         spec%new_grid = .true.
-         spec%new_geometry = .true.
+         call take_digits(digits, 3, spec)
+         if (digits%e == 1) spec%slip_source = slip_source%given
       end associate
    end subroutine choose
 
@@ -110,21 +113,26 @@ contains
    end subroutine write_case_line
 
    !> Refuse combinations that cannot be solved, by name
-   subroutine check_settings(spec, error)
+   subroutine check_settings(digits, spec, error)
+      type(case_digits), intent(in) :: digits
       type(case_spec), intent(in) :: spec
       type(error_type), allocatable, intent(out) :: error
       type(problem_list) :: problems
       type(control_words) :: words
+      type(file_reader) :: nowhere
 
       call problems%start("")
+      words%digits = digits
       call check_physics(words, spec, problems)
-      call check_case(words, case_lines(), spec, .false., grid_frame(), spec, problems)
+      call check_case(words, nowhere, spec, .false., grid_frame(), spec, problems)
       call refuse_unbuilt_digits(words, 3, spec, problems)
       call first_problem(problems, error)
    end subroutine check_settings
 
    !> Influence coefficients that are kept (C = 0) are for elements of the same size, and for no more of them
-   subroutine check_coefficients(spec, kept, error)
+   subroutine check_coefficients(is_kept, spec, kept, error)
+      !> Shall they be kept?
+      logical, intent(in) :: is_kept
       type(case_spec), intent(in) :: spec
       !> Grid of the coefficients
       type(grid_frame), intent(inout) :: kept
@@ -133,7 +141,7 @@ contains
       type(grid_frame) :: new
 
       new = frame_of(spec%grid)
-      if (spec%digits%c >= 1 .or. kept%mx == 0) then
+      if (.not. is_kept .or. kept%mx == 0) then
          kept = new
       else if (new%mx > kept%mx .or. new%my > kept%my) then
          call fatal_error(error, "the grid has more elements than the influence coefficients that are kept (C = 0)")

@@ -109,7 +109,7 @@ contains
       call visit_grid(a, grid)
       if (.not. a%is_good) return
       problem%spec%grid = grid
-      if (option == -4 .or. option == -5) problem%spec%digits%b = 2
+      if (option == -4 .or. option == -5) problem%digits%b = 2
    end subroutine set_grid
 
    !> Hertzian geometry
@@ -192,7 +192,7 @@ contains
       if (.not. associated(problem)) return
       value = real_of(pen)*inward(problem%units, quantity%length)
       if (fits(this, "PEN", [value])) then
-         problem%spec%digits%n = 0
+         problem%digits%n = 0
          problem%spec%kinematics%pen = value
       end if
       call leave(problem)
@@ -211,7 +211,7 @@ contains
       if (.not. associated(problem)) return
       value = real_of(fn)*inward(problem%units, quantity%force)
       if (fits(this, "FN", [value])) then
-         problem%spec%digits%n = 1
+         problem%digits%n = 1
          problem%spec%kinematics%fn = value
       end if
       call leave(problem)
@@ -230,7 +230,7 @@ contains
       if (.not. associated(problem)) return
       creep = 1.0_wp
       spin = inward(problem%units, quantity%spin)
-      if (problem%spec%digits%t == motion%shift) then
+      if (problem%digits%t == motion%shift) then
          creep = inward(problem%units, quantity%length)
          spin = inward(problem%units, quantity%angle)
       end if
@@ -266,7 +266,7 @@ contains
          given = min(n, size(y))
          slip(2, :given) = y(:given)
          call move_alloc(slip, problem%spec%extra_slip)
-         problem%spec%digits%e = slip_source%keep
+         problem%digits%e = 1
          problem%spec%slip_source = slip_source%given
          if (is_heard(2)) call say(2, this, integer_text(given) // " values for " // integer_text(n) // " elements")
       end if

@@ -89,7 +89,7 @@ contains
          return
       end if
       if (.not. flag_table(row)%can_set) then
-         if (number == digit_value(problem%spec%digits, trim(flag_table(row)%digit))) return
+         if (number == digit_value(problem%digits, trim(flag_table(row)%digit))) return
          if (code == flag%mater) call refuse(": the material is set by cntc_setMaterialParameters")
          if (code == flag%frclaw) call refuse(": the friction law is set by cntc_setFrictionMethod")
          if (code == flag%heat) call refuse(": temperatures are set by cntc_setTemperatureData")
@@ -137,20 +137,20 @@ contains
             call find_convention(number, problem%units, known)
             if (number == convention_code%imperial) call complain(this, "imperial units are not available; give another convention")
          case (flag%config)
-            if (is_pair) spec%digits%c1 = number
+            if (is_pair) problem%digits%c1 = number
          case (flag%discns)
             if (.not. is_pair) then
                call say(1, this, "the way to locate the contact belongs to wheel and rail, the flag is ignored")
             else
-               spec%digits%d = number
+               problem%digits%d = number
                if (number >= 2) spec%wheel_rail%search%location = choice_of("D", number, 1)
             end if
          case (flag%inflcf)
-            spec%digits%c = number
+            problem%digits%c = number
             if (number >= 2) spec%kernel = choice_of("C", number, problem%module_number)
          case (flag%exrhs)
             if (.not. is_pair) then
-               spec%digits%e = number
+               problem%digits%e = number
             else if (number /= 0) then
                call complain(this, "an extra term in the rigid slip is not available for wheel and rail; nothing is stored")
             end if
@@ -158,7 +158,7 @@ contains
             if (is_pair .and. number == 2) then
                call complain(this, "a prescribed pitching moment, F = 2, is not available; nothing is stored. 0, 1 and 3 are")
             else
-               spec%digits%f = number
+               problem%digits%f = number
             end if
          case (flag%sens)
             spec%iteration%sensitivity = number
@@ -191,9 +191,9 @@ contains
             end if
          case (flag%xflow)
             ! the word chooses what debug output prints, and there is none; the digit tells that it was given
-            spec%digits%x = merge(1, 0, number > 0)
+            problem%digits%x = merge(1, 0, number > 0)
          case default
-            call put_digit(spec%digits, flag_table(row_of_flag(code))%digit, number)
+            call put_digit(problem%digits, flag_table(row_of_flag(code))%digit, number)
          end select
       end associate
    end subroutine store_flag
@@ -253,7 +253,7 @@ contains
          case (flag%own_border); call look_at_patches(problem, icp, number, other(1), other(2))
          case (flag%own_stepped); call look_at_patches(problem, icp, other(1), number, other(2))
          case (flag%own_across); call look_at_patches(problem, icp, other(1), other(2), number)
-         case default; number = digit_value(spec%digits, trim(flag_table(row_of_flag(code))%digit))
+         case default; number = digit_value(problem%digits, trim(flag_table(row_of_flag(code))%digit))
          end select
          if (.not. is_part) return
          ! a patch is solved for its own approach and creepages, prints nothing itself, and continues from
@@ -261,7 +261,7 @@ contains
          select case (code)
          case (flag%norm, flag%force, flag%output); number = 0
          case (flag%iestim); if (problem%pair_result%force_evaluations > 1) number = 1
-         case (flag%tang); if (spec%digits%r >= 2) number = 0
+         case (flag%tang); if (problem%digits%r >= 2) number = 0
          end select
       end associate
    end function flag_value

@@ -5,9 +5,9 @@ module contact_capi_input_dump
    use contact_capi_library, only : entry_type
    use contact_capi_messages, only : complain
    use contact_capi_problem, only : given_profile, library_problem
-   use contact_cases_spec, only : case_spec
+   use contact_cases_spec, only : case_spec, part_source
    use contact_output_finished_file, only : finished_file
-   use contact_output_input_case, only : write_contact_case, write_pair_case
+   use contact_output_input_case, only : write_contact_case, write_input_case
    use contact_wheelrail_spec, only : profile_spec
    implicit none (type, external)
    private
@@ -47,22 +47,26 @@ contains
 
       if (problem%write_input < as_given) return
       written = problem%spec
-      associate (digits => written%digits)
-         digits%s = 0
-         digits%r = merge(1, 3, written%solve)
+      written%has_stress = .false.
+      written%ends_module = .true.
+      written%parts%heat = part_source%given
+      associate (parts => written%parts)
          if (problem%write_input >= complete) then
-            digits%l = written%friction_law
-            digits%d = written%wheel_rail%search%location
-            digits%c = written%kernel
-            digits%m2 = merge(2, 0, written%has_damping)
-            digits%z = 3
-            if (digits%e < 3) digits%e = 3
-            if (digits%e == 4) digits%e = 5
+            parts%friction = part_source%given
+            parts%search = part_source%given
+            parts%material = part_source%given
+            parts%damping = part_source%given
+            parts%track = part_source%given
+            parts%rail_profile = part_source%given
+            parts%deviations = part_source%given
+            parts%wheel_profile = part_source%given
+            parts%position = part_source%given
+            parts%velocity = part_source%given
          end if
-         if (digits%h == 1) digits%h = 3
-         if (digits%z == 3) call name_profile(this, problem%cases, "rail", written%wheel_rail%rail_profile, problem%rail)
-         if (digits%e == 3 .or. digits%e == 5) call name_profile(this, problem%cases, "wheel", written%wheel_rail%wheel_profile, &
-            & problem%wheel)
+         if (parts%rail_profile == part_source%given) &
+            & call name_profile(this, problem%cases, "rail", written%wheel_rail%rail_profile, problem%rail)
+         if (parts%wheel_profile == part_source%given) &
+            & call name_profile(this, problem%cases, "wheel", written%wheel_rail%wheel_profile, problem%wheel)
       end associate
       call open_input_dump()
       unit = input_dump()
@@ -70,7 +74,7 @@ contains
       write(line, "(I4, I5, A, I0)") 1, problem%ire, "   % MODULE, RE: case ", problem%cases
       !$omp critical (contact_printing)
       write(unit, "(A)", iostat=status) trim(line)
-      call write_pair_case(unit, written)
+      call write_input_case(unit, written)
       write(unit, "(A)", iostat=status) ""
       !$omp end critical (contact_printing)
    end subroutine dump_pair_case

@@ -10,8 +10,8 @@ module contact_capi_input_file
    use contact_capi_problem, only : library_problem
    use contact_capi_profiles, only : read_given_profile
    use contact_capi_registry, only : enter, leave, scope
-   use contact_cases_spec, only : case_digits, case_spec
-   use contact_control_digits, only : digit_value
+   use contact_cases_spec, only : case_spec
+   use contact_control_digits, only : case_digits, digit_value
    use contact_control_library_codes, only : input_type, library_code
    use contact_input_experiment_file, only : experiment_reader, input_case
    use contact_input_problems, only : problem_list
@@ -87,7 +87,7 @@ contains
       end if
       call first_problem(first%problems, error)
       if (allocated(error)) return
-      call adopt(this, file, first%spec, problem)
+      call adopt(this, file, first%digits, first%spec, problem)
    end subroutine take_first_case
 
    !> A file of the Simpack user routine: some digits keep their values, whatever the file says
@@ -98,46 +98,48 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(case_spec) :: spec, previous
       type(problem_list) :: problems
-      type(case_digits) :: kept
+      type(case_digits) :: kept, found
       character(len=:), allocatable :: name
       integer :: k
 
-      kept = problem%spec%digits
+      kept = problem%digits
       previous = problem%spec
       ! once for the digits, so that nothing seems to change against the previous case, and once for the values
-      call read_simpack_case(file, previous, spec, problems, error)
+      call read_simpack_case(file, previous, spec, found, problems, error)
       if (allocated(error)) return
-      previous%digits%c1 = spec%digits%c1
-      previous%digits%n = spec%digits%n
-      call read_simpack_case(file, previous, spec, problems, error)
+      previous%wheel_rail%left = spec%wheel_rail%left
+      previous%wheel_rail%roller = spec%wheel_rail%roller
+      previous%normal = spec%normal
+      call read_simpack_case(file, previous, spec, found, problems, error)
       if (.not. allocated(error)) call first_problem(problems, error)
       if (allocated(error)) return
-      if (all(spec%digits%z /= [0, 3]) .or. all(spec%digits%e /= [0, 3])) then
-         call fatal_error(error, "the digits Z and E must be 0 or 3, they are " // integer_text(spec%digits%z) // " and " // &
-            & integer_text(spec%digits%e), file=file)
+      if (all(found%z /= [0, 3]) .or. all(found%e /= [0, 3])) then
+         call fatal_error(error, "the digits Z and E must be 0 or 3, they are " // integer_text(found%z) // " and " // &
+            & integer_text(found%e), file=file)
          return
       end if
       do k = 1, size(kept_digits)
          name = trim(kept_digits(k))
-         if (digit_value(spec%digits, name) /= digit_value(kept, name)) call complain(this, "the digit " // name // " = " // &
-            & integer_text(digit_value(spec%digits, name)) // " of the file is not used, it stays " // &
+         if (digit_value(found, name) /= digit_value(kept, name)) call complain(this, "the digit " // name // " = " // &
+            & integer_text(digit_value(found, name)) // " of the file is not used, it stays " // &
             & integer_text(digit_value(kept, name)), library_code%success)
       end do
-      spec%digits%c1 = kept%c1
-      spec%digits%p = kept%p
-      spec%digits%n = kept%n
-      spec%digits%f = kept%f
-      spec%digits%h = kept%h
-      spec%digits%s = kept%s
-      spec%digits%i = kept%i
-      call adopt(this, file, spec, problem)
+      found%c1 = kept%c1
+      found%p = kept%p
+      found%n = kept%n
+      found%f = kept%f
+      found%h = kept%h
+      found%s = kept%s
+      found%i = kept%i
+      call adopt(this, file, found, spec, problem)
    end subroutine take_simpack_file
 
    !> Module number and case
-   subroutine read_simpack_case(file, previous, spec, problems, error)
+   subroutine read_simpack_case(file, previous, spec, digits, problems, error)
       character(len=*), intent(in) :: file
       type(case_spec), intent(in) :: previous
       type(case_spec), intent(out) :: spec
+      type(case_digits), intent(out) :: digits
       type(problem_list), intent(inout) :: problems
       type(error_type), allocatable, intent(out) :: error
       type(input_lexer) :: lexer
@@ -152,33 +154,36 @@ contains
             & file=file, line=v(1)%line, column=v(1)%column)
          return
       end if
-      call read_case(lexer, 1, previous, .true., 1, spec, problems, error, first_line=first_line)
+      call read_case(lexer, 1, previous, .true., 1, spec, problems, error, first_line=first_line, digits=digits)
    end subroutine read_simpack_case
 
    !> The case becomes what the next calculation solves; its profiles are read
-   subroutine adopt(this, file, spec, problem)
+   subroutine adopt(this, file, digits, spec, problem)
       type(entry_type), intent(in) :: this
       character(len=*), intent(in) :: file
+      !> Of the case
+      type(case_digits), intent(in) :: digits
       type(case_spec), intent(in) :: spec
       type(library_problem), intent(inout) :: problem
       type(profile_spec) :: rail, wheel
 
       rail = problem%spec%wheel_rail%rail_profile
       wheel = problem%spec%wheel_rail%wheel_profile
+      problem%digits = digits
       problem%spec = spec
       ! a complete case takes the place of settings that were refused
       if (allocated(problem%refused)) deallocate(problem%refused)
       ! stresses below the surface are calculated by a routine of their own
-      problem%spec%digits%s = 0
+      problem%digits%s = 0
       associate (pair => problem%spec%wheel_rail)
-         if (spec%digits%z == 3) then
+         if (digits%z == 3) then
             call place_beside(file, pair%rail_profile)
             call problem%pair%profiles%forget(profile_side%rail)
             call read_given_profile(this, problem%pair%profiles, pair%rail_profile, profile_side%rail, problem%rail)
          else
             pair%rail_profile = rail
          end if
-         if (spec%digits%e == 3 .or. spec%digits%e == 5) then
+         if (digits%e == 3 .or. digits%e == 5) then
             call place_beside(file, pair%wheel_profile)
             call problem%pair%profiles%forget(profile_side%wheel)
             call read_given_profile(this, problem%pair%profiles, pair%wheel_profile, profile_side%wheel, problem%wheel)

@@ -53,7 +53,7 @@ contains
       if (.not. associated(problem)) return
       value = real_of(fz)*inward(problem%units, quantity%force)
       if (fits(this, "FZ", [value])) then
-         problem%spec%digits%n = 1
+         problem%digits%n = 1
          problem%spec%wheel_rail%wheelset%fz = value
       end if
       call leave(problem)
@@ -78,7 +78,7 @@ contains
       if (method == 32 .or. method == 33) problem%setting%group = "springs of the rail"
       select case (method)
       case (0)
-         if (count_fits(this, method, n, 0, 0)) problem%spec%digits%z = 0
+         if (count_fits(this, method, n, 0, 0)) problem%digits%z = 0
       case (1)
          if (count_fits(this, method, n, 5, 6)) call set_track(this, v, problem)
       case (2)
@@ -134,7 +134,7 @@ contains
          track%nomradr = v(5)
          track%curvature = v(6)
       end associate
-      problem%spec%digits%z = 3
+      problem%digits%z = 3
    end subroutine set_track
 
    !> Deviations of the rail and their rates
@@ -173,7 +173,7 @@ contains
 
       if (.not. a%is_good) return
       problem%spec%wheel_rail%rail = rail
-      problem%spec%digits%z = 3
+      problem%digits%z = 3
    end subroutine take_rail
 
    !> Dimensions of the wheelset
@@ -220,7 +220,7 @@ contains
       integer, intent(in) :: method
       type(library_problem), intent(inout) :: problem
 
-      associate (e => problem%spec%digits%e)
+      associate (e => problem%digits%e)
          if (e <= 3) then
             e = method
          else if (e == 4) then
@@ -249,7 +249,7 @@ contains
          call visit_position(a, wheelset, roller=.false., with_force=.false.)
          if (a%is_good) then
             problem%spec%wheel_rail%wheelset = wheelset
-            problem%spec%digits%e = max(1, problem%spec%digits%e)
+            problem%digits%e = max(1, problem%digits%e)
          end if
       end if
       call leave(problem)
@@ -286,14 +286,14 @@ contains
       if (.not. associated(problem)) return
       if (takes_values(this, method, size(v), 6, 6)) then
          wheelset = problem%spec%wheel_rail%wheelset
-         is_roller = problem%spec%digits%c1 >= 4
+         is_roller = problem%digits%c1 >= 4
          a = new_setter(this, problem%units, v)
          call visit_velocity(a, wheelset, is_roller, with_force=.false.)
          if (a%is_good) then
             if (method == 1) call say(1, this, "method 1 is taken for 2")
             if (is_roller) wheelset%vs = 0.0_wp
             problem%spec%wheel_rail%wheelset = wheelset
-            if (problem%spec%digits%e <= 1) problem%spec%digits%e = max(2, method)
+            if (problem%digits%e <= 1) problem%digits%e = max(2, method)
          end if
       end if
       call leave(problem)
@@ -316,7 +316,7 @@ contains
       given = method == 4 .or. method == 5
       if (takes_values(this, method, size(v), merge(12, 0, given), merge(12, 1, given))) then
          wheelset = problem%spec%wheel_rail%wheelset
-         associate (e => problem%spec%digits%e)
+         associate (e => problem%digits%e)
             if (given) then
                a = new_setter(this, problem%units, v)
                call visit_flexibility(a, wheelset)

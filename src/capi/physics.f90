@@ -12,7 +12,7 @@ module contact_capi_physics
    use contact_cases_inputs, only : visit_damping, visit_elastic, visit_friction_memory, visit_friction_set, visit_heat, &
       & visit_iteration, visit_material_model, visit_sheet
    use contact_cases_spec, only : case_spec, damping_spec, friction_set, friction_spec, heat_spec, iteration_spec, material_spec
-   use contact_control_digits, only : choice_of, digit_of
+   use contact_control_digits, only : case_digits, choice_of, digit_of
    use contact_control_units, only : inward, quantity
    use contact_elastic_material, only : combine, combined_material
    use contact_text_words, only : integer_text
@@ -80,7 +80,7 @@ contains
       if (.not. a%is_good) return
       problem%spec%iteration = iteration
       if (method == 6) return
-      problem%spec%digits%g = method
+      problem%digits%g = method
       if (method /= 1) problem%spec%solver = choice_of("G", method, problem%module_number)
    end subroutine set_solver
 
@@ -107,7 +107,7 @@ contains
       else
          ! the flexibility of an elastic thin sheet comes last, where there is one
          with_sheet = 0
-         if (method < 10 .and. problem%spec%digits%b == digit_of("B", pressure_model%thin_sheet, problem%module_number)) &
+         if (method < 10 .and. problem%digits%b == digit_of("B", pressure_model%thin_sheet, problem%module_number)) &
             & with_sheet = 1
          if (.not. count_fits(this, method, size(values), fewest(method), most(method) + with_sheet)) then
             call leave(problem)
@@ -116,7 +116,7 @@ contains
          if (method >= 12) then
             call set_damping(this, values, problem)
          else if (method >= 10) then
-            call keep_damping(method == 11, problem%spec)
+            call keep_damping(method == 11, problem%digits, problem%spec)
          else
             call set_material(this, method, values, size(values) > most(method), problem)
          end if
@@ -125,11 +125,12 @@ contains
    end subroutine cntc_setmaterialparameters
 
    !> No damping, or the values in store
-   subroutine keep_damping(keep, spec)
+   subroutine keep_damping(keep, digits, spec)
       logical, intent(in) :: keep
+      type(case_digits), intent(inout) :: digits
       type(case_spec), intent(inout) :: spec
 
-      spec%digits%m2 = merge(1, 0, keep)
+      digits%m2 = merge(1, 0, keep)
       if (keep) then
          spec%has_damping = any([spec%damping%cdampn, spec%damping%cdampt] > 0.0_wp)
       else
@@ -153,7 +154,7 @@ contains
       call visit_damping(a, damping)
       if (.not. a%is_good) return
       problem%spec%damping = damping
-      problem%spec%digits%m2 = 2
+      problem%digits%m2 = 2
       problem%spec%has_damping = .true.
    end subroutine set_damping
 
@@ -179,7 +180,7 @@ contains
       if (with_sheet) call visit_sheet(a, material)
       if (.not. a%is_good) return
       associate (spec => problem%spec)
-         spec%digits%m = method
+         problem%digits%m = method
          spec%material_model = model
          spec%material = material
          both = combine(material%poiss, material%gg)
@@ -208,14 +209,14 @@ contains
       v = reals_of(nparam, params)
       select case (method)
       case (0, 1)
-         if (count_fits(this, method, size(v), 0, 1)) problem%spec%digits%h = method
+         if (count_fits(this, method, size(v), 0, 1)) problem%digits%h = method
       case (3)
          if (count_fits(this, method, size(v), 9, 9)) then
             heat = problem%spec%heat
             a = new_setter(this, problem%units, v)
             call visit_heat(a, heat, with_plastic_work=.true.)
             if (a%is_good) then
-               problem%spec%digits%h = method
+               problem%digits%h = method
                problem%spec%heat = heat
             end if
          end if
@@ -252,7 +253,7 @@ contains
       if (problem%module_number == 1) then
          if (fits(this, "DQREL", [real_of(dq)])) then
             problem%spec%wheel_rail%search%dqrel = real_of(dq)
-            if (problem%spec%digits%d == 1) problem%spec%digits%d = problem%spec%wheel_rail%search%location
+            if (problem%digits%d == 1) problem%digits%d = problem%spec%wheel_rail%search%location
          end if
       else
          associate (values => [real_of(chi)*inward(problem%units, quantity%angle), &
@@ -288,7 +289,7 @@ contains
       else if (method >= 10 .and. problem%module_number /= 1) then
          call complain(this, "friction that varies over the rail belongs to wheel and rail, method " // integer_text(method))
       else if (law == 1) then
-         if (count_fits(this, method, size(values), 0, 0)) problem%spec%digits%l = 1
+         if (count_fits(this, method, size(values), 0, 0)) problem%digits%l = 1
       else if (method < 10) then
          if (count_fits(this, method, size(values), n_law(law), n_law(law))) call set_friction_points(this, 0, law, 1, values, &
             & problem)
@@ -342,8 +343,8 @@ contains
          return
       end do
       associate (spec => problem%spec)
-         spec%digits%v = varies
-         spec%digits%l = merge(4, method, method == 5)
+         problem%digits%v = varies
+         problem%digits%l = merge(4, method, method == 5)
          spec%variation = member
          spec%friction_law = law
          spec%friction = friction

@@ -7,12 +7,13 @@ module contact_capi_problem
    use, intrinsic :: iso_fortran_env, only : int8
    use omp_lib, only : omp_destroy_lock, omp_init_lock, omp_lock_kind
    use contact_base_case_status, only : case_status
-   use contact_base_choices, only : kernel_model, pressure_model, stress_choice
+   use contact_base_choices, only : kernel_model, pressure_model
    use contact_base_constants, only : pi
    use contact_base_guard, only : free_left_blocks, new_owner
    use contact_base_kinds, only : wp
    use contact_cases_slot, only : open_contact, open_pair, problem_slot, release_slot
    use contact_cases_spec, only : case_spec, friction_set
+   use contact_control_digits, only : case_digits
    use contact_control_units, only : unit_convention
    use contact_experiment_stopwatch, only : stopwatch
    use contact_input_grid_frame, only : grid_frame
@@ -70,7 +71,9 @@ module contact_capi_problem
       integer :: ire = 0, icp = -1, module_number = 3
       !> Units of the caller
       type(unit_convention) :: units
-      !> What the next calculation solves; its digits are what callers gave, its choices what acts
+      !> Digits that callers gave; the next calculation makes choices of them
+      type(case_digits) :: digits
+      !> What the next calculation solves
       type(case_spec) :: spec
       !> Profiles of module 1
       type(given_profile) :: rail, wheel
@@ -98,8 +101,6 @@ module contact_capi_problem
       !> How the last calculation ended, and whether there was one
       type(case_status) :: status
       logical :: was_calculated = .false.
-      !> P and I as the caller gave them, while a calculation may have others
-      integer :: given_link = 2, given_estimate = 0
       !> Owner of the memory that calculations allocate
       integer :: owner = 0
       !> One thread at a time. It and what follows stay where they are when all else is replaced
@@ -129,9 +130,9 @@ contains
       problem%module_number = module_number
       problem%owner = new_owner()
       call omp_init_lock(problem%lock)
-      call set_common_defaults(problem%spec)
+      call set_common_defaults(problem%digits, problem%spec)
       if (module_number == 1) then
-         call set_pair_defaults(problem%spec)
+         call set_pair_defaults(problem%digits, problem%spec)
          call open_pair(problem%problem_slot)
          allocate(problem%pair_result%patches(0))
       else
@@ -161,8 +162,6 @@ contains
       problem%owner = new_owner()
       problem%coefficients = grid_frame()
       problem%has_result = .false.
-      problem%spec%digits%p = problem%given_link
-      problem%spec%digits%i = problem%given_estimate
       if (problem%module_number == 1) then
          call open_pair(problem%problem_slot)
          allocate(problem%pair_result%patches(0))
@@ -191,31 +190,27 @@ contains
    end subroutine abandon_problem
 
    !> Defaults of both modules
-   subroutine set_common_defaults(spec)
+   subroutine set_common_defaults(digits, spec)
+      type(case_digits), intent(inout) :: digits
       type(case_spec), intent(inout) :: spec
 
-      associate (digits => spec%digits)
-         digits%p = 2
-         digits%t = 3
-         digits%d = 2
-         digits%c = 2
-         digits%z = 2
-         digits%g = 1
-         digits%m2 = 0
-         digits%w = 1
-         digits%r = 1
-      end associate
+      digits%p = 2
+      digits%t = 3
+      digits%d = 2
+      digits%c = 2
+      digits%z = 2
+      digits%g = 1
+      digits%m2 = 0
+      digits%w = 1
+      digits%r = 1
       spec%kernel = kernel_model%piecewise_constant
       spec%pressure = pressure_model%full
-      spec%stress = stress_choice%none
       allocate(spec%friction%sets(1))
       spec%friction%sets = friction_set(sabsh1=10000.0_wp, sabsh2=10000.0_wp)
       spec%rolling%veloc = 1000.0_wp
       ! as the published interface has it, a million times the conductivity of steel
       spec%heat%lambda = 50.0e3_wp
-      spec%new_grid = .true.
-      spec%new_geometry = .true.
-      spec%new_kernel = .true.
+      spec%heat%is_given = .true.
    end subroutine set_common_defaults
 
    !> Defaults of module 3
@@ -243,11 +238,12 @@ contains
    end subroutine set_contact_defaults
 
    !> Defaults of module 1
-   subroutine set_pair_defaults(spec)
+   subroutine set_pair_defaults(digits, spec)
+      type(case_digits), intent(inout) :: digits
       type(case_spec), intent(inout) :: spec
 
-      spec%digits%c1 = 1
-      spec%digits%z = 0
+      digits%c1 = 1
+      digits%z = 0
       allocate(spec%wheel_rail, source=wheel_rail_spec())
       spec%wheel_rail%track%nomradr = 0.0_wp
       spec%wheel_rail%wheelset%vs = 30000.0_wp

@@ -73,7 +73,7 @@ contains
 
       associate (material => problem%spec%material, damping => problem%spec%damping, units => problem%units)
          both = combine(material%poiss, material%gg)
-         flx = merge(material%laythk/material%gg3, material%flx, problem%spec%digits%m == 4)
+         flx = merge(material%laythk/material%gg3, material%flx, problem%digits%m == 4)
          k_eff = 0.0_wp
          if (problem%has_result) then
             if (problem%module_number == 3) call take_flexibility(problem%result)
@@ -283,7 +283,7 @@ contains
       end if
       of_creep = quantity%number
       of_spin = quantity%spin
-      if (problem%spec%digits%t == motion%shift) then
+      if (problem%digits%t == motion%shift) then
          of_creep = quantity%length
          of_spin = quantity%angle
       end if
@@ -357,7 +357,7 @@ contains
       rows = max(0, integer_of(lenout))
       columns = max(0, integer_of(lenin))
       if (associated(view%patch) .and. present(sens)) then
-         associate (units => problem%units, is_shift => problem%spec%digits%t == motion%shift)
+         associate (units => problem%units, is_shift => problem%digits%t == motion%shift)
             side = merge(-1.0_wp, 1.0_wp, view%left)
             per_input = [inward(units, quantity%length), 1.0_wp, side, side*inward(units, quantity%spin)]
             if (is_shift) per_input(2:4) = [1.0_wp, side, 0.0_wp]*inward(units, quantity%length) &

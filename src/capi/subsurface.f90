@@ -2,7 +2,6 @@
 module contact_capi_subsurface
    use, intrinsic :: iso_c_binding, only : c_double, c_int
    use omp_lib, only : omp_get_max_threads, omp_set_num_threads
-   use contact_base_choices, only : stress_choice
    use contact_base_error, only : add_context, error_type, full_text
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
@@ -184,8 +183,6 @@ contains
          call forget_complaint(problem)
          threads = omp_get_max_threads()
          call omp_set_num_threads(threads_inside())
-         problem%given_link = problem%spec%digits%p
-         problem%given_estimate = problem%spec%digits%i
          call problem%stresses%start()
          k = first_refusal(problem, "subs_addBlock")
          if (k > 0) then
@@ -228,7 +225,7 @@ contains
       request%kernel = problem%spec%kernel
       request%material = problem%spec%material
       request%motion = problem%spec%motion
-      request%stress = stress_choice%keep
+      request%has_stress = .true.
       request%subsurface = problem%spec%subsurface
       if (number > 0) then
          if (allocated(problem%blocks(number)%list)) request%subsurface%blocks = problem%blocks(number)%list

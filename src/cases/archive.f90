@@ -80,6 +80,16 @@ module contact_cases_archive
       procedure :: warn => say_nothing
       !> Reading cannot go on, with the reason; the name is blank when no number of the last line is to blame
       procedure :: fail => say_nothing
+      !> A group of numbers begins and ends; groups do not nest
+      procedure :: open_group => ignore_name
+      procedure :: close_group => ignore
+      !> The numbers of a group, as a whole, are wrong or doubtful; nothing where values do not come in
+      procedure :: refuse_group => ignore_name
+      procedure :: warn_of_group => ignore_name
+      !> What readers of a file should know about the group in hand
+      procedure :: comment => ignore_name
+      !> Where reading stopped, if it did
+      procedure :: add_context => ignore_name
       !> Check the bounds of a number of the last line that was noted as unchecked
       procedure :: check => check_nothing
       !> Where an item of the last line stands in its file
@@ -249,6 +259,24 @@ contains
       associate (unused => self, no_name => name, no_text => text)
       end associate
    end subroutine say_nothing
+
+   !> Formats without groups need not know where they begin, and values that do not come in are right
+   subroutine ignore_name(self, text)
+      class(case_archive), intent(inout) :: self
+      !> Name of the group, or what is said about it
+      character(len=*), intent(in) :: text
+
+      associate (unused => self, no_text => text)
+      end associate
+   end subroutine ignore_name
+
+   !> Formats without groups need not know where they end
+   subroutine ignore(self)
+      class(case_archive), intent(inout) :: self
+
+      associate (unused => self)
+      end associate
+   end subroutine ignore
 
    !> Values that do not come in are right
    subroutine check_nothing(self, name, bounds)

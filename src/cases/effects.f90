@@ -1,6 +1,6 @@
 !> Which effects acted in a patch, in words for the report
 module contact_cases_effects
-   use contact_base_choices, only : contact_location, heat_source_name, kernel_model, motion, pressure_model, stress_choice, &
+   use contact_base_choices, only : contact_location, heat_source_name, kernel_model, motion, pressure_model, &
       & variation
    use contact_base_kinds, only : wp
    use contact_cases_spec, only : case_spec
@@ -74,7 +74,7 @@ contains
             call add(trim(heat_source_name(problem%thermal%source)))
             call add(")")
          end if
-         if (spec%stress /= stress_choice%none) call add(", subsurface stresses")
+         if (spec%has_stress) call add(", subsurface stresses")
       end if
       if (allocated(result%damping)) then
          if (any(abs(result%damping) > 0.0_wp)) call add(", damping forces")

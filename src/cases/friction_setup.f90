@@ -1,7 +1,7 @@
 !> From the specification of a case to its friction law and thermal constants
 module contact_cases_friction_setup
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
-   use contact_base_choices, only : friction_model, heat_model, motion, variation
+   use contact_base_choices, only : friction_model, motion, variation
    use contact_base_error, only : error_kind, error_type, fatal_error
    use contact_base_kinds, only : wp
    use contact_cases_spec, only : case_spec, friction_set, heat_spec
@@ -45,7 +45,7 @@ contains
       end if
       call new_friction_law(spec%friction_law, [parameters_of(spec%friction%sets)], law, error)
       if (allocated(error)) return
-      if (law%driver == friction_driver%temperature .and. spec%heat_model == heat_model%none) then
+      if (law%driver == friction_driver%temperature .and. .not. spec%has_heat) then
          call fatal_error(error, "friction that changes with temperature needs thermal constants (H = 3)")
          return
       end if
@@ -110,7 +110,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       if (allocated(problem%thermal)) deallocate(problem%thermal)
-      if (spec%heat_model == heat_model%none) return
+      if (.not. spec%has_heat) return
       if (spec%motion == motion%shift .or. spec%motion == motion%transient_rolling) then
          call fatal_error(error, "surface temperatures are known for steady rolling (T = 3) and without motion (T = 0) only", &
             & error_kind%unsupported)

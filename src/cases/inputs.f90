@@ -7,7 +7,7 @@ module contact_cases_inputs
    use contact_base_kinds, only : wp
    use contact_cases_archive, only : case_archive, shown_length, text_variable
    use contact_cases_spec, only : damping_spec, friction_set, friction_spec, heat_spec, iteration_spec, kinematics_spec, &
-      & largest_yield_limit, material_spec, rolling_spec, subsurface_spec
+      & largest_yield_limit, material_spec, rolling_spec
    use contact_text_words, only : integer_text, real_text
    implicit none (type, external)
    private
@@ -15,7 +15,7 @@ module contact_cases_inputs
    public :: visit_iteration, visit_kinematics, visit_rolling
    public :: visit_friction, visit_friction_rows, visit_friction_set, visit_friction_memory
    public :: visit_elastic, visit_sheet, visit_material_model, visit_conformal, visit_inclinations, visit_coefficient_file
-   public :: visit_damping, visit_heat, visit_stress_output
+   public :: visit_damping, visit_heat
 
    !> Bounds of the largest number of elements of a patch of wheel and rail
    integer, parameter :: fewest_elements = 100, most_elements = 1000000
@@ -414,18 +414,9 @@ contains
          call a%real("DENS" // number, heat%dens(body))
          call a%end_line()
       end do
+      if (a%is_reading) heat%is_given = .true.
       if (.not. with_plastic_work) return
       call a%real("BETAPL", heat%betapl)
       call a%end_line()
    end subroutine visit_heat
-
-   !> Where stresses below the surface are written
-   subroutine visit_stress_output(a, subsurface)
-      class(case_archive), intent(inout) :: a
-      type(subsurface_spec), intent(inout), target :: subsurface
-
-      call a%integer("MATFIL_S", subsurface%matfil)
-      call a%integer("OUTPUT_S", subsurface%output)
-      call a%end_line()
-   end subroutine visit_stress_output
 end module contact_cases_inputs

@@ -69,7 +69,7 @@ contains
       ! the static coefficient of the laws that fall with slip velocity may be zero, as the kinetic one
       call check_number("FKIN", spec%friction%sets(1)%fstat, error, "FSTAT")
       if (allocated(error)) return
-      if (spec%slip_source /= slip_source%given .and. spec%slip_source /= slip_source%keep) return
+      if (spec%slip_source /= slip_source%given) return
       if (.not. allocated(spec%extra_slip)) return
       if (.not. all(ieee_is_finite(spec%extra_slip))) &
          & call fatal_error(error, "the extra rigid slip must be finite in all elements")

@@ -1,7 +1,7 @@
 !> Wheel on rail through its cases: specification in, result out
 module contact_cases_pair_session
    use contact_base_choices, only : contact_location, estimate_choice, force_control, kernel_model, material_model, &
-      & motion, normal_control, pressure_model, sensitivity_choice, stress_choice, time_link, variation
+      & motion, normal_control, pressure_model, sensitivity_choice, time_link, variation
    use contact_base_error, only : add_context, error_kind, error_type, fatal_error
    use contact_base_kinds, only : long, wp
    use contact_base_log, only : log_type
@@ -99,7 +99,7 @@ contains
                & integer_text(spec%iteration%npot_max))
             if (spec%solve) call warn_of_small_table(session%problem%template%model%tabulated, contact%grid, k, log)
             if (allocated(contact%subsurface)) deallocate(contact%subsurface)
-            if (spec%stress /= stress_choice%none) &
+            if (spec%has_stress) &
                & call subsurface_stresses(spec, contact, error, spec%wheel_rail%left)
             if (.not. allocated(error)) call warn_of_steps(contact, log)
             call name_effects(spec, session%memory%slot(k)%problem, contact)
@@ -224,7 +224,7 @@ contains
          problem%use_previous = spec%estimate /= estimate_choice%fresh .and. spec%link /= time_link%initiate
          problem%force = spec%force
          problem%link = spec%link
-         problem%weight_power = spec%wheel_rail%search%weight_power
+         problem%weight_power = merge(1, 2, spec%wheel_rail%search%gap_weight == 1)
          problem%most_elements = spec%iteration%npot_max
          problem%limits = spec%limits
          call require_memory(int(spec%iteration%npot_max, long), bytes_per_element, "elements, as many as are allowed,", error)

@@ -49,7 +49,7 @@ contains
       problem%pen = spec%kinematics%pen
       problem%force_prescribed = spec%normal == normal_control%force
       ! a Hertzian geometry is laid out anew when the case gives a grid, not when the load changes
-      if (spec%new_grid .or. spec%new_geometry .or. .not. problem%has_geometry) then
+      if (spec%has_new_geometry() .or. .not. problem%has_geometry) then
          call set_geometry(spec, problem, result, error)
          if (allocated(error)) return
       end if
@@ -89,7 +89,7 @@ contains
       call set_rolling(spec, problem, log, error)
       if (allocated(error)) return
       if (allocated(problem%extra_slip)) deallocate(problem%extra_slip)
-      if (spec%slip_source == slip_source%given .or. spec%slip_source == slip_source%keep) then
+      if (spec%slip_source == slip_source%given) then
          if (.not. allocated(spec%extra_slip)) then
             call fatal_error(error, "extra rigid slip is to be kept (E=1), but none was given before")
             return

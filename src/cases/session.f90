@@ -1,6 +1,6 @@
 !> One contact problem through its cases: specification in, result out
 module contact_cases_session
-   use contact_base_choices, only : estimate_choice, motion, pressure_model, stress_choice
+   use contact_base_choices, only : estimate_choice, motion, pressure_model
    use contact_base_error, only : error_kind, error_type, fatal_error
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
@@ -95,7 +95,7 @@ contains
       call warn_of_few_elements(result, "DY", log)
       call name_effects(spec, session%problem, result)
       if (allocated(result%subsurface)) deallocate(result%subsurface)
-      if (spec%stress == stress_choice%none) return
+      if (.not. spec%has_stress) return
       call subsurface_stresses(spec, result, error)
       if (.not. allocated(error)) call warn_of_steps(result, log)
    end subroutine solve_in_folder

@@ -12,18 +12,29 @@ module contact_cases_spec
    implicit none (type, external)
    private
 
-   public :: case_spec, case_digits, iteration_spec, kinematics_spec, friction_set, friction_spec
+   public :: case_spec, iteration_spec, kinematics_spec, friction_set, friction_spec
    public :: rolling_spec, material_spec, damping_spec, heat_spec, grid_spec, geometry_spec
    public :: subsurface_spec, largest_yield_limit
+   public :: case_parts, part_source
 
-   !> Control digits exactly as the case gave them; for the echo and for checks at the door only
-   type :: case_digits
-      !> Configuration, module 1 only
-      integer :: c1 = 0
-      integer :: p = 2, b = 0, t = 0, n = 0, f = 0, s = 0
-      integer :: v = 0, l = 0, d = 0, c = 0, m = 0, z = 0, e = 0, m2 = 1, gapwgt = 0
-      integer :: x = 0, h = 0, g = 0, i = 0, a = 0, o = 0, w = 0, r = 0
-   end type case_digits
+   type :: part_source_list
+      !> The previous case; the previous case, but what is derived from it is formed anew; this case
+      integer :: kept = 0, renewed = 1, given = 2
+   end type part_source_list
+   !> Where the numbers of a group of the input come from
+   type(part_source_list), parameter :: part_source = part_source_list()
+
+   !> Source of each group of the input, member of part_source
+   type :: case_parts
+      !> Both kinds of cases
+      integer :: iteration = 2, friction = 2, rolling = 2, material = 2, damping = 2, heat = 2
+      integer :: stress_output = 2, stress_points = 2
+      !> Contact problems of their own
+      integer :: grid = 2, geometry = 2, extra_slip = 2
+      !> Wheel on rail
+      integer :: search = 2, track = 2, rail_profile = 2, deviations = 2
+      integer :: wheel_profile = 2, position = 2, velocity = 2, flexibility = 2
+   end type case_parts
 
    !> Settings of the iterative solution
    type :: iteration_spec
@@ -118,6 +129,8 @@ module contact_cases_spec
    type :: heat_spec
       real(wp) :: bktemp(2) = 0.0_wp, heatcp(2) = 450.0_wp, lambda(2) = 0.05_wp, dens(2) = 7.85e-6_wp
       real(wp) :: betapl = 1.0_wp
+      !> Did a case give these numbers? Otherwise they are defaults
+      logical :: is_given = .false.
       !> Member of heat_source; not part of the input file
       integer :: source = heat_source%established
    end type heat_spec
@@ -158,20 +171,20 @@ module contact_cases_spec
 
    !> One case, complete
    type :: case_spec
-      type(case_digits) :: digits
       !> Named choices, see contact_base_choices
-      integer :: link = 2, pressure = 0, motion = 0, normal = 0, force = 0, stress = 0
+      integer :: link = 2, pressure = 0, motion = 0, normal = 0, force = 0
       integer :: variation = 0, friction_law = 0, kernel = 2, material_model = 0
-      integer :: slip_source = 0, heat_model = 0, solver = 0, estimate = 0
-      logical :: has_damping = .false.
-      !> New grid and new undeformed distance given by this case?
-      logical :: new_grid = .false., new_geometry = .false., new_kernel = .false.
+      integer :: slip_source = 0, solver = 0, estimate = 0
+      !> Damping, surface temperatures, stresses below the surface?
+      logical :: has_damping = .false., has_heat = .false., has_stress = .false.
+      !> Which groups the case gives, and which it keeps
+      type(case_parts) :: parts
       !> Output: .mat file 0, 1, 2; .out level 0...6; flow trace 0...9
       integer :: mat_file = 0, output_level = 0, flow_level = 0
       !> What it may take
       type(case_limits) :: limits
-      !> Solve the case, or only store its input?
-      logical :: solve = .true.
+      !> Solve the case, or only store its input? Is it the last one of its module in a row?
+      logical :: solve = .true., ends_module = .false.
       type(iteration_spec) :: iteration
       type(kinematics_spec) :: kinematics
       type(friction_spec) :: friction
@@ -189,6 +202,8 @@ module contact_cases_spec
    contains
       !> Is there an interfacial layer with a yield limit that can be reached?
       procedure :: has_plasticity
+      !> Does the case give a grid or an undeformed distance?
+      procedure :: has_new_geometry
    end type case_spec
 
    !> Yield limits outside these bounds mean that there is no plasticity [N/mm2]
@@ -211,6 +226,11 @@ contains
       relaxes_apart = abs(at_once(1) - at_once(2)) > small .or. abs(late(1) - late(2)) > small .or. &
          & (abs(self%tc(1) - self%tc(2)) > alike*maxval(self%tc) .and. maxval(late) > small)
    end function relaxes_apart
+
+   pure logical function has_new_geometry(self)
+      class(case_spec), intent(in) :: self
+      has_new_geometry = self%parts%grid == part_source%given .or. self%parts%geometry == part_source%given
+   end function has_new_geometry
 
    pure logical function has_plasticity(self)
       class(case_spec), intent(in) :: self

@@ -1,6 +1,6 @@
 !> Subsurface stresses of one contact patch: blocks of points in, fields out
 module contact_cases_subsurface
-   use contact_base_choices, only : kernel_model, stress_choice
+   use contact_base_choices, only : kernel_model
    use contact_base_error, only : add_context, error_type, fatal_error
    use contact_base_kinds, only : long
    use contact_base_limits, only : case_limits
@@ -116,7 +116,7 @@ contains
       integer :: k
 
       bytes = 0_long
-      if (spec%stress == stress_choice%none .or. .not. allocated(spec%subsurface%blocks)) return
+      if (.not. spec%has_stress .or. .not. allocated(spec%subsurface%blocks)) return
       do k = 1, size(spec%subsurface%blocks)
          call expand_points(spec%subsurface%blocks(k), grid, points)
          bytes = bytes + bytes_per_point*points%n()

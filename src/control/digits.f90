@@ -3,14 +3,12 @@
 !> The table serves reading, checking, refusing what is not built, writing of input files and
 !> the tables of doc/user. Decoding and encoding of the three control words is here too.
 module contact_control_digits
-   use contact_base_choices, only : contact_location, estimate_choice, force_control, friction_model, heat_model, kernel_model, &
-      & material_model, motion, normal_control, pressure_model, slip_source, solver_choice, stress_choice, &
-      & time_link, variation
-   use contact_cases_spec, only : case_digits
+   use contact_base_choices, only : contact_location, estimate_choice, force_control, friction_model, kernel_model, &
+      & material_model, motion, normal_control, pressure_model, slip_source, solver_choice, time_link, variation
    implicit none (type, external)
    private
 
-   public :: digit_row, digit_table, digit_names
+   public :: case_digits, digit_row, digit_table, digit_names
    public :: is_known, is_built, choice_of, digit_of, digit_text, allowed_text, digit_value, put_digit
    public :: decode_words, encode_words, word_text
 
@@ -18,6 +16,15 @@ module contact_control_digits
    integer, parameter, public :: text_length = 80, list_length = 28
    !> Length of the word for a value in the readable format
    integer, parameter, public :: word_length = 18
+
+   !> The digits of a case
+   type :: case_digits
+      !> Configuration, module 1 only
+      integer :: c1 = 0
+      integer :: p = 2, b = 0, t = 0, n = 0, f = 0, s = 0
+      integer :: v = 0, l = 0, d = 0, c = 0, m = 0, z = 0, e = 0, m2 = 1, gapwgt = 0
+      integer :: x = 0, h = 0, g = 0, i = 0, a = 0, o = 0, w = 0, r = 0
+   end type case_digits
 
    !> One value of one control digit
    type :: digit_row
@@ -78,10 +85,10 @@ module contact_control_digits
       & digit_row("F", 1, force_control%longitudinal_force, module_1, .true., &
       & "longitudinal force in place of the pitch velocity", "longitudinal_force"), &
       & digit_row("F", 3, force_control%massless_rail, module_1, .true., "rail without mass on springs", "massless_rail"), &
-      & digit_row("S", 0, stress_choice%none, both, .true., "no subsurface stresses", "none"), &
-      & digit_row("S", 1, stress_choice%keep, both, .true., "subsurface stresses in the points in store", "stored_points"), &
-      & digit_row("S", 2, stress_choice%new_output, both, .true., "as 1, with new output digits"), &
-      & digit_row("S", 3, stress_choice%new_points, both, .true., "new output digits and new subsurface points")]
+      & digit_row("S", 0, 0, both, .true., "no subsurface stresses", "none"), &
+      & digit_row("S", 1, 1, both, .true., "subsurface stresses in the points in store", "stored_points"), &
+      & digit_row("S", 2, 2, both, .true., "as 1, with new output digits"), &
+      & digit_row("S", 3, 3, both, .true., "new output digits and new subsurface points")]
 
    type(digit_row), parameter :: word2_rows(*) = [ &
       & digit_row("V", 0, variation%none, both, .true., "one set of friction parameters", "none"), &
@@ -144,7 +151,7 @@ module contact_control_digits
       & digit_row("Z", 2, 2, module_1, .true., "read the deviations of the rail"), &
       & digit_row("Z", 3, 3, module_1, .true., "read track dimensions, rail profile and deviations"), &
       & digit_row("E", 0, slip_source%none, module_3, .true., "no extra term in the rigid slip", "none"), &
-      & digit_row("E", 1, slip_source%keep, module_3, .true., "keep the extra term of the previous case"), &
+      & digit_row("E", 1, 1, module_3, .true., "keep the extra term of the previous case"), &
       & digit_row("E", 2, slip_source%no_spin_y, module_3, .true., &
       & "extra term that cancels the lateral part of the spin", "no_spin_y"), &
       & digit_row("E", 3, slip_source%no_spin_x, module_3, .true., &
@@ -163,9 +170,9 @@ module contact_control_digits
    type(digit_row), parameter :: word3_rows(*) = [ &
       & digit_row("X", 0, 0, both, .true., "no fourth control word"), &
       & digit_row("X", 1, 1, both, .true., "a fourth control word follows, which is read and ignored"), &
-      & digit_row("H", 0, heat_model%none, both, .true., "no surface temperatures", "none"), &
-      & digit_row("H", 1, heat_model%keep, both, .true., "surface temperatures with the values in store"), &
-      & digit_row("H", 3, heat_model%given, both, .true., "surface temperatures with new values", "flash"), &
+      & digit_row("H", 0, 0, both, .true., "no surface temperatures", "none"), &
+      & digit_row("H", 1, 1, both, .true., "surface temperatures with the values in store"), &
+      & digit_row("H", 3, 3, both, .true., "surface temperatures with new values", "flash"), &
       & digit_row("G", 0, solver_choice%default, both, .true., "default solvers", "default"), &
       & digit_row("G", 1, 1, both, .true., "keep the solver settings of the previous case"), &
       & digit_row("G", 2, solver_choice%convex_gs, both, .true., "ConvexGS always, relaxation is read", "convex_gs"), &

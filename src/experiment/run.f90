@@ -596,7 +596,7 @@ contains
             & error)
          if (allocated(error)) call report_error(state, error)
       end if
-      if (this%spec%digits%s < 1 .or. .not. allocated(result%subsurface)) return
+      if (.not. this%spec%has_stress .or. .not. allocated(result%subsurface)) return
       call write_subsurface(state%log, this%spec, result)
       if (this%spec%subsurface%matfil >= 1) then
          call write_subs_file(subs_file_name(state%place%results, this%number, this%reid, 0), this%spec, result, error)

@@ -164,7 +164,7 @@ contains
 
       this%spec%heat%source = asked%heat_source
       if (allocated(this%spec%wheel_rail)) this%spec%wheel_rail%search%angle_below_axle = asked%angle_below_axle
-      if (this%spec%output_level > 0 .or. this%spec%mat_file > 0 .or. this%spec%digits%s > 0) state%silent = .false.
+      if (this%spec%output_level > 0 .or. this%spec%mat_file > 0 .or. this%spec%has_stress) state%silent = .false.
       this%spec%limits = state%limits
       this%spec%limits%deadline%seconds = min(this%spec%limits%deadline%seconds, state%deadline%left())
       call this%spec%limits%deadline%start()

@@ -1,21 +1,22 @@
 !> The control words of a case and the checks of its digits
 module contact_input_control
-   use contact_base_choices, only : contact_location, estimate_choice, is_fastrip, is_simplified, slip_source, time_link
+   use contact_base_choices, only : contact_location, is_fastrip, is_simplified, slip_source
    use contact_base_error, only : error_type
-   use contact_cases_spec, only : case_digits, case_spec
-   use contact_control_digits, only : allowed_text, choice_of, decode_words, digit_names, digit_text, digit_value, &
+   use contact_cases_spec, only : case_spec
+   use contact_control_digits, only : allowed_text, case_digits, choice_of, decode_words, digit_names, digit_text, digit_value, &
       & is_built, is_known
+   use contact_control_translation, only : digits_of, take_digits
    use contact_input_problems, only : problem_list, severity
    use contact_text_lexer, only : input_lexer, input_value
    use contact_text_words, only : integer_text
-   use contact_wheelrail_spec, only : wheel_rail_spec
    implicit none (type, external)
    private
 
-   public :: control_words, read_control_words, check_digits, name_choices, refuse_unbuilt_digits, add_for_digit, check_physics
+   public :: control_words, read_control_words, check_digits, refuse_unbuilt_digits, add_for_digit, check_physics
 
-   !> The words with their places, for messages
+   !> The words with their places, for messages, and their digits
    type :: control_words
+      type(case_digits) :: digits
       !> Words 1, 2 and 3
       type(input_value) :: word(3)
       !> The second number of word 2
@@ -46,79 +47,27 @@ contains
       if (allocated(error)) return
       words%word(3) = values(1)
 
+      ! the weighting stays when there is no second number
+      if (allocated(spec%wheel_rail)) words%digits%gapwgt = spec%wheel_rail%search%gap_weight
       associate (word => words%word%i)
          if (words%second%given) then
-            call decode_words(word(1), word(2), word(3), module_number, spec%digits, words%second%i)
+            call decode_words(word(1), word(2), word(3), module_number, words%digits, words%second%i)
          else
-            call decode_words(word(1), word(2), word(3), module_number, spec%digits)
+            call decode_words(word(1), word(2), word(3), module_number, words%digits)
          end if
       end associate
-      if (spec%digits%x > 0) then
+      if (words%digits%x > 0) then
          call lexer%read_group("iI", "PSFLCIN READLN", values, error)
          if (allocated(error)) return
       end if
-      call name_choices(spec, module_number)
+      call take_digits(words%digits, module_number, spec)
    end subroutine read_control_words
-
-   !> Digits to names; effective values of the digits that can say "keep"
-   subroutine name_choices(spec, module_number)
-      type(case_spec), intent(inout) :: spec
-      !> 1 or 3
-      integer, intent(in) :: module_number
-
-      associate (digits => spec%digits)
-         spec%link = choice("P", digits%p)
-         spec%pressure = choice("B", digits%b)
-         spec%motion = choice("T", digits%t)
-         spec%normal = choice("N", digits%n)
-         spec%force = choice("F", digits%f)
-         spec%stress = choice("S", digits%s)
-         spec%variation = choice("V", digits%v)
-         spec%material_model = choice("M", digits%m)
-         spec%estimate = choice("I", digits%i)
-         spec%mat_file = digits%a
-         spec%output_level = digits%o
-         spec%flow_level = digits%w
-         spec%solve = digits%r <= 1
-         if (digits%l /= 1) spec%friction_law = choice("L", digits%l)
-         if (digits%c >= 2) spec%kernel = choice("C", digits%c)
-         if (digits%g /= 1) spec%solver = choice("G", digits%g)
-         if (digits%h /= 1) spec%heat_model = choice("H", digits%h)
-         if (digits%m2 /= 1) spec%has_damping = digits%m2 >= 2
-         spec%new_kernel = digits%c >= 2
-         if (module_number == 1) then
-            if (.not. allocated(spec%wheel_rail)) allocate(spec%wheel_rail, source=wheel_rail_spec())
-            spec%wheel_rail%left = digits%c1 == 0 .or. digits%c1 == 4
-            spec%wheel_rail%roller = digits%c1 == 4 .or. digits%c1 == 5
-            spec%wheel_rail%search%weight_power = merge(1, 2, digits%gapwgt == 1)
-            spec%wheel_rail%new_rail_profile = .false.
-            spec%wheel_rail%new_wheel_profile = .false.
-            spec%slip_source = slip_source%none
-            spec%new_grid = digits%d >= 2
-            spec%new_geometry = .true.
-         else
-            if (digits%e /= 1) spec%slip_source = choice("E", digits%e)
-            spec%new_grid = digits%d == 2
-            spec%new_geometry = digits%z == 2
-         end if
-      end associate
-
-   contains
-
-      !> The name behind a digit
-      pure integer function choice(name, digit)
-         character(len=*), intent(in) :: name
-         integer, intent(in) :: digit
-
-         choice = choice_of(name, digit, module_number)
-      end function choice
-   end subroutine name_choices
 
    !> Range of each digit, and what digits demand of each other and of the previous case
    !>
    !> Digits that mean nothing are corrected, with a warning: P to 2 and I to 0 in a first case, C = 0 to 1 in module 1.
    subroutine check_digits(words, module_number, previous, has_previous, spec, problems)
-      type(control_words), intent(in) :: words
+      type(control_words), intent(inout) :: words
       !> 1 or 3
       integer, intent(in) :: module_number
       !> The previous case of this module and result element
@@ -128,37 +77,38 @@ contains
       type(case_spec), intent(inout) :: spec
       type(problem_list), intent(inout) :: problems
 
-      call check_ranges(words, module_number, spec%digits, problems)
-      if (module_number == 1 .and. spec%digits%c == 0) then
+      call check_ranges(words, module_number, problems)
+      if (module_number == 1 .and. words%digits%c == 0) then
          if (has_previous) call add_for_digit(problems, words, severity%warning, "C", "C = 0 is replaced by 1: the grids of " // &
             & "wheel-rail contact change, and coefficients are formed when they are needed")
-         spec%digits%c = 1
+         words%digits%c = 1
       end if
+      if (.not. has_previous) call start_sequence(words, problems)
+      ! once more, with the digits that were corrected
+      call take_digits(words%digits, module_number, spec)
       if (has_previous) then
          call check_kept(words, previous, spec, problems)
-         if (module_number == 1) call check_kept_wheelset(words, previous, spec, problems)
+         if (module_number == 1) call check_kept_wheelset(words, previous, problems)
       else
-         call start_sequence(words, spec, problems)
          if (module_number == 1) then
-            call check_first_pair(words, spec, problems)
+            call check_first_pair(words, problems)
          else
-            call check_first_contact(words, spec, problems)
+            call check_first_contact(words, problems)
          end if
       end if
       if (module_number == 1) then
-         call check_pair(words, spec, problems)
+         call check_pair(words, problems)
       else
-         call check_contact(words, merge(previous%motion, spec%motion, has_previous), spec, problems)
+         call check_contact(words, merge(previous%motion, spec%motion, has_previous), problems)
       end if
       call check_physics(words, spec, problems)
    end subroutine check_digits
 
    !> Control words have no sign, GAPWGT has a range, and each digit must be one that the module knows
-   subroutine check_ranges(words, module_number, digits, problems)
+   subroutine check_ranges(words, module_number, problems)
       type(control_words), intent(in) :: words
       !> 1 or 3
       integer, intent(in) :: module_number
-      type(case_digits), intent(in) :: digits
       type(problem_list), intent(inout) :: problems
       character(len=:), allocatable :: name
       integer :: digit, k
@@ -169,12 +119,12 @@ contains
                & " is negative; it must consist of digits", word%line, word%column)
          end associate
       end do
-      if (digits%gapwgt > 2) call problems%add(severity%error, "GAPWGT = " // integer_text(digits%gapwgt) // &
+      if (words%digits%gapwgt > 2) call problems%add(severity%error, "GAPWGT = " // integer_text(words%digits%gapwgt) // &
          & " is outside its range 0 to 2", words%second%line, words%second%column)
       do k = 1, size(digit_names)
          name = trim(digit_names(k))
          if (module_number == 3 .and. name == "C1") cycle
-         digit = digit_value(digits, name)
+         digit = digit_value(words%digits, name)
          if (is_known(name, digit, module_number)) cycle
          call add_for_digit(problems, words, severity%error, name, name // " = " // integer_text(digit) // &
             & " is not a known digit of module " // integer_text(module_number) // "; allowed are " // &
@@ -183,12 +133,11 @@ contains
    end subroutine check_ranges
 
    !> A first case of module 3 has nothing to keep
-   subroutine check_first_contact(words, spec, problems)
+   subroutine check_first_contact(words, problems)
       type(control_words), intent(in) :: words
-      type(case_spec), intent(in) :: spec
       type(problem_list), intent(inout) :: problems
 
-      associate (digits => spec%digits)
+      associate (digits => words%digits)
          if (digits%d == 0) call add_for_digit(problems, words, severity%error, "D", &
             & "D = 0 keeps the potential contact area, but this is the first case")
          if (digits%d == 1) call add_for_digit(problems, words, severity%error, "D", &
@@ -201,12 +150,11 @@ contains
    end subroutine check_first_contact
 
    !> A first case of module 1 has nothing to keep
-   subroutine check_first_pair(words, spec, problems)
+   subroutine check_first_pair(words, problems)
       type(control_words), intent(in) :: words
-      type(case_spec), intent(in) :: spec
       type(problem_list), intent(inout) :: problems
 
-      associate (digits => spec%digits)
+      associate (digits => words%digits)
          if (digits%c < 2) call add_for_digit(problems, words, severity%error, "C", "C = " // integer_text(digits%c) // &
             & " keeps the materials, but this is the first case; C = 2 reads them")
          if (digits%d < 2) call add_for_digit(problems, words, severity%error, "D", "D = " // integer_text(digits%d) // &
@@ -223,42 +171,47 @@ contains
       type(control_words), intent(in) :: words
       type(case_spec), intent(in) :: previous, spec
       type(problem_list), intent(inout) :: problems
+      type(case_digits) :: old
 
-      associate (digits => spec%digits)
+      old = digits_of(previous)
+      associate (digits => words%digits)
          if ((digits%s == 1 .or. digits%s == 2) .and. .not. allocated(spec%subsurface%blocks)) &
             & call add_for_digit(problems, words, severity%error, "S", &
             & "S = " // integer_text(digits%s) // " keeps the subsurface points, but no case has given any")
-         if (digits%l == 1 .and. digits%v /= previous%digits%v) call add_for_digit(problems, words, severity%error, "L", &
-            & "L = 1 keeps the friction law, but V changes from " // integer_text(previous%digits%v) // " to " // &
+         if (digits%h == 1 .and. .not. previous%heat%is_given) call add_for_digit(problems, words, severity%error, "H", &
+            & "H = 1 keeps the thermal constants, but no case has given any; H = 3 reads them")
+         if (digits%l == 1 .and. digits%v /= old%v) call add_for_digit(problems, words, severity%error, "L", &
+            & "L = 1 keeps the friction law, but V changes from " // integer_text(old%v) // " to " // &
             & integer_text(digits%v) // ": new friction input is needed")
       end associate
    end subroutine check_kept
 
    !> Track and wheelset that a later case keeps must fit to it
-   subroutine check_kept_wheelset(words, previous, spec, problems)
+   subroutine check_kept_wheelset(words, previous, problems)
       type(control_words), intent(in) :: words
-      type(case_spec), intent(in) :: previous, spec
+      type(case_spec), intent(in) :: previous
       type(problem_list), intent(inout) :: problems
+      type(case_digits) :: old
 
-      associate (digits => spec%digits)
-         if (digits%e == 0 .and. digits%n /= previous%digits%n) call add_for_digit(problems, words, severity%error, "E", &
-            & "E = 0 keeps the position of the wheelset, but N changes from " // integer_text(previous%digits%n) // " to " // &
+      old = digits_of(previous)
+      associate (digits => words%digits)
+         if (digits%e == 0 .and. digits%n /= old%n) call add_for_digit(problems, words, severity%error, "E", &
+            & "E = 0 keeps the position of the wheelset, but N changes from " // integer_text(old%n) // " to " // &
             & integer_text(digits%n) // ": a new position is needed")
-         if (digits%c1 /= previous%digits%c1 .and. (digits%z == 0 .or. digits%e == 0)) call add_for_digit(problems, words, &
-            & severity%warning, "C1", "C1 changes from " // integer_text(previous%digits%c1) // " to " // &
+         if (digits%c1 /= old%c1 .and. (digits%z == 0 .or. digits%e == 0)) call add_for_digit(problems, words, &
+            & severity%warning, "C1", "C1 changes from " // integer_text(old%c1) // " to " // &
             & integer_text(digits%c1) // ", but track or wheelset are kept")
       end associate
    end subroutine check_kept_wheelset
 
    !> What digits of module 3 demand of each other
-   subroutine check_contact(words, previous_motion, spec, problems)
+   subroutine check_contact(words, previous_motion, problems)
       type(control_words), intent(in) :: words
       !> T of the previous case, of this one when there is none
       integer, intent(in) :: previous_motion
-      type(case_spec), intent(in) :: spec
       type(problem_list), intent(inout) :: problems
 
-      associate (digits => spec%digits)
+      associate (digits => words%digits)
          if (digits%d /= 0 .and. digits%z == 0) call add_for_digit(problems, words, severity%error, "Z", &
             & "Z = 0 keeps the undeformed distance, but D = " // integer_text(digits%d) // &
             & " forms a new grid, which needs a new one")
@@ -269,12 +222,11 @@ contains
    end subroutine check_contact
 
    !> What digits of module 1 demand of each other
-   subroutine check_pair(words, spec, problems)
+   subroutine check_pair(words, problems)
       type(control_words), intent(in) :: words
-      type(case_spec), intent(in) :: spec
       type(problem_list), intent(inout) :: problems
 
-      associate (digits => spec%digits)
+      associate (digits => words%digits)
          if (digits%f /= 0 .and. digits%t == 0) call add_for_digit(problems, words, severity%error, "F", "F = " // &
             & integer_text(digits%f) // " needs a tangential problem, T = 1, 2 or 3")
          if (digits%c == 4 .and. digits%d >= 2 .and. choice_of("D", digits%d, 1) /= contact_location%conformal) &
@@ -284,23 +236,20 @@ contains
    end subroutine check_pair
 
    !> What a first case of either module corrects, with a warning, and cannot keep
-   subroutine start_sequence(words, spec, problems)
-      type(control_words), intent(in) :: words
-      type(case_spec), intent(inout) :: spec
+   subroutine start_sequence(words, problems)
+      type(control_words), intent(inout) :: words
       type(problem_list), intent(inout) :: problems
 
-      associate (digits => spec%digits)
+      associate (digits => words%digits)
          if (digits%p /= 2) then
             call add_for_digit(problems, words, severity%warning, "P", "P = " // integer_text(digits%p) // &
                & " is replaced by 2: the first case has no previous tractions")
             digits%p = 2
-            spec%link = time_link%initiate
          end if
          if (digits%i /= 0) then
             call add_for_digit(problems, words, severity%warning, "I", "I = " // integer_text(digits%i) // &
                & " is replaced by 0: the first case has no previous solution")
             digits%i = 0
-            spec%estimate = estimate_choice%fresh
          end if
          if (digits%l == 1) call add_for_digit(problems, words, severity%error, "L", &
             & "L = 1 keeps the friction law of the previous case, but this is the first case")
@@ -317,7 +266,7 @@ contains
       type(case_spec), intent(in) :: spec
       type(problem_list), intent(inout) :: problems
 
-      associate (digits => spec%digits)
+      associate (digits => words%digits)
          if (digits%m == 1 .and. digits%t /= 3) call add_for_digit(problems, words, severity%error, "M", &
             & "M = 1, viscoelastic material, needs steady rolling, T = 3, not T = " // integer_text(digits%t))
          if (is_fastrip(spec%material_model)) then
@@ -355,7 +304,7 @@ contains
       do k = 1, size(digit_names)
          name = trim(digit_names(k))
          if (module_number == 3 .and. name == "C1") cycle
-         digit = kept_digit(spec, name, module_number)
+         digit = kept_digit(words%digits, spec, name, module_number)
          if (is_built(name, digit, module_number) .or. .not. is_known(name, digit, module_number)) cycle
          text = trim(digit_text(name, digit, module_number)) // ", is known but not built in this version"
          if (module_number == 1) text = text // " for wheel on rail" // trim(alternative(spec, name))
@@ -378,13 +327,14 @@ contains
    end function alternative
 
    !> A digit, or the one that it keeps
-   pure integer function kept_digit(spec, name, module_number) result(digit)
+   pure integer function kept_digit(digits, spec, name, module_number) result(digit)
+      type(case_digits), intent(in) :: digits
       type(case_spec), intent(in) :: spec
       character(len=*), intent(in) :: name
       !> 1 or 3
       integer, intent(in) :: module_number
 
-      digit = digit_value(spec%digits, name)
+      digit = digit_value(digits, name)
       select case (name)
       case ("L"); if (digit == 1) digit = spec%friction_law
       case ("C"); if (digit <= 1) digit = spec%kernel

@@ -2,6 +2,7 @@
 module contact_input_experiment_file
    use contact_base_error, only : add_context, error_kind, error_type, fatal_error
    use contact_cases_spec, only : case_spec
+   use contact_control_digits, only : case_digits
    use contact_input_grid_frame, only : grid_frame
    use contact_input_problems, only : problem_list, severity
    use contact_input_reader, only : read_case
@@ -25,6 +26,8 @@ module contact_input_experiment_file
       integer :: number = 0
       !> Line of the first control word
       integer :: first_line = 0
+      !> Digits as the file gave them
+      type(case_digits) :: digits
       type(case_spec) :: spec
       !> What is wrong with it
       type(problem_list) :: problems
@@ -132,11 +135,11 @@ contains
          this%cpid = store%cpid
          this%number = self%next_number()
          call read_case(self%lexer, self%module_number, store%spec, store%cases > 0, this%number, this%spec, this%problems, error, &
-            & store%coefficients, this%first_line)
+            & store%coefficients, this%first_line, this%digits)
          if (allocated(error)) return
          store%spec = this%spec
          store%cases = store%cases + 1
-         if (this%spec%digits%r /= 0 .and. this%spec%digits%r /= 2) self%module_number = 0
+         if (this%spec%ends_module) self%module_number = 0
       end associate
    end subroutine next_case
 

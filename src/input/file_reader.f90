@@ -1,6 +1,6 @@
 !> The archive that gives values to a case from an input file
 module contact_input_file_reader
-   use contact_base_error, only : error_kind, error_type, fatal_error
+   use contact_base_error, only : add_context, error_kind, error_type, fatal_error
    use contact_base_kinds, only : wp
    use contact_cases_archive, only : archive_item, case_archive, item_kind, shown_length
    use contact_input_problems, only : problem_list, severity
@@ -11,6 +11,15 @@ module contact_input_file_reader
 
    public :: file_reader, new_file_reader
 
+   !> Most groups of a case
+   integer, parameter :: most_groups = 32
+
+   !> First number of a group; line 0 before it was read
+   type :: group_place
+      character(len=16) :: name = ""
+      integer :: line = 0, column = 0
+   end type group_place
+
    !> Reads the lines of an input file and tells which numbers are beyond their bounds
    type, extends(case_archive) :: file_reader
       !> The file, and what is wrong with the values of the case
@@ -20,6 +29,9 @@ module contact_input_file_reader
       type(error_type), allocatable :: error
       !> The words of the last line
       type(input_value), allocatable :: values(:)
+      !> Where the groups begin that were read, and number of the one in hand, 0 outside of groups
+      type(group_place) :: groups(most_groups)
+      integer :: group_count = 0, group = 0
    contains
       procedure :: end_line => read_line
       procedure :: list => read_list
@@ -29,6 +41,13 @@ module contact_input_file_reader
       procedure :: check => check_value
       procedure :: shown => show_value
       procedure :: place => place_value
+      procedure :: open_group => open_group_of_file
+      procedure :: close_group => close_group_of_file
+      procedure :: refuse_group => refuse_group_of_file
+      procedure :: warn_of_group => warn_of_group_of_file
+      procedure :: add_context => add_context_of_file
+      !> Line on which a group begins, 0 when it was not read
+      procedure :: line_of
    end type file_reader
 
 contains
@@ -66,6 +85,7 @@ contains
          call self%lexer%read_group(types(:n), trim(names), self%values(:n), self%error)
          self%is_good = .not. allocated(self%error)
          if (self%is_good) then
+            if (self%group > 0) call note_place(self%groups(self%group), self%values(1))
             do k = 1, n
                call take_value(self, self%items(k), self%values(k))
             end do
@@ -73,6 +93,83 @@ contains
       end if
       call self%finish_line()
    end subroutine read_line
+
+   !> The first number of a group tells where it is
+   subroutine note_place(group, first)
+      type(group_place), intent(inout) :: group
+      type(input_value), intent(in) :: first
+
+      if (group%line > 0) return
+      group%line = first%line
+      group%column = first%column
+   end subroutine note_place
+
+   !> The numbers that follow belong to a group
+   subroutine open_group_of_file(self, text)
+      class(file_reader), intent(inout) :: self
+      character(len=*), intent(in) :: text
+
+      self%group_count = min(most_groups, self%group_count + 1)
+      self%group = self%group_count
+      self%groups(self%group) = group_place(name=text)
+   end subroutine open_group_of_file
+
+   !> The numbers that follow do not belong to the group
+   subroutine close_group_of_file(self)
+      class(file_reader), intent(inout) :: self
+
+      self%group = 0
+   end subroutine close_group_of_file
+
+   !> Line on which a group begins, 0 when it was not read
+   pure integer function line_of(self, name) result(line)
+      class(file_reader), intent(in) :: self
+      character(len=*), intent(in) :: name
+      integer :: k
+
+      line = 0
+      do k = 1, self%group_count
+         if (self%groups(k)%name == name) line = self%groups(k)%line
+      end do
+   end function line_of
+
+   !> The numbers of the group in hand, or of those before it, do not go together
+   subroutine refuse_group_of_file(self, text)
+      class(file_reader), intent(inout) :: self
+      character(len=*), intent(in) :: text
+
+      call add_group_problem(self, severity%error, text)
+   end subroutine refuse_group_of_file
+
+   !> The numbers of the group in hand are doubtful
+   subroutine warn_of_group_of_file(self, text)
+      class(file_reader), intent(inout) :: self
+      character(len=*), intent(in) :: text
+
+      call add_group_problem(self, severity%warning, text)
+   end subroutine warn_of_group_of_file
+
+   !> A problem at the beginning of the group in hand; outside of groups on the last line
+   subroutine add_group_problem(self, kind, text)
+      class(file_reader), intent(inout) :: self
+      !> Member of severity
+      integer, intent(in) :: kind
+      character(len=*), intent(in) :: text
+
+      if (self%group > 0) then
+         call self%problems%add(kind, text, self%groups(self%group)%line, self%groups(self%group)%column)
+      else
+         call self%problems%add(kind, text, self%lexer%line)
+      end if
+   end subroutine add_group_problem
+
+   !> Where reading stopped, if it did
+   subroutine add_context_of_file(self, text)
+      class(file_reader), intent(inout) :: self
+      character(len=*), intent(in) :: text
+
+      call add_context(self%error, text)
+   end subroutine add_context_of_file
 
    !> Letter of the type of an item, as read_group wants it
    pure character function letter_of(item) result(letter)

@@ -2,8 +2,7 @@
 module contact_output_file_writer
    use contact_base_kinds, only : wp
    use contact_cases_archive, only : case_archive, item_kind
-   use contact_cases_spec, only : case_digits
-   use contact_control_digits, only : encode_words, word_text
+   use contact_control_digits, only : case_digits, encode_words, word_text
    use contact_text_words, only : integer_text
    implicit none (type, external)
    private
@@ -19,11 +18,13 @@ module contact_output_file_writer
    type, extends(case_archive) :: file_writer
       !> Fortran unit
       integer :: unit = 0
-      !> What is said behind the names of the next lines
-      character(len=:), allocatable :: remark
+      !> What is said behind the names of the lines of the group in hand
+      character(len=:), allocatable, private :: remark
    contains
       procedure :: end_line => write_line
       procedure :: list => write_list
+      procedure :: comment => keep_remark
+      procedure :: close_group => drop_remark
    end type file_writer
 
 contains
@@ -54,6 +55,21 @@ contains
       call put_line(self%unit, values, names(2:))
       call self%finish_line()
    end subroutine write_line
+
+   !> Keep what is said about the group in hand
+   subroutine keep_remark(self, text)
+      class(file_writer), intent(inout) :: self
+      character(len=*), intent(in) :: text
+
+      self%remark = ", " // text
+   end subroutine keep_remark
+
+   !> Forget what was said about the group
+   subroutine drop_remark(self)
+      class(file_writer), intent(inout) :: self
+
+      if (allocated(self%remark)) deallocate(self%remark)
+   end subroutine drop_remark
 
    !> Write a list
    subroutine write_list(self, name, values, n, units, bounds)

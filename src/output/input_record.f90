@@ -3,6 +3,8 @@ module contact_output_input_record
    use contact_base_choices, only : friction_model, has_slope_reduction, heat_source_name, material_model, pressure_model
    use contact_base_kinds, only : wp
    use contact_cases_spec, only : case_spec, friction_set
+   use contact_control_digits, only : case_digits
+   use contact_control_translation, only : digits_of
    use contact_output_record, only : record_writer
    use contact_wheelrail_spec, only : profile_spec
    implicit none (type, external)
@@ -30,7 +32,7 @@ contains
          call record%number("dftmax", "N/s", "largest rate of the tangential force", spec%damping%dftmax)
          call record%close_group()
       end if
-      if (spec%heat_model > 0) then
+      if (spec%has_heat) then
          call record%open_group("heat")
          call record%numbers("bktemp", "degC", "bulk temperatures of bodies 1 and 2", spec%heat%bktemp)
          call record%numbers("heatcp", "J/(kg degC)", "specific heat capacities", spec%heat%heatcp)
@@ -52,27 +54,27 @@ contains
    subroutine describe_digits(record, spec)
       class(record_writer), intent(inout) :: record
       type(case_spec), intent(in) :: spec
+      type(case_digits) :: d
 
+      d = digits_of(spec)
       call record%open_group("digits")
-      associate (d => spec%digits)
-         if (allocated(spec%wheel_rail)) call record%count("c1", "CONFIG", d%c1)
-         call record%count("p", "PVTIME", d%p)
-         call record%count("b", "BOUND", d%b)
-         call record%count("t", "TANG", d%t)
-         call record%count("n", "NORM", d%n)
-         call record%count("f", "FORCE", d%f)
-         call record%count("s", "STRESS", d%s)
-         call record%count("v", "VARFRC", d%v)
-         call record%count("l", "FRCLAW", d%l)
-         call record%count("d", "DISCNS", d%d)
-         call record%count("c", "INFLCF", d%c)
-         call record%count("m", "MATER", d%m)
-         call record%count("z", "RZNORM, ZTRACK", d%z)
-         call record%count("e", "EXRHS, EWHEEL", d%e)
-         call record%count("h", "HEAT", d%h)
-         call record%count("g", "GAUSEI", d%g)
-         call record%count("i", "IESTIM", d%i)
-      end associate
+      if (allocated(spec%wheel_rail)) call record%count("c1", "CONFIG", d%c1)
+      call record%count("p", "PVTIME", d%p)
+      call record%count("b", "BOUND", d%b)
+      call record%count("t", "TANG", d%t)
+      call record%count("n", "NORM", d%n)
+      call record%count("f", "FORCE", d%f)
+      call record%count("s", "STRESS", d%s)
+      call record%count("v", "VARFRC", d%v)
+      call record%count("l", "FRCLAW", d%l)
+      call record%count("d", "DISCNS", d%d)
+      call record%count("c", "INFLCF", d%c)
+      call record%count("m", "MATER", d%m)
+      call record%count("z", "RZNORM, ZTRACK", d%z)
+      call record%count("e", "EXRHS, EWHEEL", d%e)
+      call record%count("h", "HEAT", d%h)
+      call record%count("g", "GAUSEI", d%g)
+      call record%count("i", "IESTIM", d%i)
       call record%close_group()
    end subroutine describe_digits
 

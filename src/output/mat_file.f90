@@ -9,6 +9,8 @@ module contact_output_mat_file
    use contact_base_kinds, only : wp
    use contact_cases_friction_setup, only : values_of
    use contact_cases_spec, only : case_spec, friction_set
+   use contact_control_digits, only : case_digits
+   use contact_control_translation, only : digits_of
    use contact_grid_element_division, only : element
    use contact_output_finished_file, only : case_file_name, finished_file
    use contact_output_formats, only : general, whole
@@ -105,8 +107,10 @@ contains
       character(len=11), allocatable :: more(:)
       real(wp) :: chi, dq
       logical :: rolling
+      type(case_digits) :: digits
       integer :: i, columns
 
+      digits = digits_of(spec)
       more = extra_names(result)
       columns = basic_columns + size(more)
       rolling = spec%motion == motion%transient_rolling .or. spec%motion == motion%steady_rolling
@@ -129,10 +133,10 @@ contains
          & result%grid%dy, chi, dq]) // integers([place%c1, place%d]) // reals([place%wheel_offset, zeros(columns - 11)])
       lines(9) = name_line(completed("   T    M", material_names(spec%material_model), columns))
       values = material_values(spec, result)
-      lines(10) = two_integers(spec%digits%t, spec%digits%m) // reals([values, zeros(columns - 2 - size(values))])
+      lines(10) = two_integers(digits%t, digits%m) // reals([values, zeros(columns - 2 - size(values))])
       lines(11) = name_line(completed("   L    H", friction_names(spec%friction_law), columns))
       values = [merge(result%veloc, spec%rolling%veloc, place%patches > 0), friction_values(spec)]
-      lines(12) = two_integers(spec%friction_law, spec%digits%h) // reals([values, zeros(columns - 2 - size(values))])
+      lines(12) = two_integers(spec%friction_law, digits%h) // reals([values, zeros(columns - 2 - size(values))])
       lines(13) = name_line([character(len=11) :: "   I  IGS", "H", "MU", "PN", "PX", "PY", "UN", "UX", "UY", &
          & merge("SREL", "SHFT", rolling), more])
       if (status%is_solved()) then

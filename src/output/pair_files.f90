@@ -3,6 +3,8 @@ module contact_output_pair_files
    use contact_base_error, only : error_type
    use contact_base_kinds, only : wp
    use contact_cases_spec, only : case_spec
+   use contact_control_digits, only : case_digits
+   use contact_control_translation, only : digits_of
    use contact_output_mat_file, only : mat_file_name, mat_place, write_mat_file
    use contact_output_subs_file, only : subs_file_name, write_subs_file
    use contact_patch_result, only : patch_result
@@ -41,7 +43,7 @@ contains
                end if
                if (allocated(error)) return
             end if
-            if (spec%digits%s >= 1 .and. spec%subsurface%matfil >= 1 .and. allocated(patch%contact%subsurface)) then
+            if (spec%has_stress .and. spec%subsurface%matfil >= 1 .and. allocated(patch%contact%subsurface)) then
                call write_subs_file(subs_file_name(base, case_number, result_element, k), spec, patch%contact, error)
                if (allocated(error)) return
             end if
@@ -57,8 +59,10 @@ contains
       integer, intent(in) :: number
       real(wp), intent(in), optional :: time
       type(mat_place) :: place
+      type(case_digits) :: digits
       real(wp) :: s
 
+      digits = digits_of(spec)
       s = merge(-1.0_wp, 1.0_wp, spec%wheel_rail%left)
       associate (w => spec%wheel_rail%wheelset)
          place%rail = [0.0_wp, merge(0.0_wp, w%s, spec%wheel_rail%roller), w%pitch, s*result%rail_y, result%rail_z, &
@@ -71,7 +75,7 @@ contains
       if (present(time)) place%rail(1) = time
       place%patches = size(result%patches)
       place%patch = number
-      place%c1 = spec%digits%c1
+      place%c1 = digits%c1
       place%d = spec%wheel_rail%search%location
       place%wheel_offset = result%wheel_offset
    end function place_of

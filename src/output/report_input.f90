@@ -5,7 +5,9 @@ module contact_output_report_input
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
    use contact_cases_friction_setup, only : values_of
-   use contact_cases_spec, only : case_digits, case_spec, friction_set, kinematics_spec, material_spec
+   use contact_cases_spec, only : case_spec, friction_set, kinematics_spec, material_spec, part_source
+   use contact_control_digits, only : case_digits
+   use contact_control_translation, only : digits_of
    use contact_output_formats, only : fixed, general, generals, heading, smart, smarts, whole
    use contact_patch_result, only : hertz_result, patch_result
    implicit none (type, external)
@@ -13,8 +15,6 @@ module contact_output_report_input
 
    public :: write_input, write_friction, write_sheet
 
-   !> Digits from which on a group of the input is new and therefore echoed
-   integer, parameter :: new_kernel = 2, new_damping = 2, kept_friction = 1, kept_geometry = 1, with_heat = 1
    !> Below this output level the middle of a friction table per row is left out
    integer, parameter :: full_friction_table = 4
 
@@ -27,13 +27,13 @@ contains
       !> For derived constants: combined material, Hertz solution, time step
       type(patch_result), intent(in) :: result
 
-      call write_digits(log, spec%digits)
+      call write_digits(log, digits_of(spec))
       call write_problem(log, spec)
-      if (spec%digits%z >= kept_geometry .and. spec%grid%ipotcn < 0) call write_hertz(log, spec, result)
+      if (spec%parts%geometry /= part_source%kept .and. spec%grid%ipotcn < 0) call write_hertz(log, spec, result)
       if (spec%solver == solver_choice%gd_steady) call write_gd_steady(log, spec)
-      if (spec%digits%c >= new_kernel) call write_materials(log, spec, result)
-      if (spec%digits%l /= kept_friction .and. allocated(spec%friction%sets)) call write_friction(log, spec%friction_law, &
-         & spec%variation, spec%friction%sets, spec%output_level)
+      if (spec%parts%material == part_source%given) call write_materials(log, spec, result)
+      if (spec%parts%friction == part_source%given .and. allocated(spec%friction%sets)) &
+         & call write_friction(log, spec%friction_law, spec%variation, spec%friction%sets, spec%output_level)
       call write_kinematics(log, spec, result)
    end subroutine write_input
 
@@ -200,13 +200,13 @@ contains
       call log%result("    POISS(1)    POISS(2)     GG(1)       GG(2)")
       call log%result("  " // generals([spec%material%poiss, spec%material%gg]))
       if (spec%pressure == pressure_model%thin_sheet) call write_sheet(log, spec%material)
-      if (spec%digits%m2 >= new_damping) then
+      if (spec%has_damping .and. spec%parts%damping == part_source%given) then
          call log%result("")
          call log%result(heading([character(len=9) :: "CDAMPN", "CDAMPT", "DFNMAX", "DFTMAX"]))
          call log%result("  " // smarts([spec%damping%cdampn, spec%damping%cdampt, spec%damping%dfnmax, &
             & spec%damping%dftmax]))
       end if
-      if (spec%digits%h >= with_heat) then
+      if (spec%has_heat) then
          call log%result("")
          call log%result(heading([character(len=9) :: "BKTEMP", "HEATCP", "LAMBDA", "DENSITY"]))
          do body = 1, 2

@@ -5,11 +5,13 @@
 module contact_output_report_pair
    use contact_base_case_status, only : case_status
    use contact_base_choices, only : contact_location, has_slope_reduction, is_fastrip, is_simplified, kernel_model, &
-      & material_model, motion, normal_control, pressure_model, stress_choice, variation
+      & material_model, motion, normal_control, pressure_model, time_link, variation
    use contact_base_constants, only : pi
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
-   use contact_cases_spec, only : case_digits, case_spec, material_spec
+   use contact_cases_spec, only : case_spec, material_spec, part_source
+   use contact_control_digits, only : case_digits
+   use contact_control_translation, only : digits_of
    use contact_cases_friction_setup, only : set_of
    use contact_grid_element_division, only : bounding_box, contact_box
    use contact_wheelrail_spec, only : profile_spec, wheel_rail_spec
@@ -71,18 +73,19 @@ contains
       call log%result(" WHEEL-" // body // " CONTACT, " // trim(merge("LEFT ", "RIGHT", spec%wheel_rail%left)) // " WHEEL," &
          & // whole(patches, 3) // " CONTACT PATCH" // trim(merge("  ", "ES", patches == 1)))
       call log%result("")
-      call write_digits(log, spec%digits)
+      call write_digits(log, digits_of(spec))
       call write_problem(log, spec)
-      if (spec%digits%c >= 2) call write_materials(log, spec, result)
-      if (spec%motion /= motion%none .and. spec%digits%l /= 1 .and. allocated(spec%friction%sets)) &
+      if (spec%parts%material == part_source%given) call write_materials(log, spec, result)
+      if (spec%motion /= motion%none .and. spec%parts%friction == part_source%given .and. allocated(spec%friction%sets)) &
          & call write_friction(log, spec%friction_law, spec%variation, spec%friction%sets, spec%output_level)
-      if (spec%digits%d >= 2) call write_discretisation(log, spec%wheel_rail)
-      if (spec%digits%z == 3) call write_profile_choice(log, spec%wheel_rail%rail_profile, body, spec%output_level)
-      if (spec%digits%z == 1 .or. spec%digits%z == 3) call write_track(log, spec%wheel_rail)
-      if (spec%digits%z >= 2) call write_rail(log, spec, result)
-      if (spec%digits%e == 3 .or. spec%digits%e == 5) &
+      if (spec%parts%search == part_source%given) call write_discretisation(log, spec%wheel_rail)
+      if (spec%parts%rail_profile == part_source%given) call write_profile_choice(log, spec%wheel_rail%rail_profile, body, &
+         & spec%output_level)
+      if (spec%parts%track == part_source%given) call write_track(log, spec%wheel_rail)
+      if (spec%parts%deviations == part_source%given) call write_rail(log, spec, result)
+      if (spec%parts%wheel_profile == part_source%given) &
          & call write_profile_choice(log, spec%wheel_rail%wheel_profile, "WHEEL", spec%output_level)
-      if (spec%digits%e >= 1) call write_wheelset(log, spec, result)
+      if (spec%parts%position == part_source%given) call write_wheelset(log, spec, result)
    end subroutine write_echo
 
    !> Control digits as given
@@ -170,12 +173,12 @@ contains
       call log%result("    POISS(R)    POISS(W)     GG(R)       GG(W)")
       call log%result("  " // generals(spec%material%poiss) // smarts(spec%material%gg))
       if (spec%pressure == pressure_model%thin_sheet) call write_sheet(log, spec%material)
-      if (spec%digits%m2 >= 2) then
+      if (spec%has_damping .and. spec%parts%damping == part_source%given) then
          call log%result("")
          call log%result(heading([character(len=9) :: "CDAMPN", "CDAMPT", "DFNMAX", "DFTMAX"]))
          call log%result("  " // smarts([spec%damping%cdampn, spec%damping%cdampt, spec%damping%dfnmax, spec%damping%dftmax]))
       end if
-      if (spec%digits%h >= 1) then
+      if (spec%has_heat) then
          has_plastic_heat = spec%material_model == material_model%interfacial_layer
          call log%result("")
          if (has_plastic_heat) then
@@ -402,7 +405,7 @@ contains
       if (spec%output_level >= 1) then
          s = sign_of(spec)
          origin = ""
-         if (spec%digits%p /= 2) then
+         if (spec%link /= time_link%initiate) then
             origin = " (NEW PATCH)"
             if (allocated(patch%previous)) then
                if (size(patch%previous) > 0) then
@@ -432,7 +435,7 @@ contains
          end if
          if (spec%output_level >= 5) call write_element_table(log, spec, in_element_coordinates(patch))
       end if
-      if (spec%stress /= stress_choice%none .and. allocated(patch%contact%subsurface)) &
+      if (spec%has_stress .and. allocated(patch%contact%subsurface)) &
          & call write_subsurface(log, spec, patch%contact)
    end subroutine write_patch
 

@@ -1,6 +1,5 @@
 !> Extremes of the subsurface stresses, and the points one by one, in the .out file
 module contact_output_report_subsurface
-   use contact_base_choices, only : stress_choice
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
    use contact_cases_spec, only : case_spec
@@ -23,7 +22,7 @@ contains
       integer :: i
 
       if (.not. log%out%is_open()) return
-      if (spec%stress == stress_choice%none .or. spec%subsurface%output < 1) return
+      if (.not. spec%has_stress .or. spec%subsurface%output < 1) return
       if (.not. allocated(result%subsurface)) return
       do i = 1, size(result%subsurface)
          call log%result("")

@@ -43,8 +43,8 @@ module contact_wheelrail_spec
       real(wp) :: a_sep = pi, d_sep = 8.0_wp, d_comb = 4.0_wp, d_turn = 12.0_wp
       !> Gap below which near misses enlarge a patch [mm]; negative: never
       real(wp) :: g_miss = -1.0_wp
-      !> Power of the interpenetration in the weights of the contact reference
-      integer :: weight_power = 2
+      !> Weights of the contact reference: 0 the default, 1 the interpenetration, 2 its square
+      integer :: gap_weight = 0
       !> Contact angle on a rail that varies: of the section below the axle, as the established program takes it, instead of the
       !> section at the contact? Not part of the input file
       logical :: angle_below_axle = .true.

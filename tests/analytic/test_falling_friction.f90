@@ -6,7 +6,7 @@
 program test_falling_friction
    use contact_base_choices, only : friction_model, motion, time_link
    use contact_base_kinds, only : wp
-   use contact_cases_spec, only : case_spec, friction_set
+   use contact_cases_spec, only : case_spec, friction_set, part_source
    use contact_test_case_builder, only : creep, grid_case, test_case
    use contact_test_harness, only : test_suite
    implicit none (type, external)
@@ -119,8 +119,8 @@ contains
             case%spec%iteration%inislp = 0
             case%spec%link = time_link%continue_all
             case%spec%kinematics%cksi = merge(0.15_wp, 0.03_wp, start < 0)*compliance*pressure/step
-            case%spec%new_grid = .false.
-            case%spec%new_geometry = .false.
+            case%spec%parts%grid = part_source%kept
+            case%spec%parts%geometry = part_source%kept
             call case%run(suite, "next step")
          end if
          call case%release()

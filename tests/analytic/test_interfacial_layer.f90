@@ -3,6 +3,7 @@ program test_interfacial_layer
    use contact_base_choices, only : estimate_choice, material_model, motion, solver_choice, time_link
    use contact_base_constants, only : pi
    use contact_base_kinds, only : wp
+   use contact_cases_spec, only : part_source
    use contact_grid_element_division, only : element
    use contact_test_case_builder, only : creep, ellipse_case, shift, test_case
    use contact_test_harness, only : test_suite
@@ -55,8 +56,8 @@ contains
             if (step == 2) then
                case%spec%link = time_link%continue_all
                case%spec%estimate = estimate_choice%previous
-               case%spec%new_grid = .false.
-               case%spec%new_geometry = .false.
+               case%spec%parts%grid = part_source%kept
+               case%spec%parts%geometry = part_source%kept
             end if
             write(what, "(a, f7.1, a, f5.2, a, i0)") "slope", slopes(k), ", layer", layer_thickness, ", step ", step
             call case%run(suite, trim(what))
@@ -217,8 +218,8 @@ contains
          call transient%run(suite, "transient")
          transient%spec%link = time_link%continue_all
          transient%spec%estimate = estimate_choice%previous
-         transient%spec%new_grid = .false.
-         transient%spec%new_geometry = .false.
+         transient%spec%parts%grid = part_source%kept
+         transient%spec%parts%geometry = part_source%kept
       end do
       print "(a, 3es12.4)", "transient to steady", transient%result%fx_rel - steady%result%fx_rel, &
          & maxval(abs(transient%result%px - steady%result%px))/maxval(abs(steady%result%px)), &
@@ -248,7 +249,7 @@ contains
       case%spec%material%k_tau = slope
       case%spec%link = time_link%initiate
       case%spec%estimate = estimate_choice%fresh
-      case%spec%new_grid = .true.
-      case%spec%new_geometry = .true.
+      case%spec%parts%grid = part_source%given
+      case%spec%parts%geometry = part_source%given
    end subroutine make_layer
 end program test_interfacial_layer

@@ -4,6 +4,7 @@ program test_tangential_convergence
    use contact_base_choices, only : estimate_choice, motion, time_link
    use contact_base_constants, only : pi
    use contact_base_kinds, only : wp
+   use contact_cases_spec, only : part_source
    use contact_grid_element_division, only : element
    use contact_test_case_builder, only : creep, ellipse_case, forces, grid_case, hertz_case, line_case, observed, &
       & order_of, shift, test_case
@@ -294,7 +295,7 @@ contains
          aa = step/real(n/2, wp)
          case%spec%kinematics%fn = 4.0_wp/3.0_wp*(400.0_wp/(1.0_wp - nu))*aa**3/radius
          case%spec%link = merge(time_link%initiate, time_link%continue_all, step == 1)
-         case%spec%new_grid = step == 1
+         case%spec%parts%grid = merge(part_source%given, part_source%kept, step == 1)
          ! one pass that starts without shear leaves the pressures to Hertz
          case%spec%estimate = merge(estimate_choice%previous, estimate_choice%previous_normal, reaction)
          if (step == 1) case%spec%estimate = estimate_choice%fresh

@@ -12,9 +12,20 @@ TOP = {"CMakeLists.txt", "CMakePresets.json", "LICENSE", "README.md", "build", "
 FORMAT = re.compile(r"""(?:\b(?:write|read)\s*\(\s*[\w%*]+\s*,\s*|\bform\w*(?:\([^)]*\))?\s*=\s*\[?)(['"])(\(.*?)\1""")
 
 
-def offences(lines):
+# Rooms that know control digits; all others know named choices
+DOORS = {"control", "input", "output", "capi"}
+DIGIT = re.compile(r"\bcase_digits\b|\bdigits\s*%|\bcontact_control_(?:digits|translation)\b")
+# A choice means what is done, never "what the previous case did"
+KEEP = re.compile(r"::.*\bkeep\s*=\s*\d")
+
+
+def offences(lines, room="base"):
     """Number, line and reason of each line that breaks a rule"""
     for number, line in enumerate(lines, 1):
+        if room not in DOORS and DIGIT.search(line):
+            yield number, line.strip(), "digits end at the reader; a case has choices and parts"
+        if room == "base" and KEEP.search(line):
+            yield number, line.strip(), "what a case keeps is the source of its parts, not a choice"
         for match in FORMAT.finditer(line):
             descriptors = re.sub(r"""(['"]).*?\1""", "", match[2])
             if re.search("[a-z]", descriptors):
@@ -28,6 +39,9 @@ def main():
                              "   write(text, '(A, I0)') 'a', 1", "   read(number, form, iostat=status) value",
                              """   write(name, '("case_", i0)') k""", """   write(name, '("case_", I0)') k"""]))
     assert [line[0] for line in planted] == [1, 2, 5], planted
+    digits = ["   if (spec%digits%c >= 2) return", "      integer :: none = 0, keep = 1", "   keep = 1"]
+    assert [line[0] for line in offences(digits, "base")] == [1, 2], "digits and kept values in choices"
+    assert [line[0] for line in offences(digits, "input")] == [], "digits of the reader"
     top = pathlib.Path(os.environ["CONTACT_SOURCE"])
     files = sorted(pathlib.Path(top, "src").rglob("*.f90"))
     strangers = sorted(name for name in os.listdir(top) if name not in TOP and not name.startswith("."))
@@ -35,7 +49,7 @@ def main():
     if strangers:
         print(f"FAILED {top} holds {strangers[:10]}: left by a test that ran there, or in the wrong place")
     for file in files:
-        for number, line, reason in offences(file.read_text(encoding="utf-8").splitlines()):
+        for number, line, reason in offences(file.read_text(encoding="utf-8").splitlines(), file.parent.name):
             bad += 1
             print(f"FAILED {file}:{number}: {line}\n  {reason}")
     print(f"{len(files)} files, {bad} offences")

@@ -9,7 +9,7 @@ module contact_bench_problems
    use contact_base_solve_report, only : solve_report
    use contact_bench_measure, only : timed_case
    use contact_cases_session, only : contact_session, release_session, solve_case
-   use contact_cases_spec, only : case_spec
+   use contact_cases_spec, only : case_spec, part_source
    use contact_elastic_material, only : combine, combined_material
    use contact_elastic_model, only : elastic_model
    use contact_elastic_operator, only : elastic_operator
@@ -342,7 +342,7 @@ contains
          spec%normal = normal_control%force
          spec%estimate = estimate_choice%fresh
          spec%solver = solver_choice%default
-         spec%new_grid = .true.
+         spec%parts%grid = part_source%given
          spec%material%gg = modulus
          spec%material%poiss = poisson
          allocate(spec%friction%sets(1))
@@ -405,7 +405,7 @@ contains
 
       call solve_case(case%session, case%spec, case%log, case%result, error)
       if (allocated(error)) error stop full_text(error)
-      case%spec%new_grid = .false.
-      case%spec%new_geometry = .false.
+      case%spec%parts%grid = part_source%kept
+      case%spec%parts%geometry = part_source%kept
    end subroutine solve_one
 end module contact_bench_problems

@@ -4,6 +4,7 @@ program test_approximate_methods
    use contact_base_choices, only : material_model, motion, normal_control, pressure_model, time_link
    use contact_base_error, only : error_type
    use contact_base_kinds, only : wp
+   use contact_cases_spec, only : part_source
    use contact_patch_damping, only : damping_forces, damping_law
    use contact_patch_result, only : patch_result
    use contact_test_case_builder, only : creep, forces, hertz_case, surface_case, test_case
@@ -165,8 +166,8 @@ contains
                end if
                if (step > 1) then
                   case%spec%link = time_link%continue_all
-                  case%spec%new_grid = .false.
-                  case%spec%new_geometry = .false.
+                  case%spec%parts%grid = part_source%kept
+                  case%spec%parts%geometry = part_source%kept
                end if
                if (step > 3) call forces(case%spec, 0.4_wp, -0.2_wp)
                case%spec%kinematics%pen = 0.05_wp + 0.002_wp*step
@@ -270,8 +271,8 @@ contains
       real(wp), intent(out) :: force(3)
 
       case%spec = hertz_case(0.01_wp, 0.016_wp, 20.0_wp, 21, 21, scale=1.3_wp)
-      case%spec%new_grid = link == time_link%initiate
-      case%spec%new_geometry = case%spec%new_grid
+      case%spec%parts%grid = merge(part_source%given, part_source%kept, link == time_link%initiate)
+      case%spec%parts%geometry = case%spec%parts%grid
       case%spec%kinematics%fn = fn
       case%spec%link = link
       case%spec%has_damping = .true.

@@ -4,6 +4,7 @@ program test_coefficient_files
    use contact_base_choices, only : kernel_model, motion, solver_choice, time_link
    use contact_base_error, only : error_type, full_text
    use contact_base_kinds, only : wp
+   use contact_cases_spec, only : part_source
    use contact_elastic_compliance, only : compliance
    use contact_elastic_halfspace, only : fill_table, kernel_table
    use contact_elastic_material, only : combine, combined_material
@@ -115,8 +116,8 @@ contains
                ! a second step, from loaded bodies
                flat%spec%link = time_link%continue_all
                case%spec%link = time_link%continue_all
-               flat%spec%new_grid = .false.
-               case%spec%new_grid = .false.
+               flat%spec%parts%grid = part_source%kept
+               case%spec%parts%grid = part_source%kept
                call flat%run(suite, "half-spaces, second step, " // trim(name(k)))
                call case%run(suite, "file, second step, " // trim(name(k)))
             end if

@@ -3,6 +3,7 @@ program test_contact_properties
    use, intrinsic :: iso_fortran_env, only : int64
    use contact_base_choices, only : estimate_choice, motion, slip_source, time_link
    use contact_base_kinds, only : wp
+   use contact_cases_spec, only : part_source
    use contact_grid_element_division, only : element
    use contact_patch_result, only : patch_result
    use contact_test_case_builder, only : creep, ellipse_case, forces, random_numbers, surface_case, test_case
@@ -337,8 +338,8 @@ contains
 
       case%spec%link = merge(time_link%initiate, time_link%continue_all, step == 1)
       case%spec%estimate = merge(estimate_choice%fresh, estimate_choice%previous, step == 1)
-      case%spec%new_grid = step == 1
-      case%spec%new_geometry = step == 1
+      case%spec%parts%grid = merge(part_source%given, part_source%kept, step == 1)
+      case%spec%parts%geometry = case%spec%parts%grid
       case%spec%kinematics%fn = case%spec%kinematics%fn*1.03_wp
    end subroutine next
 

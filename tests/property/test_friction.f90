@@ -1,7 +1,7 @@
 !> Properties of friction laws and temperatures in whole cases
 program test_friction
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
-   use contact_base_choices, only : friction_model, heat_model, motion, solver_choice, time_link
+   use contact_base_choices, only : friction_model, motion, solver_choice, time_link
    use contact_base_constants, only : pi
    use contact_base_error, only : error_type
    use contact_base_kinds, only : wp
@@ -70,7 +70,7 @@ contains
    !> Steel, with friction that changes with temperature
    subroutine give_heat(case)
       type(test_case), intent(inout) :: case
-      case%spec%heat_model = heat_model%given
+      case%spec%has_heat = .true.
       case%spec%heat%bktemp = [20.0_wp, 60.0_wp]
    end subroutine give_heat
 

@@ -4,7 +4,7 @@ program test_rolling_steps
    use contact_base_constants, only : pi
    use contact_base_error, only : error_type
    use contact_base_kinds, only : wp
-   use contact_cases_spec, only : case_spec
+   use contact_cases_spec, only : case_spec, part_source
    use contact_test_case_builder, only : creep, ellipse_case, forces, test_case
    use contact_test_harness, only : test_suite
    implicit none (type, external)
@@ -58,7 +58,7 @@ contains
          case%spec%kinematics%cksi = cos(chi)*steady%spec%kinematics%cksi
          do step = 1, 130/m
             case%spec%link = merge(time_link%initiate, time_link%continue_all, step == 1)
-            case%spec%new_grid = step == 1
+            case%spec%parts%grid = merge(part_source%given, part_source%kept, step == 1)
             case%spec%estimate = merge(estimate_choice%fresh, estimate_choice%previous, step == 1)
             call case%run(suite, trim(what))
          end do
@@ -94,7 +94,7 @@ contains
          end if
          do step = 1, 45
             case%spec%link = merge(time_link%initiate, time_link%continue_all, step == 1)
-            case%spec%new_grid = step == 1
+            case%spec%parts%grid = merge(part_source%given, part_source%kept, step == 1)
             case%spec%estimate = merge(estimate_choice%fresh, estimate_choice%previous, step == 1)
             call case%run(suite, trim(what))
          end do

@@ -12,7 +12,7 @@ module hard_case
    use contact_base_log, only : log_type
    use contact_base_solve_report, only : ending, solve_report
    use contact_cases_session, only : contact_session, release_session, solve_case
-   use contact_cases_spec, only : case_spec
+   use contact_cases_spec, only : case_spec, part_source
    use contact_elastic_halfspace, only : fill_shifted_table, fill_table, kernel_table
    use contact_elastic_material, only : combine, combined_material
    use contact_grid_element_division, only : element
@@ -68,8 +68,8 @@ contains
       spec%motion = motion_choice
       spec%normal = normal_control%force
       spec%kinematics%fn = 30000.0_wp*aa*bb/15.0_wp
-      spec%new_grid = .true.
-      spec%new_geometry = .true.
+      spec%parts%grid = part_source%given
+      spec%parts%geometry = part_source%given
       spec%grid%ipotcn = -3
       spec%grid%mx = mx
       spec%grid%my = my
@@ -90,8 +90,8 @@ contains
       spec%motion = motion_choice
       spec%normal = normal_control%force
       spec%kinematics%fn = 100.0_wp
-      spec%new_grid = .true.
-      spec%new_geometry = .true.
+      spec%parts%grid = part_source%given
+      spec%parts%geometry = part_source%given
       spec%grid%ipotcn = 1
       spec%grid%mx = mx
       spec%grid%my = my

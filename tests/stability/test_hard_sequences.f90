@@ -2,7 +2,7 @@
 program test_hard_sequences
    use contact_base_choices, only : estimate_choice, motion, normal_control, time_link
    use contact_base_kinds, only : wp
-   use contact_cases_spec, only : case_spec
+   use contact_cases_spec, only : case_spec, part_source
    use hard_case, only : close_table, examine, expect_solution, findings, given_case, hard_run, open_table, run_case
    use contact_test_harness, only : test_suite
    implicit none (type, external)
@@ -66,8 +66,8 @@ contains
          call take_step(run, spec, "swinging force", step)
          spec%link = time_link%continue_all
          spec%estimate = estimate_choice%previous
-         spec%new_grid = .false.
-         spec%new_geometry = .false.
+         spec%parts%grid = part_source%kept
+         spec%parts%geometry = part_source%kept
          if (step == 90) first = run%result%cksi
          if (step == 970) last = run%result%cksi
       end do
@@ -89,8 +89,8 @@ contains
          call take_step(run, spec, "swinging load", step)
          spec%link = time_link%continue_all
          spec%estimate = estimate_choice%previous
-         spec%new_grid = .false.
-         spec%new_geometry = .false.
+         spec%parts%grid = part_source%kept
+         spec%parts%geometry = part_source%kept
       end do
       call run%release()
    end subroutine growing_load

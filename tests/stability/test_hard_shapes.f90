@@ -2,7 +2,7 @@
 program test_hard_shapes
    use contact_base_choices, only : motion, normal_control
    use contact_base_kinds, only : wp
-   use contact_cases_spec, only : case_spec
+   use contact_cases_spec, only : case_spec, part_source
    use contact_grid_element_division, only : element
    use hard_case, only : close_table, elliptic_case, expect_refusal, expect_solution, given_case, hard_run, open_table
    use contact_test_harness, only : test_suite
@@ -179,8 +179,8 @@ contains
          end if
          ! and back again in the next case of the same session
          spec%link = 0
-         spec%new_grid = .false.
-         spec%new_geometry = .false.
+         spec%parts%grid = part_source%kept
+         spec%parts%geometry = part_source%kept
          spec%kinematics%pen = 5.0e-3_wp
          if (t == motion%steady_rolling) spec%link = 2
          call expect_solution(suite, run, spec, trim(label) // ", contact in the next case")

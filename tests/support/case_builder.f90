@@ -89,8 +89,6 @@ contains
       spec%normal = normal_control%force
       spec%estimate = estimate_choice%fresh
       spec%solver = solver_choice%default
-      spec%new_grid = .true.
-      spec%new_geometry = .true.
       spec%kinematics%fn = fn
       spec%iteration%eps = 1.0e-9_wp
       if (present(eps)) spec%iteration%eps = eps

@@ -1,8 +1,7 @@
 !> The table of control digits, decoding and encoding of the control words, and the manual
 program test_digits
-   use contact_cases_spec, only : case_digits
-   use contact_control_digits, only : allowed_text, choice_of, decode_words, digit_names, digit_of, digit_row, digit_table, &
-      & digit_text, digit_value, encode_words, is_built, is_known, word_text
+   use contact_control_digits, only : allowed_text, case_digits, choice_of, decode_words, digit_names, digit_of, digit_row, &
+      & digit_table, digit_text, digit_value, encode_words, is_built, is_known, word_text
    use contact_test_harness, only : test_suite
    implicit none (type, external)
    type(test_suite) :: suite

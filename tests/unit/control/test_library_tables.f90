@@ -1,8 +1,7 @@
 !> Unit conventions, signs, flags and codes of the library: the tables against the published contract
 program test_library_tables
    use contact_base_kinds, only : wp
-   use contact_cases_spec, only : case_digits
-   use contact_control_digits, only : digit_value, put_digit
+   use contact_control_digits, only : case_digits, digit_value, put_digit
    use contact_control_flags, only : accepted_value, flag, flag_table, row_of_flag
    use contact_control_library_codes, only : code_text, field_table, library_code
    use contact_control_units, only : convention_code, find_convention, inward, orientation, outward, quantity, &

@@ -134,10 +134,11 @@ program test_description
    use contact_cases_grid_inputs, only : visit_distance, visit_grid, visit_planform
    use contact_cases_inputs, only : visit_coefficient_file, visit_conformal, visit_damping, visit_elastic, visit_friction, &
       & visit_friction_rows, visit_heat, visit_inclinations, visit_iteration, visit_kinematics, visit_material_model, &
-      & visit_rolling, visit_sheet, visit_stress_output
+      & visit_rolling, visit_sheet
    use contact_cases_rail_inputs, only : visit_deviations, visit_dimensions, visit_flexibility, visit_position, visit_profile, &
       & visit_search, visit_springs, visit_track, visit_velocity
    use contact_cases_spec, only : case_spec, friction_set
+   use contact_cases_subsurface_inputs, only : visit_blocks, visit_stress_output
    use contact_input_file_reader, only : file_reader, new_file_reader
    use contact_input_problems, only : problem_list, problem_text
    use contact_output_file_writer, only : file_writer

@@ -3,7 +3,7 @@ program test_reader3
    use contact_base_constants, only : pi
    use contact_base_error, only : error_type, full_text
    use contact_base_kinds, only : wp
-   use contact_cases_spec, only : case_spec
+   use contact_cases_spec, only : case_spec, part_source
    use contact_input_experiment_file, only : case_failure, experiment_reader, input_case
    use contact_input_problems, only : problem_list, problem_text, severity
    use contact_input_reader, only : read_case
@@ -258,7 +258,8 @@ contains
       call suite%check(problems%is_usable() .and. problems%count == 0, "the plain case can be computed")
       call suite%check(spec%link == 2 .and. spec%motion == 3 .and. spec%normal == 1 .and. spec%force == 0, "named choices")
       call suite%check(spec%kernel == 2 .and. spec%friction_law == 0 .and. spec%solver == 0, "effective choices")
-      call suite%check(spec%new_grid .and. spec%new_geometry .and. spec%new_kernel .and. spec%solve, "flags")
+      call suite%check(all([spec%parts%grid, spec%parts%geometry, spec%parts%material] == part_source%given) &
+         & .and. spec%solve, "flags")
       call suite%check(spec%iteration%maxgs == 100 .and. spec%iteration%eps == 1.0e-5_wp, "iteration")
       call suite%check(spec%kinematics%fn == 1000.0_wp .and. spec%kinematics%cksi == 1.0e-3_wp, "kinematics")
       call suite%check(spec%friction%sets(1)%fstat == 0.3_wp, "friction")
@@ -331,7 +332,7 @@ contains
       call suite%check(spec%rolling%dq == 0.1_wp .and. spec%material%gg(1) == 82000.0_wp, "materials are kept")
       call suite%check(spec%grid%mx == 10 .and. spec%geometry%b(1) == 0.01_wp, "grid and geometry are kept")
       call suite%check(spec%kinematics%fn == 10.0_wp, "kinematics are new")
-      call suite%check(.not. (spec%new_grid .or. spec%new_geometry .or. spec%new_kernel), "nothing is new")
+      call suite%check(all([spec%parts%grid, spec%parts%geometry, spec%parts%material] /= part_source%given), "nothing is new")
 
       call read_two("", "1=202100|5=10 0 0 0 1 2|7=0 0.3 100", spec, problems, error)
       call suite%check(spec%kinematics%spinxo == 1.0_wp .and. spec%kinematics%spinyo == 2.0_wp, "spin centre")
@@ -342,9 +343,9 @@ contains
 
       call read_two("9=-3|10=10 8 1 2 1.1|11=|12=", kept, spec, problems, error)
       call no_problem(suite, problems, error, "a Hertzian grid that is kept")
-      call suite%check(spec%grid%ipotcn == -3 .and. spec%grid%bb == 2.0_wp .and. .not. spec%new_geometry, "Hertzian grid")
+      call suite%check(spec%grid%ipotcn == -3 .and. spec%grid%bb == 2.0_wp .and. .not. spec%has_new_geometry(), "Hertzian grid")
       call read_one("9=-1|10=10 8 .1 .2 1.1|11=|12=", spec, problems, error)
-      call suite%check(spec%new_geometry .and. spec%geometry%b(3) == 0.2_wp, "curvatures of a Hertzian grid")
+      call suite%check(spec%has_new_geometry() .and. spec%geometry%b(3) == 0.2_wp, "curvatures of a Hertzian grid")
 
       call read_two("2=0022029|12=0.01 0 0.01 0 0 0;" // repeat("1 2 ", 80), "2=0100001|4=100 100 30 1 1e-5|6=|7=|8=|9=|" // &
          & "10=|11=|12=", spec, problems, error)
@@ -451,6 +452,8 @@ contains
       call wrong_second(suite, "", kept // "|1=203101", "no case has given any")
       call wrong_second(suite, "", kept // "|1=203102|12=0 0", "no case has given any")
       call right_second(suite, "1=203103|12=0.01 0 0.01 0 0 0;0 0;1;1 0 1;0", kept // "|1=203102|12=0 0")
+      call right_second(suite, "3=3000001|8=.3 .3 1 1;0 450 .05 1;0 450 .05 1", kept // "|3=1000001")
+      call wrong_second(suite, "", kept // "|3=1000001", "H = 1 keeps the thermal constants, but no case has given any")
       call wrong_second(suite, "", kept // "|2=3100000", "V changes from 0 to 3")
       call wrong_second(suite, "", kept // "|1=201100", "T changes from 3 to 1")
       call wrong_second(suite, "1=200100|7=", kept // "|1=202100", "T changes from 0 to 2")
@@ -838,7 +841,8 @@ contains
       this%spec%geometry%b(1) = 0.125_wp
       call reader%store_case(this%spec)
       call reader%next_case(this, error)
-      call suite%check(this%spec%geometry%b(1) == 0.125_wp .and. .not. this%spec%new_geometry, "a replaced store")
+      call suite%check(this%spec%geometry%b(1) == 0.125_wp .and. this%spec%parts%geometry == part_source%renewed, &
+         & "a replaced store")
    end subroutine replaced_store
 
    !> The complete example of doc/user/input.md, its first piece between ``` lines

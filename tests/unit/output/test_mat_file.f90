@@ -42,7 +42,6 @@ contains
                spec%friction_law = laws(law)
                spec%material_model = models(model)
                spec%motion = 3
-               spec%digits%t = 3
                spec%kinematics%spinxo = 0.5_wp
                spec%rolling%veloc = 5000.0_wp
                result%chi = 3.14_wp

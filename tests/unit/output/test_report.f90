@@ -70,9 +70,6 @@ contains
                   spec%motion = motion
                   spec%force = force
                   spec%normal = normal
-                  spec%digits%t = motion
-                  spec%digits%f = force
-                  spec%digits%n = normal
                   call write_file(spec, result, 7, lines)
                   call check_file(lines, level, motion, force, normal, label)
                end do
@@ -315,9 +312,7 @@ contains
          deallocate(spec%friction%sets)
          allocate(spec%friction%sets(10))
          spec%variation = 3
-         spec%digits%v = 3
          spec%friction_law = 4
-         spec%digits%l = 4
          spec%output_level = level
          spec%motion = 3
          spec%force = 1
@@ -382,7 +377,7 @@ contains
 
       do level = 0, 4
          call fill_sample(spec, result, 12, 10)
-         spec%stress = 3
+         spec%has_stress = .true.
          spec%subsurface%output = level
          allocate(result%subsurface(1))
          result%subsurface(1)%nx = 2

@@ -1,0 +1,365 @@
+!> All groups of the input that a case gives, in the order of the input files, once for all formats
+module contact_cases_whole_case
+   use contact_base_choices, only : force_control, heat_source, kernel_model, material_model, &
+      & motion, normal_control, pressure_model, slip_source, variation
+   use contact_base_kinds, only : long, wp
+   use contact_cases_archive, only : case_archive
+   use contact_cases_grid_inputs, only : largest_grid, visit_distance, visit_grid, visit_planform
+   use contact_cases_inputs, only : visit_coefficient_file, visit_conformal, visit_damping, visit_elastic, visit_friction, &
+      & visit_friction_rows, visit_heat, visit_inclinations, visit_iteration, visit_kinematics, visit_material_model, &
+      & visit_rolling, visit_sheet
+   use contact_cases_rail_inputs, only : visit_deviations, visit_dimensions, visit_flexibility, visit_position, visit_profile, &
+      & visit_search, visit_springs, visit_track, visit_velocity
+   use contact_cases_spec, only : case_spec, damping_spec, geometry_spec, grid_spec, material_spec, part_source
+   use contact_cases_subsurface_inputs, only : visit_blocks, visit_stress_output
+   use contact_text_words, only : integer_text, real_text
+   use contact_wheelrail_spec, only : profile_spec, wheel_rail_spec
+   implicit none (type, external)
+   private
+
+   public :: visit_case
+
+   !> Difference parameters below this value count as zero [-]
+   real(wp), parameter, public :: quasi_identical = 1.0e-4_wp
+   !> Below this there is no difference in the equations, see contact_elastic_material
+   real(wp), parameter :: no_difference = 1.0e-6_wp
+
+contains
+
+   !> Take what the case gives to or from an archive; its choices and parts are known, the rest stays as it is
+   subroutine visit_case(a, spec)
+      class(case_archive), intent(inout) :: a
+      type(case_spec), intent(inout), target :: spec
+      logical :: is_pair
+
+      is_pair = allocated(spec%wheel_rail)
+      associate (parts => spec%parts)
+         if (parts%iteration == part_source%given) then
+            call a%open_group("iteration")
+            ! contact problems of their own may give a largest number of elements, which has no meaning for them
+            call visit_iteration(a, spec%iteration, spec%solver, with_elements=is_pair .or. a%is_reading)
+            call a%close_group()
+         end if
+         if (.not. is_pair) then
+            call a%open_group("kinematics")
+            call visit_kinematics(a, spec%kinematics, spec%normal, spec%force)
+            call a%close_group()
+         end if
+         if (parts%friction == part_source%given .and. spec%variation /= variation%by_row) then
+            call a%open_group("friction")
+            call visit_friction(a, spec%friction_law, merge(spec%variation, variation%none, is_pair), spec%friction)
+            call a%close_group()
+         end if
+         if (.not. is_pair) call visit_rolling_group(a, spec)
+         if (parts%material == part_source%given) call visit_materials(a, spec, is_pair)
+         if (parts%damping == part_source%given) call visit_damping_group(a, spec)
+         if (parts%heat == part_source%given .and. spec%has_heat) then
+            call a%open_group("heat")
+            if (spec%heat%source == heat_source%moving) call a%comment("temperatures as with --heat moving-source")
+            call visit_heat(a, spec%heat, with_plastic_work=spec%material_model == material_model%interfacial_layer)
+            call a%close_group()
+         end if
+         if (is_pair) then
+            call visit_rail_and_track(a, spec, spec%wheel_rail)
+            call visit_wheelset(a, spec, spec%wheel_rail)
+         else
+            call visit_grid_and_geometry(a, spec)
+         end if
+         if (.not. spec%has_stress) return
+         if (parts%stress_output == part_source%given) then
+            call a%open_group("stress_output")
+            call visit_stress_output(a, spec%subsurface)
+            call a%close_group()
+         end if
+         if (parts%stress_points == part_source%given) then
+            call a%open_group("stress_points")
+            call visit_blocks(a, spec%subsurface)
+            call a%close_group()
+         end if
+      end associate
+   end subroutine visit_case
+
+   !> Rolling direction, step and velocity; other motions replace what is stored by fixed values
+   subroutine visit_rolling_group(a, spec)
+      class(case_archive), intent(inout) :: a
+      type(case_spec), intent(inout) :: spec
+
+      if (spec%motion == motion%transient_rolling .or. spec%motion == motion%steady_rolling) then
+         if (spec%parts%rolling /= part_source%given) return
+         call a%open_group("rolling")
+         call visit_rolling(a, spec%rolling, spec%material_model)
+         call a%close_group()
+      else if (a%is_reading) then
+         spec%rolling%chi = 0.0_wp
+         spec%rolling%dq = 1.0_wp
+         spec%rolling%veloc = 1.0_wp
+      end if
+   end subroutine visit_rolling_group
+
+   !> Influence coefficients and materials
+   subroutine visit_materials(a, spec, is_pair)
+      class(case_archive), intent(inout) :: a
+      type(case_spec), intent(inout) :: spec
+      !> Wheel on rail? Inclinations are those of the profiles then
+      logical, intent(in) :: is_pair
+
+      if (spec%kernel == kernel_model%conformal .or. spec%kernel == kernel_model%tabulated) then
+         call a%open_group("influence")
+         if (spec%kernel == kernel_model%tabulated) then
+            call visit_coefficient_file(a, spec%material)
+         else if (is_pair) then
+            call visit_conformal(a, spec%material)
+         else
+            call visit_inclinations(a, spec%material)
+         end if
+         call a%close_group()
+      end if
+      call a%open_group("material")
+      call visit_elastic(a, spec%material)
+      if (spec%pressure == pressure_model%thin_sheet) call visit_sheet(a, spec%material)
+      call visit_material_model(a, spec%material_model, spec%material)
+      if (a%is_reading .and. a%is_good) call settle_outer_iteration(a, spec)
+      call a%close_group()
+   end subroutine visit_materials
+
+   !> Dissimilar bodies need the outer iteration, similar bodies do not
+   subroutine settle_outer_iteration(a, spec)
+      class(case_archive), intent(inout) :: a
+      type(case_spec), intent(inout) :: spec
+      real(wp) :: ak
+      logical :: is_dissimilar_shape, relaxes_apart
+      character(len=:), allocatable :: given
+
+      if (spec%motion == motion%none) return
+      associate (material => spec%material)
+         ! wrong values have been told already
+         if (.not. (minval(material%gg) >= 1.0e-5_wp .and. minval([material%fg, material%tc]) >= 0.0_wp)) return
+         ak = difference_parameter(material)
+         relaxes_apart = .false.
+         if (spec%material_model == material_model%viscoelastic) relaxes_apart = material%relaxes_apart()
+      end associate
+      is_dissimilar_shape = spec%kernel == kernel_model%conformal .or. spec%kernel == kernel_model%tabulated
+      given = "MAXOUT = " // integer_text(spec%iteration%maxout)
+      if (spec%iteration%maxout >= 2) then
+         if (is_dissimilar_shape .or. relaxes_apart .or. abs(ak) >= quasi_identical) return
+         ! where pressures and tractions do not act on each other at all, one pass is all that can be done
+         if (abs(ak) >= no_difference) call a%warn_of_group(given // " is replaced by 1: the bodies are quasi-identical, AK = " &
+            & // real_text(ak))
+         spec%iteration%maxout = 1
+      else if (abs(ak) >= quasi_identical) then
+         call a%warn_of_group(given // " means no outer iteration, but the bodies have dissimilar materials, AK = " // &
+            & real_text(ak) // "; MAXOUT = 10 or more is recommended")
+      else if (is_dissimilar_shape) then
+         call a%warn_of_group(given // " means no outer iteration, but the bodies have dissimilar shapes, which their " // &
+            & "influence coefficients tell; MAXOUT = 10 or more is recommended")
+      else if (relaxes_apart) then
+         call a%warn_of_group(given // " means no outer iteration, but the viscoelastic bodies relax differently; " // &
+            & "MAXOUT = 10 or more is recommended")
+      end if
+   end subroutine settle_outer_iteration
+
+   !> Kalker's difference parameter K of two bodies [-]
+   pure real(wp) function difference_parameter(material) result(ak)
+      type(material_spec), intent(in) :: material
+
+      associate (nu => material%poiss, g => material%gg)
+         ak = 0.5_wp*((1.0_wp - 2.0_wp*nu(1))*(g(2)/(g(1) + g(2))) - (1.0_wp - 2.0_wp*nu(2))*(g(1)/(g(1) + g(2))))
+      end associate
+   end function difference_parameter
+
+   !> Damping, or that there is none
+   subroutine visit_damping_group(a, spec)
+      class(case_archive), intent(inout) :: a
+      type(case_spec), intent(inout) :: spec
+
+      if (spec%has_damping) then
+         call a%open_group("damping")
+         call visit_damping(a, spec%damping)
+         call a%close_group()
+      else if (a%is_reading) then
+         spec%damping = damping_spec()
+      end if
+   end subroutine visit_damping_group
+
+   !> Potential contact area, undeformed distance and planform, and what is given for each element
+   subroutine visit_grid_and_geometry(a, spec)
+      class(case_archive), intent(inout) :: a
+      type(case_spec), intent(inout) :: spec
+      real(wp), allocatable :: slip(:)
+      integer :: n
+
+      associate (parts => spec%parts)
+         if (parts%grid == part_source%given) call visit_grid_group(a, spec)
+         if (parts%geometry == part_source%given .and. spec%grid%ipotcn > 0) call visit_geometry_group(a, spec)
+         if (parts%friction == part_source%given .and. spec%variation == variation%by_row .and. a%is_good) then
+            call a%open_group("friction")
+            call visit_friction_rows(a, spec%friction_law, max(1, spec%grid%my), spec%friction)
+            call a%close_group()
+         end if
+         if (parts%extra_slip /= part_source%given) return
+      end associate
+      if (spec%slip_source /= slip_source%given) then
+         if (a%is_reading .and. allocated(spec%extra_slip)) deallocate(spec%extra_slip)
+         return
+      end if
+      n = element_count(spec%grid)
+      call a%open_group("extra_slip")
+      if (n == 0) call a%fail("", "the list EXRHS has one entry for each element, but there is no grid that can be used")
+      if (allocated(spec%extra_slip)) slip = reshape(spec%extra_slip, [size(spec%extra_slip)])
+      call a%list("EXRHS", slip, 2*n)
+      if (a%is_reading .and. a%is_good) spec%extra_slip = reshape(slip, [2, n])
+      call a%close_group()
+   end subroutine visit_grid_and_geometry
+
+   !> Potential contact area
+   !>
+   !> A Hertzian option brings its own geometry, so that IBASE and IPLAN are 1 from there on.
+   subroutine visit_grid_group(a, spec)
+      class(case_archive), intent(inout) :: a
+      type(case_spec), intent(inout) :: spec
+      type(grid_spec), target :: grid
+
+      call a%open_group("grid")
+      grid%ipotcn = spec%grid%ipotcn
+      call a%integer("IPOTCN", grid%ipotcn, unchecked=.true.)
+      call a%end_line()
+      if (.not. a%is_good) return
+      if (grid%ipotcn < -6 .or. grid%ipotcn > 4 .or. grid%ipotcn == 0) then
+         call a%refuse("IPOTCN", " is not a known option; allowed are -6 to -1 and 1 to 4")
+         return
+      end if
+      if (.not. a%is_reading) then
+         call visit_grid(a, spec%grid)
+      else
+         call visit_grid(a, grid)
+         if (a%is_good) spec%grid = grid
+      end if
+      call a%close_group()
+      if (.not. (a%is_reading .and. a%is_good) .or. grid%ipotcn > 0) return
+      spec%geometry = geometry_spec()
+      if (grid%ipotcn == -1) then
+         spec%geometry%b(1) = grid%a1
+         spec%geometry%b(3) = grid%b1
+      end if
+   end subroutine visit_grid_group
+
+   !> Undeformed distance and planform of grids that are not Hertzian
+   subroutine visit_geometry_group(a, spec)
+      class(case_archive), intent(inout) :: a
+      type(case_spec), intent(inout) :: spec
+      type(geometry_spec), target :: geometry
+
+      call a%open_group("geometry")
+      if (.not. a%is_reading) geometry = spec%geometry
+      call a%integer("IBASE", geometry%ibase, unchecked=.true.)
+      call a%integer("IPLAN", geometry%iplan, unchecked=.true.)
+      call a%end_line()
+      if (all(geometry%ibase /= [1, 2, 3, 9])) call a%refuse("IBASE", " is not a known option; allowed are 1, 2, 3 and 9")
+      if (geometry%iplan < 1 .or. geometry%iplan > 4) call a%refuse("IPLAN", " is not a known option; allowed are 1 to 4")
+      call visit_distance(a, geometry, element_count(spec%grid))
+      call visit_planform(a, geometry)
+      if (a%is_reading .and. a%is_good) spec%geometry = geometry
+      call a%close_group()
+   end subroutine visit_geometry_group
+
+   !> Number of elements of a grid, 0 when it cannot be used
+   pure integer function element_count(grid) result(n)
+      type(grid_spec), intent(in) :: grid
+
+      n = 0
+      if (min(grid%mx, grid%my) < 1) return
+      if (int(grid%mx, long)*int(grid%my, long) <= largest_grid) n = grid%mx*grid%my
+   end function element_count
+
+   !> Contact search, track dimensions, rail profile, deviations of the rail and its springs
+   subroutine visit_rail_and_track(a, spec, pair)
+      class(case_archive), intent(inout) :: a
+      type(case_spec), intent(in) :: spec
+      !> Of this case
+      type(wheel_rail_spec), intent(inout) :: pair
+
+      if (spec%parts%search == part_source%given) then
+         call a%open_group("search")
+         call visit_search(a, pair%search, with_step=.true.)
+         call a%close_group()
+      end if
+      if (spec%parts%track == part_source%given) then
+         call a%open_group("track")
+         call visit_track(a, pair%track, pair%roller)
+         call a%close_group()
+      end if
+      if (spec%parts%rail_profile == part_source%given) then
+         call a%open_group("rail_profile")
+         call visit_profile(a, "RFNAME", pair%rail_profile)
+         if (a%is_reading) pair%new_rail_profile = a%is_good
+         if (a%is_reading .and. a%is_good .and. pair%track%gaught > 0.0_wp) then
+            if (is_slices(pair%rail_profile)) call a%refuse_group("GAUGHT = " // real_text(pair%track%gaught) // &
+               & " places the rail by its gauge point, but the profile varies along the track; a slices file needs absolute " // &
+               & "placement, GAUGHT = 0 or negative")
+         end if
+         call a%close_group()
+      end if
+      if (spec%parts%deviations == part_source%given) then
+         call a%open_group("deviations")
+         call visit_deviations(a, pair%rail)
+         call a%close_group()
+         if (spec%force == force_control%massless_rail) then
+            call a%open_group("springs")
+            call visit_springs(a, pair%rail)
+            call a%close_group()
+         end if
+      end if
+      if (.not. (a%is_reading .and. a%is_good) .or. spec%force /= force_control%massless_rail) return
+      if (spec%normal == normal_control%approach .and. .not. pair%rail%kz > 0.0_wp) call a%refuse_group("KZRAIL = " // &
+         & real_text(pair%rail%kz) // ": a rail on springs with a prescribed height, F = 3 and N = 0, needs a vertical " // &
+         & "stiffness above 0")
+   end subroutine visit_rail_and_track
+
+   !> Wheelset dimensions, wheel profile, position, velocity, flexible deviations
+   !>
+   !> Flexible deviations stay until others are given.
+   subroutine visit_wheelset(a, spec, pair)
+      class(case_archive), intent(inout) :: a
+      type(case_spec), intent(in) :: spec
+      !> Of this case
+      type(wheel_rail_spec), intent(inout) :: pair
+
+      associate (parts => spec%parts)
+         if (parts%wheel_profile == part_source%given) then
+            call a%open_group("wheel_dimensions")
+            call visit_dimensions(a, pair%wheelset)
+            call a%close_group()
+            call a%open_group("wheel_profile")
+            call visit_profile(a, "WFNAME", pair%wheel_profile)
+            if (a%is_reading) pair%new_wheel_profile = a%is_good
+            call a%close_group()
+         end if
+         if (parts%position == part_source%given) then
+            call a%open_group("position")
+            call visit_position(a, pair%wheelset, pair%roller, with_force=spec%normal == normal_control%force)
+            call a%close_group()
+         end if
+         if (parts%velocity == part_source%given) then
+            call a%open_group("velocity")
+            call visit_velocity(a, pair%wheelset, pair%roller, with_force=spec%force == force_control%longitudinal_force)
+            call a%close_group()
+         end if
+         if (parts%flexibility == part_source%given) then
+            call a%open_group("flexibility")
+            call visit_flexibility(a, pair%wheelset)
+            call a%close_group()
+         end if
+      end associate
+   end subroutine visit_wheelset
+
+   !> Is it a file with slices of a variable profile?
+   pure logical function is_slices(profile)
+      type(profile_spec), intent(in) :: profile
+      integer :: dot
+      character(len=4) :: extension
+
+      dot = index(profile%name, ".", back=.true.)
+      extension = profile%name(dot + 1:)
+      is_slices = dot > 0 .and. any(extension == ["slcs", "slcw", "SLCS", "SLCW"])
+   end function is_slices
+end module contact_cases_whole_case
