@@ -1,6 +1,6 @@
 !> Cases as input files: what was solved through the library can be solved by the program
 module contact_output_input_case
-   use contact_base_choices, only : slip_source
+   use contact_base_choices, only : pressure_model, slip_source
    use contact_base_kinds, only : wp
    use contact_cases_spec, only : case_spec, grid_spec, part_source
    use contact_cases_whole_case, only : visit_case
@@ -66,7 +66,9 @@ contains
       integer, allocatable :: elements(:)
 
       box = bounding_box(1, result%grid%mx, 1, result%grid%my)
-      if (allocated(result%division)) box = kept_window(result%division)
+      ! approximate pressures look at the overlap all around the contact, and at the length of the window
+      if (allocated(result%division) .and. all(spec%pressure /= [pressure_model%kpec, pressure_model%analyn])) &
+         & box = kept_window(result%division)
       associate (grid => result%grid)
          elements = [((ix + grid%mx*(iy - 1), ix = box%ix0, box%ix1), iy = box%iy0, box%iy1)]
          spec%grid = grid_spec(ipotcn=1, mx=box%ix1 - box%ix0 + 1, my=box%iy1 - box%iy0 + 1, &
