@@ -39,11 +39,6 @@ contains
       associate (material => spec%material)
          model%material = combine(material%poiss, material%gg)
          if (spec%material_model == material_model%viscoelastic) then
-            if (spec%kernel /= kernel_model%piecewise_constant) then
-               call fatal_error(error, "viscoelastic material (M = 1) works with piecewise constant tractions of half-spaces " &
-                  & // "(C = 2), not with bilinear, conformal or tabulated coefficients", error_kind%input)
-               return
-            end if
             call model%set_viscoelastic(material%poiss, material%gg, material%fg, spec%rolling%veloc*material%tc, &
                & merge(-1, 1, cos(spec%rolling%chi) < 0.0_wp))
          else if (spec%material_model == material_model%interfacial_layer) then

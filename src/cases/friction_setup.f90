@@ -45,10 +45,6 @@ contains
       end if
       call new_friction_law(spec%friction_law, [parameters_of(spec%friction%sets)], law, error)
       if (allocated(error)) return
-      if (law%driver == friction_driver%temperature .and. .not. spec%has_heat) then
-         call fatal_error(error, "friction that changes with temperature needs thermal constants (H = 3)")
-         return
-      end if
       ! also for a grid of one row, so that forces do not change their meaning with its size
       if (by_row .or. law%varies_by_row()) problem%mu = 1.0_wp
       problem%slip_start = sign(1, spec%iteration%inislp)
@@ -111,11 +107,6 @@ contains
 
       if (allocated(problem%thermal)) deallocate(problem%thermal)
       if (.not. spec%has_heat) return
-      if (spec%motion == motion%shift .or. spec%motion == motion%transient_rolling) then
-         call fatal_error(error, "surface temperatures are known for steady rolling (T = 3) and without motion (T = 0) only", &
-            & error_kind%unsupported)
-         return
-      end if
       associate (heat => spec%heat)
          if (.not. is_usable(heat)) then
             call fatal_error(error, "bulk temperatures must be finite, heat capacities, conductivities and densities positive")

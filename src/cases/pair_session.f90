@@ -13,6 +13,7 @@ module contact_cases_pair_session
    use contact_cases_friction_setup, only : parameters_of, set_friction, set_thermal
    use contact_cases_patch_setup, only : set_method, set_simplified_theory, set_yield_limit
    use contact_cases_session, only : refuse_nonsense
+   use contact_cases_rules, only : refuse_broken_rules
    use contact_cases_spec, only : case_spec
    use contact_cases_subsurface, only : subsurface_stresses, warn_of_steps
    use contact_elastic_model, only : influence_table
@@ -74,7 +75,8 @@ contains
       type(error_type), allocatable, intent(out) :: error
       integer :: k
 
-      call check_combinations(spec, error)
+      call refuse_broken_rules(spec, error)
+      if (.not. allocated(error)) call check_combinations(spec, error)
       if (allocated(error)) return
       call set_pair(session, spec, folder, log, error)
       if (allocated(error)) return
@@ -163,7 +165,7 @@ contains
 
       if (spec%force == force_control%massless_rail .and. spec%normal == normal_control%approach &
          & .and. .not. spec%wheel_rail%rail%kz > 0.0_wp) then
-         call fatal_error(error, "a rail on springs with a prescribed height, F = 3 and N = 0, needs a " &
+         call fatal_error(error, "a rail on springs with a prescribed height needs a " &
             & // "vertical stiffness above 0", error_kind%input)
       end if
    end subroutine check_combinations

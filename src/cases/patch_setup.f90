@@ -10,6 +10,7 @@ module contact_cases_patch_setup
    use contact_cases_friction_setup, only : set_friction, set_thermal
    use contact_cases_geometry, only : build_grid, is_line_contact, part_labels, require_positive, solve_hertz, undeformed_distance
    use contact_cases_numbers, only : check_numbers
+   use contact_cases_rules, only : refuse_broken_rules
    use contact_cases_spec, only : case_spec
    use contact_friction_law, only : friction_driver
    use contact_grid_potential_contact, only : fit_field, potential_contact
@@ -37,7 +38,8 @@ contains
       type(error_type), allocatable, intent(out) :: error
       integer :: i
 
-      call check_numbers(spec, error)
+      call refuse_broken_rules(spec, error)
+      if (.not. allocated(error)) call check_numbers(spec, error)
       if (allocated(error)) return
       call set_model(spec, problem%model, error)
       if (.not. allocated(error)) call set_inclination(spec, problem%model, error)
@@ -91,7 +93,7 @@ contains
       if (allocated(problem%extra_slip)) deallocate(problem%extra_slip)
       if (spec%slip_source == slip_source%given) then
          if (.not. allocated(spec%extra_slip)) then
-            call fatal_error(error, "extra rigid slip is to be kept (E=1), but none was given before")
+            call fatal_error(error, "an extra term of the rigid slip is asked for, but none was given")
             return
          end if
          if (size(spec%extra_slip, 2) /= problem%grid%npot()) then
@@ -250,28 +252,12 @@ contains
 
       if (allocated(problem%simplified)) deallocate(problem%simplified)
       if (spec%motion == motion%none .or. .not. is_simplified(spec%material_model)) return
-      if (is_fastrip(spec%material_model)) then
-         if (spec%motion /= motion%steady_rolling) then
-            call fatal_error(error, "FaStrip needs steady rolling; Fastsim, M = 2 or 3, can do shifts and transient rolling")
-            return
-         end if
-         if (spec%slip_source /= slip_source%none) then
-            call fatal_error(error, "FaStrip cannot take an extra rigid slip: strip theory knows creepages and spin only; " // &
-               & "Fastsim, M = 2 or 3, can")
-            return
-         end if
-      end if
       if (spec%motion == motion%shift .and. spec%material%alfamf < 1.0_wp .and. spec%material%betamf > 0.0_wp) then
          call fatal_error(error, "slope reduction depends on creepages of rolling, a shift has none: ALFAMF must be 1 or " // &
             & "BETAMF 0 with T = 1")
          return
       end if
       if (allocated(problem%friction)) then
-         if (problem%friction%driver == friction_driver%temperature) then
-            call fatal_error(error, "friction that changes with temperature cannot be used with simplified theory, whose " // &
-               & "friction is found before its tractions; M = 0 can do it")
-            return
-         end if
          ! friction follows from the rigid slip velocity, particles carry nothing along
          problem%remembers_friction = .false.
       end if
@@ -295,9 +281,7 @@ contains
       !> Is there a Hertz solution?
       logical, intent(in) :: is_hertzian
       type(error_type), allocatable, intent(out) :: error
-      logical :: by_force
 
-      by_force = spec%normal == normal_control%force
       select case (spec%pressure)
       case (pressure_model%full, pressure_model%thin_sheet)
          if (spec%grid%ipotcn == -6) call fatal_error(error, "the double-elliptical geometry (IPOTCN = -6) has no undeformed " &
@@ -306,14 +290,7 @@ contains
          if (.not. is_hertzian) call fatal_error(error, "an elliptical or parabolical pressure needs a Hertzian geometry, " &
             & // "IPOTCN = -5 to -1; B = 0 solves the normal problem for any geometry")
       case (pressure_model%sdec)
-         if (spec%grid%ipotcn /= -6) then
-            call fatal_error(error, "SDEC needs the double-elliptical geometry IPOTCN = -6")
-         else if (.not. by_force) then
-            call fatal_error(error, "SDEC needs the normal force (N = 1), its pressures do not follow from an approach")
-         end if
-      case (pressure_model%kpec, pressure_model%analyn)
-         if (by_force) call fatal_error(error, "KPEC and ANALYN need the approach (N = 0); a prescribed force goes with " &
-            & // "the full solution, B = 0, or with Hertzian pressures, B = 2 or 3")
+         if (spec%grid%ipotcn /= -6) call fatal_error(error, "SDEC needs the double-elliptical geometry IPOTCN = -6")
       end select
    end subroutine check_pressure_model
 

@@ -172,7 +172,7 @@ module contact_control_digits
       & digit_row("X", 1, 1, both, .true., "a fourth control word follows, which is read and ignored"), &
       & digit_row("H", 0, 0, both, .true., "no surface temperatures", "none"), &
       & digit_row("H", 1, 1, both, .true., "surface temperatures with the values in store"), &
-      & digit_row("H", 3, 3, both, .true., "surface temperatures with new values", "flash"), &
+      & digit_row("H", 3, 1, both, .true., "surface temperatures with new values", "flash"), &
       & digit_row("G", 0, solver_choice%default, both, .true., "default solvers", "default"), &
       & digit_row("G", 1, 1, both, .true., "keep the solver settings of the previous case"), &
       & digit_row("G", 2, solver_choice%convex_gs, both, .true., "ConvexGS always, relaxation is read", "convex_gs"), &

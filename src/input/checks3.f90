@@ -85,10 +85,6 @@ contains
          if (b == 3 .and. words%digits%m <= 1) call add_for_digit(problems, words, severity%warning, "B", &
             & "B = 3, a parabolic traction bound, is meant for simplified theory, M = 2, 3 or 5, not for M = " // &
             & integer_text(words%digits%m))
-         if (b == 4 .and. n /= 1) call add_for_digit(problems, words, severity%error, "B", &
-            & "B = 4 needs the normal force: N = 1, not N = " // integer_text(n))
-         if ((b == 5 .or. b == 6) .and. n /= 0) call add_for_digit(problems, words, severity%error, "B", &
-            & pressure // " needs the approach: N = 0, not N = " // integer_text(n))
       end associate
    end subroutine check_hertz_options
 

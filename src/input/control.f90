@@ -2,9 +2,11 @@
 module contact_input_control
    use contact_base_choices, only : contact_location, is_fastrip, is_simplified, slip_source
    use contact_base_error, only : error_type
+   use contact_cases_rules, only : choice_rules, is_broken
    use contact_cases_spec, only : case_spec
    use contact_control_digits, only : allowed_text, case_digits, choice_of, decode_words, digit_names, digit_text, digit_value, &
       & is_built, is_known
+   use contact_control_rule_text, only : describe_broken_rule, letter_of
    use contact_control_translation, only : digits_of, take_digits
    use contact_input_problems, only : problem_list, severity
    use contact_text_lexer, only : input_lexer, input_value
@@ -84,8 +86,8 @@ contains
          words%digits%c = 1
       end if
       if (.not. has_previous) call start_sequence(words, problems)
-      ! once more, with the digits that were corrected
-      call take_digits(words%digits, module_number, spec)
+      ! once more, with digits that may have been corrected
+      if (module_number == 1 .or. .not. has_previous) call take_digits(words%digits, module_number, spec)
       if (has_previous) then
          call check_kept(words, previous, spec, problems)
          if (module_number == 1) call check_kept_wheelset(words, previous, problems)
@@ -173,8 +175,8 @@ contains
       type(problem_list), intent(inout) :: problems
       type(case_digits) :: old
 
-      old = digits_of(previous)
       associate (digits => words%digits)
+         if (digits%l == 1) old = digits_of(previous)
          if ((digits%s == 1 .or. digits%s == 2) .and. .not. allocated(spec%subsurface%blocks)) &
             & call add_for_digit(problems, words, severity%error, "S", &
             & "S = " // integer_text(digits%s) // " keeps the subsurface points, but no case has given any")
@@ -227,8 +229,6 @@ contains
       type(problem_list), intent(inout) :: problems
 
       associate (digits => words%digits)
-         if (digits%f /= 0 .and. digits%t == 0) call add_for_digit(problems, words, severity%error, "F", "F = " // &
-            & integer_text(digits%f) // " needs a tangential problem, T = 1, 2 or 3")
          if (digits%c == 4 .and. digits%d >= 2 .and. choice_of("D", digits%d, 1) /= contact_location%conformal) &
             & call add_for_digit(problems, words, severity%warning, "C", "C = 4, the angle correction for conformal contact, " // &
             & "has no effect with D = " // integer_text(digits%d) // ", whose patches are flat; D = 4 has curved ones")
@@ -260,33 +260,19 @@ contains
       end associate
    end subroutine start_sequence
 
-   !> What materials, temperatures and friction laws demand of the motion and of each other, in both modules
+   !> What choices demand of each other, see contact_cases_rules
    subroutine check_physics(words, spec, problems)
       type(control_words), intent(in) :: words
       type(case_spec), intent(in) :: spec
       type(problem_list), intent(inout) :: problems
+      character(len=:), allocatable :: text
+      integer :: k
 
-      associate (digits => words%digits)
-         if (digits%m == 1 .and. digits%t /= 3) call add_for_digit(problems, words, severity%error, "M", &
-            & "M = 1, viscoelastic material, needs steady rolling, T = 3, not T = " // integer_text(digits%t))
-         if (is_fastrip(spec%material_model)) then
-            if (digits%t == 1 .or. digits%t == 2) call add_for_digit(problems, words, severity%error, "M", "M = " // &
-               & integer_text(digits%m) // ", FaStrip, needs steady rolling, T = 3, not T = " // integer_text(digits%t) // &
-               & "; Fastsim, M = 2 or 3, can do it")
-            if (digits%t == 3 .and. spec%slip_source /= slip_source%none) call add_for_digit(problems, words, severity%error, &
-               & "E", "E = " // integer_text(digits%e) // ", an extra term in the rigid slip, cannot be used with M = " // &
-               & integer_text(digits%m) // ", FaStrip, whose strips know creepages and spin only; Fastsim, M = 2 or 3, can do it")
-         end if
-         if (digits%h >= 1 .and. (digits%t == 1 .or. digits%t == 2)) call add_for_digit(problems, words, severity%error, "H", &
-            & "H = " // integer_text(digits%h) // ", surface temperatures, needs steady rolling, T = 3, or T = 0, not T = " // &
-            & integer_text(digits%t) // ": they are those of a motion that does not change")
-         if (spec%friction_law == 6) then
-            if (digits%h == 0) call add_for_digit(problems, words, severity%error, "L", &
-               & "L = 6, friction falling with temperature, needs surface temperatures, H = 1 or 3")
-            if (is_simplified(spec%material_model)) call add_for_digit(problems, words, severity%error, "L", &
-               & "L = 6, friction falling with temperature, cannot be used with M = " // integer_text(digits%m))
-         end if
-      end associate
+      do k = 1, size(choice_rules)
+         if (.not. is_broken(choice_rules(k), spec)) cycle
+         call describe_broken_rule(choice_rules(k), spec, words%digits, text)
+         call add_for_digit(problems, words, severity%error, letter_of(choice_rules(k)%choice), text)
+      end do
    end subroutine check_physics
 
    !> Refuse by name what the format knows but this version cannot compute: the one door for files and calls of both modules

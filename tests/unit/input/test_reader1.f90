@@ -190,7 +190,8 @@ contains
       call read_text(new_case(word2="0025033"), spec, problems, error)
       call has_problem(suite, problems, "C = 5 is not a known digit", "coefficients of no kind")
       call read_text(new_case(word1="1200010"), spec, problems, error)
-      call has_problem(suite, problems, "F = 1 needs a tangential problem", "a longitudinal force without friction")
+      call has_problem(suite, problems, "F = 1, a prescribed longitudinal force, needs a tangential problem, T = 1, 2 or 3", &
+         & "a longitudinal force without friction")
       call read_text(new_case(search="0.2 0.3 1. 90d 3. 4."), spec, problems, error)
       call has_problem(suite, problems, "D_SEP = 3. is smaller than D_COMB = 4.", "separation before combination")
       call read_text(new_case(search="0. 0.3 1. 90d 8. 4."), spec, problems, error)

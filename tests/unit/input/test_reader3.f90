@@ -438,10 +438,11 @@ contains
       call wrong(suite, "2=0022000|11=|12=", "Z = 0 keeps")
       call wrong(suite, "1=201100|2=0020020|7=|8=", "C = 0 keeps")
       call wrong(suite, "1=201100|2=0022120|7=|8=.3 .3 1 1;0 0 0 0", "M = 1, viscoelastic")
-      call wrong(suite, "1=201100|3=3000001|7=|8=.3 .3 1 1;0 450 .05 1;0 450 .05 1", "H = 3, surface temperatures, needs")
-      call wrong(suite, "1=201100|3=3000001|7=|8=.3 .3 1 1;0 1 1 1;0 1 1 1", "H = 3, surface temperatures, needs")
-      call wrong(suite, "2=0622020|6=.3 0 -.1 100;0 0", "L = 6, friction falling with temperature, needs")
-      call wrong(suite, "2=0622320|3=3000001|6=.3 0 -.1 100;0 0|8=.3 .3 1 1;1 1 1;0 1 1 1;0 1 1 1", "cannot be used with M = 3")
+      call wrong(suite, "1=201100|3=3000001|7=|8=.3 .3 1 1;0 450 .05 1;0 450 .05 1", "H = 3, surface temperatures, need steady")
+      call wrong(suite, "1=201100|3=3000001|7=|8=.3 .3 1 1;0 1 1 1;0 1 1 1", "H = 3, surface temperatures, need steady")
+      call wrong(suite, "2=0622020|6=.3 0 -.1 100;0 0", "L = 6, friction that changes with temperature, needs")
+      call wrong(suite, "2=0622320|3=3000001|6=.3 0 -.1 100;0 0|8=.3 .3 1 1;1 1 1;0 1 1 1;0 1 1 1", &
+         & "cannot be used with simplified theory, M = 3")
    end subroutine digits_of_one_case
 
    !> What digits of a later case demand of the one before
@@ -619,9 +620,9 @@ contains
       call dubious(suite, "1=223100" // strip, "the approach is not computed")
       call wrong(suite, "1=203000|5=-.01 0 0 0" // ellipse, "PEN = -0.01 is below its lower bound 0")
       call dubious(suite, "1=233100" // ellipse, "B = 3, a parabolic traction bound")
-      call wrong(suite, "1=243000|9=-6|10=10 8 1 1 1 1|11=|12=", "B = 4 needs the normal force")
-      call wrong(suite, "1=253100", "B = 5 needs the approach")
-      call wrong(suite, "1=263100", "B = 6 needs the approach")
+      call wrong(suite, "1=243000|9=-6|10=10 8 1 1 1 1|11=|12=", "B = 4, SDEC, needs the normal force, N = 1, not N = 0")
+      call wrong(suite, "1=253100", "B = 5, KPEC or ANALYN, needs the approach")
+      call wrong(suite, "1=263100", "B = 6, KPEC or ANALYN, needs the approach")
       call right(suite, "1=253000")
    end subroutine combinations
 
@@ -721,7 +722,8 @@ contains
       call right(suite, "2=0022023")
       call right(suite, "2=0022120|7=180d 0.1 1000|8=.3 .3 1 1;0 0 0 0")
       call wrong(suite, "1=202100|2=0022620", "M = 6, FaStrip, needs steady rolling")
-      call wrong(suite, "2=0022622", "whose strips know creepages and spin only")
+      call wrong(suite, "1=203100|2=0023120|8=.3 .3 1 1;1 1 .1 .1", "M = 1, viscoelastic material, needs half-spaces")
+      call wrong(suite, "2=0022622", "its strips know creepages and spin only")
       call right(suite, "11=1 4|12=0 0 0 0 0 0;1;0 1 0 1")
       call wrong(suite, "11=1 4|12=0 0 0 0 0 0;1;0 1 1 1", "rectangle 1 has not")
       call wrong(suite, "11=1 4|12=0 0 0 0 0 0;2;0 1 0 1 2 3 0 1;1.1", "1.1 is above its upper bound 1")
