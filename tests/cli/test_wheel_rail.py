@@ -331,6 +331,19 @@ class Statements(Case):
         self.assertNotEqual(lateral[0], 0.0)
         self.assertAlmostEqual(lateral[0], -lateral[1], delta=1e-3*abs(lateral[0]))
 
+    def test_steps_of_a_layer_that_yields(self):
+        """One element per step, whatever DQREL says, and then that is told; other layers take any step"""
+        told = "DQREL is set to 1"
+        results = {}
+        for limit in (35, 0):
+            for step in (0.5, 1):
+                case = self.case(tang=2, mater=4, fz=20000.0, vpitch=-1.01*V/NOMRADW, physics=" 10000 0.02 %d 0\n" % limit)
+                found, out = self.solve(case.replace(" 0.5 0.5 1 90d", " 0.5 0.5 %g 90d" % step))
+                self.assertEqual(told in out, limit > 0 and step < 1, (limit, step))
+                results[limit, step] = found[0]["totals"]["fx_tr"]["value"]
+        self.assertAlmostEqual(results[35, 0.5], results[35, 1], delta=1e-9*abs(results[35, 1]))
+        self.assertGreater(abs(results[0, 0.5] - results[0, 1]), 1e-3*abs(results[0, 1]))
+
     def test_sensitivities_that_nobody_asked_for(self):
         """M = 1: the search for the height uses the stiffness of the contact; how accurate that is is its own affair"""
         _, out = self.solve(self.case(mater=1, physics=" 0.5 0.5 0.0001 0.0001\n"))
