@@ -130,23 +130,9 @@ contains
 
       problem%motion = spec%motion
       problem%solver = spec%solver
-      problem%eps = spec%iteration%eps
-      problem%maxgs = spec%iteration%maxgs
-      problem%maxin = spec%iteration%maxin
-      problem%maxnr = spec%iteration%maxnr
-      problem%maxout = spec%iteration%maxout
+      problem%settings = spec%iteration%solver_settings
       problem%deadline = spec%limits%deadline
       problem%relaxation_given = spec%solver == solver_choice%convex_gs .or. spec%solver == solver_choice%gauss_seidel
-      problem%omegah = spec%iteration%omegah
-      problem%omegas = spec%iteration%omegas
-      problem%fdecay = spec%iteration%fdecay
-      problem%betath = spec%iteration%betath
-      problem%kdowfb = spec%iteration%kdowfb
-      problem%d_ifc = spec%iteration%d_ifc
-      problem%d_lin = spec%iteration%d_lin
-      problem%d_cns = spec%iteration%d_cns
-      problem%d_slp = spec%iteration%d_slp
-      problem%pow_s = spec%iteration%pow_s
    end subroutine set_method
 
    !> Potential contact and undeformed distance

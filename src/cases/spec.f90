@@ -7,6 +7,7 @@ module contact_cases_spec
    use contact_base_choices, only : heat_source, material_model
    use contact_base_kinds, only : wp
    use contact_base_limits, only : case_limits
+   use contact_base_solver_settings, only : solver_settings
    use contact_wheelrail_spec, only : wheel_rail_spec
    use contact_subsurface_points, only : point_block
    implicit none (type, external)
@@ -36,26 +37,16 @@ module contact_cases_spec
       integer :: wheel_profile = 2, position = 2, velocity = 2, flexibility = 2
    end type case_parts
 
-   !> Settings of the iterative solution
-   type :: iteration_spec
-      !> Largest numbers of: iterations of a solver, set changes, force iterations, outer iterations
-      integer :: maxgs = 999, maxin = 20, maxnr = 25, maxout = 1
-      !> Relative tolerance [-]
-      real(wp) :: eps = 1.0e-5_wp
+   !> Settings of the iterative solution, and what else the line of the input holds
+   type, extends(solver_settings) :: iteration_spec
       !> Member of sensitivity_choice; tolerance and largest number of iterations for sensitivities
       integer :: sensitivity = 1, mxsens = 30
       real(wp) :: epsens = 1.0e-4_wp
       !> Largest number of elements (wheel-rail contact)
       integer :: npot_max = 20000
-      !> Relaxation in adhesion and slip areas, used by ConvexGS/SteadyGS when given by the input [-]
-      real(wp) :: omegah = 0.9_wp, omegas = 1.0_wp
       !> Start and relaxation of the friction iteration
       integer :: inislp = 0
       real(wp) :: omgslp = 0.5_wp
-      !> Parameters of GDsteady: FDECAY BETATH KDOWFB D_IFC D_LIN D_CNS D_SLP POW_S
-      real(wp) :: fdecay = 0.9_wp, betath = 0.1_wp
-      integer :: kdowfb = 1
-      real(wp) :: d_ifc = 1.0_wp, d_lin = 1.0_wp, d_cns = 1.0_wp, d_slp = 1.0_wp, pow_s = 0.9_wp
    end type iteration_spec
 
    !> Prescribed approach or normal force, creepages or tangential forces

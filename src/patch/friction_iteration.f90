@@ -143,7 +143,7 @@ contains
 
       if (self%change <= tolerance*self%size .or. slipping == 0) then
          self%ended = ending%converged
-      else if (self%passes >= max(1, problem%maxin - spare_passes)) then
+      else if (self%passes >= max(1, problem%settings%maxin - spare_passes)) then
          self%ended = ending%iteration_limit
       else if (self%failures >= most_failures) then
          self%ended = ending%stagnated

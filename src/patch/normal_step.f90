@@ -61,15 +61,15 @@ contains
             end if
             normal%force_prescribed = problem%force_prescribed
             normal%fn = problem%fn
-            normal%eps = problem%eps*problem%pressure_eps
-            normal%maxgs = problem%maxgs
+            normal%eps = problem%settings%eps*problem%pressure_eps
+            normal%maxgs = problem%settings%maxgs
             normal%deadline = problem%deadline
             if (problem%pressure == pressure_model%full) then
                call log%trace(4, " NORM")
                call solve_normal(normal, workspace%window, workspace%normal_work, state%now%pn, result%pen, result%normal, log)
                ! what is asked for is EPS
-               result%normal%tolerance = problem%eps
-               if (result%normal%residual <= problem%eps .and. any(result%normal%ended == [ending%stagnated, &
+               result%normal%tolerance = problem%settings%eps
+               if (result%normal%residual <= problem%settings%eps .and. any(result%normal%ended == [ending%stagnated, &
                   & ending%iteration_limit])) result%normal%ended = ending%converged
                ! conjugate gradients count on symmetry, which bodies with a memory have not
                if (result%normal%ended == ending%stagnated .and. allocated(problem%model%memory)) &

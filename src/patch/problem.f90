@@ -3,6 +3,7 @@ module contact_patch_problem
    use contact_base_choices, only : motion, pressure_model
    use contact_base_kinds, only : wp
    use contact_base_limits, only : deadline_type
+   use contact_base_solver_settings, only : solver_settings
    use contact_elastic_model, only : elastic_model
    use contact_friction_law, only : friction_law
    use contact_friction_memory, only : friction_memory
@@ -75,20 +76,14 @@ module contact_patch_problem
       real(wp) :: initial_yield_limit = 0.0_wp
       !> Slope of the yield limit with the plastic displacement [N/mm3]
       real(wp) :: yield_slope = 0.0_wp
-      !> Tolerance and iteration limits
-      real(wp) :: eps = 1.0e-5_wp
-      !> Part of `eps` that pressures are solved to. Below 1 in a search that asks how they change by less than `eps`
+      !> Tolerance, limits and parameters of the solvers
+      type(solver_settings) :: settings
+      !> Part of the tolerance that pressures are solved to. Below 1 in a search that asks how they change by less than that
       real(wp) :: pressure_eps = 1.0_wp
-      integer :: maxgs = 999, maxin = 20, maxnr = 25, maxout = 1
       !> When the time is up
       type(deadline_type) :: deadline
-      !> Relaxation from the input; only when given, otherwise chosen by the solver
+      !> Is the relaxation that of the input? Otherwise the shape of the elements decides
       logical :: relaxation_given = .false.
-      real(wp) :: omegah = 0.9_wp, omegas = 1.0_wp
-      !> Parameters of GDsteady
-      real(wp) :: fdecay = 0.9_wp, betath = 0.1_wp
-      integer :: kdowfb = 1
-      real(wp) :: d_ifc = 1.0_wp, d_lin = 1.0_wp, d_cns = 1.0_wp, d_slp = 1.0_wp, pow_s = 0.9_wp
       !> Are elements that entered the contact during the step treated as such? Only with steps longer than an
       !> element, along x
       logical :: corrects_leading_edge = .false.

@@ -101,7 +101,7 @@ contains
       window%spin_offset = problem%spin_offset*problem%dq*[cos(problem%chi), sin(problem%chi)]
       window%n_forces = problem%n_forces
       window%force = problem%force
-      window%eps = problem%eps
+      window%eps = problem%settings%eps
       if (allocated(window%extra_slip)) deallocate(window%extra_slip)
       if (allocated(problem%extra_slip)) window%extra_slip = problem%extra_slip(box%ix0:box%ix1, box%iy0:box%iy1, :)
       if (allocated(window%before)) deallocate(window%before)

@@ -60,7 +60,7 @@ contains
          call previous_displacement(problem, state, workspace)
       end if
 
-      do outer = 1, max(1, problem%maxout)
+      do outer = 1, max(1, problem%settings%maxout)
          result%outer_iterations = outer
          call normal_step(problem, state, workspace, log, result)
          if (problem%motion == motion%none) exit
@@ -70,7 +70,7 @@ contains
             exit
          end if
          call tangential_step(problem, state, workspace, log, result)
-         if (problem%maxout <= 1 .or. result%ncon == 0 .or. .not. problem%couples()) exit
+         if (problem%settings%maxout <= 1 .or. result%ncon == 0 .or. .not. problem%couples()) exit
          if (.not. (result%normal%succeeded() .and. result%tangential%succeeded())) exit
          if (problem%deadline%has_passed()) then
             turns%ended = ending%out_of_time
@@ -78,7 +78,7 @@ contains
          end if
          call next_pass(problem, state, workspace, log, result, turns)
          if (turns%ended /= ending%not_started) exit
-         if (outer == problem%maxout) turns%ended = ending%iteration_limit
+         if (outer == problem%settings%maxout) turns%ended = ending%iteration_limit
       end do
       if (any([result%normal%ended, result%tangential%ended, turns%ended] == ending%out_of_time)) then
          call problem%deadline%watch("in the solution of a contact patch", error)
@@ -126,17 +126,17 @@ contains
       call shear_lift(problem, state, workspace)
       change = maxval(abs(workspace%lift - workspace%un), problem%h < excluded_threshold)
       scale = max(approach_scale(result%pen, minval(problem%h), change), maxval(abs(workspace%lift)))
-      level = merge(0, 1, result%outer_iterations >= problem%maxout - 1)
+      level = merge(0, 1, result%outer_iterations >= problem%settings%maxout - 1)
       if (log%shows(level)) then
          write(line, "(I3,A,2ES12.3)") result%outer_iterations, ", Panag/Out: |Uk - Uk-1|,    Eps |Uk| :", change, &
-            & problem%eps*scale
+            & problem%settings%eps*scale
          call log%trace(level, trim(line))
       end if
       turns%method = "outer iteration"
       turns%iterations = result%outer_iterations
       turns%residual = change/scale
-      turns%tolerance = problem%eps
-      if (change <= problem%eps*scale) then
+      turns%tolerance = problem%settings%eps
+      if (change <= problem%settings%eps*scale) then
          turns%ended = ending%converged
          return
       end if

@@ -49,7 +49,7 @@ contains
       requested = problem%force*result%mu_scal*result%fn
       found = [result%fx, result%fy]
       do k = 1, n
-         if (abs(found(k) - requested(k)) <= allowed*problem%eps*bound) cycle
+         if (abs(found(k) - requested(k)) <= allowed*problem%settings%eps*bound) cycle
          if (norm2(requested(:n)) >= bound) then
             write(largest, "(G0.6)") bound
             call result%status%miss_force(name(k), requested(k), found(k), "friction gives no more than " // &

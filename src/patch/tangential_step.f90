@@ -156,20 +156,9 @@ contains
          t%dq = problem%dq
          t%n_forces = problem%n_forces
          t%target = problem%force*result%mu_scal*result%fn/(problem%grid%dx*problem%grid%dy)
-         t%eps = problem%eps
-         t%maxgs = problem%maxgs
-         t%maxin = problem%maxin
-         t%maxnr = problem%maxnr
+         t%settings = problem%settings
          t%deadline = problem%deadline
          call set_relaxation(problem, result%ncon, t)
-         t%fdecay = problem%fdecay
-         t%betath = problem%betath
-         t%kdowfb = problem%kdowfb
-         t%d_ifc = problem%d_ifc
-         t%d_lin = problem%d_lin
-         t%d_cns = problem%d_cns
-         t%d_slp = problem%d_slp
-         t%pow_s = problem%pow_s
          if (allocated(t%yield)) deallocate(t%yield)
          if (allocated(t%share)) deallocate(t%share)
          if (allocated(t%edge)) deallocate(t%edge)
@@ -263,22 +252,20 @@ contains
       type(tangential_problem), intent(inout) :: t
       real(wp) :: ratio
 
-      t%omegah = problem%omegah
-      t%omegas = problem%omegas
       if (problem%relaxation_given) return
       ratio = problem%grid%dx/problem%grid%dy
       if (ncon <= 25) then
-         t%omegah = 1.0_wp
-         t%omegas = 1.0_wp
+         t%settings%omegah = 1.0_wp
+         t%settings%omegas = 1.0_wp
       else if (.not. t%steady .or. problem%solver == solver_choice%convex_gs) then
-         t%omegah = 0.5_wp
-         t%omegas = 0.5_wp
+         t%settings%omegah = 0.5_wp
+         t%settings%omegas = 0.5_wp
       else if (ratio <= 5.0_wp) then
-         t%omegah = 0.9_wp
-         t%omegas = 1.0_wp
+         t%settings%omegah = 0.9_wp
+         t%settings%omegas = 1.0_wp
       else
-         t%omegah = 0.8_wp
-         t%omegas = merge(0.8_wp, 0.6_wp, ratio <= 15.0_wp)
+         t%settings%omegah = 0.8_wp
+         t%settings%omegas = merge(0.8_wp, 0.6_wp, ratio <= 15.0_wp)
       end if
    end subroutine set_relaxation
 

@@ -10,7 +10,7 @@ module contact_tangential_classical
    use contact_tangential_convex_gs, only : convex_gs
    use contact_tangential_gd_steady, only : gd_steady
    use contact_tangential_prescribed_forces, only : force_iteration
-   use contact_tangential_problem, only : divide_elements, prepare_solution, residual_scale, settle, &
+   use contact_tangential_problem, only : at_bound, divide_elements, prepare_solution, residual_scale, settle, &
       & slip_of, tangential_problem, tangential_solution, true_residual
    use contact_tangential_steady_gs, only : steady_gs
    use contact_tangential_streaming, only : streaming_rows
@@ -33,10 +33,29 @@ module contact_tangential_classical
    !> Names of the methods
    type(classical_method_list), parameter :: classical_method = classical_method_list()
 
-   !> Tolerance of the tractions relative to that of prescribed forces
+   !> Tolerance of the tractions relative to that of prescribed forces; chosen
    real(wp), parameter :: inner_share = 0.2_wp
-   !> True residual at which updates that have become small mean a standstill, not a solution
+   !> True residual at which updates that have become small mean a standstill, not a solution; chosen
    real(wp), parameter :: no_solution = 0.2_wp
+
+   !> What one call of solve_classical works with
+   type :: classical_solver
+      !> Member of classical_method; GDsteady is replaced for good when it fails
+      integer :: method = 0
+      !> Steady rolling with a shifted table of coefficients? Does the method see rows?
+      logical :: general = .false., with_rows = .false.
+      type(streaming_rows) :: rows
+      !> Tolerance of the updates, relative to the tractions [-]
+      real(wp) :: eps = 0.0_wp
+      !> Scale of the slip, see residual_scale [(N/mm2)/mm]
+      real(wp) :: r = 1.0_wp
+   contains
+      !> Creepages for prescribed forces
+      procedure :: find_creepages
+      !> Tractions for given creepages
+      procedure :: solve
+      procedure :: sweep
+   end type classical_solver
 
 contains
 
@@ -74,174 +93,213 @@ contains
       !> Products and transforms are added up, everything else is of this call
       type(solve_report), intent(inout) :: report
       type(log_type), intent(inout) :: log
-      !> Coefficients of the same particles at the previous moment, in steady rolling with steps
+      !> Coefficients of the same particles at the previous time, in steady rolling with steps
       !> other than one element or in an oblique direction (ConvexGS only)
       type(kernel_table), intent(in), optional :: shifted
-      type(streaming_rows) :: rows
-      type(force_iteration) :: forces
-      real(wp) :: creep(2), force(2), sum_g, r, pairs_before, eps
-      integer :: method, products_before, total
-      logical :: with_rows, general
-      character(len=160) :: text
+      type(classical_solver) :: self
+      real(wp) :: pairs_before
+      integer :: products_before
+      logical :: clean
 
       call prepare_solution(problem, solution)
       report%ended = ending%not_started
       report%iterations = 0
       report%residual = 0.0_wp
-      report%tolerance = problem%eps
+      report%tolerance = problem%settings%eps
       report%gave_up = ""
       products_before = operator%products
       pairs_before = operator%fft_pairs()
-      general = present(shifted) .and. problem%steady
-      method = suitable_method(problem, choice, general)
-      report%method = method_name(method)
+      self%general = present(shifted) .and. problem%steady
+      self%method = suitable_method(problem, choice, self%general)
+      report%method = method_name(self%method)
       solution%division = element%exterior
       if (.not. any(problem%contact)) then
          solution%p = 0.0_wp
          solution%slip = 0.0_wp
          return
       end if
-      r = residual_scale(problem, operator)
-      if (.not. clean_input()) then
+      self%r = residual_scale(problem, operator)
+      call make_admissible(problem, solution, clean)
+      if (.not. clean) then
          report%ended = ending%diverged
          report%residual = -1.0_wp
          where (problem%contact) solution%division = element%adhesion
          return
       end if
 
-      with_rows = method /= classical_method%tang_cg
-      if (with_rows) then
-         if (general) then
-            call rows%prepare(problem, operator, shifted)
+      self%with_rows = self%method /= classical_method%tang_cg
+      if (self%with_rows) then
+         if (self%general) then
+            call self%rows%prepare(problem, operator, shifted)
          else
-            call rows%prepare(problem, operator)
+            call self%rows%prepare(problem, operator)
          end if
       end if
-      total = 0
-      eps = problem%eps
+      self%eps = problem%settings%eps
       if (problem%n_forces == 0) then
-         call solve_once()
+         call self%solve(problem, operator, solution, report, log)
          solution%sensitivity = 0.0_wp
       else
-         ! forces are compared at the tolerance eps, which takes tractions that are better
-         eps = inner_share*problem%eps
-         sum_g = sum(problem%bound, mask=problem%contact)
-         call forces%start(problem, operator, solution%sensitivity)
-         creep = solution%creep
-         do
-            solution%creep = creep
-            call solve_once()
-            if (sum_g <= 0.0_wp .or. report%ended == ending%diverged .or. report%ended == ending%out_of_time) exit
-            force = [sum(solution%p(:, :, 1)), sum(solution%p(:, :, 2))]/sum_g
-            call forces%advance(force, any(solution%division == element%adhesion &
-               & .or. solution%division == element%plastic), creep)
-            call trace_forces()
-            if (forces%ended /= ending%not_started) exit
-         end do
-         if (forces%ended > ending%converged) report%ended = forces%ended
-         solution%sensitivity = 0.0_wp
-         solution%sensitivity(:forces%n, :forces%n) = forces%sensitivity(:forces%n, :forces%n)
-         if (forces%full_sliding) then
-            report%ended = ending%stagnated
-            call log%warning("full sliding; the prescribed tangential force cannot be reached")
-         end if
+         call self%find_creepages(problem, operator, solution, report, log)
       end if
-      report%residual = true_residual(problem, solution%p, solution%slip, r)
+      report%residual = true_residual(problem, solution%p, solution%slip, self%r)
       if (report%residual > no_solution .and. report%ended == ending%converged) report%ended = ending%stagnated
-      call settle(problem, r, solution)
+      call settle(problem, self%r, solution)
       report%products = report%products + operator%products - products_before
-      if (with_rows) then
-         report%products = report%products + rows%products()
-         call rows%release()
+      if (self%with_rows) then
+         report%products = report%products + self%rows%products()
+         call self%rows%release()
       end if
       report%fft_pairs = report%fft_pairs + operator%fft_pairs() - pairs_before
-
-   contains
-
-      !> Is everything finite? Makes the estimate admissible
-      logical function clean_input() result(clean)
-         integer :: ix, iy
-         real(wp) :: length
-
-         clean = all(ieee_is_finite(problem%shift)) .and. all(ieee_is_finite(problem%bound)) &
-            & .and. all(ieee_is_finite(problem%target))
-         if (.not. all(ieee_is_finite(solution%creep))) solution%creep = 0.0_wp
-         if (.not. (clean .and. all(ieee_is_finite(solution%p)))) solution%p = 0.0_wp
-         do iy = 1, problem%my
-            do ix = 1, problem%mx
-               if (.not. problem%contact(ix, iy)) then
-                  solution%p(ix, iy, :) = 0.0_wp
-                  cycle
-               end if
-               length = hypot(solution%p(ix, iy, 1), solution%p(ix, iy, 2))
-               if (length > problem%bound(ix, iy)) &
-                  & solution%p(ix, iy, :) = solution%p(ix, iy, :)*(problem%bound(ix, iy)/length)
-            end do
-         end do
-         if (.not. clean) solution%slip = 0.0_wp
-      end function clean_input
-
-      !> Solve with the creepages of the solution
-      subroutine solve_once()
-         select case (method)
-         case (classical_method%tang_cg)
-            call mark_states()
-            call tang_cg(problem, operator, eps, solution%creep, solution%p, solution%division, report, log)
-         case (classical_method%steady_gs)
-            call rows%start(problem, solution%creep, solution%p)
-            call steady_gs(problem, rows, eps, report, log)
-            call rows%get_tractions(solution%p)
-         case (classical_method%gd_steady)
-            call mark_states()
-            call gd_steady(problem, operator, eps, solution%creep, solution%p, solution%division, report, log)
-            if (report%ended /= ending%converged) then
-               report%gave_up = method_name(method)
-               method = classical_method%steady_gs
-               report%method = method_name(method)
-               call log%trace(3, "      Tang: GDsteady does not converge, continuing with SteadyGS")
-               total = total + report%iterations
-               call rows%start(problem, solution%creep, solution%p)
-               call steady_gs(problem, rows, eps, report, log)
-               call rows%get_tractions(solution%p)
-            end if
-         case default
-            call rows%start(problem, solution%creep, solution%p)
-            call convex_gs(problem, rows, eps, report, log)
-            call rows%get_tractions(solution%p)
-         end select
-         total = total + report%iterations
-         if (general) then
-            call rows%get_slip(solution%slip)
-         else
-            call slip_of(problem, operator, solution%p, solution%creep, solution%slip)
-         end if
-         call divide_elements(problem, solution%p, solution%slip, r, solution%division)
-         if (log%shows(4)) then
-            write(text, "(4X, I4, A, 2I7)") 1, ", Tang: size of Adhes, Slip area :", &
-               & count(solution%division == element%adhesion), count(solution%division == element%slip)
-            call log%trace(4, trim(text))
-         end if
-      end subroutine solve_once
-
-      !> Element states of the estimate: slip where the bound is reached
-      subroutine mark_states()
-         solution%division = element%exterior
-         where (problem%contact) solution%division = element%adhesion
-         where (problem%contact .and. hypot(solution%p(:, :, 1), solution%p(:, :, 2)) &
-            & >= (1.0_wp - 1.0e-12_wp)*problem%bound) solution%division = element%slip
-      end subroutine mark_states
-
-      subroutine trace_forces()
-         if (.not. log%shows(4)) return
-         write(text, "(4X, I6, A, 2ES15.6, A, I5)") forces%evaluations, ", NR_Fx,    Cksi, Fxk: ", &
-            & solution%creep(1), force(1), "   ItCG:", report%iterations
-         call log%trace(4, trim(text))
-         if (problem%n_forces < 2) return
-         write(text, "(4X, I6, A, 2ES15.6)") forces%evaluations, ", NR_Fy,    Ceta, Fyk: ", &
-            & solution%creep(2), force(2)
-         call log%trace(4, trim(text))
-      end subroutine trace_forces
    end subroutine solve_classical
+
+   !> Make an estimate admissible: finite, within the bounds
+   subroutine make_admissible(problem, solution, clean)
+      type(tangential_problem), intent(in) :: problem
+      type(tangential_solution), intent(inout) :: solution
+      !> Is the problem finite? Otherwise the solution is zero
+      logical, intent(out) :: clean
+      integer :: ix, iy
+      real(wp) :: length
+
+      clean = all(ieee_is_finite(problem%shift)) .and. all(ieee_is_finite(problem%bound)) &
+         & .and. all(ieee_is_finite(problem%target))
+      if (.not. all(ieee_is_finite(solution%creep))) solution%creep = 0.0_wp
+      if (.not. (clean .and. all(ieee_is_finite(solution%p)))) solution%p = 0.0_wp
+      do iy = 1, problem%my
+         do ix = 1, problem%mx
+            if (.not. problem%contact(ix, iy)) then
+               solution%p(ix, iy, :) = 0.0_wp
+               cycle
+            end if
+            length = hypot(solution%p(ix, iy, 1), solution%p(ix, iy, 2))
+            if (length > problem%bound(ix, iy)) &
+               & solution%p(ix, iy, :) = solution%p(ix, iy, :)*(problem%bound(ix, iy)/length)
+         end do
+      end do
+      if (.not. clean) solution%slip = 0.0_wp
+   end subroutine make_admissible
+
+   !> Solve again and again with other creepages until the forces are the prescribed ones
+   subroutine find_creepages(self, problem, operator, solution, report, log)
+      class(classical_solver), intent(inout) :: self
+      type(tangential_problem), intent(in) :: problem
+      class(compliance), intent(inout) :: operator
+      type(tangential_solution), intent(inout) :: solution
+      type(solve_report), intent(inout) :: report
+      type(log_type), intent(inout) :: log
+      type(force_iteration) :: forces
+      real(wp) :: creep(2), force(2), sum_g
+
+      ! forces are compared at the tolerance eps, which takes tractions that are better
+      self%eps = inner_share*problem%settings%eps
+      sum_g = sum(problem%bound, mask=problem%contact)
+      call forces%start(problem, operator, solution%sensitivity)
+      creep = solution%creep
+      do
+         solution%creep = creep
+         call self%solve(problem, operator, solution, report, log)
+         if (sum_g <= 0.0_wp .or. report%ended == ending%diverged .or. report%ended == ending%out_of_time) exit
+         force = [sum(solution%p(:, :, 1)), sum(solution%p(:, :, 2))]/sum_g
+         call forces%advance(force, any(solution%division == element%adhesion &
+            & .or. solution%division == element%plastic), creep)
+         call trace_forces(problem, solution%creep, force, forces%evaluations, report%iterations, log)
+         if (forces%ended /= ending%not_started) exit
+      end do
+      if (forces%ended > ending%converged) report%ended = forces%ended
+      solution%sensitivity = 0.0_wp
+      solution%sensitivity(:forces%n, :forces%n) = forces%sensitivity(:forces%n, :forces%n)
+      if (forces%full_sliding) then
+         report%ended = ending%stagnated
+         call log%warning("full sliding; the prescribed tangential force cannot be reached")
+      end if
+   end subroutine find_creepages
+
+   !> Solve with the creepages of the solution
+   subroutine solve(self, problem, operator, solution, report, log)
+      class(classical_solver), intent(inout) :: self
+      type(tangential_problem), intent(in) :: problem
+      class(compliance), intent(inout) :: operator
+      type(tangential_solution), intent(inout) :: solution
+      type(solve_report), intent(inout) :: report
+      type(log_type), intent(inout) :: log
+      character(len=160) :: text
+
+      select case (self%method)
+      case (classical_method%tang_cg)
+         call mark_states(problem, solution)
+         call tang_cg(problem, operator, self%eps, solution%creep, solution%p, solution%division, report, log)
+      case (classical_method%gd_steady)
+         call mark_states(problem, solution)
+         call gd_steady(problem, operator, self%eps, solution%creep, solution%p, solution%division, report, log)
+         if (report%ended /= ending%converged) then
+            report%gave_up = method_name(self%method)
+            self%method = classical_method%steady_gs
+            report%method = method_name(self%method)
+            call log%trace(3, "      Tang: GDsteady does not converge, continuing with SteadyGS")
+            call self%sweep(problem, solution, report, log)
+         end if
+      case default
+         call self%sweep(problem, solution, report, log)
+      end select
+      if (self%general) then
+         call self%rows%get_slip(solution%slip)
+      else
+         call slip_of(problem, operator, solution%p, solution%creep, solution%slip)
+      end if
+      call divide_elements(problem, solution%p, solution%slip, self%r, solution%division)
+      if (log%shows(4)) then
+         write(text, "(4X, I4, A, 2I7)") 1, ", Tang: size of Adhes, Slip area :", &
+            & count(solution%division == element%adhesion), count(solution%division == element%slip)
+         call log%trace(4, trim(text))
+      end if
+   end subroutine solve
+
+   !> Solve by one of the Gauss-Seidel methods
+   subroutine sweep(self, problem, solution, report, log)
+      class(classical_solver), intent(inout) :: self
+      type(tangential_problem), intent(in) :: problem
+      type(tangential_solution), intent(inout) :: solution
+      type(solve_report), intent(inout) :: report
+      type(log_type), intent(inout) :: log
+
+      call self%rows%start(problem, solution%creep, solution%p)
+      if (self%method == classical_method%steady_gs) then
+         call steady_gs(problem, self%rows, self%eps, report, log)
+      else
+         call convex_gs(problem, self%rows, self%eps, report, log)
+      end if
+      call self%rows%get_tractions(solution%p)
+   end subroutine sweep
+
+   !> Element states of the estimate: slip where the bound is reached
+   subroutine mark_states(problem, solution)
+      type(tangential_problem), intent(in) :: problem
+      type(tangential_solution), intent(inout) :: solution
+
+      solution%division = element%exterior
+      where (problem%contact) solution%division = element%adhesion
+      where (problem%contact .and. hypot(solution%p(:, :, 1), solution%p(:, :, 2)) >= at_bound*problem%bound) &
+         & solution%division = element%slip
+   end subroutine mark_states
+
+   !> One line of the flow trace for each prescribed force
+   subroutine trace_forces(problem, creep, force, evaluations, iterations, log)
+      type(tangential_problem), intent(in) :: problem
+      !> Creepages [-] and the relative forces that they give [-]
+      real(wp), intent(in) :: creep(2), force(2)
+      !> Evaluations so far, and iterations of the last one
+      integer, intent(in) :: evaluations, iterations
+      type(log_type), intent(inout) :: log
+      character(len=160) :: text
+
+      if (.not. log%shows(4)) return
+      write(text, "(4X, I6, A, 2ES15.6, A, I5)") evaluations, ", NR_Fx,    Cksi, Fxk: ", creep(1), force(1), "   ItCG:", iterations
+      call log%trace(4, trim(text))
+      if (problem%n_forces < 2) return
+      write(text, "(4X, I6, A, 2ES15.6)") evaluations, ", NR_Fy,    Ceta, Fyk: ", creep(2), force(2)
+      call log%trace(4, trim(text))
+   end subroutine trace_forces
 
    !> The method asked for, or one that can do the problem
    pure integer function suitable_method(problem, choice, general) result(method)

@@ -55,7 +55,7 @@ contains
       watch = update_watch(eps=eps, n_contact=rows%n_contact, largest_bound=maxval(rows%bound), &
          & deadline=problem%deadline)
       before = rows%p
-      do sweep = 1, problem%maxgs
+      do sweep = 1, problem%settings%maxgs
          before = rows%p
          rest = sweep > patience .and. mod(sweep, 2) == 0
          do row = 1, rows%my
@@ -73,7 +73,7 @@ contains
                end if
                s0(1) = slip(i, 1) - here%xx*old(1) - here%xy*old(2)
                s0(2) = slip(i, 2) - here%xy*old(1) - here%yy*old(2)
-               call rows%solve_one(i, iy, here, s0, problem%omegah, problem%omegas, p)
+               call rows%solve_one(i, iy, here, s0, problem%settings%omegah, problem%settings%omegas, p)
                change = p - old
                rows%p(i, :, iy) = p
                call spread(change, i, rows%last(iy))
@@ -82,7 +82,7 @@ contains
             call rows%renew_row(iy)
          end do
          report%iterations = sweep
-         call watch%judge(sum((rows%p - before)**2), sum(rows%p**2), problem%maxgs, report%ended)
+         call watch%judge(sum((rows%p - before)**2), sum(rows%p**2), problem%settings%maxgs, report%ended)
          call trace_iteration(log, watch, "ConvexGS", rows%state)
          if (report%ended /= ending%not_started) exit
       end do

@@ -28,7 +28,7 @@ contains
       beyond = .false.
       ! limits that rise with the plastic displacement are not known beforehand
       if (problem%n_forces == 0 .or. problem%hardens()) return
-      beyond = norm2(problem%target(:problem%n_forces)) > (1.0_wp + problem%eps)*sum(problem%bound, mask=problem%contact)
+      beyond = norm2(problem%target(:problem%n_forces)) > (1.0_wp + problem%settings%eps)*sum(problem%bound, mask=problem%contact)
    end function is_beyond_friction
 
    !> Tractions at the bounds, against slip in the direction of the forces
@@ -70,7 +70,7 @@ contains
       report%iterations = passes
       report%products = report%products + operator%products - products_before
       report%residual = true_residual(problem, solution%p, solution%slip, residual_scale(problem, operator))
-      report%tolerance = problem%eps
+      report%tolerance = problem%settings%eps
       report%ended = ending%beyond_friction
       call settle(problem, residual_scale(problem, operator), solution)
    end subroutine slide_fully

@@ -13,7 +13,8 @@ module contact_tangential_gd_steady
    use contact_base_solve_report, only : ending, solve_report
    use contact_elastic_compliance, only : compliance
    use contact_grid_element_division, only : element
-   use contact_tangential_problem, only : residual_scale, slip_of, tangential_problem, true_residual
+   use contact_numeric_minimum_search, only : minimum_search
+   use contact_tangential_problem, only : at_bound, residual_scale, slip_of, tangential_problem, true_residual
    use contact_tangential_sweep, only : trace_iteration, update_watch
    implicit none (type, external)
    private
@@ -31,13 +32,61 @@ module contact_tangential_gd_steady
    !> How increments of adhering elements become tractions
    type(projection_list), parameter :: projection = projection_list()
 
-   !> Relative tolerance and evaluations of the line search
-   real(wp), parameter :: line_tolerance = 1.0e-3_wp
-   integer, parameter :: line_limit = 99
-   !> Tolerance of the updates from then on, where they are small and the residual is not
+   ! Tuning numbers as in CONTACT (Vollebregt), but where another origin is told
+   !> FDECAY above and below which all of a change is carried on, or taken back
+   real(wp), parameter :: all_carried = 0.999_wp, none_carried = 0.001_wp
+   !> Iterations with the other projection after one with poor progress
+   integer, parameter :: iterations_down = 2
+   !> A weight is at most this multiple of the one downstream
+   real(wp), parameter :: weight_growth = 50.0_wp
+   !> Changes of tractions in slip, as multiples of the bound, are at most this
+   real(wp), parameter :: largest_turn = 1000.0_wp
+   !> First step of the line search relative to the estimate, and its relative tolerance
+   real(wp), parameter :: first_share = 0.6_wp, line_tolerance = 1.0e-3_wp
+   !> Limits of the estimated step; chosen
+   real(wp), parameter :: smallest_step = 1.0e-3_wp, largest_step = 1.0e3_wp
+   !> Estimated step when the residual and its change have nothing in common; chosen
+   real(wp), parameter :: blind_step = 0.5_wp
+   !> Updates count as larger than they are where the residual falls by less than `slow` in an iteration: by slow over the
+   !> progress, and by `stuck_factor` where that is below `stuck`
+   real(wp), parameter :: slow = 0.1_wp, stuck = 1.0e-3_wp, stuck_factor = 100.0_wp
+   !> Tolerance of the updates from then on, where they are small and the residual is not; chosen
    real(wp), parameter :: sharper = 0.3_wp
-   !> Iterations without a smaller residual that count as stagnation
+   !> Iterations without a residual smaller than this part of the least one count as stagnation; chosen
+   real(wp), parameter :: is_smaller = 0.999_wp
    integer, parameter :: patience = 30
+
+   !> State of the descent
+   type :: descent
+      !> Slip, residual, direction and the slip that it changes, before the step [mm or N/mm2], shape (mx, my, 2)
+      real(wp), allocatable, dimension(:, :, :) :: slip, r, v, q
+      !> Weights of the residual, shape (mx, my)
+      real(wp), allocatable :: weight(:, :)
+      !> Compliance of an element on itself, its change carried one element downstream [mm/(N/mm2)]
+      real(wp) :: own(2) = 1.0_wp
+      !> Member of projection; the fraction that is kept, the elements after which it is taken back
+      integer :: mode = 0, span = 1
+      real(wp) :: fraction = 1.0_wp
+      !> Iterations left with the other projection
+      integer :: iterations_left = 0
+      !> By how much the last iteration lowered the residual, relative
+      real(wp) :: progress = 1.0_wp
+      !> Step of the iteration before
+      real(wp) :: last_step = 0.0_wp
+   contains
+      procedure :: start
+      procedure :: set_weights
+      procedure :: set_residual
+      !> Weighted square sum of the residual
+      procedure :: square
+      procedure :: choose_projection
+      procedure :: set_direction
+      procedure :: find_step
+      procedure, private :: estimated_step
+      procedure, private :: objective
+      procedure :: take_step
+      procedure :: move_elements
+   end type descent
 
 contains
 
@@ -45,46 +94,41 @@ contains
    subroutine gd_steady(problem, operator, eps, creep, p, state, report, log)
       type(tangential_problem), intent(in) :: problem
       class(compliance), intent(inout) :: operator
-      !> Tolerance of the updates and, with given creepages, of the true residual
+      !> Tolerance of the updates, relative to the tractions, and with given creepages of the true residual [-]
       real(wp), intent(in) :: eps
+      !> Creepages [-]
       real(wp), intent(in) :: creep(2)
       !> Tractions [N/mm2], shape (mx, my, 2); admissible estimate on entry
       real(wp), contiguous, intent(inout) :: p(:, :, :)
-      !> Element states; from the tractions on entry
+      !> Element states, shape (mx, my); from the tractions on entry
       integer, contiguous, intent(inout) :: state(:, :)
       !> Gets ended, iterations; stagnated asks for another method
       type(solve_report), intent(inout) :: report
       type(log_type), intent(inout) :: log
       type(update_watch) :: watch
-      real(wp), allocatable, dimension(:, :, :) :: slip, r, v, q, before, best
-      real(wp), allocatable :: weight(:, :)
-      !> Compliance of an element on itself, its change carried one element downstream [mm/(N/mm2)]
-      real(wp) :: own(2)
-      real(wp) :: alpha, alpha0, usual, f, progress, old_size, new_size, least, factor, scale
-      integer :: k, iteration, mode, held, since_best
+      type(descent) :: self
+      real(wp), allocatable, dimension(:, :, :) :: before, best
+      real(wp) :: old_square, least, scale
+      integer :: iteration, since_best
       logical :: moved
 
-      allocate(slip, r, v, q, before, best, mold=p)
-      allocate(weight(problem%mx, problem%my))
-      own = operator%diagonal(2:3) - [operator%table%xx(1, 0), operator%table%yy(1, 0)]
+      call self%start(problem, operator)
+      allocate(before, mold=p)
+      best = p
       watch = update_watch(eps=eps, n_contact=count(problem%contact), largest_bound=maxval(problem%bound), &
          & deadline=problem%deadline)
       scale = residual_scale(problem, operator)
-      call slip_of(problem, operator, p, creep, slip)
-      usual = 0.0_wp
-      held = 0
-      progress = 1.0_wp
+      call slip_of(problem, operator, p, creep, self%slip)
       least = huge(1.0_wp)
       since_best = 0
-      best = p
       report%ended = ending%not_started
-      do iteration = 1, problem%maxgs
+      do iteration = 1, problem%settings%maxgs
          report%iterations = iteration
-         call set_weights()
-         call residual(p, slip, r)
-         old_size = sum((r*spread(weight, 3, 2))**2)
-         if (old_size < 0.999_wp*least) then
-            least = old_size
+         call self%set_weights(problem, p, state)
+         call self%set_residual(problem, p, state)
+         old_square = self%square()
+         if (old_square < is_smaller*least) then
+            least = old_square
             since_best = 0
             best = p
          else
@@ -94,31 +138,26 @@ contains
                exit
             end if
          end if
-         if (.not. old_size > 0.0_wp) then
+         if (.not. old_square > 0.0_wp) then
             report%ended = ending%converged
             exit
          end if
-         call choose_projection()
-         call make_direction()
-         call operator%steady(v, q)
-         call scale_of_step()
-         call search_line()
+         call self%choose_projection(problem)
+         call self%set_direction(problem, p, state)
+         call operator%steady(self%v, self%q)
+         call self%find_step(p, state)
          before = p
-         call trial_tractions(alpha, p)
-         call slip_of(problem, operator, p, creep, slip)
-         moved = move_elements()
-         call residual(p, slip, r)
-         new_size = sum((r*spread(weight, 3, 2))**2)
-         progress = max(0.0_wp, 1.0_wp - sqrt(new_size/old_size))
-         factor = 1.0_wp
-         if (progress < 0.1_wp) factor = 0.1_wp/max(1.0e-3_wp, progress)
-         if (progress < 1.0e-3_wp) factor = 100.0_wp
-         call watch%judge(sum(((p - before)*factor)**2), sum(p**2), problem%maxgs, report%ended)
+         call self%take_step(problem, state, p)
+         call slip_of(problem, operator, p, creep, self%slip)
+         call self%move_elements(problem, p, state, moved)
+         call self%set_residual(problem, p, state)
+         self%progress = max(0.0_wp, 1.0_wp - sqrt(self%square()/old_square))
+         call watch%judge(sum(((p - before)*doubt(self%progress))**2), sum(p**2), problem%settings%maxgs, report%ended)
          call trace_iteration(log, watch, "GDsteady", state)
          if (report%ended == ending%converged .and. moved) report%ended = ending%not_started
          ! small updates are no small residual; prescribed forces are missed until the end
          if (report%ended == ending%converged .and. problem%n_forces == 0) then
-            if (true_residual(problem, p, slip, scale) > eps) then
+            if (true_residual(problem, p, self%slip, scale) > eps) then
                report%ended = ending%not_started
                watch%eps = sharper*watch%eps
             end if
@@ -129,309 +168,300 @@ contains
          p = best
          if (report%ended /= ending%iteration_limit) report%ended = ending%stagnated
       end if
+   end subroutine gd_steady
 
-   contains
+   !> Factor of the updates where they are small because the method hardly moves
+   pure real(wp) function doubt(progress)
+      !> Relative decrease of the residual [-]
+      real(wp), intent(in) :: progress
 
-      !> Weights of the residual per element
-      subroutine set_weights()
-         integer :: ix, iy, i0, i1, length
-         real(wp) :: n(2), sigma, ctt, previous
+      doubt = 1.0_wp
+      if (progress < slow) doubt = slow/max(stuck, progress)
+      if (progress < stuck) doubt = stuck_factor
+   end function doubt
 
-         call downstream_range(i0, i1)
+   !> Allocate for a problem
+   subroutine start(self, problem, operator)
+      class(descent), intent(inout) :: self
+      type(tangential_problem), intent(in) :: problem
+      class(compliance), intent(in) :: operator
+
+      associate (mx => problem%mx, my => problem%my)
+         allocate(self%slip(mx, my, 2), self%r(mx, my, 2), self%v(mx, my, 2), self%q(mx, my, 2), self%weight(mx, my))
+      end associate
+      self%own = operator%diagonal(2:3) - [operator%table%xx(1, 0), operator%table%yy(1, 0)]
+   end subroutine start
+
+   !> Weights of the residual per element
+   subroutine set_weights(self, problem, p, state)
+      class(descent), intent(inout) :: self
+      type(tangential_problem), intent(in) :: problem
+      !> Tractions [N/mm2] and element states
+      real(wp), contiguous, intent(in) :: p(:, :, :)
+      integer, contiguous, intent(in) :: state(:, :)
+      integer :: ix, iy, i0, i1, length
+      real(wp) :: n(2), sigma, ctt, previous
+
+      call downstream_range(problem, i0, i1)
+      associate (weight => self%weight, given => problem%settings)
          do iy = 1, problem%my
             length = 0
-            previous = problem%d_ifc
+            previous = given%d_ifc
             do ix = i0, i1, problem%direction
                select case (state(ix, iy))
                case (element%adhesion)
                   length = length + 1
-                  weight(ix, iy) = problem%d_ifc + (length - 1)*problem%d_lin
-                  if (problem%d_lin > 0.0_wp) weight(ix, iy) = min(weight(ix, iy), problem%d_cns)
-                  if (problem%d_lin < 0.0_wp) weight(ix, iy) = max(weight(ix, iy), problem%d_cns)
-                  weight(ix, iy) = min(weight(ix, iy), 50.0_wp*previous)
+                  weight(ix, iy) = given%d_ifc + (length - 1)*given%d_lin
+                  if (given%d_lin > 0.0_wp) weight(ix, iy) = min(weight(ix, iy), given%d_cns)
+                  if (given%d_lin < 0.0_wp) weight(ix, iy) = max(weight(ix, iy), given%d_cns)
+                  weight(ix, iy) = min(weight(ix, iy), weight_growth*previous)
                   previous = weight(ix, iy)
                case (element%slip)
                   length = 0
-                  previous = problem%d_ifc
+                  previous = given%d_ifc
                   weight(ix, iy) = 0.0_wp
                   if (problem%bound(ix, iy) <= 0.0_wp) cycle
                   n = p(ix, iy, :)/problem%bound(ix, iy)
-                  sigma = max(0.0_wp, -dot_product(n, slip(ix, iy, :))/problem%bound(ix, iy))
-                  ctt = own(1)*n(2)**2 + own(2)*n(1)**2
-                  weight(ix, iy) = problem%d_slp*(ctt/(ctt + sigma))**problem%pow_s
+                  sigma = max(0.0_wp, -dot_product(n, self%slip(ix, iy, :))/problem%bound(ix, iy))
+                  ctt = self%own(1)*n(2)**2 + self%own(2)*n(1)**2
+                  weight(ix, iy) = given%d_slp*(ctt/(ctt + sigma))**given%pow_s
                case default
                   length = 0
-                  previous = problem%d_ifc
+                  previous = given%d_ifc
                   weight(ix, iy) = 0.0_wp
                end select
             end do
          end do
-      end subroutine set_weights
+      end associate
+   end subroutine set_weights
 
-      !> First and last column from trailing to leading side
-      pure subroutine downstream_range(i0, i1)
-         integer, intent(out) :: i0, i1
-         i0 = merge(1, problem%mx, problem%direction > 0)
-         i1 = problem%mx + 1 - i0
-      end subroutine downstream_range
+   !> First and last column from trailing to leading side
+   pure subroutine downstream_range(problem, i0, i1)
+      type(tangential_problem), intent(in) :: problem
+      integer, intent(out) :: i0, i1
+      i0 = merge(1, problem%mx, problem%direction > 0)
+      i1 = problem%mx + 1 - i0
+   end subroutine downstream_range
 
-      !> Slip in adhesion, its part along the tangent in slip, negative, for given tractions
-      subroutine residual(at, s, res)
-         real(wp), contiguous, intent(in) :: at(:, :, :), s(:, :, :)
-         real(wp), contiguous, intent(inout) :: res(:, :, :)
-         real(wp) :: t(2)
-         integer :: ix, iy
+   !> Slip in adhesion, its part along the tangent in slip, negative
+   subroutine set_residual(self, problem, p, state)
+      class(descent), intent(inout) :: self
+      type(tangential_problem), intent(in) :: problem
+      !> Tractions [N/mm2] and element states
+      real(wp), contiguous, intent(in) :: p(:, :, :)
+      integer, contiguous, intent(in) :: state(:, :)
+      real(wp) :: t(2)
+      integer :: ix, iy
 
+      associate (r => self%r, s => self%slip)
          do iy = 1, problem%my
             do ix = 1, problem%mx
-               res(ix, iy, :) = 0.0_wp
+               r(ix, iy, :) = 0.0_wp
                if (state(ix, iy) == element%adhesion) then
-                  res(ix, iy, :) = -s(ix, iy, :)
+                  r(ix, iy, :) = -s(ix, iy, :)
                else if (state(ix, iy) == element%slip .and. problem%bound(ix, iy) > 0.0_wp) then
-                  t = [-at(ix, iy, 2), at(ix, iy, 1)]/problem%bound(ix, iy)
+                  t = [-p(ix, iy, 2), p(ix, iy, 1)]/problem%bound(ix, iy)
                   ! where slip and traction agree the element is about to adhere
-                  if (dot_product(at(ix, iy, :), s(ix, iy, :)) > 0.0_wp) then
-                     res(ix, iy, :) = -s(ix, iy, :)
+                  if (dot_product(p(ix, iy, :), s(ix, iy, :)) > 0.0_wp) then
+                     r(ix, iy, :) = -s(ix, iy, :)
                   else
-                     res(ix, iy, :) = -dot_product(t, s(ix, iy, :))*t
+                     r(ix, iy, :) = -dot_product(t, s(ix, iy, :))*t
                   end if
                end if
             end do
          end do
-      end subroutine residual
+      end associate
+   end subroutine set_residual
 
-      !> The projection asked for; for two iterations another one when progress was poor
-      subroutine choose_projection()
-         f = problem%fdecay
-         k = 1
-         mode = projection%keep
-         if (f > 0.999_wp) mode = projection%trail
-         if (f < 0.001_wp) then
-            mode = projection%down
-            k = max(1, nint(-f))
+   !> Weighted square sum of the residual
+   pure real(wp) function square(self)
+      class(descent), intent(in) :: self
+      square = sum((self%r*spread(self%weight, 3, 2))**2)
+   end function square
+
+   !> The projection asked for; for two iterations another one when progress was poor
+   subroutine choose_projection(self, problem)
+      class(descent), intent(inout) :: self
+      type(tangential_problem), intent(in) :: problem
+
+      associate (given => problem%settings)
+         self%fraction = given%fdecay
+         self%span = 1
+         self%mode = projection%keep
+         if (given%fdecay > all_carried) self%mode = projection%trail
+         if (given%fdecay < none_carried) then
+            self%mode = projection%down
+            self%span = max(1, nint(-given%fdecay))
          end if
-         if (progress <= problem%betath .and. held == 0) held = 2
-         if (held > 0) then
-            held = held - 1
-            mode = projection%down
-            k = max(1, problem%kdowfb)
+         if (self%progress <= given%betath .and. self%iterations_left == 0) self%iterations_left = iterations_down
+         if (self%iterations_left > 0) then
+            self%iterations_left = self%iterations_left - 1
+            self%mode = projection%down
+            self%span = max(1, given%kdowfb)
          end if
-      end subroutine choose_projection
+      end associate
+   end subroutine choose_projection
 
-      !> Changes of traction that follow from the residual as changes of increments
-      subroutine make_direction()
-         integer :: ix, iy, i0, i1, ahead, source
-         real(wp) :: delta(2), upstream(2), t(2), size_v
+   !> Changes of traction that follow from the residual as changes of increments
+   subroutine set_direction(self, problem, p, state)
+      class(descent), intent(inout) :: self
+      type(tangential_problem), intent(in) :: problem
+      !> Tractions [N/mm2] and element states
+      real(wp), contiguous, intent(in) :: p(:, :, :)
+      integer, contiguous, intent(in) :: state(:, :)
+      integer :: ix, iy, i0, i1, ahead, source
+      real(wp) :: delta(2), upstream(2), t(2), size_v
 
-         call downstream_range(i0, i1)
+      call downstream_range(problem, i0, i1)
+      associate (v => self%v, r => self%r, weight => self%weight, bound => problem%bound)
          do iy = 1, problem%my
             upstream = 0.0_wp
             do ix = i1, i0, -problem%direction
                if (state(ix, iy) == element%exterior .or. &
-                  & (state(ix, iy) == element%slip .and. problem%bound(ix, iy) <= 0.0_wp)) then
+                  & (state(ix, iy) == element%slip .and. bound(ix, iy) <= 0.0_wp)) then
                   v(ix, iy, :) = 0.0_wp
                   upstream = 0.0_wp
                   cycle
                end if
-               delta = weight(ix, iy)*r(ix, iy, :)/own
+               delta = weight(ix, iy)*r(ix, iy, :)/self%own
                if (state(ix, iy) == element%slip) then
-                  t = [-p(ix, iy, 2), p(ix, iy, 1)]/problem%bound(ix, iy)
+                  t = [-p(ix, iy, 2), p(ix, iy, 1)]/bound(ix, iy)
                   delta = dot_product(t, delta)*t
                   size_v = norm2(delta)
-                  if (size_v > 1000.0_wp*problem%bound(ix, iy)) delta = delta*(1000.0_wp*problem%bound(ix, iy)/size_v)
+                  if (size_v > largest_turn*bound(ix, iy)) delta = delta*(largest_turn*bound(ix, iy)/size_v)
                   v(ix, iy, :) = delta
                else
-                  select case (mode)
+                  select case (self%mode)
                   case (projection%trail)
                      v(ix, iy, :) = upstream + delta
                   case (projection%keep)
-                     v(ix, iy, :) = f*upstream + delta
+                     v(ix, iy, :) = self%fraction*upstream + delta
                   case default
-                     ahead = ix + k*problem%direction
+                     ahead = ix + self%span*problem%direction
                      source = 0
                      if (ahead >= 1 .and. ahead <= problem%mx) source = state(ahead, iy)
                      v(ix, iy, :) = upstream + delta
                      if (source == element%adhesion) &
-                        & v(ix, iy, :) = v(ix, iy, :) - weight(ahead, iy)*r(ahead, iy, :)/own
+                        & v(ix, iy, :) = v(ix, iy, :) - weight(ahead, iy)*r(ahead, iy, :)/self%own
                   end select
                end if
                upstream = v(ix, iy, :)
                if (state(ix, iy) == element%slip) upstream = 0.0_wp
             end do
          end do
-      end subroutine make_direction
+      end associate
+   end subroutine set_direction
 
-      !> Length of the step that would be best without changes of direction and bound
-      subroutine scale_of_step()
-         real(wp) :: rq, qq
-         integer :: ix, iy
+   !> Search along the line; the step is kept in last_step
+   subroutine find_step(self, p, state)
+      class(descent), intent(inout) :: self
+      !> Tractions [N/mm2] and element states
+      real(wp), contiguous, intent(in) :: p(:, :, :)
+      integer, contiguous, intent(in) :: state(:, :)
+      type(minimum_search) :: search
 
-         rq = 0.0_wp
-         qq = 0.0_wp
-         do iy = 1, problem%my
-            do ix = 1, problem%mx
-               rq = rq + weight(ix, iy)**2*dot_product(r(ix, iy, :), q(ix, iy, :))
-               qq = qq + weight(ix, iy)**2*dot_product(q(ix, iy, :), q(ix, iy, :))
-            end do
+      call search%start(first_share*self%estimated_step(), line_tolerance)
+      do while (.not. search%finished)
+         call search%answer(self%objective(search%x, p, state))
+      end do
+      self%last_step = search%best
+   end subroutine find_step
+
+   !> Length of the step that would be best without changes of direction and bound
+   pure real(wp) function estimated_step(self) result(step)
+      class(descent), intent(in) :: self
+      real(wp) :: rq, qq
+      integer :: ix, iy
+
+      rq = 0.0_wp
+      qq = 0.0_wp
+      do iy = 1, size(self%weight, 2)
+         do ix = 1, size(self%weight, 1)
+            rq = rq + self%weight(ix, iy)**2*dot_product(self%r(ix, iy, :), self%q(ix, iy, :))
+            qq = qq + self%weight(ix, iy)**2*dot_product(self%q(ix, iy, :), self%q(ix, iy, :))
          end do
-         alpha0 = 0.5_wp
-         if (abs(rq) > 0.0_wp .and. qq > 0.0_wp) alpha0 = max(1.0e-3_wp, min(1.0e3_wp, abs(rq)/qq))
-         if (usual > 0.0_wp) alpha0 = 0.5_wp*(alpha0 + usual)
-      end subroutine scale_of_step
+      end do
+      step = blind_step
+      if (abs(rq) > 0.0_wp .and. qq > 0.0_wp) step = max(smallest_step, min(largest_step, abs(rq)/qq))
+      if (self%last_step > 0.0_wp) step = 0.5_wp*(step + self%last_step)
+   end function estimated_step
 
-      !> Tractions after a step: on the circles in slip, within them in adhesion
-      subroutine trial_tractions(step, at)
-         real(wp), intent(in) :: step
-         real(wp), contiguous, intent(inout) :: at(:, :, :)
-         real(wp) :: length, z(2)
-         integer :: ix, iy
+   !> Weighted residual after a step, slip continued linearly
+   pure real(wp) function objective(self, step, p, state) result(value)
+      class(descent), intent(in) :: self
+      real(wp), intent(in) :: step
+      !> Tractions before the step [N/mm2] and element states
+      real(wp), contiguous, intent(in) :: p(:, :, :)
+      integer, contiguous, intent(in) :: state(:, :)
+      real(wp) :: z(2), s(2), n(2), length, normal
+      integer :: ix, iy
 
-         do iy = 1, problem%my
-            do ix = 1, problem%mx
-               if (state(ix, iy) == element%exterior) cycle
-               z = p(ix, iy, :) + step*v(ix, iy, :)
+      value = 0.0_wp
+      do iy = 1, size(self%weight, 2)
+         do ix = 1, size(self%weight, 1)
+            if (self%weight(ix, iy) <= 0.0_wp) cycle
+            s = self%slip(ix, iy, :) + step*self%q(ix, iy, :)
+            if (state(ix, iy) == element%slip) then
+               z = p(ix, iy, :) + step*self%v(ix, iy, :)
                length = hypot(z(1), z(2))
-               if (length > problem%bound(ix, iy) .or. &
-                  & (state(ix, iy) == element%slip .and. length > 0.0_wp)) z = z*(problem%bound(ix, iy)/length)
-               at(ix, iy, :) = z
-            end do
-         end do
-      end subroutine trial_tractions
-
-      !> Weighted residual after a step, slip continued linearly
-      real(wp) function objective(step) result(value)
-         real(wp), intent(in) :: step
-         real(wp) :: z(2), s(2), n(2), length, normal
-         integer :: ix, iy
-
-         value = 0.0_wp
-         do iy = 1, problem%my
-            do ix = 1, problem%mx
-               if (weight(ix, iy) <= 0.0_wp) cycle
-               s = slip(ix, iy, :) + step*q(ix, iy, :)
-               if (state(ix, iy) == element%slip) then
-                  z = p(ix, iy, :) + step*v(ix, iy, :)
-                  length = hypot(z(1), z(2))
-                  if (length > 0.0_wp) then
-                     n = z/length
-                     normal = dot_product(n, s)
-                     if (normal <= 0.0_wp) s = s - normal*n
-                  end if
-               end if
-               value = value + weight(ix, iy)**2*dot_product(s, s)
-            end do
-         end do
-      end function objective
-
-      !> Bracket a minimum of the objective, then Brent's method
-      subroutine search_line()
-         real(wp) :: a, b, c, x, w, y, fx, fw, fy, fa, fb, u, fu, d, e, middle, tol, num, den, old_e
-         real(wp), parameter :: golden = 0.381966_wp
-         integer :: evaluation
-
-         a = 0.0_wp
-         fa = objective(a)
-         b = 0.6_wp*alpha0
-         fb = objective(b)
-         evaluation = 2
-         if (fb >= fa) then
-            c = b
-            do while (fb >= fa .and. evaluation < 25)
-               c = b
-               b = b/3.0_wp
-               fb = objective(b)
-               evaluation = evaluation + 1
-            end do
-         else
-            c = 3.0_wp*b
-            fu = objective(c)
-            do while (fu < fb .and. evaluation < 25)
-               a = b
-               b = c
-               fb = fu
-               c = 3.0_wp*b
-               fu = objective(c)
-               evaluation = evaluation + 1
-            end do
-         end if
-         x = b
-         w = b
-         y = b
-         fx = fb
-         fw = fb
-         fy = fb
-         d = 0.0_wp
-         e = 0.0_wp
-         do while (evaluation < line_limit)
-            middle = 0.5_wp*(a + c)
-            tol = line_tolerance*abs(x) + tiny(1.0_wp)
-            if (abs(x - middle) <= 2.0_wp*tol - 0.5_wp*(c - a)) exit
-            num = 0.0_wp
-            den = 0.0_wp
-            old_e = e
-            if (abs(e) > tol) then
-               num = (x - y)**2*(fx - fw) - (x - w)**2*(fx - fy)
-               den = 2.0_wp*((x - y)*(fx - fw) - (x - w)*(fx - fy))
-               if (den > 0.0_wp) num = -num
-               den = abs(den)
-               e = d
-            end if
-            if (den > 0.0_wp .and. abs(num) < abs(0.5_wp*den*old_e) .and. num > den*(a - x) .and. num < den*(c - x)) then
-               d = num/den
-            else
-               e = merge(c - x, a - x, x < middle)
-               d = golden*e
-            end if
-            u = x + merge(d, sign(tol, d), abs(d) >= tol)
-            fu = objective(u)
-            evaluation = evaluation + 1
-            if (fu <= fx) then
-               if (u >= x) a = x
-               if (u < x) c = x
-               y = w
-               fy = fw
-               w = x
-               fw = fx
-               x = u
-               fx = fu
-            else
-               if (u < x) a = u
-               if (u >= x) c = u
-               if (fu <= fw .or. w == x) then
-                  y = w
-                  fy = fw
-                  w = u
-                  fw = fu
-               else if (fu <= fy .or. y == x .or. y == w) then
-                  y = u
-                  fy = fu
+               if (length > 0.0_wp) then
+                  n = z/length
+                  normal = dot_product(n, s)
+                  if (normal <= 0.0_wp) s = s - normal*n
                end if
             end if
+            value = value + self%weight(ix, iy)**2*dot_product(s, s)
          end do
-         alpha = x
-         usual = alpha
-      end subroutine search_line
+      end do
+   end function objective
 
-      !> Adhesion to slip at the bound, slip to adhesion where slip and traction agree
-      logical function move_elements() result(any_moved)
-         integer :: ix, iy
+   !> Tractions after the step: on the circles in slip, within them in adhesion
+   subroutine take_step(self, problem, state, p)
+      class(descent), intent(in) :: self
+      type(tangential_problem), intent(in) :: problem
+      !> Element states, and tractions [N/mm2]
+      integer, contiguous, intent(in) :: state(:, :)
+      real(wp), contiguous, intent(inout) :: p(:, :, :)
+      real(wp) :: length, z(2)
+      integer :: ix, iy
 
-         any_moved = .false.
-         do iy = 1, problem%my
-            do ix = 1, problem%mx
-               if (state(ix, iy) == element%adhesion) then
-                  if (hypot(p(ix, iy, 1), p(ix, iy, 2)) < (1.0_wp - 1.0e-12_wp)*problem%bound(ix, iy)) cycle
-                  ! at the bound with slip along the traction it comes back by itself
-                  if (dot_product(slip(ix, iy, :), p(ix, iy, :)) > 0.0_wp) cycle
-                  state(ix, iy) = element%slip
-                  any_moved = .true.
-               else if (state(ix, iy) == element%slip) then
-                  if (dot_product(slip(ix, iy, :), p(ix, iy, :)) <= 0.0_wp) cycle
-                  state(ix, iy) = element%adhesion
-                  any_moved = .true.
-               end if
-            end do
+      do iy = 1, problem%my
+         do ix = 1, problem%mx
+            if (state(ix, iy) == element%exterior) cycle
+            z = p(ix, iy, :) + self%last_step*self%v(ix, iy, :)
+            length = hypot(z(1), z(2))
+            if (length > problem%bound(ix, iy) .or. &
+               & (state(ix, iy) == element%slip .and. length > 0.0_wp)) z = z*(problem%bound(ix, iy)/length)
+            p(ix, iy, :) = z
          end do
-      end function move_elements
-   end subroutine gd_steady
+      end do
+   end subroutine take_step
+
+   !> Adhesion to slip at the bound, slip to adhesion where slip and traction agree
+   subroutine move_elements(self, problem, p, state, any_moved)
+      class(descent), intent(in) :: self
+      type(tangential_problem), intent(in) :: problem
+      !> Tractions [N/mm2] and element states
+      real(wp), contiguous, intent(in) :: p(:, :, :)
+      integer, contiguous, intent(inout) :: state(:, :)
+      logical, intent(out) :: any_moved
+      integer :: ix, iy
+
+      any_moved = .false.
+      do iy = 1, problem%my
+         do ix = 1, problem%mx
+            if (state(ix, iy) == element%adhesion) then
+               if (hypot(p(ix, iy, 1), p(ix, iy, 2)) < at_bound*problem%bound(ix, iy)) cycle
+               ! at the bound with slip along the traction it comes back by itself
+               if (dot_product(self%slip(ix, iy, :), p(ix, iy, :)) > 0.0_wp) cycle
+               state(ix, iy) = element%slip
+               any_moved = .true.
+            else if (state(ix, iy) == element%slip) then
+               if (dot_product(self%slip(ix, iy, :), p(ix, iy, :)) <= 0.0_wp) cycle
+               state(ix, iy) = element%adhesion
+               any_moved = .true.
+            end if
+         end do
+      end do
+   end subroutine move_elements
 end module contact_tangential_gd_steady

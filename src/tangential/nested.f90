@@ -66,7 +66,7 @@ contains
       pairs_before = operator%fft_pairs()
       products_before = operator%products
       report%method = "Newton-Krylov"
-      report%tolerance = problem%eps
+      report%tolerance = problem%settings%eps
       if (operator%can_coarsen() .and. is_large(problem)) then
          call slip_of(problem, operator, solution%p, solution%creep, solution%slip)
          residual = true_residual(problem, solution%p, solution%slip, residual_scale(problem, operator))
@@ -76,7 +76,7 @@ contains
          end if
       end if
       call estimate_from_nothing(problem, operator, solution)
-      call newton_solve(problem, operator, problem%eps, workspace%level(1)%newton, solution, outcome, log)
+      call newton_solve(problem, operator, problem%settings%eps, workspace%level(1)%newton, solution, outcome, log)
       call settle(problem, residual_scale(problem, operator), solution)
       report%ended = outcome%ended
       report%iterations = outcome%steps

@@ -86,8 +86,8 @@ contains
       logical :: usable
 
       self%n = problem%n_forces
-      self%eps = problem%eps
-      self%limit = problem%maxnr*self%n
+      self%eps = problem%settings%eps
+      self%limit = problem%settings%maxnr*self%n
       self%evaluations = 0
       self%failures = 0
       self%ended = ending%not_started

@@ -13,6 +13,7 @@
 module contact_tangential_problem
    use contact_base_kinds, only : wp
    use contact_base_limits, only : deadline_type
+   use contact_base_solver_settings, only : solver_settings
    use contact_elastic_compliance, only : compliance
    use contact_grid_element_division, only : element
    use contact_tangential_yield, only : return_map, yield_data, yield_point
@@ -21,7 +22,10 @@ module contact_tangential_problem
 
    public :: tangential_problem, tangential_solution, prepare_solution
    public :: add_creepages, apply_operator, slip_of, true_residual, divide_elements
-   public :: residual_scale, limits_before, settle
+   public :: residual_scale, limits_before, settle, at_bound
+
+   !> Tractions above this part of the bound count as on it: round-off of a traction that was scaled to its bound; chosen
+   real(wp), parameter :: at_bound = 1.0_wp - 1.0e-12_wp
 
    !> Data of a tangential problem on a window; constant during the solution
    type :: tangential_problem
@@ -53,17 +57,10 @@ module contact_tangential_problem
       integer :: n_forces = 0
       !> Prescribed forces as sums of tractions over the elements, F/(dx dy) [N/mm2]
       real(wp) :: target(2) = 0.0_wp
-      !> Relative tolerance and iteration limits
-      real(wp) :: eps = 1.0e-6_wp
-      integer :: maxgs = 999, maxin = 20, maxnr = 25
+      !> Tolerance, limits and parameters of the solvers
+      type(solver_settings) :: settings
       !> When the time is up
       type(deadline_type) :: deadline
-      !> Relaxation of the Gauss-Seidel methods
-      real(wp) :: omegah = 0.9_wp, omegas = 1.0_wp
-      !> Parameters of GDsteady
-      real(wp) :: fdecay = 0.9_wp, betath = 0.1_wp
-      integer :: kdowfb = 1
-      real(wp) :: d_ifc = 1.0_wp, d_lin = 1.0_wp, d_cns = 1.0_wp, d_slp = 1.0_wp, pow_s = 0.9_wp
       !> Yield limits; unallocated: the surface does not yield
       type(yield_data), allocatable :: yield
    contains

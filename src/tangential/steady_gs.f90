@@ -38,16 +38,16 @@ contains
       watch = update_watch(eps=eps, n_contact=rows%n_contact, largest_bound=maxval(rows%bound), &
          & deadline=problem%deadline)
       before = rows%p
-      do sweep = 1, problem%maxgs
+      do sweep = 1, problem%settings%maxgs
          before = rows%p
          do iy = 1, rows%my
             if (rows%first(iy) > rows%last(iy)) cycle
             call rows%row_slip(iy, slip)
-            call sweep_row(rows, iy, problem%omegah, problem%omegas, slip)
+            call sweep_row(rows, iy, problem%settings%omegah, problem%settings%omegas, slip)
             call rows%renew_row(iy)
          end do
          report%iterations = sweep
-         call watch%judge(sum((rows%p - before)**2), sum(rows%p**2), problem%maxgs, report%ended)
+         call watch%judge(sum((rows%p - before)**2), sum(rows%p**2), problem%settings%maxgs, report%ended)
          call trace_iteration(log, watch, "SteadyGS", rows%state)
          if (report%ended /= ending%not_started) exit
       end do

@@ -16,7 +16,7 @@ module contact_tangential_streaming
    use contact_fft_plan, only : fft_plan, good_size
    use contact_grid_element_division, only : element
    use contact_tangential_element_problem, only : element_compliance, relax_element, solve_element, solve_yielding_element
-   use contact_tangential_problem, only : tangential_problem
+   use contact_tangential_problem, only : at_bound, tangential_problem
    use contact_tangential_yield, only : yield_data, yield_point
    implicit none (type, external)
    private
@@ -304,7 +304,7 @@ contains
          do ix = self%first(iy), self%last(iy)
             if (self%state(ix, iy) == element%exterior) cycle
             self%state(ix, iy) = element%adhesion
-            if (hypot(self%p(ix, 1, iy), self%p(ix, 2, iy)) >= (1.0_wp - 1.0e-12_wp)*self%bound(ix, iy)) &
+            if (hypot(self%p(ix, 1, iy), self%p(ix, 2, iy)) >= at_bound*self%bound(ix, iy)) &
                & self%state(ix, iy) = element%slip
          end do
          call self%renew_row(iy)

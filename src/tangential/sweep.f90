@@ -11,6 +11,12 @@ module contact_tangential_sweep
 
    public :: update_watch, trace_iteration
 
+   ! As in CONTACT (Vollebregt)
+   !> Tractions count as at least this [N/mm2], or as this part of a largest bound below 1 N/mm2
+   real(wp), parameter :: least_size = 1.0e-6_wp
+   !> Average factor of the updates above which the iteration limit means a standstill
+   real(wp), parameter :: stagnating_rate = 0.997_wp
+
    !> Follows the size of the updates of an iteration
    type :: update_watch
       !> Tolerance relative to the tractions
@@ -29,6 +35,8 @@ module contact_tangential_sweep
       procedure :: judge
       !> Average rate of convergence
       procedure :: rate
+      !> Root mean square over the contact area
+      procedure :: mean
    end type update_watch
 
 contains
@@ -45,14 +53,14 @@ contains
       ended = ending%diverged
       if (.not. (ieee_is_finite(square_dif) .and. ieee_is_finite(square_size))) return
       self%updates = self%updates + 1
-      self%dif = sqrt(square_dif/(2*max(1, self%n_contact)))
-      self%size = sqrt(square_size/(2*max(1, self%n_contact)))
+      self%dif = self%mean(square_dif)
+      self%size = self%mean(square_size)
       if (self%updates == 1) self%first = self%dif
-      if (self%dif <= self%eps*max(1.0e-6_wp*min(1.0_wp, self%largest_bound), self%size)) then
+      if (self%dif <= self%eps*max(least_size*min(1.0_wp, self%largest_bound), self%size)) then
          ended = ending%converged
       else if (self%updates >= limit) then
          ended = ending%iteration_limit
-         if (self%rate() > 0.997_wp) ended = ending%stagnated
+         if (self%rate() > stagnating_rate) ended = ending%stagnated
          if (self%rate() > 1.0_wp) ended = ending%diverged
       else if (self%deadline%has_passed()) then
          ended = ending%out_of_time
@@ -61,6 +69,15 @@ contains
       end if
    end subroutine judge
 
+   !> Root mean square over the contact area
+   pure real(wp) function mean(self, squares)
+      class(update_watch), intent(in) :: self
+      !> Sum of squares over elements and both directions
+      real(wp), intent(in) :: squares
+      mean = sqrt(squares/(2*max(1, self%n_contact)))
+   end function mean
+
+   !> Average factor from one update to the next [-]
    pure real(wp) function rate(self)
       class(update_watch), intent(in) :: self
       rate = 0.0_wp

@@ -20,12 +20,38 @@ module contact_tangential_tang_cg
 
    public :: tang_cg
 
+   ! Tuning numbers as in CONTACT (Zhao, Vollebregt and Oosterlee 2014), but where another origin is told
    !> Most iterations between two checks of the element states
    integer, parameter :: inner_limit = 4
    !> Changes of the tractions that call for a check, relative
    real(wp), parameter :: inner_change = 0.01_wp
-   !> Numerators below this value mean that nothing is left to do
+   !> Slip elements for each adhering one above which the preconditioner is left out; it saves transforms, see
+   !> doc/theory/classical_solvers.md
+   integer, parameter :: slip_dominates = 3
+   !> Products v.Av and v.Az below this part of the numerators they divide count as zero
+   real(wp), parameter :: no_curvature = 1.0e-6_wp
+   !> Numerators below this value mean that nothing is left to do; far above underflow, chosen
    real(wp), parameter :: nothing = 1.0e-200_wp
+
+   !> State of the iteration
+   type :: conjugate_gradients
+      !> Slip, residual of the unknowns, preconditioned residual, direction, its product; shape (mx, my, 2)
+      real(wp), allocatable, dimension(:, :, :) :: slip, r, z, v, q
+      !> Second derivative on the circles by their curvature, shape (mx, my)
+      real(wp), allocatable :: sigma(:, :)
+      !> Is the preconditioner in use? Does a new sequence of directions begin?
+      logical :: precondition = .true., restart = .true.
+   contains
+      procedure :: start
+      procedure :: choose_preconditioner
+      procedure :: set_residual
+      procedure :: set_direction
+      procedure :: step_length
+      procedure :: move_elements
+      procedure, private :: apply_preconditioner
+      procedure, private :: curve_product
+      procedure, private :: release
+   end type conjugate_gradients
 
 contains
 
@@ -33,115 +59,118 @@ contains
    subroutine tang_cg(problem, operator, eps, creep, p, state, report, log)
       type(tangential_problem), intent(in) :: problem
       class(compliance), intent(inout) :: operator
-      !> Tolerance of the updates
+      !> Tolerance of the updates, relative to the tractions [-]
       real(wp), intent(in) :: eps
+      !> Creepages [-], or shifts [mm]
       real(wp), intent(in) :: creep(2)
       !> Tractions [N/mm2], shape (mx, my, 2); admissible estimate on entry
       real(wp), contiguous, intent(inout) :: p(:, :, :)
-      !> Element states; from the tractions on entry
+      !> Element states, shape (mx, my); from the tractions on entry
       integer, contiguous, intent(inout) :: state(:, :)
       !> Gets ended, iterations
       type(solve_report), intent(inout) :: report
       type(log_type), intent(inout) :: log
       type(update_watch) :: watch
-      real(wp), allocatable, dimension(:, :, :) :: slip, r, z, v, q, before, at_check
-      real(wp), allocatable :: sigma(:, :)
-      real(wp) :: alpha, beta, vq, zq, rv, moved, size_p, step
-      integer :: n_contact, n_slip, inner, ended, iterations
-      logical :: precondition, restart, check
+      type(conjugate_gradients) :: self
+      real(wp), allocatable, dimension(:, :, :) :: before, at_check
+      real(wp) :: alpha, moved, size_p, step
+      integer :: inner, ended, iterations, limit
+      logical :: check
 
-      allocate(slip, r, z, v, q, before, at_check, mold=p)
-      allocate(sigma(problem%mx, problem%my))
-      n_contact = count(problem%contact)
-      watch = update_watch(eps=eps, n_contact=n_contact, largest_bound=maxval(problem%bound), &
-         & deadline=problem%deadline)
-      precondition = .true.
-      restart = .true.
-      v = 0.0_wp
-      q = 0.0_wp
+      call self%start(problem)
+      allocate(before, mold=p)
       at_check = p
+      limit = problem%settings%maxgs
+      watch = update_watch(eps=eps, n_contact=count(problem%contact), largest_bound=maxval(problem%bound), &
+         & deadline=problem%deadline)
       inner = 0
       moved = 0.0_wp
-      size_p = norm(sum(p**2))
-      call slip_of(problem, operator, p, creep, slip)
-      call release(restart)
-      restart = .true.
-      call set_residual()
+      call slip_of(problem, operator, p, creep, self%slip)
+      call self%release(problem, p, state)
+      self%restart = .true.
+      call self%set_residual(problem, p, state)
       ended = ending%not_started
       iterations = 0
       do
-         n_slip = count(state == element%slip)
-         if (precondition .and. ((n_slip > 3*(n_contact - n_slip) .and. problem%my > 1) &
-            & .or. iterations >= problem%maxgs/2)) then
-            precondition = .false.
-            restart = .true.
-         end if
-         call apply_preconditioner()
-         ! q still belongs to the previous direction
-         beta = 0.0_wp
-         if (.not. restart) then
-            zq = sum(z*q)
-            vq = sum(v*q)
-            if (abs(zq) > nothing .and. abs(vq) > 1.0e-6_wp*abs(zq)) beta = -zq/vq
-         end if
-         v = z + beta*v
-         restart = .false.
-
-         call operator%tangential(v, q)
-         call curve_product()
-         rv = sum(r*v)
-         vq = sum(v*q)
-         alpha = 0.0_wp
-         if (abs(rv) > nothing) then
-            alpha = 1.0_wp
-            ! a direction of negative curvature is followed as far as one of positive curvature
-            if (abs(vq) > 1.0e-6_wp*abs(rv)) alpha = rv/abs(vq)
-         end if
+         call self%choose_preconditioner(problem, state, watch%n_contact, iterations)
+         call self%set_direction(problem, operator, p, state)
+         call operator%tangential(self%v, self%q)
+         call self%curve_product(problem, p, state)
+         alpha = self%step_length()
          before = p
-         call take_step()
+         call take_step(problem, state, alpha, self%v, p)
          iterations = iterations + 1
          inner = inner + 1
-         step = norm(sum((p - before)**2))
+         step = watch%mean(sum((p - before)**2))
          moved = moved + step
-         size_p = norm(sum(p**2))
+         size_p = watch%mean(sum(p**2))
          check = inner >= inner_limit .or. step <= eps*size_p .or. moved > inner_change*size_p
          if (.not. check) then
-            r = r - alpha*q
-            if (iterations < problem%maxgs) cycle
+            self%r = self%r - alpha*self%q
+            if (iterations < limit) cycle
          end if
 
-         restart = move_elements()
+         call self%move_elements(problem, operator, creep, p, state)
          inner = 0
          moved = 0.0_wp
          watch%updates = iterations - 1
-         call watch%judge(sum((p - before)**2), sum(p**2), problem%maxgs, ended)
+         call watch%judge(sum((p - before)**2), sum(p**2), limit, ended)
          call trace_iteration(log, watch, "TangCG", state)
-         if (ended == ending%diverged .and. iterations < problem%maxgs) then
+         if (ended == ending%diverged .and. iterations < limit) then
             p = at_check
             exit
          end if
          at_check = p
-         if (ended == ending%converged .and. restart) ended = ending%not_started
-         if (ended /= ending%not_started .or. iterations >= problem%maxgs) exit
-         call set_residual()
+         if (ended == ending%converged .and. self%restart) ended = ending%not_started
+         if (ended /= ending%not_started .or. iterations >= limit) exit
+         call self%set_residual(problem, p, state)
       end do
       if (ended == ending%not_started) ended = ending%iteration_limit
       report%ended = ended
       report%iterations = iterations
+   end subroutine tang_cg
 
-   contains
+   !> Allocate for a problem
+   subroutine start(self, problem)
+      class(conjugate_gradients), intent(inout) :: self
+      type(tangential_problem), intent(in) :: problem
 
-      !> Root mean square over the contact area
-      pure real(wp) function norm(squares)
-         real(wp), intent(in) :: squares
-         norm = sqrt(squares/(2*max(1, n_contact)))
-      end function norm
+      associate (mx => problem%mx, my => problem%my)
+         allocate(self%slip(mx, my, 2), self%r(mx, my, 2), self%z(mx, my, 2), self%sigma(mx, my))
+         allocate(self%v(mx, my, 2), self%q(mx, my, 2), source=0.0_wp)
+      end associate
+   end subroutine start
 
-      !> Residual of the unknowns that are left, and sigma
-      subroutine set_residual()
-         integer :: ix, iy
-         real(wp) :: n(2), t(2)
+   !> Leave the preconditioner out where slip dominates, and in the second half of all iterations
+   subroutine choose_preconditioner(self, problem, state, n_contact, iterations)
+      class(conjugate_gradients), intent(inout) :: self
+      type(tangential_problem), intent(in) :: problem
+      !> Element states
+      integer, contiguous, intent(in) :: state(:, :)
+      !> Elements in contact, and iterations so far
+      integer, intent(in) :: n_contact, iterations
+      integer :: n_slip
 
+      if (.not. self%precondition) return
+      n_slip = count(state == element%slip)
+      if ((n_slip > slip_dominates*(n_contact - n_slip) .and. problem%my > 1) &
+         & .or. iterations >= problem%settings%maxgs/2) then
+         self%precondition = .false.
+         self%restart = .true.
+      end if
+   end subroutine choose_preconditioner
+
+   !> Residual of the unknowns that are left, and sigma
+   subroutine set_residual(self, problem, p, state)
+      class(conjugate_gradients), intent(inout) :: self
+      type(tangential_problem), intent(in) :: problem
+      !> Tractions [N/mm2] and element states
+      real(wp), contiguous, intent(in) :: p(:, :, :)
+      integer, contiguous, intent(in) :: state(:, :)
+      integer :: ix, iy
+      real(wp) :: n(2), t(2)
+
+      associate (r => self%r, sigma => self%sigma, slip => self%slip)
          do iy = 1, problem%my
             do ix = 1, problem%mx
                sigma(ix, iy) = 0.0_wp
@@ -160,112 +189,186 @@ contains
                end select
             end do
          end do
-      end subroutine set_residual
+      end associate
+   end subroutine set_residual
 
-      !> Keep what slip elements can use: the component along the tangent
-      subroutine tangent_part(field)
-         real(wp), contiguous, intent(inout) :: field(:, :, :)
-         integer :: ix, iy
-         real(wp) :: t(2)
+   !> The next direction; q still belongs to the one before
+   subroutine set_direction(self, problem, operator, p, state)
+      class(conjugate_gradients), intent(inout) :: self
+      type(tangential_problem), intent(in) :: problem
+      class(compliance), intent(inout) :: operator
+      !> Tractions [N/mm2] and element states
+      real(wp), contiguous, intent(in) :: p(:, :, :)
+      integer, contiguous, intent(in) :: state(:, :)
+      real(wp) :: beta, vq, zq
 
-         do iy = 1, problem%my
-            do ix = 1, problem%mx
-               if (state(ix, iy) == element%adhesion) cycle
-               if (state(ix, iy) == element%exterior .or. problem%bound(ix, iy) <= 0.0_wp) then
-                  field(ix, iy, :) = 0.0_wp
-               else
-                  t = [-p(ix, iy, 2), p(ix, iy, 1)]/problem%bound(ix, iy)
-                  field(ix, iy, :) = dot_product(t, field(ix, iy, :))*t
-               end if
-            end do
-         end do
-      end subroutine tangent_part
+      call self%apply_preconditioner(problem, operator, p, state)
+      beta = 0.0_wp
+      if (.not. self%restart) then
+         zq = sum(self%z*self%q)
+         vq = sum(self%v*self%q)
+         if (abs(zq) > nothing .and. abs(vq) > no_curvature*abs(zq)) beta = -zq/vq
+      end if
+      self%v = self%z + beta*self%v
+      self%restart = .false.
+   end subroutine set_direction
 
-      subroutine apply_preconditioner()
-         integer :: ix, iy, k
-         real(wp) :: c
+   !> Length of the step along the direction
+   pure real(wp) function step_length(self) result(alpha)
+      class(conjugate_gradients), intent(in) :: self
+      real(wp) :: rv, vq
 
-         if (precondition) then
-            call operator%tangential_inverse(r, z)
-         else
-            do k = 1, 2
-               z(:, :, k) = r(:, :, k)/operator%diagonal(k + 1)
-            end do
-         end if
+      rv = sum(self%r*self%v)
+      vq = sum(self%v*self%q)
+      alpha = 0.0_wp
+      if (abs(rv) > nothing) then
+         alpha = 1.0_wp
+         ! a direction of negative curvature is followed as far as one of positive curvature
+         if (abs(vq) > no_curvature*abs(rv)) alpha = rv/abs(vq)
+      end if
+   end function step_length
+
+   !> z from r: approximate inverse of the compliance, reduced where the circles are curved
+   subroutine apply_preconditioner(self, problem, operator, p, state)
+      class(conjugate_gradients), intent(inout) :: self
+      type(tangential_problem), intent(in) :: problem
+      class(compliance), intent(inout) :: operator
+      !> Tractions [N/mm2] and element states
+      real(wp), contiguous, intent(in) :: p(:, :, :)
+      integer, contiguous, intent(in) :: state(:, :)
+      integer :: ix, iy, k
+      real(wp) :: c
+
+      if (self%precondition) then
+         call operator%tangential_inverse(self%r, self%z)
+      else
          do k = 1, 2
-            c = operator%diagonal(k + 1)
-            do iy = 1, problem%my
-               do ix = 1, problem%mx
-                  z(ix, iy, k) = z(ix, iy, k)*(c/(c + abs(sigma(ix, iy))))
-               end do
-            end do
+            self%z(:, :, k) = self%r(:, :, k)/operator%diagonal(k + 1)
          end do
-         call tangent_part(z)
-      end subroutine apply_preconditioner
-
-      !> From A v to the product with the second derivative
-      subroutine curve_product()
-         integer :: k
-
-         call tangent_part(q)
-         do k = 1, 2
-            q(:, :, k) = q(:, :, k) + sigma*v(:, :, k)
-         end do
-      end subroutine curve_product
-
-      subroutine take_step()
-         integer :: ix, iy
-
-         p = p + alpha*v
+      end if
+      do k = 1, 2
+         c = operator%diagonal(k + 1)
          do iy = 1, problem%my
             do ix = 1, problem%mx
-               if (state(ix, iy) == element%slip) call rescale(ix, iy)
+               self%z(ix, iy, k) = self%z(ix, iy, k)*(c/(c + abs(self%sigma(ix, iy))))
             end do
          end do
-      end subroutine take_step
+      end do
+      call keep_tangent_part(problem, p, state, self%z)
+   end subroutine apply_preconditioner
 
-      !> Bring the traction of a slip element to the bound
-      subroutine rescale(ix, iy)
-         integer, intent(in) :: ix, iy
-         real(wp) :: length
+   !> q from A v to the product with the second derivative
+   subroutine curve_product(self, problem, p, state)
+      class(conjugate_gradients), intent(inout) :: self
+      type(tangential_problem), intent(in) :: problem
+      !> Tractions [N/mm2] and element states
+      real(wp), contiguous, intent(in) :: p(:, :, :)
+      integer, contiguous, intent(in) :: state(:, :)
+      integer :: k
 
-         length = hypot(p(ix, iy, 1), p(ix, iy, 2))
-         if (length > 0.0_wp) p(ix, iy, :) = p(ix, iy, :)*(problem%bound(ix, iy)/length)
-      end subroutine rescale
+      call keep_tangent_part(problem, p, state, self%q)
+      do k = 1, 2
+         self%q(:, :, k) = self%q(:, :, k) + self%sigma*self%v(:, :, k)
+      end do
+   end subroutine curve_product
 
-      !> Adhesion to slip beyond the bound, slip to adhesion where slip and traction agree
-      logical function move_elements() result(any_moved)
-         integer :: ix, iy
+   !> Keep of a field what the unknowns can use: in slip the component along the tangent
+   pure subroutine keep_tangent_part(problem, p, state, field)
+      type(tangential_problem), intent(in) :: problem
+      !> Tractions [N/mm2] and element states
+      real(wp), contiguous, intent(in) :: p(:, :, :)
+      integer, contiguous, intent(in) :: state(:, :)
+      real(wp), contiguous, intent(inout) :: field(:, :, :)
+      integer :: ix, iy
+      real(wp) :: t(2)
 
-         any_moved = .false.
-         do iy = 1, problem%my
-            do ix = 1, problem%mx
-               if (state(ix, iy) /= element%adhesion) cycle
-               if (hypot(p(ix, iy, 1), p(ix, iy, 2)) > problem%bound(ix, iy)) then
-                  any_moved = .true.
-                  state(ix, iy) = element%slip
-                  call rescale(ix, iy)
-               end if
-            end do
+      do iy = 1, problem%my
+         do ix = 1, problem%mx
+            if (state(ix, iy) == element%adhesion) cycle
+            if (state(ix, iy) == element%exterior .or. problem%bound(ix, iy) <= 0.0_wp) then
+               field(ix, iy, :) = 0.0_wp
+            else
+               t = [-p(ix, iy, 2), p(ix, iy, 1)]/problem%bound(ix, iy)
+               field(ix, iy, :) = dot_product(t, field(ix, iy, :))*t
+            end if
          end do
-         call slip_of(problem, operator, p, creep, slip)
-         call release(any_moved)
-      end function move_elements
+      end do
+   end subroutine keep_tangent_part
 
-      !> Slip to adhesion where the slip does not oppose the traction
-      subroutine release(any_moved)
-         logical, intent(inout) :: any_moved
-         integer :: ix, iy
+   !> Tractions after a step; those of slip elements return to their circles
+   pure subroutine take_step(problem, state, alpha, v, p)
+      type(tangential_problem), intent(in) :: problem
+      !> Element states
+      integer, contiguous, intent(in) :: state(:, :)
+      !> Length and direction [N/mm2] of the step
+      real(wp), intent(in) :: alpha
+      real(wp), contiguous, intent(in) :: v(:, :, :)
+      !> Tractions [N/mm2]
+      real(wp), contiguous, intent(inout) :: p(:, :, :)
+      integer :: ix, iy
 
-         do iy = 1, problem%my
-            do ix = 1, problem%mx
-               if (state(ix, iy) /= element%slip) cycle
-               if (dot_product(slip(ix, iy, :), p(ix, iy, :)) <= 0.0_wp) cycle
-               state(ix, iy) = element%adhesion
-               any_moved = .true.
-            end do
+      p = p + alpha*v
+      do iy = 1, problem%my
+         do ix = 1, problem%mx
+            if (state(ix, iy) == element%slip) call rescale(problem%bound(ix, iy), p(ix, iy, :))
          end do
-      end subroutine release
+      end do
+   end subroutine take_step
 
-   end subroutine tang_cg
+   !> Bring a traction to its bound
+   pure subroutine rescale(bound, p)
+      !> [N/mm2]
+      real(wp), intent(in) :: bound
+      real(wp), intent(inout) :: p(:)
+      real(wp) :: length
+
+      length = hypot(p(1), p(2))
+      if (length > 0.0_wp) p = p*(bound/length)
+   end subroutine rescale
+
+   !> Adhesion to slip beyond the bound, slip to adhesion where slip and traction agree; renews the slip
+   subroutine move_elements(self, problem, operator, creep, p, state)
+      class(conjugate_gradients), intent(inout) :: self
+      type(tangential_problem), intent(in) :: problem
+      class(compliance), intent(inout) :: operator
+      !> Creepages [-], or shifts [mm]
+      real(wp), intent(in) :: creep(2)
+      !> Tractions [N/mm2] and element states
+      real(wp), contiguous, intent(inout) :: p(:, :, :)
+      integer, contiguous, intent(inout) :: state(:, :)
+      integer :: ix, iy
+
+      self%restart = .false.
+      do iy = 1, problem%my
+         do ix = 1, problem%mx
+            if (state(ix, iy) /= element%adhesion) cycle
+            if (hypot(p(ix, iy, 1), p(ix, iy, 2)) > problem%bound(ix, iy)) then
+               self%restart = .true.
+               state(ix, iy) = element%slip
+               call rescale(problem%bound(ix, iy), p(ix, iy, :))
+            end if
+         end do
+      end do
+      call slip_of(problem, operator, p, creep, self%slip)
+      call self%release(problem, p, state)
+   end subroutine move_elements
+
+   !> Slip to adhesion where the slip does not oppose the traction; another division asks for a restart
+   subroutine release(self, problem, p, state)
+      class(conjugate_gradients), intent(inout) :: self
+      type(tangential_problem), intent(in) :: problem
+      !> Tractions [N/mm2] and element states
+      real(wp), contiguous, intent(in) :: p(:, :, :)
+      integer, contiguous, intent(inout) :: state(:, :)
+      integer :: ix, iy
+
+      do iy = 1, problem%my
+         do ix = 1, problem%mx
+            if (state(ix, iy) /= element%slip) cycle
+            if (dot_product(self%slip(ix, iy, :), p(ix, iy, :)) <= 0.0_wp) cycle
+            state(ix, iy) = element%adhesion
+            self%restart = .true.
+         end do
+      end do
+   end subroutine release
 end module contact_tangential_tang_cg

@@ -38,7 +38,7 @@ contains
          residual = unbalanced()
          step = rail%first_step
          if (rail%ky > 0.0_wp) step = min(step, 1.05_wp*abs(residual)/rail%ky)
-         tolerance = problem%template%eps*max(abs(rail%fy), norm2(total_force(memory)))
+         tolerance = problem%template%settings%eps*max(abs(rail%fy), norm2(total_force(memory)))
          call search%start(first, step, tolerance)
          search%resolution = 1.0e-8_wp
          if (rail%ky > 0.0_wp) search%resolution = min(search%resolution, 0.1_wp*tolerance/rail%ky)

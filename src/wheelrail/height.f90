@@ -161,7 +161,7 @@ contains
       small = 1.0_wp
       do round = 1, rounds_apart
          if (.not. separate) exit
-         call search(with_friction=.false., most_trials=problem%template%maxnr/2 - trials)
+         call search(with_friction=.false., most_trials=problem%template%settings%maxnr/2 - trials)
          if (allocated(error)) return
          if (balance%ended /= balance_ending%reached .and. abs(balance%force - target) > small_step*target) then
             separate = .false.
@@ -179,12 +179,12 @@ contains
          guess = z + (target - force)/max(slope, 0.1_wp*target/max(z - touch, 1.0e-6_wp))
          if (guess <= bottom) guess = z
          ! on steep flanks friction carries so much of the force that its ratio does not settle by itself
-         separate = round < rounds_apart .and. miss < 0.5_wp*last_miss .and. trials < problem%template%maxnr/2
+         separate = round < rounds_apart .and. miss < 0.5_wp*last_miss .and. trials < problem%template%settings%maxnr/2
          last_miss = miss
       end do
       if (.not. separate) then
          ! one trial is left for a last look at the best height
-         call search(with_friction=.true., most_trials=problem%template%maxnr - trials - 1)
+         call search(with_friction=.true., most_trials=problem%template%settings%maxnr - trials - 1)
          if (allocated(error)) return
          if (abs(balance%force - force) > 0.0_wp) then
             call try_height(z, with_friction=.true.)
@@ -235,7 +235,7 @@ contains
          integer, intent(in) :: most_trials
          real(wp) :: trial
 
-         call balance%start(target, problem%template%eps, bottom, touch + 1.1_wp*memory%here%placement%wheel_radius, &
+         call balance%start(target, problem%template%settings%eps, bottom, touch + 1.1_wp*memory%here%placement%wheel_radius, &
             & max(1, most_trials), forces_are_estimates=.not. with_friction)
          do while (balance%ended == balance_ending%running)
             trial = balance%next_trial(guess)
@@ -254,7 +254,8 @@ contains
          call log%hold()
          ! pressures within EPS of the last ones would be taken for those of this height
          memory%here%pressure_eps = 1.0_wp
-         if (off > problem%template%eps .and. off*small < near_by*problem%template%eps) memory%here%pressure_eps = sharper*small
+         if (off > problem%template%settings%eps .and. off*small < near_by*problem%template%settings%eps) &
+            & memory%here%pressure_eps = sharper*small
          call evaluate(problem, memory, z, with_friction, log, error)
          trials = trials + 1
          memory%here%pressure_eps = 1.0_wp

@@ -46,7 +46,7 @@ contains
       if (allocated(error)) return
       residual = missing()
       slope = force_per_pitch_rate(memory)
-      tolerance = problem%template%eps*max(abs(problem%spec%wheelset%fx), norm2(total_force(memory)))
+      tolerance = problem%template%settings%eps*max(abs(problem%spec%wheelset%fx), norm2(total_force(memory)))
       if (memory%used > 0 .and. slope > 0.0_wp) then
          call search%start(memory%here%pitch_rate, 1.1_wp*abs(residual)/slope, tolerance)
          moving = maxval(memory%slot(:memory%used)%motion%veloc)/memory%here%placement%wheel_radius

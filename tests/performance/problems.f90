@@ -180,7 +180,7 @@ contains
          problem%dq = problem%dx
          problem%steady = .true.
          problem%direction = 1
-         problem%eps = eps
+         problem%settings%eps = eps
          if (allocated(problem%contact)) deallocate(problem%contact, problem%bound, problem%shift)
          allocate(problem%contact(n, n), problem%bound(n, n), problem%shift(n, n, 2))
          do iy = 1, n

@@ -89,7 +89,7 @@ contains
          patch%motion = motion%none
          patch%grid%my = 1
          patch%mu = 0.3_wp
-         patch%eps = 1.0e-7_wp
+         patch%settings%eps = 1.0e-7_wp
       end associate
       ! the pitch rate of a wheel that rolls at the bottom
       problem%spec%wheelset%vpitch = -problem%spec%wheelset%vs/sphere
@@ -492,7 +492,7 @@ contains
          problem%template%sensitivity = 2
          problem%spec%wheelset%fz = 2500.0_wp
          problem%template%motion = motion%steady_rolling
-         problem%template%eps = 1.0e-5_wp
+         problem%template%settings%eps = 1.0e-5_wp
          if (k == 1) then
             problem%template%model%kernel = kernel_model%conformal
             allocate(problem%template%model%inclination)

@@ -63,6 +63,7 @@ contains
       problem%dq = merge(problem%dx, 1.0_wp, steady)
       problem%steady = steady
       problem%direction = direction
+      problem%settings%eps = 1.0e-6_wp
       allocate(inside(n, m))
       do iy = 1, m
          do ix = 1, n
@@ -202,7 +203,7 @@ contains
 
       do i = 1, 5
          call ellipse(20, cases(:, i), 1, .true., problem, operator, 1.02_wp)
-         problem%eps = 1.0e-7_wp
+         problem%settings%eps = 1.0e-7_wp
          write(what, "(a, i0)") "creepages ", i
          call solve(problem, operator, classical_method%steady_gs, reference, report, what)
          call suite%check(report%ended == ending%converged, "SteadyGS converges, " // what)
@@ -266,8 +267,8 @@ contains
 
       do i = 1, 4
          call ellipse(24, cases(:, i), 1, .false., problem, operator, 1.02_wp)
-         problem%eps = 1.0e-7_wp
-         problem%omegah = 1.0_wp
+         problem%settings%eps = 1.0e-7_wp
+         problem%settings%omegah = 1.0_wp
          write(what, "(a, i0)") "shift ", i
          call solve(problem, operator, classical_method%convex_gs, reference, report, what)
          call suite%check(report%succeeded() .and. report%residual < 1.0e-5_wp, "ConvexGS solves, " // what)
@@ -359,7 +360,7 @@ contains
             do k = 1, 3
                call ellipse(20, [0.0_wp, 0.0_wp, merge(2.0e-4_wp, 0.0_wp, i /= 3)], 1, .true., problem, operator, 1.02_wp)
                problem%n_forces = n
-               problem%eps = 1.0e-5_wp
+               problem%settings%eps = 1.0e-5_wp
                problem%target = targets(:, i)*sum(problem%bound)
                if (n == 1) problem%target(2) = 0.0_wp
                write(what, "(a, i0, a, i0)") "force ", i, ", F=", n
@@ -393,7 +394,7 @@ contains
             do k = 1, 2
                call ellipse(24, [0.0_wp, 0.0_wp, 0.0_wp], 1, .false., problem, operator, 1.02_wp)
                problem%n_forces = n
-               problem%eps = 1.0e-5_wp
+               problem%settings%eps = 1.0e-5_wp
                problem%target = targets(:, i)*sum(problem%bound)
                if (n == 1) problem%target(2) = 0.0_wp
                write(what, "(a, i0, a, i0)") "shift force ", i, ", F=", n
@@ -429,7 +430,7 @@ contains
 
          call ellipse(20, [1.0e-4_wp, 2.0e-4_wp, 1.0e-5_wp], 1, steady, problem, operator, 1.02_wp)
          where (problem%contact) problem%bound = 1.0e9_wp
-         problem%eps = 1.0e-8_wp
+         problem%settings%eps = 1.0e-8_wp
          call solve(problem, operator, k, solution, report, "full adhesion")
          call suite%check(report%succeeded(), method_name(k) // " converges in full adhesion")
          allocate(u, mold=problem%shift)
@@ -460,7 +461,7 @@ contains
          call solve_classical(problem, operator, k, solution, report, log)
          call suite%check(report%ended == ending%diverged .and. all(solution%p == 0.0_wp), method_name(k) // ": infinite shift")
          call ellipse(12, [1e-3_wp, 0.0_wp, 0.0_wp], 1, k /= 1, problem, operator, 1.02_wp)
-         problem%maxgs = 2
+         problem%settings%maxgs = 2
          call solve_classical(problem, operator, k, solution, report, log)
          call suite%check(.not. report%succeeded(), method_name(k) // ": iteration limit is told")
       end do

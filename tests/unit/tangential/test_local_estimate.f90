@@ -27,7 +27,7 @@ program test_local_estimate
    problem%dy = dx
    problem%dq = dx
    problem%steady = .true.
-   problem%eps = 1.0e-8_wp
+   problem%settings%eps = 1.0e-8_wp
    allocate(problem%contact(n, n), problem%bound(n, n), problem%shift(n, n, 2))
    do iy = 1, n
       do ix = 1, n

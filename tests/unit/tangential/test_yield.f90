@@ -274,7 +274,7 @@ contains
       do kind = 1, 2
          do k = 1, 4
             call ellipse(20, kind == 2, 1, problem, operator)
-            problem%eps = 1.0e-11_wp
+            problem%settings%eps = 1.0e-11_wp
             call make_yield(problem, 120.0_wp, slopes(k))
             call solve(problem, operator, 0, here, "derivative")
             allocate(shift(problem%mx, problem%my, 2), source=0.0_wp)
@@ -370,9 +370,9 @@ contains
       problem%steady = steady
       problem%direction = direction
       problem%dq = merge(problem%dx, 1.0_wp, steady)
-      problem%eps = 1.0e-8_wp
-      problem%maxgs = 9999
-      problem%maxnr = 100
+      problem%settings%eps = 1.0e-8_wp
+      problem%settings%maxgs = 9999
+      problem%settings%maxnr = 100
       creep = [0.004_wp, -0.002_wp, 0.0002_wp]
       if (.not. steady) creep = 4.0_wp*creep
       allocate(problem%contact(n, problem%my), problem%bound(n, problem%my), problem%shift(n, problem%my, 2))
