@@ -19,7 +19,6 @@ module contact_cases_pair_session
    use contact_elastic_model, only : influence_table
    use contact_grid_potential_contact, only : potential_contact
    use contact_patch_damping, only : damping_law
-   use contact_patch_result, only : patch_result
    use contact_profile_curve, only : profile_curve
    use contact_profile_request, only : profile_request, profile_side
    use contact_profile_store, only : prepared_profile, profile_store
@@ -215,7 +214,6 @@ contains
       !> Of DQREL [-]
       real(wp), parameter :: step_tolerance = 0.01_wp
       type(case_spec), allocatable :: first_set
-      type(patch_result) :: no_hertz
 
       associate (problem => session%problem, template => session%problem%template)
          problem%spec = spec%wheel_rail
@@ -227,6 +225,7 @@ contains
          problem%force = spec%force
          problem%link = spec%link
          problem%weight_power = merge(1, 2, spec%wheel_rail%search%gap_weight == 1)
+         problem%relative_step = spec%wheel_rail%search%dqrel
          problem%most_elements = spec%iteration%npot_max
          problem%limits = spec%limits
          call require_memory(int(spec%iteration%npot_max, long), bytes_per_element, "elements, as many as are allowed,", error)
@@ -262,13 +261,13 @@ contains
             call set_friction(first_set, template, error)
          end if
          if (.not. allocated(error)) call set_thermal(spec, template, error)
-         if (.not. allocated(error)) call set_simplified_theory(spec, no_hertz, template, log, error)
+         if (.not. allocated(error)) call set_simplified_theory(spec, template, log, error)
          if (.not. allocated(error)) call set_yield_limit(spec, template, error)
          if (allocated(error)) return
          ! as in module 3: particles of a layer are followed from element to element
          if (template%remembers_yield .and. spec%motion == motion%transient_rolling &
-            & .and. abs(problem%spec%search%dqrel - 1.0_wp) > step_tolerance) then
-            problem%spec%search%dqrel = 1.0_wp
+            & .and. abs(problem%relative_step - 1.0_wp) > step_tolerance) then
+            problem%relative_step = 1.0_wp
             call log%warning("a layer that yields advances by one element per step: DQREL is set to 1")
          end if
          if (allocated(template%damping)) deallocate(template%damping)

@@ -17,7 +17,6 @@ module contact_cases_patch_setup
    use contact_normal_estimate, only : elliptic_pressure, parabolic_pressure, sdec_pressure
    use contact_patch_damping, only : damping_law
    use contact_patch_problem, only : patch_problem
-   use contact_patch_result, only : patch_result
    use contact_simplified_flexibility, only : ellipse, slope_reduction
    implicit none (type, external)
    private
@@ -27,14 +26,13 @@ module contact_cases_patch_setup
 contains
 
    !> From the specification to the problem of the patch
-   subroutine set_problem(spec, folder, problem, log, result, error)
+   subroutine set_problem(spec, folder, problem, log, error)
       type(case_spec), intent(in) :: spec
       !> Folder to which names of files are relative; "" for the current one
       character(len=*), intent(in) :: folder
       !> Of the previous case on entry
       type(patch_problem), intent(inout) :: problem
       type(log_type), intent(inout) :: log
-      type(patch_result), intent(inout) :: result
       type(error_type), allocatable, intent(out) :: error
       integer :: i
 
@@ -45,19 +43,19 @@ contains
       if (.not. allocated(error)) call set_inclination(spec, problem%model, error)
       if (allocated(error)) return
       call solve_hertz(spec%grid, spec%normal, spec%kinematics%fn, spec%kinematics%pen, problem%model%material%gg, &
-         & problem%model%material%nu, result%hertz, error)
+         & problem%model%material%nu, problem%hertz, error)
       if (allocated(error)) return
       problem%fn = spec%kinematics%fn
       problem%pen = spec%kinematics%pen
       problem%force_prescribed = spec%normal == normal_control%force
       ! a Hertzian geometry is laid out anew when the case gives a grid, not when the load changes
       if (spec%has_new_geometry() .or. .not. problem%has_geometry) then
-         call set_geometry(spec, problem, result, error)
+         call set_geometry(spec, problem, error)
          if (allocated(error)) return
       end if
       call set_coefficients(spec, problem%grid, folder, problem%model, log, error)
       if (allocated(error)) return
-      call set_pressures(spec, result, problem, log, error)
+      call set_pressures(spec, problem, log, error)
       if (allocated(error)) return
       problem%estimate = spec%estimate
       problem%n_forces = spec%force
@@ -83,7 +81,7 @@ contains
       if (allocated(error)) return
       call set_thermal(spec, problem, error)
       if (allocated(error)) return
-      call set_simplified_theory(spec, result, problem, log, error)
+      call set_simplified_theory(spec, problem, log, error)
       if (allocated(error)) return
       call set_yield_limit(spec, problem, error)
       if (allocated(error)) return
@@ -136,23 +134,22 @@ contains
    end subroutine set_method
 
    !> Potential contact and undeformed distance
-   subroutine set_geometry(spec, problem, result, error)
+   subroutine set_geometry(spec, problem, error)
       type(case_spec), intent(in) :: spec
       type(patch_problem), intent(inout) :: problem
-      type(patch_result), intent(in) :: result
       type(error_type), allocatable, intent(out) :: error
       type(potential_contact) :: grid
 
       problem%has_geometry = .false.
-      call build_grid(spec%grid, result%hertz, grid, error)
+      call build_grid(spec%grid, problem%hertz, grid, error)
       if (.not. allocated(error)) call spec%limits%check(int(grid%npot(), long), bytes_per_element, "elements", error)
       if (.not. allocated(error)) call require_memory(int(grid%npot(), long), bytes_per_element, "elements", error)
       if (allocated(error)) return
       problem%grid = grid
-      call undeformed_distance(spec%geometry, grid, result%hertz, problem%h, error)
+      call undeformed_distance(spec%geometry, grid, problem%hertz, problem%h, error)
       if (allocated(error)) return
       if (allocated(problem%parts)) deallocate(problem%parts)
-      if (.not. allocated(result%hertz) .and. allocated(spec%geometry%rectangles)) then
+      if (.not. allocated(problem%hertz) .and. allocated(spec%geometry%rectangles)) then
          allocate(problem%parts)
          problem%parts%label = part_labels(spec%geometry, grid)
          problem%parts%interaction = spec%geometry%interaction
@@ -161,9 +158,8 @@ contains
    end subroutine set_geometry
 
    !> Where pressures come from; pressures that are given in closed form
-   subroutine set_pressures(spec, result, problem, log, error)
+   subroutine set_pressures(spec, problem, log, error)
       type(case_spec), intent(in) :: spec
-      type(patch_result), intent(in) :: result
       type(patch_problem), intent(inout) :: problem
       type(log_type), intent(inout) :: log
       type(error_type), allocatable, intent(out) :: error
@@ -171,7 +167,7 @@ contains
       problem%pressure = spec%pressure
       ! a sheet belongs to the bodies: the normal problem is the same
       if (spec%pressure == pressure_model%thin_sheet) problem%pressure = pressure_model%full
-      call check_pressure_model(spec, allocated(result%hertz), error)
+      call check_pressure_model(spec, allocated(problem%hertz), error)
       if (allocated(error)) return
       select case (spec%pressure)
       case (pressure_model%sdec)
@@ -182,14 +178,14 @@ contains
       case (pressure_model%elliptical, pressure_model%parabolical)
          call fit_field(problem%grid, problem%given_pressure)
          if (spec%pressure == pressure_model%elliptical) then
-            call elliptic_pressure(problem%grid, result%hertz%aa, result%hertz%bb, is_line_contact(spec%grid), &
-               & result%hertz%fn, problem%given_pressure)
+            call elliptic_pressure(problem%grid, problem%hertz%aa, problem%hertz%bb, is_line_contact(spec%grid), &
+               & problem%hertz%fn, problem%given_pressure)
          else
-            call parabolic_pressure(problem%grid, result%hertz%aa, result%hertz%bb, is_line_contact(spec%grid), &
-               & result%hertz%fn, problem%given_pressure)
+            call parabolic_pressure(problem%grid, problem%hertz%aa, problem%hertz%bb, is_line_contact(spec%grid), &
+               & problem%hertz%fn, problem%given_pressure)
          end if
-         problem%fn = result%hertz%fn
-         problem%pen = result%hertz%pen
+         problem%fn = problem%hertz%fn
+         problem%pen = problem%hertz%pen
       case default
          if (allocated(problem%given_pressure)) deallocate(problem%given_pressure)
          return
@@ -229,9 +225,8 @@ contains
    end subroutine carry_force
 
    !> Simplified theory for the tangential problem, if the material model asks for it
-   subroutine set_simplified_theory(spec, result, problem, log, error)
+   subroutine set_simplified_theory(spec, problem, log, error)
       type(case_spec), intent(in) :: spec
-      type(patch_result), intent(in) :: result
       type(patch_problem), intent(inout) :: problem
       type(log_type), intent(inout) :: log
       type(error_type), allocatable, intent(out) :: error
@@ -253,7 +248,7 @@ contains
          model%flx = spec%material%flx
          if (has_slope_reduction(spec%material_model)) model%reduction = slope_reduction(spec%material%k0_mf, &
             & spec%material%alfamf, spec%material%betamf)
-         if (allocated(result%hertz)) model%hertz = ellipse(result%hertz%aa, result%hertz%bb)
+         if (allocated(problem%hertz)) model%hertz = ellipse(problem%hertz%aa, problem%hertz%bb)
          call require_positive("slope reduction factor K0_MF", model%reduction%k0, error)
          if (model%choice == material_model%fastsim_single) call require_positive("flexibility FLX", model%flx, error)
       end associate

@@ -68,14 +68,15 @@ contains
       type(patch_result), intent(inout) :: result
       type(error_type), allocatable, intent(out) :: error
 
-      call set_problem(spec, folder, session%problem, log, result, error)
+      call set_problem(spec, folder, session%problem, log, error)
+      call tell_hertz(session%problem, result)
       if (allocated(error)) return
       call link_moments(session%problem, spec%link, session%state, error)
       if (allocated(error)) then
          call forget(session, result)
          return
       end if
-      call choose_estimate(session, spec, result)
+      call choose_estimate(session, spec)
       if (.not. spec%solve) return
       call solve_patch(session%problem, session%state, session%workspace, log, result, error)
       if (allocated(error)) then
@@ -99,6 +100,18 @@ contains
       call subsurface_stresses(spec, result, error)
       if (.not. allocated(error)) call warn_of_steps(result, log)
    end subroutine solve_in_folder
+
+   !> The Hertz solution of the geometry is a result as well, also of a case that is not solved
+   subroutine tell_hertz(problem, result)
+      type(patch_problem), intent(in) :: problem
+      type(patch_result), intent(inout) :: result
+
+      if (allocated(problem%hertz)) then
+         result%hertz = problem%hertz
+      else if (allocated(result%hertz)) then
+         deallocate(result%hertz)
+      end if
+   end subroutine tell_hertz
 
    !> The end of a case whose totals are infinite or not a number: it has no results
    subroutine refuse_nonsense(error)
@@ -145,17 +158,16 @@ contains
    end subroutine forget
 
    !> What the iteration starts from
-   subroutine choose_estimate(session, spec, result)
+   subroutine choose_estimate(session, spec)
       type(contact_session), intent(inout) :: session
       type(case_spec), intent(in) :: spec
-      type(patch_result), intent(in) :: result
 
       associate (problem => session%problem, now => session%state%now)
-         if (spec%estimate == estimate_choice%fresh .and. allocated(result%hertz) &
+         if (spec%estimate == estimate_choice%fresh .and. allocated(problem%hertz) &
             & .and. problem%pressure == pressure_model%full) then
             call fit_field(problem%grid, problem%pressure_estimate)
-            call elliptic_pressure(problem%grid, result%hertz%aa, result%hertz%bb, is_line_contact(spec%grid), &
-               & result%hertz%fn, problem%pressure_estimate)
+            call elliptic_pressure(problem%grid, problem%hertz%aa, problem%hertz%bb, is_line_contact(spec%grid), &
+               & problem%hertz%fn, problem%pressure_estimate)
          else if (allocated(problem%pressure_estimate)) then
             deallocate(problem%pressure_estimate)
          end if

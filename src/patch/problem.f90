@@ -10,6 +10,7 @@ module contact_patch_problem
    use contact_grid_potential_contact, only : potential_contact
    use contact_normal_parts, only : contact_parts
    use contact_patch_damping, only : damping_law
+   use contact_patch_result, only : hertz_result
    use contact_simplified_problem, only : simplified_model
    use contact_temperature_flash_heating, only : body_pair
    implicit none (type, external)
@@ -25,6 +26,8 @@ module contact_patch_problem
       type(simplified_model), allocatable :: simplified
       !> Grid and undeformed distance may be reused while input of both stays what it is
       logical :: has_geometry = .false.
+      !> Hertz solution of a Hertzian geometry; unallocated: another geometry
+      type(hertz_result), allocatable :: hertz
       !> Undeformed distance [mm], shape (mx, my)
       real(wp), allocatable :: h(:, :)
       !> Parts of the patch that act on each other with less than full strength; unallocated: one part

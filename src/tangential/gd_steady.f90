@@ -83,7 +83,6 @@ module contact_tangential_gd_steady
       procedure :: set_direction
       procedure :: find_step
       procedure, private :: estimated_step
-      procedure, private :: objective
       procedure :: take_step
       procedure :: move_elements
    end type descent
@@ -362,7 +361,7 @@ contains
 
       call search%start(first_share*self%estimated_step(), line_tolerance)
       do while (.not. search%finished)
-         call search%answer(self%objective(search%x, p, state))
+         call search%answer(square_after(search%x, p, self%slip, self%v, self%q, self%weight, state))
       end do
       self%last_step = search%best
    end subroutine find_step
@@ -386,23 +385,23 @@ contains
       if (self%last_step > 0.0_wp) step = 0.5_wp*(step + self%last_step)
    end function estimated_step
 
-   !> Weighted residual after a step, slip continued linearly
-   pure real(wp) function objective(self, step, p, state) result(value)
-      class(descent), intent(in) :: self
+   !> Weighted residual after a step, slip continued linearly; the arrays are those of a descent
+   pure real(wp) function square_after(step, p, slip, v, q, weight, state) result(value)
       real(wp), intent(in) :: step
-      !> Tractions before the step [N/mm2] and element states
-      real(wp), contiguous, intent(in) :: p(:, :, :)
+      !> Tractions before the step [N/mm2], slip [mm], their changes by a step of 1
+      real(wp), contiguous, intent(in) :: p(:, :, :), slip(:, :, :), v(:, :, :), q(:, :, :)
+      real(wp), contiguous, intent(in) :: weight(:, :)
       integer, contiguous, intent(in) :: state(:, :)
       real(wp) :: z(2), s(2), n(2), length, normal
       integer :: ix, iy
 
       value = 0.0_wp
-      do iy = 1, size(self%weight, 2)
-         do ix = 1, size(self%weight, 1)
-            if (self%weight(ix, iy) <= 0.0_wp) cycle
-            s = self%slip(ix, iy, :) + step*self%q(ix, iy, :)
+      do iy = 1, size(weight, 2)
+         do ix = 1, size(weight, 1)
+            if (weight(ix, iy) <= 0.0_wp) cycle
+            s = slip(ix, iy, :) + step*q(ix, iy, :)
             if (state(ix, iy) == element%slip) then
-               z = p(ix, iy, :) + step*self%v(ix, iy, :)
+               z = p(ix, iy, :) + step*v(ix, iy, :)
                length = hypot(z(1), z(2))
                if (length > 0.0_wp) then
                   n = z/length
@@ -410,10 +409,10 @@ contains
                   if (normal <= 0.0_wp) s = s - normal*n
                end if
             end if
-            value = value + self%weight(ix, iy)**2*dot_product(s, s)
+            value = value + weight(ix, iy)**2*dot_product(s, s)
          end do
       end do
-   end function objective
+   end function square_after
 
    !> Tractions after the step: on the circles in slip, within them in adhesion
    subroutine take_step(self, problem, state, p)

@@ -344,7 +344,7 @@ contains
          if (patch%motion == motion%transient_rolling .or. patch%motion == motion%steady_rolling) then
             patch%chi = slot%motion%chi
             patch%veloc = max(slot%motion%veloc, tiny(1.0_wp))
-            patch%dq = problem%spec%search%dqrel*patch%grid%dx
+            patch%dq = problem%relative_step*patch%grid%dx
             if (patch%motion == motion%steady_rolling) patch%dq = patch%grid%dx
             patch%spin_offset = 1.0_wp/6.0_wp
          end if

@@ -46,6 +46,8 @@ module contact_wheelrail_problem
       integer :: link = time_link%initiate
       !> Power of the interpenetration in the weights of the contact reference
       integer :: weight_power = 2
+      !> Distance of a step relative to the length of an element [-]
+      real(wp) :: relative_step = 1.0_wp
       !> How friction varies, member of variation, and its law, member of friction_model
       integer :: variation = variation%none, friction_law = friction_model%coulomb
       !> Parameters at control points: angles [rad] or positions along the track [mm], rising
