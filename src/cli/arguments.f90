@@ -184,6 +184,8 @@ contains
    end subroutine read_arguments
 
    !> An option, and its value if it has one
+   !>
+   !> Long because each option is a case of one selection.
    subroutine take_option(asked, word, k, error)
       type(command), intent(inout) :: asked
       !> The word; a value may follow after an equals sign

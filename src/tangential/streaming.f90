@@ -5,18 +5,17 @@
 !> sign, which makes both directions the same computation. Column 0 is an exterior column
 !> behind the window; it carries the increment -p(1) of an element at the trailing edge.
 !>
-!> The slip of a row by the loads of all rows takes one transform of length 2 mx per row: the
-!> rows' spectra are kept and renewed when a row was treated. Changes within the row are added
+!> The slip of a row by the loads of all rows is a convolution (`row_convolution`). Changes within the row are added
 !> directly, to the elements that are still to be visited. That gives the iterates of the
 !> classical methods at a cost per sweep of O(mx my (mx + my)) instead of O(mx**2 my**2).
 module contact_tangential_streaming
    use contact_base_kinds, only : wp
    use contact_elastic_halfspace, only : kernel_table
    use contact_elastic_compliance, only : compliance
-   use contact_fft_plan, only : fft_plan, good_size
    use contact_grid_element_division, only : element
    use contact_tangential_element_problem, only : element_compliance, relax_element, solve_element, solve_yielding_element
    use contact_tangential_problem, only : at_bound, tangential_problem
+   use contact_tangential_row_convolution, only : row_convolution
    use contact_tangential_yield, only : yield_data, yield_point
    implicit none (type, external)
    private
@@ -66,19 +65,8 @@ module contact_tangential_streaming
       real(wp), allocatable :: limit(:, :), plastic(:, :)
       !> Is the limit before the step that of the next element upstream?
       logical :: steady = .false.
-      !> Row products since the rows were made
-      integer, private :: row_products = 0
-      type(fft_plan), private :: plan
-      !> Spectra per distance of rows, shape (kx, 0:my - 1); xy: imaginary part
-      real(wp), allocatable, private :: axx(:, :), ayy(:, :), axy(:, :)
-      !> Spectra for a shifted table, shape (kx, 1 - my:my - 1); unallocated without
-      complex(wp), allocatable, private :: gxx(:, :), gyy(:, :), gxy(:, :)
-      !> Spectra of the loads, real and imaginary part, shape (kx, 2, my)
-      real(wp), allocatable, private :: load_re(:, :, :), load_im(:, :, :)
-      real(wp), allocatable, private :: sum_re(:, :), sum_im(:, :), field(:, :)
-      complex(wp), allocatable, private :: spectrum(:, :)
-      !> Where elements were loaded: rows without contact are passed over
-      logical, allocatable, private :: loaded(:)
+      !> Displacements of a row by all loads
+      type(row_convolution), private :: convolution
    contains
       !> Kernels, geometry, bounds
       procedure :: prepare
@@ -119,9 +107,7 @@ contains
       class(compliance), intent(in) :: operator
       !> Coefficients of the same particles at the previous moment, if that is not one element
       type(kernel_table), intent(in), optional :: shifted
-      type(fft_plan) :: whole_period
-      integer :: ix, iy, jx, l, mx, my, px
-      real(wp) :: scale
+      integer :: ix, iy, jx, mx, my
 
       mx = problem%mx
       my = problem%my
@@ -130,7 +116,6 @@ contains
       self%direction = problem%direction
       self%load = loads%tractions
       if (problem%steady .and. .not. present(shifted)) self%load = loads%increments
-      self%row_products = 0
       self%steady = problem%steady
       call reshape_rows(self, mx, my)
       if (allocated(self%yield)) deallocate(self%yield, self%limit, self%plastic)
@@ -155,19 +140,7 @@ contains
       end do
       self%n_contact = count(self%state /= element%exterior)
 
-      px = good_size(2*(mx + 1))
-      call self%plan%prepare(mx + 1, 1, px, 1)
-      call whole_period%prepare(px, 1, px, 1)
-      call allocate_spectra(self, present(shifted))
-      scale = 1.0_wp/px
-      do l = 0, my - 1
-         call row_spectrum(operator%table%xx(-mx:mx, l))
-         self%axx(:, l) = scale*real(self%spectrum(1, :))
-         call row_spectrum(operator%table%yy(-mx:mx, l))
-         self%ayy(:, l) = scale*real(self%spectrum(1, :))
-         call row_spectrum(operator%table%xy(-mx:mx, l))
-         self%axy(:, l) = scale*aimag(self%spectrum(1, :))
-      end do
+      call self%convolution%prepare(operator%table, mx, my, self%direction, shifted)
       self%near_xx = operator%table%xx(-mx:mx, 0)
       self%near_yy = operator%table%yy(-mx:mx, 0)
       self%near_xy = operator%table%xy(-mx:mx, 0)
@@ -180,19 +153,7 @@ contains
          self%all_yy = operator%table%yy(-mx:mx, 1 - my:my - 1)
          self%all_xy = operator%table%xy(-mx:mx, 1 - my:my - 1)
       end if
-      if (.not. present(shifted)) then
-         call whole_period%release()
-         return
-      end if
-
-      do l = 1 - my, my - 1
-         call row_spectrum(operator%table%xx(-mx:mx, l) - shifted%xx(-mx:mx, l), mirror=1.0_wp)
-         self%gxx(:, l) = scale*self%spectrum(1, :)
-         call row_spectrum(operator%table%yy(-mx:mx, l) - shifted%yy(-mx:mx, l), mirror=1.0_wp)
-         self%gyy(:, l) = scale*self%spectrum(1, :)
-         call row_spectrum(operator%table%xy(-mx:mx, l) - shifted%xy(-mx:mx, l), mirror=-1.0_wp)
-         self%gxy(:, l) = scale*self%spectrum(1, :)
-      end do
+      if (.not. present(shifted)) return
       self%near_xx = self%near_xx - shifted%xx(-mx:mx, 0)
       self%near_yy = self%near_yy - shifted%yy(-mx:mx, 0)
       self%near_xy = self%near_xy - shifted%xy(-mx:mx, 0)
@@ -201,36 +162,11 @@ contains
          self%near_yy = self%near_yy(mx:-mx:-1)
          self%near_xy = -self%near_xy(mx:-mx:-1)
       end if
-      call whole_period%release()
-
-   contains
-
-      !> Spectrum of the coefficients of one row distance; with mirror: turned around, with this
-      !> sign, for rolling towards decreasing x
-      subroutine row_spectrum(c, mirror)
-         real(wp), intent(in) :: c(-mx:mx)
-         real(wp), intent(in), optional :: mirror
-         real(wp) :: period(px, 1)
-         integer :: k
-
-         period = 0.0_wp
-         do k = -mx, mx
-            period(1 + modulo(k, px), 1) = c(k)
-         end do
-         if (present(mirror)) then
-            if (self%direction < 0) then
-               do k = -mx, mx
-                  period(1 + modulo(-k, px), 1) = mirror*c(k)
-               end do
-            end if
-         end if
-         call whole_period%forward(period, self%spectrum, 1)
-      end subroutine row_spectrum
    end subroutine prepare
 
    subroutine release(self)
       class(streaming_rows), intent(inout) :: self
-      call self%plan%release()
+      call self%convolution%release()
    end subroutine release
 
    !> Column of the window that belongs to a column in streaming order
@@ -255,26 +191,6 @@ contains
       self%p = 0.0_wp
       self%dp = 0.0_wp
    end subroutine reshape_rows
-
-   subroutine allocate_spectra(self, general)
-      class(streaming_rows), intent(inout) :: self
-      logical, intent(in) :: general
-      integer :: kx
-
-      kx = self%plan%kx
-      if (allocated(self%axx)) deallocate(self%axx, self%ayy, self%axy, self%load_re, self%load_im, &
-         & self%sum_re, self%sum_im, self%field, self%spectrum, self%loaded)
-      if (allocated(self%gxx)) deallocate(self%gxx, self%gyy, self%gxy)
-      associate (my => self%my)
-         allocate(self%axx(kx, 0:my - 1), self%ayy(kx, 0:my - 1), self%axy(kx, 0:my - 1))
-         allocate(self%load_re(kx, 2, my), self%load_im(kx, 2, my), source=0.0_wp)
-         allocate(self%sum_re(kx, 2), self%sum_im(kx, 2), self%field(self%mx + 1, 1))
-         allocate(self%spectrum(1, kx), self%loaded(my))
-         if (general) allocate(self%gxx(kx, 1 - my:my - 1), self%gyy(kx, 1 - my:my - 1), &
-            & self%gxy(kx, 1 - my:my - 1))
-      end associate
-      self%loaded = .false.
-   end subroutine allocate_spectra
 
    !> Take over rigid slip (with the creepages) and tractions in window order
    subroutine start(self, problem, creep, p)
@@ -379,90 +295,32 @@ contains
       if (allocated(self%yield)) largest = min(largest, self%limit(i, iy))
    end function largest
 
+   !> Tell that the loads of a row have changed
    subroutine renew_row(self, iy)
       class(streaming_rows), intent(inout) :: self
+      !> Row
       integer, intent(in) :: iy
-      integer :: k
+      logical :: loaded
 
-      self%loaded(iy) = self%first(iy) <= self%last(iy)
-      if (.not. self%loaded(iy)) return
-      do k = 1, 2
-         if (self%load == loads%increments) then
-            self%field(:, 1) = self%dp(:, k, iy)
-         else
-            self%field(:, 1) = self%p(0:self%mx, k, iy)
-         end if
-         call self%plan%forward(self%field, self%spectrum, 1)
-         self%load_re(:, k, iy) = real(self%spectrum(1, :))
-         self%load_im(:, k, iy) = aimag(self%spectrum(1, :))
-      end do
+      loaded = self%first(iy) <= self%last(iy)
+      if (self%load == loads%increments) then
+         call self%convolution%set_row(iy, self%dp(:, :, iy), loaded)
+      else
+         call self%convolution%set_row(iy, self%p(0:self%mx, :, iy), loaded)
+      end if
    end subroutine renew_row
 
+   !> Slip of a row by the loads of all rows
    subroutine row_slip(self, iy, slip)
       class(streaming_rows), intent(inout) :: self
+      !> Row
       integer, intent(in) :: iy
       !> Slip per step [mm], shape (mx, 2)
       real(wp), intent(out) :: slip(:, :)
-      integer :: l, k
-      real(wp) :: sign_
 
-      self%sum_re = 0.0_wp
-      self%sum_im = 0.0_wp
-      do l = 1, self%my
-         if (.not. self%loaded(l)) cycle
-         if (allocated(self%gxx)) then
-            call add_general(self%gxx(:, iy - l), self%gyy(:, iy - l), self%gxy(:, iy - l), &
-               & self%load_re(:, :, l), self%load_im(:, :, l), self%sum_re, self%sum_im)
-         else
-            ! the coefficients xy change sign with the distance of the rows
-            sign_ = sign(1.0_wp, real(iy - l, wp))
-            call add_even(self%axx(:, abs(iy - l)), self%ayy(:, abs(iy - l)), self%axy(:, abs(iy - l)), &
-               & sign_, self%load_re(:, :, l), self%load_im(:, :, l), self%sum_re, self%sum_im)
-         end if
-      end do
-      do k = 1, 2
-         self%spectrum(1, :) = cmplx(self%sum_re(:, k), self%sum_im(:, k), wp)
-         call self%plan%backward(self%spectrum, self%field, 1)
-         slip(:, k) = self%shift(:, k, iy) + self%field(2:, 1)
-      end do
-      self%row_products = self%row_products + 1
+      call self%convolution%displace(iy, slip)
+      slip = self%shift(:, :, iy) + slip
    end subroutine row_slip
-
-   !> Add the displacements by one row to the sums; real spectra xx, yy, imaginary spectrum xy
-   pure subroutine add_even(axx, ayy, axy, sign_, re, im, sum_re, sum_im)
-      real(wp), contiguous, intent(in) :: axx(:), ayy(:), axy(:)
-      real(wp), intent(in) :: sign_
-      real(wp), contiguous, intent(in) :: re(:, :), im(:, :)
-      real(wp), contiguous, intent(inout) :: sum_re(:, :), sum_im(:, :)
-      integer :: k
-
-      do k = 1, size(axx)
-         sum_re(k, 1) = sum_re(k, 1) + axx(k)*re(k, 1) - sign_*axy(k)*im(k, 2)
-         sum_im(k, 1) = sum_im(k, 1) + axx(k)*im(k, 1) + sign_*axy(k)*re(k, 2)
-         sum_re(k, 2) = sum_re(k, 2) + ayy(k)*re(k, 2) - sign_*axy(k)*im(k, 1)
-         sum_im(k, 2) = sum_im(k, 2) + ayy(k)*im(k, 2) + sign_*axy(k)*re(k, 1)
-      end do
-   end subroutine add_even
-
-   !> The same for complex spectra
-   pure subroutine add_general(gxx, gyy, gxy, re, im, sum_re, sum_im)
-      complex(wp), contiguous, intent(in) :: gxx(:), gyy(:), gxy(:)
-      real(wp), contiguous, intent(in) :: re(:, :), im(:, :)
-      real(wp), contiguous, intent(inout) :: sum_re(:, :), sum_im(:, :)
-      complex(wp) :: a, b, u
-      integer :: k
-
-      do k = 1, size(gxx)
-         a = cmplx(re(k, 1), im(k, 1), wp)
-         b = cmplx(re(k, 2), im(k, 2), wp)
-         u = gxx(k)*a + gxy(k)*b
-         sum_re(k, 1) = sum_re(k, 1) + real(u)
-         sum_im(k, 1) = sum_im(k, 1) + aimag(u)
-         u = gxy(k)*a + gyy(k)*b
-         sum_re(k, 2) = sum_re(k, 2) + real(u)
-         sum_im(k, 2) = sum_im(k, 2) + aimag(u)
-      end do
-   end subroutine add_general
 
    pure function landing_compliance(self, distance) result(c)
       class(streaming_rows), intent(in) :: self
@@ -566,6 +424,6 @@ contains
 
    pure integer function products(self)
       class(streaming_rows), intent(in) :: self
-      products = nint(real(self%row_products, wp)/max(1, count(self%first <= self%last)))
+      products = nint(real(self%convolution%rows, wp)/max(1, count(self%first <= self%last)))
    end function products
 end module contact_tangential_streaming

@@ -3,6 +3,8 @@
 !> The reader of input files adds the place in the file, the library its code. Bounds end nonsense
 !> before it costs time or becomes a result; they lie orders of magnitude beyond all use, from gels to
 !> bodies that count as rigid and from nanometres to a kilometre. Units are the internal ones.
+!>
+!> Long because it is mostly the table, one entry per number of the input.
 module contact_text_bounds
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
    use contact_base_error, only : error_type, fatal_error

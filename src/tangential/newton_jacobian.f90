@@ -1,0 +1,276 @@
+!> Linearised contact conditions: the derivative D of the projection or of the return map, and the Jacobian
+!>
+!> In an element D is the derivative of the projection: the identity where |z| <= g, z = p - r S, and
+!> (g/|z|)(1 - n n'), n = z/|z|, elsewhere; the Jacobian is J dp = dp - D(dp - r B dp). Where the yield limit has a slope,
+!> the return map takes the place of the projection: D gets a radial part, and in steady rolling the limit carries changes
+!> downstream along each row.
+module contact_tangential_newton_jacobian
+   use contact_base_kinds, only : wp
+   use contact_elastic_compliance, only : compliance
+   use contact_grid_element_division, only : element
+   use contact_tangential_problem, only : add_creepages, apply_operator, limits_before, residual_scale, tangential_problem, &
+      & tangential_solution
+   use contact_tangential_yield, only : return_map, yield_point
+   implicit none (type, external)
+   private
+
+   public :: apply_d, apply_jacobian, add_radial, differentiate_return_map, fit_workspace, linear_system, linearise, &
+      & new_system, newton_workspace, restart
+
+   !> Largest Krylov space between restarts; chosen
+   integer, parameter :: restart = 40
+
+   !> Scratch of one window size; no meaning between calls
+   type :: newton_workspace
+      integer :: mx = 0, my = 0
+      !> Krylov basis and the same after preconditioning, shapes (2 mx my + 2, restart + 1), (..., restart)
+      real(wp), allocatable :: basis(:, :), preconditioned(:, :)
+      !> Solution, right-hand side and scratch of the linear system, shape (2 mx my + 2)
+      real(wp), allocatable :: x(:), b(:), work(:)
+      !> Weight g/|z| (1 in adhesion, 0 outside contact) and direction n (0 in adhesion)
+      real(wp), allocatable :: weight(:, :), direction(:, :, :)
+      !> Trial tractions and slip, residual, and two scratch fields
+      real(wp), allocatable :: trial(:, :, :), trial_slip(:, :, :), residual(:, :, :), step(:, :, :), best_slip(:, :, :)
+      !> Border columns after preconditioning
+      real(wp), allocatable :: border(:, :, :, :)
+      !> Linearised return map, shape (mx, my); unallocated where the yield limit has no slope
+      type(yield_point), allocatable :: point(:, :)
+   end type newton_workspace
+
+   !> One linearised system with its scales
+   type :: linear_system
+      !> Unknown creepages
+      integer :: n_forces = 0
+      !> Number of traction unknowns
+      integer :: n = 0
+      !> 1/A_xx(0) [(N/mm2)/mm]
+      real(wp) :: r = 1.0_wp
+      !> Scales of tractions |g| and sums of g, and of the creepages
+      real(wp) :: g_norm = 1.0_wp, g_sum = 1.0_wp, creep_scale = 1.0_wp
+      !> Inverse of the Schur complement of the preconditioner
+      real(wp) :: schur(2, 2) = 0.0_wp
+   end type linear_system
+
+contains
+
+   !> Scales of a problem; those of the creepages and the Schur complement are left to the caller
+   type(linear_system) function new_system(problem, operator) result(system)
+      type(tangential_problem), intent(in) :: problem
+      class(compliance), intent(in) :: operator
+
+      system%n = 2*problem%mx*problem%my
+      system%r = residual_scale(problem, operator)
+      system%g_norm = sqrt(sum(problem%bound**2))
+      system%g_sum = sum(problem%bound)
+   end function new_system
+
+   !> Allocate scratch for a window; keeps it when the size is the same
+   subroutine fit_workspace(workspace, mx, my)
+      type(newton_workspace), intent(inout) :: workspace
+      integer, intent(in) :: mx, my
+
+      if (workspace%mx == mx .and. workspace%my == my) return
+      if (allocated(workspace%basis)) then
+         deallocate(workspace%basis, workspace%preconditioned, workspace%x, workspace%b, workspace%work)
+         deallocate(workspace%weight, workspace%direction, workspace%trial, workspace%trial_slip)
+         deallocate(workspace%residual, workspace%step, workspace%best_slip, workspace%border)
+      end if
+      ! memory is touched when a vector is first used
+      allocate(workspace%basis(2*mx*my + 2, restart + 1), workspace%preconditioned(2*mx*my + 2, restart))
+      allocate(workspace%x(2*mx*my + 2), workspace%b(2*mx*my + 2), workspace%work(2*mx*my + 2))
+      allocate(workspace%weight(mx, my), workspace%direction(mx, my, 2), source=0.0_wp)
+      allocate(workspace%trial(mx, my, 2), workspace%trial_slip(mx, my, 2), source=0.0_wp)
+      allocate(workspace%residual(mx, my, 2), workspace%step(mx, my, 2), workspace%best_slip(mx, my, 2), source=0.0_wp)
+      allocate(workspace%border(mx, my, 2, 2), source=0.0_wp)
+      workspace%mx = mx
+      workspace%my = my
+   end subroutine fit_workspace
+
+   !> Weights and directions of D, and the residual field, at the present tractions
+   subroutine linearise(problem, system, solution, workspace)
+      type(tangential_problem), intent(in) :: problem
+      type(linear_system), intent(in) :: system
+      type(tangential_solution), intent(in) :: solution
+      type(newton_workspace), intent(inout) :: workspace
+      integer :: ix, iy
+      real(wp) :: z(2), length, g
+
+      if (allocated(workspace%point)) deallocate(workspace%point)
+      if (problem%hardens()) then
+         call linearise_return_map(problem, system, solution, workspace)
+         return
+      end if
+      do iy = 1, problem%my
+         do ix = 1, problem%mx
+            workspace%weight(ix, iy) = 0.0_wp
+            workspace%direction(ix, iy, :) = 0.0_wp
+            workspace%residual(ix, iy, :) = 0.0_wp
+            if (.not. problem%contact(ix, iy)) cycle
+            g = problem%bound(ix, iy)
+            z = solution%p(ix, iy, :) - system%r*solution%slip(ix, iy, :)
+            length = sqrt(z(1)**2 + z(2)**2)
+            if (g <= 0.0_wp) then
+               z = 0.0_wp
+            else if (length <= g) then
+               workspace%weight(ix, iy) = 1.0_wp
+            else
+               workspace%weight(ix, iy) = g/length
+               workspace%direction(ix, iy, :) = z/length
+               z = z*(g/length)
+            end if
+            workspace%residual(ix, iy, :) = solution%p(ix, iy, :) - z
+         end do
+      end do
+   end subroutine linearise
+
+   !> The same where the yield limit has a slope
+   subroutine linearise_return_map(problem, system, solution, workspace)
+      type(tangential_problem), intent(in) :: problem
+      type(linear_system), intent(in) :: system
+      type(tangential_solution), intent(in) :: solution
+      type(newton_workspace), intent(inout) :: workspace
+      real(wp), allocatable :: before(:, :)
+      integer :: ix, iy
+      real(wp) :: z(2), length
+
+      before = limits_before(problem, solution%p, solution%slip, system%r)
+      allocate(workspace%point(problem%mx, problem%my))
+      workspace%weight = 0.0_wp
+      workspace%direction = 0.0_wp
+      workspace%residual = 0.0_wp
+      do iy = 1, problem%my
+         do ix = 1, problem%mx
+            if (.not. problem%contact(ix, iy)) cycle
+            z = solution%p(ix, iy, :) - system%r*solution%slip(ix, iy, :)
+            length = sqrt(z(1)**2 + z(2)**2)
+            associate (point => workspace%point(ix, iy))
+               point = return_map(length, problem%bound(ix, iy), before(ix, iy), problem%yield%slope, &
+                  & problem%yield%lowest, system%r)
+               workspace%weight(ix, iy) = 1.0_wp
+               if (point%state /= element%adhesion) then
+                  workspace%weight(ix, iy) = point%radius/length
+                  workspace%direction(ix, iy, :) = z/length
+                  z = z*(point%radius/length)
+               end if
+            end associate
+            workspace%residual(ix, iy, :) = solution%p(ix, iy, :) - z
+         end do
+      end do
+   end subroutine linearise_return_map
+
+   !> v := v + n radial n.w, what the derivative of the return map has along n
+   subroutine add_radial(workspace, w, v)
+      type(newton_workspace), intent(in) :: workspace
+      real(wp), contiguous, intent(in) :: w(:, :, :)
+      real(wp), contiguous, intent(inout) :: v(:, :, :)
+      integer :: ix, iy
+      real(wp) :: c
+
+      do iy = 1, size(v, 2)
+         do ix = 1, size(v, 1)
+            c = workspace%direction(ix, iy, 1)*w(ix, iy, 1) + workspace%direction(ix, iy, 2)*w(ix, iy, 2)
+            v(ix, iy, :) = v(ix, iy, :) + workspace%point(ix, iy)%radius_by_length*c*workspace%direction(ix, iy, :)
+         end do
+      end do
+   end subroutine add_radial
+
+   !> Change of the returned tractions by changes of z = p - r S, and of the bound
+   !>
+   !> In steady rolling the changes of the yield limits are carried downstream.
+   subroutine differentiate_return_map(problem, workspace, z, out, bound)
+      type(tangential_problem), intent(in) :: problem
+      type(newton_workspace), intent(in) :: workspace
+      real(wp), contiguous, intent(in) :: z(:, :, :)
+      real(wp), contiguous, intent(inout) :: out(:, :, :)
+      real(wp), contiguous, intent(in), optional :: bound(:, :)
+      integer :: ix, iy, k
+      real(wp) :: c, g, limit, n(2)
+
+      do iy = 1, problem%my
+         limit = 0.0_wp
+         do k = 1, problem%mx
+            ix = merge(problem%mx + 1 - k, k, problem%direction > 0)
+            n = workspace%direction(ix, iy, :)
+            c = sum(n*z(ix, iy, :))
+            associate (point => workspace%point(ix, iy))
+               g = 0.0_wp
+               if (present(bound)) then
+                  if (point%state == element%slip) g = bound(ix, iy)
+               end if
+               out(ix, iy, :) = workspace%weight(ix, iy)*(z(ix, iy, :) - c*n) &
+                  & + (point%radius_by_length*c + point%radius_by_limit*limit + g)*n
+               if (problem%steady) then
+                  limit = point%limit_by_length*c + point%limit_by_limit*limit
+                  ! the limit has risen to the bound
+                  if (point%plastic > 0.0_wp) limit = limit + g
+               end if
+            end associate
+         end do
+      end do
+   end subroutine differentiate_return_map
+
+   !> v := D v
+   subroutine apply_d(workspace, v)
+      type(newton_workspace), intent(in) :: workspace
+      real(wp), contiguous, intent(inout) :: v(:, :, :)
+      real(wp), allocatable :: whole(:, :, :)
+      integer :: ix, iy
+      real(wp) :: c
+
+      if (allocated(workspace%point)) whole = v
+      do iy = 1, size(v, 2)
+         do ix = 1, size(v, 1)
+            c = workspace%direction(ix, iy, 1)*v(ix, iy, 1) + workspace%direction(ix, iy, 2)*v(ix, iy, 2)
+            v(ix, iy, 1) = workspace%weight(ix, iy)*(v(ix, iy, 1) - workspace%direction(ix, iy, 1)*c)
+            v(ix, iy, 2) = workspace%weight(ix, iy)*(v(ix, iy, 2) - workspace%direction(ix, iy, 2)*c)
+         end do
+      end do
+      if (allocated(workspace%point)) call add_radial(workspace, whole, v)
+   end subroutine apply_d
+
+   !> out := J y, y = (tractions, creepages), both scaled
+   subroutine apply_jacobian(problem, operator, system, workspace, y, out)
+      type(tangential_problem), intent(in) :: problem
+      class(compliance), intent(inout) :: operator
+      type(linear_system), intent(in) :: system
+      type(newton_workspace), intent(inout) :: workspace
+      real(wp), contiguous, target, intent(in) :: y(:)
+      real(wp), contiguous, target, intent(out) :: out(:)
+      real(wp), pointer, contiguous :: dp(:, :, :), res(:, :, :)
+      real(wp) :: creep(2), c, vx, vy
+      integer :: ix, iy, k
+
+      dp(1:problem%mx, 1:problem%my, 1:2) => y(:system%n)
+      res(1:problem%mx, 1:problem%my, 1:2) => out(:system%n)
+      call apply_operator(problem, operator, dp, workspace%trial)
+      creep = 0.0_wp
+      do k = 1, system%n_forces
+         creep(k) = system%creep_scale*y(system%n + k)/system%g_norm
+      end do
+      if (allocated(problem%share)) then
+         call add_creepages(problem, creep, workspace%trial)
+         creep = 0.0_wp
+      end if
+      creep = problem%dq*creep
+      if (allocated(workspace%point)) then
+         do k = 1, 2
+            workspace%trial(:, :, k) = dp(:, :, k) - system%r*(workspace%trial(:, :, k) + creep(k))
+         end do
+         call differentiate_return_map(problem, workspace, workspace%trial, res)
+         res = dp - res
+      else
+         do iy = 1, problem%my
+            do ix = 1, problem%mx
+               vx = dp(ix, iy, 1) - system%r*(workspace%trial(ix, iy, 1) + creep(1))
+               vy = dp(ix, iy, 2) - system%r*(workspace%trial(ix, iy, 2) + creep(2))
+               c = workspace%direction(ix, iy, 1)*vx + workspace%direction(ix, iy, 2)*vy
+               res(ix, iy, 1) = dp(ix, iy, 1) - workspace%weight(ix, iy)*(vx - workspace%direction(ix, iy, 1)*c)
+               res(ix, iy, 2) = dp(ix, iy, 2) - workspace%weight(ix, iy)*(vy - workspace%direction(ix, iy, 2)*c)
+            end do
+         end do
+      end if
+      do k = 1, system%n_forces
+         out(system%n + k) = sum(dp(:, :, k))*system%g_norm/system%g_sum
+      end do
+   end subroutine apply_jacobian
+end module contact_tangential_newton_jacobian

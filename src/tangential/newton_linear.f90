@@ -1,0 +1,251 @@
+!> The linear system of a Newton step: restarted GMRES with a preconditioner and a border for prescribed forces
+!>
+!> Directions in the range of D are preconditioned by the inverse of the circulant that belongs to B, the others are left
+!> alone; border rows by block elimination, see doc/theory/solvers.md.
+module contact_tangential_newton_linear
+   use contact_base_kinds, only : wp
+   use contact_elastic_compliance, only : compliance
+   use contact_tangential_newton_jacobian, only : add_radial, apply_d, apply_jacobian, linear_system, newton_workspace, restart
+   use contact_tangential_problem, only : add_creepages, tangential_problem
+   implicit none (type, external)
+   private
+
+   public :: solve_linear
+
+   !> Restarts; chosen
+   integer, parameter :: max_cycles = 4
+   !> A vector that orthogonalisation shortens to less than this part is orthogonalised again; chosen
+   real(wp), parameter :: shortened = 0.1_wp
+   !> Schur complements count as singular below this, absolute for one force, relative for two; round-off
+   real(wp), parameter :: singular_one = 1.0e-12_wp, singular_two = 1.0e-14_wp
+
+contains
+
+   !> Restarted GMRES (Saad and Schultz 1986), preconditioned from the right
+   !>
+   !> On exit workspace%step holds the correction of the tractions [N/mm2].
+   subroutine solve_linear(problem, operator, system, workspace, unbalance, tolerance, correction, preconditionings, reached)
+      type(tangential_problem), intent(in) :: problem
+      class(compliance), intent(inout) :: operator
+      type(linear_system), intent(inout) :: system
+      type(newton_workspace), target, intent(inout) :: workspace
+      !> Errors of the prescribed forces, relative
+      real(wp), intent(in) :: unbalance(2)
+      !> Relative to the right-hand side
+      real(wp), intent(in) :: tolerance
+      !> Correction of the creepages
+      real(wp), intent(out) :: correction(2)
+      integer, intent(inout) :: preconditionings
+      !> Relative residual that was reached; a Newton step is judged by the residual of the tractions it leads to
+      real(wp), intent(out), optional :: reached
+      real(wp) :: h(restart + 1, restart), cs(restart), sn(restart), s(restart + 1), y(restart)
+      real(wp) :: start, beta, before, after, t
+      integer :: n, m, j, k, cycle_, used
+
+      n = system%n + system%n_forces
+      if (system%n_forces > 0) call prepare_border(problem, operator, system, workspace, preconditionings)
+      associate (v => workspace%basis, z => workspace%preconditioned, x => workspace%x, b => workspace%b)
+         x = 0.0_wp
+         call flatten(workspace%residual, b)
+         b(:system%n) = -b(:system%n)
+         if (n > system%n) b(system%n + 1:n) = -system%g_norm*unbalance(:system%n_forces)
+         v(:n, 1) = b(:n)
+         start = norm2(v(:n, 1))
+         beta = start
+         do cycle_ = 1, max_cycles
+            if (.not. beta > tolerance*start) exit
+            v(:n, 1) = v(:n, 1)/beta
+            s = 0.0_wp
+            s(1) = beta
+            used = 0
+            do j = 1, restart
+               call precondition(problem, operator, system, workspace, v(:n, j), z(:n, j), preconditionings)
+               call apply_jacobian(problem, operator, system, workspace, z(:n, j), v(:n, j + 1))
+               before = norm2(v(:n, j + 1))
+               do k = 1, j
+                  h(k, j) = dot_product(v(:n, k), v(:n, j + 1))
+                  v(:n, j + 1) = v(:n, j + 1) - h(k, j)*v(:n, k)
+               end do
+               after = norm2(v(:n, j + 1))
+               if (after < shortened*before) then
+                  do k = 1, j
+                     t = dot_product(v(:n, k), v(:n, j + 1))
+                     h(k, j) = h(k, j) + t
+                     v(:n, j + 1) = v(:n, j + 1) - t*v(:n, k)
+                  end do
+                  after = norm2(v(:n, j + 1))
+               end if
+               h(j + 1, j) = after
+               if (after > 0.0_wp) v(:n, j + 1) = v(:n, j + 1)/after
+               do k = 1, j - 1
+                  t = cs(k)*h(k, j) + sn(k)*h(k + 1, j)
+                  h(k + 1, j) = -sn(k)*h(k, j) + cs(k)*h(k + 1, j)
+                  h(k, j) = t
+               end do
+               t = hypot(h(j, j), h(j + 1, j))
+               if (.not. t > 0.0_wp) exit
+               used = j
+               cs(j) = h(j, j)/t
+               sn(j) = h(j + 1, j)/t
+               h(j, j) = t
+               s(j + 1) = -sn(j)*s(j)
+               s(j) = cs(j)*s(j)
+               if (abs(s(j + 1)) <= tolerance*start .or. .not. after > 0.0_wp) exit
+            end do
+            if (used == 0) exit
+            do k = used, 1, -1
+               y(k) = (s(k) - dot_product(h(k, k + 1:used), y(k + 1:used)))/h(k, k)
+            end do
+            do k = 1, used
+               x(:n) = x(:n) + y(k)*z(:n, k)
+            end do
+            beta = abs(s(used + 1))
+            if (beta <= tolerance*start .or. cycle_ == max_cycles) exit
+            call apply_jacobian(problem, operator, system, workspace, x(:n), workspace%work(:n))
+            v(:n, 1) = b(:n) - workspace%work(:n)
+            beta = norm2(v(:n, 1))
+         end do
+         if (present(reached)) reached = beta/start
+         m = system%n
+         call unfold(x, workspace%step)
+         correction = 0.0_wp
+         do k = 1, system%n_forces
+            correction(k) = x(m + k)*system%creep_scale/system%g_norm
+         end do
+      end associate
+   end subroutine solve_linear
+
+   !> out := M^-1 v, bordered
+   subroutine precondition(problem, operator, system, workspace, v, out, preconditionings)
+      type(tangential_problem), intent(in) :: problem
+      class(compliance), intent(inout) :: operator
+      type(linear_system), intent(in) :: system
+      type(newton_workspace), intent(inout) :: workspace
+      real(wp), contiguous, target, intent(in) :: v(:)
+      real(wp), contiguous, target, intent(inout) :: out(:)
+      integer, intent(inout) :: preconditionings
+      real(wp), pointer, contiguous :: field(:, :, :), u(:, :, :)
+      real(wp) :: rest(2), dc(2)
+      integer :: k
+
+      field(1:problem%mx, 1:problem%my, 1:2) => v(:system%n)
+      u(1:problem%mx, 1:problem%my, 1:2) => out(:system%n)
+      call precondition_field(problem, operator, system, workspace, field, u)
+      preconditionings = preconditionings + 1
+      if (system%n_forces == 0) return
+      rest = 0.0_wp
+      do k = 1, system%n_forces
+         rest(k) = v(system%n + k) - sum(u(:, :, k))*system%g_norm/system%g_sum
+      end do
+      dc = matmul(system%schur, rest)
+      do k = 1, system%n_forces
+         u = u - dc(k)*workspace%border(:, :, :, k)
+         out(system%n + k) = dc(k)
+      end do
+   end subroutine precondition
+
+   !> u := (D C^-1 D / r + 1 - D) v for traction fields
+   subroutine precondition_field(problem, operator, system, workspace, v, u)
+      type(tangential_problem), intent(in) :: problem
+      class(compliance), intent(inout) :: operator
+      type(linear_system), intent(in) :: system
+      type(newton_workspace), intent(inout) :: workspace
+      real(wp), contiguous, intent(in) :: v(:, :, :)
+      real(wp), contiguous, intent(inout) :: u(:, :, :)
+      real(wp), allocatable :: whole(:, :, :)
+      integer :: ix, iy
+      real(wp) :: c, vx, vy, ux, uy, w, nx, ny
+
+      workspace%trial = v
+      call apply_d(workspace, workspace%trial)
+      if (problem%steady) then
+         call operator%steady_inverse(workspace%trial, u)
+      else
+         call operator%tangential_inverse(workspace%trial, u)
+      end if
+      if (allocated(workspace%point)) whole = u/system%r
+      do iy = 1, problem%my
+         do ix = 1, problem%mx
+            w = workspace%weight(ix, iy)
+            nx = workspace%direction(ix, iy, 1)
+            ny = workspace%direction(ix, iy, 2)
+            ux = u(ix, iy, 1)/system%r
+            uy = u(ix, iy, 2)/system%r
+            c = nx*ux + ny*uy
+            vx = v(ix, iy, 1) - workspace%trial(ix, iy, 1)
+            vy = v(ix, iy, 2) - workspace%trial(ix, iy, 2)
+            u(ix, iy, 1) = w*(ux - nx*c) + vx
+            u(ix, iy, 2) = w*(uy - ny*c) + vy
+         end do
+      end do
+      if (allocated(workspace%point)) call add_radial(workspace, whole, u)
+   end subroutine precondition_field
+
+   !> Preconditioned border columns and the inverse of their Schur complement
+   subroutine prepare_border(problem, operator, system, workspace, preconditionings)
+      type(tangential_problem), intent(in) :: problem
+      class(compliance), intent(inout) :: operator
+      type(linear_system), intent(inout) :: system
+      type(newton_workspace), intent(inout) :: workspace
+      integer, intent(inout) :: preconditionings
+      integer :: k, j
+      real(wp) :: s(2, 2), det, creep(2)
+
+      s = 0.0_wp
+      do k = 1, system%n_forces
+         workspace%best_slip = 0.0_wp
+         creep = 0.0_wp
+         creep(k) = system%r*system%creep_scale/system%g_norm
+         call add_creepages(problem, creep, workspace%best_slip)
+         call apply_d(workspace, workspace%best_slip)
+         call precondition_field(problem, operator, system, workspace, workspace%best_slip, workspace%border(:, :, :, k))
+         preconditionings = preconditionings + 1
+         do j = 1, system%n_forces
+            s(j, k) = -sum(workspace%border(:, :, j, k))*system%g_norm/system%g_sum
+         end do
+      end do
+      system%schur = 0.0_wp
+      if (system%n_forces == 1) then
+         if (abs(s(1, 1)) > singular_one) system%schur(1, 1) = 1.0_wp/s(1, 1)
+      else if (system%n_forces == 2) then
+         det = s(1, 1)*s(2, 2) - s(1, 2)*s(2, 1)
+         if (abs(det) > singular_two*(s(1, 1)**2 + s(2, 2)**2)) then
+            system%schur = reshape([s(2, 2), -s(2, 1), -s(1, 2), s(1, 1)], [2, 2])/det
+         else
+            do k = 1, 2
+               if (abs(s(k, k)) > 0.0_wp) system%schur(k, k) = 1.0_wp/s(k, k)
+            end do
+         end if
+      end if
+   end subroutine prepare_border
+
+   !> Traction field as the first part of a vector of unknowns
+   pure subroutine flatten(field, vector)
+      real(wp), contiguous, intent(in) :: field(:, :, :)
+      real(wp), contiguous, intent(inout) :: vector(:)
+      integer :: iy, k, first
+
+      first = 0
+      do k = 1, size(field, 3)
+         do iy = 1, size(field, 2)
+            vector(first + 1:first + size(field, 1)) = field(:, iy, k)
+            first = first + size(field, 1)
+         end do
+      end do
+   end subroutine flatten
+
+   !> First part of a vector of unknowns as a traction field
+   pure subroutine unfold(vector, field)
+      real(wp), contiguous, intent(in) :: vector(:)
+      real(wp), contiguous, intent(inout) :: field(:, :, :)
+      integer :: iy, k, first
+
+      first = 0
+      do k = 1, size(field, 3)
+         do iy = 1, size(field, 2)
+            field(:, iy, k) = vector(first + 1:first + size(field, 1))
+            first = first + size(field, 1)
+         end do
+      end do
+   end subroutine unfold
+end module contact_tangential_newton_linear
