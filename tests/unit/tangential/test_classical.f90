@@ -245,11 +245,11 @@ contains
       do i = 1, size(cases, 2)
          call ellipse(20, cases(:, i), 1, .true., problem, operator, 1.02_wp)
          do k = 2, 12
-            problem%eps = 10.0_wp**(-0.5_wp*k)
+            problem%settings%eps = 10.0_wp**(-0.5_wp*k)
             call solve(problem, operator, classical_method%gd_steady, solution, report, "tolerances")
             if (report%ended /= ending%converged) cycle
             converged = converged + 1
-            call suite%check(report%residual <= problem%eps, "GDsteady: converged means the residual")
+            call suite%check(report%residual <= problem%settings%eps, "GDsteady: converged means the residual")
          end do
       end do
       call suite%check(converged > 20, "GDsteady converges")
