@@ -158,6 +158,12 @@ def stresses():
     close(table[1], [-540.99, -413.43, -308.64, -230.80], 0.005 * 541, "hydrostatic stress")
     close(table[2], [356.12, 371.76, 416.60, 412.90], 0.005 * 416, "von Mises stress")
     close(table[3], [-675.66, -634.96, -578.13, -502.48], 0.005 * 676, "stress on the axis")
+    # points between the centres of elements, too near to the surface
+    told = "points lie less than DX/4"
+    check(told not in log_text(), "no warning of points on the axis")
+    cntc.subs_addblock(1, 1, 1, 9, [0.11, 0.22], [0.0], [0.001])
+    same(cntc.subs_calculate(1, 1), 0, "subs_calculate near the surface")
+    check(told in log_text(), "a warning of points near the surface")
 
 
 def sensitivities():

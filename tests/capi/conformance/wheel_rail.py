@@ -92,6 +92,10 @@ def conventions():
         set_up(ire, side, units)
         expected, label = figures[side], f"{('left', 'right')[side]} {units}"
         same(cntc.getnumcontactpatches(ire), 1, f"{label}: patches")
+        times = cntc.getcalculationtime(ire, 1)
+        check(min(times) > 0.0, f"{label}: processor and elapsed time {times}")
+        cntc.resetcalculationtime(ire, 1)
+        same(tuple(cntc.getcalculationtime(ire, 1)), (0.0, 0.0), f"{label}: times from zero again")
         forces = cntc.getglobalforces(ire, -1).reshape(8, 3)
         forces[1::2] /= big
         forces = forces.reshape(-1) * body
