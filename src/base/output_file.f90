@@ -51,6 +51,8 @@ module contact_base_output_file
       procedure, private :: real_bytes
       !> Hand everything to the system
       procedure :: flush_now
+      !> Has some of what was written not arrived?
+      procedure :: has_lost
       !> Bytes in front of what is written next
       procedure :: place
       !> Go on at a place; what stands there is overwritten
@@ -268,6 +270,15 @@ contains
 
       if (self%is_open()) ignored = fflush(self%stream)
    end subroutine flush_now
+
+   logical function has_lost(self)
+      class(output_file), intent(in) :: self
+
+      has_lost = .false.
+      if (.not. self%is_open()) return
+      if (fflush(self%stream) /= 0) has_lost = .true.
+      if (ferror(self%stream) /= 0) has_lost = .true.
+   end function has_lost
 
    integer(c_long) function place(self)
       class(output_file), intent(in) :: self

@@ -7,7 +7,7 @@ module contact_capi_files
    implicit none (type, external)
    private
 
-   public :: set_folders, find_result_file, place_result, find_working_folder, open_input_dump, input_dump, relate_to_results
+   public :: set_folders, find_result_file, place_result, find_working_folder, open_input_dump, dumps_input, relate_to_results
 
 contains
 
@@ -69,25 +69,33 @@ contains
    !> Open the file in which cases are written as input; a failure is not tried again
    subroutine open_input_dump()
       character(len=:), allocatable :: path
-      integer :: status, unit
+      character(len=:), allocatable :: reason
 
       !$omp critical (contact_registry)
       if (.not. library%dump_was_tried) then
          library%dump_was_tried = .true.
          call place_result(library%name // ".inp", path)
-         open(newunit=unit, file=path, status="replace", action="write", iostat=status)
-         if (status == 0) library%input_dump = unit
-         if (status /= 0) call set_last_error(library_code%other, "the file " // path // " cannot be written")
+         call library%input_dump%open_file(path, reason)
+         if (allocated(reason)) call set_last_error(library_code%other, "the file " // path // " cannot be written: " // reason)
       end if
       !$omp end critical (contact_registry)
    end subroutine open_input_dump
 
-   !> Unit of the file in which cases are written as input, 0 for none
-   integer function input_dump() result(unit)
+   !> Is there a file in which cases are written as input, and has it taken all of them so far? When it has not, this is told
+   logical function dumps_input()
+      character(len=:), allocatable :: path
+      logical :: ignored, has_lost
+
       !$omp critical (contact_registry)
-      unit = library%input_dump
+      has_lost = library%input_dump%has_lost()
+      dumps_input = library%input_dump%is_open() .and. .not. has_lost
+      if (has_lost) then
+         call library%input_dump%close_file(ignored)
+         call place_result(library%name // ".inp", path)
+         call set_last_error(library_code%other, "the file " // path // " is not complete; is the disk full?")
+      end if
       !$omp end critical (contact_registry)
-   end function input_dump
+   end function dumps_input
 
    !> The name of a file of the caller, relative to the working folder, as the input file in the folder of results must give it
    subroutine relate_to_results(name)

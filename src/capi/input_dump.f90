@@ -1,8 +1,8 @@
 !> Cases of callers written as an input file of the program (flag 2002)
 module contact_capi_input_dump
    use contact_base_error, only : error_type
-   use contact_capi_files, only : find_result_file, input_dump, open_input_dump, relate_to_results
-   use contact_capi_library, only : entry_type
+   use contact_capi_files, only : dumps_input, find_result_file, open_input_dump, relate_to_results
+   use contact_capi_library, only : entry_type, library
    use contact_capi_messages, only : complain
    use contact_capi_problem, only : given_profile, library_problem
    use contact_cases_spec, only : case_spec, part_source
@@ -23,18 +23,18 @@ contains
    subroutine dump_contact_case(problem)
       type(library_problem), intent(in) :: problem
       character(len=80) :: line
-      integer :: unit, status
+      logical :: ignored
 
       if (problem%write_input < as_given) return
       call open_input_dump()
-      unit = input_dump()
-      if (unit == 0) return
+      if (.not. dumps_input()) return
       write(line, "(I4, 2I5, A, I0)") 3, problem%ire, problem%icp, "   % MODULE, RE, CP: case ", problem%cases
       !$omp critical (contact_printing)
-      write(unit, "(A)", iostat=status) trim(line)
-      call write_contact_case(unit, problem%spec, problem%result)
-      write(unit, "(A)", iostat=status) ""
+      call library%input_dump%line(trim(line))
+      call write_contact_case(library%input_dump, problem%spec, problem%result)
+      call library%input_dump%line("")
       !$omp end critical (contact_printing)
+      ignored = dumps_input()
    end subroutine dump_contact_case
 
    !> Wheel on rail, before it is solved
@@ -43,7 +43,7 @@ contains
       type(library_problem), intent(inout) :: problem
       type(case_spec) :: written
       character(len=80) :: line
-      integer :: unit, status
+      logical :: ignored
 
       if (problem%write_input < as_given) return
       written = problem%spec
@@ -69,14 +69,14 @@ contains
             & call name_profile(this, problem%cases, "wheel", written%wheel_rail%wheel_profile, problem%wheel)
       end associate
       call open_input_dump()
-      unit = input_dump()
-      if (unit == 0) return
+      if (.not. dumps_input()) return
       write(line, "(I4, I5, A, I0)") 1, problem%ire, "   % MODULE, RE: case ", problem%cases
       !$omp critical (contact_printing)
-      write(unit, "(A)", iostat=status) trim(line)
-      call write_input_case(unit, written)
-      write(unit, "(A)", iostat=status) ""
+      call library%input_dump%line(trim(line))
+      call write_input_case(library%input_dump, written)
+      call library%input_dump%line("")
       !$omp end critical (contact_printing)
+      ignored = dumps_input()
    end subroutine dump_pair_case
 
    !> The name of a profile for the input file; one that was given by values gets a file, once

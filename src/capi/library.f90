@@ -4,6 +4,7 @@
 !> `contact_registry`, which is short; calculations run outside.
 module contact_capi_library
    use contact_base_log, only : log_type
+   use contact_base_output_file, only : output_file
    use contact_capi_problem, only : library_problem, most_patches
    use contact_experiment_stopwatch, only : stopwatch
    implicit none (type, external)
@@ -45,8 +46,8 @@ module contact_capi_library
       !> Amount of messages about calls; timer table 0 none, 1 overview, 2 everything
       integer :: debugging = 0, timer_level = 1
       type(log_type) :: log
-      !> Unit of the .inp file with the cases, 0 for none; was it tried to open it?
-      integer :: input_dump = 0
+      !> The .inp file with the cases; was it tried to open it?
+      type(output_file) :: input_dump
       logical :: dump_was_tried = .false.
       character(len=:), allocatable :: work_folder, out_folder, name
       type(stopwatch) :: total

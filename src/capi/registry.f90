@@ -7,6 +7,7 @@ module contact_capi_registry
    use omp_lib, only : omp_get_max_threads, omp_get_num_threads, omp_set_lock, omp_test_lock, omp_unset_lock
    use contact_base_guard, only : set_owner
    use contact_base_log, only : log_type
+   use contact_base_output_file, only : output_file
    use contact_capi_files, only : place_result, set_folders
    use contact_capi_host, only : begin_turn, call_stage, end_turn, give_floats_back, hold_floats, is_forked, note_call
    use contact_capi_library, only : element_slot, entry_type, finalised, library, most_elements, running, units_given, virgin
@@ -99,7 +100,7 @@ contains
       call place_result(library%name // ".out", path)
       call library%log%out%open_file(path, reason)
       library%phase = running
-      library%input_dump = 0
+      library%input_dump = output_file()
       library%dump_was_tried = .false.
       library%most_threads = max(1, min(999, omp_get_max_threads()))
       library%threads = 1
@@ -376,7 +377,7 @@ contains
       !> False when something is in use, or no run was going on
       logical, intent(out) :: stopped
       integer :: k
-      logical :: complete, freed
+      logical :: complete, dumped, freed
 
       !$omp critical (contact_registry)
       stopped = library%phase == running .and. .not. any_users()
@@ -386,14 +387,16 @@ contains
             if (library%elements(k)%module_number /= 0) call free_element(library%elements(k), freed)
          end do
          call write_timers()
-         if (library%input_dump /= 0) then
-            write(library%input_dump, "(A)") " 0  MODULE"
-            close(library%input_dump)
-         end if
-         library%input_dump = 0
+         ! a file from which something is missing gets no end
+         if (.not. library%input_dump%has_lost()) call library%input_dump%line(" 0  MODULE")
+         call library%input_dump%close_file(dumped)
          call library%log%out%close_file(complete)
-         if (.not. complete) call set_last_error(library_code%other, &
+         if (.not. dumped) call set_last_error(library_code%other, &
+            & "the input file of the library (flag 2002) is not complete; is the disk full?")
+         if (.not. complete .and. dumped) call set_last_error(library_code%other, &
             & "the .out file of the library is not complete; is the disk full?")
+         if (.not. (complete .or. dumped)) call set_last_error(library_code%other, &
+            & "the .out file and the input file of the library (flag 2002) are not complete; is the disk full?")
          library%log = log_type()
          library%phase = finalised
       end if

@@ -1,6 +1,7 @@
 !> The archive that writes a case as an input file
 module contact_output_file_writer
    use contact_base_kinds, only : wp
+   use contact_base_output_file, only : output_file
    use contact_cases_archive, only : case_archive, item_kind
    use contact_control_digits, only : case_digits, encode_words, word_text
    use contact_text_words, only : integer_text
@@ -16,8 +17,8 @@ module contact_output_file_writer
 
    !> Writes the numbers of each line, and their names as a comment
    type, extends(case_archive) :: file_writer
-      !> Fortran unit
-      integer :: unit = 0
+      !> An open file
+      type(output_file), pointer :: file => null()
       !> What is said behind the names of the lines of the group in hand
       character(len=:), allocatable, private :: remark
    contains
@@ -52,7 +53,7 @@ contains
          end associate
       end do
       if (allocated(self%remark)) names = names // self%remark
-      call put_line(self%unit, values, names(2:))
+      call put_line(self, values, names(2:))
       call self%finish_line()
    end subroutine write_line
 
@@ -85,18 +86,17 @@ contains
       associate (files_have => present(units), their_own => present(bounds))
          step = merge(n, per_line, n <= short_list)
          do first = 1, n, max(1, step)
-            call put_line(self%unit, numbers(values(first:min(n, first + step - 1))), name)
+            call put_line(self, numbers(values(first:min(n, first + step - 1))), name)
          end do
       end associate
    end subroutine write_list
 
    !> Values, then their names; a comment for readers in both senses
-   subroutine put_line(unit, values, names)
-      integer, intent(in) :: unit
+   subroutine put_line(self, values, names)
+      class(file_writer), intent(in) :: self
       character(len=*), intent(in) :: values, names
-      integer :: status
 
-      write(unit, "(A)", iostat=status) " " // values // "   % " // names
+      call self%file%line(" " // values // "   % " // names)
    end subroutine put_line
 
    !> Real numbers with all their figures, with blanks behind
@@ -127,8 +127,8 @@ contains
    end function numbers
 
    !> The three control words
-   subroutine put_words(unit, digits, module_number)
-      integer, intent(in) :: unit
+   subroutine put_words(self, digits, module_number)
+      class(file_writer), intent(in) :: self
       type(case_digits), intent(in) :: digits
       !> 1 or 3
       integer, intent(in) :: module_number
@@ -136,12 +136,12 @@ contains
 
       call encode_words(digits, word1, word2, word3, second)
       if (module_number == 1) then
-         call put_line(unit, achar(iachar("0") + digits%c1) // word_text(word1, 6), "CPBTNFS")
+         call put_line(self, achar(iachar("0") + digits%c1) // word_text(word1, 6), "CPBTNFS")
       else
-         call put_line(unit, word_text(word1, 6), "PBTNFS")
+         call put_line(self, word_text(word1, 6), "PBTNFS")
       end if
-      call put_line(unit, word_text(word2, 7) // " " // integer_text(second), "VLDCMZE, GAPWGT M2")
+      call put_line(self, word_text(word2, 7) // " " // integer_text(second), "VLDCMZE, GAPWGT M2")
       ! without the digit X: there is no fourth word
-      call put_line(unit, word_text(word3, 7), "HGIAOWR")
+      call put_line(self, word_text(word3, 7), "HGIAOWR")
    end subroutine put_words
 end module contact_output_file_writer

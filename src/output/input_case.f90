@@ -6,6 +6,7 @@ module contact_output_input_case
    use contact_cases_whole_case, only : visit_case
    use contact_control_translation, only : digits_of
    use contact_grid_element_division, only : bounding_box, contact_box
+   use contact_base_output_file, only : output_file
    use contact_output_file_writer, only : file_writer, put_words
    use contact_patch_result, only : patch_result
    implicit none (type, external)
@@ -19,22 +20,23 @@ module contact_output_input_case
 contains
 
    !> A case with its control words and the groups that it gives
-   subroutine write_input_case(unit, spec)
-      integer, intent(in) :: unit
+   subroutine write_input_case(file, spec)
+      !> An open one
+      type(output_file), target, intent(in) :: file
       !> Names of profiles are written as they are here
       type(case_spec), intent(in) :: spec
       type(file_writer) :: a
       type(case_spec), target :: written
 
-      a%unit = unit
+      a%file => file
       written = spec
-      call put_words(unit, digits_of(spec), module_number=merge(1, 3, allocated(spec%wheel_rail)))
+      call put_words(a, digits_of(spec), module_number=merge(1, 3, allocated(spec%wheel_rail)))
       call visit_case(a, written)
    end subroutine write_input_case
 
    !> A solved case of module 3; a window that is not Hertzian is cut to the contact area and a margin
-   subroutine write_contact_case(unit, spec, result)
-      integer, intent(in) :: unit
+   subroutine write_contact_case(file, spec, result)
+      type(output_file), target, intent(in) :: file
       type(case_spec), intent(in) :: spec
       type(patch_result), intent(in) :: result
       type(case_spec) :: written
@@ -54,7 +56,7 @@ contains
       ! planforms cannot be set through the library
       written%geometry%iplan = 1
       if (spec%grid%ipotcn > 0) call cut_to_contact(written, result)
-      call write_input_case(unit, written)
+      call write_input_case(file, written)
    end subroutine write_contact_case
 
    !> Leave out what lies away from the contact area, in all that is given for each element

@@ -172,7 +172,7 @@ contains
       end associate
    end subroutine fail_twice
 
-   !> [key] or [[key]]
+   !> A key in one pair of brackets, or in two
    subroutine take_header(p, document, table)
       type(toml_parser), intent(inout) :: p
       type(toml_document), intent(inout) :: document

@@ -15,7 +15,7 @@
  * A program that is linked with it, or finds inject_memory by dlsym, sets the counting of memory itself:
  * inject_memory(n, for_ever, size) begins to count, inject_counted() tells how many were counted.
  *
- * The streams of the C library call write and close of their own: fopen for writing makes streams that call those here.
+ * The streams of the C library call write and close of their own: fopen and fdopen for writing make streams that call those here.
  */
 #define _GNU_SOURCE
 #include <dlfcn.h>
@@ -223,6 +223,11 @@ static int stream_seek(void *cookie, off64_t *place, int from) {
 
 static int stream_close(void *cookie) { return close(number_of(cookie)); }
 
+static FILE *stream_of(int file, const char *mode) {
+  const cookie_io_functions_t functions = {stream_read, stream_write, stream_seek, stream_close};
+  return fopencookie((void *)(intptr_t)(file + 1), mode, functions);
+}
+
 static FILE *open_stream(const char *path, const char *mode, FILE *(*real)(const char *, const char *)) {
   if (strpbrk(mode, "wa+") == NULL || !is_meant(-1, path)) return real(path, mode);
   int flags = strchr(mode, '+') ? O_RDWR : O_WRONLY;
@@ -232,8 +237,12 @@ static FILE *open_stream(const char *path, const char *mode, FILE *(*real)(const
   if (strchr(mode, 'x')) flags |= O_EXCL;
   const int file = open(path, flags, 0666);
   if (file < 0) return NULL;
-  const cookie_io_functions_t functions = {stream_read, stream_write, stream_seek, stream_close};
-  return fopencookie((void *)(intptr_t)(file + 1), mode, functions);
+  return stream_of(file, mode);
+}
+
+/* The files of results are opened by their descriptor */
+FILE *fdopen(int file, const char *mode) {
+  return strpbrk(mode, "wa+") != NULL && is_meant(file, NULL) ? stream_of(file, mode) : REAL(fdopen)(file, mode);
 }
 
 FILE *fopen(const char *path, const char *mode) { return open_stream(path, mode, REAL(fopen)); }

@@ -37,7 +37,7 @@ def main(arguments: list[str] | None = None) -> int:
             warning = told_of_run(name)
             if warning:
                 print("contact report: %s" % warning, file=sys.stderr)
-    except (MissingResults, OSError) as reason:
+    except (MissingResults, OSError, RuntimeError) as reason:  # the last one of h5py, when a file cannot be closed
         print("contact report: %s" % reason, file=sys.stderr)
         return 1
     except KeyboardInterrupt:

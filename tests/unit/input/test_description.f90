@@ -141,6 +141,7 @@ program test_description
    use contact_cases_subsurface_inputs, only : visit_blocks, visit_stress_output
    use contact_input_file_reader, only : file_reader, new_file_reader
    use contact_input_problems, only : problem_list, problem_text
+   use contact_base_output_file, only : output_file
    use contact_output_file_writer, only : file_writer
    use contact_test_harness, only : test_suite
    use contact_text_bounds, only : bounds_table
@@ -257,14 +258,17 @@ contains
       type(case_spec), target :: asked, found
       type(filler) :: random
       type(collector) :: before, after
+      type(output_file), target :: file
       type(file_writer) :: writer
       type(file_reader) :: reader
       type(input_lexer), target :: lexer
       type(problem_list), target :: problems
       character(len=8) :: label
       character(len=:), allocatable :: text
+      character(len=:), allocatable :: reason
       character(len=400) :: line
       integer :: status, unit
+      logical :: complete
 
       write(label, '("form ", I0)') form
       allocate(asked%wheel_rail, source=wheel_rail_spec())
@@ -274,10 +278,12 @@ contains
       asked%wheel_rail%rail_profile%name = "a name"
       random%given = 17*form
       call fill(random, form, asked)
-      open(newunit=unit, status="scratch", action="readwrite")
-      writer%unit = unit
+      call file%open_file("written.txt", reason)
+      writer%file => file
       call visit(writer, form, asked)
-      rewind(unit)
+      call file%close_file(complete)
+      call suite%check(complete, trim(label) // " is written")
+      open(newunit=unit, file="written.txt", action="read", status="old")
       text = ""
       do
          read(unit, "(A)", iostat=status) line
