@@ -60,7 +60,8 @@ def empty(folder):
 def run(folder, command, preload, **inject):
     """Exit status and what was said"""
     settings = {key: str(value) for key, value in inject.items() if value is not None}
-    done = subprocess.run(command, env=dict(os.environ, LD_PRELOAD=preload, INJECT_FOLDER=f"{folder}/", OMP_NUM_THREADS="1", **settings),
+    environment = dict(os.environ, LD_PRELOAD=preload, INJECT_FOLDER=f"{folder}/", OMP_NUM_THREADS="1", **settings)
+    done = subprocess.run(command, env=environment,
                           stdin=subprocess.DEVNULL, capture_output=True, text=True, errors="replace", timeout=120)
     return done.returncode, done.stdout + done.stderr
 
@@ -105,15 +106,16 @@ def main():
             return ""
         if b" 0  MODULE" in found:
             return "the damaged file has its end"
-        return "" if "TOLD" in said and ("contact_addon.inp" in said or "input file of the library" in said) else "nothing was told"
+        told = "TOLD" in said and ("contact_addon.inp" in said or "input file of the library" in said)
+        return "" if told else "nothing was told"
 
     tried, bad = each_fault(folder, command, lambda: empty(folder), preload, judge_host)
 
     results = room / "page"
     empty(results)
     example = pathlib.Path(os.environ["CONTACT_SOURCE"], "examples", "carter2d")
-    subprocess.run([os.environ["CONTACT_PROGRAM"], "--quiet", "--hdf5", "--output-dir", str(results), "2", str(example)], check=True,
-                   stdin=subprocess.DEVNULL, timeout=300)
+    command = [os.environ["CONTACT_PROGRAM"], "--quiet", "--hdf5", "--output-dir", str(results), "2", str(example)]
+    subprocess.run(command, check=True, stdin=subprocess.DEVNULL, timeout=300)
     page = results / "carter2d.html"
     command = [os.environ["CONTACT_PROGRAM"], "report", str(results / "carter2d")]
     code, said = run(results, command, preload)
