@@ -4,8 +4,8 @@
     crossings.py PROGRAM [NUMBER] [--seed S]
 
 A nose that rises and widens beside a wing rail that falls, from formulas; the rail of the input are slices of them. The judge
-knows the formulas and the points of the wheel, and shares nothing else with the program. Exit status 1 when the height of the wheel or
-the place of its contact disagree.
+knows the formulas and the points of the wheel, and shares nothing else with the program. Exit status 1 when the height of
+the wheel or the place of its contact disagree.
 """
 import argparse
 import json
@@ -24,8 +24,8 @@ except ImportError:
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import profiles
 
-# Slices are 5 to 20 mm apart with points every 0.4 mm, the wheel has points every 0.1 mm: errors of a micrometre or two; the load of
-# 10 N presses the wheel in by as much
+# Slices are 5 to 20 mm apart with points every 0.4 mm, the wheel has points every 0.1 mm: errors of a micrometre or two; the
+# load of 10 N presses the wheel in by as much
 HEIGHT, PLACE = 0.004, 0.5  # [mm]
 
 INPUT = """ 1 MODULE
