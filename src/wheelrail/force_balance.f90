@@ -55,6 +55,8 @@ module contact_wheelrail_force_balance
       logical :: has_high = .false.
       !> Forces of trials are those of friction that is only estimated: what looks like a jump ends the search at once
       logical, private :: forces_are_estimates = .false.
+      !> Trials one after the other, each with a force below zero and below that of the one before
+      integer, private :: falling = 0
       !> The last trial, and the one before it
       type(height_trial), private :: last, before
       !> Trials since the bracket was last halved, and its width then
@@ -77,6 +79,8 @@ module contact_wheelrail_force_balance
    real(wp), parameter :: alike = 0.2_wp
    !> Trials stay this part of a bracket away from its ends
    real(wp), parameter :: margin = 1.0e-3_wp
+   !> Trials with estimated forces that fall further and further below zero, after which the ratio of friction leads nowhere
+   integer, parameter :: most_falling = 5
    !> A force that rises this many times as much as the contact is stiff seems to jump, and jumps
    real(wp), parameter :: seems_to_jump = 5.0_wp, jumps = 20.0_wp
    !> The place of a jump is sought up to this distance [mm], and this part of the penetration
@@ -112,6 +116,7 @@ contains
       self%last = height_trial(z=touch)
       self%before = self%last
       self%forces_are_estimates = forces_are_estimates
+      self%falling = 0
       self%slow = 0
       self%old_width = huge(1.0_wp)
       self%from_above = 0
@@ -323,9 +328,13 @@ contains
             self%ended = balance_ending%jump
             return
          end if
-      else if (z >= self%highest) then
-         self%ended = balance_ending%out_of_reach
-         return
+      else
+         ! the ratio of friction that was learned makes the force negative: deeper it falls further
+         self%falling = merge(self%falling + 1, 0, force < min(0.0_wp, self%before%force) .and. slope < 0.0_wp)
+         if (z >= self%highest .or. (self%forces_are_estimates .and. self%falling >= most_falling)) then
+            self%ended = balance_ending%out_of_reach
+            return
+         end if
       end if
       if (self%trials >= self%most_trials) self%ended = balance_ending%trial_limit
    end subroutine record
