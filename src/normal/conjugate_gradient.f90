@@ -9,39 +9,18 @@
 module contact_normal_conjugate_gradient
    use contact_base_constants, only : excluded_threshold
    use contact_base_kinds, only : wp
-   use contact_base_limits, only : deadline_type
    use contact_base_log, only : log_type
    use contact_base_solve_report, only : ending, solve_report
    use contact_elastic_compliance, only : compliance
-   use contact_elastic_model, only : elastic_model
    use contact_elastic_new_compliance, only : new_compliance
    use contact_grid_coarsening, only : coarse_neighbours, coarse_size, coarsening_factor, shortest_side
-   use contact_normal_parts, only : contact_parts, displacement_between
+   use contact_normal_last_answer, only : answer_type
+   use contact_normal_problem, only : approach_scale, load_lowest_element, make_admissible, normal_problem, &
+      & pressure_displacement
    implicit none (type, external)
    private
 
    public :: approach_scale, normal_problem, normal_workspace, pressure_displacement, release_normal, solve_normal
-
-   !> Data of a normal problem on a window; constant during the solution
-   type :: normal_problem
-      integer :: mx = 0, my = 0
-      !> Sides of the elements [mm]
-      real(wp) :: dx = 1.0_wp, dy = 1.0_wp
-      !> Undeformed distance with displacements by tangential tractions [mm], shape (mx, my);
-      !> above excluded_threshold: no contact possible
-      real(wp), allocatable :: h(:, :)
-      !> Is the force prescribed, or the approach?
-      logical :: force_prescribed = .true.
-      !> Normal force [N]
-      real(wp) :: fn = 0.0_wp
-      !> Tolerance on the contact conditions relative to the approach, largest number of iterations
-      real(wp) :: eps = 1.0e-6_wp
-      integer :: maxgs = 999
-      !> When the time is up
-      type(deadline_type) :: deadline
-      !> Parts that act on each other with less than full strength; unallocated: everything acts fully
-      type(contact_parts), allocatable :: parts
-   end type normal_problem
 
    !> Scratch of one level of nested iteration
    type :: level_type
@@ -51,19 +30,6 @@ module contact_normal_conjugate_gradient
       real(wp), allocatable :: u(:, :), r(:, :), z(:, :), d(:, :), q(:, :), previous(:, :)
       logical, allocatable :: free(:, :)
    end type level_type
-
-   !> A problem that was solved, the estimate it was solved from, and the answer
-   type :: answer_type
-      logical :: is_known = .false.
-      type(normal_problem) :: problem
-      type(elastic_model) :: model
-      real(wp) :: y_first = 0.0_wp
-      real(wp), allocatable :: estimate(:, :), p(:, :)
-      !> Approach [mm]
-      real(wp) :: pen = 0.0_wp
-      integer :: iterations = 0
-      real(wp) :: residual = 0.0_wp
-   end type answer_type
 
    !> Scratch of all levels, no meaning between calls; level 1 belongs to the finest grid
    type :: normal_workspace
@@ -78,19 +44,15 @@ module contact_normal_conjugate_gradient
    integer, parameter :: smallest = 1500
    !> Residual of the coarse levels; a better estimate than the second is not replaced by one from coarse grids
    real(wp), parameter :: coarse_tolerance = 1.0e-3_wp, good_estimate = 3.0e-2_wp
+   !> Iterations without a violation below this part of the least one count as stagnation; chosen
+   real(wp), parameter :: is_smaller = 0.9_wp
+   integer, parameter :: patience = 60
+   !> The first pressures reach up to this part of the range of undeformed distances, at least to the length [mm]; chosen
+   real(wp), parameter :: first_depth = 0.3_wp, least_range = 1.0e-10_wp
+   !> Totals that agree to this are left as they are: round-off
+   real(wp), parameter :: same_force = 1.0e-14_wp
 
 contains
-
-   !> Normal displacements by pressures [mm]
-   subroutine pressure_displacement(problem, operator, p, u)
-      type(normal_problem), intent(in) :: problem
-      class(compliance), intent(inout) :: operator
-      !> Pressures [N/mm2], shape (mx, my)
-      real(wp), contiguous, intent(in) :: p(:, :)
-      real(wp), contiguous, intent(inout) :: u(:, :)
-
-      call displacement_between(problem%parts, operator, p, u)
-   end subroutine pressure_displacement
 
    !> Solve for pressures and approach or force
    subroutine solve_normal(problem, operator, workspace, p, pen, report, log)
@@ -114,7 +76,7 @@ contains
       report%tolerance = problem%eps
       traced = .false.
       if (present(log)) traced = log%shows(6)
-      if (.not. traced .and. is_same_question(workspace%last, problem, operator, p, pen)) then
+      if (.not. traced .and. workspace%last%is_same_question(problem, operator, p, pen)) then
          p = workspace%last%p
          pen = workspace%last%pen
          report%ended = ending%converged
@@ -122,11 +84,11 @@ contains
          report%residual = workspace%last%residual
          return
       end if
-      call note_question(workspace%last, problem, operator, p)
+      call workspace%last%note_question(problem, operator, p)
       pairs_before = operator%fft_pairs()
       products_before = operator%products
       call solve_level(problem, operator, workspace, 1, p, pen, problem%eps, report, log)
-      call note_answer(workspace%last, problem, p, pen, report)
+      call workspace%last%note_answer(problem, p, pen, report)
       report%products = report%products + operator%products - products_before
       report%fft_pairs = report%fft_pairs + operator%fft_pairs() - pairs_before
       do k = 2, size(workspace%level)
@@ -134,72 +96,6 @@ contains
          call workspace%level(k)%operator%settle_account(problem%mx*problem%my, report%fft_pairs)
       end do
    end subroutine solve_normal
-
-   !> Bit by bit what was solved last, with the same estimate
-   pure logical function is_same_question(last, problem, operator, p, pen) result(same)
-      type(answer_type), intent(in) :: last
-      type(normal_problem), intent(in) :: problem
-      class(compliance), intent(in) :: operator
-      real(wp), contiguous, intent(in) :: p(:, :)
-      real(wp), intent(in) :: pen
-
-      same = last%is_known .and. .not. allocated(problem%parts)
-      if (.not. same) return
-      associate (q => last%problem)
-         same = q%mx == problem%mx .and. q%my == problem%my .and. q%dx == problem%dx .and. q%dy == problem%dy &
-            & .and. (q%force_prescribed .eqv. problem%force_prescribed) .and. q%eps == problem%eps &
-            & .and. q%maxgs == problem%maxgs .and. last%y_first == operator%y_first
-         if (.not. same) return
-         if (problem%force_prescribed) then
-            same = q%fn == problem%fn
-         else
-            same = last%pen == pen
-         end if
-         if (same) same = last%model%same_as(operator%model)
-         if (same) same = all(last%estimate == p)
-         if (same) same = all(q%h == problem%h)
-      end associate
-   end function is_same_question
-
-   !> Arrays that fit are kept, which a copy of the problem as a whole would not do
-   subroutine note_question(last, problem, operator, p)
-      type(answer_type), intent(inout) :: last
-      type(normal_problem), intent(in) :: problem
-      class(compliance), intent(in) :: operator
-      real(wp), contiguous, intent(in) :: p(:, :)
-
-      last%is_known = .false.
-      if (allocated(problem%parts)) return
-      associate (q => last%problem)
-         q%mx = problem%mx
-         q%my = problem%my
-         q%dx = problem%dx
-         q%dy = problem%dy
-         q%force_prescribed = problem%force_prescribed
-         q%fn = problem%fn
-         q%eps = problem%eps
-         q%maxgs = problem%maxgs
-      end associate
-      last%problem%h = problem%h
-      if (.not. last%model%same_as(operator%model)) last%model = operator%model
-      last%y_first = operator%y_first
-      last%estimate = p
-   end subroutine note_question
-
-   subroutine note_answer(last, problem, p, pen, report)
-      type(answer_type), intent(inout) :: last
-      type(normal_problem), intent(in) :: problem
-      real(wp), contiguous, intent(in) :: p(:, :)
-      real(wp), intent(in) :: pen
-      type(solve_report), intent(in) :: report
-
-      if (report%ended /= ending%converged .or. allocated(problem%parts)) return
-      last%p = p
-      last%pen = pen
-      last%iterations = report%iterations
-      last%residual = report%residual
-      last%is_known = .true.
-   end subroutine note_answer
 
    !> One level: estimate from the next coarser one where that pays, then iterate
    recursive subroutine solve_level(problem, operator, workspace, k, p, pen, tolerance, report, log)
@@ -266,15 +162,14 @@ contains
       type(solve_report), intent(inout) :: report
       type(log_type), intent(inout), optional :: log
       character(len=96) :: line
-      real(wp) :: rz, rz_old, rz_cross, beta, alpha, dq, dr, worst, scale, h_min, total, mean, best
+      real(wp) :: rz, dq, dr, worst, scale, h_min, best
       integer :: it, since_best
-      logical :: fresh, changed, exact_u
+      logical :: exact_u
 
       h_min = minval(problem%h)
       level%previous = 0.0_wp
       level%d = 0.0_wp
-      rz_old = 1.0_wp
-      fresh = .true.
+      rz = 1.0_wp
       exact_u = .true.
       best = huge(best)
       since_best = 0
@@ -305,13 +200,13 @@ contains
             exact_u = .true.
             cycle
          end if
-         if (worst < 0.9_wp*best) then
+         if (worst < is_smaller*best) then
             best = worst
             since_best = 0
          else
             since_best = since_best + 1
          end if
-         if (since_best > 60) then
+         if (since_best > patience) then
             report%ended = ending%stagnated
             exit
          end if
@@ -322,64 +217,93 @@ contains
          end if
          report%iterations = it
 
-         level%free = (p > 0.0_wp .or. level%r > 0.0_wp) .and. problem%h < excluded_threshold
-         level%r = merge(level%r, 0.0_wp, level%free)
-         call operator%normal_inverse(level%r, level%z)
-         call project(problem, level%free, level%z)
-         rz = sum(level%r*level%z)
-         if (.not. rz > 0.0_wp) then
-            level%z = level%r
-            call project(problem, level%free, level%z)
-            rz = sum(level%r*level%z)
-         end if
-         if (.not. rz > 0.0_wp) then
+         call set_direction(problem, operator, level, p, it == 1, rz, dr, dq)
+         if (.not. (dr > 0.0_wp .and. dq > 0.0_wp)) then
             ! nothing is left to improve inside the contact area, and elements that want in have no room:
             ! a contact of one element
             report%ended = ending%stagnated
             exit
          end if
-         rz_cross = sum(level%previous*level%z)
-         beta = 0.0_wp
-         if (.not. fresh) beta = max(0.0_wp, (rz - rz_cross)/rz_old)
-         rz_old = rz
-         level%previous = level%r
-         level%d = merge(level%z + beta*level%d, 0.0_wp, level%free)
-         call project(problem, level%free, level%d)
-         dr = sum(level%d*level%r)
-         if (.not. dr > 0.0_wp) then
-            level%d = level%z
-            dr = rz
-         end if
-         call pressure_displacement(problem, operator, level%d, level%q)
-         dq = sum(level%d*level%q)
-         fresh = .false.
-         if (.not. dq > 0.0_wp) then
-            report%ended = ending%stagnated
-            exit
-         end if
-         alpha = dr/dq
-         p = p + alpha*level%d
-         changed = any(p < 0.0_wp)
-         if (changed) then
-            p = max(p, 0.0_wp)
-            if (.not. any(p > 0.0_wp)) call lowest_element(problem, p)
-         end if
-         if (problem%force_prescribed) then
-            total = sum(p)*problem%dx*problem%dy
-            mean = problem%fn/total
-            if (abs(mean - 1.0_wp) > 1.0e-14_wp) then
-               p = p*mean
-               changed = .true.
-            end if
-         end if
-         if (changed) then
-            call pressure_displacement(problem, operator, p, level%u)
-         else
-            level%u = level%u + alpha*level%q
-         end if
-         exact_u = changed
+         call take_step(problem, operator, level, dr/dq, p, exact_u)
       end do
    end subroutine iterate
+
+   !> The next direction d and its product q
+   subroutine set_direction(problem, operator, level, p, first, rz, dr, dq)
+      type(normal_problem), intent(in) :: problem
+      class(compliance), intent(inout) :: operator
+      type(level_type), intent(inout) :: level
+      !> Pressures [N/mm2], shape (mx, my)
+      real(wp), contiguous, intent(in) :: p(:, :)
+      !> Is there no direction before?
+      logical, intent(in) :: first
+      !> r.z of the direction before on entry, of this one on exit
+      real(wp), intent(inout) :: rz
+      !> d.r and d.A d; 0 where no direction lowers the energy
+      real(wp), intent(out) :: dr, dq
+      real(wp) :: beta, rz_old, rz_cross
+
+      dr = 0.0_wp
+      dq = 0.0_wp
+      rz_old = rz
+      level%free = (p > 0.0_wp .or. level%r > 0.0_wp) .and. problem%h < excluded_threshold
+      level%r = merge(level%r, 0.0_wp, level%free)
+      call operator%normal_inverse(level%r, level%z)
+      call project(problem, level%free, level%z)
+      rz = sum(level%r*level%z)
+      if (.not. rz > 0.0_wp) then
+         level%z = level%r
+         call project(problem, level%free, level%z)
+         rz = sum(level%r*level%z)
+      end if
+      if (.not. rz > 0.0_wp) return
+      rz_cross = sum(level%previous*level%z)
+      beta = 0.0_wp
+      if (.not. first) beta = max(0.0_wp, (rz - rz_cross)/rz_old)
+      level%previous = level%r
+      level%d = merge(level%z + beta*level%d, 0.0_wp, level%free)
+      call project(problem, level%free, level%d)
+      dr = sum(level%d*level%r)
+      if (.not. dr > 0.0_wp) then
+         level%d = level%z
+         dr = rz
+      end if
+      call pressure_displacement(problem, operator, level%d, level%q)
+      dq = sum(level%d*level%q)
+   end subroutine set_direction
+
+   !> Go along the direction; pressures below zero are cut off, the force is kept
+   subroutine take_step(problem, operator, level, alpha, p, exact_u)
+      type(normal_problem), intent(in) :: problem
+      class(compliance), intent(inout) :: operator
+      type(level_type), intent(inout) :: level
+      !> Length of the step
+      real(wp), intent(in) :: alpha
+      !> Pressures [N/mm2], shape (mx, my)
+      real(wp), contiguous, intent(inout) :: p(:, :)
+      !> Were the displacements computed anew, not only changed by those of the step?
+      logical, intent(out) :: exact_u
+      real(wp) :: mean
+
+      p = p + alpha*level%d
+      exact_u = any(p < 0.0_wp)
+      if (exact_u) then
+         p = max(p, 0.0_wp)
+         if (.not. any(p > 0.0_wp)) call load_lowest_element(problem, p)
+      end if
+      if (problem%force_prescribed) then
+         mean = problem%fn/(sum(p)*problem%dx*problem%dy)
+         if (abs(mean - 1.0_wp) > same_force) then
+            p = p*mean
+            exact_u = .true.
+         end if
+      end if
+      if (exact_u) then
+         call pressure_displacement(problem, operator, p, level%u)
+      else
+         level%u = level%u + alpha*level%q
+      end if
+   end subroutine take_step
 
    !> r = -(h - pen + u) and the largest violation of the contact conditions [mm]
    !>
@@ -428,14 +352,6 @@ contains
       quality = quality/approach_scale(approach, minval(problem%h), quality)
    end function estimate_quality
 
-   !> What violations of the contact conditions are compared with [mm]: the approach, as far as numbers tell it
-   pure real(wp) function approach_scale(pen, h_min, violation) result(scale)
-      !> Approach, smallest undeformed distance, and the violation [mm]
-      real(wp), intent(in) :: pen, h_min, violation
-
-      scale = max(abs(pen - h_min), epsilon(scale)*max(abs(h_min), violation), tiny(scale))
-   end function approach_scale
-
    !> Directions of zero total force on the free set, when the force is prescribed; zero elsewhere
    subroutine project(problem, free, v)
       type(normal_problem), intent(in) :: problem
@@ -447,22 +363,6 @@ contains
       if (problem%force_prescribed) mean = sum(v, free)/max(1, count(free))
       v = merge(v - mean, 0.0_wp, free)
    end subroutine project
-
-   !> Pressures that are not negative, zero where contact is impossible, and of the right total
-   subroutine make_admissible(problem, p)
-      type(normal_problem), intent(in) :: problem
-      real(wp), contiguous, intent(inout) :: p(:, :)
-      real(wp) :: total
-
-      where (problem%h > excluded_threshold .or. .not. p > 0.0_wp) p = 0.0_wp
-      if (.not. problem%force_prescribed) return
-      total = sum(p)*problem%dx*problem%dy
-      if (total > 1.0e-3_wp*problem%fn) then
-         p = p*(problem%fn/total)
-      else
-         p = 0.0_wp
-      end if
-   end subroutine make_admissible
 
    !> First pressures without any estimate
    subroutine first_guess(problem, operator, level, p, pen)
@@ -476,9 +376,9 @@ contains
       h_min = minval(problem%h)
       if (problem%force_prescribed) then
          h_max = maxval(problem%h, problem%h < excluded_threshold)
-         p = max(0.0_wp, h_min + 0.3_wp*max(h_max - h_min, 1.0e-10_wp) - problem%h)
+         p = max(0.0_wp, h_min + first_depth*max(h_max - h_min, least_range) - problem%h)
          ! a level so far away that nothing can be added to it
-         if (.not. any(p > 0.0_wp)) call lowest_element(problem, p)
+         if (.not. any(p > 0.0_wp)) call load_lowest_element(problem, p)
          p = p*(problem%fn/(sum(p)*problem%dx*problem%dy))
          return
       end if
@@ -486,16 +386,6 @@ contains
       call pressure_displacement(problem, operator, p, level%u)
       p = p*(sum(p*p)/sum(p*level%u))
    end subroutine first_guess
-
-   !> Put the load on the element that is nearest to contact
-   subroutine lowest_element(problem, p)
-      type(normal_problem), intent(in) :: problem
-      real(wp), contiguous, intent(inout) :: p(:, :)
-      integer :: place(2)
-
-      place = minloc(problem%h)
-      p(place(1), place(2)) = 1.0_wp
-   end subroutine lowest_element
 
    !> The same problem with half as many elements; distances are averaged
    subroutine coarsen(fine, coarse)

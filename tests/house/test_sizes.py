@@ -18,8 +18,6 @@ OPEN = {
     ("src/cases/subsurface_inputs.f90", "visit_block"),
     ("src/elastic/operator.f90", ""),
     ("src/experiment/run.f90", ""),
-    ("src/normal/conjugate_gradient.f90", ""),
-    ("src/normal/conjugate_gradient.f90", "iterate"),
     ("src/output/report_pair.f90", ""),
     ("src/profile/curve.f90", ""),
     ("src/profile/miniprof.f90", "read_miniprof"),
