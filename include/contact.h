@@ -63,6 +63,28 @@ int contact_run_limited(const char *experiment, int mode, const char *output_dir
                         int outputs, int strict, double seconds, double megabytes, double elements,
                         char *message, int message_length);
 
+/* Write an experiment in the other format of input: <experiment>.toml for .inp, .inp for .toml.
+ *
+ * experiment      path of the input file; with its suffix where both formats are there
+ * output_dir      folder of the new file; NULL or "" for that of the input file
+ * overwrite       not 0: a file that is there is replaced
+ * message         receives what was doubtful, or the reason of the failure, cut to fit; NULL if not wanted
+ * message_length  size of message in bytes, the final null included
+ *
+ * Returns 0 on success, another number on failure; then there is no new file. */
+int contact_convert_experiment(const char *experiment, const char *output_dir, int overwrite, char *message,
+                    int message_length);
+
+/* Tell in words what the cases of an experiment simulate, what they leave out, and what they will cost.
+ *
+ * experiment      path of the input file, with or without suffix
+ * text            receives the words, or what was told before a failure and its reason, cut to fit; NULL if not wanted
+ * text_length     size of text in bytes, the final null included
+ * needed          receives the size that the whole text needs; NULL if not wanted
+ *
+ * Returns 0 on success, another number on failure. */
+int contact_explain_experiment(const char *experiment, char *text, int text_length, int *needed);
+
 /* What went wrong last, for callers of contact_addon.h.
  *
  * ire, icp        result element and contact patch (-1 for wheel and rail); ire 0: the library as a whole

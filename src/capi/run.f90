@@ -12,7 +12,7 @@ module contact_capi_run
    implicit none (type, external)
    private
 
-   public :: contact_run, contact_run_limited, contact_run_with
+   public :: contact_run, contact_run_limited, contact_run_with, take_text
 
    !> What a host may ask for, as in the header
    integer(c_int), parameter :: mode_run = 2, mode_check = 3

@@ -39,6 +39,8 @@ module contact_cases_archive
       character(len=13) :: name = ""
       !> Member of item_kind, and row of the table of bounds, 0 when it has none
       integer :: kind = 0, row = 0
+      !> Has it a value before a case gives one?
+      logical :: is_preset = .false.
       !> May it be missing? Then it is the default
       logical :: is_optional = .false.
       real(wp) :: default = 0.0_wp
@@ -94,6 +96,8 @@ module contact_cases_archive
       procedure :: check => check_nothing
       !> Where an item of the last line stands in its file
       procedure :: place => place_nowhere
+      !> Line on which a group begins, 0 when it has none
+      procedure :: line_of => no_line
       !> A number of the last line with its name, as it was given
       procedure :: shown => show_item
       !> Was an optional number of the last line given?
@@ -144,6 +148,8 @@ contains
          item%name = name
          item%row = bounds_of(name)
          item%kind = kind
+         item%is_preset = .false.
+         if (item%row > 0) item%is_preset = bounds_table(item%row)%is_preset
          item%is_optional = present(default)
          item%default = 0.0_wp
          if (present(default)) item%default = default
@@ -154,7 +160,7 @@ contains
    end subroutine add_item
 
    !> Note a number; angles are those whose unit is rad or rad/s
-   subroutine note_real(self, name, value, default, unchecked)
+   subroutine note_real(self, name, value, default, unchecked, preset)
       class(case_archive), intent(inout) :: self
       character(len=*), intent(in) :: name
       real(wp), intent(inout), target :: value
@@ -162,6 +168,8 @@ contains
       real(wp), intent(in), optional :: default
       !> Are bounds checked by the caller?
       logical, intent(in), optional :: unchecked
+      !> Has it a value, in this place, before a case gives one? Default as in the table of bounds
+      logical, intent(in), optional :: preset
 
       call add_item(self, name, item_kind%real, default)
       associate (item => self%items(self%count))
@@ -170,6 +178,7 @@ contains
          end if
          item%r => value
          if (present(unchecked)) item%is_unchecked = unchecked
+         if (present(preset)) item%is_preset = preset
       end associate
    end subroutine note_real
 
@@ -300,6 +309,17 @@ contains
       associate (unused => self, no_name => name, no_line => line, no_column => column)
       end associate
    end subroutine place_nowhere
+
+   !> Groups of values that do not come in stand nowhere
+   pure integer function no_line(self, name) result(line)
+      class(case_archive), intent(in) :: self
+      !> Name of the group
+      character(len=*), intent(in) :: name
+
+      line = 0
+      associate (unused => self%count, no_name => name)
+      end associate
+   end function no_line
 
    !> An item of the last line, "DX = 0.5", with blanks behind
    pure function show_item(self, name) result(text)

@@ -235,9 +235,10 @@ contains
       select case (law)
       case (friction_model%coulomb)
          call a%real("FSTAT", set%fstat)
-         call a%real("FKIN", set%fkin)
+         call a%real("FKIN", set%fkin, preset=.true.)
          call a%end_line()
          if (.not. a%is_reading) return
+         if (.not. a%was_given("FKIN")) set%fkin = set%fstat
          if (abs(set%fstat - set%fkin) > same_friction*abs(set%fstat)) call a%warn("FKIN", " differs from FSTAT; " // &
             & "Coulomb friction has one coefficient: in an input file " // trim(a%shown("FSTAT")) // &
             & ", by cntc_setFrictionMethod the smaller one")

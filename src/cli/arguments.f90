@@ -6,11 +6,12 @@ module contact_cli_arguments
    use contact_base_kinds, only : long, wp
    use contact_base_limits, only : case_limits, fill_limits
    use contact_cli_command_line, only : take_word
+   use contact_cli_commands, only : is_command, run_command
    use contact_cli_process, only : exit_status_of_signal, forget_signals, stop_by_signal, watch_signals
    use contact_cli_report, only : is_report, run_report
    use contact_cli_versions, only : contact_version, write_versions
    use contact_experiment_progress, only : is_terminal
-   use contact_experiment_run, only : run_experiment, run_settings
+   use contact_experiment_run, only : as_input_says, run_experiment, run_settings
    use contact_text_words, only : replaced
    implicit none (type, external)
    private
@@ -54,8 +55,8 @@ module contact_cli_arguments
       logical :: hdf5 = .false.
       !> Write VTK files?
       logical :: vtk = .false.
-      !> Member of heat_source
-      integer :: heat_source = heat_source%established
+      !> Member of heat_source, or as_input_says
+      integer :: heat_source = as_input_says
       !> Contact angles as in the established program?
       logical :: angle_below_axle = .true.
       !> What a case may take, and whether the run is confined to its folder
@@ -80,6 +81,10 @@ contains
       status = success
       if (is_report()) then
          status = run_report()
+         return
+      end if
+      if (is_command()) then
+         status = run_command()
          return
       end if
       call read_arguments(asked, error)
@@ -319,7 +324,8 @@ contains
 
       asked%mode = to_number(word)
       if (is_mode(asked%mode)) return
-      call fatal_error(error, "the first argument, '" // word // "', is not a mode; the modes are 1, 2 and 3")
+      call fatal_error(error, "the first argument, '" // word // "', is not a mode; the modes are 1, 2 and 3, and there are " // &
+         & "the commands convert, explain and report")
    end subroutine take_mode
 
    !> Is there such a mode?
@@ -392,6 +398,8 @@ contains
    subroutine write_help()
       write(output_unit, "(A)") &
          & "Usage: contact [options] [IMODE [EXPNAM]]", &
+         & "       contact convert [--force] [--output-dir DIR] EXPNAM.inp | EXPNAM.toml", &
+         & "       contact explain EXPNAM", &
          & "       contact report EXPNAM | --serve [FOLDER]", &
          & "", &
          & "Rolling and sliding contact with friction.", &
@@ -399,14 +407,16 @@ contains
          & "IMODE   1  licence management (none is needed)", &
          & "        2  read EXPNAM.inp, compute, write EXPNAM.out and other results", &
          & "        3  read and check EXPNAM.inp, compute nothing", &
-         & "EXPNAM  name of the experiment, with a folder if need be, without or with .inp", &
+         & "EXPNAM  name of the experiment, with a folder if need be, without or with .inp or .toml; without, .inp is read", &
+         & "        where it is there, and .toml, the readable format, otherwise", &
          & "What is missing is asked for.", &
+         & "convert writes an experiment in the other format; explain tells its cases in words", &
          & "report  makes one HTML page of the results of --hdf5, or serves a folder to a browser on this machine", &
          & "", &
          & "Options", &
          & "  --output-dir DIR  write the results to this folder instead of that of the input", &
          & "  --threads N       number of threads; default is OMP_NUM_THREADS or all processors", &
-         & "  --heat NAME       surface temperatures: established, as the established program (default), or", &
+         & "  --heat NAME       surface temperatures: established, as the established program (default for .inp), or", &
          & "                    moving-source, without counting the heat of an element twice at its centre", &
          & "  --contact-angle NAME  on rails that vary along the track: established, of the section below the axle", &
          & "                    (default), or contact, of wheel and rail where they touch", &

@@ -58,7 +58,7 @@ module contact_control_digits
       & digit_row("P", 0, time_link%continue_all, both, .true., &
       & "new time step: the previous case gives the previous tractions", "continue_all"), &
       & digit_row("P", 1, time_link%continue_normal, both, .true., &
-      & "as 0 for the pressures; previous shear tractions are zero", "continue_normal"), &
+      & "new time step for pressures; previous shear tractions are zero", "continue_normal"), &
       & digit_row("P", 2, time_link%initiate, both, .true., "new sequence: no previous tractions", "initiate"), &
       & digit_row("P", 3, time_link%repeat_step, both, .true., &
       & "new iteration: previous tractions stay as they are", "repeat_step"), &
@@ -124,7 +124,7 @@ module contact_control_digits
       & digit_row("C", 0, 0, module_3, .true., "keep the influence coefficients"), &
       & digit_row("C", 1, 1, both, .true., "form the influence coefficients from the values in store"), &
       & digit_row("C", 2, kernel_model%piecewise_constant, both, .true., &
-      & "half-space, piecewise constant; read materials", "piecewise_constant"), &
+      & "half-space, piecewise constant", "piecewise_constant"), &
       & digit_row("C", 3, kernel_model%bilinear, both, .true., "half-space with bilinear tractions", "bilinear"), &
       & digit_row("C", 4, kernel_model%conformal, both, .true., &
       & "half-space with angle correction for conformal contact", "conformal"), &
@@ -142,7 +142,7 @@ module contact_control_digits
       & digit_row("M", 6, material_model%fastrip_plain, both, .true., &
       & "FaStrip as published, without slope reduction", "fastrip_plain"), &
       & digit_row("M", 7, material_model%fastrip_sliding, both, .true., &
-      & "as 6, with the correction of full sliding", "fastrip_sliding"), &
+      & "FaStrip as published, with the correction of full sliding", "fastrip_sliding"), &
       & digit_row("Z", 0, 0, module_3, .true., "keep the undeformed distance and planform"), &
       & digit_row("Z", 1, 1, module_3, .true., "form the undeformed distance from the values in store"), &
       & digit_row("Z", 2, 2, module_3, .true., "read the undeformed distance and planform"), &

@@ -4,9 +4,11 @@ module contact_experiment_place
    implicit none (type, external)
    private
 
-   public :: experiment_place, locate_experiment
+   public :: choose_input, experiment_place, locate_experiment, input_suffix, readable_suffix
 
-   character(len=*), parameter :: separator = "/", foreign_separator = "\", input_suffix = ".inp"
+   character(len=*), parameter :: separator = "/", foreign_separator = "\"
+   !> Files of the two formats of input
+   character(len=*), parameter :: input_suffix = ".inp", readable_suffix = ".toml"
 
    !> The files of an experiment
    type :: experiment_place
@@ -18,7 +20,7 @@ module contact_experiment_place
       character(len=:), allocatable :: input
       !> Folder and name of the results, to which a suffix is added
       character(len=:), allocatable :: results
-      !> Was a suffix .inp taken off?
+      !> Was a suffix .inp or .toml taken off?
       logical :: shortened = .false.
    end type experiment_place
 
@@ -26,29 +28,28 @@ contains
 
    !> From the name of an experiment as a user types it to the names of its files
    !>
-   !> Both kinds of separators are understood, a suffix .inp is taken off, and results go to the folder
-   !> of the input unless another one is named.
+   !> Both kinds of separators are understood, a suffix .inp or .toml is taken off, and results go to the folder
+   !> of the input unless another one is named. Without suffix the input is that with .inp, see choose_input.
    pure function locate_experiment(typed, output_folder) result(place)
       !> Name of the experiment, with or without folder and suffix
       character(len=*), intent(in) :: typed
       !> Folder of the results; "" for that of the input
       character(len=*), intent(in) :: output_folder
       type(experiment_place) :: place
-      character(len=:), allocatable :: path
+      character(len=:), allocatable :: path, suffix
       integer :: last
 
       path = replaced(trim(adjustl(typed)), foreign_separator, separator)
-      last = len(path) - len(input_suffix)
-      if (last > 0) then
-         if (path(last + 1:) == input_suffix .and. path(last:last) /= separator) then
-            path = path(:last)
-            place%shortened = .true.
-         end if
+      suffix = input_suffix
+      if (ends_with(path, readable_suffix)) suffix = readable_suffix
+      if (ends_with(path, suffix)) then
+         path = path(:len(path) - len(suffix))
+         place%shortened = .true.
       end if
       last = index(path, separator, back=.true.)
       place%folder = path(:last)
       place%name = path(last + 1:)
-      place%input = path // input_suffix
+      place%input = path // suffix
       place%results = path
       if (len_trim(output_folder) > 0) then
          path = replaced(trim(output_folder), foreign_separator, separator)
@@ -56,4 +57,31 @@ contains
          place%results = path // place%name
       end if
    end function locate_experiment
+
+   !> Does a path have a suffix, and a name before it?
+   pure logical function ends_with(path, suffix)
+      character(len=*), intent(in) :: path, suffix
+      integer :: last
+
+      ends_with = .false.
+      last = len(path) - len(suffix)
+      if (last > 0) ends_with = path(last + 1:) == suffix .and. path(last:last) /= separator
+   end function ends_with
+
+   !> An experiment without suffix that has no file .inp but one .toml is read from that
+   subroutine choose_input(place, has_both)
+      type(experiment_place), intent(inout) :: place
+      !> Are there both files, so that .inp is read because nothing else was said?
+      logical, intent(out) :: has_both
+      character(len=:), allocatable :: path
+      logical :: has_input, has_readable
+
+      has_both = .false.
+      if (place%shortened) return
+      path = place%folder // place%name
+      inquire(file=path // input_suffix, exist=has_input)
+      inquire(file=path // readable_suffix, exist=has_readable)
+      has_both = has_input .and. has_readable
+      if (has_readable .and. .not. has_input) place%input = path // readable_suffix
+   end subroutine choose_input
 end module contact_experiment_place

@@ -4,7 +4,7 @@
 !> problems to where it was, and goes on behind it.
 module contact_experiment_resume
    use contact_base_case_status, only : case_status
-   use contact_base_choices, only : estimate_choice, heat_source, kernel_model, time_link
+   use contact_base_choices, only : estimate_choice, kernel_model, time_link
    use contact_base_error, only : error_kind, error_type, fatal_error
    use contact_base_kinds, only : long, wp
    use contact_base_log, only : log_type
@@ -14,7 +14,8 @@ module contact_experiment_resume
    use contact_cases_slot, only : open_contact, open_pair, problem_slot
    use contact_experiment_journal, only : advised, case_letter, checkpoint, is_advised, journal_settings, letter_of, &
       & read_journal
-   use contact_experiment_state, only : complete_spec, counted, experiment_state, find_slot, numbered_slot, run_settings, solve_one
+   use contact_experiment_state, only : as_input_says, complete_spec, counted, experiment_state, find_slot, numbered_slot, &
+      & run_settings, solve_one
    use contact_input_experiment_file, only : experiment_reader, input_case
    use contact_text_lexer, only : empty_hash
    use contact_text_words, only : integer_text
@@ -122,7 +123,7 @@ contains
       end if
       if (now%hdf5 .and. .not. before%hdf5) what = "without --hdf5"
       if (now%vtk .and. .not. before%vtk) what = "without --vtk"
-      if (now%heat_source /= before%heat_source .and. now%heat_source /= heat_source%established) &
+      if (now%heat_source /= before%heat_source .and. now%heat_source /= as_input_says) &
          & what = "with another kind of temperatures (--heat)"
       if (before%angle_below_axle .and. .not. now%angle_below_axle) what = "with another kind of contact angles (--contact-angle)"
       if (len(what) > 0) then

@@ -10,7 +10,7 @@ module contact_experiment_run
    use, intrinsic :: iso_c_binding, only : c_f_pointer, c_loc, c_ptr
    use omp_lib, only : omp_get_max_threads, omp_set_num_threads
    use contact_base_case_status, only : case_state, case_status
-   use contact_base_choices, only : kernel_model
+   use contact_base_choices, only : heat_source, kernel_model
    use contact_base_error, only : add_context, error_kind, error_type, fatal_error, full_text
    use contact_base_guard, only : do_guarded, end_text, free_left_blocks, guard_end, new_owner
    use contact_base_kinds, only : long, wp
@@ -23,11 +23,11 @@ module contact_experiment_run
    use contact_cases_spec, only : case_spec
    use contact_experiment_exports, only : number_of_exports
    use contact_experiment_journal, only : journal_name
-   use contact_experiment_place, only : locate_experiment
+   use contact_experiment_place, only : choose_input, input_suffix, locate_experiment, readable_suffix
    use contact_experiment_resume, only : catch_up, find_point, note_case, resume_point, settings_of
-   use contact_experiment_state, only : complete_spec, counted, experiment_state, find_slot, no_unit, run_settings, &
+   use contact_experiment_state, only : as_input_says, complete_spec, counted, experiment_state, find_slot, no_unit, run_settings, &
       & solve_one, stop_question
-   use contact_input_experiment_file, only : experiment_reader, input_case
+   use contact_input_experiment_file, only : experiment_reader, input_case, is_readable_format
    use contact_input_problems, only : problem_text, severity
    use contact_output_case_record, only : case_head, planned_text
    use contact_output_finished_file, only : close_result, open_result, open_result_again
@@ -42,7 +42,7 @@ module contact_experiment_run
    implicit none (type, external)
    private
 
-   public :: no_unit, run_experiment, run_settings, stop_question
+   public :: as_input_says, no_unit, run_experiment, run_settings, stop_question
 
    !> Cases that are estimated to take more time [s] or memory [bytes] are announced: by a check, and before they are computed
    real(wp), parameter :: told_seconds = 1.0_wp, told_bytes = 1.0e8_wp, large_seconds = 10.0_wp, large_bytes = 1.0e9_wp
@@ -66,6 +66,7 @@ contains
       type(experiment_state), pointer :: state
       type(guarded_run), target :: run
       integer :: default_threads, owner, cause
+      logical :: has_both
 
       allocate(state)
       default_threads = omp_get_max_threads()
@@ -77,8 +78,13 @@ contains
       else
          state%place = locate_experiment(settings%experiment, "")
       end if
-      if (state%place%shortened) call state%log%line(" The suffix .inp is taken off, the experiment is '" // &
-         & state%place%name // "'")
+      call choose_input(state%place, has_both)
+      associate (input => state%place%input)
+         if (state%place%shortened) call state%log%line(" The suffix " // input(index(input, ".", back=.true.):) // &
+            & " is taken off, the experiment is '" // state%place%name // "'")
+         if (has_both) call state%log%line(" There are " // state%place%name // input_suffix // " and " // state%place%name // &
+            & readable_suffix // "; " // input // " is read; with its suffix the other one is")
+      end associate
 
       call check_place(state, error)
       call set_limits(state, settings)
@@ -343,6 +349,8 @@ contains
          state%limits%bytes = asked%limits%bytes
          state%limits%elements = asked%limits%elements
       end if
+      if (asked%heat_source == as_input_says .and. .not. is_readable_format(state%place%input)) &
+         & asked%heat_source = heat_source%established
       if (.not. allocated(error) .and. point%active) call catch_up(state, asked, point, error)
       if (allocated(error)) then
          if (allocated(state%exports%hdf5)) call state%exports%hdf5%abandon()

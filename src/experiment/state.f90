@@ -20,9 +20,11 @@ module contact_experiment_state
    implicit none (type, external)
    private
 
-   public :: complete_spec, counted, experiment_state, find_slot, no_unit, numbered_slot, run_settings, solve_one, &
+   public :: as_input_says, complete_spec, counted, experiment_state, find_slot, no_unit, numbered_slot, run_settings, solve_one, &
       & stop_question
 
+   !> Stands for what the input says of temperatures; the established format says nothing, which is the established way
+   integer, parameter :: as_input_says = -1
    !> Stands for no unit; 0 is the standard error stream of gfortran
    integer, parameter :: no_unit = -1
 
@@ -64,8 +66,8 @@ module contact_experiment_state
       logical :: strict = .false.
       !> Files for other programs beside the usual ones
       type(export_request) :: exports
-      !> How temperatures are computed, member of heat_source
-      integer :: heat_source = heat_source%established
+      !> How temperatures are computed, member of heat_source, or as_input_says
+      integer :: heat_source = as_input_says
       !> Contact angles on rails that vary along the track: of the section below the axle, as in the established program?
       logical :: angle_below_axle = .true.
       !> Go on with a run that has ended before all cases were finished?
@@ -162,7 +164,7 @@ contains
       type(run_settings), intent(in) :: asked
       type(input_case), intent(inout) :: this
 
-      this%spec%heat%source = asked%heat_source
+      if (asked%heat_source /= as_input_says) this%spec%heat%source = asked%heat_source
       if (allocated(this%spec%wheel_rail)) this%spec%wheel_rail%search%angle_below_axle = asked%angle_below_axle
       if (this%spec%output_level > 0 .or. this%spec%mat_file > 0 .or. this%spec%has_stress) state%silent = .false.
       this%spec%limits = state%limits

@@ -3,7 +3,7 @@ module contact_input_checks3
    use contact_base_kinds, only : wp
    use contact_cases_spec, only : case_spec, part_source
    use contact_input_control, only : add_for_digit, control_words
-   use contact_input_file_reader, only : file_reader
+   use contact_cases_archive, only : case_archive
    use contact_input_grid_frame, only : frame_of, grid_frame
    use contact_input_problems, only : problem_list, severity
    use contact_text_words, only : integer_text, real_text
@@ -23,7 +23,7 @@ contains
    subroutine check_case(words, a, previous, has_previous, coefficients, spec, problems)
       type(control_words), intent(in) :: words
       !> The reader of the groups, which knows where they are
-      type(file_reader), intent(in) :: a
+      class(case_archive), intent(in) :: a
       !> The previous case of this result element
       type(case_spec), intent(in) :: previous
       !> Is there one?
@@ -49,7 +49,7 @@ contains
    pure integer function grid_line(words, a) result(line)
       type(control_words), intent(in) :: words
       !> The reader of the groups, which knows where they are
-      type(file_reader), intent(in) :: a
+      class(case_archive), intent(in) :: a
 
       line = a%line_of("grid")
       if (line == 0) line = words%word(2)%line
@@ -59,7 +59,7 @@ contains
    subroutine check_hertz_options(words, a, spec, problems)
       type(control_words), intent(in) :: words
       !> The reader of the groups, which knows where they are
-      type(file_reader), intent(in) :: a
+      class(case_archive), intent(in) :: a
       type(case_spec), intent(in) :: spec
       type(problem_list), intent(inout) :: problems
       character(len=:), allocatable :: option, pressure
@@ -92,7 +92,7 @@ contains
    subroutine check_kept_coefficients(words, a, frame, coefficients, problems)
       type(control_words), intent(in) :: words
       !> The reader of the groups, which knows where they are
-      type(file_reader), intent(in) :: a
+      class(case_archive), intent(in) :: a
       !> The grid, and the one of the coefficients
       type(grid_frame), intent(in) :: frame, coefficients
       type(problem_list), intent(inout) :: problems
@@ -134,7 +134,7 @@ contains
    subroutine check_continuation(words, a, frame, old, problems)
       type(control_words), intent(in) :: words
       !> The reader of the groups, which knows where they are
-      type(file_reader), intent(in) :: a
+      class(case_archive), intent(in) :: a
       !> The grid, and the one of the previous case
       type(grid_frame), intent(in) :: frame, old
       type(problem_list), intent(inout) :: problems

@@ -23,6 +23,9 @@ module contact_input_control
       type(input_value) :: word(3)
       !> The second number of word 2
       type(input_value) :: second
+      !> Were choices given by keys? Then each digit has a place of its own
+      logical :: has_keys = .false.
+      integer :: lines(size(digit_names)) = 0, columns(size(digit_names)) = 0
    end type control_words
 
 contains
@@ -340,6 +343,12 @@ contains
       character(len=*), intent(in) :: name
       character(len=*), intent(in) :: message
 
+      if (words%has_keys) then
+         associate (k => findloc(digit_names, name, dim=1))
+            call problems%add(kind, message, words%lines(k), words%columns(k))
+         end associate
+         return
+      end if
       select case (name)
       case ("C1", "P", "B", "T", "N", "F", "S")
          call problems%add(kind, message, words%word(1)%line, words%word(1)%column)

@@ -6,12 +6,14 @@ module contact_input_experiment_file
    use contact_input_grid_frame, only : grid_frame
    use contact_input_problems, only : problem_list, severity
    use contact_input_reader, only : read_case
+   use contact_input_toml_cases, only : case_address, toml_cases
+   use contact_input_toml_tables, only : toml_memory
    use contact_text_lexer, only : input_lexer, input_value
    use contact_text_words, only : integer_text
    implicit none (type, external)
    private
 
-   public :: experiment_reader, input_case, case_failure
+   public :: experiment_reader, input_case, case_failure, is_readable_format
 
    !> Largest numbers on the module line, and number of different result elements
    integer, parameter :: highest_element = 999, highest_patch = 9, most_elements = 100
@@ -42,6 +44,8 @@ module contact_input_experiment_file
       type(case_spec) :: spec
       !> Grid for which influence coefficients were last formed
       type(grid_frame) :: coefficients
+      !> What its cases gave, in the readable format
+      type(toml_memory) :: memory
    end type element_store
 
    !> A file with the memory of its result elements
@@ -55,6 +59,8 @@ module contact_input_experiment_file
       !> Stores in the order of their first use
       integer, private :: count = 0
       type(element_store), allocatable, private :: stores(:)
+      !> The cases of the readable format; unallocated for the other one
+      type(toml_cases), allocatable, private :: cases
    contains
       !> Read a file from the disk
       procedure :: open_file => open_experiment
@@ -66,6 +72,7 @@ module contact_input_experiment_file
       procedure :: next_case
       !> Replace the stored input of the case that was read last
       procedure :: store_case
+      procedure, private :: next_readable_case
       procedure, private :: read_module_line
       procedure, private :: select_store
       procedure, private :: next_number
@@ -83,7 +90,28 @@ contains
 
       call self%lexer%open_file(file, error, below)
       allocate(self%stores(4))
+      if (.not. allocated(error) .and. is_readable_format(file)) call open_cases(self, error)
    end subroutine open_experiment
+
+   !> Is it a file of the readable format, by its name?
+   pure logical function is_readable_format(file)
+      character(len=*), intent(in) :: file
+      character(len=*), parameter :: suffix = ".toml"
+
+      is_readable_format = .false.
+      if (len(file) > len(suffix)) is_readable_format = file(len(file) - len(suffix) + 1:) == suffix
+   end function is_readable_format
+
+   !> Make a tree of a text in the readable format
+   subroutine open_cases(self, error)
+      class(experiment_reader), intent(inout) :: self
+      type(error_type), allocatable, intent(out) :: error
+      character(len=:), allocatable :: text
+
+      call self%lexer%get_text(text)
+      allocate(self%cases)
+      call self%cases%open_text(text, self%lexer%file, error)
+   end subroutine open_cases
 
    !> Take a text that is in memory already
    subroutine open_experiment_text(self, text, name)
@@ -106,6 +134,7 @@ contains
       self%count = 0
       deallocate(self%stores)
       allocate(self%stores(4))
+      if (allocated(self%cases)) call self%cases%rewind()
    end subroutine rewind_experiment
 
    !> The next case, with its module number 0 at the end
@@ -119,6 +148,10 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       call this%problems%start(self%lexer%file)
+      if (allocated(self%cases)) then
+         call self%next_readable_case(this, error)
+         return
+      end if
       if (self%module_number == 0) then
          call self%read_module_line(error)
          if (allocated(error)) return
@@ -142,6 +175,36 @@ contains
          if (this%spec%ends_module) self%module_number = 0
       end associate
    end subroutine next_case
+
+   !> The next case of the readable format
+   subroutine next_readable_case(self, this, error)
+      class(experiment_reader), intent(inout) :: self
+      type(input_case), intent(inout) :: this
+      type(error_type), allocatable, intent(out) :: error
+      type(case_address) :: address
+      logical :: ends_module
+
+      call self%cases%go_on(address, ends_module, error)
+      if (allocated(error) .or. address%module_number == 0) return
+      call self%select_store(address%module_number, address%reid, address%cpid)
+      if (self%current == 0) then
+         call fatal_error(error, "result_element = " // integer_text(address%reid) // " is one too many; there can be " // &
+            & integer_text(most_elements), file=self%lexer%file, line=address%line)
+         return
+      end if
+      associate (store => self%stores(self%current))
+         this%module_number = address%module_number
+         this%reid = address%reid
+         this%cpid = address%cpid
+         this%first_line = address%line
+         this%number = self%next_number()
+         call self%cases%read_case(store%memory, address%module_number, ends_module, store%spec, store%cases > 0, this%spec, &
+            & this%problems, store%coefficients, this%digits)
+         self%lexer%line = min(address%last_line, self%lexer%count_lines())
+         store%spec = this%spec
+         store%cases = store%cases + 1
+      end associate
+   end subroutine next_readable_case
 
    !> Replace the stored input of the case that was read last
    !>

@@ -46,7 +46,6 @@ module contact_input_file_reader
       procedure :: refuse_group => refuse_group_of_file
       procedure :: warn_of_group => warn_of_group_of_file
       procedure :: add_context => add_context_of_file
-      !> Line on which a group begins, 0 when it was not read
       procedure :: line_of
    end type file_reader
 

@@ -16,7 +16,7 @@ module contact_input_reader
    implicit none (type, external)
    private
 
-   public :: read_case
+   public :: read_case, check_elements_are_kept
 
 contains
 

@@ -4,13 +4,13 @@ module contact_output_file_writer
    use contact_base_output_file, only : output_file
    use contact_cases_archive, only : case_archive, item_kind
    use contact_control_digits, only : case_digits, encode_words, word_text
-   use contact_text_words, only : integer_text
+   use contact_text_words, only : integer_text, to_real
    implicit none (type, external)
    private
 
    public :: file_writer, put_words
 
-   !> Sixteen figures tell numbers apart
+   !> Sixteen figures tell most numbers apart, seventeen all
    integer, parameter :: width = 24
    !> Longest list that is written on one line, and numbers per line of longer ones
    integer, parameter :: short_list = 8, per_line = 4
@@ -104,12 +104,15 @@ contains
       real(wp), intent(in) :: values(:)
       character(len=width*size(values)) :: text
       character(len=width) :: word
-      integer :: k, last
+      real(wp) :: back
+      integer :: k, last, state
 
       text = ""
       last = -1
       do k = 1, size(values)
          write(word, "(ES23.15E3)") values(k)
+         call to_real(trim(adjustl(word)), back, state)
+         if (abs(back - values(k)) > 0.0_wp) write(word, "(ES24.16E3)") values(k)
          if (abs(values(k)) < 1.0e6_wp .and. abs(values(k)) >= 0.0_wp) then
             if (abs(values(k) - anint(values(k))) <= 0.0_wp) write(word, "(F10.1)") values(k)
          end if

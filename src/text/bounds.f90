@@ -29,6 +29,8 @@ module contact_text_bounds
       logical :: is_open
       !> Why there is nothing beyond
       character(len=72) :: reason
+      !> Has it a value before a case gives one, so that formats with names can do without it?
+      logical :: is_preset = .false.
    end type number_bounds
 
    !> Distances that no contact problem reaches [mm], and along the track [mm]
@@ -50,45 +52,45 @@ module contact_text_bounds
 
    type(number_bounds), parameter :: solver_rows(*) = [ &
       & number_bounds("MAXGS", "integer", "largest number of iterations of a solver", &
-      & 1.0_wp, 999999.0_wp, .false., "an iteration has to begin and to end"), &
+      & 1.0_wp, 999999.0_wp, .false., "an iteration has to begin and to end", .true.), &
       & number_bounds("MAXIN", "integer", "largest number of changes of the element division", &
-      & 1.0_wp, 999999.0_wp, .false., "an iteration has to begin and to end"), &
+      & 1.0_wp, 999999.0_wp, .false., "an iteration has to begin and to end", .true.), &
       & number_bounds("MAXNR", "integer", "largest number of iterations for forces", &
-      & 1.0_wp, 999999.0_wp, .false., "an iteration has to begin and to end"), &
+      & 1.0_wp, 999999.0_wp, .false., "an iteration has to begin and to end", .true.), &
       & number_bounds("MAXOUT", "integer", "largest number of outer iterations", &
-      & 1.0_wp, 999999.0_wp, .false., "an iteration has to begin and to end"), &
+      & 1.0_wp, 999999.0_wp, .false., "an iteration has to begin and to end", .true.), &
       & number_bounds("MXSENS", "integer", "largest number of iterations for sensitivities", &
-      & 1.0_wp, 999999.0_wp, .false., "an iteration has to begin and to end"), &
+      & 1.0_wp, 999999.0_wp, .false., "an iteration has to begin and to end", .true.), &
       & number_bounds("EPS", "-", "relative tolerance", &
-      & 1.0e-20_wp, 1.0_wp, .false., "double precision ends at 1e-16; at 1 nothing is solved"), &
+      & 1.0e-20_wp, 1.0_wp, .false., "double precision ends at 1e-16; at 1 nothing is solved", .true.), &
       & number_bounds("EPSENS", "-", "relative tolerance of sensitivities", &
-      & 1.0e-20_wp, 1.0_wp, .false., "double precision ends at 1e-16; at 1 nothing is solved"), &
+      & 1.0e-20_wp, 1.0_wp, .false., "double precision ends at 1e-16; at 1 nothing is solved", .true.), &
       & number_bounds("NPOT_MAX", "integer", "largest number of elements of a patch of wheel and rail", &
-      & 1.0_wp, 2.0e9_wp, .false., "a number of elements; 100 to 1000000 act"), &
+      & 1.0_wp, 2.0e9_wp, .false., "a number of elements; 100 to 1000000 act", .true.), &
       & number_bounds("OMEGAH", "-", "relaxation in the adhesion area", &
-      & 0.0_wp, 10.0_wp, .true., "a relaxation factor; beyond 2 the iteration diverges"), &
+      & 0.0_wp, 10.0_wp, .true., "a relaxation factor; beyond 2 the iteration diverges", .true.), &
       & number_bounds("OMEGAS", "-", "relaxation in the slip area", &
-      & 0.0_wp, 10.0_wp, .true., "a relaxation factor; beyond 2 the iteration diverges"), &
+      & 0.0_wp, 10.0_wp, .true., "a relaxation factor; beyond 2 the iteration diverges", .true.), &
       & number_bounds("OMGSLP", "-", "relaxation of the slip velocity", &
-      & 0.0_wp, 10.0_wp, .true., "a relaxation factor; beyond 2 the iteration diverges"), &
+      & 0.0_wp, 10.0_wp, .true., "a relaxation factor; beyond 2 the iteration diverges", .true.), &
       & number_bounds("INISLP", "-", "start of the slip velocity iteration: its sign chooses the branch", &
-      & -1.0e9_wp, 1.0e9_wp, .false., "only the sign has a meaning"), &
+      & -1.0e9_wp, 1.0e9_wp, .false., "only the sign has a meaning", .true.), &
       & number_bounds("FDECAY", "-", "GDsteady: part of a step kept after projection, or minus elements", &
-      & -1.0e4_wp, 1.0e4_wp, .false., "a factor, or minus a number of elements"), &
+      & -1.0e4_wp, 1.0e4_wp, .false., "a factor, or minus a number of elements", .true.), &
       & number_bounds("BETATH", "-", "GDsteady: progress below which the projection changes", &
-      & -1.0e4_wp, 1.0e4_wp, .false., "a factor"), &
+      & -1.0e4_wp, 1.0e4_wp, .false., "a factor", .true.), &
       & number_bounds("KDOWFB", "integer", "GDsteady: elements of the projection after stagnation", &
-      & -1.0e6_wp, 1.0e6_wp, .false., "a number of elements"), &
+      & -1.0e6_wp, 1.0e6_wp, .false., "a number of elements", .true.), &
       & number_bounds("D_IFC", "-", "GDsteady: weight of the first element of an adhesion area", &
-      & -1.0e6_wp, 1.0e6_wp, .false., "a weight; at least 0.01 acts"), &
+      & -1.0e6_wp, 1.0e6_wp, .false., "a weight; at least 0.01 acts", .true.), &
       & number_bounds("D_LIN", "-", "GDsteady: growth of the weight per element", &
-      & -1.0e6_wp, 1.0e6_wp, .false., "a weight per element"), &
+      & -1.0e6_wp, 1.0e6_wp, .false., "a weight per element", .true.), &
       & number_bounds("D_CNS", "-", "GDsteady: weight up or down to which it grows", &
-      & -1.0e6_wp, 1.0e6_wp, .false., "a weight; at least 0.01 acts"), &
+      & -1.0e6_wp, 1.0e6_wp, .false., "a weight; at least 0.01 acts", .true.), &
       & number_bounds("D_SLP", "-", "GDsteady: weight of the slip area", &
-      & -1.0e6_wp, 1.0e6_wp, .false., "a weight; at least 0.01 acts"), &
+      & -1.0e6_wp, 1.0e6_wp, .false., "a weight; at least 0.01 acts", .true.), &
       & number_bounds("POW_S", "-", "GDsteady: exponent of the weights in the slip area", &
-      & -1.0e4_wp, 1.0e4_wp, .false., "an exponent; 0.01 to 10 act")]
+      & -1.0e4_wp, 1.0e4_wp, .false., "an exponent; 0.01 to 10 act", .true.)]
 
    type(number_bounds), parameter :: motion_rows(*) = [ &
       & number_bounds("PEN", "mm", "approach, prescribed with N = 0", &
@@ -100,17 +102,17 @@ module contact_text_bounds
       & number_bounds("FY", "-", "relative force FY, prescribed with F = 2", &
       & -1.0_wp, 1.0_wp, .false., "relative to the friction bound FSTAT FN"), &
       & number_bounds("CKSI", "- or mm", "longitudinal creepage or shift", &
-      & -endless, endless, .false., "a creepage of 2 is a wheel turning backwards; shifts in mm"), &
+      & -endless, endless, .false., "a creepage of 2 is a wheel turning backwards; shifts in mm", .true.), &
       & number_bounds("CETA", "- or mm", "lateral creepage or shift", &
-      & -endless, endless, .false., "a creepage of 1 is sliding at 45 degrees; shifts in mm"), &
+      & -endless, endless, .false., "a creepage of 1 is sliding at 45 degrees; shifts in mm", .true.), &
       & number_bounds("CPHI", "rad/mm", "spin or rotation", &
-      & -endless, endless, .false., "at most one over the radius of a body"), &
+      & -endless, endless, .false., "at most one over the radius of a body", .true.), &
       & number_bounds("SPINXO", "mm", "spin centre", &
       & -1.0e9_wp, 1.0e9_wp, .false., "a centre so far off is a translation"), &
       & number_bounds("SPINYO", "mm", "spin centre", &
       & -1.0e9_wp, 1.0e9_wp, .false., "a centre so far off is a translation"), &
       & number_bounds("CHI", "rad", "rolling direction", &
-      & -two_turns, two_turns, .false., "a direction has one turn; degrees need a d: 180d"), &
+      & -two_turns, two_turns, .false., "a direction has one turn; degrees need a d: 180d", .true.), &
       & number_bounds("DQ", "mm", "distance per step", &
       & tiny_side, far, .false., "a step below the size of atoms makes no way"), &
       & number_bounds("VELOC", "mm/s", "velocity", &
@@ -134,9 +136,9 @@ module contact_text_bounds
       & number_bounds("SABSH", "mm/s", "slip velocity at which a term has fallen to one half", &
       & 1.0e-5_wp, fast, .false., "the law would jump; a thousand km/s"), &
       & number_bounds("MEMDST", "mm", "distance of the friction memory", &
-      & 0.0_wp, far, .false., "a distance; particles leave the contact sooner"), &
+      & 0.0_wp, far, .false., "a distance; particles leave the contact sooner", .true.), &
       & number_bounds("MEM_S0", "mm/s", "lowest velocity of the friction memory", &
-      & 0.0_wp, fast, .false., "a speed; a thousand km/s"), &
+      & 0.0_wp, fast, .false., "a speed; a thousand km/s", .true.), &
       & number_bounds("FREF", "-", "coefficient of friction up to TREF", &
       & 0.0_wp, 1.0e6_wp, .false., "friction does not push; from 100 on nothing slips"), &
       & number_bounds("TREF", "degC", "temperature at which friction begins to change", &
@@ -170,27 +172,27 @@ module contact_text_bounds
       & number_bounds("FLX", "mm3/N", "flexibility of simplified theory", &
       & 1.0e-10_wp, 1.0e10_wp, .false., "rigid to gel"), &
       & number_bounds("K0_MF", "-", "initial slope reduction", &
-      & 1.0e-10_wp, 1.0_wp, .false., "a part of the initial slope"), &
+      & 1.0e-10_wp, 1.0_wp, .false., "a part of the initial slope", .true.), &
       & number_bounds("ALFAMF", "-", "final slope reduction over initial one", &
-      & 0.0_wp, 1.0_wp, .false., "a part of the initial slope"), &
+      & 0.0_wp, 1.0_wp, .false., "a part of the initial slope", .true.), &
       & number_bounds("BETAMF", "-", "decay of the slope reduction", &
-      & 0.0_wp, 1.0e10_wp, .false., "slopes fall with creepage"), &
+      & 0.0_wp, 1.0e10_wp, .false., "slopes fall with creepage", .true.), &
       & number_bounds("GG3", "N/mm2", "modulus of rigidity of the layer", &
       & 1.0e-5_wp, rigid, .false., "from the softest gels to layers that count as rigid"), &
       & number_bounds("LAYTHK", "mm", "thickness of the layer", &
       & 0.0_wp, far, .false., "a thickness; 0 is no layer"), &
       & number_bounds("TAU_C0", "N/mm2", "yield limit", &
-      & -rigid, rigid, .false., "0 and less, and 1e10 and more: no plasticity"), &
+      & -rigid, rigid, .false., "0 and less, and 1e10 and more: no plasticity", .true.), &
       & number_bounds("K_TAU", "N/mm3", "hardening", &
-      & -rigid, rigid, .false., "hardening or softening over a nanometre"), &
+      & -rigid, rigid, .false., "hardening or softening over a nanometre", .true.), &
       & number_bounds("Y,ALPHA", "mm, rad", "lateral position and surface inclination", &
       & -far, far, .false., "a kilometre off the contact; angles are smaller by far"), &
       & number_bounds("CZZ", "mm", "influence coefficient", &
       & -1.0e12_wp, 1.0e12_wp, .false., "an element yields by about its own side"), &
       & number_bounds("IF_METH", "integer", "method for the normal direction", &
-      & 0.0_wp, 1.0_wp, .false., "the methods that there are"), &
+      & 0.0_wp, 1.0_wp, .false., "the methods that there are", .true.), &
       & number_bounds("VARIANT", "integer", "variant of the angle correction", &
-      & 1.0_wp, 4.0_wp, .false., "the variants that there are"), &
+      & 1.0_wp, 4.0_wp, .false., "the variants that there are", .true.), &
       & number_bounds("CDAMP", "s", "damping coefficient", &
       & 0.0_wp, 1.0e10_wp, .false., "damping does not drive"), &
       & number_bounds("DFNMAX", "N/s", "largest rate of the normal force", &
@@ -206,7 +208,7 @@ module contact_text_bounds
       & number_bounds("DENS", "kg/mm3", "density", &
       & 1.0e-12_wp, 1.0e3_wp, .false., "far below any gas, far above any solid"), &
       & number_bounds("BETAPL", "-", "part of plastic work that becomes heat", &
-      & 0.0_wp, 1.0_wp, .false., "a part of the plastic work")]
+      & 0.0_wp, 1.0_wp, .false., "a part of the plastic work", .true.)]
 
    type(number_bounds), parameter :: grid_rows(*) = [ &
       & number_bounds("MX", "integer", "number of elements along x", &
@@ -332,13 +334,13 @@ module contact_text_bounds
       & number_bounds("DS", "mm", "element size along the profile", &
       & tiny_side, far, .false., "from below an atom to a kilometre"), &
       & number_bounds("DQREL", "-", "step in elements", &
-      & 5.0e-7_wp, 10.0_wp, .false., "a step in elements"), &
+      & 5.0e-7_wp, 10.0_wp, .false., "a step in elements", .true.), &
       & number_bounds("A_SEP", "rad", "angle of separate patches", &
-      & -1.0e4_wp, 1.0e4_wp, .false., "an angle; pi and more never separates"), &
+      & -1.0e4_wp, 1.0e4_wp, .false., "an angle; pi and more never separates", .true.), &
       & number_bounds("D_SEP", "mm", "distance of separate patches", &
-      & -far, far, .false., "a distance of patches"), &
+      & -far, far, .false., "a distance of patches", .true.), &
       & number_bounds("D_COMB", "mm", "distance of combined patches", &
-      & -far, far, .false., "a distance of patches"), &
+      & -far, far, .false., "a distance of patches", .true.), &
       & number_bounds("D_TURN", "mm", "distance of patches with own planes", &
       & -far, far, .false., "a distance of patches"), &
       & number_bounds("G_MISS", "mm", "gap up to which a patch is enlarged", &
@@ -346,7 +348,7 @@ module contact_text_bounds
       & number_bounds("GAUGHT", "mm", "height of the gauge point", &
       & -far, 200.0_wp, .false., "no rail is that high; 0 and less: absolute placement"), &
       & number_bounds("GAUGSQ", "-", "number of the gauge point", &
-      & -1.0e9_wp, 1.0e9_wp, .false., "read and not used"), &
+      & -1.0e9_wp, 1.0e9_wp, .false., "read and not used", .true.), &
       & number_bounds("GAUGWD", "mm", "gauge", &
       & -far, far, .false., "a gauge of a kilometre"), &
       & number_bounds("RAILY0", "mm", "lateral place of the rail", &
@@ -360,17 +362,17 @@ module contact_text_bounds
       & number_bounds("CURV", "1/mm", "curvature of the track", &
       & -1.0_wp, 1.0_wp, .false., "a curve with the radius of a millimetre"), &
       & number_bounds("DYRAIL", "mm", "lateral deviation of the rail", &
-      & -far, far, .false., "a kilometre off the track"), &
+      & -far, far, .false., "a kilometre off the track", .true.), &
       & number_bounds("DZRAIL", "mm", "vertical deviation of the rail", &
-      & -far, far, .false., "a kilometre off the track"), &
+      & -far, far, .false., "a kilometre off the track", .true.), &
       & number_bounds("DROLLR", "rad", "roll of the rail", &
-      & -two_turns, two_turns, .false., "an angle; degrees need a d: 1d"), &
+      & -two_turns, two_turns, .false., "an angle; degrees need a d: 1d", .true.), &
       & number_bounds("VYRAIL", "mm/s", "lateral velocity of the rail", &
-      & -fast, fast, .false., "a thousand km/s"), &
+      & -fast, fast, .false., "a thousand km/s", .true.), &
       & number_bounds("VZRAIL", "mm/s", "vertical velocity of the rail", &
-      & -fast, fast, .false., "a thousand km/s"), &
+      & -fast, fast, .false., "a thousand km/s", .true.), &
       & number_bounds("VROLLR", "rad/s", "roll rate of the rail", &
-      & -many_turns, many_turns, .false., "a rail is no turbine"), &
+      & -many_turns, many_turns, .false., "a rail is no turbine", .true.), &
       & number_bounds("KYRAIL", "N/mm", "lateral stiffness of the rail", &
       & 0.0_wp, rigid, .false., "springs do not push further; rigid"), &
       & number_bounds("FYRAIL", "N", "lateral spring force of the rail at rest", &
@@ -384,29 +386,29 @@ module contact_text_bounds
       & number_bounds("PROFILE", "mm ...", "number in a profile file", &
       & -1.0e9_wp, 1.0e9_wp, .false., "a number of a profile; a kilometre in micrometres"), &
       & number_bounds("MIRRORY", "integer", "mirror the profile in y?", &
-      & -1.0_wp, 1.0_wp, .false., "1 for yes, 0 and -1 for no"), &
+      & -1.0_wp, 1.0_wp, .false., "1 for yes, 0 and -1 for no", .true.), &
       & number_bounds("MIRRORZ", "integer", "mirror the profile in z?", &
       & -1.0_wp, 1.0_wp, .false., "1 for yes, -1 for no, 0 for as the file suggests"), &
       & number_bounds("SCALEYZ", "-", "factor to mm", &
-      & -1.0e9_wp, 1.0e9_wp, .false., "a factor of units"), &
+      & -1.0e9_wp, 1.0e9_wp, .false., "a factor of units", .true.), &
       & number_bounds("SMOOTH", "mm ...", "parameter of smoothing", &
-      & -1.0e9_wp, 1.0e9_wp, .false., "a wavelength or a weight"), &
+      & -1.0e9_wp, 1.0e9_wp, .false., "a wavelength or a weight", .true.), &
       & number_bounds("PRFOPT", "integer", "groups of options that follow", &
       & 0.0_wp, 2.0_wp, .false., "the groups that there are"), &
       & number_bounds("ISMOOTH", "integer", "smoothing method", &
-      & 0.0_wp, 2.0_wp, .false., "the methods that there are"), &
+      & 0.0_wp, 2.0_wp, .false., "the methods that there are", .true.), &
       & number_bounds("ZIGTHRS", "rad", "turning angle of a zig-zag", &
-      & -1.0e4_wp, 1.0e4_wp, .false., "an angle; degrees need a d: 150d"), &
+      & -1.0e4_wp, 1.0e4_wp, .false., "an angle; degrees need a d: 150d", .true.), &
       & number_bounds("KINKHIGH", "rad", "turning angle of a kink", &
-      & -1.0e4_wp, 1.0e4_wp, .false., "an angle; degrees need a d: 30d"), &
+      & -1.0e4_wp, 1.0e4_wp, .false., "an angle; degrees need a d: 30d", .true.), &
       & number_bounds("KINKLOW", "rad", "largest turning angle beside a kink", &
-      & -1.0e4_wp, 1.0e4_wp, .false., "an angle; degrees need a d: 6d"), &
+      & -1.0e4_wp, 1.0e4_wp, .false., "an angle; degrees need a d: 6d", .true.), &
       & number_bounds("KINKWID", "mm", "reach of a kink", &
-      & -far, far, .false., "a distance in a profile"), &
+      & -far, far, .false., "a distance in a profile", .true.), &
       & number_bounds("ERRHND", "integer", "level of error handling", &
-      & -2.0_wp, 1.0_wp, .false., "the levels that there are"), &
+      & -2.0_wp, 1.0_wp, .false., "the levels that there are", .true.), &
       & number_bounds("MAXOMIT", "-", "part of the profile that may be left out", &
-      & -1.0e9_wp, 1.0e9_wp, .false., "a part of the points")]
+      & -1.0e9_wp, 1.0e9_wp, .false., "a part of the points", .true.)]
 
    type(number_bounds), parameter :: wheel_rows(*) = [ &
       & number_bounds("FBDIST", "mm", "flange-back distance", &
@@ -416,31 +418,31 @@ module contact_text_bounds
       & number_bounds("YTAPE", "mm", "place of the nominal radius", &
       & -1.0e9_wp, 1.0e9_wp, .false., "999 and more: no tape line"), &
       & number_bounds("S_WS", "mm", "position along the track", &
-      & -far_along, far_along, .false., "a million km of track"), &
+      & -far_along, far_along, .false., "a million km of track", .true.), &
       & number_bounds("X_WS", "mm", "longitudinal position on the roller", &
-      & -far, far, .false., "a kilometre off the roller"), &
+      & -far, far, .false., "a kilometre off the roller", .true.), &
       & number_bounds("Y_WS", "mm", "lateral position", &
-      & -far, far, .false., "a kilometre off the track"), &
+      & -far, far, .false., "a kilometre off the track", .true.), &
       & number_bounds("Z_WS", "mm", "height, when prescribed", &
       & -far, far, .false., "a kilometre off the track"), &
       & number_bounds("FZ", "N", "vertical force, when prescribed", &
       & -heavy, heavy, .false., "the weight of a mountain"), &
       & number_bounds("ROLL", "rad", "roll angle", &
-      & -two_turns, two_turns, .false., "an angle; degrees need a d: 1d"), &
+      & -two_turns, two_turns, .false., "an angle; degrees need a d: 1d", .true.), &
       & number_bounds("YAW", "rad", "yaw angle", &
-      & -two_turns, two_turns, .false., "an angle; degrees need a d: 1d"), &
+      & -two_turns, two_turns, .false., "an angle; degrees need a d: 1d", .true.), &
       & number_bounds("PITCH", "rad", "pitch angle", &
-      & -many_turns, many_turns, .false., "turns that add up over a run"), &
+      & -many_turns, many_turns, .false., "turns that add up over a run", .true.), &
       & number_bounds("VS", "mm/s", "forward speed", &
       & -fast, fast, .false., "a thousand km/s"), &
       & number_bounds("VY", "mm/s", "lateral velocity", &
-      & -fast, fast, .false., "a thousand km/s"), &
+      & -fast, fast, .false., "a thousand km/s", .true.), &
       & number_bounds("VZ", "mm/s", "vertical velocity", &
-      & -fast, fast, .false., "a thousand km/s"), &
+      & -fast, fast, .false., "a thousand km/s", .true.), &
       & number_bounds("VROLL", "rad/s", "roll rate", &
-      & -many_turns, many_turns, .false., "faster than any turbine"), &
+      & -many_turns, many_turns, .false., "faster than any turbine", .true.), &
       & number_bounds("VYAW", "rad/s", "yaw rate", &
-      & -many_turns, many_turns, .false., "faster than any turbine"), &
+      & -many_turns, many_turns, .false., "faster than any turbine", .true.), &
       & number_bounds("VPITCH", "rad/s", "pitch rate, when prescribed", &
       & -many_turns, many_turns, .false., "faster than any turbine"), &
       & number_bounds("RPITCH", "rad/s", "pitch rate of the roller", &
@@ -448,29 +450,29 @@ module contact_text_bounds
       & number_bounds("FX_WS", "N", "longitudinal force, when prescribed", &
       & -heavy, heavy, .false., "the weight of a mountain"), &
       & number_bounds("DXWHL", "mm", "longitudinal deviation of the wheel", &
-      & -far, far, .false., "a deviation of a kilometre"), &
+      & -far, far, .false., "a deviation of a kilometre", .true.), &
       & number_bounds("DYWHL", "mm", "lateral deviation of the wheel", &
-      & -far, far, .false., "a deviation of a kilometre"), &
+      & -far, far, .false., "a deviation of a kilometre", .true.), &
       & number_bounds("DZWHL", "mm", "vertical deviation of the wheel", &
-      & -far, far, .false., "a deviation of a kilometre"), &
+      & -far, far, .false., "a deviation of a kilometre", .true.), &
       & number_bounds("DROLLW", "rad", "roll of the wheel", &
-      & -two_turns, two_turns, .false., "an angle; degrees need a d: 1d"), &
+      & -two_turns, two_turns, .false., "an angle; degrees need a d: 1d", .true.), &
       & number_bounds("DYAWW", "rad", "yaw of the wheel", &
-      & -two_turns, two_turns, .false., "an angle; degrees need a d: 1d"), &
+      & -two_turns, two_turns, .false., "an angle; degrees need a d: 1d", .true.), &
       & number_bounds("DPITCHW", "rad", "pitch of the wheel", &
-      & -many_turns, many_turns, .false., "turns that add up over a run"), &
+      & -many_turns, many_turns, .false., "turns that add up over a run", .true.), &
       & number_bounds("VXWHL", "mm/s", "longitudinal velocity of the wheel", &
-      & -fast, fast, .false., "a thousand km/s"), &
+      & -fast, fast, .false., "a thousand km/s", .true.), &
       & number_bounds("VYWHL", "mm/s", "lateral velocity of the wheel", &
-      & -fast, fast, .false., "a thousand km/s"), &
+      & -fast, fast, .false., "a thousand km/s", .true.), &
       & number_bounds("VZWHL", "mm/s", "vertical velocity of the wheel", &
-      & -fast, fast, .false., "a thousand km/s"), &
+      & -fast, fast, .false., "a thousand km/s", .true.), &
       & number_bounds("VROLLW", "rad/s", "roll rate of the wheel", &
-      & -many_turns, many_turns, .false., "faster than any turbine"), &
+      & -many_turns, many_turns, .false., "faster than any turbine", .true.), &
       & number_bounds("VYAWW", "rad/s", "yaw rate of the wheel", &
-      & -many_turns, many_turns, .false., "faster than any turbine"), &
+      & -many_turns, many_turns, .false., "faster than any turbine", .true.), &
       & number_bounds("VPITCHW", "rad/s", "pitch rate of the wheel", &
-      & -many_turns, many_turns, .false., "faster than any turbine")]
+      & -many_turns, many_turns, .false., "faster than any turbine", .true.)]
 
    !> All numbers, in the order in which the groups of a case come
    type(number_bounds), parameter :: bounds_table(*) = [solver_rows, motion_rows, friction_rows, material_rows, grid_rows, &

@@ -48,6 +48,7 @@ module contact_text_lexer
       procedure :: at_end
       procedure :: count_lines
       procedure :: line_text
+      procedure :: get_text
       procedure :: fingerprint
       procedure :: hash_lines
       procedure, private :: next_line
@@ -182,6 +183,14 @@ contains
          if (iachar(text(i:i)) < 32) text(i:i) = " "
       end do
    end function line_text
+
+   !> The text as a whole, for formats with a grammar of their own
+   subroutine get_text(self, text)
+      class(input_lexer), intent(in) :: self
+      character(len=:), allocatable, intent(out) :: text
+
+      text = self%text
+   end subroutine get_text
 
    !> A number that differs, almost certainly, when the text does (FNV-1a with 32 bits, and the length)
    pure integer(long) function fingerprint(self) result(hash)

@@ -8,7 +8,7 @@ module contact_text_words
    implicit none (type, external)
    private
 
-   public :: word_state, to_integer, to_real, to_angle, columns_of, integer_text, real_text, replaced
+   public :: word_state, to_integer, to_real, to_angle, columns_of, integer_text, real_text, exact_text, replaced, small
 
    type :: word_state_list
       integer :: good = 0
@@ -323,4 +323,55 @@ contains
          end if
       end do
    end function replaced
+
+   !> A real number in as few figures as tell it apart from all others, with blanks behind; it has a point or an exponent
+   pure function exact_text(value) result(text)
+      real(wp), intent(in) :: value
+      character(len=26) :: text
+      !> Numbers from 1e-5 to 1e7 are written without exponent
+      integer, parameter :: lowest = -5, highest = 6
+      character(len=24) :: word
+      character(len=12) :: form
+      character(len=:), allocatable :: digits
+      real(wp) :: back
+      integer :: exponent, figures_used, last, state, status
+
+      do figures_used = 15, 17
+         write(form, "(A, I0, A)") "(ES24.", figures_used - 1, "E3)"
+         write(word, form) abs(value)
+         call to_real(trim(adjustl(word)), back, state)
+         if (state == word_state%good .and. .not. abs(back - abs(value)) > 0.0_wp) exit
+      end do
+      word = adjustl(word)
+      last = index(word, "E")
+      read(word(last + 1:), *, iostat=status) exponent
+      digits = word(1:1) // word(3:last - 1)
+      last = max(1, verify(digits, "0", back=.true.))
+      digits = digits(:last)
+      if (abs(value) <= 0.0_wp) exponent = 0
+      if (exponent < lowest .or. exponent > highest) then
+         text = digits(1:1)
+         if (last > 1) text = digits(1:1) // "." // digits(2:)
+         text = trim(text) // "e" // integer_text(exponent)
+      else if (exponent < 0) then
+         text = "0." // repeat("0", -exponent - 1) // digits
+      else if (last <= exponent + 1) then
+         text = digits // repeat("0", exponent + 1 - last) // ".0"
+      else
+         text = digits(:exponent + 1) // "." // digits(exponent + 2:)
+      end if
+      if (sign(1.0_wp, value) < 0.0_wp) text = "-" // text(:len(text) - 1)
+   end function exact_text
+
+   !> A text in small letters
+   pure function small(text)
+      character(len=*), intent(in) :: text
+      character(len=len(text)) :: small
+      integer :: k
+
+      small = text
+      do k = 1, len(text)
+         if (text(k:k) >= "A" .and. text(k:k) <= "Z") small(k:k) = achar(iachar(text(k:k)) + 32)
+      end do
+   end function small
 end module contact_text_words

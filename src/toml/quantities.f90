@@ -73,7 +73,7 @@ contains
       name = trim(adjustl(text(blank:)))
       call read_unit(name, given, is_known)
       if (.not. is_known) then
-         complaint = 'has the unit "' // name // '", which is not known; wanted is ' // trim(wanted)
+         complaint = 'has the unit "' // name // '", which is not known; wanted is ' // trim(asked_for(wanted))
          return
       end if
       fits = .false.
@@ -91,13 +91,23 @@ contains
       else if (.not. fits .and. (wanted == "integer" .or. index(wanted, "...") > 0)) then
          complaint = "has a unit, but a plain number is wanted"
       else if (.not. fits) then
-         complaint = 'has the unit "' // name // '", wanted is ' // trim(wanted) // " or a unit that can be converted to it"
+         complaint = 'has the unit "' // name // '", wanted is ' // trim(asked_for(wanted)) // &
+         & " or a unit that can be converted to it"
       end if
       if (allocated(complaint)) return
       call scale_number(text(:blank - 1), given%power - asked%power, value, fits)
       if (.not. fits) complaint = "is too large or too small for a number"
       if (abs(given%rest - asked%rest) > 0.0_wp) value = value*(given%rest/asked%rest)
    end subroutine read_quantity
+
+   !> A unit in a message, with blanks behind
+   pure function asked_for(wanted) result(text)
+      character(len=*), intent(in) :: wanted
+      character(len=len(wanted) + 14) :: text
+
+      text = wanted
+      if (index(wanted, "-") == 1) text = "a plain number" // wanted(2:)
+   end function asked_for
 
    !> A number times a power of ten, rounded once
    subroutine scale_number(word, power, value, is_good)

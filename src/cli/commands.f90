@@ -1,0 +1,91 @@
+!> contact convert and contact explain
+module contact_cli_commands
+   use, intrinsic :: iso_fortran_env, only : error_unit, output_unit
+   use contact_base_error, only : error_type, fatal_error, full_text
+   use contact_cli_command_line, only : take_word
+   use contact_experiment_convert, only : convert_experiment
+   use contact_experiment_explain, only : explain_experiment
+   use contact_text_buffer, only : text_buffer
+   implicit none (type, external)
+   private
+
+   public :: is_command, run_command
+
+   character(len=*), parameter :: usage = "Usage: contact convert [--force] [--output-dir DIR] [--quiet] EXPNAM.inp|EXPNAM.toml, &
+      &contact explain EXPNAM"
+
+contains
+
+   !> Is the first word of the command line "convert" or "explain"?
+   logical function is_command()
+      character(len=8) :: word
+
+      word = ""
+      if (command_argument_count() > 0) call get_command_argument(1, word)
+      is_command = word == "convert" .or. word == "explain"
+   end function is_command
+
+   !> Do what the command line says; the result is the exit status
+   integer function run_command() result(status)
+      type(error_type), allocatable :: error
+      type(text_buffer) :: told
+      character(len=:), allocatable :: word, command, experiment, folder, output
+      integer :: k
+      logical :: force, quiet
+
+      call take_word(1, command)
+      force = .false.
+      quiet = .false.
+      folder = ""
+      k = 1
+      do while (k < command_argument_count() .and. .not. allocated(error))
+         k = k + 1
+         call take_word(k, word)
+         if (word == "--force" .and. command == "convert") then
+            force = .true.
+         else if (word == "--quiet" .and. command == "convert") then
+            quiet = .true.
+         else if (word == "--output-dir" .and. command == "convert" .and. k < command_argument_count()) then
+            k = k + 1
+            call take_word(k, folder)
+         else if (index(word, "-") == 1 .and. word /= "--") then
+            call fatal_error(error, "contact " // command // " has no option '" // word // "', or it lacks its value")
+         else if (allocated(experiment)) then
+            call fatal_error(error, "one experiment at a time; '" // experiment // "' and '" // word // "' are two")
+         else if (word /= "--") then
+            experiment = word
+         end if
+      end do
+      if (.not. allocated(error) .and. .not. allocated(experiment)) call fatal_error(error, &
+         & "the name of the experiment is missing")
+      status = 1
+      if (allocated(error)) then
+         write(error_unit, "(A)") "contact: " // error%message, usage
+         return
+      end if
+      if (command == "explain") then
+         call explain_experiment(experiment, told, error)
+         call tell_lines(output_unit, told)
+      else
+         call convert_experiment(experiment, folder, force, told, output, error)
+         call tell_lines(error_unit, told)
+         if (.not. allocated(error) .and. .not. quiet) write(output_unit, "(A)") " " // output // " is written"
+      end if
+      if (allocated(error)) then
+         flush(output_unit)
+         write(error_unit, "(A)") " Input: ERROR. " // full_text(error)
+      else
+         status = 0
+      end if
+   end function run_command
+
+   !> Lines of a text
+   subroutine tell_lines(unit, told)
+      integer, intent(in) :: unit
+      type(text_buffer), intent(in) :: told
+      character(len=:), allocatable :: text
+
+      call told%get(text)
+      if (len(text) > 0) write(unit, "(A)") text(:len(text) - 1)
+   end subroutine tell_lines
+end module contact_cli_commands

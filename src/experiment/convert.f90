@@ -1,0 +1,251 @@
+!> Experiments from one format of input to the other
+module contact_experiment_convert
+   use contact_base_choices, only : heat_source
+   use contact_base_error, only : add_context, error_kind, error_type, fatal_error
+   use contact_base_output_file, only : output_file, remove_file
+   use contact_experiment_place, only : choose_input, experiment_place, input_suffix, locate_experiment, readable_suffix
+   use contact_input_experiment_file, only : experiment_reader, input_case
+   use contact_input_problems, only : problem_text, severity
+   use contact_output_finished_file, only : move_file, open_result
+   use contact_output_input_case, only : write_input_case
+   use contact_output_toml_case_writer, only : toml_experiment_writer
+   use contact_text_buffer, only : text_buffer
+   use contact_text_words, only : integer_text
+   use contact_toml_document, only : toml_document
+   use contact_toml_parser, only : parse_toml
+   implicit none (type, external)
+   private
+
+   public :: convert_experiment
+
+   character(len=*), parameter :: line_feed = achar(10)
+
+contains
+
+   !> Write an experiment in the other format: .toml for .inp, .inp for .toml
+   !>
+   !> The new file is there as a whole, and reads without errors, or it is not there.
+   subroutine convert_experiment(experiment, output_folder, overwrite, told, output, error)
+      !> Name of the experiment, with suffix or without
+      character(len=*), intent(in) :: experiment
+      !> Folder of the new file, "" for that of the old one
+      character(len=*), intent(in) :: output_folder
+      !> May a file that is there be replaced?
+      logical, intent(in) :: overwrite
+      !> Lines about problems of the input and about what the new file cannot say
+      type(text_buffer), intent(inout) :: told
+      !> Name of the new file
+      character(len=:), allocatable, intent(out) :: output
+      type(error_type), allocatable, intent(out) :: error
+      type(experiment_place) :: place
+      character(len=:), allocatable :: temporary, suffix
+      type(output_file), target :: file
+      integer :: cases, checked
+      logical :: has_both, is_there, is_whole, to_readable
+
+      place = locate_experiment(experiment, output_folder)
+      call choose_input(place, has_both)
+      if (has_both) then
+         call fatal_error(error, "there are " // place%name // input_suffix // " and " // place%name // readable_suffix // &
+            & ": the suffix must tell which one is to be converted", error_kind%file, place%folder // place%name)
+         return
+      end if
+      to_readable = index(place%input, input_suffix, back=.true.) == len(place%input) - len(input_suffix) + 1
+      suffix = input_suffix
+      if (to_readable) suffix = readable_suffix
+      output = place%results // suffix
+      inquire(file=output, exist=is_there)
+      if (is_there .and. .not. overwrite) then
+         call fatal_error(error, "the file is there already; --force replaces it", error_kind%file, output)
+         return
+      end if
+      temporary = place%results // ".converted" // suffix
+      call open_result(file, temporary, output, error)
+      if (allocated(error)) return
+      if (to_readable) then
+         call write_readable(place%input, file, told, cases, error)
+      else
+         call write_established(place%input, file, told, cases, error)
+      end if
+      call file%close_file(is_whole)
+      if (.not. (is_whole .or. allocated(error))) call fatal_error(error, "the file is not complete; is the disk full?", &
+         & error_kind%file, output)
+      if (.not. allocated(error)) then
+         call count_cases(temporary, checked, error)
+         if (.not. allocated(error) .and. checked /= cases) call fatal_error(error, integer_text(cases) // &
+            & " cases were converted, but " // integer_text(checked) // " are in the file; is the disk full?", error_kind%file, &
+            & output)
+      end if
+      if (.not. allocated(error)) then
+         if (move_file(temporary, output) /= 0) call fatal_error(error, "the file cannot be given its name", error_kind%file, &
+            & output)
+      end if
+      if (allocated(error)) call remove_file(temporary)
+   end subroutine convert_experiment
+
+   !> The next case; its problems are told, and errors among them end the conversion
+   subroutine next_good_case(reader, this, told, error)
+      type(experiment_reader), intent(inout) :: reader
+      type(input_case), intent(out) :: this
+      !> As for convert_experiment
+      type(text_buffer), intent(inout) :: told
+      type(error_type), allocatable, intent(out) :: error
+      integer :: k
+
+      call reader%next_case(this, error)
+      if (allocated(error)) return
+      do k = 1, this%problems%count
+         call told%add_line(problem_text(this%problems%items(k)))
+      end do
+      if (this%problems%number_of(severity%error) > 0) call fatal_error(error, "case " // integer_text(this%number) // &
+         & ", which starts at this line, has errors; nothing was written", error_kind%input, reader%lexer%file, this%first_line)
+   end subroutine next_good_case
+
+   !> All cases of a file in the readable format
+   subroutine write_readable(input, file, told, cases, error)
+      character(len=*), intent(in) :: input
+      !> An open file
+      type(output_file), intent(inout), target :: file
+      !> As for convert_experiment
+      type(text_buffer), intent(inout) :: told
+      !> Number of cases
+      integer, intent(out) :: cases
+      type(error_type), allocatable, intent(out) :: error
+      type(experiment_reader) :: reader
+      type(toml_experiment_writer) :: writer
+      type(toml_document) :: document
+      type(input_case) :: this
+      character(len=:), allocatable :: remarks, text
+      integer :: first, last
+
+      cases = 0
+      call reader%open_file(input, error)
+      do while (.not. allocated(error))
+         last = reader%lexer%line
+         call next_good_case(reader, this, told, error)
+         if (allocated(error)) return
+         if (this%module_number == 0) exit
+         call find_remarks(reader, last + 1, this%first_line - 1, "%", "# ", remarks)
+         cases = cases + 1
+         call writer%add_case(this%module_number, this%reid, this%cpid, this%spec, remarks)
+      end do
+      if (allocated(error)) return
+      if (cases == 0) then
+         call fatal_error(error, "there is no case to convert", error_kind%input, input)
+         return
+      end if
+      call writer%text%get(text)
+      call parse_toml(text, input, document, error)
+      if (allocated(error)) then
+         call add_context(error, "in the readable format")
+         return
+      end if
+      first = 1
+      do while (first <= len(text))
+         last = first + index(text(first:), line_feed) - 1
+         call file%line(text(first:last - 1))
+         first = last + 1
+      end do
+   end subroutine write_readable
+
+   !> All cases of a file in the established format
+   subroutine write_established(input, file, told, cases, error)
+      character(len=*), intent(in) :: input
+      !> An open file
+      type(output_file), intent(inout), target :: file
+      !> As for convert_experiment
+      type(text_buffer), intent(inout) :: told
+      !> Number of cases
+      integer, intent(out) :: cases
+      type(error_type), allocatable, intent(out) :: error
+      type(experiment_reader) :: reader
+      type(input_case) :: this
+      character(len=:), allocatable :: remarks
+      logical :: begins_module, is_moving
+
+      cases = 0
+      begins_module = .true.
+      is_moving = .false.
+      call reader%open_file(input, error)
+      do while (.not. allocated(error))
+         call next_good_case(reader, this, told, error)
+         if (allocated(error)) return
+         if (this%module_number == 0) exit
+         cases = cases + 1
+         call find_remarks(reader, 1, this%first_line - 1, "#", "% ", remarks)
+         if (len(remarks) > 0) call file%line(remarks(:len(remarks) - 1))
+         if (begins_module) call write_module_line(file, this)
+         begins_module = this%spec%ends_module
+         if (this%spec%has_heat .and. this%spec%heat%source == heat_source%moving) is_moving = .true.
+         call write_input_case(file, this%spec)
+      end do
+      if (allocated(error)) return
+      call file%line(" 0   % MODULE: end")
+      if (is_moving) call told%add_line(" Temperatures of " // input // " are those of moving sources; the new file needs " // &
+         & "--heat moving-source to have them")
+   end subroutine write_established
+
+   !> MODULE {REID {CPID}}
+   subroutine write_module_line(file, this)
+      type(output_file), intent(inout) :: file
+      type(input_case), intent(in) :: this
+
+      if (this%reid == 0) then
+         call file%line(" " // integer_text(this%module_number) // "   % MODULE")
+      else
+         call file%line(" " // integer_text(this%module_number) // " " // integer_text(this%reid) // " " // &
+            & integer_text(this%cpid) // "   % MODULE, REID, CPID")
+      end if
+   end subroutine write_module_line
+
+   !> Comments that stand directly above a line, with another mark before them
+   subroutine find_remarks(reader, first, last, mark, new_mark, remarks)
+      type(experiment_reader), intent(in) :: reader
+      !> Lines between which they stand; the last ones before a line that is no comment count
+      integer, intent(in) :: first, last
+      !> What begins a comment, and what shall begin it
+      character(len=*), intent(in) :: mark, new_mark
+      !> Lines with their ends
+      character(len=:), allocatable, intent(out) :: remarks
+      character(len=:), allocatable :: line
+      integer :: k, letter
+
+      remarks = ""
+      do k = last, first, -1
+         line = adjustl(reader%lexer%line_text(k))
+         if (mark == "#" .and. index(line, mark) /= 1) exit
+         if (index(line, mark) /= 1) cycle
+         line = trim(adjustl(line(2:)))
+         ! comments may have any bytes, the readable format must be UTF-8
+         do letter = 1, len(line)
+            if (mark == "%" .and. iachar(line(letter:letter)) > 126) line(letter:letter) = "?"
+         end do
+         remarks = trim(new_mark // line) // line_feed // remarks
+      end do
+   end subroutine find_remarks
+
+   !> Number of cases of a file that has no errors
+   subroutine count_cases(file, cases, error)
+      character(len=*), intent(in) :: file
+      integer, intent(out) :: cases
+      type(error_type), allocatable, intent(out) :: error
+      type(experiment_reader) :: reader
+      type(input_case) :: this
+      integer :: k
+
+      cases = 0
+      call reader%open_file(file, error)
+      do while (.not. allocated(error))
+         call reader%next_case(this, error)
+         if (allocated(error)) exit
+         if (this%module_number == 0) return
+         cases = cases + 1
+         do k = 1, this%problems%count
+            if (this%problems%items(k)%severity /= severity%error) cycle
+            error = this%problems%items(k)%what
+            exit
+         end do
+      end do
+      if (allocated(error)) call add_context(error, "in what was written, which is a fault of this program")
+   end subroutine count_cases
+end module contact_experiment_convert

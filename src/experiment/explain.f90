@@ -1,0 +1,56 @@
+!> What an experiment simulates, in words
+module contact_experiment_explain
+   use contact_base_error, only : error_type
+   use contact_experiment_place, only : choose_input, experiment_place, locate_experiment
+   use contact_input_experiment_file, only : experiment_reader, input_case
+   use contact_input_problems, only : problem_text, severity
+   use contact_output_case_words, only : tell_case
+   use contact_text_buffer, only : text_buffer
+   use contact_text_words, only : integer_text
+   implicit none (type, external)
+   private
+
+   public :: explain_experiment
+
+contains
+
+   !> Tell every case in words: what is simulated, what is not, how, and what it is expected to cost
+   subroutine explain_experiment(experiment, told, error)
+      !> Name of the experiment, with suffix or without
+      character(len=*), intent(in) :: experiment
+      !> The words, line by line
+      type(text_buffer), intent(inout) :: told
+      !> The input cannot be understood, or a case of it cannot be computed
+      type(error_type), allocatable, intent(out) :: error
+      type(experiment_place) :: place
+      type(experiment_reader) :: reader
+      type(input_case) :: this
+      integer :: cases, k
+      logical :: has_both
+
+      place = locate_experiment(experiment, "")
+      call choose_input(place, has_both)
+      call reader%open_file(place%input, error)
+      if (allocated(error)) return
+      cases = 0
+      call told%add_line(place%input)
+      do
+         call reader%next_case(this, error)
+         if (allocated(error) .or. this%module_number == 0) exit
+         cases = cases + 1
+         call told%add_line("")
+         if (this%problems%number_of(severity%error) == 0) then
+            call tell_case(this%module_number, this%reid, cases, this%first_line, this%spec, this%problems%is_usable(), told)
+         else
+            call told%add_line("Case " // integer_text(cases) // ", line " // integer_text(this%first_line) // &
+               & ": what is wrong must be mended first")
+         end if
+         do k = 1, this%problems%count
+            call told%add_line("  " // problem_text(this%problems%items(k)))
+            if (this%problems%items(k)%severity /= severity%warning .and. .not. allocated(error)) &
+               & error = this%problems%items(k)%what
+         end do
+         if (allocated(error)) exit
+      end do
+   end subroutine explain_experiment
+end module contact_experiment_explain

@@ -1,0 +1,457 @@
+!> One case of the readable format: its choices and groups as digits, then the groups and all checks, as for input files
+!>
+!> A choice that a case does not name is that of the case before. A group that it does not give is kept; what is derived from a
+!> kept group is formed anew where the rest of the case demands it, or as the key `renew` says.
+module contact_input_toml_case
+   use contact_base_choices, only : heat_source, motion, slip_source
+   use contact_cases_spec, only : case_spec
+   use contact_cases_whole_case, only : visit_case
+   use contact_control_digits, only : case_digits, digit_names, digit_of, digit_table, put_digit, word_length
+   use contact_control_translation, only : digits_of, take_digits
+   use contact_control_words, only : choice_words, digit_of_word, is_choice, key_of, key_table, tell_in_words, words_of
+   use contact_input_control, only : check_digits, control_words, refuse_unbuilt_digits
+   use contact_input_checks3, only : check_case
+   use contact_input_grid_frame, only : frame_of, grid_frame
+   use contact_input_problems, only : problem_list, severity
+   use contact_input_reader, only : check_elements_are_kept
+   use contact_input_toml_reader, only : new_toml_reader, toml_reader
+   use contact_input_toml_tables, only : toml_memory
+   use contact_text_lexer, only : printable
+   use contact_text_nearest, only : nearest_word
+   use contact_text_words, only : integer_text
+   use contact_toml_document, only : toml_document, toml_kind, toml_kind_text
+   implicit none (type, external)
+   private
+
+   public :: read_toml_case, group_names, renewable
+
+   !> Groups in the order of the input files, see contact_cases_whole_case
+   character(len=16), parameter :: group_names(*) = [character(len=16) :: "iteration", "kinematics", "friction", "rolling", &
+      & "influence", "material", "damping", "heat", "search", "track", "rail_profile", "deviations", "springs", &
+      & "wheel_dimensions", "wheel_profile", "position", "velocity", "flexibility", "grid", "geometry", "extra_slip", &
+      & "stress_output", "stress_points"]
+   !> Groups from which something is derived that can be formed anew
+   character(len=8), parameter :: renewable(3) = [character(len=8) :: "grid", "geometry", "material"]
+   !> Keys of a case that are no choices
+   character(len=14), parameter :: plain_keys(*) = [character(len=14) :: "module", "result_element", "contact_patch", "title", &
+      & "solve", "gap_weight", "renew"]
+
+contains
+
+   !> Read a case
+   !>
+   !> As read_case of contact_input_reader; whatever is wrong is told in `problems`.
+   subroutine read_toml_case(document, case_node, memory, used, module_number, ends_module, previous, has_previous, &
+      & spec, problems, coefficients, digits)
+      type(toml_document), intent(in), target :: document
+      !> Table of the case
+      integer, intent(in) :: case_node
+      !> What the cases of this result element gave before
+      type(toml_memory), intent(inout), target :: memory
+      !> Which nodes have been taken, one for each
+      logical, intent(inout), target :: used(:)
+      !> 1 or 3
+      integer, intent(in) :: module_number
+      !> Is it the last case in a row of its module and result element?
+      logical, intent(in) :: ends_module
+      !> The previous case of this module and result element, and whether there is one
+      type(case_spec), intent(in) :: previous
+      logical, intent(in) :: has_previous
+      type(case_spec), intent(out) :: spec
+      !> Has been started
+      type(problem_list), intent(inout), target :: problems
+      !> Grid for which influence coefficients of module 3 were last formed
+      type(grid_frame), intent(inout) :: coefficients
+      !> Digits that stand for the case
+      type(case_digits), intent(out) :: digits
+      type(control_words) :: words
+      type(toml_reader) :: a
+      character(len=:), allocatable :: text
+      logical :: is_good
+      integer :: k
+
+      spec = previous
+      a = new_toml_reader(document, case_node, problems, memory, used)
+      words%has_keys = .true.
+      if (has_previous) words%digits = digits_of(previous)
+      call take_choices(a, module_number, has_previous, words, is_good)
+      call take_groups(a, module_number, previous, has_previous, words)
+      words%digits%r = words%digits%r + merge(1, 0, ends_module)
+      call take_digits(words%digits, module_number, spec)
+      digits = words%digits
+      if (is_good) then
+         call check_digits(words, module_number, previous, has_previous, spec, problems)
+         digits = words%digits
+         call take_heat_source(a, spec)
+         if (spec%motion == motion%none .and. .not. has_previous) a%lenient_group = "friction"
+         call visit_case(a, spec)
+         if (a%is_good) then
+            if (module_number == 1) then
+               call check_elements_are_kept(words, previous, has_previous, spec, problems)
+            else
+               call check_case(words, a, previous, has_previous, coefficients, spec, problems)
+               if (words%digits%c /= 0) coefficients = frame_of(spec%grid)
+            end if
+            call a%refuse_unused(group_names)
+         end if
+         call refuse_unbuilt_digits(words, module_number, spec, problems)
+      end if
+      do k = 1, problems%count
+         call tell_in_words(problems%items(k)%what%message, module_number, text)
+         problems%items(k)%what%message = text
+      end do
+   end subroutine read_toml_case
+
+   !> Choices that have a word, and numbers that stand for choices
+   subroutine take_choices(a, module_number, has_previous, words, is_good)
+      type(toml_reader), intent(inout) :: a
+      integer, intent(in) :: module_number
+      logical, intent(in) :: has_previous
+      !> On entry the digits of the case before, or those that count where nothing is said
+      type(control_words), intent(inout) :: words
+      !> False when a choice cannot be understood, so that nothing else can
+      logical, intent(out) :: is_good
+      character(len=:), allocatable :: name, missing
+      integer :: digit, k, node, row, table
+      logical :: is_known
+
+      is_good = .true.
+      if (.not. has_previous) then
+         words%digits%o = 2
+         words%digits%m2 = 0
+         if (module_number == 1) words%digits%d = 2
+         words%digits%c = 2
+      end if
+      missing = ""
+      do k = 1, size(digit_names)
+         name = trim(digit_names(k))
+         row = key_of(name, module_number)
+         call note_place(a, words, k, a%case_node)
+         if (row == 0) cycle
+         associate (key => key_table(row))
+            table = a%case_node
+            if (key%group /= "") table = a%document%child(a%case_node, trim(key%group))
+            call a%note_key(trim(key%group), trim(key%key))
+            node = 0
+            if (table > 0) then
+               if (a%document%nodes(table)%kind == toml_kind%table) node = a%document%child(table, trim(key%key))
+               if (key%group /= "") call note_place(a, words, k, table)
+            end if
+            if (node == 0) then
+               if (.not. has_previous .and. any(name == ["T ", "N ", "C1"])) missing = missing // ", " // trim(key%key) // " (" // &
+                  & trim(key%title) // ")"
+               cycle
+            end if
+            a%used(node) = .true.
+            call note_place(a, words, k, node)
+            call take_word(a, name, module_number, node, digit, is_known)
+            if (is_known) then
+               call put_digit(words%digits, name, digit)
+            else
+               is_good = .false.
+            end if
+         end associate
+      end do
+      if (len(missing) > 0) then
+         call a%add_problem(severity%error, a%case_node, "the first case must say: " // missing(3:))
+         is_good = .false.
+      end if
+   end subroutine take_choices
+
+   !> Where the digit with a number in digit_names stands
+   subroutine note_place(a, words, k, node)
+      type(toml_reader), intent(in) :: a
+      type(control_words), intent(inout) :: words
+      integer, intent(in) :: k, node
+
+      words%lines(k) = a%document%nodes(node)%line
+      words%columns(k) = a%document%nodes(node)%column
+   end subroutine note_place
+
+   !> The digit for a word, or a number that stands for itself
+   subroutine take_word(a, name, module_number, index, digit, is_known)
+      type(toml_reader), intent(inout) :: a
+      !> Letter of the digit
+      character(len=*), intent(in) :: name
+      integer, intent(in) :: module_number
+      !> Node of the value
+      integer, intent(in) :: index
+      integer, intent(out) :: digit
+      logical, intent(out) :: is_known
+      character(len=word_length) :: accepted(size(digit_table))
+      character(len=:), allocatable :: message, list
+      integer :: place
+
+      digit = -1
+      associate (node => a%document%nodes(index))
+         if (.not. is_choice(name)) then
+            is_known = node%kind == toml_kind%integer .and. node%i >= 0 .and. node%i <= 9
+            if (is_known) digit = int(node%i)
+            if (.not. is_known) call a%add_problem(severity%error, index, a%document%key_of(index) // &
+               & " must be an integer from 0 to 9")
+            return
+         end if
+         message = a%document%key_of(index) // " must be a word in quotes."
+         place = 0
+         accepted = choice_words(name, module_number)
+         if (node%kind == toml_kind%string) then
+            digit = digit_of_word(name, a%document%text_of(index), module_number)
+            message = a%document%key_of(index) // ' = "' // printable(a%document%text_of(index)) // '" is not known'
+            place = nearest_word(a%document%text_of(index), accepted)
+            if (place > 0) then
+               message = message // '; did you mean "' // trim(accepted(place)) // '"?'
+            else
+               message = message // "."
+            end if
+         end if
+         is_known = digit >= 0
+         if (is_known) return
+         call words_of(accepted, list)
+         call a%add_problem(severity%error, index, message // " Known are " // list)
+      end associate
+   end subroutine take_word
+
+   !> Digits that say which groups a case gives, keeps and renews, and what is no choice
+   subroutine take_groups(a, module_number, previous, has_previous, words)
+      type(toml_reader), intent(inout) :: a
+      integer, intent(in) :: module_number
+      type(case_spec), intent(in) :: previous
+      logical, intent(in) :: has_previous
+      !> Its digits of choices are known
+      type(control_words), intent(inout) :: words
+      logical :: renew(size(renewable)), has_renew, rolls, rolled
+
+      call take_renew(a, renew, has_renew)
+      call take_plain_keys(a, module_number, words)
+      associate (digits => words%digits)
+         if (has_previous) then
+            if (has("iteration")) digits%g = or_kept(digits%g, "G", previous%solver)
+            if (.not. has("iteration")) digits%g = 1
+            if (has("friction")) digits%l = or_kept(digits%l, "L", previous%friction_law)
+            if (.not. has("friction")) digits%l = 1
+         end if
+         if (has("damping")) then
+            if (.not. has_key("damping", "model")) digits%m2 = 2
+         else if (has_previous) then
+            digits%m2 = 1
+         end if
+         if (has("heat")) then
+            if (.not. has_key("heat", "model")) digits%h = 3
+         else
+            digits%h = 0
+            if (has_previous .and. previous%has_heat) digits%h = 1
+         end if
+         if (.not. has_key("", "stresses")) digits%s = merge(1, 0, has_previous .and. previous%has_stress)
+         if (has("stress_output")) digits%s = 2
+         if (has("stress_points")) digits%s = 3
+         if (has("material") .or. has("influence") .or. has("rolling") .or. .not. has_previous) then
+            digits%c = or_kept(digits%c, "C", previous%kernel)
+         else
+            digits%c = merge(1, 0, module_number == 1)
+            rolls = digits%t >= 2
+            rolled = previous%motion >= motion%transient_rolling
+            if (renew(3) .or. (.not. has_renew .and. (has("grid") .or. (rolls .neqv. rolled)))) digits%c = 1
+         end if
+      end associate
+      if (module_number == 1) then
+         call take_wheel_rail_groups(a, previous, has_previous, words)
+      else
+         call take_contact_groups(a, previous, has_previous, renew, has_renew, words)
+      end if
+
+   contains
+
+      !> Does the case give a group?
+      logical function has(group)
+         character(len=*), intent(in) :: group
+
+         has = a%document%child(a%case_node, group) > 0
+      end function has
+
+      !> Does the case give a key of a group, or of itself?
+      logical function has_key(group, key)
+         character(len=*), intent(in) :: group, key
+         integer :: table
+
+         has_key = .false.
+         table = a%case_node
+         if (group /= "") table = a%document%child(a%case_node, group)
+         if (table == 0) return
+         if (a%document%nodes(table)%kind == toml_kind%table) has_key = a%document%child(table, key) > 0
+      end function has_key
+
+      !> The digit that was chosen, or that of the choice of the case before where it says "keep"
+      integer function or_kept(digit, name, choice)
+         integer, intent(in) :: digit, choice
+         character(len=*), intent(in) :: name
+
+         or_kept = digit
+         if (digit == 1 .or. (name == "C" .and. digit < 2)) or_kept = max(0, digit_of(name, choice, module_number))
+      end function or_kept
+   end subroutine take_groups
+
+   !> Groups of contact problems of their own
+   subroutine take_contact_groups(a, previous, has_previous, renew, has_renew, words)
+      type(toml_reader), intent(in) :: a
+      type(case_spec), intent(in) :: previous
+      logical, intent(in) :: has_previous
+      !> What the key renew names, and is it there?
+      logical, intent(in) :: renew(:), has_renew
+      type(control_words), intent(inout) :: words
+      integer :: table
+
+      associate (digits => words%digits)
+         table = a%document%child(a%case_node, "grid")
+         digits%d = merge(1, 0, renew(1))
+         if (table > 0 .or. .not. has_previous) digits%d = 2
+         digits%z = merge(1, 0, renew(2))
+         if (a%document%child(a%case_node, "geometry") > 0) then
+            digits%z = 2
+         else if (.not. has_previous .or. (table > 0 .and. is_hertzian() .and. .not. renew(2))) then
+            ! a Hertzian grid brings its own geometry
+            digits%z = 2
+         else if (.not. has_renew .and. digits%d > 0) then
+            digits%z = 1
+         end if
+         if (a%document%child(a%case_node, "extra_slip") > 0) then
+            digits%e = 9
+         else if (a%document%child(a%case_node, "slip_source") == 0) then
+            digits%e = 0
+            if (has_previous .and. previous%slip_source /= slip_source%none) digits%e = 1
+         end if
+      end associate
+
+   contains
+
+      !> Is the grid made around a contact of Hertz?
+      logical function is_hertzian()
+         integer :: form
+
+         is_hertzian = previous%grid%ipotcn < 0
+         form = 0
+         if (a%document%nodes(table)%kind == toml_kind%table) form = a%document%child(table, "form")
+         if (form > 0) is_hertzian = index(a%document%text_of(form), "h") == 1
+      end function is_hertzian
+   end subroutine take_contact_groups
+
+   !> Groups of wheel and rail: each digit stands for several
+   subroutine take_wheel_rail_groups(a, previous, has_previous, words)
+      type(toml_reader), intent(in) :: a
+      type(case_spec), intent(in) :: previous
+      logical, intent(in) :: has_previous
+      type(control_words), intent(inout) :: words
+      logical :: has_flexibility
+
+      associate (digits => words%digits)
+         if (.not. has("search") .and. has_previous) then
+            digits%d = 1
+         else if (digits%d < 2 .and. has_previous) then
+            digits%d = digit_of("D", previous%wheel_rail%search%location, 1)
+         end if
+         digits%z = 0
+         if (has("track")) digits%z = 1
+         if (has("deviations") .or. has("springs")) digits%z = merge(3, 2, has("track"))
+         if (has("rail_profile") .or. .not. has_previous) digits%z = 3
+         has_flexibility = has("flexibility")
+         digits%e = 0
+         if (has("position")) digits%e = 1
+         if (has("velocity")) digits%e = 2
+         if (has_flexibility) digits%e = 4
+         if (has("wheel_dimensions") .or. has("wheel_profile") .or. .not. has_previous) digits%e = merge(5, 3, has_flexibility)
+      end associate
+
+   contains
+
+      !> Does the case give a group?
+      logical function has(group)
+         character(len=*), intent(in) :: group
+
+         has = a%document%child(a%case_node, group) > 0
+      end function has
+   end subroutine take_wheel_rail_groups
+
+   !> The groups that `renew` names
+   subroutine take_renew(a, renew, has_renew)
+      type(toml_reader), intent(inout) :: a
+      logical, intent(out) :: renew(size(renewable)), has_renew
+      integer :: k, node, place
+
+      renew = .false.
+      node = a%document%child(a%case_node, "renew")
+      call a%note_key("", "renew")
+      has_renew = node > 0
+      if (.not. has_renew) return
+      a%used(node) = .true.
+      if (a%document%nodes(node)%kind /= toml_kind%array) call a%add_problem(severity%error, node, &
+         & 'renew must be an array of names of groups, such as ["geometry"]')
+      k = a%document%nodes(node)%first
+      do while (k > 0 .and. a%document%nodes(node)%kind == toml_kind%array)
+         do place = 1, size(renewable)
+            if (a%document%text_of(k) == renewable(place)) exit
+         end do
+         if (place <= size(renewable)) then
+            renew(place) = .true.
+         else
+            call a%add_problem(severity%error, k, "only grid, geometry and material can be renewed")
+         end if
+         k = a%document%nodes(k)%next
+      end do
+   end subroutine take_renew
+
+   !> solve, gap_weight, and names for people
+   subroutine take_plain_keys(a, module_number, words)
+      type(toml_reader), intent(inout) :: a
+      integer, intent(in) :: module_number
+      type(control_words), intent(inout) :: words
+      integer :: k, node
+
+      words%digits%r = 0
+      do k = 1, size(plain_keys)
+         call a%note_key("", trim(plain_keys(k)))
+         node = a%document%child(a%case_node, trim(plain_keys(k)))
+         if (node == 0) cycle
+         a%used(node) = plain_keys(k) /= "gap_weight" .or. module_number == 1
+         associate (value => a%document%nodes(node))
+            select case (plain_keys(k))
+            case ("solve")
+               if (value%kind /= toml_kind%logical) call a%add_problem(severity%error, node, "solve must be true or false")
+               words%digits%r = merge(0, 2, value%l .or. value%kind /= toml_kind%logical)
+            case ("gap_weight")
+               if (value%kind /= toml_kind%integer .or. value%i < 0 .or. value%i > 2) then
+                  call a%add_problem(severity%error, node, "gap_weight must be 0, 1 or 2")
+               else
+                  words%digits%gapwgt = int(value%i)
+               end if
+            case ("title")
+               if (value%kind /= toml_kind%string) call a%add_problem(severity%error, node, "title must be a text in quotes")
+            end select
+         end associate
+      end do
+   end subroutine take_plain_keys
+
+   !> How temperatures are computed: with moving sources, unless a case asks for those of the established program
+   subroutine take_heat_source(a, spec)
+      type(toml_reader), intent(inout) :: a
+      type(case_spec), intent(inout) :: spec
+      integer :: node, table
+
+      table = a%document%child(a%case_node, "heat")
+      if (table == 0) return
+      if (a%document%nodes(table)%kind /= toml_kind%table) return
+      call a%note_key("heat", "source")
+      node = a%document%child(table, "source")
+      if (node > 0) then
+         call a%memory%remember("heat.source", node)
+         a%used(node) = .true.
+      else
+         node = a%memory%recall("heat.source")
+      end if
+      spec%heat%source = heat_source%moving
+      if (node == 0) return
+      if (a%document%text_of(node) == "established" .and. a%document%nodes(node)%kind == toml_kind%string) then
+         spec%heat%source = heat_source%established
+      else if (a%document%text_of(node) /= "moving" .or. a%document%nodes(node)%kind /= toml_kind%string) then
+         call a%add_problem(severity%error, node, 'source must be "moving" or "established"')
+      end if
+   end subroutine take_heat_source
+end module contact_input_toml_case

@@ -1,0 +1,448 @@
+!> The archive that gives values to a case from a table of the readable format
+!>
+!> Groups are tables of the case, numbers are keys with their names in small letters. A number that a group does not give is the
+!> one that the last case with this group gave; if there is none it keeps its preset value, or it is told as missing. Lists are
+!> arrays, and their lengths need not be told. An element of an array "gg" of two values serves for gg1 and gg2.
+module contact_input_toml_reader
+   use contact_base_kinds, only : wp
+   use contact_cases_archive, only : archive_item, item_kind, shown_length
+   use contact_control_words, only : form_key, form_table, form_value, form_words, key_length, words_of
+   use contact_input_problems, only : problem_list, severity
+   use contact_input_toml_tables, only : find, is_tables, leaves_of, number_of, sets_of, told, toml_memory, toml_tables
+   use contact_input_toml_values, only : check_item, count_values, fill_list, take_number
+   use contact_text_bounds, only : bounds_of, bounds_table
+   use contact_text_lexer, only : printable
+   use contact_text_nearest, only : nearest_word
+   use contact_text_words, only : integer_text, small
+   use contact_toml_document, only : toml_document, toml_kind, toml_kind_text
+   implicit none (type, external)
+   private
+
+   public :: toml_reader, new_toml_reader
+
+   !> Reads the tables of a case
+   type, extends(toml_tables) :: toml_reader
+      !> Number of the set or block in hand
+      integer :: part = 0
+      !> A group that may be missing altogether
+      character(len=key_length) :: lenient_group = ""
+      !> Values of the last line, 0 where none was given
+      integer :: nodes(16) = 0
+   contains
+      procedure :: end_line => read_line
+      procedure :: list => read_list
+      procedure :: refuse => refuse_value
+      procedure :: warn => warn_of_value
+      procedure :: fail => stop_reading
+      procedure :: check => check_value
+      procedure :: shown => show_value
+      procedure :: place => place_value
+      procedure :: open_group => open_table
+      procedure :: close_group => close_table
+      procedure :: refuse_group
+      procedure :: warn_of_group
+   end type toml_reader
+
+contains
+
+   !> A reader of a case; all must outlive it
+   function new_toml_reader(document, case_node, problems, memory, used) result(reader)
+      type(toml_document), intent(in), target :: document
+      !> Table of the case
+      integer, intent(in) :: case_node
+      type(problem_list), intent(in), target :: problems
+      type(toml_memory), intent(in), target :: memory
+      !> One for each node
+      logical, intent(in), target :: used(:)
+      type(toml_reader) :: reader
+
+      reader%is_reading = .true.
+      reader%document => document
+      reader%case_node = case_node
+      reader%problems => problems
+      reader%memory => memory
+      reader%used => used
+   end function new_toml_reader
+
+   !> The keys that follow belong to a table of the case
+   subroutine open_table(self, text)
+      class(toml_reader), intent(inout) :: self
+      character(len=*), intent(in) :: text
+
+      self%group = text
+      self%part = 0
+      self%part_node = 0
+      self%group_node = self%document%child(self%case_node, text)
+      call self%note_key("", text)
+      if (self%group_node == 0) return
+      self%used(self%group_node) = .true.
+      associate (node => self%document%nodes(self%group_node))
+         if (text == "stress_points") then
+            if (is_tables(self%document, self%group_node)) return
+            call self%add_problem(severity%error, self%group_node, "stress_points is " // &
+               & trim(toml_kind_text(node%kind)) // "; each block of points is a table [[case.stress_points]]")
+         else
+            if (node%kind == toml_kind%table) return
+            call self%add_problem(severity%error, self%group_node, trim(text) // " is " // trim(toml_kind_text(node%kind)) // &
+               & "; wanted is a table, [case." // trim(text) // "]")
+         end if
+      end associate
+      self%group_node = 0
+   end subroutine open_table
+
+   !> The keys that follow do not belong to the table
+   subroutine close_table(self)
+      class(toml_reader), intent(inout) :: self
+
+      if (self%is_good) call refuse_more_sets(self)
+      self%group = ""
+      self%group_node = 0
+      self%part_node = 0
+   end subroutine close_table
+
+   !> All sets of friction must have been asked for
+   subroutine refuse_more_sets(self)
+      class(toml_reader), intent(inout) :: self
+      integer :: sets
+
+      if (self%group /= "friction" .or. self%part == 0) return
+      sets = sets_of(self)
+      if (sets == 0) return
+      if (self%document%nodes(sets)%count > self%part) call self%add_problem(severity%error, sets, "there are " // &
+         & integer_text(self%document%nodes(sets)%count) // " sets of friction, wanted are " // integer_text(self%part))
+   end subroutine refuse_more_sets
+
+   !> Give the items in hand their values
+   subroutine read_line(self)
+      class(toml_reader), intent(inout) :: self
+      integer :: k
+
+      self%line_is_bad = .false.
+      self%nodes = 0
+      if (self%is_good) then
+         call enter_part(self)
+         do k = 1, self%count
+            call take_item(self, k)
+         end do
+      end if
+      call self%finish_line()
+   end subroutine read_line
+
+   !> A line of a set of friction stands in a table of its own, and so does a block of points
+   subroutine enter_part(self)
+      class(toml_reader), intent(inout) :: self
+      character(len=5), parameter :: of_sets(*) = [character(len=5) :: "ALPHA", "SVF", "FSTAT", "FKIN", "FREF"]
+      integer :: array, n
+
+      if (self%group == "stress_points") then
+         if (self%items(1)%name == "ISUBS") call enter_number(self, self%group_node)
+         return
+      end if
+      if (self%group /= "friction") return
+      self%part_node = 0
+      if (all(of_sets /= self%items(1)%name)) return
+      array = sets_of(self)
+      if (array == 0) return
+      if (.not. is_tables(self%document, array)) then
+         call self%add_problem(severity%error, array, "set is " // &
+            & trim(toml_kind_text(self%document%nodes(array)%kind)) // "; each set of friction is a table, [[case.friction.set]]")
+         self%is_good = .false.
+         return
+      end if
+      n = self%document%nodes(array)%count
+      call enter_number(self, array)
+      if (self%part_node > 0) return
+      call self%add_problem(severity%error, array, "there are " // integer_text(n) // " sets of friction, which are too few")
+      self%is_good = .false.
+   end subroutine enter_part
+
+   !> Go to the next table of an array; part_node is 0 behind the last
+   subroutine enter_number(self, array)
+      class(toml_reader), intent(inout) :: self
+      !> Node, 0 for an empty array
+      integer, intent(in) :: array
+
+      self%part = self%part + 1
+      if (array == 0) then
+         self%part_node = 0
+      else if (self%part_node == 0 .or. self%part == 1) then
+         self%part_node = number_of(self%document, array, self%part)
+      else
+         self%part_node = self%document%nodes(self%part_node)%next
+      end if
+      if (self%part_node > 0) self%used(self%part_node) = .true.
+   end subroutine enter_number
+
+   !> Key of an item; "A|B" is A when the first number of the line is positive
+   pure function key_of_item(self, k) result(key)
+      class(toml_reader), intent(in) :: self
+      integer, intent(in) :: k
+      character(len=key_length) :: key
+      integer :: bar
+
+      associate (item => self%items(k))
+         key = form_key(item%name)
+         if (key /= "") return
+         bar = index(item%name, "|")
+         if (bar == 0) then
+            key = small(item%name)
+         else if (self%items(1)%r > 0.0_wp) then
+            key = small(item%name(:bar - 1))
+         else
+            key = small(item%name(bar + 1:))
+         end if
+      end associate
+      if (key == "rfname" .or. key == "wfname" .or. key == "cfname") key = "file"
+   end function key_of_item
+
+   !> Give the variable of an item its value
+   subroutine take_item(self, k)
+      class(toml_reader), intent(inout) :: self
+      integer, intent(in) :: k
+      character(len=:), allocatable :: key, complaint
+      integer :: node, number
+
+      associate (item => self%items(k))
+         key = trim(key_of_item(self, k))
+         item%given = .true.
+         if (item%name == "ISUBS" .and. self%part_node == 0) then
+            item%i = 0
+            return
+         end if
+         call find(self, key, node)
+         if (node < 0) return
+         if (node == 0) then
+            call count_values(self, trim(item%name), number)
+            if (number >= 0) then
+               item%i = number
+               return
+            end if
+            call take_missing(self, item, key)
+            return
+         end if
+         self%nodes(k) = node
+         if (form_key(item%name) /= "") then
+            call take_form(self, item, key, node)
+            return
+         end if
+         call take_number(self, item, node, complaint)
+         if (allocated(complaint)) then
+            self%line_is_bad = .true.
+            call self%add_problem(severity%error, node, told(self, key, node) // " " // complaint)
+            return
+         end if
+         if (item%kind == item_kind%text .or. item%is_unchecked) return
+         call check_item(self, item, key, node)
+      end associate
+   end subroutine take_item
+
+   !> What was never given has its default or its preset value, or is missing
+   subroutine take_missing(self, item, key)
+      class(toml_reader), intent(inout) :: self
+      type(archive_item), intent(inout) :: item
+      character(len=*), intent(in) :: key
+      character(len=:), allocatable :: message
+      character(len=8) :: opening, closing
+
+      item%given = .false.
+      if (item%is_optional) then
+         if (associated(item%r)) item%r = item%default
+         if (associated(item%i)) item%i = nint(item%default)
+         return
+      end if
+      if (item%is_preset .or. self%lenient_group == self%group) return
+      self%line_is_bad = .true.
+      message = key // " is missing"
+      if (item%row > 0) then
+         message = message // ": " // trim(bounds_table(item%row)%title)
+         if (bounds_table(item%row)%unit /= "-" .and. bounds_table(item%row)%unit /= "integer") message = message // " [" // &
+            & trim(bounds_table(item%row)%unit) // "]"
+      end if
+      opening = merge("[[", "[ ", self%part_node > 0)
+      closing = merge("]]", "] ", self%part_node > 0)
+      message = message // "; it belongs under " // trim(opening) // "case." // trim(self%group)
+      if (self%part_node > 0 .and. self%group == "friction") message = message // ".set"
+      call self%add_problem(severity%error, 0, message // trim(closing))
+   end subroutine take_missing
+
+   !> A word that stands for a number
+   subroutine take_form(self, item, key, node)
+      class(toml_reader), intent(inout) :: self
+      type(archive_item), intent(inout) :: item
+      character(len=*), intent(in) :: key
+      integer, intent(in) :: node
+      character(len=len(form_table%word)) :: list(size(form_table))
+      character(len=:), allocatable :: words, complaint
+      integer :: place
+      logical :: is_known
+
+      if (self%document%nodes(node)%kind == toml_kind%string) then
+         call form_value(trim(item%name), self%document%text_of(node), item%i, is_known)
+         if (is_known) return
+      end if
+      self%line_is_bad = .true.
+      list = form_words(trim(item%name))
+      place = 0
+      if (self%document%nodes(node)%kind == toml_kind%string) place = nearest_word(self%document%text_of(node), list)
+      call words_of(list, words)
+      complaint = told(self, key, node) // " is not known"
+      if (place > 0) complaint = complaint // '; did you mean "' // trim(list(place)) // '"?'
+      call self%add_problem(severity%error, node, complaint // " Known are " // words)
+      ! what follows depends on it
+      self%is_good = .false.
+   end subroutine take_form
+
+   !> Read exactly n numbers of an array, or of arrays in it
+   subroutine read_list(self, name, values, n, units, bounds)
+      class(toml_reader), intent(inout) :: self
+      character(len=*), intent(in) :: name
+      real(wp), allocatable, intent(inout) :: values(:)
+      integer, intent(in) :: n
+      character(len=*), intent(in), optional :: units(:)
+      character(len=*), intent(in), optional :: bounds
+      character(len=:), allocatable :: key
+      integer :: array, filled, row
+
+      if (.not. self%is_good) return
+      if (allocated(values)) deallocate(values)
+      allocate(values(max(0, n)), source=0.0_wp)
+      select case (name)
+      case ("Y,ALPHA"); key = "inclinations"
+      case ("XL,XH,YL,YH"); key = "rectangles"
+      case default; key = trim(small(name))
+      end select
+      call find(self, key, array)
+      if (array == 0) then
+         if (n == 0) return
+         call self%add_problem(severity%error, 0, key // " is missing: an array of " // integer_text(n) // &
+            & " numbers; it belongs under [case." // trim(self%group) // "]")
+         self%is_good = .false.
+         return
+      end if
+      row = bounds_of(name)
+      if (present(bounds)) row = bounds_of(bounds)
+      if (self%document%nodes(array)%kind /= toml_kind%array) then
+         call self%add_problem(severity%error, array, told(self, key, array) // " must be an array of " // integer_text(n) // &
+            & " numbers")
+         self%is_good = .false.
+      else if (leaves_of(self%document, array) /= n) then
+         call self%add_problem(severity%error, array, key // " has " // integer_text(leaves_of(self%document, array)) // &
+            & " numbers, wanted are " // integer_text(n))
+         self%is_good = .false.
+      else
+         filled = 0
+         call fill_list(self, array, key, row, values, filled, units)
+      end if
+   end subroutine read_list
+
+   !> A value cannot be used
+   subroutine refuse_value(self, name, text)
+      class(toml_reader), intent(inout) :: self
+      character(len=*), intent(in) :: name, text
+
+      if (self%is_good .and. .not. self%line_is_bad) call self%add_problem(severity%error, node_of(self, name), &
+         & trim(self%shown(name)) // text)
+   end subroutine refuse_value
+
+   !> A value is doubtful or was replaced
+   subroutine warn_of_value(self, name, text)
+      class(toml_reader), intent(inout) :: self
+      character(len=*), intent(in) :: name, text
+
+      if (self%is_good .and. .not. self%line_is_bad) call self%add_problem(severity%warning, node_of(self, name), &
+         & trim(self%shown(name)) // text)
+   end subroutine warn_of_value
+
+   !> The case cannot be read on
+   subroutine stop_reading(self, name, text)
+      class(toml_reader), intent(inout) :: self
+      character(len=*), intent(in) :: name, text
+
+      if (.not. self%is_good) return
+      if (.not. self%line_is_bad) call self%add_problem(severity%error, node_of(self, name), trim(self%shown(name)) // text)
+      self%is_good = .false.
+   end subroutine stop_reading
+
+   !> The numbers of the group in hand do not go together
+   subroutine refuse_group(self, text)
+      class(toml_reader), intent(inout) :: self
+      character(len=*), intent(in) :: text
+
+      call self%add_problem(severity%error, 0, text)
+   end subroutine refuse_group
+
+   !> The numbers of the group in hand are doubtful
+   subroutine warn_of_group(self, text)
+      class(toml_reader), intent(inout) :: self
+      character(len=*), intent(in) :: text
+
+      call self%add_problem(severity%warning, 0, text)
+   end subroutine warn_of_group
+
+   !> Check the bounds of a value that was replaced, or that has one of two names
+   subroutine check_value(self, name, bounds)
+      class(toml_reader), intent(inout) :: self
+      character(len=*), intent(in) :: name
+      character(len=*), intent(in), optional :: bounds
+      integer :: k
+
+      k = self%place_of(name)
+      if (k == 0 .or. .not. self%is_good .or. self%line_is_bad) return
+      if (.not. self%items(k)%given) return
+      call check_item(self, self%items(k), trim(key_of_item(self, k)), self%nodes(k), bounds)
+   end subroutine check_value
+
+   !> Node of an item of the last line, 0 for none
+   pure integer function node_of(self, name) result(node)
+      class(toml_reader), intent(in) :: self
+      character(len=*), intent(in) :: name
+      integer :: k
+
+      node = 0
+      k = self%place_of(name)
+      if (k > 0) node = self%nodes(k)
+   end function node_of
+
+   !> "key = value" of an item of the last line, with blanks behind
+   pure function show_value(self, name) result(text)
+      class(toml_reader), intent(in) :: self
+      character(len=*), intent(in) :: name
+      character(len=shown_length) :: text
+      integer :: k
+
+      text = small(name)
+      k = self%place_of(name)
+      if (k == 0) return
+      text = key_of_item(self, k)
+      if (self%nodes(k) == 0) return
+      associate (node => self%document%nodes(self%nodes(k)))
+         if (node%kind == toml_kind%string) then
+            text = trim(text) // ' = "' // printable(self%document%text_of(self%nodes(k))) // '"'
+         else
+            text = trim(text) // " = " // printable(self%document%text_of(self%nodes(k)))
+         end if
+      end associate
+   end function show_value
+
+   !> Line and column of a value
+   pure subroutine place_of_node(self, index, line, column)
+      class(toml_reader), intent(in) :: self
+      integer, intent(in) :: index
+      integer, intent(inout) :: line, column
+
+      if (index <= 0) return
+      line = self%document%nodes(index)%line
+      column = self%document%nodes(index)%column
+   end subroutine place_of_node
+
+   !> Where an item of the last line stands
+   subroutine place_value(self, name, line, column)
+      class(toml_reader), intent(in) :: self
+      character(len=*), intent(in) :: name
+      integer, intent(inout) :: line, column
+
+      call place_of_node(self, self%case_node, line, column)
+      call place_of_node(self, self%group_node, line, column)
+      call place_of_node(self, node_of(self, name), line, column)
+   end subroutine place_value
+end module contact_input_toml_reader

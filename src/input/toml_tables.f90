@@ -1,0 +1,342 @@
+!> The tables of a case in the readable format: looking up keys, now and in cases before, and what nobody has asked for
+module contact_input_toml_tables
+   use contact_cases_archive, only : case_archive
+   use contact_control_words, only : key_length, words_of
+   use contact_input_problems, only : problem_list, severity
+   use contact_text_lexer, only : printable
+   use contact_text_nearest, only : nearest_word
+   use contact_toml_document, only : toml_document, toml_kind, toml_kind_text
+   implicit none (type, external)
+   private
+
+   public :: find, is_tables, leaves_of, list_of, number_of, sets_of, told, toml_memory, toml_tables
+
+   !> Most keys that cases ask for and remember
+   integer, parameter :: most_keys = 400
+   integer, parameter :: name_length = 2*key_length
+
+   !> What the cases of a result element gave last: names "group.key" and nodes of the document
+   type :: toml_memory
+      integer :: count = 0
+      character(len=name_length) :: names(most_keys) = ""
+      integer :: nodes(most_keys) = 0
+   contains
+      procedure :: recall
+      procedure :: remember
+   end type toml_memory
+
+   !> What readers of tables know
+   type, abstract, extends(case_archive) :: toml_tables
+      type(toml_document), pointer :: document => null()
+      !> What is wrong with the values of the case
+      type(problem_list), pointer :: problems => null()
+      !> What cases before this one gave
+      type(toml_memory), pointer :: memory => null()
+      !> Which nodes of the document have been taken
+      logical, pointer :: used(:) => null()
+      !> Table of the case, of the group in hand and of the set or block in hand; 0 for none
+      integer :: case_node = 0, group_node = 0, part_node = 0
+      character(len=key_length) :: group = ""
+      !> Groups and keys that the case asked for, for the nearest right one
+      integer :: asked_count = 0
+      character(len=key_length) :: asked_groups(most_keys) = "", asked_keys(most_keys) = ""
+      !> Is a value of the last line missing or wrong?
+      logical :: line_is_bad = .false.
+   contains
+      procedure :: line_of
+      !> A key was asked for
+      procedure :: note_key
+      !> A problem at a node, or at the case
+      procedure :: add_problem
+      !> What the case gives and nothing asked for is an error
+      procedure :: refuse_unused
+   end type toml_tables
+
+contains
+
+   !> The node that was remembered for a name, 0 for none
+   pure integer function recall(self, name) result(node)
+      class(toml_memory), intent(in) :: self
+      !> "group.key"
+      character(len=*), intent(in) :: name
+      integer :: k
+
+      node = 0
+      do k = 1, self%count
+         if (self%names(k) == name) node = self%nodes(k)
+      end do
+   end function recall
+
+   !> Remember the node for a name
+   pure subroutine remember(self, name, node)
+      class(toml_memory), intent(inout) :: self
+      !> "group.key"
+      character(len=*), intent(in) :: name
+      integer, intent(in) :: node
+      integer :: k
+
+      do k = 1, self%count
+         if (self%names(k) == name) exit
+      end do
+      if (k > most_keys) return
+      self%count = max(self%count, k)
+      self%names(k) = name
+      self%nodes(k) = node
+   end subroutine remember
+
+   !> Is it an array of tables, of its own headers or in place?
+   pure logical function is_tables(document, index)
+      type(toml_document), intent(in) :: document
+      integer, intent(in) :: index
+      integer :: k
+
+      is_tables = document%nodes(index)%kind == toml_kind%array
+      k = document%nodes(index)%first
+      do while (is_tables .and. k > 0)
+         is_tables = document%nodes(k)%kind == toml_kind%table
+         k = document%nodes(k)%next
+      end do
+   end function is_tables
+
+   !> The n-th child, 0 when there are fewer
+   pure integer function number_of(document, array, n) result(node)
+      type(toml_document), intent(in) :: document
+      integer, intent(in) :: array, n
+      integer :: k
+
+      node = document%nodes(array)%first
+      do k = 2, n
+         if (node == 0) return
+         node = document%nodes(node)%next
+      end do
+   end function number_of
+
+   !> Number of values in an array of arrays
+   recursive pure integer function leaves_of(document, index) result(n)
+      type(toml_document), intent(in) :: document
+      integer, intent(in) :: index
+      integer :: k
+
+      n = 0
+      k = document%nodes(index)%first
+      do while (k > 0)
+         if (document%nodes(k)%kind == toml_kind%array) then
+            n = n + leaves_of(document, k)
+         else
+            n = n + 1
+         end if
+         k = document%nodes(k)%next
+      end do
+   end function leaves_of
+
+   !> A key was asked for
+   subroutine note_key(self, group, key)
+      class(toml_tables), intent(inout) :: self
+      !> "" for a key of the case
+      character(len=*), intent(in) :: group, key
+      integer :: k
+
+      do k = 1, self%asked_count
+         if (self%asked_groups(k) == group .and. self%asked_keys(k) == key) return
+      end do
+      if (k > most_keys) return
+      self%asked_count = k
+      self%asked_groups(k) = group
+      self%asked_keys(k) = key
+   end subroutine note_key
+
+   !> The sets of friction of the case; 0 for none
+   integer function sets_of(self) result(node)
+      class(toml_tables), intent(inout) :: self
+
+      call self%note_key("friction", "set")
+      node = 0
+      if (self%group_node > 0) node = self%document%child(self%group_node, "set")
+      if (node > 0) self%used(node) = .true.
+   end function sets_of
+
+   !> A key of the table in hand, or remembered; 0 for none
+   integer function list_of(self, key) result(node)
+      class(toml_tables), intent(in) :: self
+      character(len=*), intent(in) :: key
+      integer :: table
+
+      node = 0
+      table = merge(self%part_node, self%group_node, self%part_node > 0)
+      if (table > 0) node = self%document%child(table, key)
+      if (node == 0 .and. self%part_node == 0) node = self%memory%recall(trim(self%group) // "." // key)
+   end function list_of
+
+   !> Find a key in the table in hand, then in those of cases before; an element of an array for names that end with a figure
+   subroutine find(self, key, node)
+      class(toml_tables), intent(inout) :: self
+      character(len=*), intent(in) :: key
+      !> 0 when it was never given
+      integer, intent(out) :: node
+      integer :: figure, stem, table
+
+      call self%note_key(trim(self%group), key)
+      node = 0
+      table = merge(self%part_node, self%group_node, self%part_node > 0)
+      figure = index("12", key(len(key):))
+      if (figure > 0 .and. len(key) > 1) call self%note_key(trim(self%group), key(:len(key) - 1))
+      if (table > 0) then
+         node = self%document%child(table, key)
+         if (node == 0 .and. figure > 0 .and. len(key) > 1) then
+            stem = self%document%child(table, key(:len(key) - 1))
+            if (stem > 0) then
+               self%used(stem) = .true.
+               if (self%document%nodes(stem)%kind == toml_kind%array .and. self%document%nodes(stem)%count == 2) then
+                  node = number_of(self%document, stem, figure)
+               else
+                  if (figure == 1) call self%add_problem(severity%error, stem, key(:len(key) - 1) // &
+                     & " must be an array of two values, [first, second]")
+                  self%line_is_bad = .true.
+                  node = -1
+                  return
+               end if
+            end if
+         end if
+      end if
+      if (node > 0) then
+         self%used(node) = .true.
+         if (self%part_node == 0) call self%memory%remember(trim(self%group) // "." // key, node)
+      else if (self%part_node == 0) then
+         node = self%memory%recall(trim(self%group) // "." // key)
+      end if
+   end subroutine find
+
+   !> A problem at a node; at the table in hand or the case where there is none
+   subroutine add_problem(self, kind, index, message)
+      class(toml_tables), intent(inout) :: self
+      !> Member of severity
+      integer, intent(in) :: kind
+      !> Node, 0 for none
+      integer, intent(in) :: index
+      character(len=*), intent(in) :: message
+      integer :: place
+
+      place = index
+      if (place <= 0) place = self%part_node
+      if (place <= 0) place = self%group_node
+      if (place <= 0) place = self%case_node
+      associate (node => self%document%nodes(place))
+         call self%problems%add(kind, message, node%line, node%column)
+      end associate
+   end subroutine add_problem
+
+   !> Length of a value in told
+   pure integer function len_told(self, index) result(length)
+      class(toml_tables), intent(in) :: self
+      integer, intent(in) :: index
+
+      associate (node => self%document%nodes(index))
+         select case (node%kind)
+         case (toml_kind%string); length = len(printable(self%document%text_of(index))) + 2
+         case (toml_kind%table, toml_kind%array); length = len_trim(toml_kind_text(node%kind)) + 2
+         case default; length = len(printable(self%document%text_of(index)))
+         end select
+      end associate
+   end function len_told
+
+   !> "key = value" as it was given
+   function told(self, key, index) result(text)
+      class(toml_tables), intent(in) :: self
+      character(len=*), intent(in) :: key
+      integer, intent(in) :: index
+      character(len=len(key) + 3 + len_told(self, index)) :: text
+
+      associate (node => self%document%nodes(index))
+         select case (node%kind)
+         case (toml_kind%string); text = key // ' = "' // printable(self%document%text_of(index)) // '"'
+         case (toml_kind%table, toml_kind%array); text = key // " = (" // trim(toml_kind_text(node%kind)) // ")"
+         case default; text = key // " = " // printable(self%document%text_of(index))
+         end select
+      end associate
+   end function told
+
+   !> Line on which a group begins, 0 when the case does not give it
+   pure integer function line_of(self, name) result(line)
+      class(toml_tables), intent(in) :: self
+      character(len=*), intent(in) :: name
+      integer :: node
+
+      line = 0
+      node = self%document%child(self%case_node, name)
+      if (node > 0) line = self%document%nodes(node)%line
+   end function line_of
+
+   !> What the case gives and nothing asked for is an error, with the nearest key that was asked for
+   subroutine refuse_unused(self, known_groups)
+      class(toml_tables), intent(inout) :: self
+      !> Groups that some case can have
+      character(len=*), intent(in) :: known_groups(:)
+      integer :: k
+
+      k = self%document%nodes(self%case_node)%first
+      do while (k > 0)
+         if (.not. self%used(k)) then
+            call refuse_key(self, k, "", known_groups)
+         else
+            call refuse_unused_below(self, k, self%document%key_of(k))
+         end if
+         k = self%document%nodes(k)%next
+      end do
+   end subroutine refuse_unused
+
+   !> Keys of a group, and of tables in it
+   recursive subroutine refuse_unused_below(self, index, group)
+      class(toml_tables), intent(inout) :: self
+      integer, intent(in) :: index
+      character(len=*), intent(in) :: group
+      character(len=1), parameter :: none(0) = ""
+      integer :: k
+
+      if (self%document%nodes(index)%kind /= toml_kind%table .and. .not. is_tables(self%document, index)) return
+      k = self%document%nodes(index)%first
+      do while (k > 0)
+         if (self%used(k) .or. self%document%nodes(index)%kind == toml_kind%array) then
+            call refuse_unused_below(self, k, group)
+         else
+            call refuse_key(self, k, group, none)
+         end if
+         k = self%document%nodes(k)%next
+      end do
+   end subroutine refuse_unused_below
+
+   !> A key that nothing asked for
+   subroutine refuse_key(self, index, group, known)
+      class(toml_tables), intent(inout) :: self
+      integer, intent(in) :: index
+      !> Where it stands, "" for the case
+      character(len=*), intent(in) :: group
+      !> Keys that other cases can have there
+      character(len=*), intent(in) :: known(:)
+      character(len=key_length) :: keys(most_keys)
+      character(len=:), allocatable :: message, words
+      integer :: place
+
+      keys = ""
+      where (self%asked_groups == group) keys = self%asked_keys
+      message = '"' // printable(self%document%key_of(index)) // '"'
+      if (any(known == self%document%key_of(index))) then
+         message = message // " has no meaning in this case, whose choices do not ask for it"
+      else
+         place = nearest_word(self%document%key_of(index), keys)
+         if (place > 0) then
+            message = message // ' is not known; did you mean "' // trim(keys(place)) // '"?'
+         else
+            place = nearest_word(self%document%key_of(index), known)
+            if (place > 0) then
+               message = message // ' is not known; did you mean "' // trim(known(place)) // '"?'
+            else
+               call words_of(keys, words)
+               message = message // " is not known, or has no meaning in this case; known here are " // words
+            end if
+         end if
+      end if
+      associate (node => self%document%nodes(index))
+         call self%problems%add(severity%error, message, node%key_line, node%key_column)
+      end associate
+   end subroutine refuse_key
+end module contact_input_toml_tables

@@ -1,0 +1,121 @@
+!> A case in words: what is simulated, what is not, how, and what it is expected to cost
+module contact_output_case_words
+   use contact_base_choices, only : heat_source, is_simplified, motion, slip_source, variation
+   use contact_cases_estimate, only : case_cost, cost_text, estimate_cost
+   use contact_cases_spec, only : case_spec
+   use contact_control_digits, only : digit_of, digit_text
+   use contact_control_words, only : form_title, tell_in_words
+   use contact_text_buffer, only : text_buffer
+   use contact_text_words, only : integer_text, real_text
+   implicit none (type, external)
+   private
+
+   public :: tell_case
+
+contains
+
+   !> One case
+   subroutine tell_case(module_number, reid, number, first_line, spec, is_usable, told)
+      !> 1 or 3
+      integer, intent(in) :: module_number
+      !> Result element, 0 for the default one; number in the file, from 1; line where the case begins
+      integer, intent(in) :: reid, number, first_line
+      type(case_spec), intent(in) :: spec
+      !> Can it be computed? Otherwise there is no estimate
+      logical, intent(in) :: is_usable
+      !> The words, line by line
+      type(text_buffer), intent(inout) :: told
+      character(len=:), allocatable :: title
+      type(case_cost) :: cost
+
+      title = "two bodies in contact"
+      if (module_number == 1) title = digit("C1", merge(0, 1, spec%wheel_rail%left) + merge(4, 0, spec%wheel_rail%roller))
+      if (reid > 0) title = trim(title) // ", result element " // integer_text(reid)
+      call told%add_line("Case " // integer_text(number) // ", line " // integer_text(first_line) // ": " // trim(title))
+      if (.not. spec%solve) then
+         call say("Only its input is stored; nothing is computed.")
+         return
+      end if
+      call say("Motion: " // trim(digit("T", spec%motion)))
+      call say("Given: " // trim(digit("N", spec%normal)) // merge(";", " ", spec%motion /= motion%none) // &
+         & trim(digit_if(spec%motion /= motion%none, "F", spec%force)))
+      call say("Pressures: " // trim(digit("B", spec%pressure)))
+      if (spec%motion /= motion%none) then
+         call say("Friction: " // trim(digit("L", spec%friction_law)) // "; " // trim(digit("V", spec%variation)))
+         call say("Solver: " // trim(digit("G", spec%solver)))
+      end if
+      call say("Material: " // trim(digit("M", spec%material_model)))
+      if (.not. is_simplified(spec%material_model)) call say("Elasticity: " // trim(digit("C", spec%kernel)))
+      if (module_number == 1) then
+         call say("Contact search: " // trim(digit("D", spec%wheel_rail%search%location)))
+         call say("Elements: " // real_text(spec%wheel_rail%search%dx) // " mm along the track, " // &
+            & real_text(spec%wheel_rail%search%ds) // " mm across")
+         if (allocated(spec%wheel_rail%rail_profile%name) .and. allocated(spec%wheel_rail%wheel_profile%name)) &
+            & call say("Profiles: " // spec%wheel_rail%rail_profile%name // " and " // spec%wheel_rail%wheel_profile%name)
+      else
+         call say("Elements: " // integer_text(spec%grid%mx) // " along x, " // integer_text(spec%grid%my) // &
+            & " along y; " // trim(form_title("IPOTCN", spec%grid%ipotcn)))
+         if (spec%grid%ipotcn > 0) call say("Undeformed distance: " // trim(form_title("IBASE", spec%geometry%ibase)))
+         if (spec%slip_source /= slip_source%none .and. spec%motion /= motion%none) &
+            & call say("Rigid slip: " // trim(digit("E", spec%slip_source)))
+      end if
+      call say("History: " // trim(digit("P", spec%link)) // "; " // trim(digit("I", spec%estimate)))
+      if (spec%has_heat) call say("Surface temperatures: flash heating" // &
+         & trim(merge(", moving sources               ", ", as in the established program", &
+         & spec%heat%source == heat_source%moving)))
+      if (spec%has_damping) call say("Damping: proportional to the rates of the forces")
+      if (spec%has_stress .and. allocated(spec%subsurface%blocks)) call say("Stresses below the surface: " // &
+         & integer_text(size(spec%subsurface%blocks)) // " blocks of points")
+      call say("Not simulated: " // trim(absent(spec)))
+      if (is_usable) then
+         call estimate_cost(spec, cost)
+         call say("Expected on one thread: " // trim(cost_text(cost)))
+      end if
+
+   contains
+
+      !> One line
+      subroutine say(line)
+         character(len=*), intent(in) :: line
+         character(len=:), allocatable :: text
+
+         call tell_in_words(line, module_number, text)
+         call told%add_line("  " // trim(text))
+      end subroutine say
+
+      !> A choice in words, with blanks behind
+      pure function digit(name, choice) result(text)
+         character(len=*), intent(in) :: name
+         integer, intent(in) :: choice
+         character(len=80) :: text
+
+         text = digit_text(name, digit_of(name, choice, module_number), module_number)
+      end function digit
+
+      !> The same with a blank before it, where it has a meaning
+      pure function digit_if(has_meaning, name, choice) result(text)
+         logical, intent(in) :: has_meaning
+         character(len=*), intent(in) :: name
+         integer, intent(in) :: choice
+         character(len=81) :: text
+
+         text = ""
+         if (has_meaning) text = " " // digit(name, choice)
+      end function digit_if
+   end subroutine tell_case
+
+   !> Effects that a case leaves out, with blanks behind
+   pure function absent(spec) result(text)
+      type(case_spec), intent(in) :: spec
+      character(len=240) :: text
+
+      text = "inertia of the bodies"
+      if (spec%motion == motion%none) text = trim(text) // ", friction"
+      if (.not. spec%has_heat) text = trim(text) // ", surface temperatures"
+      if (.not. spec%has_damping) text = trim(text) // ", damping"
+      if (.not. spec%has_plasticity()) text = trim(text) // ", plasticity"
+      if (.not. spec%has_stress) text = trim(text) // ", stresses below the surface"
+      if (spec%motion /= motion%none .and. spec%variation == variation%none) text = trim(text) // &
+         & ", friction that differs from place to place"
+   end function absent
+end module contact_output_case_words

@@ -1,0 +1,268 @@
+!> Cases in the readable format: choices by their words, then the groups that a case gives
+!>
+!> A case says what differs from the one before. What the reader would conclude for itself is left out, see
+!> contact_input_toml_case.
+module contact_output_toml_case_writer
+   use contact_base_choices, only : heat_source, motion, slip_source, variation
+   use contact_cases_spec, only : case_spec, friction_set, part_source
+   use contact_cases_whole_case, only : visit_case
+   use contact_control_digits, only : case_digits, digit_text, digit_value
+   use contact_control_translation, only : digits_of
+   use contact_control_words, only : is_choice, key_table, word_of_digit
+   use contact_output_toml_writer, only : remembered_texts, toml_writer
+   use contact_text_buffer, only : text_buffer
+   use contact_text_words, only : integer_text
+   implicit none (type, external)
+   private
+
+   public :: toml_experiment_writer
+
+   character(len=*), parameter :: line_feed = achar(10)
+
+   !> What was written last for a result element
+   type :: element_memory
+      integer :: module_number = 0, reid = 0, cpid = 1
+      logical :: is_first = .true.
+      type(remembered_texts) :: texts
+      type(case_spec) :: spec
+   end type element_memory
+
+   !> Writes one case after the other
+   type :: toml_experiment_writer
+      !> What was written so far
+      type(text_buffer) :: text
+      integer, private :: count = 0, current = 0
+      type(element_memory), allocatable, private :: elements(:)
+   contains
+      procedure :: add_case
+      procedure, private :: select_element
+   end type toml_experiment_writer
+
+contains
+
+   !> Write a case behind the others
+   subroutine add_case(self, module_number, reid, cpid, spec, remarks)
+      class(toml_experiment_writer), intent(inout) :: self
+      !> 1 or 3
+      integer, intent(in) :: module_number
+      !> Result element, 0 for the default one, and contact patch
+      integer, intent(in) :: reid, cpid
+      type(case_spec), intent(in) :: spec
+      !> Lines of comments above the case, each with its "# " and the end of the line
+      character(len=*), intent(in) :: remarks
+      type(toml_writer) :: a
+      type(remembered_texts), target :: presets, texts
+      type(case_spec), target :: written
+      integer :: before
+
+      before = self%current
+      call self%select_element(module_number, reid, cpid)
+      associate (element => self%elements(self%current))
+         texts = element%texts
+         a%memory => texts
+         a%presets => presets
+         a%is_recording = .true.
+         a%case_text = ""
+         call make_preset(spec, written)
+         call visit_case(a, written)
+         a%is_recording = .false.
+         a%has_rows = spec%variation == variation%by_row
+         a%module_number = module_number
+         a%digits = digits_of(spec)
+         a%has_moving_heat = spec%heat%source == heat_source%moving
+         a%case_text = line_feed // remarks // "[[case]]" // line_feed
+         if (self%text%length == 0) a%case_text = remarks // "[[case]]" // line_feed
+         call put_element(self, a, before)
+         call put_choices(a, module_number, element%is_first, element%spec, spec)
+         written = spec
+         call visit_case(a, written)
+         call put_ends(a, element%spec, spec, element%is_first)
+         call self%text%add(a%case_text)
+         element%texts = texts
+         element%spec = spec
+         element%is_first = .false.
+      end associate
+   end subroutine add_case
+
+   !> The case with numbers that nobody has given, where they are preset
+   subroutine make_preset(spec, preset)
+      type(case_spec), intent(in) :: spec
+      type(case_spec), intent(out) :: preset
+      type(case_spec) :: fresh
+      type(friction_set) :: usual
+
+      preset = spec
+      preset%iteration = fresh%iteration
+      preset%kinematics = fresh%kinematics
+      preset%rolling = fresh%rolling
+      preset%material%k0_mf = fresh%material%k0_mf
+      preset%material%alfamf = fresh%material%alfamf
+      preset%material%betamf = fresh%material%betamf
+      preset%material%tau_c0 = fresh%material%tau_c0
+      preset%material%k_tau = fresh%material%k_tau
+      preset%material%if_meth = fresh%material%if_meth
+      preset%material%variant = fresh%material%variant
+      preset%heat = fresh%heat
+      preset%friction%memdst = fresh%friction%memdst
+      preset%friction%mem_s0 = fresh%friction%mem_s0
+      if (allocated(preset%friction%sets)) preset%friction%sets(:)%fkin = usual%fkin
+      if (.not. allocated(spec%wheel_rail)) return
+      deallocate(preset%wheel_rail)
+      allocate(preset%wheel_rail)
+      preset%wheel_rail%roller = spec%wheel_rail%roller
+      preset%wheel_rail%rail_profile%name = ""
+      preset%wheel_rail%wheel_profile%name = ""
+   end subroutine make_preset
+
+   !> Module, result element and patch, where they are not those of the case before
+   subroutine put_element(self, a, before)
+      type(toml_experiment_writer), intent(in) :: self
+      type(toml_writer), intent(inout) :: a
+      !> Number of the element of the case before, 0 for none
+      integer, intent(in) :: before
+      type(element_memory) :: old
+
+      old = element_memory()
+      if (before > 0) then
+         old%module_number = self%elements(before)%module_number
+         old%reid = self%elements(before)%reid
+         old%cpid = self%elements(before)%cpid
+      end if
+      associate (new => self%elements(self%current))
+         if (new%module_number /= old%module_number) then
+            if (new%module_number == 1) a%case_text = a%case_text // 'module = "wheel_rail"' // line_feed
+            if (new%module_number == 3) a%case_text = a%case_text // 'module = "contact"' // line_feed
+         end if
+         if (new%reid /= old%reid) a%case_text = a%case_text // "result_element = " // integer_text(new%reid) // line_feed
+         if (new%cpid /= old%cpid) a%case_text = a%case_text // "contact_patch = " // integer_text(new%cpid) // line_feed
+      end associate
+   end subroutine put_element
+
+   !> Choices that are not those of the case before
+   subroutine put_choices(a, module_number, is_first, old, spec)
+      type(toml_writer), intent(inout) :: a
+      integer, intent(in) :: module_number
+      !> Is there no case before?
+      logical, intent(in) :: is_first
+      type(case_spec), intent(in) :: old, spec
+      type(case_digits) :: digits, usual
+      character(len=:), allocatable :: text
+      integer :: digit, row
+
+      digits = digits_of(spec)
+      usual%o = 2
+      do row = 1, size(key_table)
+         associate (key => key_table(row))
+            if (key%group /= "" .or. all(key%module_number /= [0, module_number])) cycle
+            digit = digit_value(digits, trim(key%name))
+            if (key%name == "S") then
+               if (digit >= 2 .or. (digit == 1 .eqv. (old%has_stress .and. .not. is_first))) cycle
+               call forget(a, "stresses")
+            else if (key%name == "E") then
+               if (digit == 9 .or. digit == 1) cycle
+               if (digit == 0 .and. (is_first .or. old%slip_source == slip_source%none)) cycle
+               call forget(a, "slip_source")
+            end if
+            if (is_choice(trim(key%name))) then
+               text = '"' // trim(word_of_digit(trim(key%name), digit, module_number)) // '"'
+            else
+               text = integer_text(digit)
+            end if
+            if (is_first .and. all(key%name /= ["C1", "T ", "N ", "F ", "O "]) &
+               & .and. digit == digit_value(usual, trim(key%name))) call a%memory%keep("." // trim(key%key), text)
+            call a%put_choice(trim(key%key), text, trim(digit_text(trim(key%name), digit, module_number)))
+         end associate
+      end do
+      if (.not. spec%solve) a%case_text = a%case_text // "solve = false" // line_feed
+      if (module_number == 1) then
+         if (is_first .and. spec%wheel_rail%search%gap_weight == 0) call a%memory%keep(".gap_weight", "0")
+         call a%put_choice("gap_weight", integer_text(spec%wheel_rail%search%gap_weight), "")
+      end if
+      call put_renewal(a, is_first, old, spec)
+   end subroutine put_choices
+
+   !> What was written before for a choice that is kept in its own way does not count
+   subroutine forget(a, key)
+      type(toml_writer), intent(inout) :: a
+      character(len=*), intent(in) :: key
+
+      call a%memory%keep("." // key, "")
+   end subroutine forget
+
+   !> The key renew, where the reader would renew something else
+   subroutine put_renewal(a, is_first, old, spec)
+      type(toml_writer), intent(inout) :: a
+      logical, intent(in) :: is_first
+      type(case_spec), intent(in) :: old, spec
+      character(len=:), allocatable :: names
+      integer :: geometry, material
+      logical :: differs
+
+      if (is_first .or. allocated(spec%wheel_rail)) return
+      associate (parts => spec%parts)
+         material = part_source%kept
+         if (parts%grid == part_source%given .or. (spec%motion >= motion%transient_rolling .neqv. &
+            & old%motion >= motion%transient_rolling)) material = part_source%renewed
+         geometry = merge(part_source%renewed, part_source%kept, parts%grid /= part_source%kept)
+         differs = parts%grid == part_source%renewed .or. (parts%material /= part_source%given .and. parts%material /= material)
+         if (parts%grid == part_source%given .and. spec%grid%ipotcn < 0) then
+            differs = differs .or. parts%geometry == part_source%renewed
+         else
+            differs = differs .or. (parts%geometry /= part_source%given .and. parts%geometry /= geometry)
+         end if
+         if (.not. differs) return
+         names = ""
+         if (parts%grid == part_source%renewed) names = names // ', "grid"'
+         if (parts%geometry == part_source%renewed) names = names // ', "geometry"'
+         if (parts%material == part_source%renewed) names = names // ', "material"'
+      end associate
+      a%case_text = a%case_text // "renew = [" // names(min(3, len(names) + 1):) // "]" // line_feed
+   end subroutine put_renewal
+
+   !> What ends: damping and temperatures that the case before had; and how temperatures are computed
+   subroutine put_ends(a, old, spec, is_first)
+      type(toml_writer), intent(inout) :: a
+      type(case_spec), intent(in) :: old, spec
+      logical, intent(in) :: is_first
+
+      if (is_first) return
+      if (old%has_damping .and. .not. spec%has_damping) call end_group("damping")
+      if (old%has_heat .and. .not. spec%has_heat) call end_group("heat")
+
+   contains
+
+      !> A group with a model that is none
+      subroutine end_group(group)
+         character(len=*), intent(in) :: group
+
+         a%case_text = a%case_text // line_feed // "[case." // group // "]" // line_feed // 'model = "none"' // line_feed
+         call a%memory%keep(group // ".model", '"none"')
+      end subroutine end_group
+   end subroutine put_ends
+
+   !> Make the memory of a result element the current one
+   subroutine select_element(self, module_number, reid, cpid)
+      class(toml_experiment_writer), intent(inout) :: self
+      integer, intent(in) :: module_number, reid, cpid
+      type(element_memory), allocatable :: longer(:)
+      integer :: k
+
+      if (.not. allocated(self%elements)) allocate(self%elements(2))
+      do k = 1, self%count
+         associate (element => self%elements(k))
+            if (element%module_number == module_number .and. element%reid == reid .and. element%cpid == cpid) exit
+         end associate
+      end do
+      self%current = k
+      if (k <= self%count) return
+      if (k > size(self%elements)) then
+         allocate(longer(2*size(self%elements)))
+         longer(:self%count) = self%elements(:self%count)
+         call move_alloc(longer, self%elements)
+      end if
+      self%count = k
+      self%elements(k)%module_number = module_number
+      self%elements(k)%reid = reid
+      self%elements(k)%cpid = cpid
+   end subroutine select_element
+end module contact_output_toml_case_writer

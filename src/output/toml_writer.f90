@@ -1,0 +1,416 @@
+!> The archive that writes a case in the readable format
+!>
+!> Numbers that are those of the last case with this group are left out, and so are preset numbers that nobody has changed: the
+!> reader finds them again in the same way. Real numbers have as many figures as tell them apart from all others.
+module contact_output_toml_writer
+   use contact_base_constants, only : pi
+   use contact_base_kinds, only : wp
+   use contact_cases_archive, only : archive_item, case_archive, item_kind
+   use contact_control_digits, only : case_digits, digit_text, digit_value
+   use contact_control_words, only : form_key, form_table, form_title, form_word, key_length, key_table, tell_in_words, &
+      & word_of_digit
+   use contact_text_bounds, only : bounds_table
+   use contact_text_words, only : exact_text, integer_text, small
+   use contact_toml_quantities, only : read_quantity
+   implicit none (type, external)
+   private
+
+   public :: quoted, remembered_texts, toml_writer
+
+   integer, parameter :: most_keys = 400
+   !> Column of remarks, and width of lines of long lists
+   integer, parameter :: remark_column = 34, line_width = 100
+   character(len=*), parameter :: line_feed = achar(10)
+   !> Lengths of lists, which the lists tell
+   character(len=6), parameter :: lengths(*) = [character(len=6) :: "NN", "NP", "NVF", "NX", "NY", "NZ", "PRFOPT"]
+
+   !> Texts of values by "group.key"
+   type :: remembered_texts
+      integer :: count = 0
+      character(len=2*key_length) :: names(most_keys) = ""
+      type(text_of_value), allocatable :: texts(:)
+   contains
+      procedure :: is_same
+      procedure :: keep
+   end type remembered_texts
+
+   type :: text_of_value
+      character(len=:), allocatable :: text
+   end type text_of_value
+
+   !> Writes the tables of a case
+   type, extends(case_archive) :: toml_writer
+      !> What was written so far of the case, of the group in hand, and of its sets or blocks
+      character(len=:), allocatable :: case_text, body, parts
+      character(len=key_length) :: group = ""
+      !> What cases before this one gave, and what numbers are before any case gives them
+      type(remembered_texts), pointer :: memory => null(), presets => null()
+      !> Of the case: 1 or 3, digits, and how temperatures are computed
+      integer :: module_number = 3
+      type(case_digits) :: digits
+      logical :: has_moving_heat = .false.
+      !> Are preset numbers being noted? Then nothing is written
+      logical :: is_recording = .false.
+      !> Has each row of the grid a friction of its own?
+      logical :: has_rows = .false.
+      !> Is a set or block in hand?
+      logical :: in_part = .false.
+   contains
+      procedure :: end_line => write_line
+      procedure :: list => write_list
+      procedure :: open_group => open_table
+      procedure :: close_group => close_table
+      !> Add a key with a value to the group in hand, unless it is what it was
+      procedure :: put
+      !> Add a key to the case itself
+      procedure :: put_choice
+   end type toml_writer
+
+contains
+
+   !> Is this the text that was kept for a name?
+   pure logical function is_same(self, name, text)
+      class(remembered_texts), intent(in) :: self
+      character(len=*), intent(in) :: name, text
+      integer :: k
+
+      is_same = .false.
+      do k = 1, self%count
+         if (self%names(k) == name) is_same = self%texts(k)%text == text
+      end do
+   end function is_same
+
+   !> Keep the text for a name
+   pure subroutine keep(self, name, text)
+      class(remembered_texts), intent(inout) :: self
+      character(len=*), intent(in) :: name, text
+      integer :: k
+
+      if (.not. allocated(self%texts)) allocate(self%texts(most_keys))
+      do k = 1, self%count
+         if (self%names(k) == name) exit
+      end do
+      if (k > most_keys) return
+      self%count = max(self%count, k)
+      self%names(k) = name
+      self%texts(k)%text = text
+   end subroutine keep
+
+   !> A group begins
+   subroutine open_table(self, text)
+      class(toml_writer), intent(inout) :: self
+      character(len=*), intent(in) :: text
+
+      self%group = text
+      self%body = ""
+      self%parts = ""
+      self%in_part = .false.
+      if (self%is_recording) return
+      call put_group_choices(self)
+      if (text == "heat") call self%put("source", trim(merge('"moving"     ', '"established"', self%has_moving_heat)))
+   end subroutine open_table
+
+   !> Choices that stand in the group in hand
+   subroutine put_group_choices(self)
+      class(toml_writer), intent(inout) :: self
+      character(len=:), allocatable :: text
+      integer :: k
+
+      do k = 1, size(key_table)
+         associate (row => key_table(k))
+            if (row%group /= self%group .or. all(row%module_number /= [0, self%module_number])) cycle
+            text = trim(word_of_digit(trim(row%name), digit_value(self%digits, trim(row%name)), self%module_number))
+            if (len(text) > 0) call self%put(trim(row%key), '"' // text // '"', remark=trim(digit_text(trim(row%name), &
+               & digit_value(self%digits, trim(row%name)), self%module_number)))
+         end associate
+      end do
+   end subroutine put_group_choices
+
+   !> A group ends: its header, its keys, its sets; kinematics need no header when nothing has changed
+   subroutine close_table(self)
+      class(toml_writer), intent(inout) :: self
+
+      if (.not. self%is_recording) then
+         if (self%group /= "stress_points" .and. (len(self%body) > 0 .or. self%group /= "kinematics")) &
+            & self%case_text = self%case_text // line_feed // "[case." // trim(self%group) // "]" // line_feed // &
+            & self%body
+         self%case_text = self%case_text // self%parts
+      end if
+      self%group = ""
+   end subroutine close_table
+
+   !> Write the items in hand
+   subroutine write_line(self)
+      class(toml_writer), intent(inout) :: self
+      character(len=:), allocatable :: text
+      integer :: k
+
+      call begin_part(self)
+      k = 0
+      do while (k < self%count)
+         k = k + 1
+         if (any(lengths == self%items(k)%name) .or. self%items(k)%name == "ISUBS") cycle
+         call text_of_item(self%items(k), text)
+         if (is_pair(self, k)) then
+            call put_pair(self, k, text)
+            k = k + 1
+         else
+            call self%put(trim(key_of_item(self, k)), text, self%items(k))
+         end if
+      end do
+      call self%finish_line()
+   end subroutine write_line
+
+   !> A set of friction or a block of points has a table of its own
+   subroutine begin_part(self)
+      class(toml_writer), intent(inout) :: self
+
+      if (self%is_recording) return
+      if (self%group == "friction") then
+         self%in_part = self%items(1)%name == "ALPHA" .or. self%items(1)%name == "SVF" .or. (self%has_rows .and. &
+            & self%items(1)%name /= "MEMDST")
+         if (self%in_part) self%parts = self%parts // line_feed // "[[case.friction.set]]" // line_feed
+      else if (self%items(1)%name == "ISUBS") then
+         self%in_part = self%items(1)%i /= 0
+         if (self%in_part) self%parts = self%parts // line_feed // "[[case.stress_points]]" // line_feed // 'points = "' // &
+            & trim(form_word("ISUBS", self%items(1)%i)) // '"' // line_feed
+      end if
+   end subroutine begin_part
+
+   !> Do this item and the next one belong to the bodies 1 and 2?
+   pure logical function is_pair(self, k)
+      class(toml_writer), intent(in) :: self
+      integer, intent(in) :: k
+      integer :: n
+
+      is_pair = .false.
+      if (k >= self%count) return
+      n = len_trim(self%items(k)%name)
+      if (self%items(k)%name(n:n) /= "1" .or. len_trim(self%items(k + 1)%name) /= n) return
+      is_pair = self%items(k + 1)%name == self%items(k)%name(:n - 1) // "2"
+   end function is_pair
+
+   !> key = [first, second]
+   subroutine put_pair(self, k, first)
+      class(toml_writer), intent(inout) :: self
+      integer, intent(in) :: k
+      !> Text of the first value
+      character(len=*), intent(in) :: first
+      character(len=:), allocatable :: second
+      character(len=key_length) :: key
+
+      key = key_of_item(self, k)
+      call text_of_item(self%items(k + 1), second)
+      call self%put(key(:len_trim(key) - 1), "[" // first // ", " // second // "]", self%items(k))
+   end subroutine put_pair
+
+   !> Key of an item; of "A|B" the one that the first number of the line calls for
+   pure function key_of_item(self, k) result(key)
+      class(toml_writer), intent(in) :: self
+      integer, intent(in) :: k
+      character(len=key_length) :: key
+      integer :: bar
+
+      associate (item => self%items(k))
+         key = form_key(item%name)
+         if (key /= "") return
+         bar = index(item%name, "|")
+         if (bar == 0) then
+            key = small(item%name)
+         else if (self%items(1)%r > 0.0_wp) then
+            key = small(item%name(:bar - 1))
+         else
+            key = small(item%name(bar + 1:))
+         end if
+      end associate
+      if (key == "rfname" .or. key == "wfname" .or. key == "cfname") key = "file"
+   end function key_of_item
+
+   !> Value of an item as TOML
+   subroutine text_of_item(item, text)
+      type(archive_item), intent(in) :: item
+      character(len=:), allocatable, intent(out) :: text
+
+      select case (item%kind)
+      case (item_kind%integer, item_kind%branch)
+         text = integer_text(item%i)
+         if (any(form_table%name == item%name)) text = '"' // trim(form_word(item%name, item%i)) // '"'
+      case (item_kind%text)
+         call quoted(item%s%value, text)
+      case (item_kind%angle)
+         call text_of_angle(item%r, trim(bounds_table(item%row)%unit), text)
+      case default
+         text = trim(exact_text(item%r))
+      end select
+   end subroutine text_of_item
+
+   !> An angle or a rate, in degrees where that is shorter and exactly the same
+   subroutine text_of_angle(value, unit, text)
+      real(wp), intent(in) :: value
+      !> rad or rad/s
+      character(len=*), intent(in) :: unit
+      character(len=:), allocatable, intent(out) :: text
+      integer, parameter :: short = 10
+      character(len=:), allocatable :: degrees, complaint
+      character(len=24) :: word
+      real(wp) :: back
+      integer :: status
+
+      text = trim(exact_text(value))
+      if (len(text) <= short) return
+      write(word, "(ES14.7)", iostat=status) value*(180.0_wp/pi)
+      read(word, *, iostat=status) back
+      degrees = trim(exact_text(back)) // " deg" // unit(4:)
+      call read_quantity(degrees, unit, back, complaint)
+      if (allocated(complaint) .or. abs(back - value) > 0.0_wp) return
+      text = '"' // degrees // '"'
+   end subroutine text_of_angle
+
+   !> A text in quotes
+   pure subroutine quoted(value, text)
+      character(len=*), intent(in) :: value
+      character(len=:), allocatable, intent(out) :: text
+      character(len=6) :: escape
+      integer :: k
+
+      text = '"'
+      do k = 1, len(value)
+         if (value(k:k) == '"' .or. value(k:k) == "\") then
+            text = text // "\" // value(k:k)
+         else if (iachar(value(k:k)) < 32 .or. iachar(value(k:k)) == 127) then
+            write(escape, "(A, Z4.4)") "\u", iachar(value(k:k))
+            text = text // escape
+         else
+            text = text // value(k:k)
+         end if
+      end do
+      text = text // '"'
+   end subroutine quoted
+
+   !> Add a key with a value to the group in hand, unless the reader finds the value without it
+   subroutine put(self, key, text, item, remark)
+      class(toml_writer), intent(inout) :: self
+      character(len=*), intent(in) :: key, text
+      !> With what it means
+      type(archive_item), intent(in), optional :: item
+      !> What is said about it where there is no item
+      character(len=*), intent(in), optional :: remark
+      character(len=:), allocatable :: line, name
+      logical :: can_miss
+
+      name = trim(self%group) // "." // key
+      if (self%is_recording) then
+         call self%presets%keep(name, text)
+         return
+      end if
+      can_miss = .false.
+      if (present(item)) can_miss = (item%is_optional .or. item%is_preset) .and. item%name /= "D_TURN"
+      if (.not. self%in_part) then
+         if (self%memory%is_same(name, text)) return
+         if (can_miss .and. .not. any(self%memory%names == name) .and. self%presets%is_same(name, text)) return
+         call self%memory%keep(name, text)
+      end if
+      line = key // " = " // text
+      if (present(remark)) call add_remark(self, line, remark)
+      if (present(item)) then
+         if (item%row > 0) then
+            name = trim(bounds_table(item%row)%title)
+            if (bounds_table(item%row)%unit /= "-" .and. bounds_table(item%row)%unit /= "integer") name = name // " [" // &
+               & trim(bounds_table(item%row)%unit) // "]"
+            call add_remark(self, line, name)
+         else if (any(form_table%name == item%name)) then
+            call add_remark(self, line, trim(form_title(item%name, item%i)))
+         end if
+      end if
+      if (self%in_part) then
+         self%parts = self%parts // line // line_feed
+      else
+         self%body = self%body // line // line_feed
+      end if
+   end subroutine put
+
+   !> What a line means, as a comment, in the words of the format
+   subroutine add_remark(self, line, remark)
+      class(toml_writer), intent(in) :: self
+      character(len=:), allocatable, intent(inout) :: line
+      character(len=*), intent(in) :: remark
+      character(len=:), allocatable :: text
+
+      if (remark == "") return
+      call tell_in_words(remark, self%module_number, text)
+      if (len(line) < remark_column) line = line // repeat(" ", remark_column - len(line))
+      line = line // "  # " // text
+   end subroutine add_remark
+
+   !> Add a key to the case itself, unless it is what it was
+   subroutine put_choice(self, key, text, remark)
+      class(toml_writer), intent(inout) :: self
+      !> text is a value of TOML
+      character(len=*), intent(in) :: key, text
+      !> "" for none
+      character(len=*), intent(in) :: remark
+      character(len=:), allocatable :: line
+
+      if (self%memory%is_same("." // key, text)) return
+      call self%memory%keep("." // key, text)
+      line = key // " = " // text
+      call add_remark(self, line, remark)
+      self%case_text = self%case_text // line // line_feed
+   end subroutine put_choice
+
+   !> Write a list as an array, one of small arrays where values belong together
+   subroutine write_list(self, name, values, n, units, bounds)
+      class(toml_writer), intent(inout) :: self
+      character(len=*), intent(in) :: name
+      real(wp), allocatable, intent(inout) :: values(:)
+      integer, intent(in) :: n
+      character(len=*), intent(in), optional :: units(:)
+      character(len=*), intent(in), optional :: bounds
+      character(len=:), allocatable :: key, line, text, word
+      integer :: group, k, last
+
+      if (self%is_recording .or. n == 0) return
+      associate (have_units => present(units), have_bounds => present(bounds))
+         group = 1
+         key = trim(small(name))
+         if (name == "Y,ALPHA" .or. name == "EXRHS") group = 2
+         if (name == "XL,XH,YL,YH") group = 4
+         if (name == "Y,ALPHA") key = "inclinations"
+         if (name == "XL,XH,YL,YH") key = "rectangles"
+      end associate
+      ! written into a text that is long enough, so that time grows with the length only
+      allocate(character(len=n*27 + 64) :: text)
+      last = 0
+      line = key // " = ["
+      do k = 1, n
+         word = trim(exact_text(values(k)))
+         if (group > 1 .and. modulo(k - 1, group) == 0) word = "[" // word
+         if (group > 1 .and. modulo(k, group) == 0) word = word // "]"
+         if (k < n) word = word // ","
+         if (len(line) + len(word) + 1 > line_width) then
+            call add_text(line // line_feed)
+            line = "   "
+         end if
+         if (line(len(line):) /= "[" .and. len_trim(line) > 0) word = " " // word
+         line = line // word
+      end do
+      call add_text(line // "]")
+      if (self%in_part) then
+         self%parts = self%parts // text(:last) // line_feed
+         return
+      end if
+      if (self%memory%is_same(trim(self%group) // "." // key, text(:last))) return
+      call self%memory%keep(trim(self%group) // "." // key, text(:last))
+      self%body = self%body // text(:last) // line_feed
+
+   contains
+
+      !> Add a line
+      subroutine add_text(piece)
+         character(len=*), intent(in) :: piece
+
+         text(last + 1:last + len(piece)) = piece
+         last = last + len(piece)
+      end subroutine add_text
+   end subroutine write_list
+end module contact_output_toml_writer

@@ -1,0 +1,200 @@
+#!/usr/bin/env python3
+"""The readable format: both ways between the formats, results, complaints with places, explain
+
+The environment tells CONTACT_PROGRAM and CONTACT_SOURCE.
+"""
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import tempfile
+import unittest
+
+PROGRAM = os.environ["CONTACT_PROGRAM"]
+EXAMPLES = pathlib.Path(os.environ["CONTACT_SOURCE"]) / "examples"
+# run in all three forms; the others are converted only
+QUICK = ("cattaneo", "catt_to_cart", "approximate", "spence35", "sliding_temperature", "manchester", "roller_rig")
+HEAD = '[[case]]\nmodule = "contact"\nmotion = "shift"\nnormal = "force"\n'
+REST = ('[case.kinematics]\nfn = 1000\ncksi = 0.001\n[case.friction]\nfstat = 0.3\n[case.material]\npoiss = [0.28, 0.28]\n'
+        'gg = ["82 GPa", 82000]\n[case.grid]\nform = "hertz_axes"\nmx = 11\nmy = 11\naa = "3 mm"\nbb = 0.3e1\nscale = 1.2\n')
+
+
+def figures(path):
+    """A report without what differs from run to run: times, names, warnings about the input, and the digit R of its echo"""
+    return [re.sub(r"RETURN \d", "RETURN", line) for line in path.read_text(errors="replace").split("\n")
+            if not re.search(r"^\||Input: WARNING|CONTACT|suffix|seconds| ended |There are|started", line)]
+
+
+def words(text):
+    """An explanation without places and warnings"""
+    return re.sub(r"line \d+|\.inp|\.toml|.*Input: WARNING.*\n", "", text)
+
+
+class Readable(unittest.TestCase):
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp())
+        self.addCleanup(shutil.rmtree, self.folder)
+
+    def run_program(self, *words):
+        done = subprocess.run([PROGRAM, *words], cwd=self.folder, capture_output=True, text=True, timeout=120)
+        return done.returncode, done.stdout, done.stderr
+
+    def check(self, text):
+        (self.folder / "a.toml").write_text(text)
+        return self.run_program("3", "a.toml")
+
+    def complaints(self, text):
+        status, _, errors = self.check(text)
+        self.assertEqual(status, 1, errors)
+        return errors
+
+    def test_examples_are_current(self):
+        shutil.copytree(EXAMPLES, self.folder, dirs_exist_ok=True, ignore=shutil.ignore_patterns("*.out", "*.toml", "figures"))
+        names = sorted(path.stem for path in EXAMPLES.glob("*.inp"))
+        self.assertGreater(len(names), 20)
+        for name in names:
+            status, _, errors = self.run_program("convert", name + ".inp")
+            self.assertEqual(status, 0, errors)
+            new = (self.folder / (name + ".toml")).read_text()
+            self.assertEqual(new, (EXAMPLES / (name + ".toml")).read_text(),
+                             f"{name}.toml is not current: contact convert --force {name}.inp")
+            (self.folder / "back.toml").write_text(new)
+            status, _, errors = self.run_program("convert", "--force", "back.toml")
+            self.assertEqual(status, 0, errors)
+            status, _, errors = self.run_program("convert", "--force", "back.inp")
+            self.assertEqual(status, 0, errors)
+            self.assertEqual((self.folder / "back.toml").read_text(), new, name + ": there and back")
+
+    def test_results_are_the_same(self):
+        shutil.copytree(EXAMPLES, self.folder, dirs_exist_ok=True, ignore=shutil.ignore_patterns("*.out", "figures"))
+        for name in QUICK:
+            (self.folder / "other.toml").write_text((EXAMPLES / (name + ".toml")).read_text())
+            self.assertEqual(self.run_program("convert", "--force", "other.toml")[0], 0)
+            self.assertEqual(self.run_program("2", name + ".inp", "--quiet")[0], 0)
+            right = figures(self.folder / (name + ".out"))
+            for other in (name + ".toml", "other.inp"):
+                status, _, errors = self.run_program("2", other, "--quiet")
+                self.assertEqual(status, 0, errors)
+                self.assertEqual(figures((self.folder / other).with_suffix(".out")), right, other)
+
+    def test_a_case_by_hand(self):
+        status, out, errors = self.check("# a ball\n" + HEAD + REST + "[[case]]\n[case.kinematics]\ncksi = 0.002\n")
+        self.assertEqual((status, errors), (0, ""), out)
+        self.assertIn("2 cases checked", out)
+        self.assertEqual(self.run_program("2", "a", "--quiet", "--json", "--confine")[0], 0)
+        forces = re.findall(r'"fn":{"value":([0-9.]+)', (self.folder / "a.jsonl").read_text())
+        self.assertEqual({round(float(force)) for force in forces}, {1000})
+
+    def test_places_and_nearest_words(self):
+        errors = self.complaints(HEAD.replace("shift", "shfit") + REST)
+        self.assertIn('a.toml:3:10: motion = "shfit" is not known; did you mean "shift"?', errors)
+        errors = self.complaints(HEAD + REST.replace("fstat", "fsat"))
+        self.assertIn('a.toml:9:1: "fsat" is not known; did you mean "fstat"?', errors)
+        self.assertIn("a.toml:8:1: fstat is missing: static coefficient of friction; it belongs under [case.friction]", errors)
+        errors = self.complaints(HEAD + REST.replace("[case.material]", "[case.materials]"))
+        self.assertIn('"materials" is not known; did you mean "material"?', errors)
+        self.assertIn("gg1 is missing: modulus of rigidity [N/mm2]", errors)
+        errors = self.complaints(HEAD + REST.replace("hertz_axes", "hertz_axis"))
+        self.assertIn('a.toml:14:8: form = "hertz_axis" is not known; did you mean "hertz_axes"?', errors)
+        errors = self.complaints("[case]\nx = 1\n")
+        self.assertIn("a.toml:1:1: case is a table; each case begins with [[case]], in double brackets", errors)
+        errors = self.complaints(HEAD + REST + "[cas.grid]\n")
+        self.assertIn('"cas" stands outside of a case; did you mean "case"?', errors)
+        errors = self.complaints(HEAD + REST + "[case.springs]\n")
+        self.assertIn('"springs" has no meaning in this case', errors)
+        self.assertIn('the first case must say: motion', self.complaints('[[case]]\nmodule = 3\nnormal = "force"\n' + REST))
+        self.assertIn("the first case must have the key module", self.complaints("[[case]]\n" + REST))
+        # a case that cannot be understood leaves the next ones something to keep
+        errors = self.complaints('[[case]]\nmodule = "wheel_rail"\nmotion = "x"\n[[case]]\n[case.position]\nfz = 1\n[[case]]\n')
+        self.assertIn('motion = "x" is not known', errors)
+
+    def test_values(self):
+        self.assertIn('a.toml:6:6: fn = "10 mm" has the unit "mm", wanted is N', self.complaints(
+            HEAD + REST.replace("fn = 1000", 'fn = "10 mm"')))
+        self.assertIn("a.toml:6:6: fn = -5 is below its lower bound 0 N", self.complaints(HEAD + REST.replace("1000", "-5")))
+        self.assertIn("mx = 11.5 must be an integer", self.complaints(HEAD + REST.replace("mx = 11", "mx = 11.5")))
+        self.assertIn("fstat = (an array) must be a number", self.complaints(HEAD + REST.replace("fstat = 0.3", "fstat = [1]")))
+        self.assertIn("poiss must be an array of two values", self.complaints(HEAD + REST.replace("[0.28, 0.28]", "[0.28]")))
+        self.assertIn('"fn" is given twice; it was given in line 6', self.complaints(HEAD + REST.replace("cksi", "fn")))
+        # the bounds and rules of the established format, in the words of this one
+        errors = self.complaints(HEAD.replace("motion", 'material_model = "viscoelastic"\nmotion') + REST.replace(
+            "[case.grid]", "fg = [1, 1]\ntc = [1, 1]\n[case.grid]"))
+        self.assertIn('a.toml:3:18: material_model = "viscoelastic", ', errors)
+        self.assertIn('motion = "steady_rolling", not motion = "shift"', errors)
+
+    def test_which_file(self):
+        (self.folder / "a.toml").write_text(HEAD + REST)
+        status, out, errors = self.run_program("3", "a")
+        self.assertEqual((status, errors), (0, ""))
+        self.assertIn("a.toml: 1 case checked", out)
+        self.assertEqual(self.run_program("convert", "a.toml")[0], 0)
+        status, out, _ = self.run_program("3", "a")
+        self.assertIn("There are a.inp and a.toml; a.inp is read", out)
+        self.assertIn("a.inp: 1 case checked", out)
+        self.assertIn("a.toml: 1 case checked", self.run_program("3", "a.toml")[1])
+        before = (self.folder / "a.inp").read_bytes()
+        status, _, errors = self.run_program("convert", "a.toml")
+        self.assertEqual(status, 1)
+        self.assertIn("a.inp: the file is there already; --force replaces it", errors)
+        self.assertIn("the suffix must tell", self.run_program("convert", "a")[2])
+        (self.folder / "a.toml").write_text(HEAD)
+        self.assertEqual(self.run_program("convert", "--force", "a.toml")[0], 1)
+        self.assertEqual((self.folder / "a.inp").read_bytes(), before, "whole or nothing")
+        self.assertEqual(sorted(path.name for path in self.folder.iterdir()), ["a.inp", "a.toml"])
+
+    def test_temperatures(self):
+        text = HEAD.replace("shift", "steady_rolling") + REST + (
+            "[case.rolling]\ndq = 1\nveloc = \"20 m/s\"\n[case.heat]\nbktemp = [0, 0]\nheatcp = [450, 450]\n"
+            "lambda = [0.05, 0.05]\ndens = [\"7850 kg/m3\", 7.85e-6]\n")
+        highest = {}
+        for name, source in (("moving", ""), ("established", 'source = "established"\n')):
+            (self.folder / (name + ".toml")).write_text(text + source)
+            self.assertEqual(self.run_program("2", name, "--quiet", "--json")[0], 0)
+            highest[name] = (self.folder / (name + ".jsonl")).read_text()
+        highest = {name: re.findall(r'"max_temp1":[^,]*', text) for name, text in highest.items()}
+        self.assertTrue(highest["moving"])
+        self.assertNotEqual(highest["moving"], highest["established"])
+        # the command line stands above the file
+        self.assertEqual(self.run_program("2", "moving", "--quiet", "--json", "--heat", "established")[0], 0)
+        self.assertEqual(re.findall(r'"max_temp1":[^,]*', (self.folder / "moving.jsonl").read_text()), highest["established"])
+        status, _, errors = self.run_program("convert", "moving.toml")
+        self.assertEqual(status, 0)
+        self.assertIn("--heat moving-source", errors)
+
+    def test_interrupted_run(self):
+        text = HEAD + REST + "[[case]]\n[case.kinematics]\ncksi = 0.002\n"
+        (self.folder / "a.toml").write_text(text + "[[case]]\nmotion = \"no\"\n")
+        self.assertEqual(self.run_program("2", "a", "--quiet")[0], 1)
+        (self.folder / "a.toml").write_text(text + "[[case]]\n[case.kinematics]\ncksi = 0.003\n")
+        status, out, errors = self.run_program("2", "a", "--resume")
+        self.assertEqual(status, 0, out + errors)
+        self.assertIn("2 cases finished before", out)
+        (self.folder / "b.toml").write_text((self.folder / "a.toml").read_text())
+        self.assertEqual(self.run_program("2", "b", "--quiet")[0], 0)
+        self.assertEqual([line for line in figures(self.folder / "a.out") if "ERROR" not in line and "run ends" not in line][-30:],
+                         figures(self.folder / "b.out")[-30:])
+
+    def test_explain(self):
+        shutil.copytree(EXAMPLES, self.folder, dirs_exist_ok=True, ignore=shutil.ignore_patterns("*.out", "figures"))
+        for name in sorted(path.name for path in EXAMPLES.glob("*.inp")):
+            status, out, errors = self.run_program("explain", name)
+            self.assertEqual((status, errors), (0, ""))
+            self.assertIn("Motion: ", out)
+            self.assertIn("Not simulated: inertia", out)
+            self.assertIn("Expected on one thread: ", out)
+            digits = re.findall(r"\b(?:C1|M2|[PBTNFSVLDCMZEHGIAOWR]) = \d|\bas \d", out)
+            self.assertEqual(digits, [], name)
+            # both formats say the same
+            other = self.run_program("explain", name.replace(".inp", ".toml"))[1]
+            self.assertEqual(words(out), words(other))
+
+    def test_groups_of_all_cases(self):
+        source = pathlib.Path(os.environ["CONTACT_SOURCE"]) / "src"
+        visited = re.findall(r'open_group\("(\w+)"\)', (source / "cases/whole_case.f90").read_text())
+        block = re.search(r"group_names\(\*\) = (.*?)\]", (source / "input/toml_case.f90").read_text(), re.DOTALL).group(1)
+        self.assertEqual(set(visited), set(re.findall(r'"(\w+)"', block)))
+
+
+if __name__ == "__main__":
+    unittest.main()
