@@ -1,7 +1,8 @@
 """Rolling and sliding contact with friction, by the CONTACT library.
 
 :class:`Problem` is two bodies in contact, :class:`WheelRail` a wheel on a rail; :mod:`contact.cntc` has the
-routines of the library one by one. The library is loaded when it is first needed.
+routines of the library one by one. :func:`read`, :func:`explain` and :func:`convert` are for experiments in files. The library is
+loaded when it is first needed.
 """
 from typing import TYPE_CHECKING, Any
 
@@ -11,15 +12,17 @@ from .errors import ContactError, ContactWarning, NotConvergedWarning
 if TYPE_CHECKING:
     from . import cntc
     from ._element import Patch, Stresses, output_to
+    from ._experiment import convert, explain, read
     from .problem import Problem, Result
     from .wheel_rail import Forces, WheelRail, WheelRailPatch, WheelRailResult, Wrench
 
 __all__ = ["ContactError", "ContactWarning", "Forces", "NotConvergedWarning", "Patch", "Problem", "Result", "Stresses",
-           "WheelRail", "WheelRailPatch", "WheelRailResult", "Wrench", "cntc", "output_to"]
+           "WheelRail", "WheelRailPatch", "WheelRailResult", "Wrench", "cntc", "convert", "explain", "output_to", "read"]
 
 _HOMES = {"Patch": "_element", "Stresses": "_element", "output_to": "_element", "Problem": "problem",
           "Result": "problem", "WheelRail": "wheel_rail", "WheelRailPatch": "wheel_rail",
-          "WheelRailResult": "wheel_rail", "Forces": "wheel_rail", "Wrench": "wheel_rail"}
+          "WheelRailResult": "wheel_rail", "Forces": "wheel_rail", "Wrench": "wheel_rail",
+          "convert": "_experiment", "explain": "_experiment", "read": "_experiment"}
 
 
 def __getattr__(name: str) -> Any:
