@@ -10,6 +10,7 @@ module contact_base_choices
    public :: kernel_model, material_model, solver_choice, estimate_choice, slip_source, heat_source, heat_source_name
    public :: variation, contact_location
    public :: sensitivity_choice
+   public :: grid_form, distance_form, planform_choice
    public :: has_slope_reduction, is_fastrip, is_simplified
 
    !> How a case is linked to the previous one (P)
@@ -118,6 +119,28 @@ module contact_base_choices
       integer :: oblique_locus = 8, oblique_grid = 9
    end type contact_location_list
    type(contact_location_list), parameter :: contact_location = contact_location_list()
+
+   !> How a potential contact area is given (IPOTCN)
+   type :: grid_form_list
+      !> A corner or the centre of the first element with the sides of an element or the opposite one
+      integer :: corner_and_sides = 1, corners = 2, centre_and_sides = 3, centres = 4
+      !> Around a Hertzian contact, of curvatures or semi-axes; around a line contact; around two half ellipses
+      integer :: hertz_curvatures = -1, hertz_curvature_ratio = -2, hertz_axes = -3
+      integer :: hertz_line_curvature = -4, hertz_line = -5, half_ellipses = -6
+   end type grid_form_list
+   type(grid_form_list), parameter :: grid_form = grid_form_list()
+
+   !> How the undeformed distance is given (IBASE)
+   type :: distance_form_list
+      integer :: quadratic = 1, profile = 2, quadratic_and_sines = 3, elementwise = 9
+   end type distance_form_list
+   type(distance_form_list), parameter :: distance_form = distance_form_list()
+
+   !> Where contact is possible (IPLAN)
+   type :: planform_list
+      integer :: unrestricted = 1, quadratic = 2, two_rectangles = 3, weighted_rectangles = 4
+   end type planform_list
+   type(planform_list), parameter :: planform_choice = planform_list()
 
    !> Sensitivities that are computed; each one includes those before it
    type :: sensitivity_choice_list

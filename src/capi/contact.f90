@@ -104,7 +104,7 @@ contains
       type(grid_spec) :: grid
       type(setter) :: a
 
-      grid%ipotcn = option
+      grid%form = option
       a = new_setter(this, problem%units, values)
       call visit_grid(a, grid)
       if (.not. a%is_good) return
@@ -151,10 +151,10 @@ contains
       call enter(this, scope%contact, problem)
       if (.not. associated(problem)) return
       v = reals_of(nparam, prmudf)
-      geometry%ibase = integer_of(ibase)
+      geometry%form = integer_of(ibase)
       elements = problem%spec%grid%mx*problem%spec%grid%my
       n = 0
-      select case (geometry%ibase)
+      select case (geometry%form)
       case (1)
          n = 6
       case (2)
@@ -167,10 +167,10 @@ contains
       case (9)
          n = elements
       case default
-         call complain(this, "there is no form " // integer_text(geometry%ibase) // " of the undeformed distance; 1, 2, 3, 9 are")
+         call complain(this, "there is no form " // integer_text(geometry%form) // " of the undeformed distance; 1, 2, 3, 9 are")
       end select
       if (n > 0) then
-         if (count_fits(this, geometry%ibase, size(v), n, n)) then
+         if (count_fits(this, geometry%form, size(v), n, n)) then
             a = new_setter(this, problem%units, v)
             call visit_distance(a, geometry, elements)
             if (a%is_good) problem%spec%geometry = geometry

@@ -7,7 +7,7 @@ module contact_capi_problem
    use, intrinsic :: iso_fortran_env, only : int8
    use omp_lib, only : omp_destroy_lock, omp_init_lock, omp_lock_kind
    use contact_base_case_status, only : case_status
-   use contact_base_choices, only : kernel_model, pressure_model
+   use contact_base_choices, only : grid_form, kernel_model, pressure_model
    use contact_base_constants, only : pi
    use contact_base_guard, only : free_left_blocks, new_owner
    use contact_base_kinds, only : wp
@@ -219,7 +219,7 @@ contains
 
       spec%rolling%dq = 2.0_wp
       associate (grid => spec%grid)
-         grid%ipotcn = 1
+         grid%form = grid_form%corner_and_sides
          grid%mx = 1
          grid%my = 1
          grid%xl = -1.0_wp

@@ -1,6 +1,6 @@
 !> Contact at the border of the potential contact or at the end of a profile, in words; what grid would be enough
 module contact_cases_border_warning
-   use contact_base_choices, only : motion, pressure_model, time_link
+   use contact_base_choices, only : distance_form, motion, pressure_model, time_link
    use contact_base_error, only : error_type
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
@@ -203,7 +203,7 @@ contains
          text = "; SCALE = " // real_text(enough_scale(spec%grid)) // " would be enough"
          return
       end if
-      if (problem%pressure /= pressure_model%full .or. all(spec%geometry%ibase /= [1, 2, 3])) return
+      if (problem%pressure /= pressure_model%full .or. spec%geometry%form == distance_form%elementwise) return
       if (.not. problem%model%is_flat() .or. allocated(problem%model%memory)) return
       call estimate_extent(spec, problem, result, extent, found)
       if (.not. found) return

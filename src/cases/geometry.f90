@@ -1,7 +1,7 @@
 !> From the numbers of a case to Hertz data, grid and undeformed distance
 module contact_cases_geometry
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite, ieee_is_nan
-   use contact_base_choices, only : normal_control
+   use contact_base_choices, only : distance_form, grid_form, normal_control, planform_choice
    use contact_base_constants, only : excluded_distance, excluded_threshold
    use contact_base_error, only : error_kind, error_type, fatal_error
    use contact_base_guard, only : expect_refusals
@@ -15,7 +15,7 @@ module contact_cases_geometry
    implicit none (type, external)
    private
 
-   public :: solve_hertz, build_grid, undeformed_distance, curvature_radius, is_line_contact, part_labels
+   public :: solve_hertz, build_grid, undeformed_distance, curvature_radius, part_labels
    public :: require_finite, require_positive, strip_rows
 
    !> Curvatures [1/mm], lengths [mm] and ratios [-] below this value are taken for missing
@@ -24,12 +24,6 @@ module contact_cases_geometry
    real(wp), parameter :: least_axis = 1.0e-9_wp
 
 contains
-
-   !> Is this one of the options for line contact, in which bb is half a length?
-   elemental logical function is_line_contact(spec)
-      type(grid_spec), intent(in) :: spec
-      is_line_contact = spec%ipotcn == -4 .or. spec%ipotcn == -5
-   end function is_line_contact
 
    !> Solve Hertz's problem for the options that ask for it (IPOTCN -1...-5).
    !>
@@ -49,7 +43,7 @@ contains
       type(hertz_load) :: load
       type(hertz_contact) :: solution
 
-      if (spec%ipotcn < -5 .or. spec%ipotcn > -1) then
+      if (.not. spec%is_hertzian()) then
          if (allocated(hertz)) deallocate(hertz)
          return
       end if
@@ -62,16 +56,16 @@ contains
          load%pen = pen
       end if
       load%modulus = gg/(1.0_wp - nu)
-      select case (spec%ipotcn)
-      case (-1)
+      select case (spec%form)
+      case (grid_form%hertz_curvatures)
          solution = hertz_by_curvatures(load, spec%a1, spec%b1)
-      case (-2)
+      case (grid_form%hertz_curvature_ratio)
          solution = hertz_by_ratio(load, spec%a1, spec%aob)
-      case (-3)
+      case (grid_form%hertz_axes)
          solution = hertz_by_axes(load, spec%aa, spec%bb)
-      case (-4)
+      case (grid_form%hertz_line_curvature)
          solution = line_contact_by_curvature(load, spec%a1, spec%bb)
-      case (-5)
+      case (grid_form%hertz_line)
          solution = line_contact_by_axes(load, spec%aa, spec%bb)
       end select
       if (.not. allocated(hertz)) allocate(hertz)
@@ -98,23 +92,23 @@ contains
          call fatal_error(error, "the combined Poisson ratio must be below 1, it is " // real_text(nu))
          return
       end if
-      select case (spec%ipotcn)
-      case (-1)
+      select case (spec%form)
+      case (grid_form%hertz_curvatures)
          call require_positive("curvature A1", spec%a1, error)
          call require_positive("curvature B1", spec%b1, error)
-      case (-2)
+      case (grid_form%hertz_curvature_ratio)
          call require_positive("curvature A1", spec%a1, error)
          call require_positive("ratio AOB", spec%aob, error)
-      case (-3, -5)
+      case (grid_form%hertz_axes, grid_form%hertz_line)
          call require_positive("semi-axis AA", spec%aa, error)
          call require_positive("semi-axis BB", spec%bb, error)
-      case (-4)
+      case (grid_form%hertz_line_curvature)
          call require_positive("curvature A1", spec%a1, error)
          call require_positive("half length BB", spec%bb, error)
       end select
       if (allocated(error)) return
-      if (is_line_contact(spec) .and. control /= normal_control%force) &
-         & call fatal_error(error, "a Hertzian line contact (IPOTCN = " // integer_text(spec%ipotcn) &
+      if (spec%is_line_contact() .and. control /= normal_control%force) &
+         & call fatal_error(error, "a Hertzian line contact (IPOTCN = " // integer_text(spec%form) &
          & // ") needs a prescribed normal force, N = 1")
    end subroutine check_hertz
 
@@ -136,34 +130,34 @@ contains
             & // integer_text(spec%mx) // ", MY = " // integer_text(spec%my))
          return
       end if
-      if (spec%ipotcn >= -5 .and. spec%ipotcn <= -1 .and. .not. present(hertz)) then
+      if (spec%is_hertzian() .and. .not. present(hertz)) then
          call fatal_error(error, "a Hertzian potential contact needs the Hertz solution", &
             & kind=error_kind%internal)
          return
       end if
       grid%mx = spec%mx
       grid%my = spec%my
-      select case (spec%ipotcn)
-      case (-6:-1)
+      select case (spec%form)
+      case (grid_form%half_ellipses:grid_form%hertz_curvatures)
          call require_positive("grid factor SCALE", spec%scale, error)
-         if (spec%ipotcn == -6) then
+         if (spec%form == grid_form%half_ellipses) then
             call require_positive("semi-axis AA", spec%aa, error)
             call require_positive("extent BNEG", spec%bneg, error)
             call require_positive("extent BPOS", spec%bpos, error)
          end if
          if (allocated(error)) return
-         if (spec%ipotcn == -6) then
+         if (spec%form == grid_form%half_ellipses) then
             call lay_out_window(spec%scale*spec%aa, 0.5_wp*spec%scale*(spec%bneg + spec%bpos), grid)
-         else if (is_line_contact(spec)) then
+         else if (spec%is_line_contact()) then
             call lay_out_strip(spec%scale, hertz%aa, hertz%bb, grid)
          else
             call lay_out_window(spec%scale*max(least_axis, hertz%aa), &
                & spec%scale*max(least_axis, hertz%bb), grid)
          end if
-      case (1:4)
+      case (grid_form%corner_and_sides:grid_form%centres)
          call lay_out_given(spec, grid)
       case default
-         call fatal_error(error, "IPOTCN = " // integer_text(spec%ipotcn) // " is not an option for the " &
+         call fatal_error(error, "IPOTCN = " // integer_text(spec%form) // " is not an option for the " &
             & // "potential contact; -6...-1 and 1...4 are")
          return
       end select
@@ -215,18 +209,18 @@ contains
       type(grid_spec), intent(in) :: spec
       type(potential_contact), intent(inout) :: grid
 
-      select case (spec%ipotcn)
-      case (1, 3)
+      select case (spec%form)
+      case (grid_form%corner_and_sides, grid_form%centre_and_sides)
          grid%dx = spec%dx
          grid%dy = spec%dy
-      case (2)
+      case (grid_form%corners)
          grid%dx = (spec%xh - spec%xl)/spec%mx
          grid%dy = (spec%yh - spec%yl)/spec%my
-      case (4)
+      case (grid_form%centres)
          grid%dx = (spec%xcm - spec%xc1)/max(1, spec%mx - 1)
          grid%dy = (spec%ycm - spec%yc1)/max(1, spec%my - 1)
       end select
-      if (spec%ipotcn <= 2) then
+      if (any(spec%form == [grid_form%corner_and_sides, grid_form%corners])) then
          grid%xl = spec%xl
          grid%yl = spec%yl
       else
@@ -265,17 +259,17 @@ contains
          call fatal_error(error, "the numbers of the undeformed distance must be finite")
          return
       end if
-      select case (spec%ibase)
-      case (1)
+      select case (spec%form)
+      case (distance_form%quadratic)
          call fill_quadratic(grid, spec%b(1:6), h)
-      case (2)
+      case (distance_form%profile)
          call fill_profile(spec, grid, h, error)
-      case (3)
+      case (distance_form%quadratic_and_sines)
          call fill_sines(spec, grid, h, error)
-      case (9)
+      case (distance_form%elementwise)
          call fill_given(spec, grid, h, error)
       case default
-         call fatal_error(error, "IBASE = " // integer_text(spec%ibase) &
+         call fatal_error(error, "IBASE = " // integer_text(spec%form) &
             & // " is not a form of the undeformed distance; 1, 2, 3 and 9 are")
       end select
       if (allocated(error)) return
@@ -422,27 +416,27 @@ contains
       integer :: ix, iy
       logical :: inside
 
-      select case (spec%iplan)
-      case (1)
+      select case (spec%planform)
+      case (planform_choice%unrestricted)
          return
-      case (2, 3)
-         if (.not. all(ieee_is_finite(spec%pl(:merge(6, 8, spec%iplan == 2))))) then
-            call fatal_error(error, "the numbers of the planform (IPLAN = " // integer_text(spec%iplan) // ") must be finite")
+      case (planform_choice%quadratic, planform_choice%two_rectangles)
+         if (.not. all(ieee_is_finite(spec%pl(:merge(6, 8, spec%planform == planform_choice%quadratic))))) then
+            call fatal_error(error, "the numbers of the planform (IPLAN = " // integer_text(spec%planform) // ") must be finite")
             return
          end if
-      case (4)
+      case (planform_choice%weighted_rectangles)
          call check_parts(spec, error)
          if (allocated(error)) return
          label = part_labels(spec, grid)
          where (label == 0) h = excluded_distance
          return
       case default
-         call fatal_error(error, "IPLAN = " // integer_text(spec%iplan) // " is not a planform; 1 to 4 are")
+         call fatal_error(error, "IPLAN = " // integer_text(spec%planform) // " is not a planform; 1 to 4 are")
          return
       end select
       do iy = 1, grid%my
          do ix = 1, grid%mx
-            if (spec%iplan == 2) then
+            if (spec%planform == planform_choice%quadratic) then
                inside = quadratic(spec%pl(1:6), grid%x(ix), grid%y(iy)) < 0.0_wp
             else
                inside = in_rectangle(spec%pl(1:4), grid%x(ix), grid%y(iy)) &
@@ -507,11 +501,11 @@ contains
       radius = 0.0_wp
       if (present(hertz)) then
          curvature = hertz%a1
-      else if (spec%ibase == 1) then
+      else if (spec%form == distance_form%quadratic) then
          curvature = spec%b(1)
-      else if (spec%ibase == 2) then
+      else if (spec%form == distance_form%profile) then
          radius = max(0.0_wp, spec%rm)
-      else if (spec%ibase == 3) then
+      else if (spec%form == distance_form%quadratic_and_sines) then
          radius = max(0.0_wp, 0.5_wp*spec%b(7))
       end if
       if (curvature > least_value) radius = 0.5_wp/curvature

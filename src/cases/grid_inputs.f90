@@ -2,6 +2,7 @@
 !>
 !> As in contact_cases_inputs.
 module contact_cases_grid_inputs
+   use contact_base_choices, only : distance_form, grid_form, planform_choice
    use contact_base_kinds, only : long, wp
    use contact_cases_archive, only : case_archive
    use contact_cases_spec, only : geometry_spec, grid_spec
@@ -26,52 +27,52 @@ contains
 
       call a%integer("MX", grid%mx)
       call a%integer("MY", grid%my)
-      select case (grid%ipotcn)
-      case (-1)
+      select case (grid%form)
+      case (grid_form%hertz_curvatures)
          call a%real("A1", grid%a1)
          call a%real("B1", grid%b1)
-      case (-2)
+      case (grid_form%hertz_curvature_ratio)
          call a%real("A1", grid%a1)
          call a%real("AOB", grid%aob)
-      case (-3, -5)
+      case (grid_form%hertz_axes, grid_form%hertz_line)
          call a%real("AA", grid%aa)
          call a%real("BB", grid%bb)
-      case (-4)
+      case (grid_form%hertz_line_curvature)
          call a%real("A1", grid%a1)
          call a%real("BB", grid%bb)
-      case (-6)
+      case (grid_form%half_ellipses)
          call a%real("AA", grid%aa)
          call a%real("BNEG", grid%bneg)
          call a%real("BPOS", grid%bpos)
-      case (1, 2)
+      case (grid_form%corner_and_sides, grid_form%corners)
          call a%real("XL", grid%xl)
          call a%real("YL", grid%yl)
-      case (3, 4)
+      case (grid_form%centre_and_sides, grid_form%centres)
          call a%real("XC1", grid%xc1)
          call a%real("YC1", grid%yc1)
       end select
-      select case (grid%ipotcn)
-      case (:-1)
+      select case (grid%form)
+      case (grid_form%half_ellipses:grid_form%hertz_curvatures)
          call a%real("SCALE", grid%scale)
-      case (1, 3)
+      case (grid_form%corner_and_sides, grid_form%centre_and_sides)
          call a%real("DX", grid%dx)
          call a%real("DY", grid%dy)
-      case (2)
+      case (grid_form%corners)
          call a%real("XH", grid%xh)
          call a%real("YH", grid%yh)
-      case (4)
+      case (grid_form%centres)
          call a%real("XCM", grid%xcm)
          call a%real("YCM", grid%ycm)
       end select
       call a%end_line()
 
       if (.not. a%is_reading) return
-      if (grid%ipotcn == 4) then
+      if (grid%form == grid_form%centres) then
          call check_two("MX", grid%mx)
          call check_two("MY", grid%my)
          call check_order("XC1", grid%xc1, "XCM", grid%xcm)
          call check_order("YC1", grid%yc1, "YCM", grid%ycm)
-      else if (grid%ipotcn == 2) then
+      else if (grid%form == grid_form%corners) then
          call check_order("XL", grid%xl, "XH", grid%xh)
          call check_order("YL", grid%yl, "YH", grid%yh)
       end if
@@ -109,12 +110,12 @@ contains
       real(wp), allocatable :: list(:)
       integer, target :: n
 
-      select case (geometry%ibase)
-      case (1)
+      select case (geometry%form)
+      case (distance_form%quadratic)
          list = geometry%b(:6)
          call a%list("B", list, 6, units=[character(len=4) :: "1/mm", "1/mm", "1/mm", "-", "-", "mm"])
          if (a%is_reading .and. a%is_good) geometry%b(:6) = list
-      case (2)
+      case (distance_form%profile)
          n = 0
          if (allocated(geometry%profile)) n = size(geometry%profile)
          call a%integer("NN", n)
@@ -125,12 +126,12 @@ contains
          call a%end_line()
          if (n == 1) call a%refuse("NN", " is below its lower bound 2")
          call a%list("B", geometry%profile, n)
-      case (3)
+      case (distance_form%quadratic_and_sines)
          list = geometry%b
          call a%list("B", list, 8, units=[character(len=4) :: "mm", "1/mm", "mm", "mm", "1/mm", "mm", "mm", "mm"], &
             & bounds="B(IBASE3)")
          if (a%is_reading .and. a%is_good) geometry%b = list
-      case (9)
+      case (distance_form%elementwise)
          if (elements == 0) call a%fail("", "the list H has one entry for each element, but there is no grid that can be used")
          call a%list("H", geometry%h, elements)
       end select
@@ -145,12 +146,12 @@ contains
       real(wp), allocatable :: list(:)
       integer :: k
 
-      select case (geometry%iplan)
-      case (2)
+      select case (geometry%planform)
+      case (planform_choice%quadratic)
          list = geometry%pl(:6)
          call a%list("PL", list, 6)
          if (a%is_reading .and. a%is_good) geometry%pl(:6) = list
-      case (3)
+      case (planform_choice%two_rectangles)
          do k = 1, 8
             call a%real(names(k), geometry%pl(k))
          end do
@@ -159,7 +160,7 @@ contains
             if (.not. geometry%pl(k + 1) > geometry%pl(k)) call a%refuse(names(k + 1), " must be larger than " // &
                & trim(a%shown(names(k))))
          end do
-      case (4)
+      case (planform_choice%weighted_rectangles)
          call visit_parts(a, geometry)
       end select
    end subroutine visit_planform

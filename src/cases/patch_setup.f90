@@ -1,6 +1,6 @@
 !> From the specification of a case to the problem of its patch
 module contact_cases_patch_setup
-   use contact_base_choices, only : friction_model, has_slope_reduction, is_fastrip, is_simplified, material_model, motion, &
+   use contact_base_choices, only : friction_model, grid_form, has_slope_reduction, is_simplified, material_model, motion, &
       & normal_control, pressure_model, sensitivity_choice, slip_source, solver_choice
    use contact_base_error, only : error_kind, error_type, fatal_error
    use contact_base_kinds, only : long, wp
@@ -8,7 +8,7 @@ module contact_cases_patch_setup
    use contact_base_memory, only : bytes_per_element, require_memory
    use contact_cases_elastic_setup, only : set_coefficients, set_inclination, set_model
    use contact_cases_friction_setup, only : set_friction, set_thermal
-   use contact_cases_geometry, only : build_grid, is_line_contact, part_labels, require_positive, solve_hertz, undeformed_distance
+   use contact_cases_geometry, only : build_grid, part_labels, require_positive, solve_hertz, undeformed_distance
    use contact_cases_numbers, only : check_numbers
    use contact_cases_rules, only : refuse_broken_rules
    use contact_cases_spec, only : case_spec
@@ -178,10 +178,10 @@ contains
       case (pressure_model%elliptical, pressure_model%parabolical)
          call fit_field(problem%grid, problem%given_pressure)
          if (spec%pressure == pressure_model%elliptical) then
-            call elliptic_pressure(problem%grid, problem%hertz%aa, problem%hertz%bb, is_line_contact(spec%grid), &
+            call elliptic_pressure(problem%grid, problem%hertz%aa, problem%hertz%bb, spec%grid%is_line_contact(), &
                & problem%hertz%fn, problem%given_pressure)
          else
-            call parabolic_pressure(problem%grid, problem%hertz%aa, problem%hertz%bb, is_line_contact(spec%grid), &
+            call parabolic_pressure(problem%grid, problem%hertz%aa, problem%hertz%bb, spec%grid%is_line_contact(), &
                & problem%hertz%fn, problem%given_pressure)
          end if
          problem%fn = problem%hertz%fn
@@ -265,13 +265,14 @@ contains
 
       select case (spec%pressure)
       case (pressure_model%full, pressure_model%thin_sheet)
-         if (spec%grid%ipotcn == -6) call fatal_error(error, "the double-elliptical geometry (IPOTCN = -6) has no undeformed " &
-            & // "distance to solve the normal problem for; it needs the pressures of SDEC, B = 4")
+         if (spec%grid%form == grid_form%half_ellipses) call fatal_error(error, "a window around two half ellipses has no " &
+            & // "undeformed distance to solve the normal problem for; it needs the pressures of SDEC")
       case (pressure_model%elliptical, pressure_model%parabolical)
          if (.not. is_hertzian) call fatal_error(error, "an elliptical or parabolical pressure needs a Hertzian geometry, " &
             & // "IPOTCN = -5 to -1; B = 0 solves the normal problem for any geometry")
       case (pressure_model%sdec)
-         if (spec%grid%ipotcn /= -6) call fatal_error(error, "SDEC needs the double-elliptical geometry IPOTCN = -6")
+         if (spec%grid%form /= grid_form%half_ellipses) call fatal_error(error, "SDEC needs a window around two half " &
+            & // "ellipses")
       end select
    end subroutine check_pressure_model
 
@@ -315,7 +316,7 @@ contains
          return
       end if
       ! DX of a Hertzian option is not known beforehand
-      if (other_step .and. .not. allocated(problem%simplified) .and. spec%grid%ipotcn > 0) &
+      if (other_step .and. .not. allocated(problem%simplified) .and. spec%grid%needs_geometry()) &
          & call log%warning(trim(kind_of_rolling(spec)) // " advances by one element per step: DQ is set to DX; " // &
          & "ConvexGS (G=2) takes other steps")
       problem%dq = problem%grid%dx

@@ -6,7 +6,6 @@ module contact_cases_session
    use contact_base_log, only : log_type
    use contact_cases_border_warning, only : warn_of_border
    use contact_cases_effects, only : name_effects
-   use contact_cases_geometry, only : is_line_contact
    use contact_cases_patch_setup, only : set_problem
    use contact_cases_spec, only : case_spec
    use contact_cases_subsurface, only : subsurface_stresses, warn_of_steps
@@ -166,7 +165,7 @@ contains
          if (spec%estimate == estimate_choice%fresh .and. allocated(problem%hertz) &
             & .and. problem%pressure == pressure_model%full) then
             call fit_field(problem%grid, problem%pressure_estimate)
-            call elliptic_pressure(problem%grid, problem%hertz%aa, problem%hertz%bb, is_line_contact(spec%grid), &
+            call elliptic_pressure(problem%grid, problem%hertz%aa, problem%hertz%bb, spec%grid%is_line_contact(), &
                & problem%hertz%fn, problem%pressure_estimate)
          else if (allocated(problem%pressure_estimate)) then
             deallocate(problem%pressure_estimate)

@@ -4,7 +4,7 @@
 !> the groups that are read; what a "keep" digit leaves alone is therefore already there,
 !> and no room below `input` knows that keeping exists.
 module contact_cases_spec
-   use contact_base_choices, only : heat_source, material_model
+   use contact_base_choices, only : grid_form, heat_source, material_model
    use contact_base_kinds, only : wp
    use contact_base_limits, only : case_limits
    use contact_base_solver_settings, only : solver_settings
@@ -126,30 +126,37 @@ module contact_cases_spec
       integer :: source = heat_source%established
    end type heat_spec
 
-   !> Potential contact area as the input describes it (IPOTCN and the values of its line)
+   !> Potential contact area as the input describes it (its form and the values of its line)
    type :: grid_spec
-      integer :: ipotcn = 0
+      !> Member of grid_form, 0 when nothing was given
+      integer :: form = 0
       integer :: mx = 0, my = 0
       real(wp) :: a1 = 0.0_wp, b1 = 0.0_wp, aob = 1.0_wp, aa = 0.0_wp, bb = 0.0_wp
       real(wp) :: bneg = 0.0_wp, bpos = 0.0_wp, scale = 1.0_wp
       real(wp) :: xl = 0.0_wp, yl = 0.0_wp, dx = 0.0_wp, dy = 0.0_wp, xh = 0.0_wp, yh = 0.0_wp
       real(wp) :: xc1 = 0.0_wp, yc1 = 0.0_wp, xcm = 0.0_wp, ycm = 0.0_wp
+   contains
+      !> Does the form bring its own undeformed distance, or need one that is given? Neither before anything was given
+      procedure :: brings_geometry, needs_geometry
+      !> Is there a Hertz solution, and is it one of a line contact, in which bb is half a length?
+      procedure :: is_hertzian, is_line_contact
    end type grid_spec
 
    !> Undeformed distance and planform
    type :: geometry_spec
-      integer :: ibase = 1, iplan = 1
-      !> IBASE 1: B1...B6; IBASE 3: B1...B8
+      !> Members of distance_form and planform_choice
+      integer :: form = 1, planform = 1
+      !> Quadratic: B1...B6; with sines: B1...B8
       real(wp) :: b(8) = 0.0_wp
-      !> IBASE 2: NN = size(profile), XM, RM, Y1, DY1 and the profile B(1...NN) [mm]
+      !> Profile: NN = size(profile), XM, RM, Y1, DY1 and the profile B(1...NN) [mm]
       real(wp) :: xm = 0.0_wp, rm = 1.0_wp, y1 = 0.0_wp, dy1 = 1.0_wp
       real(wp), allocatable :: profile(:)
-      !> IBASE 9: one value per element [mm], size npot
+      !> Elementwise: one value per element [mm], size npot
       real(wp), allocatable :: h(:)
-      !> IPLAN 2: PL1...PL6; IPLAN 3: XL1 XH1 YL1 YH1 XL2 XH2 YL2 YH2
+      !> Quadratic: PL1...PL6; two rectangles: XL1 XH1 YL1 YH1 XL2 XH2 YL2 YH2
       real(wp) :: pl(8) = 0.0_wp
-      !> IPLAN 4: XL XH YL YH of each part [mm], shape (4, parts), and the factors by which the pressures of one part act
-      !> on another [-], symmetric, 1 on the diagonal, shape (parts, parts); unallocated for the other planforms
+      !> Weighted rectangles: XL XH YL YH of each part [mm], shape (4, parts), and the factors by which the pressures of one part
+      !> act on another [-], symmetric, 1 on the diagonal, shape (parts, parts); unallocated for the other planforms
       real(wp), allocatable :: rectangles(:, :), interaction(:, :)
    end type geometry_spec
 
@@ -201,6 +208,28 @@ module contact_cases_spec
    real(wp), parameter :: least_yield_limit = 1.0e-10_wp, largest_yield_limit = 1.0e10_wp
 
 contains
+
+   pure logical function brings_geometry(self)
+      class(grid_spec), intent(in) :: self
+      brings_geometry = self%is_hertzian() .or. self%form == grid_form%half_ellipses
+   end function brings_geometry
+
+   pure logical function needs_geometry(self)
+      class(grid_spec), intent(in) :: self
+      needs_geometry = any(self%form == [grid_form%corner_and_sides, grid_form%corners, grid_form%centre_and_sides, &
+         & grid_form%centres])
+   end function needs_geometry
+
+   pure logical function is_hertzian(self)
+      class(grid_spec), intent(in) :: self
+      is_hertzian = any(self%form == [grid_form%hertz_curvatures, grid_form%hertz_curvature_ratio, grid_form%hertz_axes, &
+         & grid_form%hertz_line_curvature, grid_form%hertz_line])
+   end function is_hertzian
+
+   pure logical function is_line_contact(self)
+      class(grid_spec), intent(in) :: self
+      is_line_contact = self%form == grid_form%hertz_line_curvature .or. self%form == grid_form%hertz_line
+   end function is_line_contact
 
    !> Lateral displacements by pressures that memory adds, fg (1 - 2 nu)/G, cancel if they are equal and fade alike
    pure logical function relaxes_apart(self)

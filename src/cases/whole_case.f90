@@ -1,6 +1,6 @@
 !> All groups of the input that a case gives, in the order of the input files, once for all formats
 module contact_cases_whole_case
-   use contact_base_choices, only : force_control, heat_source, kernel_model, material_model, &
+   use contact_base_choices, only : force_control, grid_form, heat_source, kernel_model, material_model, &
       & motion, normal_control, pressure_model, slip_source, variation
    use contact_base_kinds, only : long, wp
    use contact_cases_archive, only : case_archive
@@ -190,7 +190,8 @@ contains
 
       associate (parts => spec%parts)
          if (parts%grid == part_source%given) call visit_grid_group(a, spec)
-         if (parts%geometry == part_source%given .and. spec%grid%ipotcn > 0) call visit_geometry_group(a, spec)
+         if (parts%geometry == part_source%given .and. spec%grid%needs_geometry()) &
+            & call visit_geometry_group(a, spec)
          if (parts%friction == part_source%given .and. spec%variation == variation%by_row .and. a%is_good) then
             call a%open_group("friction")
             call visit_friction_rows(a, spec%friction_law, max(1, spec%grid%my), spec%friction)
@@ -220,11 +221,11 @@ contains
       type(grid_spec), target :: grid
 
       call a%open_group("grid")
-      grid%ipotcn = spec%grid%ipotcn
-      call a%integer("IPOTCN", grid%ipotcn, unchecked=.true.)
+      grid%form = spec%grid%form
+      call a%integer("IPOTCN", grid%form, unchecked=.true.)
       call a%end_line()
       if (.not. a%is_good) return
-      if (grid%ipotcn < -6 .or. grid%ipotcn > 4 .or. grid%ipotcn == 0) then
+      if (grid%form < -6 .or. grid%form > 4 .or. grid%form == 0) then
          call a%refuse("IPOTCN", " is not a known option; allowed are -6 to -1 and 1 to 4")
          return
       end if
@@ -235,9 +236,9 @@ contains
          if (a%is_good) spec%grid = grid
       end if
       call a%close_group()
-      if (.not. (a%is_reading .and. a%is_good) .or. grid%ipotcn > 0) return
+      if (.not. (a%is_reading .and. a%is_good) .or. grid%needs_geometry()) return
       spec%geometry = geometry_spec()
-      if (grid%ipotcn == -1) then
+      if (grid%form == grid_form%hertz_curvatures) then
          spec%geometry%b(1) = grid%a1
          spec%geometry%b(3) = grid%b1
       end if
@@ -251,11 +252,11 @@ contains
 
       call a%open_group("geometry")
       if (.not. a%is_reading) geometry = spec%geometry
-      call a%integer("IBASE", geometry%ibase, unchecked=.true.)
-      call a%integer("IPLAN", geometry%iplan, unchecked=.true.)
+      call a%integer("IBASE", geometry%form, unchecked=.true.)
+      call a%integer("IPLAN", geometry%planform, unchecked=.true.)
       call a%end_line()
-      if (all(geometry%ibase /= [1, 2, 3, 9])) call a%refuse("IBASE", " is not a known option; allowed are 1, 2, 3 and 9")
-      if (geometry%iplan < 1 .or. geometry%iplan > 4) call a%refuse("IPLAN", " is not a known option; allowed are 1 to 4")
+      if (all(geometry%form /= [1, 2, 3, 9])) call a%refuse("IBASE", " is not a known option; allowed are 1, 2, 3 and 9")
+      if (geometry%planform < 1 .or. geometry%planform > 4) call a%refuse("IPLAN", " is not a known option; allowed are 1 to 4")
       call visit_distance(a, geometry, element_count(spec%grid))
       call visit_planform(a, geometry)
       if (a%is_reading .and. a%is_good) spec%geometry = geometry

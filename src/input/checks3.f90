@@ -1,5 +1,6 @@
 !> Checks of a case of module 3 that need the digits, the numbers and the previous case together
 module contact_input_checks3
+   use contact_base_choices, only : distance_form
    use contact_base_kinds, only : wp
    use contact_cases_spec, only : case_spec, part_source
    use contact_input_control, only : add_for_digit, control_words
@@ -37,7 +38,7 @@ contains
       frame = frame_of(spec%grid)
       call check_hertz_options(words, a, spec, problems)
       if (words%digits%d /= 0 .and. words%digits%c == 0) call check_kept_coefficients(words, a, frame, coefficients, problems)
-      if (.not. has_previous .and. words%digits%z == 1 .and. spec%grid%ipotcn > 0) call add_for_digit(problems, words, &
+      if (.not. has_previous .and. words%digits%z == 1 .and. spec%grid%needs_geometry()) call add_for_digit(problems, words, &
          & severity%error, "Z", "Z = 1 forms the undeformed distance from the values in store, but this is the first case; " // &
          & "Z = 2 reads it")
       if (.not. has_previous) return
@@ -66,9 +67,9 @@ contains
       integer :: line
 
       line = grid_line(words, a)
-      option = "IPOTCN = " // integer_text(spec%grid%ipotcn)
+      option = "IPOTCN = " // integer_text(spec%grid%form)
       pressure = "B = " // integer_text(words%digits%b)
-      associate (ipotcn => spec%grid%ipotcn, b => words%digits%b, n => words%digits%n)
+      associate (ipotcn => spec%grid%form, b => words%digits%b, n => words%digits%n)
          if (ipotcn >= 1 .and. (b == 2 .or. b == 3)) call problems%add(severity%error, option // " cannot be used with " // &
             & pressure // ", which needs a Hertzian option: IPOTCN = -5 to -1", line)
          if ((ipotcn == -6) .neqv. (b == 4)) call problems%add(severity%error, option // " cannot be used with " // &
@@ -172,7 +173,7 @@ contains
       type(case_spec), intent(in) :: spec
       type(problem_list), intent(inout) :: problems
 
-      if (spec%geometry%ibase == 9 .and. spec%parts%geometry /= part_source%given) then
+      if (spec%geometry%form == distance_form%elementwise .and. spec%parts%geometry /= part_source%given) then
          if (.not. is_same()) call add_for_digit(problems, words, severity%error, "Z", "Z = " // &
             & integer_text(words%digits%z) // " keeps the undeformed distances of IBASE = 9, one per element, " // &
             & "but the grid is not the one they were given for")

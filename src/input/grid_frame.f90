@@ -28,7 +28,7 @@ contains
       frame%mx = grid%mx
       frame%my = grid%my
       if (grid%mx < 1 .or. grid%my < 1) return
-      select case (grid%ipotcn)
+      select case (grid%form)
       case (1)
          frame%dx = grid%dx
          frame%dy = grid%dy

@@ -327,7 +327,7 @@ contains
       logical function is_hertzian()
          integer :: form
 
-         is_hertzian = previous%grid%ipotcn < 0
+         is_hertzian = previous%grid%form < 0
          form = 0
          if (a%document%nodes(table)%kind == toml_kind%table) form = a%document%child(table, "form")
          if (form > 0) is_hertzian = index(a%document%text_of(form), "h") == 1

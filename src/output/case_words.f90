@@ -54,8 +54,8 @@ contains
             & call say("Profiles: " // spec%wheel_rail%rail_profile%name // " and " // spec%wheel_rail%wheel_profile%name)
       else
          call say("Elements: " // integer_text(spec%grid%mx) // " along x, " // integer_text(spec%grid%my) // &
-            & " along y; " // trim(form_title("IPOTCN", spec%grid%ipotcn)))
-         if (spec%grid%ipotcn > 0) call say("Undeformed distance: " // trim(form_title("IBASE", spec%geometry%ibase)))
+            & " along y; " // trim(form_title("IPOTCN", spec%grid%form)))
+         if (spec%grid%form > 0) call say("Undeformed distance: " // trim(form_title("IBASE", spec%geometry%form)))
          if (spec%slip_source /= slip_source%none .and. spec%motion /= motion%none) &
             & call say("Rigid slip: " // trim(digit("E", spec%slip_source)))
       end if

@@ -1,6 +1,6 @@
 !> Cases as input files: what was solved through the library can be solved by the program
 module contact_output_input_case
-   use contact_base_choices, only : pressure_model, slip_source
+   use contact_base_choices, only : planform_choice, pressure_model, slip_source
    use contact_base_kinds, only : wp
    use contact_cases_spec, only : case_spec, grid_spec, part_source
    use contact_cases_whole_case, only : visit_case
@@ -54,8 +54,8 @@ contains
       if (spec%has_damping) written%parts%damping = part_source%given
       written%parts%heat = part_source%given
       ! planforms cannot be set through the library
-      written%geometry%iplan = 1
-      if (spec%grid%ipotcn > 0) call cut_to_contact(written, result)
+      written%geometry%planform = planform_choice%unrestricted
+      if (spec%grid%needs_geometry()) call cut_to_contact(written, result)
       call write_input_case(file, written)
    end subroutine write_contact_case
 
@@ -73,7 +73,7 @@ contains
          & box = kept_window(result%division)
       associate (grid => result%grid)
          elements = [((ix + grid%mx*(iy - 1), ix = box%ix0, box%ix1), iy = box%iy0, box%iy1)]
-         spec%grid = grid_spec(ipotcn=1, mx=box%ix1 - box%ix0 + 1, my=box%iy1 - box%iy0 + 1, &
+         spec%grid = grid_spec(form=1, mx=box%ix1 - box%ix0 + 1, my=box%iy1 - box%iy0 + 1, &
             & xl=grid%xl + (box%ix0 - 1)*grid%dx, yl=grid%yl + (box%iy0 - 1)*grid%dy, dx=grid%dx, dy=grid%dy)
       end associate
       if (allocated(spec%geometry%h)) spec%geometry%h = [(spec%geometry%h(elements(k)), k = 1, size(elements))]

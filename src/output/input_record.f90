@@ -198,14 +198,14 @@ contains
       type(case_spec), intent(in) :: spec
 
       call record%open_group("geometry")
-      call record%count("ipotcn", "how the grid was given, negative: Hertzian", spec%grid%ipotcn)
-      if (spec%grid%ipotcn > 0) then
+      call record%count("ipotcn", "how the grid was given, negative: Hertzian", spec%grid%form)
+      if (spec%grid%needs_geometry()) then
          associate (g => spec%geometry)
-            call record%count("ibase", "how the undeformed distance was given", g%ibase)
-            call record%count("iplan", "planform", g%iplan)
+            call record%count("ibase", "how the undeformed distance was given", g%form)
+            call record%count("iplan", "planform", g%planform)
             call record%numbers("b", "", "coefficients of the undeformed distance", g%b)
             if (allocated(g%profile)) call record%numbers("profile", "mm", "profile B(1...NN)", g%profile)
-            if (g%iplan == 2 .or. g%iplan == 3) call record%numbers("pl", "mm", "parameters of the planform", g%pl)
+            if (g%planform == 2 .or. g%planform == 3) call record%numbers("pl", "mm", "parameters of the planform", g%pl)
             if (allocated(g%rectangles)) then
                call record%numbers("rectangles", "mm", "XL XH YL YH of each part of the planform", pack(g%rectangles, .true.))
                call record%numbers("interaction", "-", "factors between the parts of the planform", pack(g%interaction, .true.))

@@ -1,7 +1,7 @@
 !> Echo of the input of a case in the .out file (output level 2 and higher)
 module contact_output_report_input
-   use contact_base_choices, only : force_control, friction_model, has_slope_reduction, is_fastrip, material_model, motion, &
-      & normal_control, pressure_model, solver_choice, variation
+   use contact_base_choices, only : force_control, friction_model, grid_form, has_slope_reduction, is_fastrip, material_model, &
+      & motion, normal_control, pressure_model, solver_choice, variation
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
    use contact_cases_friction_setup, only : values_of
@@ -29,7 +29,7 @@ contains
 
       call write_digits(log, digits_of(spec))
       call write_problem(log, spec)
-      if (spec%parts%geometry /= part_source%kept .and. spec%grid%ipotcn < 0) call write_hertz(log, spec, result)
+      if (spec%parts%geometry /= part_source%kept .and. spec%grid%brings_geometry()) call write_hertz(log, spec, result)
       if (spec%solver == solver_choice%gd_steady) call write_gd_steady(log, spec)
       if (spec%parts%material == part_source%given) call write_materials(log, spec, result)
       if (spec%parts%friction == part_source%given .and. allocated(spec%friction%sets)) &
@@ -120,32 +120,34 @@ contains
       type(hertz_result) :: hertz
       integer :: option
 
-      option = spec%grid%ipotcn
+      option = spec%grid%form
       if (allocated(result%hertz)) hertz = result%hertz
       call log%result("")
       select case (option)
-      case (-6)
+      case (grid_form%half_ellipses)
          call log%result(" SDEC GEOMETRY WITH PRESCRIBED " // trim(prescribed(spec)))
-      case (-5, -4)
+      case (grid_form%hertz_line, grid_form%hertz_line_curvature)
          call log%result(" 2D HERTZIAN GEOMETRY WITH PRESCRIBED " // trim(prescribed(spec)))
       case default
          call log%result(" 3D HERTZIAN GEOMETRY WITH PRESCRIBED " // trim(prescribed(spec)))
       end select
       select case (option)
-      case (-1)
+      case (grid_form%hertz_curvatures)
          call labelled(" CURVATURE PRESCRIBED, A1,B1:", [spec%grid%a1, spec%grid%b1])
-      case (-2)
+      case (grid_form%hertz_curvature_ratio)
          call labelled(" CURVATURE AND ELLIPTIC. PRESCRB, A1,AA/BB:", [spec%grid%a1, spec%grid%aob])
-      case (-4)
+      case (grid_form%hertz_line_curvature)
          call labelled(" CURVATURE PRESCRIBED, A1,BB:", [spec%grid%a1, spec%grid%bb])
-      case (-6)
+      case (grid_form%half_ellipses)
          call labelled(" SEMIAXES PRESCRIBED, AA,BNEG,BPOS:", [spec%grid%aa, spec%grid%bneg, spec%grid%bpos])
       case default
          call labelled(" SEMIAXES PRESCRIBED, AA,BB:", [spec%grid%aa, spec%grid%bb])
       end select
-      if (option /= -1 .and. option /= -6) call labelled(" THE CURVATURES A1,B1 ARE:", [hertz%a1, hertz%b1])
-      if (option /= -3 .and. option /= -6) call labelled(" BASIC SEMIAXES AA,BB, RATIO", [hertz%aa, hertz%bb, hertz%aob])
-      if (option /= -6) call labelled(" EFFECTIVE RAD.CURV RHO, SEMI-AXIS CP", [hertz%rho, hertz%cp])
+      if (spec%grid%is_hertzian() .and. option /= grid_form%hertz_curvatures) &
+         & call labelled(" THE CURVATURES A1,B1 ARE:", [hertz%a1, hertz%b1])
+      if (spec%grid%is_hertzian() .and. option /= grid_form%hertz_axes) &
+         & call labelled(" BASIC SEMIAXES AA,BB, RATIO", [hertz%aa, hertz%bb, hertz%aob])
+      if (spec%grid%is_hertzian()) call labelled(" EFFECTIVE RAD.CURV RHO, SEMI-AXIS CP", [hertz%rho, hertz%cp])
       call labelled(" POTENTIAL CONTACT, SCALE:", [result%grid%xl, result%grid%yl, spec%grid%scale])
       call log%result(label_field(" DISCRETISATION MX,MY, DX,DY:") // whole(result%grid%mx, 6) &
          & // whole(result%grid%my, 6) // generals([result%grid%dx, result%grid%dy]))

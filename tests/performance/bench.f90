@@ -553,7 +553,7 @@ contains
             write(unit, "(2f6.2)") spec%friction%sets(1)%fstat, spec%friction%sets(1)%fkin
             write(unit, "(3es18.10)") 0.0_wp, spec%rolling%dq, spec%rolling%veloc
             write(unit, "(4f10.2)") spec%material%poiss, spec%material%gg
-            write(unit, "(i0)") spec%grid%ipotcn
+            write(unit, "(i0)") spec%grid%form
             write(unit, "(2i6, 3f10.4)") mx, mx, spec%grid%aa, spec%grid%bb, spec%grid%scale
          end associate
       end do

@@ -258,7 +258,7 @@ contains
 
       call new_session(case)
       associate (spec => case%spec)
-         spec%grid%ipotcn = -3
+         spec%grid%form = -3
          spec%grid%mx = mx
          spec%grid%my = mx
          spec%grid%aa = 6.0_wp
@@ -313,7 +313,7 @@ contains
 
       call new_session(case)
       associate (spec => case%spec)
-         spec%grid%ipotcn = 3
+         spec%grid%form = 3
          spec%grid%mx = 840
          spec%grid%my = 1
          spec%grid%dx = 2.0_wp/800

@@ -114,7 +114,7 @@ contains
       case%spec%rolling%dq = 0.05_wp
       call case%run(suite, "ellipse")
       expected = [case%result%fx, case%result%fy, case%result%mz]
-      case%spec%grid%ipotcn = -6
+      case%spec%grid%form = -6
       case%spec%grid%aa = case%result%hertz%aa
       case%spec%grid%bneg = case%result%hertz%bb
       case%spec%grid%bpos = case%result%hertz%bb
@@ -199,7 +199,7 @@ contains
       call set_case(1, pressure_model%thin_sheet, case)
       call refuse(suite, case, "thin sheet")
       call set_case(1, pressure_model%sdec, case)
-      case%spec%grid%ipotcn = -6
+      case%spec%grid%form = -6
       case%spec%grid%aa = 1.0_wp
       case%spec%grid%bneg = 1.0_wp
       case%spec%grid%bpos = 1.0_wp

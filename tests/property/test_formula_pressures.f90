@@ -32,7 +32,7 @@ contains
       spec = ellipse_case(2.0_wp, 1.0_wp, 30.0_wp, mx, my)
       spec%pressure = pressure
       if (pressure /= pressure_model%sdec) return
-      spec%grid%ipotcn = -6
+      spec%grid%form = -6
       spec%grid%bneg = 0.7_wp
       spec%grid%bpos = 1.4_wp
    end function formula_case

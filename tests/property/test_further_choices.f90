@@ -29,14 +29,14 @@ contains
       one%spec%normal = normal_control%approach
       one%spec%kinematics%pen = 0.05_wp
       ! of the two parts each contains half of the valley's floor
-      one%spec%geometry%iplan = 3
+      one%spec%geometry%planform = 3
       one%spec%geometry%pl = [-1.5_wp, 1.5_wp, -3.4_wp, -1.0_wp, -1.5_wp, 1.5_wp, 0.6_wp, 3.4_wp]
       one%spec%geometry%b(3) = 0.004_wp
       one%spec%geometry%b(5) = 0.001_wp
       call one%run(suite, "two rectangles")
       do k = 1, 3
          two%spec = one%spec
-         two%spec%geometry%iplan = 4
+         two%spec%geometry%planform = 4
          two%spec%geometry%rectangles = reshape(one%spec%geometry%pl, [4, 2])
          two%spec%geometry%interaction = reshape([1.0_wp, factor(k), factor(k), 1.0_wp], [2, 2])
          call two%run(suite, "two parts")

@@ -70,7 +70,7 @@ contains
       spec%kinematics%fn = 30000.0_wp*aa*bb/15.0_wp
       spec%parts%grid = part_source%given
       spec%parts%geometry = part_source%given
-      spec%grid%ipotcn = -3
+      spec%grid%form = -3
       spec%grid%mx = mx
       spec%grid%my = my
       spec%grid%aa = aa
@@ -92,14 +92,14 @@ contains
       spec%kinematics%fn = 100.0_wp
       spec%parts%grid = part_source%given
       spec%parts%geometry = part_source%given
-      spec%grid%ipotcn = 1
+      spec%grid%form = 1
       spec%grid%mx = mx
       spec%grid%my = my
       spec%grid%dx = 0.1_wp
       spec%grid%dy = 0.1_wp
       spec%grid%xl = -0.05_wp*mx
       spec%grid%yl = -0.05_wp*my
-      spec%geometry%ibase = 1
+      spec%geometry%form = 1
       spec%geometry%b = [5.0e-3_wp, 0.0_wp, 5.0e-3_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp]
       call common_values(spec)
       spec%rolling%dq = 0.1_wp

@@ -105,7 +105,7 @@ contains
       case (14)
          spec%friction%sets(1)%fstat = value
       case (15)
-         spec%geometry%ibase = 9
+         spec%geometry%form = 9
          allocate(spec%geometry%h(49), source=0.0_wp)
          spec%geometry%h(20) = value
       case (16)
@@ -113,7 +113,7 @@ contains
       case (17)
          spec%iteration%eps = value
       case (18)
-         spec%geometry%iplan = 2
+         spec%geometry%planform = 2
          spec%geometry%pl(1:6) = [1.0_wp, 0.0_wp, 1.0_wp, 0.0_wp, 0.0_wp, value]
       case (19)
          spec%slip_source = slip_source%given
@@ -157,11 +157,11 @@ contains
       case (36)
          spec%material%poiss(1) = value
       case (37)
-         spec%grid%ipotcn = -1
+         spec%grid%form = -1
          spec%grid%a1 = value
          spec%grid%b1 = 1.0_wp
       case (38)
-         spec%grid%ipotcn = -2
+         spec%grid%form = -2
          spec%grid%a1 = 1.0_wp
          spec%grid%aob = value
       case (39)

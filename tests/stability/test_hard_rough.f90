@@ -33,7 +33,7 @@ contains
             write(*, "(a, i0, a, i0)") "rough surface, seed ", seeds(draw), ", kind ", kind
             do t = motion%none, motion%steady_rolling
                spec = given_case(t, n, n)
-               spec%geometry%ibase = 9
+               spec%geometry%form = 9
                spec%geometry%h = surface(kind, n, heights)
                spec%kinematics%cksi = merge(1.0e-4_wp, 1.0e-3_wp, t == motion%shift)
                spec%kinematics%ceta = 0.3_wp*spec%kinematics%cksi

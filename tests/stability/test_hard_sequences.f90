@@ -131,7 +131,7 @@ contains
 
       do t = motion%shift, motion%transient_rolling
          spec = given_case(t, 31, 21)
-         spec%geometry%ibase = 9
+         spec%geometry%form = 9
          allocate(spec%geometry%h(31*21))
          do step = 1, 60
             depth = 2.0e-3_wp*(1.0_wp - cos(2.0_wp*pi*step/20.0_wp))

@@ -188,7 +188,7 @@ contains
          call expect_solution(suite, run, spec, trim(label) // ", contact lost again")
          call suite%equal(run%result%ncon, 0, trim(label) // ": lost")
          spec = elliptic_case(t, 11, 12, 3.0_wp, 5.0_wp)
-         spec%grid%ipotcn = -1
+         spec%grid%form = -1
          spec%grid%a1 = 1.0e-3_wp
          spec%grid%b1 = 1.0e-3_wp
          spec%kinematics%fn = 0.0_wp
@@ -244,7 +244,7 @@ contains
 
       do t = motion%shift, motion%steady_rolling
          spec = given_case(t, 24, 24)
-         spec%geometry%iplan = 3
+         spec%geometry%planform = 3
          spec%geometry%pl = [-1.0_wp, -0.2_wp, -1.0_wp, 1.0_wp, 0.3_wp, 0.8_wp, -0.4_wp, 0.9_wp]
          call set_creepage(spec)
          write(label, "(a, i0)") "two rectangles, T=", t
@@ -256,7 +256,7 @@ contains
          call expect_solution(suite, run, spec, trim(label) // ", flat, N=0")
          ! a ring is not given by one quadratic form; a disc is
          spec = given_case(t, 24, 24)
-         spec%geometry%iplan = 2
+         spec%geometry%planform = 2
          spec%geometry%pl(1:6) = [1.0_wp, 0.0_wp, 1.0_wp, 0.0_wp, 0.0_wp, -0.25_wp]
          call set_creepage(spec)
          write(label, "(a, i0)") "disc, T=", t

@@ -101,7 +101,7 @@ contains
       case (12)
          what = "rough"
          spec = given_case(t, 15, 15)
-         spec%geometry%ibase = 9
+         spec%geometry%form = 9
          allocate(spec%geometry%h(225))
          seed = 4711
          call random_numbers(seed, spec%geometry%h)

@@ -110,7 +110,7 @@ contains
       type(case_spec) :: spec
 
       spec = base_case(fn, eps)
-      spec%grid%ipotcn = -1
+      spec%grid%form = -1
       spec%grid%a1 = a1
       spec%grid%b1 = b1
       spec%grid%mx = mx
@@ -128,7 +128,7 @@ contains
       type(case_spec) :: spec
 
       spec = hertz_case(0.0_wp, 0.0_wp, fn, mx, my, scale, eps)
-      spec%grid%ipotcn = -3
+      spec%grid%form = -3
       spec%grid%aa = aa
       spec%grid%bb = bb
    end function ellipse_case
@@ -142,7 +142,7 @@ contains
       type(case_spec) :: spec
 
       spec = ellipse_case(aa, bb, fn, mx, 1, scale, eps)
-      spec%grid%ipotcn = -5
+      spec%grid%form = -5
    end function line_case
 
    !> Quadratic surfaces on a window of one's own, centred in the origin
@@ -155,14 +155,14 @@ contains
       type(case_spec) :: spec
 
       spec = base_case(fn, eps)
-      spec%grid%ipotcn = 1
+      spec%grid%form = 1
       spec%grid%mx = mx
       spec%grid%my = my
       spec%grid%dx = dx
       spec%grid%dy = dy
       spec%grid%xl = -0.5_wp*mx*dx
       spec%grid%yl = -0.5_wp*my*dy
-      spec%geometry%ibase = 1
+      spec%geometry%form = 1
       spec%geometry%b = 0.0_wp
       spec%geometry%b(1) = a1
       spec%geometry%b(3) = b1
@@ -177,7 +177,7 @@ contains
       type(case_spec) :: spec
 
       spec = grid_case(0.0_wp, 0.0_wp, fn, size(h, 1), size(h, 2), dx, dy, eps)
-      spec%geometry%ibase = 9
+      spec%geometry%form = 9
       spec%geometry%h = reshape(h, [size(h)])
    end function surface_case
 
@@ -196,7 +196,7 @@ contains
          spec%friction%sets(1)%fstat = mu
          spec%friction%sets(1)%fkin = mu
       end if
-      if (spec%grid%ipotcn > 0) spec%rolling%dq = spec%grid%dx
+      if (spec%grid%form > 0) spec%rolling%dq = spec%grid%dx
    end subroutine creep
 
    !> Shift with prescribed displacements [mm]

@@ -39,7 +39,7 @@ contains
 
       spec = grid_spec(mx=44, my=22, a1=0.8e-3_wp, b1=0.2814e-3_wp, aob=0.5_wp, aa=6.0_wp, bb=12.0_wp, scale=1.1_wp)
       do option = -5, -1
-         spec%ipotcn = option
+         spec%form = option
          call solve_hertz(spec, normal_control%force, 106700.0_wp, 0.0_wp, gg, nu, hertz, error)
          call suite%check(.not. allocated(error) .and. allocated(hertz), "Hertz option is solved")
          call build_grid(spec, hertz, grid, error)
@@ -49,19 +49,19 @@ contains
          if (option >= -3) call suite%close_to(22*grid%dy, 2.2_wp*hertz%bb, closed, "height of the window", &
             & relative=.true.)
          ! IBASE of the case does not count
-         shape%ibase = 9
+         shape%form = 9
          call undeformed_distance(shape, grid, hertz, h, error)
          call suite%check(.not. allocated(error), "distance of a Hertz option")
          call suite%close_to(h(3, 5), hertz%a1*grid%x(3)**2 + hertz%b1*grid%y(5)**2, closed, "Hertzian distance", &
             & relative=.true.)
          call suite%close_to(curvature_radius(shape, hertz), 0.5_wp/hertz%a1, closed, "radius", relative=.true.)
       end do
-      spec%ipotcn = -1
+      spec%form = -1
       call solve_hertz(spec, normal_control%approach, 0.0_wp, 0.0_wp, gg, nu, hertz, error)
       call build_grid(spec, hertz, grid, error)
       call suite%check(.not. allocated(error), "no contact has a grid")
       call suite%close_to(grid%dx, 1.1_wp*2.0e-9_wp/44, closed, "tiny elements")
-      spec%ipotcn = -6
+      spec%form = -6
       spec%bneg = 3.0_wp
       spec%bpos = 5.0_wp
       call solve_hertz(spec, normal_control%force, 1.0_wp, 0.0_wp, gg, nu, hertz, error)
@@ -77,7 +77,7 @@ contains
       type(potential_contact) :: grid
       type(error_type), allocatable :: error
 
-      good = grid_spec(ipotcn=-1, mx=4, my=4, a1=0.1_wp, b1=0.1_wp, aob=1.0_wp, aa=1.0_wp, bb=1.0_wp)
+      good = grid_spec(form=-1, mx=4, my=4, a1=0.1_wp, b1=0.1_wp, aob=1.0_wp, aa=1.0_wp, bb=1.0_wp)
       bad = good
       bad%b1 = 0.0_wp
       call solve_hertz(bad, normal_control%force, 1.0_wp, 0.0_wp, gg, nu, hertz, error)
@@ -88,10 +88,10 @@ contains
       call solve_hertz(good, normal_control%force, bad%b1, 0.0_wp, gg, nu, hertz, error)
       call expect_error(suite, error, "FN", "force not a number")
       bad = good
-      bad%ipotcn = -4
+      bad%form = -4
       call solve_hertz(bad, normal_control%approach, 1.0_wp, 0.1_wp, gg, nu, hertz, error)
       call expect_error(suite, error, "N = 1", "line contact by approach")
-      bad%ipotcn = -3
+      bad%form = -3
       bad%bb = -1.0_wp
       call solve_hertz(bad, normal_control%force, 1.0_wp, 0.0_wp, gg, nu, hertz, error)
       call expect_error(suite, error, "BB", "negative semi-axis")
@@ -117,7 +117,7 @@ contains
       spec = grid_spec(mx=10, my=4, xl=-1.0_wp, yl=2.0_wp, dx=0.2_wp, dy=0.5_wp, xh=1.0_wp, yh=4.0_wp, &
          & xc1=-0.9_wp, yc1=2.25_wp, xcm=0.9_wp, ycm=3.75_wp)
       do option = 1, 4
-         spec%ipotcn = option
+         spec%form = option
          call build_grid(spec, grid=grid, error=error)
          call suite%check(.not. allocated(error), "given window")
          call suite%close_to([grid%xl, grid%yl, grid%dx, grid%dy], [-1.0_wp, 2.0_wp, 0.2_wp, 0.5_wp], closed, "given window")
@@ -127,11 +127,11 @@ contains
       spec%xcm = spec%xc1
       call build_grid(spec, grid=grid, error=error)
       call expect_error(suite, error, "DX", "one column by two equal centres")
-      spec%ipotcn = 2
+      spec%form = 2
       spec%yh = spec%yl
       call build_grid(spec, grid=grid, error=error)
       call expect_error(suite, error, "DY", "empty window")
-      spec%ipotcn = 5
+      spec%form = 5
       call build_grid(spec, grid=grid, error=error)
       call expect_error(suite, error, "IPOTCN = 5", "unknown option")
       spec%my = 0
@@ -168,7 +168,7 @@ contains
       type(potential_contact) :: grid
       type(error_type), allocatable :: error
 
-      spec = grid_spec(ipotcn=-5, mx=8, my=my, aa=0.5_wp, bb=3.0_wp, scale=scale)
+      spec = grid_spec(form=-5, mx=8, my=my, aa=0.5_wp, bb=3.0_wp, scale=scale)
       call solve_hertz(spec, normal_control%force, 1000.0_wp, 0.0_wp, gg, nu, hertz, error)
       call build_grid(spec, hertz, grid, error)
       call suite%close_to(rows*grid%dy, 6.0_wp, closed, "rows fit the strip")
@@ -192,17 +192,17 @@ contains
       call undeformed_distance(spec, grid, h=h, error=error)
       call suite%close_to(h(2, 4), 0.1_wp*x**2 - 0.2_wp*x*y + 0.3_wp*y**2 + 0.04_wp*x + 0.05_wp*y - 0.6_wp, closed, "IBASE 1")
       call suite%close_to(curvature_radius(spec), 5.0_wp, closed, "radius of IBASE 1")
-      spec%ibase = 3
+      spec%form = 3
       call undeformed_distance(spec, grid, h=h, error=error)
       call suite%close_to(h(2, 4), 0.1_wp*sin(-0.2_wp*(x - 0.3_wp)) - 0.04_wp*sin(0.05_wp*(x + 0.6_wp)) &
          & + x**2/7.0_wp + y**2/8.0_wp, closed, "IBASE 3")
       call suite%close_to(curvature_radius(spec), 3.5_wp, closed, "radius of IBASE 3")
-      spec%ibase = 9
+      spec%form = 9
       spec%h = [(0.01_wp*i, i = 1, 30)]
       call undeformed_distance(spec, grid, h=h, error=error)
       call suite%close_to(h(2, 4), 0.2_wp, closed, "IBASE 9")
       call suite%close_to(curvature_radius(spec), 0.0_wp, closed, "radius of IBASE 9 is unknown")
-      spec%ibase = 2
+      spec%form = 2
       spec%xm = 0.2_wp
       spec%rm = 40.0_wp
       spec%y1 = 1.0_wp
@@ -222,20 +222,20 @@ contains
       real(wp), allocatable :: h(:, :)
 
       grid = potential_contact(10, 10, -1.0_wp, -1.0_wp, 0.2_wp, 0.2_wp)
-      spec%iplan = 2
+      spec%planform = 2
       ! The circle of radius 0.5 holds the centres with coordinates 0.1 and 0.3 only
       spec%pl(1:6) = [1.0_wp, 0.0_wp, 1.0_wp, 0.0_wp, 0.0_wp, -0.25_wp]
       call undeformed_distance(spec, grid, h=h, error=error)
       call suite%equal(count(h < excluded_distance), 16, "planform: circle")
       call suite%close_to(h(1, 1), excluded_distance, 0.0_wp, "excluded distance")
-      spec%iplan = 3
+      spec%planform = 3
       spec%pl = [-1.0_wp, 0.0_wp, -1.0_wp, 0.0_wp, -0.2_wp, 0.2_wp, -0.2_wp, 0.2_wp]
       call undeformed_distance(spec, grid, h=h, error=error)
       call suite%equal(count(h < excluded_distance), 28, "planform: two rectangles")
       spec%pl = [0.0_wp, -1.0_wp, 0.0_wp, 1.0_wp, 5.0_wp, 6.0_wp, 5.0_wp, 6.0_wp]
       call undeformed_distance(spec, grid, h=h, error=error)
       call expect_error(suite, error, "excludes all", "planform: nothing left")
-      spec%iplan = 4
+      spec%planform = 4
       call undeformed_distance(spec, grid, h=h, error=error)
       call expect_error(suite, error, "IPLAN = 4", "planform: several parts without rectangles")
       spec%rectangles = reshape([-1.0_wp, 0.0_wp, -1.0_wp, 0.0_wp, -0.2_wp, 0.2_wp, -0.2_wp, 0.2_wp], [4, 2])
@@ -254,7 +254,7 @@ contains
       real(wp), allocatable :: h(:, :)
 
       grid = potential_contact(3, 2, 0.0_wp, 0.0_wp, 1.0_wp, 1.0_wp)
-      spec%ibase = 9
+      spec%form = 9
       call undeformed_distance(spec, grid, h=h, error=error)
       call expect_error(suite, error, "for 0 elements", "IBASE 9 without values")
       spec%h = [1.0_wp, 2.0_wp, 3.0_wp, 4.0_wp, 5.0_wp]
@@ -263,17 +263,17 @@ contains
       spec%h = [1.0_wp, 2.0_wp, 3.0_wp, 4.0_wp, 5.0_wp, ieee_value(1.0_wp, ieee_quiet_nan)]
       call undeformed_distance(spec, grid, h=h, error=error)
       call expect_error(suite, error, "not a number", "IBASE 9, NaN")
-      spec%ibase = 2
+      spec%form = 2
       call undeformed_distance(spec, grid, h=h, error=error)
       call expect_error(suite, error, "profile", "IBASE 2 without profile")
       spec%profile = [1.0_wp, 2.0_wp]
       spec%rm = 0.0_wp
       call undeformed_distance(spec, grid, h=h, error=error)
       call expect_error(suite, error, "RM", "IBASE 2, no radius")
-      spec%ibase = 3
+      spec%form = 3
       call undeformed_distance(spec, grid, h=h, error=error)
       call expect_error(suite, error, "B7", "IBASE 3, no radius")
-      spec%ibase = 5
+      spec%form = 5
       call undeformed_distance(spec, grid, h=h, error=error)
       call expect_error(suite, error, "IBASE = 5", "unknown form")
    end subroutine geometry_errors

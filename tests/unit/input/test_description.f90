@@ -222,13 +222,13 @@ contains
          case (45:46)
             call visit_heat(a, spec%heat, with_plastic_work=form == 46)
          case (47:56)
-            spec%grid%ipotcn = grids(form - 46)
+            spec%grid%form = grids(form - 46)
             call visit_grid(a, spec%grid)
          case (57:60)
-            spec%geometry%ibase = distances(form - 56)
+            spec%geometry%form = distances(form - 56)
             call visit_distance(a, spec%geometry, 6)
          case (61:63)
-            spec%geometry%iplan = form - 59
+            spec%geometry%planform = form - 59
             if (.not. allocated(spec%geometry%rectangles)) allocate(spec%geometry%rectangles(4, 3))
             if (.not. allocated(spec%geometry%interaction)) allocate(spec%geometry%interaction(3, 3), source=0.5_wp)
             call visit_planform(a, spec%geometry)

@@ -35,7 +35,7 @@ contains
          if (option == 0) cycle
          do k = 1, size(sizes, 2)
             do j = 1, size(scales)
-               spec = grid_spec(ipotcn=option, mx=sizes(1, k), my=sizes(2, k), a1=0.8e-3_wp, b1=0.28e-3_wp, aob=0.5_wp, &
+               spec = grid_spec(form=option, mx=sizes(1, k), my=sizes(2, k), a1=0.8e-3_wp, b1=0.28e-3_wp, aob=0.5_wp, &
                   & aa=6.0_wp, bb=12.0_wp, bneg=2.0_wp, bpos=3.0_wp, scale=scales(j), xl=-1.1_wp, yl=-2.3_wp, dx=0.3_wp, &
                   & dy=0.7_wp, xh=5.1_wp, yh=4.9_wp, xc1=-3.3_wp, yc1=-2.9_wp, xcm=4.1_wp, ycm=3.7_wp)
                if (option == 4 .and. any(sizes(:, k) == 1)) cycle
@@ -58,11 +58,11 @@ contains
             end do
          end do
       end do
-      frame = frame_of(grid_spec(ipotcn=1, mx=0, my=5, dx=0.1_wp, dy=0.1_wp))
+      frame = frame_of(grid_spec(form=1, mx=0, my=5, dx=0.1_wp, dy=0.1_wp))
       call suite%check(.not. frame%is_known, "no columns")
-      frame = frame_of(grid_spec(ipotcn=1, mx=5, my=5, dx=0.1_wp, dy=0.0_wp))
+      frame = frame_of(grid_spec(form=1, mx=5, my=5, dx=0.1_wp, dy=0.0_wp))
       call suite%check(.not. frame%is_known, "flat elements")
-      frame = frame_of(grid_spec(ipotcn=2, mx=5, my=5, xl=1.0_wp, xh=0.0_wp, yl=0.0_wp, yh=1.0_wp))
+      frame = frame_of(grid_spec(form=2, mx=5, my=5, xl=1.0_wp, xh=0.0_wp, yl=0.0_wp, yh=1.0_wp))
       call suite%check(.not. frame%is_known, "corners that are exchanged")
    end subroutine all_options
 

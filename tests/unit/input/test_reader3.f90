@@ -266,8 +266,8 @@ contains
       call suite%check(spec%rolling%dq == 0.1_wp .and. spec%rolling%veloc == 1000.0_wp, "rolling")
       call suite%close_to(spec%rolling%facphi, 1.0_wp/6.0_wp, 0.0_wp, "FACPHI")
       call suite%check(all(spec%material%gg == 82000.0_wp), "materials")
-      call suite%check(spec%grid%ipotcn == 1 .and. spec%grid%mx == 10 .and. spec%grid%my == 8, "grid")
-      call suite%check(spec%geometry%ibase == 1 .and. spec%geometry%b(3) == 0.01_wp, "geometry")
+      call suite%check(spec%grid%form == 1 .and. spec%grid%mx == 10 .and. spec%grid%my == 8, "grid")
+      call suite%check(spec%geometry%form == 1 .and. spec%geometry%b(3) == 0.01_wp, "geometry")
    end subroutine plain_case
 
    !> All optional groups, in their order
@@ -343,7 +343,7 @@ contains
 
       call read_two("9=-3|10=10 8 1 2 1.1|11=|12=", kept, spec, problems, error)
       call no_problem(suite, problems, error, "a Hertzian grid that is kept")
-      call suite%check(spec%grid%ipotcn == -3 .and. spec%grid%bb == 2.0_wp .and. .not. spec%has_new_geometry(), "Hertzian grid")
+      call suite%check(spec%grid%form == -3 .and. spec%grid%bb == 2.0_wp .and. .not. spec%has_new_geometry(), "Hertzian grid")
       call read_one("9=-1|10=10 8 .1 .2 1.1|11=|12=", spec, problems, error)
       call suite%check(spec%has_new_geometry() .and. spec%geometry%b(3) == 0.2_wp, "curvatures of a Hertzian grid")
 

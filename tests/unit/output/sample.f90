@@ -26,7 +26,7 @@ contains
 
       allocate(spec%friction%sets(1))
       spec%material%gg = 82000.0_wp
-      spec%grid%ipotcn = 1
+      spec%grid%form = 1
       spec%iteration%eps = 1.0e-5_wp
       spec%kinematics%fx = -0.5_wp
       spec%kinematics%fy = 0.25_wp

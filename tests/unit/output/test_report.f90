@@ -283,7 +283,7 @@ contains
          call fill_sample(spec, result, 12, 10)
          allocate(result%hertz)
          spec%output_level = 2
-         spec%grid%ipotcn = option
+         spec%grid%form = option
          spec%normal = 1
          spec%solver = 5
          spec%iteration%fdecay = -3.0_wp
