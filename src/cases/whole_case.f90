@@ -1,7 +1,7 @@
 !> All groups of the input that a case gives, in the order of the input files, once for all formats
 module contact_cases_whole_case
-   use contact_base_choices, only : force_control, grid_form, heat_source, kernel_model, material_model, &
-      & motion, normal_control, pressure_model, slip_source, variation
+   use contact_base_choices, only : distance_form, force_control, grid_form, heat_source, kernel_model, material_model, &
+      & motion, normal_control, planform_choice, pressure_model, slip_source, variation
    use contact_base_kinds, only : long, wp
    use contact_cases_archive, only : case_archive
    use contact_cases_grid_inputs, only : largest_grid, visit_distance, visit_grid, visit_planform
@@ -225,24 +225,29 @@ contains
       call a%integer("IPOTCN", grid%form, unchecked=.true.)
       call a%end_line()
       if (.not. a%is_good) return
-      if (grid%form < -6 .or. grid%form > 4 .or. grid%form == 0) then
+      if (.not. (grid%brings_geometry() .or. grid%needs_geometry())) then
          call a%refuse("IPOTCN", " is not a known option; allowed are -6 to -1 and 1 to 4")
-         return
-      end if
-      if (.not. a%is_reading) then
+      else if (.not. a%is_reading) then
          call visit_grid(a, spec%grid)
       else
          call visit_grid(a, grid)
-         if (a%is_good) spec%grid = grid
+         if (a%is_good) call take_grid(grid, spec)
       end if
       call a%close_group()
-      if (.not. (a%is_reading .and. a%is_good) .or. grid%needs_geometry()) return
-      spec%geometry = geometry_spec()
-      if (grid%form == grid_form%hertz_curvatures) then
-         spec%geometry%b(1) = grid%a1
-         spec%geometry%b(3) = grid%b1
-      end if
    end subroutine visit_grid_group
+
+   !> A new grid; one that brings its own geometry replaces the one that was given
+   subroutine take_grid(grid, spec)
+      type(grid_spec), intent(in) :: grid
+      type(case_spec), intent(inout) :: spec
+
+      spec%grid = grid
+      if (.not. grid%brings_geometry()) return
+      spec%geometry = geometry_spec()
+      if (grid%form /= grid_form%hertz_curvatures) return
+      spec%geometry%b(1) = grid%a1
+      spec%geometry%b(3) = grid%b1
+   end subroutine take_grid
 
    !> Undeformed distance and planform of grids that are not Hertzian
    subroutine visit_geometry_group(a, spec)
@@ -255,8 +260,10 @@ contains
       call a%integer("IBASE", geometry%form, unchecked=.true.)
       call a%integer("IPLAN", geometry%planform, unchecked=.true.)
       call a%end_line()
-      if (all(geometry%form /= [1, 2, 3, 9])) call a%refuse("IBASE", " is not a known option; allowed are 1, 2, 3 and 9")
-      if (geometry%planform < 1 .or. geometry%planform > 4) call a%refuse("IPLAN", " is not a known option; allowed are 1 to 4")
+      if (all(geometry%form /= [distance_form%quadratic, distance_form%profile, distance_form%quadratic_and_sines, &
+         & distance_form%elementwise])) call a%refuse("IBASE", " is not a known option; allowed are 1, 2, 3 and 9")
+      if (all(geometry%planform /= [planform_choice%unrestricted, planform_choice%quadratic, planform_choice%two_rectangles, &
+         & planform_choice%weighted_rectangles])) call a%refuse("IPLAN", " is not a known option; allowed are 1 to 4")
       call visit_distance(a, geometry, element_count(spec%grid))
       call visit_planform(a, geometry)
       if (a%is_reading .and. a%is_good) spec%geometry = geometry

@@ -1,5 +1,8 @@
 !> The words of the readable format: keys of the choices of a case, and messages about digits in these words
 module contact_control_words
+   use contact_base_choices, only : distance_form, grid_form, planform_choice
+   use contact_base_kinds, only : wp
+   use contact_cases_archive, only : archive_item
    use contact_control_digits, only : digit_names, digit_table, digit_text, is_known, word_length
    use contact_text_bounds, only : bounds_of
    use contact_text_words, only : small
@@ -7,7 +10,7 @@ module contact_control_words
    private
 
    public :: key_row, key_table, key_of, digit_of_word, word_of_digit, is_choice, choice_words, words_of
-   public :: form_row, form_table, form_title, form_value, form_word, form_words, form_key
+   public :: form_row, form_table, form_title, form_value, form_word, form_words, form_key, key_of_item
    public :: tell_in_words
 
    !> Length of keys and of names of groups
@@ -58,24 +61,27 @@ module contact_control_words
    end type form_row
 
    type(form_row), parameter :: form_table(*) = [ &
-      & form_row("IPOTCN", 1, "corner_and_sides", "a corner, and sides of an element"), &
-      & form_row("IPOTCN", 2, "corners", "two corners"), &
-      & form_row("IPOTCN", 3, "centre_and_sides", "centre of the first element, and its sides"), &
-      & form_row("IPOTCN", 4, "centres", "centres of the first and the last element"), &
-      & form_row("IPOTCN", -1, "hertz_curvatures", "around the contact of bodies of these curvatures"), &
-      & form_row("IPOTCN", -2, "hertz_curvature_ratio", "around the contact of a curvature and a ratio of semi-axes"), &
-      & form_row("IPOTCN", -3, "hertz_axes", "around an ellipse of these semi-axes"), &
-      & form_row("IPOTCN", -4, "hertz_line_curvature", "around a line contact of a curvature"), &
-      & form_row("IPOTCN", -5, "hertz_line", "around a line contact of this half length and half width"), &
-      & form_row("IPOTCN", -6, "half_ellipses", "around two half ellipses"), &
-      & form_row("IBASE", 1, "quadratic", "a quadratic form of x and y"), &
-      & form_row("IBASE", 2, "profile", "a circle along x and a profile across"), &
-      & form_row("IBASE", 3, "quadratic_and_sines", "a quadratic form and the difference of two sines along x"), &
-      & form_row("IBASE", 9, "elementwise", "one distance for each element"), &
-      & form_row("IPLAN", 1, "unrestricted", "the whole grid"), &
-      & form_row("IPLAN", 2, "quadratic", "where a quadratic form is negative"), &
-      & form_row("IPLAN", 3, "two_rectangles", "the union of two rectangles"), &
-      & form_row("IPLAN", 4, "weighted_rectangles", "rectangles whose pressures act on each other with factors"), &
+      & form_row("IPOTCN", grid_form%corner_and_sides, "corner_and_sides", "a corner, and sides of an element"), &
+      & form_row("IPOTCN", grid_form%corners, "corners", "two corners"), &
+      & form_row("IPOTCN", grid_form%centre_and_sides, "centre_and_sides", "centre of the first element, and its sides"), &
+      & form_row("IPOTCN", grid_form%centres, "centres", "centres of the first and the last element"), &
+      & form_row("IPOTCN", grid_form%hertz_curvatures, "hertz_curvatures", "around the contact of bodies of these curvatures"), &
+      & form_row("IPOTCN", grid_form%hertz_curvature_ratio, "hertz_curvature_ratio", &
+      & "around the contact of a curvature and a ratio of semi-axes"), &
+      & form_row("IPOTCN", grid_form%hertz_axes, "hertz_axes", "around an ellipse of these semi-axes"), &
+      & form_row("IPOTCN", grid_form%hertz_line_curvature, "hertz_line_curvature", "around a line contact of a curvature"), &
+      & form_row("IPOTCN", grid_form%hertz_line, "hertz_line", "around a line contact of this half length and half width"), &
+      & form_row("IPOTCN", grid_form%half_ellipses, "half_ellipses", "around two half ellipses"), &
+      & form_row("IBASE", distance_form%quadratic, "quadratic", "a quadratic form of x and y"), &
+      & form_row("IBASE", distance_form%profile, "profile", "a circle along x and a profile across"), &
+      & form_row("IBASE", distance_form%quadratic_and_sines, "quadratic_and_sines", &
+      & "a quadratic form and the difference of two sines along x"), &
+      & form_row("IBASE", distance_form%elementwise, "elementwise", "one distance for each element"), &
+      & form_row("IPLAN", planform_choice%unrestricted, "unrestricted", "the whole grid"), &
+      & form_row("IPLAN", planform_choice%quadratic, "quadratic", "where a quadratic form is negative"), &
+      & form_row("IPLAN", planform_choice%two_rectangles, "two_rectangles", "the union of two rectangles"), &
+      & form_row("IPLAN", planform_choice%weighted_rectangles, "weighted_rectangles", &
+      & "rectangles whose pressures act on each other with factors"), &
       & form_row("ISUBS", 5, "all", "all columns and rows, a list of depths"), &
       & form_row("ISUBS", 6, "ranges", "ranges of columns and rows, a list of depths"), &
       & form_row("ISUBS", 7, "lists", "lists of columns and rows, and of depths"), &
@@ -195,18 +201,27 @@ contains
       end do
    end subroutine form_value
 
+   !> Row of such a number in form_table, 0 for none
+   pure integer function row_of_form(name, value) result(row)
+      !> IPOTCN, IBASE, IPLAN or ISUBS
+      character(len=*), intent(in) :: name
+      integer, intent(in) :: value
+
+      do row = 1, size(form_table)
+         if (form_table(row)%name == name .and. form_table(row)%value == value) return
+      end do
+      row = 0
+   end function row_of_form
+
    !> Word of such a number, blank for none
    pure function form_word(name, value) result(word)
       !> IPOTCN, IBASE, IPLAN or ISUBS
       character(len=*), intent(in) :: name
       integer, intent(in) :: value
       character(len=24) :: word
-      integer :: row
 
       word = ""
-      do row = 1, size(form_table)
-         if (form_table(row)%name == name .and. form_table(row)%value == value) word = form_table(row)%word
-      end do
+      if (row_of_form(name, value) > 0) word = form_table(row_of_form(name, value))%word
    end function form_word
 
    !> Meaning of such a number, blank for none
@@ -215,12 +230,9 @@ contains
       character(len=*), intent(in) :: name
       integer, intent(in) :: value
       character(len=64) :: title
-      integer :: row
 
       title = ""
-      do row = 1, size(form_table)
-         if (form_table(row)%name == name .and. form_table(row)%value == value) title = form_table(row)%title
-      end do
+      if (row_of_form(name, value) > 0) title = form_table(row_of_form(name, value))%title
    end function form_title
 
    !> All words of such a number, blank in the rows of others
@@ -245,6 +257,30 @@ contains
       case default; key = ""
       end select
    end function form_key
+
+   !> Key of an item of a line; of "A|B" it is A when the first number of the line is positive
+   pure function key_of_item(items, k) result(key)
+      !> The line
+      type(archive_item), intent(in) :: items(:)
+      !> Place of the item
+      integer, intent(in) :: k
+      character(len=key_length) :: key
+      integer :: bar
+
+      associate (item => items(k))
+         key = form_key(item%name)
+         if (key /= "") return
+         bar = index(item%name, "|")
+         if (bar == 0) then
+            key = small(item%name)
+         else if (items(1)%r > 0.0_wp) then
+            key = small(item%name(:bar - 1))
+         else
+            key = small(item%name(bar + 1:))
+         end if
+      end associate
+      if (key == "rfname" .or. key == "wfname" .or. key == "cfname") key = "file"
+   end function key_of_item
 
    !> A message in the words of the readable format: digits as keys and words, names of numbers in small letters
    !>

@@ -4,11 +4,11 @@
 !> kept group is formed anew where the rest of the case demands it, or as the key `renew` says.
 module contact_input_toml_case
    use contact_base_choices, only : heat_source, motion, slip_source
-   use contact_cases_spec, only : case_spec
+   use contact_cases_spec, only : case_spec, grid_spec
    use contact_cases_whole_case, only : visit_case
    use contact_control_digits, only : case_digits, digit_names, digit_of, digit_table, put_digit, word_length
    use contact_control_translation, only : digits_of, take_digits
-   use contact_control_words, only : choice_words, digit_of_word, is_choice, key_of, key_table, tell_in_words, words_of
+   use contact_control_words, only : choice_words, digit_of_word, form_value, is_choice, key_of, key_table, tell_in_words, words_of
    use contact_input_control, only : check_digits, control_words, refuse_unbuilt_digits
    use contact_input_checks3, only : check_case
    use contact_input_grid_frame, only : frame_of, grid_frame
@@ -225,32 +225,32 @@ contains
       call take_plain_keys(a, module_number, words)
       associate (digits => words%digits)
          if (has_previous) then
-            if (has("iteration")) digits%g = or_kept(digits%g, "G", previous%solver)
-            if (.not. has("iteration")) digits%g = 1
-            if (has("friction")) digits%l = or_kept(digits%l, "L", previous%friction_law)
-            if (.not. has("friction")) digits%l = 1
+            if (a%has_group("iteration")) digits%g = or_kept(digits%g, "G", previous%solver)
+            if (.not. a%has_group("iteration")) digits%g = 1
+            if (a%has_group("friction")) digits%l = or_kept(digits%l, "L", previous%friction_law)
+            if (.not. a%has_group("friction")) digits%l = 1
          end if
-         if (has("damping")) then
+         if (a%has_group("damping")) then
             if (.not. has_key("damping", "model")) digits%m2 = 2
          else if (has_previous) then
             digits%m2 = 1
          end if
-         if (has("heat")) then
+         if (a%has_group("heat")) then
             if (.not. has_key("heat", "model")) digits%h = 3
          else
             digits%h = 0
             if (has_previous .and. previous%has_heat) digits%h = 1
          end if
          if (.not. has_key("", "stresses")) digits%s = merge(1, 0, has_previous .and. previous%has_stress)
-         if (has("stress_output")) digits%s = 2
-         if (has("stress_points")) digits%s = 3
-         if (has("material") .or. has("influence") .or. has("rolling") .or. .not. has_previous) then
+         if (a%has_group("stress_output")) digits%s = 2
+         if (a%has_group("stress_points")) digits%s = 3
+         if (a%has_group("material") .or. a%has_group("influence") .or. a%has_group("rolling") .or. .not. has_previous) then
             digits%c = or_kept(digits%c, "C", previous%kernel)
          else
             digits%c = merge(1, 0, module_number == 1)
             rolls = digits%t >= 2
             rolled = previous%motion >= motion%transient_rolling
-            if (renew(3) .or. (.not. has_renew .and. (has("grid") .or. (rolls .neqv. rolled)))) digits%c = 1
+            if (renew(3) .or. (.not. has_renew .and. (a%has_group("grid") .or. (rolls .neqv. rolled)))) digits%c = 1
          end if
       end associate
       if (module_number == 1) then
@@ -260,13 +260,6 @@ contains
       end if
 
    contains
-
-      !> Does the case give a group?
-      logical function has(group)
-         character(len=*), intent(in) :: group
-
-         has = a%document%child(a%case_node, group) > 0
-      end function has
 
       !> Does the case give a key of a group, or of itself?
       logical function has_key(group, key)
@@ -305,15 +298,14 @@ contains
          digits%d = merge(1, 0, renew(1))
          if (table > 0 .or. .not. has_previous) digits%d = 2
          digits%z = merge(1, 0, renew(2))
-         if (a%document%child(a%case_node, "geometry") > 0) then
+         if (a%has_group("geometry")) then
             digits%z = 2
-         else if (.not. has_previous .or. (table > 0 .and. is_hertzian() .and. .not. renew(2))) then
-            ! a Hertzian grid brings its own geometry
+         else if (.not. has_previous .or. (table > 0 .and. brings_geometry() .and. .not. renew(2))) then
             digits%z = 2
          else if (.not. has_renew .and. digits%d > 0) then
             digits%z = 1
          end if
-         if (a%document%child(a%case_node, "extra_slip") > 0) then
+         if (a%has_group("extra_slip")) then
             digits%e = 9
          else if (a%document%child(a%case_node, "slip_source") == 0) then
             digits%e = 0
@@ -323,15 +315,18 @@ contains
 
    contains
 
-      !> Is the grid made around a contact of Hertz?
-      logical function is_hertzian()
+      !> Does the grid bring its own geometry?
+      logical function brings_geometry()
+         type(grid_spec) :: grid
+         logical :: is_form
          integer :: form
 
-         is_hertzian = previous%grid%form < 0
+         grid%form = previous%grid%form
          form = 0
          if (a%document%nodes(table)%kind == toml_kind%table) form = a%document%child(table, "form")
-         if (form > 0) is_hertzian = index(a%document%text_of(form), "h") == 1
-      end function is_hertzian
+         if (form > 0) call form_value("IPOTCN", a%document%text_of(form), grid%form, is_form)
+         brings_geometry = grid%brings_geometry()
+      end function brings_geometry
    end subroutine take_contact_groups
 
    !> Groups of wheel and rail: each digit stands for several
@@ -343,31 +338,23 @@ contains
       logical :: has_flexibility
 
       associate (digits => words%digits)
-         if (.not. has("search") .and. has_previous) then
+         if (.not. a%has_group("search") .and. has_previous) then
             digits%d = 1
          else if (digits%d < 2 .and. has_previous) then
             digits%d = digit_of("D", previous%wheel_rail%search%location, 1)
          end if
          digits%z = 0
-         if (has("track")) digits%z = 1
-         if (has("deviations") .or. has("springs")) digits%z = merge(3, 2, has("track"))
-         if (has("rail_profile") .or. .not. has_previous) digits%z = 3
-         has_flexibility = has("flexibility")
+         if (a%has_group("track")) digits%z = 1
+         if (a%has_group("deviations") .or. a%has_group("springs")) digits%z = merge(3, 2, a%has_group("track"))
+         if (a%has_group("rail_profile") .or. .not. has_previous) digits%z = 3
+         has_flexibility = a%has_group("flexibility")
          digits%e = 0
-         if (has("position")) digits%e = 1
-         if (has("velocity")) digits%e = 2
+         if (a%has_group("position")) digits%e = 1
+         if (a%has_group("velocity")) digits%e = 2
          if (has_flexibility) digits%e = 4
-         if (has("wheel_dimensions") .or. has("wheel_profile") .or. .not. has_previous) digits%e = merge(5, 3, has_flexibility)
+         if (a%has_group("wheel_dimensions") .or. a%has_group("wheel_profile") .or. .not. has_previous) &
+            & digits%e = merge(5, 3, has_flexibility)
       end associate
-
-   contains
-
-      !> Does the case give a group?
-      logical function has(group)
-         character(len=*), intent(in) :: group
-
-         has = a%document%child(a%case_node, group) > 0
-      end function has
    end subroutine take_wheel_rail_groups
 
    !> The groups that `renew` names

@@ -6,7 +6,7 @@
 module contact_input_toml_reader
    use contact_base_kinds, only : wp
    use contact_cases_archive, only : archive_item, item_kind, shown_length
-   use contact_control_words, only : form_key, form_table, form_value, form_words, key_length, words_of
+   use contact_control_words, only : form_key, form_table, form_value, form_words, key_length, key_of_item, words_of
    use contact_input_problems, only : problem_list, severity
    use contact_input_toml_tables, only : find, is_tables, leaves_of, number_of, sets_of, told, toml_memory, toml_tables
    use contact_input_toml_values, only : check_item, count_values, fill_list, take_number
@@ -173,28 +173,6 @@ contains
       if (self%part_node > 0) self%used(self%part_node) = .true.
    end subroutine enter_number
 
-   !> Key of an item; "A|B" is A when the first number of the line is positive
-   pure function key_of_item(self, k) result(key)
-      class(toml_reader), intent(in) :: self
-      integer, intent(in) :: k
-      character(len=key_length) :: key
-      integer :: bar
-
-      associate (item => self%items(k))
-         key = form_key(item%name)
-         if (key /= "") return
-         bar = index(item%name, "|")
-         if (bar == 0) then
-            key = small(item%name)
-         else if (self%items(1)%r > 0.0_wp) then
-            key = small(item%name(:bar - 1))
-         else
-            key = small(item%name(bar + 1:))
-         end if
-      end associate
-      if (key == "rfname" .or. key == "wfname" .or. key == "cfname") key = "file"
-   end function key_of_item
-
    !> Give the variable of an item its value
    subroutine take_item(self, k)
       class(toml_reader), intent(inout) :: self
@@ -203,7 +181,7 @@ contains
       integer :: node, number
 
       associate (item => self%items(k))
-         key = trim(key_of_item(self, k))
+         key = trim(key_of_item(self%items, k))
          item%given = .true.
          if (item%name == "ISUBS" .and. self%part_node == 0) then
             item%i = 0
@@ -389,7 +367,7 @@ contains
       k = self%place_of(name)
       if (k == 0 .or. .not. self%is_good .or. self%line_is_bad) return
       if (.not. self%items(k)%given) return
-      call check_item(self, self%items(k), trim(key_of_item(self, k)), self%nodes(k), bounds)
+      call check_item(self, self%items(k), trim(key_of_item(self%items, k)), self%nodes(k), bounds)
    end subroutine check_value
 
    !> Node of an item of the last line, 0 for none
@@ -413,7 +391,7 @@ contains
       text = small(name)
       k = self%place_of(name)
       if (k == 0) return
-      text = key_of_item(self, k)
+      text = key_of_item(self%items, k)
       if (self%nodes(k) == 0) return
       associate (node => self%document%nodes(self%nodes(k)))
          if (node%kind == toml_kind%string) then

@@ -44,6 +44,8 @@ module contact_input_toml_tables
       logical :: line_is_bad = .false.
    contains
       procedure :: line_of
+      !> Does the case give a group?
+      procedure :: has_group
       !> A key was asked for
       procedure :: note_key
       !> A problem at a node, or at the case
@@ -66,6 +68,15 @@ contains
          if (self%names(k) == name) node = self%nodes(k)
       end do
    end function recall
+
+   !> Does the case give a group?
+   pure logical function has_group(self, group)
+      class(toml_tables), intent(in) :: self
+      !> Its name
+      character(len=*), intent(in) :: group
+
+      has_group = self%document%child(self%case_node, group) > 0
+   end function has_group
 
    !> Remember the node for a name
    pure subroutine remember(self, name, node)

@@ -3,7 +3,8 @@ module contact_output_case_words
    use contact_base_choices, only : heat_source, is_simplified, motion, slip_source, variation
    use contact_cases_estimate, only : case_cost, cost_text, estimate_cost
    use contact_cases_spec, only : case_spec
-   use contact_control_digits, only : digit_of, digit_text
+   use contact_control_digits, only : case_digits, digit_of, digit_text
+   use contact_control_translation, only : digits_of
    use contact_control_words, only : form_title, tell_in_words
    use contact_text_buffer, only : text_buffer
    use contact_text_words, only : integer_text, real_text
@@ -27,9 +28,13 @@ contains
       type(text_buffer), intent(inout) :: told
       character(len=:), allocatable :: title
       type(case_cost) :: cost
+      type(case_digits) :: digits
 
       title = "two bodies in contact"
-      if (module_number == 1) title = digit("C1", merge(0, 1, spec%wheel_rail%left) + merge(4, 0, spec%wheel_rail%roller))
+      if (module_number == 1) then
+         digits = digits_of(spec)
+         title = digit_text("C1", digits%c1, module_number)
+      end if
       if (reid > 0) title = trim(title) // ", result element " // integer_text(reid)
       call told%add_line("Case " // integer_text(number) // ", line " // integer_text(first_line) // ": " // trim(title))
       if (.not. spec%solve) then
@@ -55,7 +60,7 @@ contains
       else
          call say("Elements: " // integer_text(spec%grid%mx) // " along x, " // integer_text(spec%grid%my) // &
             & " along y; " // trim(form_title("IPOTCN", spec%grid%form)))
-         if (spec%grid%form > 0) call say("Undeformed distance: " // trim(form_title("IBASE", spec%geometry%form)))
+         if (spec%grid%needs_geometry()) call say("Undeformed distance: " // trim(form_title("IBASE", spec%geometry%form)))
          if (spec%slip_source /= slip_source%none .and. spec%motion /= motion%none) &
             & call say("Rigid slip: " // trim(digit("E", spec%slip_source)))
       end if

@@ -205,7 +205,7 @@ contains
             & old%motion >= motion%transient_rolling)) material = part_source%renewed
          geometry = merge(part_source%renewed, part_source%kept, parts%grid /= part_source%kept)
          differs = parts%grid == part_source%renewed .or. (parts%material /= part_source%given .and. parts%material /= material)
-         if (parts%grid == part_source%given .and. spec%grid%form < 0) then
+         if (parts%grid == part_source%given .and. spec%grid%brings_geometry()) then
             differs = differs .or. parts%geometry == part_source%renewed
          else
             differs = differs .or. (parts%geometry /= part_source%given .and. parts%geometry /= geometry)

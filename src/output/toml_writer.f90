@@ -7,8 +7,8 @@ module contact_output_toml_writer
    use contact_base_kinds, only : wp
    use contact_cases_archive, only : archive_item, case_archive, item_kind
    use contact_control_digits, only : case_digits, digit_text, digit_value
-   use contact_control_words, only : form_key, form_table, form_title, form_word, key_length, key_table, tell_in_words, &
-      & word_of_digit
+   use contact_control_words, only : form_key, form_table, form_title, form_word, key_length, key_of_item, key_table, &
+      & tell_in_words, word_of_digit
    use contact_text_bounds, only : bounds_table
    use contact_text_words, only : exact_text, integer_text, small
    use contact_toml_quantities, only : read_quantity
@@ -155,7 +155,7 @@ contains
             call put_pair(self, k, text)
             k = k + 1
          else
-            call self%put(trim(key_of_item(self, k)), text, self%items(k))
+            call self%put(trim(key_of_item(self%items, k)), text, self%items(k))
          end if
       end do
       call self%finish_line()
@@ -199,32 +199,10 @@ contains
       character(len=:), allocatable :: second
       character(len=key_length) :: key
 
-      key = key_of_item(self, k)
+      key = key_of_item(self%items, k)
       call text_of_item(self%items(k + 1), second)
       call self%put(key(:len_trim(key) - 1), "[" // first // ", " // second // "]", self%items(k))
    end subroutine put_pair
-
-   !> Key of an item; of "A|B" the one that the first number of the line calls for
-   pure function key_of_item(self, k) result(key)
-      class(toml_writer), intent(in) :: self
-      integer, intent(in) :: k
-      character(len=key_length) :: key
-      integer :: bar
-
-      associate (item => self%items(k))
-         key = form_key(item%name)
-         if (key /= "") return
-         bar = index(item%name, "|")
-         if (bar == 0) then
-            key = small(item%name)
-         else if (self%items(1)%r > 0.0_wp) then
-            key = small(item%name(:bar - 1))
-         else
-            key = small(item%name(bar + 1:))
-         end if
-      end associate
-      if (key == "rfname" .or. key == "wfname" .or. key == "cfname") key = "file"
-   end function key_of_item
 
    !> Value of an item as TOML
    subroutine text_of_item(item, text)
