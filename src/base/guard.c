@@ -81,7 +81,7 @@ struct guard {
 };
 
 /* Critical sections of OpenMP do not nest deeper in this code */
-enum { most_criticals = 8 };
+enum { max_criticals = 8 };
 
 static _Thread_local __attribute__((tls_model("initial-exec"))) struct {
   struct guard *guard;
@@ -89,7 +89,7 @@ static _Thread_local __attribute__((tls_model("initial-exec"))) struct {
   int owner, expects;
   /* Critical sections that the thread is in */
   int criticals;
-  void **critical[most_criticals];
+  void **critical[max_criticals];
 } guarded_thread;
 #define me guarded_thread
 
@@ -263,7 +263,7 @@ static _Noreturn void leave_all(int cause) {
   struct guard *guard = me.guard;
   while (me.criticals > guard->criticals) {
     me.criticals--;
-    if (me.criticals < most_criticals) real.leave(me.critical[me.criticals]);
+    if (me.criticals < max_criticals) real.leave(me.critical[me.criticals]);
   }
   guard->cause = cause;
   longjmp(guard->place, 1);
@@ -424,7 +424,7 @@ static void own_sections(void (*work)(void *), void *data, unsigned threads, uns
 
 static void own_enter(void **name) {
   real.enter(name);
-  if (me.criticals < most_criticals) me.critical[me.criticals] = name;
+  if (me.criticals < max_criticals) me.critical[me.criticals] = name;
   me.criticals++;
 }
 

@@ -11,7 +11,7 @@ module contact_base_log
    public :: log_type
 
    !> Different warnings of a case that are told apart, and what is compared of them
-   integer, parameter :: most_told = 16, told_length = 160
+   integer, parameter :: max_told = 16, told_length = 160
 
    !> A warning of the present case and how often it came
    type :: told_warning
@@ -33,7 +33,7 @@ module contact_base_log
       integer :: heard = 0
       !> The warnings of the present case, so that each one is written once; 1...told are in use
       integer, private :: told = 0
-      type(told_warning), private :: said(most_told)
+      type(told_warning), private :: said(max_told)
       !> Warnings that wait for `speak`, one a line; allocated while they are held back
       character(len=:), allocatable, private :: held
    contains
@@ -96,7 +96,7 @@ contains
          self%said(k)%times = self%said(k)%times + 1
          return
       end do
-      if (self%told < most_told) then
+      if (self%told < max_told) then
          self%told = self%told + 1
          self%said(self%told)%text = text
          self%said(self%told)%times = 1

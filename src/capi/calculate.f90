@@ -5,11 +5,11 @@ module contact_capi_calculate
    use contact_base_case_status, only : case_status
    use contact_base_kinds, only : wp
    use contact_capi_arguments, only : give, integer_of
-   use contact_capi_calculate1, only : calculate_pair
+   use contact_capi_calculate1, only : calculate_wheel_rail
    use contact_capi_calculate3, only : calculate_contact
    use contact_capi_library, only : entry_type
    use contact_capi_messages, only : complain, first_refusal, forget_complaint, keep_status, say
-   use contact_capi_problem, only : library_problem, most_patches
+   use contact_capi_problem, only : library_problem, max_patches
    use contact_capi_registry, only : enter_calculation, leave_calculation, scope, scope_type, threads_inside
    use contact_control_library_codes, only : code_text, library_code
    implicit none (type, external)
@@ -32,7 +32,7 @@ contains
       integer(c_int), intent(in), optional :: ire
       integer(c_int), intent(inout), optional :: ierror
 
-      call calculate(entry_type("cntc_calculate1", integer_of(ire)), scope%pair, ierror)
+      call calculate(entry_type("cntc_calculate1", integer_of(ire)), scope%wheel_rail, ierror)
    end subroutine cntc_calculate1
 
    !> The same for contact problems only
@@ -72,7 +72,7 @@ contains
             call keep_status(problem, status)
             call complain(this, reason, code)
          else if (problem%module_number == 1) then
-            call calculate_pair(this, problem, code)
+            call calculate_wheel_rail(this, problem, code)
          else
             call calculate_contact(this, problem, code)
          end if
@@ -92,13 +92,13 @@ contains
       type(library_problem), intent(inout) :: problem
       !> Processor and elapsed time of the calculation [s]
       real(wp), intent(in) :: cpu, wall
-      real(wp) :: share(most_patches)
+      real(wp) :: share(max_patches)
       integer :: k, n
 
-      n = min(most_patches, size(problem%pair_result%patches))
+      n = min(max_patches, size(problem%wheel_rail_result%patches))
       if (n == 0) return
       do k = 1, n
-         share(k) = real(problem%pair_result%patches(k)%contact%grid%npot(), wp)
+         share(k) = real(problem%wheel_rail_result%patches(k)%contact%grid%npot(), wp)
       end do
       share(:n) = share(:n)/max(1.0_wp, sum(share(:n)))
       problem%patch_cpu(:n) = problem%patch_cpu(:n) + share(:n)*cpu

@@ -7,29 +7,29 @@ module contact_capi_calculate1
    use contact_base_log, only : log_type
    use contact_capi_calculate3, only : first_problem
    use contact_capi_files, only : find_result_file, find_working_folder
-   use contact_capi_input_dump, only : dump_pair_case
+   use contact_capi_input_dump, only : dump_wheel_rail_case
    use contact_capi_library, only : entry_type
    use contact_capi_messages, only : complain, keep_status, library_log, say
-   use contact_capi_problem, only : library_problem, most_patches
-   use contact_cases_pair_session, only : solve_pair_case
+   use contact_capi_problem, only : library_problem, max_patches
+   use contact_cases_wheel_rail_session, only : solve_wheel_rail_case
    use contact_cases_spec, only : case_spec
    use contact_control_digits, only : case_digits, digit_names, digit_value, is_known
-   use contact_control_library_codes, only : code_of_pair, library_code
+   use contact_control_library_codes, only : code_of_wheel_rail, library_code
    use contact_control_translation, only : take_digits
    use contact_input_control, only : check_physics, control_words, refuse_unbuilt_digits
    use contact_input_problems, only : problem_list
-   use contact_output_pair_files, only : write_pair_files
-   use contact_output_report_pair, only : write_pair
+   use contact_output_wheel_rail_files, only : write_wheel_rail_files
+   use contact_output_report_wheel_rail, only : write_wheel_rail
    use contact_text_words, only : integer_text, real_text
    implicit none (type, external)
    private
 
-   public :: calculate_pair
+   public :: calculate_wheel_rail
 
 contains
 
    !> One case
-   subroutine calculate_pair(this, problem, code)
+   subroutine calculate_wheel_rail(this, problem, code)
       type(entry_type), intent(in) :: this
       type(library_problem), intent(inout) :: problem
       !> Member of library_code
@@ -48,9 +48,10 @@ contains
          call write_case_line(log, problem)
          code = library_code%other
          call check_settings(digits, problem%spec, error)
-         if (.not. allocated(error)) call dump_pair_case(this, problem)
+         if (.not. allocated(error)) call dump_wheel_rail_case(this, problem)
          call find_working_folder(folder)
-         if (.not. allocated(error)) call solve_pair_case(problem%pair, problem%spec, folder, log, problem%pair_result, error)
+         if (.not. allocated(error)) call solve_wheel_rail_case(problem%wheel_rail, problem%spec, folder, log, &
+            & problem%wheel_rail_result, error)
       end if
       if (allocated(error)) then
          call status%refuse(full_text(error))
@@ -62,16 +63,16 @@ contains
       problem%has_result = .true.
       call keep_solution(problem)
       if (problem%spec%solve) then
-         status = problem%pair_result%status
+         status = problem%wheel_rail_result%status
          if (.not. status%is_solved()) then
-            code = code_of_pair(status, size(problem%pair_result%patches))
+            code = code_of_wheel_rail(status, size(problem%wheel_rail_result%patches))
             call complain(this, status%reason, code)
          end if
          call write_results(this, problem, log)
       end if
       call keep_status(problem, status)
       call report_patches(this, problem)
-   end subroutine calculate_pair
+   end subroutine calculate_wheel_rail
 
    !> Profiles, friction and discretisation must be there and fit
    subroutine check_data(problem, code, error)
@@ -92,7 +93,7 @@ contains
          call fatal_error(error, "there are no friction data")
       else if (is_transient(problem) .and. problem%has_result) then
          code = library_code%discretisation
-         associate (new => problem%spec%wheel_rail%search, old => problem%pair%problem%spec%search)
+         associate (new => problem%spec%wheel_rail%search, old => problem%wheel_rail%problem%spec%search)
             if (abs(new%dx - old%dx) > 1.0e-4_wp*old%dx .or. abs(new%ds - old%ds) > 1.0e-4_wp*old%ds) &
                & call fatal_error(error, "the elements changed in size, but the previous case is continued")
          end associate
@@ -105,7 +106,7 @@ contains
 
       is_transient = .false.
       if (problem%digits%t /= motion%shift .and. problem%digits%t /= motion%transient_rolling) return
-      is_transient = size(problem%pair_result%patches) > 0
+      is_transient = size(problem%wheel_rail_result%patches) > 0
    end function is_transient
 
    !> From digits to choices; a first case has nothing to continue
@@ -189,8 +190,8 @@ contains
    subroutine keep_solution(problem)
       type(library_problem), intent(inout) :: problem
 
-      problem%spec%wheel_rail%wheelset%z = problem%pair_result%z_ws
-      problem%spec%wheel_rail%wheelset%vpitch = problem%pair_result%vpitch
+      problem%spec%wheel_rail%wheelset%z = problem%wheel_rail_result%z_ws
+      problem%spec%wheel_rail%wheelset%vpitch = problem%wheel_rail_result%vpitch
    end subroutine keep_solution
 
    !> Printed output and the files with all elements
@@ -202,10 +203,10 @@ contains
       character(len=:), allocatable :: path
 
       !$omp critical (contact_printing)
-      call write_pair(log, problem%spec, problem%pair_result)
+      call write_wheel_rail(log, problem%spec, problem%wheel_rail_result)
       !$omp end critical (contact_printing)
       call find_result_file("caddon", path)
-      call write_pair_files(path, problem%cases, problem%ire, problem%spec, problem%pair_result, error, &
+      call write_wheel_rail_files(path, problem%cases, problem%ire, problem%spec, problem%wheel_rail_result, error, &
          & problem%metadata%time)
       if (allocated(error)) call complain(this, full_text(error))
    end subroutine write_results
@@ -215,9 +216,9 @@ contains
       type(entry_type), intent(in) :: this
       type(library_problem), intent(in) :: problem
 
-      associate (patches => problem%pair_result%patches)
+      associate (patches => problem%wheel_rail_result%patches)
          if (size(patches) == 0) call say(1, this, "wheel and rail do not touch")
-         if (size(patches) > most_patches) call say(0, this, "more than " // integer_text(most_patches) // &
+         if (size(patches) > max_patches) call say(0, this, "more than " // integer_text(max_patches) // &
             & " contact patches, the last ones cannot be asked for")
       end associate
    end subroutine report_patches

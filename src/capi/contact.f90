@@ -22,7 +22,7 @@ module contact_capi_contact
    public :: cntc_setcreepages, cntc_setextrarigidslip, cntc_setreferencevelocity
 
    !> Smallest velocity: a body that stands still counts as such [mm/s]
-   real(wp), parameter :: least_velocity = 1.0e-9_wp
+   real(wp), parameter :: min_velocity = 1.0e-9_wp
    !> What both routines for the potential contact set
    character(len=*), parameter :: potential_contact = "potential contact"
 
@@ -285,7 +285,7 @@ contains
       call enter(this, scope%contact, problem)
       if (.not. associated(problem)) return
       ! as the published interface has it, a velocity without sign
-      value = raised(abs(real_of(veloc))*inward(problem%units, quantity%velocity), least_velocity)
+      value = raised(abs(real_of(veloc))*inward(problem%units, quantity%velocity), min_velocity)
       if (fits(this, "VELOC", [value])) problem%spec%rolling%veloc = value
       call leave(problem)
    end subroutine cntc_setreferencevelocity

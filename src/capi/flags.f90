@@ -14,7 +14,7 @@ module contact_capi_flags
    use contact_control_flags, only : accepted_value, flag, flag_table, highest_of, row_of_flag
    use contact_control_units, only : convention_code, find_convention, inward, quantity
    use contact_patch_border, only : border_code
-   use contact_patch_resolution, only : least_across
+   use contact_patch_resolution, only : min_across
    use contact_patch_result, only : patch_result
    use contact_text_words, only : columns_of, integer_text
    implicit none (type, external)
@@ -128,18 +128,18 @@ contains
       type(entry_type), intent(in) :: this
       integer, intent(in) :: code, number
       type(library_problem), intent(inout) :: problem
-      logical :: known, is_pair
+      logical :: known, is_wheel_rail
 
-      is_pair = problem%module_number == 1
+      is_wheel_rail = problem%module_number == 1
       associate (spec => problem%spec)
          select case (code)
          case (flag%units)
             call find_convention(number, problem%units, known)
             if (number == convention_code%imperial) call complain(this, "imperial units are not available; give another convention")
          case (flag%config)
-            if (is_pair) problem%digits%c1 = number
+            if (is_wheel_rail) problem%digits%c1 = number
          case (flag%discns)
-            if (.not. is_pair) then
+            if (.not. is_wheel_rail) then
                call say(1, this, "the way to locate the contact belongs to wheel and rail, the flag is ignored")
             else
                problem%digits%d = number
@@ -149,13 +149,13 @@ contains
             problem%digits%c = number
             if (number >= 2) spec%kernel = choice_of("C", number, problem%module_number)
          case (flag%exrhs)
-            if (.not. is_pair) then
+            if (.not. is_wheel_rail) then
                problem%digits%e = number
             else if (number /= 0) then
                call complain(this, "an extra term in the rigid slip is not available for wheel and rail; nothing is stored")
             end if
          case (flag%force)
-            if (is_pair .and. number == 2) then
+            if (is_wheel_rail .and. number == 2) then
                call complain(this, "a prescribed pitching moment, F = 2, is not available; nothing is stored. 0, 1 and 3 are")
             else
                problem%digits%f = number
@@ -172,13 +172,14 @@ contains
             spec%subsurface%matfil = number
          case (flag%npomax)
             spec%iteration%npot_max = number
-            if (.not. is_pair) call say(0, this, "the number of elements is limited for wheel and rail only, the flag is ignored")
+            if (.not. is_wheel_rail) call say(0, this, &
+               & "the number of elements is limited for wheel and rail only, the flag is ignored")
          case (flag%wrtinp)
             problem%write_input = number
          case (flag%own_heat)
             spec%heat%source = number
          case (flag%own_angle)
-            if (is_pair) spec%wheel_rail%search%angle_below_axle = number == 0
+            if (is_wheel_rail) spec%wheel_rail%search%angle_below_axle = number == 0
          case (flag%timers)
             call set_timer_level(number)
          case (flag%ncase)
@@ -231,11 +232,11 @@ contains
    integer function flag_value(problem, icp, code) result(number)
       type(library_problem), intent(in) :: problem
       integer, intent(in) :: icp, code
-      logical :: is_pair, is_part
+      logical :: is_wheel_rail, is_part
       integer :: other(2)
 
-      is_pair = problem%module_number == 1
-      is_part = is_pair .and. icp > 0
+      is_wheel_rail = problem%module_number == 1
+      is_part = is_wheel_rail .and. icp > 0
       associate (spec => problem%spec)
          select case (code)
          case (flag%sens); number = spec%iteration%sensitivity
@@ -243,13 +244,13 @@ contains
          case (flag%ifvari); number = spec%material%variant
          case (flag%sbsout); number = spec%subsurface%output
          case (flag%sbsfil); number = spec%subsurface%matfil
-         case (flag%npomax); number = merge(spec%iteration%npot_max, 0, is_pair)
+         case (flag%npomax); number = merge(spec%iteration%npot_max, 0, is_wheel_rail)
          case (flag%wrtinp); number = problem%write_input
          case (flag%ncase); number = problem%cases
          case (flag%own_heat); number = spec%heat%source
          case (flag%own_angle)
             number = 0
-            if (is_pair) number = merge(0, 1, spec%wheel_rail%search%angle_below_axle)
+            if (is_wheel_rail) number = merge(0, 1, spec%wheel_rail%search%angle_below_axle)
          case (flag%own_border); call look_at_patches(problem, icp, number, other(1), other(2))
          case (flag%own_stepped); call look_at_patches(problem, icp, other(1), number, other(2))
          case (flag%own_across); call look_at_patches(problem, icp, other(1), other(2), number)
@@ -260,7 +261,7 @@ contains
          ! the solution of the wheel's previous height
          select case (code)
          case (flag%norm, flag%force, flag%output); number = 0
-         case (flag%iestim); if (problem%pair_result%force_evaluations > 1) number = 1
+         case (flag%iestim); if (problem%wheel_rail_result%force_evaluations > 1) number = 1
          case (flag%tang); if (problem%digits%r >= 2) number = 0
          end select
       end associate
@@ -286,15 +287,15 @@ contains
          call add(problem%result, .false.)
          return
       end if
-      do k = 1, size(problem%pair_result%patches)
-         if (icp <= 0 .or. icp == k) call add(problem%pair_result%patches(k)%contact, problem%spec%wheel_rail%left)
+      do k = 1, size(problem%wheel_rail_result%patches)
+         if (icp <= 0 .or. icp == k) call add(problem%wheel_rail_result%patches(k)%contact, problem%spec%wheel_rail%left)
       end do
       if (icp > 0) return
       ! ends belong to no patch
-      do k = 1, size(problem%pair_result%buried)
-         if (problem%pair_result%buried(k)%depth > 0.0_wp) border = ibset(border, first_buried + k - 1)
+      do k = 1, size(problem%wheel_rail_result%buried)
+         if (problem%wheel_rail_result%buried(k)%depth > 0.0_wp) border = ibset(border, first_buried + k - 1)
       end do
-      if (problem%pair_result%beside%depth > 0.0_wp) border = ibset(border, first_buried + 2)
+      if (problem%wheel_rail_result%beside%depth > 0.0_wp) border = ibset(border, first_buried + 2)
 
    contains
 
@@ -304,7 +305,7 @@ contains
          logical, intent(in) :: left
          integer :: narrowest
 
-         narrowest = least_across(contact%division)
+         narrowest = min_across(contact%division)
          if (across == 0 .or. (narrowest > 0 .and. narrowest < across)) across = narrowest
          border = ior(border, border_code(contact%border, left))
          if (allocated(contact%subsurface)) stepped = stepped + sum(contact%subsurface%stepped)

@@ -12,7 +12,7 @@ module contact_capi_input_dump
    implicit none (type, external)
    private
 
-   public :: dump_contact_case, dump_pair_case
+   public :: dump_contact_case, dump_wheel_rail_case
 
    !> The amount: digits as given, complete cases
    integer, parameter :: as_given = 1, complete = 2
@@ -38,7 +38,7 @@ contains
    end subroutine dump_contact_case
 
    !> Wheel on rail, before it is solved
-   subroutine dump_pair_case(this, problem)
+   subroutine dump_wheel_rail_case(this, problem)
       type(entry_type), intent(in) :: this
       type(library_problem), intent(inout) :: problem
       type(case_spec) :: written
@@ -77,7 +77,7 @@ contains
       call library%input_dump%line("")
       !$omp end critical (contact_printing)
       ignored = dumps_input()
-   end subroutine dump_pair_case
+   end subroutine dump_wheel_rail_case
 
    !> The name of a profile for the input file; one that was given by values gets a file, once
    subroutine name_profile(this, number, body, profile, given)

@@ -42,7 +42,7 @@ contains
       integer :: code
 
       this = entry_type("cntc_readInpFile", integer_of(ire))
-      call enter(this, scope%pair, problem, code)
+      call enter(this, scope%wheel_rail, problem, code)
       if (associated(problem)) then
          file = trim(path_of(c_fname, len_fname))
          if (len(file) == 0) then
@@ -178,15 +178,15 @@ contains
       associate (pair => problem%spec%wheel_rail)
          if (digits%z == 3) then
             call place_beside(file, pair%rail_profile)
-            call problem%pair%profiles%forget(profile_side%rail)
-            call read_given_profile(this, problem%pair%profiles, pair%rail_profile, profile_side%rail, problem%rail)
+            call problem%wheel_rail%profiles%forget(profile_side%rail)
+            call read_given_profile(this, problem%wheel_rail%profiles, pair%rail_profile, profile_side%rail, problem%rail)
          else
             pair%rail_profile = rail
          end if
          if (digits%e == 3 .or. digits%e == 5) then
             call place_beside(file, pair%wheel_profile)
-            call problem%pair%profiles%forget(profile_side%wheel)
-            call read_given_profile(this, problem%pair%profiles, pair%wheel_profile, profile_side%wheel, problem%wheel)
+            call problem%wheel_rail%profiles%forget(profile_side%wheel)
+            call read_given_profile(this, problem%wheel_rail%profiles, pair%wheel_profile, profile_side%wheel, problem%wheel)
          else
             pair%wheel_profile = wheel
          end if

@@ -5,14 +5,14 @@
 module contact_capi_library
    use contact_base_log, only : log_type
    use contact_base_output_file, only : output_file
-   use contact_capi_problem, only : library_problem, most_patches
+   use contact_capi_problem, only : library_problem, max_patches
    use contact_experiment_stopwatch, only : stopwatch
    implicit none (type, external)
    private
 
    public :: library, entry_type, element_slot, problem_pointer, existing_problem
 
-   integer, parameter, public :: most_elements = 999
+   integer, parameter, public :: max_elements = 999
    !> Phases of the library
    integer, parameter, public :: virgin = -3, units_given = -2, finalised = -1, running = 1
 
@@ -34,15 +34,15 @@ module contact_capi_library
    !> A result element; in module 1 its one problem is the first
    type :: element_slot
       integer :: module_number = 0
-      type(problem_pointer) :: patch(most_patches)
+      type(problem_pointer) :: patch(max_patches)
    end type element_slot
 
    type :: library_state
       integer :: phase = virgin
-      type(element_slot) :: elements(most_elements)
+      type(element_slot) :: elements(max_elements)
       integer :: active_elements = 0
       !> Largest number of threads seen, threads inside a problem
-      integer :: most_threads = 1, threads = 1
+      integer :: max_threads = 1, threads = 1
       !> Amount of messages about calls; timer table 0 none, 1 overview, 2 everything
       integer :: debugging = 0, timer_level = 1
       type(log_type) :: log
@@ -67,10 +67,10 @@ contains
       integer :: k
 
       nullify(problem)
-      if (ire < 1 .or. ire > most_elements) return
+      if (ire < 1 .or. ire > max_elements) return
       k = 1
       if (library%elements(ire)%module_number == 3) k = icp
-      if (k < 1 .or. k > most_patches) return
+      if (k < 1 .or. k > max_patches) return
       problem => library%elements(ire)%patch(k)%p
    end function existing_problem
 end module contact_capi_library

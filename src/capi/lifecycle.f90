@@ -8,7 +8,7 @@ module contact_capi_lifecycle
    use contact_capi_arguments, only : give, give_message, integer_of, integers_of, path_of
    use contact_capi_library, only : entry_type
    use contact_capi_messages, only : complain, last_complaint, last_status, say, set_debugging
-   use contact_capi_registry, only : is_running, most_threads, record_units, register_element, remove_element, set_threads, &
+   use contact_capi_registry, only : is_running, max_threads, record_units, register_element, remove_element, set_threads, &
       & start_library, stop_library
    use contact_control_flags, only : flag
    use contact_control_library_codes, only : code_text, interface_version, library_code
@@ -124,7 +124,7 @@ contains
    subroutine cntc_getmaxnumthreads(mxthrd) bind(c, name="inside_cntc_getmaxnumthreads")
       integer(c_int), intent(inout), optional :: mxthrd
 
-      call give(most_threads(), mxthrd)
+      call give(max_threads(), mxthrd)
    end subroutine cntc_getmaxnumthreads
 
    !> Free a result element; the last one ends the run

@@ -8,7 +8,7 @@ module contact_capi_physics
    use contact_capi_messages, only : complain, count_fits, fits, say
    use contact_capi_problem, only : library_problem
    use contact_capi_registry, only : enter, leave, scope
-   use contact_capi_setter, only : least_value, new_setter, setter
+   use contact_capi_setter, only : min_value, new_setter, setter
    use contact_cases_inputs, only : visit_damping, visit_elastic, visit_friction_memory, visit_friction_set, visit_heat, &
       & visit_iteration, visit_material_model, visit_sheet
    use contact_cases_spec, only : case_spec, damping_spec, friction_set, friction_spec, heat_spec, iteration_spec, material_spec
@@ -333,7 +333,7 @@ contains
          if (.not. a%is_good) return
          associate (set => friction%sets(k))
             if (law == friction_model%temperature) then
-               set%dfheat = max(least_value("FREF") - set%fref, set%dfheat)
+               set%dfheat = max(min_value("FREF") - set%fref, set%dfheat)
                set%fkin = set%fref + set%dfheat
             end if
             if (k == 1) cycle
@@ -371,7 +371,7 @@ contains
          if (.not. a%is_good) return
          set%fkin = ratio*set%fstat
          set%coef1 = set%fstat - set%fkin
-         set%sabsh1 = max(least_value("SABSH1"), log(2.0_wp)/max(tiny(1.0_wp), decay))
+         set%sabsh1 = max(min_value("SABSH1"), log(2.0_wp)/max(tiny(1.0_wp), decay))
          friction%memdst = 0.001_wp
          friction%mem_s0 = 10.0_wp
       end associate

@@ -11,7 +11,7 @@ module contact_capi_problem
    use contact_base_constants, only : pi
    use contact_base_guard, only : free_left_blocks, new_owner
    use contact_base_kinds, only : wp
-   use contact_cases_slot, only : open_contact, open_pair, problem_slot, release_slot
+   use contact_cases_slot, only : open_contact, open_wheel_rail, problem_slot, release_slot
    use contact_cases_spec, only : case_spec, friction_set
    use contact_control_digits, only : case_digits
    use contact_control_units, only : unit_convention
@@ -25,10 +25,10 @@ module contact_capi_problem
    private
 
    public :: library_problem, given_profile, refused_setting, new_problem, release_problem, abandon_results, abandon_problem, &
-      & most_patches
+      & max_patches
 
    !> Patches that can be addressed
-   integer, parameter :: most_patches = 9
+   integer, parameter :: max_patches = 9
 
    !> Subsurface points of one patch of module 1; unallocated: those of the result element
    type :: private_blocks
@@ -83,13 +83,13 @@ module contact_capi_problem
       integer :: cases = 0
       logical :: has_result = .false.
       !> Subsurface points private to patches of module 1
-      type(private_blocks) :: blocks(most_patches)
+      type(private_blocks) :: blocks(max_patches)
       type(case_metadata) :: metadata
       !> Write input files of the cases: 0 no, 1 digits as given, 2 complete cases
       integer :: write_input = 0
       !> Calculations since the last reset; per patch in module 1
       type(stopwatch) :: watch
-      real(wp) :: patch_cpu(most_patches) = 0.0_wp, patch_wall(most_patches) = 0.0_wp
+      real(wp) :: patch_cpu(max_patches) = 0.0_wp, patch_wall(max_patches) = 0.0_wp
       !> Calculations in total and stresses below the surface, for the timer table
       type(stopwatch) :: total, stresses
       !> What went wrong last; unallocated when nothing did. Its code is a member of library_code
@@ -132,9 +132,9 @@ contains
       call omp_init_lock(problem%lock)
       call set_common_defaults(problem%digits, problem%spec)
       if (module_number == 1) then
-         call set_pair_defaults(problem%digits, problem%spec)
-         call open_pair(problem%problem_slot)
-         allocate(problem%pair_result%patches(0))
+         call set_wheel_rail_defaults(problem%digits, problem%spec)
+         call open_wheel_rail(problem%problem_slot)
+         allocate(problem%wheel_rail_result%patches(0))
       else
          call set_contact_defaults(problem%spec)
          call open_contact(problem%problem_slot)
@@ -163,8 +163,8 @@ contains
       problem%coefficients = grid_frame()
       problem%has_result = .false.
       if (problem%module_number == 1) then
-         call open_pair(problem%problem_slot)
-         allocate(problem%pair_result%patches(0))
+         call open_wheel_rail(problem%problem_slot)
+         allocate(problem%wheel_rail_result%patches(0))
       else
          call open_contact(problem%problem_slot)
       end if
@@ -238,7 +238,7 @@ contains
    end subroutine set_contact_defaults
 
    !> Defaults of module 1
-   subroutine set_pair_defaults(digits, spec)
+   subroutine set_wheel_rail_defaults(digits, spec)
       type(case_digits), intent(inout) :: digits
       type(case_spec), intent(inout) :: spec
 
@@ -248,5 +248,5 @@ contains
       spec%wheel_rail%track%nomradr = 0.0_wp
       spec%wheel_rail%wheelset%vs = 30000.0_wp
       spec%wheel_rail%rail_profile%zigzag = 150.0_wp*pi/180.0_wp
-   end subroutine set_pair_defaults
+   end subroutine set_wheel_rail_defaults
 end module contact_capi_problem

@@ -10,7 +10,7 @@ module contact_capi_profile_values
    use contact_capi_messages, only : complain, say
    use contact_capi_problem, only : given_profile, library_problem
    use contact_capi_registry, only : enter, leave, scope
-   use contact_cases_pair_session, only : load_profile
+   use contact_cases_wheel_rail_session, only : load_profile
    use contact_control_library_codes, only : library_code
    use contact_control_units, only : orientation, outward, quantity
    use contact_output_finished_file, only : finished_file
@@ -45,8 +45,8 @@ module contact_capi_profile_values
    end type sampling
 
    !> Smallest even step [mm]
-   real(wp), parameter :: least_step = 1.0e-4_wp
-   integer, parameter :: most_parts = 100
+   real(wp), parameter :: min_step = 1.0e-4_wp
+   integer, parameter :: max_parts = 100
    !> Stands for points that are not there [mm]
    real(wp), parameter :: no_point_along = 99.0e9_wp, no_point = 999.0_wp
    !> The file of a surface
@@ -78,7 +78,7 @@ contains
       logical :: is_wheel
 
       this = entry_type("cntc_getProfileValues", integer_of(ire))
-      call enter(this, scope%pair, problem)
+      call enter(this, scope%wheel_rail, problem)
       if (.not. associated(problem)) return
       ints = integers_of(nints, iparam)
       is_wheel = .false.
@@ -100,10 +100,10 @@ contains
       real(wp), intent(in) :: reals(:)
       type(sampling), intent(out) :: sample
 
-      if (size(ints) >= 2) sample%method = max(-1, min(most_parts, ints(2)))
+      if (size(ints) >= 2) sample%method = max(-1, min(max_parts, ints(2)))
       if (wanted >= task%along_u) sample%method = 1
       if (size(reals) >= 1) sample%step = reals(1)
-      if (sample%method == 1 .and. .not. sample%step >= least_step) then
+      if (sample%method == 1 .and. .not. sample%step >= min_step) then
          call complain(this, "the step of an even sampling is too small, the points of the spline are taken")
          sample%method = 0
       end if
@@ -199,7 +199,7 @@ contains
          plain%smoothing_method = 0
          plain%smoothing = 0.0_wp
          call find_working_folder(folder)
-         call load_profile(problem%pair%profiles, plain, merge(profile_side%wheel, profile_side%rail, is_wheel), &
+         call load_profile(problem%wheel_rail%profiles, plain, merge(profile_side%wheel, profile_side%rail, is_wheel), &
             & folder, points%curve, points%surface, log, error)
          curve = given%curve
          if (.not. allocated(error)) curve = points%curve
@@ -244,7 +244,7 @@ contains
       integer :: i
 
       side = merge(-1.0_wp, 1.0_wp, problem%spec%wheel_rail%left)
-      associate (result => problem%pair_result)
+      associate (result => problem%wheel_rail_result)
          if (is_wheel) then
             body = new_frame([result%wheel_x, result%wheel_y, result%wheel_z], result%wheel_roll, result%wheel_yaw)
          else
@@ -273,7 +273,7 @@ contains
          s_at_height = first_crossing(canted, top_z + max(track%gaught, 0.0_wp))
          side = merge(-1.0_wp, 1.0_wp, problem%spec%wheel_rail%left)
          list(1:2) = [gauge_y, height_at(canted, s_at_height, gauge_y)]
-         list(3:4) = [side*problem%pair_result%rail_y, problem%pair_result%rail_z]
+         list(3:4) = [side*problem%wheel_rail_result%rail_y, problem%wheel_rail_result%rail_z]
          list(5:6) = [canted%y%value(s_at_height), canted%z%value(s_at_height)]
       end associate
       list = list*outward(problem%units, quantity%length)

@@ -14,7 +14,7 @@ module contact_capi_profiles
    use contact_capi_messages, only : complain, fits, library_log
    use contact_capi_problem, only : library_problem, given_profile
    use contact_capi_registry, only : enter, leave, scope
-   use contact_cases_pair_session, only : load_profile
+   use contact_cases_wheel_rail_session, only : load_profile
    use contact_control_library_codes, only : library_code
    use contact_control_units, only : inward, quantity
    use contact_profile_request, only : profile_side
@@ -32,7 +32,7 @@ module contact_capi_profiles
    !> What a profile of a rail and of a wheel replaces
    character(len=*), parameter :: profile_groups(0:1) = [character(len=20) :: "profile of the rail", "profile of the wheel"]
    !> Smallest turning angle that makes a zig-zag [rad]
-   real(wp), parameter :: least_zigzag = 0.25_wp*pi
+   real(wp), parameter :: min_zigzag = 0.25_wp*pi
 
 contains
 
@@ -50,7 +50,7 @@ contains
       integer :: kind
 
       this = entry_type("cntc_setProfileInputFname", integer_of(ire))
-      call enter(this, scope%pair, problem)
+      call enter(this, scope%wheel_rail, problem)
       if (.not. associated(problem)) return
       ints = integers_of(nints, iparam)
       reals = reals_of(nreals, rparam)
@@ -81,7 +81,7 @@ contains
       integer :: n, kind
 
       this = entry_type("cntc_setProfileInputValues", integer_of(ire))
-      call enter(this, scope%pair, problem)
+      call enter(this, scope%wheel_rail, problem)
       if (.not. associated(problem)) return
       ints = integers_of(nints, iparam)
       reals = reals_of(nreals, rparam)
@@ -137,7 +137,7 @@ contains
       end if
       if (size(reals) >= 2) profile%smoothing = max(0.0_wp, reals(2))
       if (size(reals) >= 3) profile%largest_omission = max(0.0_wp, min(1.0_wp, reals(3)))
-      if (size(reals) >= 4) profile%zigzag = max(least_zigzag, reals(4))
+      if (size(reals) >= 4) profile%zigzag = max(min_zigzag, reals(4))
       if (size(reals) >= 5) profile%kink_high = reals(5)
       profile%kink_low = 0.2_wp*profile%kink_high
       if (size(reals) >= 6) profile%kink_low = reals(6)
@@ -153,12 +153,12 @@ contains
 
       if (is_wheel) then
          problem%spec%wheel_rail%wheel_profile = profile
-         call problem%pair%profiles%forget(profile_side%wheel)
-         call read_given_profile(this, problem%pair%profiles, profile, profile_side%wheel, problem%wheel)
+         call problem%wheel_rail%profiles%forget(profile_side%wheel)
+         call read_given_profile(this, problem%wheel_rail%profiles, profile, profile_side%wheel, problem%wheel)
       else
          problem%spec%wheel_rail%rail_profile = profile
-         call problem%pair%profiles%forget(profile_side%rail)
-         call read_given_profile(this, problem%pair%profiles, profile, profile_side%rail, problem%rail)
+         call problem%wheel_rail%profiles%forget(profile_side%rail)
+         call read_given_profile(this, problem%wheel_rail%profiles, profile, profile_side%rail, problem%rail)
       end if
    end subroutine store_profile
 

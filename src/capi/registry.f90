@@ -10,9 +10,9 @@ module contact_capi_registry
    use contact_base_output_file, only : output_file
    use contact_capi_files, only : place_result, set_folders
    use contact_capi_host, only : begin_turn, call_stage, end_turn, give_floats_back, hold_floats, is_forked, note_call
-   use contact_capi_library, only : element_slot, entry_type, finalised, library, most_elements, running, units_given, virgin
+   use contact_capi_library, only : element_slot, entry_type, finalised, library, max_elements, running, units_given, virgin
    use contact_capi_messages, only : begin_setting, complain, end_setting, set_last_error
-   use contact_capi_problem, only : library_problem, most_patches, new_problem, release_problem
+   use contact_capi_problem, only : library_problem, max_patches, new_problem, release_problem
    use contact_capi_timers, only : book_times, write_timers
    use contact_control_library_codes, only : code_text, library_code
    use contact_experiment_stopwatch, only : stopwatch
@@ -23,15 +23,15 @@ module contact_capi_registry
    public :: scope_type, scope, enter, enter_calculation, leave, leave_calculation
    public :: forget_call, is_setting
    public :: start_library, stop_library, is_running, register_element, remove_element, record_units
-   public :: set_threads, threads_inside, most_threads
+   public :: set_threads, threads_inside, max_threads
 
    !> Result elements at a time
-   integer, parameter :: most_active = 100
+   integer, parameter :: max_active = 100
 
    !> Which result elements and patches a routine accepts
    type :: scope_type
       !> Modules
-      logical :: pair = .true., contact = .true.
+      logical :: wheel_rail = .true., contact = .true.
       !> In module 1: wheel and rail as a whole, one patch
       logical :: whole = .true., patch = .true.
    end type scope_type
@@ -43,11 +43,11 @@ module contact_capi_registry
       type(scope_type) :: one_patch = scope_type(whole=.false.)
       type(scope_type) :: any = scope_type()
       !> Module 1 only: as a whole, one patch, both
-      type(scope_type) :: pair = scope_type(contact=.false., patch=.false.)
-      type(scope_type) :: pair_patch = scope_type(contact=.false., whole=.false.)
-      type(scope_type) :: pair_any = scope_type(contact=.false.)
+      type(scope_type) :: wheel_rail = scope_type(contact=.false., patch=.false.)
+      type(scope_type) :: wheel_rail_patch = scope_type(contact=.false., whole=.false.)
+      type(scope_type) :: wheel_rail_any = scope_type(contact=.false.)
       !> Module 3 only
-      type(scope_type) :: contact = scope_type(pair=.false.)
+      type(scope_type) :: contact = scope_type(wheel_rail=.false.)
    end type scope_list
    !> Names of scopes
    type(scope_list), parameter :: scope = scope_list()
@@ -102,10 +102,10 @@ contains
       library%phase = running
       library%input_dump = output_file()
       library%dump_was_tried = .false.
-      library%most_threads = max(1, min(999, omp_get_max_threads()))
+      library%max_threads = max(1, min(999, omp_get_max_threads()))
       library%threads = 1
       library%total = stopwatch()
-      do k = 1, most_elements
+      do k = 1, max_elements
          library%elements(k)%patch%timed_module = 0
          library%elements(k)%patch%total = stopwatch()
          library%elements(k)%patch%stresses = stopwatch()
@@ -124,7 +124,7 @@ contains
 
       !$omp critical (contact_registry)
       was_active = .false.
-      if (ire < 1 .or. ire > most_elements) then
+      if (ire < 1 .or. ire > max_elements) then
          code = library_code%bad_element
       else
          was_active = library%elements(ire)%module_number /= 0
@@ -141,7 +141,7 @@ contains
       code = library_code%success
       if (library%phase /= running) call begin_run("", "", "", .false.)
       if (library%elements(ire)%module_number /= 0) return
-      if (library%active_elements >= most_active) then
+      if (library%active_elements >= max_active) then
          code = library_code%not_allowed
          return
       end if
@@ -203,7 +203,7 @@ contains
          call come_in(problem)
          call check_patch(call_of, problem, code)
          if (code == library_code%success) then
-            call begin_turn(int(most_threads(), c_int))
+            call begin_turn(int(max_threads(), c_int))
             call note_call(c_loc(problem), call_stage%calculation)
             call set_owner(problem%owner)
          end if
@@ -214,7 +214,7 @@ contains
 
    !> Callers may raise the number of threads at any time
    subroutine see_threads()
-      library%most_threads = min(999, max(library%most_threads, omp_get_max_threads(), omp_get_num_threads()))
+      library%max_threads = min(999, max(library%max_threads, omp_get_max_threads(), omp_get_num_threads()))
    end subroutine see_threads
 
    !> The problem of a call and one user more; null when the call cannot be meant
@@ -227,7 +227,7 @@ contains
       nullify(problem)
       !$omp critical (contact_registry)
       code = library_code%bad_element
-      if (call_of%ire >= 1 .and. call_of%ire <= most_elements) &
+      if (call_of%ire >= 1 .and. call_of%ire <= max_elements) &
          & call activate(call_of%ire, merge(3, 1, call_of%icp > 0), code)
       if (code == library_code%success) then
          associate (element => library%elements(call_of%ire))
@@ -253,9 +253,9 @@ contains
 
       code = library_code%success
       if (module_number == 1) then
-         if (.not. allowed%pair) then
+         if (.not. allowed%wheel_rail) then
             code = library_code%not_module_1
-         else if (icp /= -1 .and. (icp < 1 .or. icp > most_patches)) then
+         else if (icp /= -1 .and. (icp < 1 .or. icp > max_patches)) then
             code = library_code%bad_patch
          else if (icp == -1 .and. .not. allowed%whole) then
             code = library_code%patch_needed
@@ -264,7 +264,7 @@ contains
          end if
       else if (.not. allowed%contact) then
          code = library_code%not_module_3
-      else if (icp < 1 .or. icp > most_patches) then
+      else if (icp < 1 .or. icp > max_patches) then
          code = library_code%bad_patch
       end if
    end function misuse
@@ -277,7 +277,7 @@ contains
 
       code = library_code%success
       if (problem%module_number == 3 .or. call_of%icp < 1) return
-      if (call_of%icp > size(problem%pair_result%patches)) code = library_code%no_patch
+      if (call_of%icp > size(problem%wheel_rail_result%patches)) code = library_code%no_patch
    end subroutine check_patch
 
    !> The thread has the lock of the problem
@@ -344,7 +344,7 @@ contains
       removed = .false.
       was_last = .false.
       !$omp critical (contact_registry)
-      if (library%phase == running .and. call_of%ire >= 1 .and. call_of%ire <= most_elements) then
+      if (library%phase == running .and. call_of%ire >= 1 .and. call_of%ire <= max_elements) then
          if (library%elements(call_of%ire)%module_number /= 0) call free_element(library%elements(call_of%ire), removed)
          was_last = removed .and. library%active_elements == 0
       end if
@@ -358,12 +358,12 @@ contains
       integer :: k
 
       freed = .true.
-      do k = 1, most_patches
+      do k = 1, max_patches
          if (.not. associated(element%patch(k)%p)) cycle
          if (element%patch(k)%p%users > 0) freed = .false.
       end do
       if (.not. freed) return
-      do k = 1, most_patches
+      do k = 1, max_patches
          if (.not. associated(element%patch(k)%p)) cycle
          call book_times(element%patch(k))
          call release_problem(element%patch(k)%p)
@@ -383,7 +383,7 @@ contains
       stopped = library%phase == running .and. .not. any_users()
       if (stopped) then
          call library%total%halt()
-         do k = 1, most_elements
+         do k = 1, max_elements
             if (library%elements(k)%module_number /= 0) call free_element(library%elements(k), freed)
          end do
          call write_timers()
@@ -408,9 +408,9 @@ contains
       integer :: k, i
 
       any_users = .false.
-      do k = 1, most_elements
+      do k = 1, max_elements
          if (library%elements(k)%module_number == 0) cycle
-         do i = 1, most_patches
+         do i = 1, max_patches
             if (.not. associated(library%elements(k)%patch(i)%p)) cycle
             if (library%elements(k)%patch(i)%p%users > 0) any_users = .true.
          end do
@@ -424,8 +424,8 @@ contains
       !$omp critical (contact_registry)
       if (library%phase == running) then
          call see_threads()
-         library%threads = max(1, min(number, library%most_threads))
-         if (number < 0) library%threads = library%most_threads
+         library%threads = max(1, min(number, library%max_threads))
+         if (number < 0) library%threads = library%max_threads
       end if
       !$omp end critical (contact_registry)
    end subroutine set_threads
@@ -439,10 +439,10 @@ contains
    end function threads_inside
 
    !> Largest number of threads
-   integer function most_threads() result(number)
+   integer function max_threads() result(number)
       !$omp critical (contact_registry)
       call see_threads()
-      number = library%most_threads
+      number = library%max_threads
       !$omp end critical (contact_registry)
-   end function most_threads
+   end function max_threads
 end module contact_capi_registry

@@ -53,7 +53,7 @@ contains
       associate (units => problem%units, rolling => problem%spec%rolling, kinematics => problem%spec%kinematics)
          list(1:3) = [rolling%veloc, rolling%chi, rolling%dq]
          if (problem%module_number == 1) then
-            associate (patch => problem%pair_result%patches(icp)%contact)
+            associate (patch => problem%wheel_rail_result%patches(icp)%contact)
                list(1:3) = [patch%veloc, patch%chi, patch%dq]
             end associate
          end if
@@ -77,7 +77,7 @@ contains
          k_eff = 0.0_wp
          if (problem%has_result) then
             if (problem%module_number == 3) call take_flexibility(problem%result)
-            if (problem%module_number == 1) call take_flexibility(problem%pair_result%patches(icp)%contact)
+            if (problem%module_number == 1) call take_flexibility(problem%wheel_rail_result%patches(icp)%contact)
          end if
          list = [material%gg, both%gg, material%poiss, both%nu, both%ak, flx, material%k0_mf, material%alfamf, &
             & material%betamf, k_eff, material%gg3, material%laythk, material%tau_c0, material%k_tau, damping%cdampn, &
@@ -228,7 +228,7 @@ contains
       if (associated(view%patch)) then
          associate (grid => view%patch%grid, length => outward(view%units, quantity%length))
             origin = 0.0_wp
-            if (problem%module_number == 1) origin = problem%pair_result%patches(this%icp)%grid_reference
+            if (problem%module_number == 1) origin = problem%wheel_rail_result%patches(this%icp)%grid_reference
             first_x = grid%x(1) + origin(1)
             first_y = grid%y(1) + origin(2)
             if (view%left) first_y = -(grid%y(grid%my) + origin(2))
@@ -253,7 +253,7 @@ contains
       if (.not. associated(problem)) return
       length = outward(problem%units, quantity%length)
       if (problem%module_number == 1) then
-         call give(problem%pair_result%patches(this%icp)%contact%pen*length, pen)
+         call give(problem%wheel_rail_result%patches(this%icp)%contact%pen*length, pen)
       else
          call give(problem%spec%kinematics%pen*length, pen)
       end if
@@ -277,7 +277,7 @@ contains
       left = .false.
       if (problem%module_number == 1) then
          left = problem%spec%wheel_rail%left
-         associate (patch => problem%pair_result%patches(this%icp)%contact)
+         associate (patch => problem%wheel_rail_result%patches(this%icp)%contact)
             creep = [patch%cksi, patch%ceta, patch%cphi]
          end associate
       end if

@@ -11,7 +11,7 @@ module contact_capi_setter
    implicit none (type, external)
    private
 
-   public :: least_value, new_setter, setter
+   public :: min_value, new_setter, setter
 
    !> A number that is not refused below a value that the models need, but raised to it: not negative ones, nor NaN
    type :: raised_number
@@ -103,21 +103,21 @@ contains
             if (associated(item%i)) value = anint(value)
             if (row > 0) value = value*inward(self%units, quantity_of(trim(bounds_table(row)%unit)))
          end if
-         value = raised(value, least_value(item%name))
+         value = raised(value, min_value(item%name))
          if (.not. item%is_unchecked) call check_bounds(self, trim(item%name), value)
       end associate
    end subroutine take
 
    !> The value to which a smaller number is raised; below all numbers for those that are not raised
-   pure real(wp) function least_value(name)
+   pure real(wp) function min_value(name)
       character(len=*), intent(in) :: name
       integer :: k
 
-      least_value = -huge(least_value)
+      min_value = -huge(min_value)
       do k = 1, size(raised_numbers)
-         if (raised_numbers(k)%name == name) least_value = raised_numbers(k)%least
+         if (raised_numbers(k)%name == name) min_value = raised_numbers(k)%least
       end do
-   end function least_value
+   end function min_value
 
    !> Complain about a value beyond its bounds
    subroutine check_bounds(self, name, value, shown)

@@ -27,11 +27,11 @@ module contact_capi_subsurface
    public :: subs_addblock, subs_calculate, subs_getblocksize, subs_getresults
 
    !> Blocks of a problem, points of a block in one direction
-   integer, parameter :: most_blocks = 10, longest_list = 9999
+   integer, parameter :: max_blocks = 10, longest_list = 9999
    !> Smallest step of depths [mm]
-   real(wp), parameter :: least_step = 1.0e-9_wp
+   real(wp), parameter :: min_step = 1.0e-9_wp
    !> Number of columns, and what an unknown one is filled with
-   integer, parameter :: most_columns = 21
+   integer, parameter :: max_columns = 21
    real(wp), parameter :: no_column = -999.0_wp
    !> Stress component of columns 13 to 21, the tensor by columns, among xx, xy, xz, yy, yz, zz
    integer, parameter :: component(13:21) = [1, 2, 3, 2, 4, 5, 3, 5, 6]
@@ -79,9 +79,9 @@ contains
 
       n = 0
       if (allocated(list)) n = size(list)
-      if (number < 0 .or. number > min(n + 1, most_blocks)) then
+      if (number < 0 .or. number > min(n + 1, max_blocks)) then
          call complain(this, "the number of the block is " // integer_text(number) // ", it must be 0 to " // &
-            & integer_text(min(n + 1, most_blocks)))
+            & integer_text(min(n + 1, max_blocks)))
          return
       end if
       allocate(longer(number))
@@ -124,7 +124,7 @@ contains
       depths = z*length
       if (option <= 3) then
          depths(1) = anint(z(1))
-         depths(3) = raised(depths(3), least_step)
+         depths(3) = raised(depths(3), min_step)
          if (.not. fits(this, "NZ ZL DZ", depths)) return
       else
          if (.not. fits(this, "Z", depths)) return
@@ -194,10 +194,10 @@ contains
          else if (problem%module_number == 3) then
             call calculate_patch(this, problem, 0, problem%result, code)
          else if (this%icp > 0) then
-            call calculate_patch(this, problem, this%icp, problem%pair_result%patches(this%icp)%contact, code)
+            call calculate_patch(this, problem, this%icp, problem%wheel_rail_result%patches(this%icp)%contact, code)
          else
-            do k = 1, size(problem%pair_result%patches)
-               call calculate_patch(this, problem, k, problem%pair_result%patches(k)%contact, code)
+            do k = 1, size(problem%wheel_rail_result%patches)
+               call calculate_patch(this, problem, k, problem%wheel_rail_result%patches(k)%contact, code)
                if (code /= library_code%success) exit
             end do
          end if
@@ -347,7 +347,7 @@ contains
       case (10); column = block%sigma1
       case (11); column = block%sigma2
       case (12); column = block%sigma3
-      case (13:most_columns); column = block%stress(component(number), :)
+      case (13:max_columns); column = block%stress(component(number), :)
       case default
          allocate(column(size(block%sigvm)), source=no_column)
          return

@@ -1,7 +1,7 @@
 !> Time that the problems of the library take, and the table of it at the end of a run
 module contact_capi_timers
-   use contact_capi_library, only : library, most_elements, problem_pointer
-   use contact_capi_problem, only : most_patches
+   use contact_capi_library, only : library, max_elements, problem_pointer
+   use contact_capi_problem, only : max_patches
    use contact_output_report, only : timer_line, write_end
    use contact_text_words, only : integer_text
    implicit none (type, external)
@@ -30,14 +30,14 @@ contains
 
       if (library%debugging < 0 .or. library%timer_level < 1) return
       n = 1
-      do k = 1, most_elements
+      do k = 1, max_elements
          n = n + 2*count(library%elements(k)%patch%timed_module /= 0)
       end do
       allocate(lines(n))
       n = 1
       call library%total%fill_line("Total", lines(1))
-      do k = 1, most_elements
-         do i = 1, most_patches
+      do k = 1, max_elements
+         do i = 1, max_patches
             associate (slot => library%elements(k)%patch(i))
                if (slot%timed_module == 0) cycle
                n = n + 1
@@ -52,7 +52,7 @@ contains
             end associate
          end do
       end do
-      call write_end(library%log, library%most_threads, lines(:n))
+      call write_end(library%log, library%max_threads, lines(:n))
    end subroutine write_timers
 
    !> Timer table: 0 none, 1 overview, 2 everything

@@ -36,7 +36,7 @@ contains
       end if
       if (problem%module_number == 1) then
          view%left = problem%spec%wheel_rail%left
-         view%patch => problem%pair_result%patches(this%icp)%contact
+         view%patch => problem%wheel_rail_result%patches(this%icp)%contact
       else
          view%patch => problem%result
       end if

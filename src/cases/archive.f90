@@ -17,7 +17,7 @@ module contact_cases_archive
    public :: archive_item, case_archive, item_kind, text_variable
 
    !> Most numbers on a line, and length of a number with its name
-   integer, parameter :: most_items = 12
+   integer, parameter :: max_items = 12
    integer, parameter, public :: shown_length = 64
 
    type :: item_kind_list
@@ -57,7 +57,7 @@ module contact_cases_archive
    !> One format or use
    type, abstract :: case_archive
       !> The items of the line in hand, or of the one that ended last until the next begins
-      type(archive_item) :: items(most_items)
+      type(archive_item) :: items(max_items)
       integer :: count = 0
       logical, private :: has_ended = .false.
       !> Do values come in?

@@ -9,13 +9,13 @@ module contact_cases_border_warning
    use contact_grid_element_division, only : bounding_box, contact_box
    use contact_grid_potential_contact, only : potential_contact
    use contact_patch_border, only : side_names
-   use contact_patch_moments, only : link_moments
+   use contact_patch_time_steps, only : link_time_steps
    use contact_patch_problem, only : patch_problem, patch_state
    use contact_patch_result, only : border_contact, patch_result
    use contact_patch_solve, only : solve_patch
    use contact_patch_workspace, only : patch_workspace, release_workspace
    use contact_text_words, only : integer_text, real_text
-   use contact_wheelrail_result, only : buried_end, pair_result
+   use contact_wheelrail_result, only : buried_end, wheel_rail_result
    implicit none (type, external)
    private
 
@@ -76,26 +76,26 @@ contains
    end function is_same
 
    !> Warn of places where wheel and rail overlap and no patch is
-   subroutine warn_of_buried_ends(spec, pair, log)
+   subroutine warn_of_buried_ends(spec, wheel_rail, log)
       type(case_spec), intent(in) :: spec
-      type(pair_result), intent(in) :: pair
+      type(wheel_rail_result), intent(in) :: wheel_rail
       type(log_type), intent(inout) :: log
       character(len=buried_length) :: words
       integer :: k
 
-      do k = 1, size(pair%buried)
-         if (.not. pair%buried(k)%depth > 0.0_wp) cycle
-         words = buried_words(spec, pair%buried(k), k)
+      do k = 1, size(wheel_rail%buried)
+         if (.not. wheel_rail%buried(k)%depth > 0.0_wp) cycle
+         words = buried_words(spec, wheel_rail%buried(k), k)
          call log%warning(trim(words) // ". An edge that touches there carries load in reality, none here: take a profile of the &
             &wheel that goes on beyond it, or another position")
       end do
-      if (.not. pair%beside%depth > 0.0_wp) return
-      if (pair%beside%beyond_reach) then
-         call log%warning(trim(beside_words(spec, pair%beside)) // ". Contact is sought up to an eighth of the radius of the wheel &
-            &ahead of it and behind, farther below a flank in yaw; a steep ramp, or a flank of more than 80 degrees, may touch &
-            &there, and carries no load here")
+      if (.not. wheel_rail%beside%depth > 0.0_wp) return
+      if (wheel_rail%beside%beyond_reach) then
+         call log%warning(trim(beside_words(spec, wheel_rail%beside)) // ". Contact is sought up to an eighth of the radius of &
+            &the wheel ahead of it and behind, farther below a flank in yaw; a steep ramp, or a flank of more than 80 degrees, may &
+            &touch there, and carries no load here")
       else
-         call log%warning(trim(beside_words(spec, pair%beside)) // ". The search along the contact locus keeps one place for &
+         call log%warning(trim(beside_words(spec, wheel_rail%beside)) // ". The search along the contact locus keeps one place for &
             &each lateral position; the search over a grid (D = 5) keeps all")
       end if
    end subroutine warn_of_buried_ends
@@ -246,9 +246,9 @@ contains
       type(potential_contact), intent(out) :: extent
       logical, intent(out) :: found
       !> Steps by half of the width until the surfaces are apart
-      integer, parameter :: most_steps = 30
+      integer, parameter :: max_steps = 30
       !> Solutions on coarse grids until one of them is free at its border
-      integer, parameter :: most_passes = 8
+      integer, parameter :: max_passes = 8
       type(patch_problem) :: trial
       type(potential_contact) :: grid
       type(bounding_box) :: box
@@ -260,7 +260,7 @@ contains
       found = .false.
       call prepare(problem, trial)
       grid = with_coarse_elements(problem%grid)
-      do k = 1, most_steps
+      do k = 1, max_steps
          call undeformed_distance(spec%geometry, grid, h=trial%h, error=error)
          if (allocated(error)) return
          associate (h => trial%h, pen => result%pen)
@@ -275,7 +275,7 @@ contains
          grid%dy = grid%dy + count(.not. closed(3:4))*span(2)/grid%my
       end do
       if (.not. all(closed)) return
-      do k = 1, most_passes
+      do k = 1, max_passes
          trial%grid = grid
          call undeformed_distance(spec%geometry, grid, h=trial%h, error=error)
          if (allocated(error)) return
@@ -346,7 +346,7 @@ contains
       type(error_type), allocatable :: error
 
       found = .false.
-      call link_moments(problem, time_link%initiate, state, error)
+      call link_time_steps(problem, time_link%initiate, state, error)
       if (.not. allocated(error)) call solve_patch(problem, state, workspace, silent, result, error)
       if (.not. allocated(error)) then
          box = contact_box(result%division)

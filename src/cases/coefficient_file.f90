@@ -31,8 +31,8 @@ module contact_cases_coefficient_file
    !> Sides of elements may differ by this much [mm]
    real(wp), parameter :: spacing_tolerance = 1.0e-5_wp
    !> Most rows or columns, and most coefficients of a case
-   integer, parameter :: most_rows = 100000
-   real(wp), parameter :: most_coefficients = 5.0e8_wp
+   integer, parameter :: max_rows = 100000
+   real(wp), parameter :: max_coefficients = 5.0e8_wp
 
 contains
 
@@ -92,7 +92,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       table%fingerprint = text%fingerprint()
-      if (real(table%nx + 1, wp)*(2*table%ny + 1)*9*matrices > most_coefficients) then
+      if (real(table%nx + 1, wp)*(2*table%ny + 1)*9*matrices > max_coefficients) then
          call fatal_error(error, "a table for " // integer_text(table%nx) // " by " // integer_text(table%ny + 1) &
             & // " elements with " // integer_text(matrices) // " matrices needs too many coefficients; accepted are 5e8", &
             & file=text%file)
@@ -173,9 +173,9 @@ contains
       subroutine accept_size(value)
          type(input_value), intent(in) :: value
 
-         if (value%i >= 1 .and. value%i <= most_rows) return
+         if (value%i >= 1 .and. value%i <= max_rows) return
          call fatal_error(error, value%name // " = " // integer_text(value%i) // " cannot be used; accepted are 1 to " // &
-            & integer_text(most_rows), file=text%file, line=value%line, column=value%column)
+            & integer_text(max_rows), file=text%file, line=value%line, column=value%column)
       end subroutine accept_size
 
       subroutine accept_side(value, side, name)

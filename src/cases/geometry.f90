@@ -19,9 +19,9 @@ module contact_cases_geometry
    public :: require_finite, require_positive, strip_rows
 
    !> Curvatures [1/mm], lengths [mm] and ratios [-] below this value are taken for missing
-   real(wp), parameter :: least_value = 1.0e-20_wp
+   real(wp), parameter :: min_value = 1.0e-20_wp
    !> Semi-axis that takes the place of zero when a grid is laid out [mm]
-   real(wp), parameter :: least_axis = 1.0e-9_wp
+   real(wp), parameter :: min_axis = 1.0e-9_wp
 
 contains
 
@@ -151,8 +151,8 @@ contains
          else if (spec%is_line_contact()) then
             call lay_out_strip(spec%scale, hertz%aa, hertz%bb, grid)
          else
-            call lay_out_window(spec%scale*max(least_axis, hertz%aa), &
-               & spec%scale*max(least_axis, hertz%bb), grid)
+            call lay_out_window(spec%scale*max(min_axis, hertz%aa), &
+               & spec%scale*max(min_axis, hertz%bb), grid)
          end if
       case (grid_form%corner_and_sides:grid_form%centres)
          call lay_out_given(spec, grid)
@@ -187,7 +187,7 @@ contains
       real(wp), intent(in) :: aa, bb
       type(potential_contact), intent(inout) :: grid
 
-      call lay_out_window(scale*max(least_axis, aa), max(least_axis, bb)*grid%my/strip_rows(grid%my, scale), grid)
+      call lay_out_window(scale*max(min_axis, aa), max(min_axis, bb)*grid%my/strip_rows(grid%my, scale), grid)
    end subroutine lay_out_strip
 
    !> Number of rows of a window that lie inside a line contact
@@ -508,7 +508,7 @@ contains
       else if (spec%form == distance_form%quadratic_and_sines) then
          radius = max(0.0_wp, 0.5_wp*spec%b(7))
       end if
-      if (curvature > least_value) radius = 0.5_wp/curvature
+      if (curvature > min_value) radius = 0.5_wp/curvature
    end function curvature_radius
 
    !> Complain about a value that is infinite or not a number; an earlier complaint stays
@@ -529,7 +529,7 @@ contains
 
       call require_finite(name, value, error)
       if (allocated(error)) return
-      if (abs(value) > least_value) return
+      if (abs(value) > min_value) return
       call fatal_error(error, "the " // name // " must not be zero")
    end subroutine require_nonzero
 
@@ -541,7 +541,7 @@ contains
 
       call require_finite(name, value, error)
       if (allocated(error)) return
-      if (value > least_value) return
+      if (value > min_value) return
       call fatal_error(error, "the " // name // " must be positive, it is " // real_text(value))
    end subroutine require_positive
 end module contact_cases_geometry

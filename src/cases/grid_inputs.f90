@@ -15,7 +15,7 @@ module contact_cases_grid_inputs
    !> Largest number of elements of a potential contact area
    integer, parameter :: largest_grid = 2000000
    !> Most parts of a planform
-   integer, parameter :: most_parts = 100
+   integer, parameter :: max_parts = 100
 
 contains
 
@@ -178,8 +178,8 @@ contains
       call a%integer("NP", n, unchecked=.true.)
       call a%end_line()
       ! how much to read is not known then
-      if (n < 1 .or. n > most_parts) call a%fail("NP", ", the number of parts of IPLAN = 4, is outside its range 1 to " // &
-         & integer_text(most_parts))
+      if (n < 1 .or. n > max_parts) call a%fail("NP", ", the number of parts of IPLAN = 4, is outside its range 1 to " // &
+         & integer_text(max_parts))
       if (.not. a%is_good) return
       if (.not. a%is_reading) then
          list = reshape(geometry%rectangles, [4*n])

@@ -18,7 +18,7 @@ module contact_cases_inputs
    public :: visit_damping, visit_heat
 
    !> Bounds of the largest number of elements of a patch of wheel and rail
-   integer, parameter :: fewest_elements = 100, most_elements = 1000000
+   integer, parameter :: fewest_elements = 100, max_elements = 1000000
    !> Coefficients of friction terms below this value switch the term off [-]
    real(wp), parameter :: no_term = 1.0e-8_wp
    !> Half-value slip velocity of a term that is switched off, at least [mm/s]
@@ -26,8 +26,8 @@ module contact_cases_inputs
    !> Coefficients of friction that differ by less, relative, are one number
    real(wp), parameter :: same_friction = 1.0e-3_wp
    !> Most control points of friction, and their least distance [rad] or [mm]
-   integer, parameter :: most_points = 10
-   real(wp), parameter :: least_step = 1.0e-6_wp
+   integer, parameter :: max_points = 10
+   real(wp), parameter :: min_step = 1.0e-6_wp
    !> Offset of the spin contribution unless another one is given [-]
    real(wp), parameter :: spin_offset = 1.0_wp/6.0_wp
 
@@ -51,7 +51,7 @@ contains
       if (with_elements) call a%integer("NPOT_MAX", iteration%npot_max, default=iteration%npot_max)
       call a%end_line()
       if (a%is_reading .and. with_elements) then
-         limited = max(fewest_elements, min(most_elements, iteration%npot_max))
+         limited = max(fewest_elements, min(max_elements, iteration%npot_max))
          if (limited /= iteration%npot_max) call a%warn("NPOT_MAX", " is replaced by " // integer_text(limited))
          iteration%npot_max = limited
       end if
@@ -170,7 +170,7 @@ contains
       else
          call a%integer("NVF", n)
          call a%end_line()
-         n = min(max(1, n), most_points)
+         n = min(max(1, n), max_points)
       end if
       if (a%is_reading) then
          if (allocated(friction%sets)) deallocate(friction%sets)
@@ -181,7 +181,7 @@ contains
          call visit_friction_set(a, law, varies, friction%sets(k))
          if (varies == variation%none .or. .not. a%is_reading) cycle
          if (k > 1) then
-            if (.not. friction%sets(k)%position >= friction%sets(k - 1)%position + least_step) call a%refuse(trim(name), &
+            if (.not. friction%sets(k)%position >= friction%sets(k - 1)%position + min_step) call a%refuse(trim(name), &
                & " does not lie above the one before it, " // trim(previous) // &
                & "; control points of friction must increase by at least 1e-6")
          end if

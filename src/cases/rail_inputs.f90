@@ -15,7 +15,7 @@ module contact_cases_rail_inputs
    !> Scales of profiles up to this value mean 1 [-]
    real(wp), parameter :: no_scale = 5.0e-4_wp
    !> Smallest turning angle that makes a zig-zag [rad]
-   real(wp), parameter :: least_zigzag = 0.25_wp*pi*(1.0_wp - epsilon(1.0_wp))
+   real(wp), parameter :: min_zigzag = 0.25_wp*pi*(1.0_wp - epsilon(1.0_wp))
    !> There is no tape line [mm]
    real(wp), parameter :: no_tape = 1000.0_wp
 
@@ -238,7 +238,7 @@ contains
       call a%real("KINKLOW", profile%kink_low)
       call a%real("KINKWID", profile%kink_width)
       call a%end_line()
-      if (profile%zigzag < least_zigzag) call a%refuse("ZIGTHRS", &
+      if (profile%zigzag < min_zigzag) call a%refuse("ZIGTHRS", &
          & " cannot be used; accepted is an angle of at least 45 degrees (45d), 180d and more for none")
       if (option < 2) return
       call a%integer("ERRHND", profile%error_handling)

@@ -14,7 +14,7 @@ module contact_cases_session
    use contact_normal_estimate, only : elliptic_pressure
    use contact_cases_resolution_warning, only : warn_of_few_elements
    use contact_patch_border, only : find_border
-   use contact_patch_moments, only : clear_moment, link_moments
+   use contact_patch_time_steps, only : clear_time_step, link_time_steps
    use contact_patch_problem, only : patch_problem, patch_state
    use contact_patch_result, only : patch_result
    use contact_patch_solve, only : check_problem, solve_patch
@@ -70,7 +70,7 @@ contains
       call set_problem(spec, folder, session%problem, log, error)
       call tell_hertz(session%problem, result)
       if (allocated(error)) return
-      call link_moments(session%problem, spec%link, session%state, error)
+      call link_time_steps(session%problem, spec%link, session%state, error)
       if (allocated(error)) then
          call forget(session, result)
          return
@@ -150,8 +150,8 @@ contains
       type(contact_session), intent(inout) :: session
       type(patch_result), intent(inout) :: result
 
-      call clear_moment(session%state%now, session%problem%grid)
-      call clear_moment(session%state%before, session%problem%grid)
+      call clear_time_step(session%state%now, session%problem%grid)
+      call clear_time_step(session%state%before, session%problem%grid)
       session%state%started = .true.
       result%ncon = 0
    end subroutine forget

@@ -3,14 +3,14 @@
 !> They are pointers so that the long code that frees such a tree stands in this module once, and not in
 !> every procedure that holds one; so that a slot can move in a table; and so that nobody copies them.
 module contact_cases_slot
-   use contact_cases_pair_session, only : pair_session, release_pair_session
+   use contact_cases_wheel_rail_session, only : wheel_rail_session, release_wheel_rail_session
    use contact_cases_session, only : contact_session, release_session
    use contact_patch_result, only : patch_result
-   use contact_wheelrail_result, only : pair_result
+   use contact_wheelrail_result, only : wheel_rail_result
    implicit none (type, external)
    private
 
-   public :: open_contact, open_pair, problem_slot, release_slot
+   public :: open_contact, open_wheel_rail, problem_slot, release_slot
 
    !> One problem; null: not opened for that module
    type :: problem_slot
@@ -18,8 +18,8 @@ module contact_cases_slot
       type(contact_session), pointer :: session => null()
       type(patch_result), pointer :: result => null()
       !> Wheel on rail (module 1)
-      type(pair_session), pointer :: pair => null()
-      type(pair_result), pointer :: pair_result => null()
+      type(wheel_rail_session), pointer :: wheel_rail => null()
+      type(wheel_rail_result), pointer :: wheel_rail_result => null()
    end type problem_slot
 
 contains
@@ -31,10 +31,10 @@ contains
    end subroutine open_contact
 
    !> Make ready for wheel on rail; nothing when that was done before
-   subroutine open_pair(slot)
+   subroutine open_wheel_rail(slot)
       type(problem_slot), intent(inout) :: slot
-      if (.not. associated(slot%pair)) allocate(slot%pair, slot%pair_result)
-   end subroutine open_pair
+      if (.not. associated(slot%wheel_rail)) allocate(slot%wheel_rail, slot%wheel_rail_result)
+   end subroutine open_wheel_rail
 
    !> Free all that was opened
    subroutine release_slot(slot)
@@ -44,9 +44,9 @@ contains
          call release_session(slot%session)
          deallocate(slot%session, slot%result)
       end if
-      if (associated(slot%pair)) then
-         call release_pair_session(slot%pair)
-         deallocate(slot%pair, slot%pair_result)
+      if (associated(slot%wheel_rail)) then
+         call release_wheel_rail_session(slot%wheel_rail)
+         deallocate(slot%wheel_rail, slot%wheel_rail_result)
       end if
    end subroutine release_slot
 end module contact_cases_slot

@@ -205,7 +205,7 @@ module contact_cases_spec
    end type case_spec
 
    !> Yield limits outside these bounds mean that there is no plasticity [N/mm2]
-   real(wp), parameter :: least_yield_limit = 1.0e-10_wp, largest_yield_limit = 1.0e10_wp
+   real(wp), parameter :: min_yield_limit = 1.0e-10_wp, largest_yield_limit = 1.0e10_wp
 
 contains
 
@@ -255,6 +255,6 @@ contains
    pure logical function has_plasticity(self)
       class(case_spec), intent(in) :: self
       has_plasticity = self%material_model == material_model%interfacial_layer .and. &
-         & self%material%tau_c0 > least_yield_limit .and. self%material%tau_c0 <= largest_yield_limit
+         & self%material%tau_c0 > min_yield_limit .and. self%material%tau_c0 <= largest_yield_limit
    end function has_plasticity
 end module contact_cases_spec

@@ -22,7 +22,7 @@ module contact_cases_subsurface
    public :: stress_memory, subsurface_stresses, warn_of_steps
 
    !> Most points of one block, some 3 GB
-   integer(long), parameter :: most_points = 20000000_long
+   integer(long), parameter :: max_points = 20000000_long
    !> The results of a point, its place included, and as much again while they are computed
    integer(long), parameter :: bytes_per_point = 300_long
 
@@ -137,8 +137,8 @@ contains
       integer :: n
 
       call expand_points(block, load%grid, points)
-      if (points%n() > most_points) then
-         write(text, "(A, I0, A, I0, A)") "the block has ", points%n(), " points, more than ", most_points, &
+      if (points%n() > max_points) then
+         write(text, "(A, I0, A, I0, A)") "the block has ", points%n(), " points, more than ", max_points, &
             & " are not computed at once; several smaller blocks"
          call fatal_error(error, trim(text))
       else

@@ -30,28 +30,28 @@ contains
    subroutine visit_case(a, spec)
       class(case_archive), intent(inout) :: a
       type(case_spec), intent(inout), target :: spec
-      logical :: is_pair
+      logical :: is_wheel_rail
 
-      is_pair = allocated(spec%wheel_rail)
+      is_wheel_rail = allocated(spec%wheel_rail)
       associate (parts => spec%parts)
          if (parts%iteration == part_source%given) then
             call a%open_group("iteration")
             ! contact problems of their own may give a largest number of elements, which has no meaning for them
-            call visit_iteration(a, spec%iteration, spec%solver, with_elements=is_pair .or. a%is_reading)
+            call visit_iteration(a, spec%iteration, spec%solver, with_elements=is_wheel_rail .or. a%is_reading)
             call a%close_group()
          end if
-         if (.not. is_pair) then
+         if (.not. is_wheel_rail) then
             call a%open_group("kinematics")
             call visit_kinematics(a, spec%kinematics, spec%normal, spec%force)
             call a%close_group()
          end if
          if (parts%friction == part_source%given .and. spec%variation /= variation%by_row) then
             call a%open_group("friction")
-            call visit_friction(a, spec%friction_law, merge(spec%variation, variation%none, is_pair), spec%friction)
+            call visit_friction(a, spec%friction_law, merge(spec%variation, variation%none, is_wheel_rail), spec%friction)
             call a%close_group()
          end if
-         if (.not. is_pair) call visit_rolling_group(a, spec)
-         if (parts%material == part_source%given) call visit_materials(a, spec, is_pair)
+         if (.not. is_wheel_rail) call visit_rolling_group(a, spec)
+         if (parts%material == part_source%given) call visit_materials(a, spec, is_wheel_rail)
          if (parts%damping == part_source%given) call visit_damping_group(a, spec)
          if (parts%heat == part_source%given .and. spec%has_heat) then
             call a%open_group("heat")
@@ -59,7 +59,7 @@ contains
             call visit_heat(a, spec%heat, with_plastic_work=spec%material_model == material_model%interfacial_layer)
             call a%close_group()
          end if
-         if (is_pair) then
+         if (is_wheel_rail) then
             call visit_rail_and_track(a, spec, spec%wheel_rail)
             call visit_wheelset(a, spec, spec%wheel_rail)
          else
@@ -97,17 +97,17 @@ contains
    end subroutine visit_rolling_group
 
    !> Influence coefficients and materials
-   subroutine visit_materials(a, spec, is_pair)
+   subroutine visit_materials(a, spec, is_wheel_rail)
       class(case_archive), intent(inout) :: a
       type(case_spec), intent(inout) :: spec
       !> Wheel on rail? Inclinations are those of the profiles then
-      logical, intent(in) :: is_pair
+      logical, intent(in) :: is_wheel_rail
 
       if (spec%kernel == kernel_model%conformal .or. spec%kernel == kernel_model%tabulated) then
          call a%open_group("influence")
          if (spec%kernel == kernel_model%tabulated) then
             call visit_coefficient_file(a, spec%material)
-         else if (is_pair) then
+         else if (is_wheel_rail) then
             call visit_conformal(a, spec%material)
          else
             call visit_inclinations(a, spec%material)
@@ -280,28 +280,28 @@ contains
    end function element_count
 
    !> Contact search, track dimensions, rail profile, deviations of the rail and its springs
-   subroutine visit_rail_and_track(a, spec, pair)
+   subroutine visit_rail_and_track(a, spec, wheel_rail)
       class(case_archive), intent(inout) :: a
       type(case_spec), intent(in) :: spec
       !> Of this case
-      type(wheel_rail_spec), intent(inout) :: pair
+      type(wheel_rail_spec), intent(inout) :: wheel_rail
 
       if (spec%parts%search == part_source%given) then
          call a%open_group("search")
-         call visit_search(a, pair%search, with_step=.true.)
+         call visit_search(a, wheel_rail%search, with_step=.true.)
          call a%close_group()
       end if
       if (spec%parts%track == part_source%given) then
          call a%open_group("track")
-         call visit_track(a, pair%track, pair%roller)
+         call visit_track(a, wheel_rail%track, wheel_rail%roller)
          call a%close_group()
       end if
       if (spec%parts%rail_profile == part_source%given) then
          call a%open_group("rail_profile")
-         call visit_profile(a, "RFNAME", pair%rail_profile)
-         if (a%is_reading) pair%new_rail_profile = a%is_good
-         if (a%is_reading .and. a%is_good .and. pair%track%gaught > 0.0_wp) then
-            if (is_slices(pair%rail_profile)) call a%refuse_group("GAUGHT = " // real_text(pair%track%gaught) // &
+         call visit_profile(a, "RFNAME", wheel_rail%rail_profile)
+         if (a%is_reading) wheel_rail%new_rail_profile = a%is_good
+         if (a%is_reading .and. a%is_good .and. wheel_rail%track%gaught > 0.0_wp) then
+            if (is_slices(wheel_rail%rail_profile)) call a%refuse_group("GAUGHT = " // real_text(wheel_rail%track%gaught) // &
                & " places the rail by its gauge point, but the profile varies along the track; a slices file needs absolute " // &
                & "placement, GAUGHT = 0 or negative")
          end if
@@ -309,52 +309,53 @@ contains
       end if
       if (spec%parts%deviations == part_source%given) then
          call a%open_group("deviations")
-         call visit_deviations(a, pair%rail)
+         call visit_deviations(a, wheel_rail%rail)
          call a%close_group()
          if (spec%force == force_control%massless_rail) then
             call a%open_group("springs")
-            call visit_springs(a, pair%rail)
+            call visit_springs(a, wheel_rail%rail)
             call a%close_group()
          end if
       end if
       if (.not. (a%is_reading .and. a%is_good) .or. spec%force /= force_control%massless_rail) return
-      if (spec%normal == normal_control%approach .and. .not. pair%rail%kz > 0.0_wp) call a%refuse_group("KZRAIL = " // &
-         & real_text(pair%rail%kz) // ": a rail on springs with a prescribed height, F = 3 and N = 0, needs a vertical " // &
+      if (spec%normal == normal_control%approach .and. .not. wheel_rail%rail%kz > 0.0_wp) call a%refuse_group("KZRAIL = " // &
+         & real_text(wheel_rail%rail%kz) // ": a rail on springs with a prescribed height, F = 3 and N = 0, needs a vertical " // &
          & "stiffness above 0")
    end subroutine visit_rail_and_track
 
    !> Wheelset dimensions, wheel profile, position, velocity, flexible deviations
    !>
    !> Flexible deviations stay until others are given.
-   subroutine visit_wheelset(a, spec, pair)
+   subroutine visit_wheelset(a, spec, wheel_rail)
       class(case_archive), intent(inout) :: a
       type(case_spec), intent(in) :: spec
       !> Of this case
-      type(wheel_rail_spec), intent(inout) :: pair
+      type(wheel_rail_spec), intent(inout) :: wheel_rail
 
       associate (parts => spec%parts)
          if (parts%wheel_profile == part_source%given) then
             call a%open_group("wheel_dimensions")
-            call visit_dimensions(a, pair%wheelset)
+            call visit_dimensions(a, wheel_rail%wheelset)
             call a%close_group()
             call a%open_group("wheel_profile")
-            call visit_profile(a, "WFNAME", pair%wheel_profile)
-            if (a%is_reading) pair%new_wheel_profile = a%is_good
+            call visit_profile(a, "WFNAME", wheel_rail%wheel_profile)
+            if (a%is_reading) wheel_rail%new_wheel_profile = a%is_good
             call a%close_group()
          end if
          if (parts%position == part_source%given) then
             call a%open_group("position")
-            call visit_position(a, pair%wheelset, pair%roller, with_force=spec%normal == normal_control%force)
+            call visit_position(a, wheel_rail%wheelset, wheel_rail%roller, with_force=spec%normal == normal_control%force)
             call a%close_group()
          end if
          if (parts%velocity == part_source%given) then
             call a%open_group("velocity")
-            call visit_velocity(a, pair%wheelset, pair%roller, with_force=spec%force == force_control%longitudinal_force)
+            call visit_velocity(a, wheel_rail%wheelset, wheel_rail%roller, &
+               & with_force=spec%force == force_control%longitudinal_force)
             call a%close_group()
          end if
          if (parts%flexibility == part_source%given) then
             call a%open_group("flexibility")
-            call visit_flexibility(a, pair%wheelset)
+            call visit_flexibility(a, wheel_rail%wheelset)
             call a%close_group()
          end if
       end associate

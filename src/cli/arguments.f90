@@ -36,7 +36,7 @@ module contact_cli_arguments
    !> Longest answer
    integer, parameter :: longest_answer = 4096
    !> Largest number of threads that can be asked for
-   integer, parameter :: most_threads = 4096
+   integer, parameter :: max_threads = 4096
    character(len=*), parameter :: usage = "Usage: contact [options] [IMODE [EXPNAM]], see contact --help"
 
    !> What the command line said
@@ -219,7 +219,7 @@ contains
          call take_value("a number of threads")
          if (allocated(error)) return
          asked%threads = to_number(value)
-         if (asked%threads < 1 .or. asked%threads > most_threads) call fatal_error(error, &
+         if (asked%threads < 1 .or. asked%threads > max_threads) call fatal_error(error, &
             & "the number of threads, '" // value // "', is not an integer from 1 to 4096")
          return
       case ("--heat")

@@ -5,7 +5,7 @@ module contact_control_library_codes
    implicit none (type, external)
    private
 
-   public :: code_of_contact, code_of_pair
+   public :: code_of_contact, code_of_wheel_rail
    public :: library_code, code_text, input_type, field_row, field_table, field_kind, interface_version
 
    !> What initialisation tells callers, 100 major + 10 minor + update of the published interface
@@ -86,14 +86,14 @@ contains
    !>
    !> The published interface has no code for patches that did not converge, and none for a wheel beside the rail, which cannot
    !> reach its force: contact_case_status tells them.
-   pure integer function code_of_pair(status, patches) result(code)
+   pure integer function code_of_wheel_rail(status, patches) result(code)
       type(case_status), intent(in) :: status
       !> Number of contact patches
       integer, intent(in) :: patches
 
       code = library_code%success
       if (status%iteration == missed_iteration%force .and. patches > 0) code = library_code%tolerance
-   end function code_of_pair
+   end function code_of_wheel_rail
 
    !> A code in words
    pure function code_text(code) result(text)

@@ -47,7 +47,7 @@ module contact_elastic_compliance
       procedure(tangential_inverse_interface), deferred :: steady_inverse
       !> u_n by tangential tractions
       procedure(to_normal_interface), deferred :: normal_by_tangential
-      !> u_t by pressures; difference between two moments in steady rolling
+      !> u_t by pressures; difference between two time steps in steady rolling
       procedure(from_normal_interface), deferred :: tangential_by_normal
       procedure(from_normal_interface), deferred :: steady_by_normal
       !> Free what is held outside Fortran's memory

@@ -162,7 +162,7 @@ contains
       integer, intent(in) :: from(:), to(:)
       real(wp), intent(in) :: p(:, :, :)
       real(wp), intent(inout) :: u(:, :, :)
-      !> Difference between two moments of steady rolling?
+      !> Difference between two time steps of steady rolling?
       logical, intent(in) :: change
       logical :: sent(5, 3), met(5, 3)
       integer :: i, j, k, w, iy, pair(2)

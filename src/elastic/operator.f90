@@ -3,12 +3,12 @@
 !> The one operator that all iterative methods see. Kernels of half-spaces are even or odd in
 !> each coordinate, so their spectra are real (nn, xx, yy, xy) or imaginary (xn, yn) and one
 !> real array per kernel is kept. In steady rolling the displacement difference between two
-!> moments is the same kernel times 1 - exp(i kappa dx): a factor per column of the spectrum.
+!> time steps is the same kernel times 1 - exp(i kappa dx): a factor per column of the spectrum.
 !>
 !> Small windows transform both tangential fields at once. With X = F(a + i b), s and d the half sum
 !> and the half difference of the spectra xx and yy, the product with the block of xx, yy, xy is
 !> s X(k) + (d + i xy) conj(X(-k)), because these spectra are the same at k and -k. There xx and
-!> yy hold s and d, and the difference between two moments is taken before the transform. The
+!> yy hold s and d, and the difference between two time steps is taken before the transform. The
 !> approximate inverse belongs to a shorter period in y there: a quarter of the window as padding serves
 !> as well as a whole one. In x the sum over the way through the contact area needs the room.
 module contact_elastic_operator

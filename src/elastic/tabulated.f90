@@ -170,7 +170,7 @@ contains
       self%transforms = self%transforms + 1
    end subroutine send
 
-   !> Response to a displacement field, or to its difference between two moments
+   !> Response to a displacement field, or to its difference between two time steps
    subroutine fetch(self, u, change)
       class(tabulated_operator), intent(inout) :: self
       real(wp), contiguous, intent(inout) :: u(:, :)

@@ -3,7 +3,7 @@ module contact_experiment_exports
    use contact_base_error, only : error_type
    use contact_base_kinds, only : wp
    use contact_base_limits, only : case_limits
-   use contact_cases_pair_session, only : pair_session
+   use contact_cases_wheel_rail_session, only : wheel_rail_session
    use contact_cases_spec, only : case_spec
    use contact_experiment_journal, only : checkpoint
    use contact_hdf5_case_file, only : hdf5_case_file
@@ -13,7 +13,7 @@ module contact_experiment_exports
    use contact_patch_result, only : patch_result
    use contact_profile_curve, only : profile_curve
    use contact_profile_surface, only : profile_surface, surface_cut
-   use contact_wheelrail_result, only : pair_result
+   use contact_wheelrail_result, only : wheel_rail_result
    implicit none (type, external)
    private
 
@@ -48,7 +48,7 @@ module contact_experiment_exports
       procedure :: wanted
       procedure :: write_failure
       procedure :: write_contact
-      procedure :: write_pair
+      procedure :: write_wheel_rail
    end type export_files
 
 contains
@@ -179,20 +179,20 @@ contains
    end subroutine write_contact
 
    !> A solved case of module 1
-   subroutine write_pair(self, head, spec, session, pair, error)
+   subroutine write_wheel_rail(self, head, spec, session, pair, error)
       class(export_files), intent(inout) :: self
       type(case_head), intent(in) :: head
       type(case_spec), intent(in) :: spec
       !> For the profiles
-      type(pair_session), intent(in) :: session
-      type(pair_result), intent(in) :: pair
+      type(wheel_rail_session), intent(in) :: session
+      type(wheel_rail_result), intent(in) :: pair
       type(error_type), allocatable, intent(out) :: error
       type(profile_curve), allocatable :: rail, wheel
       ! where the first contact is in rail and wheel, along the track [mm]
       real(wp) :: place(2)
 
-      if (allocated(self%vtk)) call self%vtk%write_pair(head, spec, pair, error)
-      if (allocated(self%json)) call self%json%write_pair(head, spec, pair)
+      if (allocated(self%vtk)) call self%vtk%write_wheel_rail(head, spec, pair, error)
+      if (allocated(self%json)) call self%json%write_wheel_rail(head, spec, pair)
       if (.not. allocated(self%hdf5)) return
       associate (problem => session%problem, w => spec%wheel_rail%wheelset)
          place = 0.0_wp
@@ -200,9 +200,9 @@ contains
          call take_section(problem%rail, problem%rail_surface, w%s + place(1), rail)
          call take_section(problem%wheel, problem%wheel_surface, &
             & asin(min(1.0_wp, max(-1.0_wp, place(2)/w%nomradw))) - w%pitch, wheel)
-         call self%hdf5%write_pair(head, spec, pair, rail, wheel)
+         call self%hdf5%write_wheel_rail(head, spec, pair, rail, wheel)
       end associate
-   end subroutine write_pair
+   end subroutine write_wheel_rail
 
    !> The profile of a body; of one that varies along it the section at a position
    subroutine take_section(profile, surface, position, curve)

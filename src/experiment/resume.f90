@@ -9,9 +9,9 @@ module contact_experiment_resume
    use contact_base_kinds, only : long, wp
    use contact_base_log, only : log_type
    use contact_cases_border_warning, only : is_same
-   use contact_cases_pair_session, only : check_files
+   use contact_cases_wheel_rail_session, only : check_files
    use contact_cases_session, only : check_case
-   use contact_cases_slot, only : open_contact, open_pair, problem_slot
+   use contact_cases_slot, only : open_contact, open_wheel_rail, problem_slot
    use contact_experiment_journal, only : advised, case_letter, checkpoint, is_advised, journal_settings, letter_of, &
       & read_journal
    use contact_experiment_state, only : as_input_says, complete_spec, counted, experiment_state, find_slot, numbered_slot, &
@@ -171,8 +171,8 @@ contains
             call this%spec%limits%deadline%start()
             call solve_one(state, state%slots(k), this, quiet, error)
          else if (this%module_number == 1) then
-            call open_pair(state%slots(k)%problem_slot)
-            call check_files(state%slots(k)%pair, this%spec, state%place%folder, quiet, error)
+            call open_wheel_rail(state%slots(k)%problem_slot)
+            call check_files(state%slots(k)%wheel_rail, this%spec, state%place%folder, quiet, error)
          else if (was_advised .or. this%spec%kernel == kernel_model%tabulated) then
             call open_contact(state%slots(k)%problem_slot)
             call check_case(state%slots(k)%session, this%spec, quiet, state%slots(k)%result, error, state%place%folder)
@@ -254,9 +254,9 @@ contains
       integer, intent(in) :: module_number
 
       if (module_number == 1) then
-         if (.not. associated(slot%pair)) return
-         call add(slot%pair%profiles%history)
-         if (allocated(slot%pair%coefficients%table)) call add(slot%pair%coefficients%table%fingerprint)
+         if (.not. associated(slot%wheel_rail)) return
+         call add(slot%wheel_rail%profiles%history)
+         if (allocated(slot%wheel_rail%coefficients%table)) call add(slot%wheel_rail%coefficients%table%fingerprint)
       else if (associated(slot%session)) then
          if (allocated(slot%session%problem%model%tabulated)) call add(slot%session%problem%model%tabulated%fingerprint)
       end if

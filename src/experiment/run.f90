@@ -17,9 +17,9 @@ module contact_experiment_run
    use contact_base_limits, only : wall_clock
    use contact_base_output_file, only : remove_file
    use contact_cases_estimate, only : case_cost, cost_text, estimate_cost
-   use contact_cases_pair_session, only : check_files
+   use contact_cases_wheel_rail_session, only : check_files
    use contact_cases_session, only : check_case
-   use contact_cases_slot, only : open_contact, open_pair, problem_slot, release_slot
+   use contact_cases_slot, only : open_contact, open_wheel_rail, problem_slot, release_slot
    use contact_cases_spec, only : case_spec
    use contact_experiment_exports, only : number_of_exports
    use contact_experiment_journal, only : journal_name
@@ -32,10 +32,10 @@ module contact_experiment_run
    use contact_output_case_record, only : case_head, planned_text
    use contact_output_finished_file, only : close_result, open_result, open_result_again
    use contact_output_mat_file, only : mat_file_name, write_mat_file
-   use contact_output_pair_files, only : write_pair_files
+   use contact_output_wheel_rail_files, only : write_wheel_rail_files
    use contact_output_report, only : timer_line, write_banner, write_case, write_case_line, write_closing, write_end, &
       & write_subsurface
-   use contact_output_report_pair, only : write_pair
+   use contact_output_report_wheel_rail, only : write_wheel_rail
    use contact_output_subs_file, only : subs_file_name, write_subs_file
    use contact_patch_result, only : patch_result
    use contact_text_words, only : integer_text
@@ -300,8 +300,8 @@ contains
       if (allocated(given%wheel_rail)) then
          if (.not. (given%wheel_rail%new_rail_profile .or. given%wheel_rail%new_wheel_profile &
             & .or. given%kernel == kernel_model%tabulated)) return
-         call open_pair(slot)
-         call check_files(slot%pair, given, state%place%folder, state%log, error)
+         call open_wheel_rail(slot)
+         call check_files(slot%wheel_rail, given, state%place%folder, state%log, error)
       else
          call open_contact(slot)
          call check_case(slot%session, given, state%log, slot%result, error, state%place%folder)
@@ -531,7 +531,7 @@ contains
                call head%status%refuse(full_text(error))
             end if
          else if (this%module_number == 1) then
-            head%status = slot%pair_result%status
+            head%status = slot%wheel_rail_result%status
          else
             head%status = slot%result%status
          end if
@@ -545,11 +545,11 @@ contains
          else if (this%module_number == 1) then
             call state%writing%start()
             if (this%spec%solve) then
-               call write_pair(state%log, this%spec, slot%pair_result)
-               call write_pair_files(state%place%results, this%number, this%reid, this%spec, slot%pair_result, error)
+               call write_wheel_rail(state%log, this%spec, slot%wheel_rail_result)
+               call write_wheel_rail_files(state%place%results, this%number, this%reid, this%spec, slot%wheel_rail_result, error)
                if (allocated(error)) call report_error(state, error)
                if (state%exports%wanted()) then
-                  call state%exports%write_pair(head, this%spec, slot%pair, slot%pair_result, error)
+                  call state%exports%write_wheel_rail(head, this%spec, slot%wheel_rail, slot%wheel_rail_result, error)
                   if (allocated(error)) call report_error(state, error)
                end if
             end if

@@ -5,9 +5,9 @@ module contact_experiment_state
    use contact_base_kinds, only : long, wp
    use contact_base_limits, only : case_limits, deadline_type
    use contact_base_log, only : log_type
-   use contact_cases_pair_session, only : solve_pair_case
+   use contact_cases_wheel_rail_session, only : solve_wheel_rail_case
    use contact_cases_session, only : solve_case
-   use contact_cases_slot, only : open_contact, open_pair, problem_slot
+   use contact_cases_slot, only : open_contact, open_wheel_rail, problem_slot
    use contact_experiment_exports, only : export_files, export_request
    use contact_experiment_journal, only : journal_file
    use contact_experiment_lock, only : experiment_lock
@@ -150,8 +150,8 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       if (this%module_number == 1) then
-         call open_pair(slot%problem_slot)
-         call solve_pair_case(slot%pair, this%spec, state%place%folder, log, slot%pair_result, error)
+         call open_wheel_rail(slot%problem_slot)
+         call solve_wheel_rail_case(slot%wheel_rail, this%spec, state%place%folder, log, slot%wheel_rail_result, error)
       else
          call open_contact(slot%problem_slot)
          call solve_case(slot%session, this%spec, log, slot%result, error, state%place%folder)

@@ -5,13 +5,13 @@ module contact_hdf5_case_file
    use contact_base_kinds, only : long, wp
    use contact_cases_spec, only : case_spec
    use contact_hdf5_file, only : hdf5_file
-   use contact_output_case_record, only : case_head, describe_border, describe_head, describe_pair, describe_patch, &
+   use contact_output_case_record, only : case_head, describe_border, describe_head, describe_wheel_rail, describe_patch, &
       & describe_resolution, describe_place, describe_run, describe_solution, is_rolling, run_summary, side_sign
    use contact_output_input_record, only : describe_input
    use contact_patch_result, only : patch_result, subsurface_result
    use contact_profile_curve, only : profile_curve
    use contact_text_words, only : integer_text
-   use contact_wheelrail_result, only : mirrored, pair_patch, pair_result
+   use contact_wheelrail_result, only : mirrored, wheel_rail_patch, wheel_rail_result
    implicit none (type, external)
    private
 
@@ -33,7 +33,7 @@ module contact_hdf5_case_file
       !> A case without result, of module 3, and of module 1
       procedure :: write_failure
       procedure :: write_contact
-      procedure :: write_pair
+      procedure :: write_wheel_rail
    end type hdf5_case_file
 
 contains
@@ -149,11 +149,11 @@ contains
    end subroutine write_contact
 
    !> A solved case of module 1
-   subroutine write_pair(self, head, spec, pair, rail, wheel)
+   subroutine write_wheel_rail(self, head, spec, pair, rail, wheel)
       class(hdf5_case_file), intent(inout) :: self
       type(case_head), intent(in) :: head
       type(case_spec), intent(in) :: spec
-      type(pair_result), intent(in) :: pair
+      type(wheel_rail_result), intent(in) :: pair
       !> Profiles, or sections at the first contact, in their own axes for a right-hand pair
       type(profile_curve), intent(in), optional :: rail, wheel
       integer :: k
@@ -162,7 +162,7 @@ contains
       call self%file%enter("inputs")
       call describe_input(self%file, spec)
       call self%file%leave()
-      call describe_pair(self%file, spec, pair)
+      call describe_wheel_rail(self%file, spec, pair)
       call write_markers(self%file, spec, pair)
       call self%file%enter("profiles")
       if (present(rail)) call write_profile(self%file, "rail", spec, rail)
@@ -177,7 +177,7 @@ contains
          end if
       end do
       call self%file%end_case(head%finished)
-   end subroutine write_pair
+   end subroutine write_wheel_rail
 
    !> Begin a case with its row of /cases
    subroutine begin(file, head)
@@ -221,7 +221,7 @@ contains
       type(case_spec), intent(in) :: spec
       type(patch_result), intent(in) :: contact
       !> Where it is, in module 1
-      type(pair_patch), intent(in), optional :: place
+      type(wheel_rail_patch), intent(in), optional :: place
       !> Its fields in true coordinates of the left side of the track
       type(patch_result), intent(in), optional :: mirror
       integer :: k
@@ -277,7 +277,7 @@ contains
       type(case_spec), intent(in) :: spec
       type(patch_result), intent(in) :: contact
       !> In module 1
-      type(pair_patch), intent(in), optional :: place
+      type(wheel_rail_patch), intent(in), optional :: place
       integer :: i
 
       associate (grid => contact%grid)
@@ -347,7 +347,7 @@ contains
    subroutine write_curve(file, spec, place)
       type(hdf5_file), intent(inout) :: file
       type(case_spec), intent(in) :: spec
-      type(pair_patch), intent(in) :: place
+      type(wheel_rail_patch), intent(in) :: place
       integer :: last, step
       real(wp) :: s
 
@@ -377,7 +377,7 @@ contains
    subroutine write_markers(file, spec, pair)
       type(hdf5_file), intent(inout) :: file
       type(case_spec), intent(in) :: spec
-      type(pair_result), intent(in) :: pair
+      type(wheel_rail_result), intent(in) :: pair
       real(wp) :: s
 
       s = side_sign(spec)

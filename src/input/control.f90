@@ -102,7 +102,7 @@ contains
          end if
       end if
       if (module_number == 1) then
-         call check_pair(words, problems)
+         call check_wheel_rail(words, problems)
       else
          call check_contact(words, merge(previous%motion, spec%motion, has_previous), problems)
       end if
@@ -227,7 +227,7 @@ contains
    end subroutine check_contact
 
    !> What digits of module 1 demand of each other
-   subroutine check_pair(words, problems)
+   subroutine check_wheel_rail(words, problems)
       type(control_words), intent(in) :: words
       type(problem_list), intent(inout) :: problems
 
@@ -236,7 +236,7 @@ contains
             & call add_for_digit(problems, words, severity%warning, "C", "C = 4, the angle correction for conformal contact, " // &
             & "has no effect with D = " // integer_text(digits%d) // ", whose patches are flat; D = 4 has curved ones")
       end associate
-   end subroutine check_pair
+   end subroutine check_wheel_rail
 
    !> What a first case of either module corrects, with a warning, and cannot keep
    subroutine start_sequence(words, problems)

@@ -16,7 +16,7 @@ module contact_input_experiment_file
    public :: experiment_reader, input_case, case_failure, is_readable_format
 
    !> Largest numbers on the module line, and number of different result elements
-   integer, parameter :: highest_element = 999, highest_patch = 9, most_elements = 100
+   integer, parameter :: highest_element = 999, highest_patch = 9, max_elements = 100
 
    !> One case as it comes from the file
    type :: input_case
@@ -189,7 +189,7 @@ contains
       call self%select_store(address%module_number, address%reid, address%cpid)
       if (self%current == 0) then
          call fatal_error(error, "result_element = " // integer_text(address%reid) // " is one too many; there can be " // &
-            & integer_text(most_elements), file=self%lexer%file, line=address%line)
+            & integer_text(max_elements), file=self%lexer%file, line=address%line)
          return
       end if
       associate (store => self%stores(self%current))
@@ -245,7 +245,7 @@ contains
       call self%select_store(v(1)%i, v(2)%i, v(3)%i)
       if (self%current == 0) then
          call fatal_error(error, "REID = " // v(2)%word // " is one result element too many; there can be " // &
-            & integer_text(most_elements), file=self%lexer%file, line=v(2)%line, column=v(2)%column)
+            & integer_text(max_elements), file=self%lexer%file, line=v(2)%line, column=v(2)%column)
          return
       end if
       self%module_number = v(1)%i
@@ -290,7 +290,7 @@ contains
          if (.not. any(self%stores(:k - 1)%reid == self%stores(k)%reid)) elements = elements + 1
       end do
       self%current = 0
-      if (elements >= most_elements .and. .not. any(self%stores(:self%count)%reid == reid)) return
+      if (elements >= max_elements .and. .not. any(self%stores(:self%count)%reid == reid)) return
       if (self%count == size(self%stores)) then
          allocate(longer(2*self%count))
          longer(:self%count) = self%stores

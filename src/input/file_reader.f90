@@ -12,7 +12,7 @@ module contact_input_file_reader
    public :: file_reader, new_file_reader
 
    !> Most groups of a case
-   integer, parameter :: most_groups = 32
+   integer, parameter :: max_groups = 32
 
    !> First number of a group; line 0 before it was read
    type :: group_place
@@ -30,7 +30,7 @@ module contact_input_file_reader
       !> The words of the last line
       type(input_value), allocatable :: values(:)
       !> Where the groups begin that were read, and number of the one in hand, 0 outside of groups
-      type(group_place) :: groups(most_groups)
+      type(group_place) :: groups(max_groups)
       integer :: group_count = 0, group = 0
    contains
       procedure :: end_line => read_line
@@ -108,7 +108,7 @@ contains
       class(file_reader), intent(inout) :: self
       character(len=*), intent(in) :: text
 
-      self%group_count = min(most_groups, self%group_count + 1)
+      self%group_count = min(max_groups, self%group_count + 1)
       self%group = self%group_count
       self%groups(self%group) = group_place(name=text)
    end subroutine open_group_of_file

@@ -12,14 +12,14 @@ module contact_input_toml_tables
    public :: find, is_tables, leaves_of, list_of, number_of, sets_of, told, toml_memory, toml_tables
 
    !> Most keys that cases ask for and remember
-   integer, parameter :: most_keys = 400
+   integer, parameter :: max_keys = 400
    integer, parameter :: name_length = 2*key_length
 
    !> What the cases of a result element gave last: names "group.key" and nodes of the document
    type :: toml_memory
       integer :: count = 0
-      character(len=name_length) :: names(most_keys) = ""
-      integer :: nodes(most_keys) = 0
+      character(len=name_length) :: names(max_keys) = ""
+      integer :: nodes(max_keys) = 0
    contains
       procedure :: recall
       procedure :: remember
@@ -39,7 +39,7 @@ module contact_input_toml_tables
       character(len=key_length) :: group = ""
       !> Groups and keys that the case asked for, for the nearest right one
       integer :: asked_count = 0
-      character(len=key_length) :: asked_groups(most_keys) = "", asked_keys(most_keys) = ""
+      character(len=key_length) :: asked_groups(max_keys) = "", asked_keys(max_keys) = ""
       !> Is a value of the last line missing or wrong?
       logical :: line_is_bad = .false.
    contains
@@ -89,7 +89,7 @@ contains
       do k = 1, self%count
          if (self%names(k) == name) exit
       end do
-      if (k > most_keys) return
+      if (k > max_keys) return
       self%count = max(self%count, k)
       self%names(k) = name
       self%nodes(k) = node
@@ -150,7 +150,7 @@ contains
       do k = 1, self%asked_count
          if (self%asked_groups(k) == group .and. self%asked_keys(k) == key) return
       end do
-      if (k > most_keys) return
+      if (k > max_keys) return
       self%asked_count = k
       self%asked_groups(k) = group
       self%asked_keys(k) = key
@@ -323,7 +323,7 @@ contains
       character(len=*), intent(in) :: group
       !> Keys that other cases can have there
       character(len=*), intent(in) :: known(:)
-      character(len=key_length) :: keys(most_keys)
+      character(len=key_length) :: keys(max_keys)
       character(len=:), allocatable :: message, words
       integer :: place
 

@@ -19,7 +19,7 @@ module contact_normal_active_sets
    public :: solve_by_active_sets
 
    !> Sets that are tried at most, sets without improvement before elements are changed one at a time
-   integer, parameter :: most_sets = 500, patience = 6
+   integer, parameter :: max_sets = 500, patience = 6
    !> Directions that are kept, part of the tolerance that is left to the linear equations
    integer, parameter :: kept = 40
    real(wp), parameter :: linear_part = 0.1_wp
@@ -88,7 +88,7 @@ contains
       fewest = huge(fewest)
       waited = 0
       report%ended = ending%iteration_limit
-      do set = 1, most_sets
+      do set = 1, max_sets
          if (.not. any(now%active)) exit
          if (problem%deadline%has_passed()) then
             report%ended = ending%out_of_time

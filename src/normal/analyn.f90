@@ -18,15 +18,15 @@ module contact_normal_analyn
 
    !> Smallest curvature that is told from the unevenness of profiles [1/mm], a radius of 5 m, as in CONTACT; of bodies that
    !> are flatter themselves, this part of their largest curvature at the deepest place
-   real(wp), parameter :: least_curvature = 1.0e-4_wp, least_share = 0.1_wp
+   real(wp), parameter :: min_curvature = 1.0e-4_wp, min_share = 0.1_wp
    !> Gaps that differ by less than this part of the overlap count as equal [-]: of two elements that are mirror images of
    !> each other rounding makes one the deeper one
    real(wp), parameter :: equally_small = 1.0e-9_wp
    !> Overlap below which there is no contact [mm]; only to keep clear of underflow
-   real(wp), parameter :: least_overlap = 1.0e-30_wp
+   real(wp), parameter :: min_overlap = 1.0e-30_wp
    !> Samples on either side for the curvature along a row, at most; they end where the overlap has fallen
    !> to this part
-   integer, parameter :: most_samples = 10
+   integer, parameter :: max_samples = 10
    real(wp), parameter :: fallen = 0.3_wp
 
    !> Where the gap of a row is smallest
@@ -68,9 +68,9 @@ contains
             overlap = max(overlap, -here%lowest)
          end do
       end do
-      if (.not. overlap > least_overlap) return
-      least = least_curvature
-      if (sharpest > 0.0_wp) least = min(least, least_share*sharpest)
+      if (.not. overlap > min_overlap) return
+      least = min_curvature
+      if (sharpest > 0.0_wp) least = min(least, min_share*sharpest)
       do iy = 1, grid%my
          last = 0
          do
@@ -180,7 +180,7 @@ contains
       middle = min(max(column, 2), size(row) - 1)
       if (any(row(middle - 1:middle + 1) > excluded_threshold)) return
       k = 1
-      do while (k < most_samples)
+      do while (k < max_samples)
          if (middle - k - 1 < 1 .or. middle + k + 1 > size(row)) exit
          if (max(row(middle - k - 1), row(middle + k + 1)) > fallen*row(column)) exit
          k = k + 1

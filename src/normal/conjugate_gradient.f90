@@ -48,7 +48,7 @@ module contact_normal_conjugate_gradient
    real(wp), parameter :: is_smaller = 0.9_wp
    integer, parameter :: patience = 60
    !> The first pressures reach up to this part of the range of undeformed distances, at least to the length [mm]; chosen
-   real(wp), parameter :: first_depth = 0.3_wp, least_range = 1.0e-10_wp
+   real(wp), parameter :: first_depth = 0.3_wp, min_range = 1.0e-10_wp
    !> Totals that agree to this are left as they are: round-off
    real(wp), parameter :: same_force = 1.0e-14_wp
 
@@ -376,7 +376,7 @@ contains
       h_min = minval(problem%h)
       if (problem%force_prescribed) then
          h_max = maxval(problem%h, problem%h < excluded_threshold)
-         p = max(0.0_wp, h_min + first_depth*max(h_max - h_min, least_range) - problem%h)
+         p = max(0.0_wp, h_min + first_depth*max(h_max - h_min, min_range) - problem%h)
          ! a level so far away that nothing can be added to it
          if (.not. any(p > 0.0_wp)) call load_lowest_element(problem, p)
          p = p*(problem%fn/(sum(p)*problem%dx*problem%dy))

@@ -207,7 +207,7 @@ contains
       type(potential_contact), intent(in) :: grid
       real(wp), intent(in) :: h(:, :), closest, fn, gg, nu
       real(wp) :: penetration
-      integer, parameter :: most_steps = 50
+      integer, parameter :: max_steps = 50
       !> Width of the bracket, as a part of the force, that is good enough
       real(wp), parameter :: good_enough = 0.01_wp
       real(wp) :: low, high, middle, force_low, force_high, force
@@ -218,7 +218,7 @@ contains
       force_low = 0.0_wp
       high = fn/area_stiffness(grid, gg, nu, 1)
       force_high = high*area_stiffness(grid, gg, nu, max(1, count(h - closest < contact_level*high)))
-      do step = 1, most_steps
+      do step = 1, max_steps
          if (force_high - force_low <= good_enough*fn) exit
          middle = 0.5_wp*(low + high)
          force = middle*area_stiffness(grid, gg, nu, max(1, count(h - closest < contact_level*middle)))

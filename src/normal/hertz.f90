@@ -17,7 +17,7 @@ module contact_normal_hertz
    public :: curvature_ratio, axis_ratio
 
    !> Approach that stands for "just touching" when an area is prescribed without a load [mm]
-   real(wp), parameter :: least_approach = 1.0e-9_wp
+   real(wp), parameter :: min_approach = 1.0e-9_wp
 
    !> What presses the bodies together
    type :: hertz_load
@@ -67,7 +67,7 @@ contains
       !> Ratio of the smaller to the larger curvature [-], 0 < ratio <= 1
       real(wp), intent(in) :: ratio
       real(wp) :: g
-      integer, parameter :: most_steps = 50
+      integer, parameter :: max_steps = 50
       !> The error after a step is of the order of the step squared
       real(wp), parameter :: tolerance = 1.0e-9_wp
       type(elliptic_integrals) :: integrals
@@ -76,7 +76,7 @@ contains
 
       ! D >= B, hence ratio >= g**2
       g = min(1.0_wp, sqrt(ratio))
-      do i = 1, most_steps
+      do i = 1, max_steps
          integrals = complete_elliptic(g)
          step = (log(ratio) - log(g)*2.0_wp - log(integrals%d/integrals%b))/ratio_slope(g, integrals)
          g = min(1.0_wp, g*exp(step))
@@ -192,8 +192,8 @@ contains
          hertz%rho = 4.0_wp*pi*hertz%cp**3*load%modulus*sqrt(g)/(3.0_wp*load%fn*integrals%e)
          hertz%pen = 2.0_wp*hertz%cp**2*g*integrals%k/(hertz%rho*integrals%e)
       else
-         hertz%pen = least_approach
-         if (load%control == normal_control%approach) hertz%pen = max(load%pen, least_approach)
+         hertz%pen = min_approach
+         if (load%control == normal_control%approach) hertz%pen = max(load%pen, min_approach)
          hertz%rho = 2.0_wp*hertz%cp**2*g*integrals%k/(hertz%pen*integrals%e)
          hertz%fn = force_of_axis(hertz%cp, g, hertz%rho, load%modulus, integrals)
          if (load%control == normal_control%force) then
@@ -233,7 +233,7 @@ contains
 
       hertz%fn = max(0.0_wp, load%fn)
       hertz%aa = aa
-      a1 = least_approach/aa**2
+      a1 = min_approach/aa**2
       if (hertz%fn > 0.0_wp) a1 = hertz%fn/(pi*aa**2*load%modulus*bb)
       call complete_line(a1, bb, hertz)
    end function line_contact_by_axes

@@ -17,19 +17,19 @@ module contact_normal_kpec
    public :: kpec_shape
 
    !> Overlap below which there is no contact [mm]; only to keep clear of underflow
-   real(wp), parameter :: least_overlap = 1.0e-30_wp
+   real(wp), parameter :: min_overlap = 1.0e-30_wp
    !> Level at which the extent of the overlap is measured, as a part of the approach [-]
    real(wp), parameter :: half_way = 0.5_wp
    !> Smallest curvature that counts: it would open the gap by this part of the overlap along the window [-]
-   real(wp), parameter :: least_rise = 0.25_wp
+   real(wp), parameter :: min_rise = 0.25_wp
    !> Elements whose gap is larger than the smallest one by less than this part of the overlap stand for the deepest place,
    !> with a weight that falls to zero there [-]. With one element alone pressures would jump where another one takes its place
    real(wp), parameter :: nearly_deepest = 0.01_wp
    !> Distance of the ends of a row of contact beyond the outermost centres, at least, in elements [-]; only to keep an
    !> element of contact
-   real(wp), parameter :: least_overhang = 1.0e-4_wp
+   real(wp), parameter :: min_overhang = 1.0e-4_wp
    !> Extent across the rows, at least, in rows [-]
-   real(wp), parameter :: least_extent = 0.02_wp
+   real(wp), parameter :: min_extent = 0.02_wp
 
    !> The ellipse that gives the threshold of each row
    type :: threshold_ellipse
@@ -65,7 +65,7 @@ contains
       weight = 0.0_wp
       if (size(gap) == 0) return
       overlap = -minval(gap)
-      if (.not. overlap > least_overlap) return
+      if (.not. overlap > min_overlap) return
       weight = max(0.0_wp, 1.0_wp - (gap + overlap)/(nearly_deepest*overlap))
       weight = weight/sum(weight)
       ellipse = fit_ellipse(grid, gap, weight, overlap)
@@ -125,7 +125,7 @@ contains
 
    !> Half the second derivative of the gap along a row [1/mm], over the length of half the overlap
    !>
-   !> Not negative, since the gap is smallest in the middle; least_rise makes it positive.
+   !> Not negative, since the gap is smallest in the middle; min_rise makes it positive.
    pure real(wp) function curvature_along(grid, row, middle, overlap) result(curvature)
       type(potential_contact), intent(in) :: grid
       !> Gap of the row [mm]
@@ -161,7 +161,7 @@ contains
          rise = next_rise
          gap_before = max(low, high)
       end do
-      curvature = max(rise, least_rise*overlap/(size(row)*grid%dx)**2)
+      curvature = max(rise, min_rise*overlap/(size(row)*grid%dx)**2)
    end function curvature_along
 
    !> Is there such an element, and may it be in contact?
@@ -196,7 +196,7 @@ contains
       one_row = first == last
       start = grid%y(first) - grid%dy*steps_to_level(lowest, first, -1, -half_way*overlap)
       end_ = grid%y(last) + grid%dy*steps_to_level(lowest, last, 1, -half_way*overlap)
-      widen = 0.5_wp*max(0.0_wp, least_extent*grid%dy - (end_ - start))
+      widen = 0.5_wp*max(0.0_wp, min_extent*grid%dy - (end_ - start))
       start = start - widen
       end_ = end_ + widen
    end subroutine extent_across
@@ -259,6 +259,6 @@ contains
       overhang = 0.5_wp
       if (.not. is_possible(row, ix + outwards)) return
       if (row(ix + outwards) > row(ix)) overhang = (limit - row(ix))/(row(ix + outwards) - row(ix))
-      overhang = min(1.0_wp - least_overhang, max(least_overhang, overhang))
+      overhang = min(1.0_wp - min_overhang, max(min_overhang, overhang))
    end function overhang
 end module contact_normal_kpec

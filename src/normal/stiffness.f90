@@ -16,7 +16,7 @@ module contact_normal_stiffness
 contains
 
    !> Solve A q = 1 on the contact area by preconditioned conjugate gradients
-   subroutine pressure_derivative(operator, parts, contact, tolerance, most_iterations, q, reached)
+   subroutine pressure_derivative(operator, parts, contact, tolerance, max_iterations, q, reached)
       !> Prepared for the window
       class(compliance), intent(inout) :: operator
       !> Parts that act on each other with less than full strength; unallocated: everything acts fully
@@ -25,7 +25,7 @@ contains
       logical, contiguous, intent(in) :: contact(:, :)
       !> On the residual relative to 1, root of the mean square over the contact area
       real(wp), intent(in) :: tolerance
-      integer, intent(in) :: most_iterations
+      integer, intent(in) :: max_iterations
       !> Derivative of the pressures [N/mm3], zero outside the contact area
       real(wp), contiguous, intent(inout) :: q(:, :)
       !> Residual that was reached
@@ -42,7 +42,7 @@ contains
       start = norm2(r)
       reached = 1.0_wp
       previous = 0.0_wp
-      do k = 1, most_iterations
+      do k = 1, max_iterations
          call operator%normal_inverse(r, z)
          where (.not. contact) z = 0.0_wp
          rz = sum(r*z)

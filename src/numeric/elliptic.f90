@@ -53,7 +53,7 @@ contains
       real(wp), intent(in) :: a, b
       real(wp) :: integral
       real(wp), parameter :: close_enough = 1.0e-9_wp
-      integer, parameter :: most_steps = 40
+      integer, parameter :: max_steps = 40
       real(wp) :: mean, previous_mean, kc, aa, bb, cc
       integer :: step
 
@@ -62,7 +62,7 @@ contains
       cc = a
       aa = a + b
       bb = b
-      do step = 1, most_steps
+      do step = 1, max_steps
          bb = 2.0_wp*(cc*kc + bb)
          cc = aa
          previous_mean = mean

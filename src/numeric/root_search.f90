@@ -44,7 +44,7 @@ module contact_numeric_root_search
 
    !> Growth of the steps of the walk
    real(wp), parameter :: growth = 1.6_wp
-   integer, parameter :: most_evaluations = 200
+   integer, parameter :: max_evaluations = 200
 
 contains
 
@@ -80,7 +80,7 @@ contains
          self%best_value = abs(f)
       end if
       self%found = abs(f) <= self%tolerance
-      self%finished = self%found .or. self%evaluations >= most_evaluations .or. f /= f
+      self%finished = self%found .or. self%evaluations >= max_evaluations .or. f /= f
       if (self%finished) return
       if (self%bracketed) then
          call narrow(self, f)

@@ -13,11 +13,11 @@ module contact_output_case_record
    use contact_output_record, only : record_writer
    use contact_patch_resolution, only : elements_across, is_coarse
    use contact_patch_result, only : patch_result
-   use contact_wheelrail_result, only : moment_about_elements, pair_patch, pair_result
+   use contact_wheelrail_result, only : moment_about_elements, wheel_rail_patch, wheel_rail_result
    implicit none (type, external)
    private
 
-   public :: case_head, describe_border, describe_head, describe_pair, describe_patch, describe_place, describe_run, &
+   public :: case_head, describe_border, describe_head, describe_wheel_rail, describe_patch, describe_place, describe_run, &
       & describe_resolution, describe_solution, is_rolling, planned_text, run_summary, side_sign
 
    !> How far a run has come
@@ -126,10 +126,10 @@ contains
    end subroutine describe_head
 
    !> Forces of wheel on rail that all patches make together, and the positions that were found
-   subroutine describe_pair(record, spec, pair)
+   subroutine describe_wheel_rail(record, spec, pair)
       class(record_writer), intent(inout) :: record
       type(case_spec), intent(in) :: spec
-      type(pair_result), intent(in) :: pair
+      type(wheel_rail_result), intent(in) :: pair
       character(len=5), parameter :: names(2) = ["inner", "outer"]
       real(wp) :: s
       integer :: k
@@ -160,7 +160,7 @@ contains
       call record%number("dy_defl", "mm", "lateral deflection of the rail", s*pair%dy_defl)
       call record%number("dz_defl", "mm", "vertical deflection of the rail", pair%dz_defl)
       call record%number("smallest_gap", "mm", "smallest vertical gap, negative: overlap", pair%smallest_gap)
-      call record%count("force_trials", "heights tried in a search for the vertical force, at most", pair%most_trials)
+      call record%count("force_trials", "heights tried in a search for the vertical force, at most", pair%max_trials)
       call record%close_group()
       if (pair%beside%depth > 0.0_wp) call record%text("beside", "another place along the track where wheel and rail &
          &overlap, which carries no load here", trim(beside_words(spec, pair%beside)))
@@ -171,7 +171,7 @@ contains
             &carries no load here", trim(buried_words(spec, pair%buried(k), k)))
       end do
       call record%close_group()
-   end subroutine describe_pair
+   end subroutine describe_wheel_rail
 
    !> Totals of one contact patch
    subroutine describe_patch(record, spec, contact)
@@ -235,7 +235,7 @@ contains
    subroutine describe_place(record, spec, patch)
       class(record_writer), intent(inout) :: record
       type(case_spec), intent(in) :: spec
-      type(pair_patch), intent(in) :: patch
+      type(wheel_rail_patch), intent(in) :: patch
       real(wp) :: s
 
       s = side_sign(spec)

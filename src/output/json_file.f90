@@ -10,12 +10,12 @@ module contact_output_json_file
    use contact_base_limits, only : case_limits
    use contact_base_output_file, only : output_file
    use contact_cases_spec, only : case_spec
-   use contact_output_case_record, only : case_head, describe_border, describe_head, describe_pair, describe_patch, &
+   use contact_output_case_record, only : case_head, describe_border, describe_head, describe_wheel_rail, describe_patch, &
       & describe_resolution, describe_place, describe_run, describe_solution, run_summary
    use contact_output_finished_file, only : close_result, open_result, open_result_again
    use contact_output_record, only : record_writer
    use contact_patch_result, only : patch_result
-   use contact_wheelrail_result, only : pair_result
+   use contact_wheelrail_result, only : wheel_rail_result
    implicit none (type, external)
    private
 
@@ -45,7 +45,7 @@ module contact_output_json_file
       !> One line for a case without result, of module 3, and of module 1
       procedure :: write_failure
       procedure :: write_contact
-      procedure :: write_pair => write_pair_line
+      procedure :: write_wheel_rail => write_wheel_rail_line
       procedure :: open_group => open_object
       procedure :: close_group => close_object
       procedure :: number => write_number
@@ -155,16 +155,16 @@ contains
    end subroutine write_contact
 
    !> A solved case of module 1
-   subroutine write_pair_line(self, head, spec, pair)
+   subroutine write_wheel_rail_line(self, head, spec, pair)
       class(json_file), intent(inout) :: self
       type(case_head), intent(in) :: head
       type(case_spec), intent(in) :: spec
-      type(pair_result), intent(in) :: pair
+      type(wheel_rail_result), intent(in) :: pair
       integer :: k
 
       call self%begin_line(head)
       call self%text("side", "", trim(merge("left ", "right", spec%wheel_rail%left)))
-      call describe_pair(self, spec, pair)
+      call describe_wheel_rail(self, spec, pair)
       call self%key("patches")
       call self%add("[")
       do k = 1, size(pair%patches)
@@ -173,7 +173,7 @@ contains
       end do
       call self%add("]")
       call self%end_line()
-   end subroutine write_pair_line
+   end subroutine write_wheel_rail_line
 
    !> One contact patch as an object
    subroutine write_patch(self, number, spec, contact, pair)
@@ -183,7 +183,7 @@ contains
       type(case_spec), intent(in) :: spec
       type(patch_result), intent(in) :: contact
       !> The pair it belongs to, in module 1
-      type(pair_result), intent(in), optional :: pair
+      type(wheel_rail_result), intent(in), optional :: pair
 
       call self%add("{")
       self%follows = .false.

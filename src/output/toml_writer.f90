@@ -17,7 +17,7 @@ module contact_output_toml_writer
 
    public :: quoted, remembered_texts, toml_writer
 
-   integer, parameter :: most_keys = 400
+   integer, parameter :: max_keys = 400
    !> Column of remarks, and width of lines of long lists
    integer, parameter :: remark_column = 34, line_width = 100
    character(len=*), parameter :: line_feed = achar(10)
@@ -27,7 +27,7 @@ module contact_output_toml_writer
    !> Texts of values by "group.key"
    type :: remembered_texts
       integer :: count = 0
-      character(len=2*key_length) :: names(most_keys) = ""
+      character(len=2*key_length) :: names(max_keys) = ""
       type(text_of_value), allocatable :: texts(:)
    contains
       procedure :: is_same
@@ -86,11 +86,11 @@ contains
       character(len=*), intent(in) :: name, text
       integer :: k
 
-      if (.not. allocated(self%texts)) allocate(self%texts(most_keys))
+      if (.not. allocated(self%texts)) allocate(self%texts(max_keys))
       do k = 1, self%count
          if (self%names(k) == name) exit
       end do
-      if (k > most_keys) return
+      if (k > max_keys) return
       self%count = max(self%count, k)
       self%names(k) = name
       self%texts(k)%text = text

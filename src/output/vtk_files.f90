@@ -15,7 +15,7 @@ module contact_output_vtk_files
    use contact_output_finished_file, only : case_file_name, close_result, finished_file, open_result, open_result_again
    use contact_patch_result, only : patch_result, subsurface_result
    use contact_text_words, only : integer_text, replaced
-   use contact_wheelrail_result, only : pair_patch, pair_result
+   use contact_wheelrail_result, only : wheel_rail_patch, wheel_rail_result
    implicit none (type, external)
    private
 
@@ -36,7 +36,7 @@ module contact_output_vtk_files
       procedure :: place
       !> The files of a solved case of module 3, and of module 1
       procedure :: write_contact
-      procedure :: write_pair
+      procedure :: write_wheel_rail
       procedure, private :: list_file
       procedure, private :: list_loss
    end type vtk_files
@@ -211,11 +211,11 @@ contains
    end subroutine write_contact
 
    !> A solved case of module 1
-   subroutine write_pair(self, head, spec, pair, error)
+   subroutine write_wheel_rail(self, head, spec, pair, error)
       class(vtk_files), intent(inout) :: self
       type(case_head), intent(in) :: head
       type(case_spec), intent(in) :: spec
-      type(pair_result), intent(in) :: pair
+      type(wheel_rail_result), intent(in) :: pair
       type(error_type), allocatable, intent(out) :: error
       integer :: k
 
@@ -225,7 +225,7 @@ contains
          call self%list_loss(head%number)
          return
       end do
-   end subroutine write_pair
+   end subroutine write_wheel_rail
 
    !> Surface and blocks of a patch
    subroutine write_patch(self, head, spec, contact, number, error, place)
@@ -237,7 +237,7 @@ contains
       integer, intent(in) :: number
       type(error_type), allocatable, intent(out) :: error
       !> Where the patch is, in module 1
-      type(pair_patch), intent(in), optional :: place
+      type(wheel_rail_patch), intent(in), optional :: place
       character(len=:), allocatable :: name
       character(len=12) :: case_text, block_text
       integer :: k, part
@@ -265,7 +265,7 @@ contains
       type(case_spec), intent(in) :: spec
       type(patch_result), intent(in) :: contact
       type(error_type), allocatable, intent(out) :: error
-      type(pair_patch), intent(in), optional :: place
+      type(wheel_rail_patch), intent(in), optional :: place
       type(vtk_grid) :: grid
       real(wp), allocatable :: points(:, :, :), traction(:, :, :), slip(:, :, :)
       real(wp) :: distance, s
@@ -315,7 +315,7 @@ contains
       type(case_spec), intent(in) :: spec
       type(subsurface_result), intent(in) :: block
       type(error_type), allocatable, intent(out) :: error
-      type(pair_patch), intent(in), optional :: place
+      type(wheel_rail_patch), intent(in), optional :: place
       type(vtk_grid) :: grid
       real(wp), allocatable :: points(:, :), displacement(:, :), tensor(:, :)
       real(wp) :: s
@@ -353,7 +353,7 @@ contains
       real(wp), intent(in) :: local(3)
       !> -1 for the left side
       real(wp), intent(in) :: s
-      type(pair_patch), intent(in), optional :: place
+      type(wheel_rail_patch), intent(in), optional :: place
       !> Row of elements at whose level the point is, for curved references; row i has its centre at i
       real(wp), intent(in), optional :: row
       real(wp) :: point(3), t
@@ -379,7 +379,7 @@ contains
    !> A vector of a patch in track axes; as it is in module 3
    pure function turned(local, s, place, row) result(vector)
       real(wp), intent(in) :: local(3), s
-      type(pair_patch), intent(in), optional :: place
+      type(wheel_rail_patch), intent(in), optional :: place
       !> Row of elements, for curved references
       integer, intent(in), optional :: row
       real(wp) :: vector(3), angle

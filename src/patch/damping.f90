@@ -19,21 +19,21 @@ module contact_patch_damping
    end type damping_law
 
    !> Time steps below this one count as this one [s]
-   real(wp), parameter :: least_step = 1.0e-20_wp
+   real(wp), parameter :: min_step = 1.0e-20_wp
 
 contains
 
    !> Forces that come on top of the elastic ones [N]
    pure function damping_forces(law, before, now, dt) result(force)
       type(damping_law), intent(in) :: law
-      !> Elastic forces Fn, Fx, Fy of the previous and the present moment [N]
+      !> Elastic forces Fn, Fx, Fy of the previous and the present time step [N]
       real(wp), intent(in) :: before(3), now(3)
       !> Time between both [s]
       real(wp), intent(in) :: dt
       real(wp) :: force(3)
       integer, parameter :: kind_of(3) = [1, 2, 2]
 
-      force = (now - before)/max(least_step, dt)
+      force = (now - before)/max(min_step, dt)
       force = law%coefficient(kind_of)*min(law%largest_rate(kind_of), max(-law%largest_rate(kind_of), force))
    end function damping_forces
 end module contact_patch_damping

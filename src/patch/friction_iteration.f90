@@ -59,7 +59,7 @@ module contact_patch_friction_iteration
    integer, parameter :: spare_passes = 10
 
    !> After that many solutions in a row that did not converge, more of them will not either
-   integer, parameter :: most_failures = 10
+   integer, parameter :: max_failures = 10
 
 contains
 
@@ -145,7 +145,7 @@ contains
          self%ended = ending%converged
       else if (self%passes >= max(1, problem%settings%maxin - spare_passes)) then
          self%ended = ending%iteration_limit
-      else if (self%failures >= most_failures) then
+      else if (self%failures >= max_failures) then
          self%ended = ending%stagnated
       end if
       if (by_temperature) then

@@ -6,7 +6,7 @@ module contact_patch_heat
    use contact_grid_element_division, only : bounding_box, contact_box, element
    use contact_patch_problem, only : patch_problem, rolling_direction
    use contact_patch_result, only : patch_result
-   use contact_temperature_flash_heating, only : heat_passage, least_peclet_number
+   use contact_temperature_flash_heating, only : heat_passage, min_peclet_number
    implicit none (type, external)
    private
 
@@ -71,7 +71,7 @@ contains
 
       box = contact_box(result%division)
       peclet = problem%thermal%peclet_number(0.5_wp*(box%ix1 - box%ix0 + 1)*problem%grid%dx, problem%veloc)
-      if (peclet >= least_peclet_number) return
+      if (peclet >= min_peclet_number) return
       write(number, "(F12.3)") peclet
       call log%warning("temperatures are those of fast motion, in which no heat flows along the surface; the Peclet number " // &
          & "V a/(2 kappa) = " // trim(adjustl(number)) // " is below 10, and temperatures are too high")

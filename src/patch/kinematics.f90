@@ -1,4 +1,4 @@
-!> Relative motion of the bodies in a patch, and where its particles were a moment ago
+!> Relative motion of the bodies in a patch, and where its particles were one time step ago
 module contact_patch_kinematics
    use contact_base_choices, only : motion
    use contact_base_kinds, only : wp
@@ -76,7 +76,7 @@ contains
    !> The same on a surface whose rows differ: at the same places, or one element further ahead
    subroutine curved_displacement(problem, before, workspace, moved)
       type(patch_problem), intent(in) :: problem
-      !> The previous moment
+      !> The previous time step
       type(traction_fields), intent(in) :: before
       type(patch_workspace), intent(inout) :: workspace
       logical, intent(in) :: moved
@@ -92,22 +92,22 @@ contains
       workspace%old_displacement = workspace%old_displacement - workspace%ut
    end subroutine curved_displacement
 
-   !> Tangential displacements by the tractions of a moment, at the places of the elements
-   subroutine displacement_of(problem, moment, workspace, displacement)
+   !> Tangential displacements by the tractions of a time step, at the places of the elements
+   subroutine displacement_of(problem, fields, workspace, displacement)
       type(patch_problem), intent(in) :: problem
-      type(traction_fields), intent(in) :: moment
+      type(traction_fields), intent(in) :: fields
       type(patch_workspace), intent(inout) :: workspace
       !> [mm], shape (mx, my, 2)
       real(wp), allocatable, intent(out) :: displacement(:, :, :)
       real(wp), allocatable :: by_normal(:, :, :)
 
       call prepare_window(problem, workspace)
-      workspace%pt(:, :, 1) = moment%px
-      workspace%pt(:, :, 2) = moment%py
+      workspace%pt(:, :, 1) = fields%px
+      workspace%pt(:, :, 2) = fields%py
       allocate(displacement, by_normal, mold=workspace%pt)
       call workspace%window%tangential(workspace%pt, displacement)
       if (.not. problem%model%coupled()) return
-      call workspace%window%tangential_by_normal(moment%pn, by_normal)
+      call workspace%window%tangential_by_normal(fields%pn, by_normal)
       displacement = displacement + by_normal
    end subroutine displacement_of
 end module contact_patch_kinematics

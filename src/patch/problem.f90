@@ -71,7 +71,7 @@ module contact_patch_problem
       !> Thermal constants; unallocated: no temperatures
       type(body_pair), allocatable :: thermal
       !> Do friction coefficients and slip, or yield limits and plastic displacements, matter for
-      !> the next moment? Only then are they carried along
+      !> the next time step? Only then are they carried along
       logical :: remembers_friction = .false., remembers_yield = .false.
       !> Static coefficient of friction per row, shape (my) [-], and initial yield limit [N/mm2]: what
       !> particles bring along that were not in the window before; set when remembered
@@ -108,20 +108,20 @@ module contact_patch_problem
       procedure :: couples
    end type patch_problem
 
-   !> A quantity that particles carry along from moment to moment
+   !> A quantity that particles carry along from time step to time step
    type :: memory_field
       !> One value per element, shape (mx, my); unallocated when no effect of the case asks for it
       real(wp), allocatable :: value(:, :)
    end type memory_field
 
-   !> Tractions and element states of one moment, on a window
+   !> Tractions and element states of one time step, on a window
    type :: traction_fields
       type(potential_contact) :: grid
       integer, allocatable :: division(:, :)
       real(wp), allocatable :: pn(:, :), px(:, :), py(:, :)
       !> Approach [mm]
       real(wp) :: pen = 0.0_wp
-      !> Does the moment belong to a solved case? Its forces Fn, Fx, Fy, without damping [N]
+      !> Does the time step belong to a solved case? Its forces Fn, Fx, Fy, without damping [N]
       logical :: is_solved = .false.
       real(wp) :: force(3) = 0.0_wp
       !> Coefficient of friction [-] and slip per step [mm]
@@ -134,7 +134,7 @@ module contact_patch_problem
    type :: patch_state
       !> Has a case been solved?
       logical :: started = .false.
-      !> Present and previous moment
+      !> Present and previous time step
       type(traction_fields) :: now, before
       !> Creepages found last [-]
       real(wp) :: creep(2) = 0.0_wp

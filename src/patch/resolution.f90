@@ -9,7 +9,7 @@ module contact_patch_resolution
    implicit none (type, external)
    private
 
-   public :: enough_elements, elements_across, least_across, is_coarse, enough_sides
+   public :: enough_elements, elements_across, min_across, is_coarse, enough_sides
 
    !> Contact that is narrower than so many elements is coarse: by Hertz's theory force and area are off by some ten per cent
    integer, parameter :: enough_elements = 5
@@ -44,7 +44,7 @@ contains
    end function elements_across
 
    !> The same in the narrower direction
-   pure integer function least_across(division) result(least)
+   pure integer function min_across(division) result(least)
       !> Element states, shape (mx, my)
       integer, intent(in) :: division(:, :)
       integer :: across(2)
@@ -52,7 +52,7 @@ contains
       across = elements_across(division)
       least = minval(across, mask=across > 0)
       if (all(across == 0)) least = 0
-   end function least_across
+   end function min_across
 
    !> Is contact narrower than enough elements?
    pure logical function is_coarse(result)
@@ -64,7 +64,7 @@ contains
       if (result%ncon == 0) return
       ! so many elements do not fit into narrow contact
       if (result%ncon >= enough_elements*max(result%grid%mx, result%grid%my)) return
-      least = least_across(result%division)
+      least = min_across(result%division)
       is_coarse = least > 0 .and. least < enough_elements
    end function is_coarse
 

@@ -38,7 +38,7 @@ contains
    !> Solve for the tractions of this step
    subroutine solve_patch(problem, state, workspace, log, result, error)
       type(patch_problem), intent(in) :: problem
-      !> now: estimate on entry, solution on exit; before: the previous moment
+      !> now: estimate on entry, solution on exit; before: the previous time step
       type(patch_state), intent(inout) :: state
       type(patch_workspace), intent(inout) :: workspace
       type(log_type), intent(inout) :: log
@@ -144,7 +144,7 @@ contains
       call workspace%outer%advance(workspace%un, workspace%lift)
    end subroutine next_pass
 
-   !> Forces of this moment for the next one, and damping by their change since the previous one
+   !> Forces of this time step for the next one, and damping by their change since the previous one
    subroutine remember_forces(problem, state, result)
       type(patch_problem), intent(in) :: problem
       type(patch_state), intent(inout) :: state

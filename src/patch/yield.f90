@@ -23,7 +23,7 @@ contains
    !> Without slope they are just another bound of the tractions.
    subroutine set_yield(problem, before, box, tangential)
       type(patch_problem), intent(in) :: problem
-      !> The previous moment
+      !> The previous time step
       type(traction_fields), intent(in) :: before
       type(bounding_box), intent(in) :: box
       !> Bounds of friction on entry

@@ -8,10 +8,10 @@ module contact_profile_line
    implicit none (type, external)
    private
 
-   public :: end_of_values, split_assignment, leading_numbers, read_row, file_place, most_columns, point_list
+   public :: end_of_values, split_assignment, leading_numbers, read_row, file_place, max_columns, point_list
 
    !> Numbers of a row that are looked at
-   integer, parameter :: most_columns = 12
+   integer, parameter :: max_columns = 12
    character(len=*), parameter :: blanks = " ,"
 
    !> Where a row stands
@@ -90,7 +90,7 @@ contains
       !> What should stand here, for messages
       character(len=*), intent(in) :: expected
       !> The first numbers
-      real(wp), intent(out) :: row(most_columns)
+      real(wp), intent(out) :: row(max_columns)
       !> How many there are, also beyond the last that is kept
       integer, intent(out) :: n
       type(error_type), allocatable, intent(out) :: error
@@ -122,7 +122,7 @@ contains
             return
          end if
          n = n + 1
-         if (n <= most_columns) row(n) = value
+         if (n <= max_columns) row(n) = value
       end do
    end subroutine read_row
 

@@ -7,7 +7,7 @@ module contact_profile_miniprof
    use contact_base_error, only : error_type, fatal_error
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
-   use contact_profile_line, only : end_of_values, file_place, leading_numbers, most_columns, point_list, read_row, &
+   use contact_profile_line, only : end_of_values, file_place, leading_numbers, max_columns, point_list, read_row, &
       & split_assignment
    use contact_profile_request, only : profile_file
    use contact_text_lexer, only : input_lexer, printable
@@ -18,7 +18,7 @@ module contact_profile_miniprof
    public :: read_miniprof
 
    !> Messages of one kind per file
-   integer, parameter :: most_messages = 4
+   integer, parameter :: max_messages = 4
    !> What columns may hold: lateral, vertical, angle, curvature, number, yield strength
    character(len=*), parameter :: column_letters = "XYACNK"
 
@@ -32,7 +32,7 @@ contains
       type(file_place) :: place
       type(point_list) :: points
       character(len=:), allocatable :: line, key, value, columns
-      real(wp) :: row(most_columns)
+      real(wp) :: row(max_columns)
       integer :: n, skipped, header_end
       logical :: assigned, blank_seen, header_seen, extra_seen, text_seen, text_follows
 
@@ -71,7 +71,7 @@ contains
          end if
          if (allocated(error)) return
       end do
-      if (skipped > most_messages) call log%warning(text%file // ": " // integer_text(skipped) // " rows were skipped.")
+      if (skipped > max_messages) call log%warning(text%file // ": " // integer_text(skipped) // " rows were skipped.")
       call points%take(profile%y, profile%z, profile%line)
 
    contains
@@ -148,7 +148,7 @@ contains
             if (scan(value(i:i), column_letters // "*") == 0) exit
          end do
          if (verify(columns, column_letters // "*") > 0 .or. index(columns, "X") == 0 .or. index(columns, "Y") == 0 &
-            & .or. len(columns) > most_columns) then
+            & .or. len(columns) > max_columns) then
             call fatal_error(error, "ColumnDef=" // printable(value) // " cannot be used; expected letters of " // &
                & column_letters // " with X and Y among them, separated by commas", file=text%file, line=place%line)
          end if
@@ -166,7 +166,7 @@ contains
                return
             end if
             skipped = skipped + 1
-            if (skipped <= most_messages) call log%warning(text%file // ", line " // integer_text(place%line) // &
+            if (skipped <= max_messages) call log%warning(text%file // ", line " // integer_text(place%line) // &
                & ": a row of " // integer_text(n) // " numbers is skipped; ColumnDef promises " // &
                & integer_text(len(columns)) // ".")
          else if (n == 1) then

@@ -22,7 +22,7 @@ module contact_profile_prepare
    !> Lengths [mm] that a profile in millimetres can have
    real(wp), parameter :: shortest = 5.0_wp, longest = 500.0_wp
    !> Corners of a profile
-   integer, parameter :: most_kinks = 99
+   integer, parameter :: max_kinks = 99
 
 contains
 
@@ -319,9 +319,9 @@ contains
       s = chord_lengths(y, z)
       s = s - length_origin(s, y, z)
       is_kink = find_kinks(y, z, request%kink_high, request%kink_low, request%kink_width)
-      if (count(is_kink) > most_kinks) then
+      if (count(is_kink) > max_kinks) then
          call fatal_error(error, "there are " // integer_text(count(is_kink)) // " kinks; accepted are at most " // &
-            & integer_text(most_kinks) // " (raise KINKHIGH)", file=file)
+            & integer_text(max_kinks) // " (raise KINKHIGH)", file=file)
          return
       end if
       call smooth_points(request, s, y, z, is_kink, splines, solved)
@@ -331,9 +331,9 @@ contains
          return
       end if
       curve = new_curve(request%side, splines(1), splines(2))
-      if (request%doubt > doubt%ignore .and. curve%hidden_part() > min(request%most_hidden, 0.999_wp)) then
+      if (request%doubt > doubt%ignore .and. curve%hidden_part() > min(request%max_hidden, 0.999_wp)) then
          call fatal_error(error, real_text(100.0_wp*curve%hidden_part()) // " % of the profile are hidden behind the rest; &
-            &accepted are at most " // real_text(100.0_wp*request%most_hidden) // " % (is it upside down?)", file=file)
+            &accepted are at most " // real_text(100.0_wp*request%max_hidden) // " % (is it upside down?)", file=file)
       end if
    end subroutine prepare_points
 
@@ -347,12 +347,12 @@ contains
       !> Weights of kinks, and of ends for the weighted methods
       real(wp), parameter :: kink_weight = 100.0_wp, end_weight = 20.0_wp
       !> Less smoothing than this is none [mm4], [mm6]
-      real(wp), parameter :: least_fourth = 1.0e-10_wp, least_sixth = 1.0e-6_wp
+      real(wp), parameter :: min_fourth = 1.0e-10_wp, min_sixth = 1.0e-6_wp
       !> Of the largest to the smallest eigenvalue of smoothing by B-splines
       real(wp), parameter :: conditioning = 20.0e-6_wp
       real(wp) :: weights(size(s)), points(size(s), 2), lambda, spacing
       integer :: n
-      integer, parameter :: most_intervals = 4998
+      integer, parameter :: max_intervals = 4998
 
       n = size(s)
       points(:, 1) = y
@@ -372,12 +372,12 @@ contains
             call not_a_knot_splines(s, points, splines, solved, is_kink)
             return
          end if
-         lambda = max(least_sixth, (request%smooth/(2.0_wp*pi))**6)
+         lambda = max(min_sixth, (request%smooth/(2.0_wp*pi))**6)
          spacing = max(0.001_wp, 0.25_wp*request%smooth, (conditioning*lambda)**(1.0_wp/6.0_wp), &
-            & (s(n) - s(1))/most_intervals)
+            & (s(n) - s(1))/max_intervals)
          call smooth_b_splines(s, points, weights, lambda, spacing, splines, solved, is_kink)
       else
-         if (lambda > least_fourth) then
+         if (lambda > min_fourth) then
             call smoothing_splines(s, points, weights, lambda, splines, solved, is_kink)
             return
          end if

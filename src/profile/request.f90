@@ -48,7 +48,7 @@ module contact_profile_request
       !> Turning angles [rad] of a kink and of what may not be near one, within this distance [mm]
       real(wp) :: kink_high = pi/6.0_wp, kink_low = pi/30.0_wp, kink_width = 2.0_wp
       !> Largest part of the length that may be hidden behind the rest, 0...1
-      real(wp) :: most_hidden = 0.5_wp
+      real(wp) :: max_hidden = 0.5_wp
       !> Member of doubt
       integer :: doubt = 0
    end type profile_request
@@ -107,6 +107,6 @@ contains
       same = a%file == b%file .and. len(a%file) == len(b%file) .and. a%side == b%side .and. a%mirror_y == b%mirror_y &
          & .and. a%mirror_z == b%mirror_z .and. a%scale == b%scale .and. a%method == b%method .and. a%smooth == b%smooth &
          & .and. a%zig_zag == b%zig_zag .and. a%kink_high == b%kink_high .and. a%kink_low == b%kink_low &
-         & .and. a%kink_width == b%kink_width .and. a%most_hidden == b%most_hidden .and. a%doubt == b%doubt
+         & .and. a%kink_width == b%kink_width .and. a%max_hidden == b%max_hidden .and. a%doubt == b%doubt
    end function same_request
 end module contact_profile_request

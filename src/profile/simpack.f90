@@ -7,7 +7,7 @@ module contact_profile_simpack
    use contact_base_error, only : error_type, fatal_error
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
-   use contact_profile_line, only : end_of_values, file_place, most_columns, point_list, read_row, split_assignment
+   use contact_profile_line, only : end_of_values, file_place, max_columns, point_list, read_row, split_assignment
    use contact_profile_request, only : profile_file, profile_side
    use contact_text_lexer, only : input_lexer, printable
    use contact_text_words, only : integer_text, real_text
@@ -25,7 +25,7 @@ module contact_profile_simpack
    !> Smallest distance of points that a file may ask for
    real(wp), parameter :: smallest_distance = 1.0e-6_wp
    !> Messages of one kind per file
-   integer, parameter :: most_messages = 4
+   integer, parameter :: max_messages = 4
 
 contains
 
@@ -40,7 +40,7 @@ contains
       type(file_place) :: place
       type(point_list) :: points
       character(len=:), allocatable :: line, key, value
-      real(wp) :: row(most_columns), rotation, angle_unit, length_unit
+      real(wp) :: row(max_columns), rotation, angle_unit, length_unit
       integer :: now, n, skipped, rotation_line
       logical :: assigned, finished
 
@@ -79,7 +79,7 @@ contains
          return
       end if
       profile%units_per_mm = length_unit/1000.0_wp
-      if (skipped > most_messages) call log%warning(text%file // ": " // integer_text(skipped) // " rows were skipped.")
+      if (skipped > max_messages) call log%warning(text%file // ": " // integer_text(skipped) // " rows were skipped.")
       call points%take(profile%y, profile%z, profile%line)
 
    contains
@@ -92,7 +92,7 @@ contains
             return
          end if
          skipped = skipped + 1
-         if (skipped <= most_messages) call log%warning(text%file // ", line " // integer_text(place%line) // &
+         if (skipped <= max_messages) call log%warning(text%file // ", line " // integer_text(place%line) // &
             & ": a row of " // integer_text(n) // " numbers is skipped; points have two or three, y z [weight].")
       end subroutine take_point
 

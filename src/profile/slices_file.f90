@@ -41,9 +41,9 @@ module contact_profile_slices_file
       logical, allocatable :: is_kink(:)
    end type slices_list
 
-   integer, parameter :: most_slices = 4999, most_features = 999
+   integer, parameter :: max_slices = 4999, max_features = 999
    !> Least distance of slices in units of u, and of features [mm]
-   real(wp), parameter :: least_distance = 1.0e-3_wp, least_feature = 1.0e-6_wp
+   real(wp), parameter :: min_distance = 1.0e-3_wp, min_feature = 1.0e-6_wp
    !> Features at the ends when the file names none [mm]
    real(wp), parameter :: far = 1.0e6_wp
 
@@ -64,11 +64,11 @@ contains
       offset = v(1)%r
       scale = v(2)%r
       call text%read_group("i", "NSLC", v, error)
-      if (.not. allocated(error)) call refuse_outside(v(1), 1, most_slices)
+      if (.not. allocated(error)) call refuse_outside(v(1), 1, max_slices)
       if (allocated(error)) return
       n = v(1)%i
       call text%read_group("iII", "NFEAT NKINK NACCEL", v, error)
-      if (.not. allocated(error)) call refuse_outside(v(1), 0, most_features)
+      if (.not. allocated(error)) call refuse_outside(v(1), 0, max_features)
       if (allocated(error)) return
       features = v(1)%i
       kinks = 0
@@ -93,7 +93,7 @@ contains
          call place_beside(text%file, v(2)%s, list%slices(k)%file)
          list%slices(k)%line = v(1)%line
          if (k == 1) cycle
-         if (list%slices(k)%u - list%slices(k - 1)%u > least_distance) cycle
+         if (list%slices(k)%u - list%slices(k - 1)%u > min_distance) cycle
          call fatal_error(error, "slice " // integer_text(k) // " is at " // real_text(list%slices(k)%u) // ", the one before at " &
             & // real_text(list%slices(k - 1)%u) // "; positions must rise by more than 0.001", file=text%file, line=v(1)%line)
          return
@@ -146,7 +146,7 @@ contains
          do i = 1, n
             call text%read_array(features + 1, "U_SLC S_F", numbers, error, line=line)
             if (allocated(error)) return
-            if (abs(scale*(offset + numbers(1)) - list%slices(i)%u) > least_distance) then
+            if (abs(scale*(offset + numbers(1)) - list%slices(i)%u) > min_distance) then
                call fatal_error(error, "features are given for position " // real_text(numbers(1)) // "; expected slice " // &
                   & integer_text(i) // " at " // real_text(list%slices(i)%u/scale - offset), file=text%file, line=line)
                return
@@ -165,7 +165,7 @@ contains
          integer :: first, last
          character(len=:), allocatable :: complaint
 
-         there = s > -least_feature
+         there = s > -min_feature
          first = findloc(there, .true., 1)
          last = findloc(there, .true., 1, back=.true.)
          complaint = ""
@@ -173,7 +173,7 @@ contains
             complaint = "has fewer than two features"
          else if (count(there) /= last - first + 1) then
             complaint = "lacks a feature between others"
-         else if (any(s(first + 1:last) - s(first:last - 1) <= least_feature)) then
+         else if (any(s(first + 1:last) - s(first:last - 1) <= min_feature)) then
             complaint = "has features that do not rise"
          end if
          if (len(complaint) > 0) call fatal_error(error, "slice " // integer_text(slice) // " " // complaint // &

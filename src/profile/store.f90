@@ -1,7 +1,7 @@
 !> Profiles that are ready for use, each prepared once
 !>
 !> Whoever runs the cases owns one store. A profile stays until the store is released or, when more than
-!> `most_profiles` are in use, until it is the one that was asked for longest ago. A file that has
+!> `max_profiles` are in use, until it is the one that was asked for longest ago. A file that has
 !> changed since is read again: the text is compared by its length and a hash, which needs no clock.
 module contact_profile_store
    use contact_base_error, only : add_context, error_type
@@ -37,7 +37,7 @@ module contact_profile_store
 
    type :: profile_store
       !> Profiles that are kept
-      integer :: most_profiles = 20
+      integer :: max_profiles = 20
       !> Are files looked at again when their profile is there already?
       logical :: watches_files = .true.
       !> Files that were read, for tests and timing
@@ -58,7 +58,7 @@ contains
    subroutine get(self, request, profile, log, error)
       class(profile_store), intent(inout) :: self
       type(profile_request), intent(in) :: request
-      !> Belongs to the store; valid until `most_profiles` others were asked for. Null on errors
+      !> Belongs to the store; valid until `max_profiles` others were asked for. Null on errors
       type(prepared_profile), pointer, intent(out) :: profile
       type(log_type), intent(inout) :: log
       type(error_type), allocatable, intent(out) :: error
@@ -66,7 +66,7 @@ contains
       integer :: k, slot
 
       profile => null()
-      if (.not. allocated(self%entries)) allocate(self%entries(max(1, self%most_profiles)))
+      if (.not. allocated(self%entries)) allocate(self%entries(max(1, self%max_profiles)))
       self%clock = self%clock + 1
       if (.not. self%watches_files) then
          do k = 1, size(self%entries)

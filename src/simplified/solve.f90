@@ -126,7 +126,7 @@ contains
       real(wp), intent(inout) :: creep(2)
       type(simplified_solution), intent(inout) :: solution
       type(solve_report), intent(inout) :: report
-      integer, parameter :: most_steps = 20, most_halvings = 6
+      integer, parameter :: max_steps = 20, max_halvings = 6
       !> Differences are taken over this share of the characteristic creepages
       real(wp), parameter :: share = 1.0e-6_wp
       real(wp) :: unit(2), base(2), missing(2), slope(2, 2), step(2), determinant, factor
@@ -137,7 +137,7 @@ contains
       factor = 1.0_wp - (max(0.0_wp, 1.0_wp - norm2(problem%force)))**(1.0_wp/3.0_wp)
       creep = -3.0_wp*factor*unit*problem%force/max(norm2(problem%force), tiny(factor))
       call look(creep)
-      do i = 1, most_steps
+      do i = 1, max_steps
          if (report%residual <= problem%eps) return
          base = creep
          missing = solution%force - problem%force
@@ -151,12 +151,12 @@ contains
          report%residual = maxval(abs(missing))
          if (determinant*product(unit) <= 1.0e-12_wp) return
          step = -[slope(2, 2)*missing(1) - slope(1, 2)*missing(2), slope(1, 1)*missing(2) - slope(2, 1)*missing(1)]/determinant
-         do j = 0, most_halvings
+         do j = 0, max_halvings
             creep = base + 0.5_wp**j*step
             call look(creep)
             if (norm2(solution%force - problem%force) < norm2(missing)) exit
          end do
-         if (j > most_halvings) then
+         if (j > max_halvings) then
             creep = base
             report%residual = maxval(abs(missing))
             return

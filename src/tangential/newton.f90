@@ -38,7 +38,7 @@ module contact_tangential_newton
    !> (1996), whose power is (1 + sqrt(5))/2
    real(wp), parameter :: rough = 0.2_wp, forcing_factor = 0.5_wp, forcing_power = 1.5_wp
    !> No more accuracy than this part of the tolerance needs, but at least the other; chosen
-   real(wp), parameter :: enough = 0.3_wp, least_accuracy = 0.1_wp
+   real(wp), parameter :: enough = 0.3_wp, min_accuracy = 0.1_wp
    !> Lengths of steps that are tried in turn; the first that lowers the residual by this part of its length is taken; chosen
    real(wp), parameter :: lengths(6) = [1.0_wp, 0.5_wp, 0.25_wp, 0.1_wp, 0.03_wp, 0.01_wp]
    real(wp), parameter :: decrease = 0.1_wp
@@ -46,7 +46,7 @@ module contact_tangential_newton
    !> that was cut short and did well; see doc/theory/solvers.md
    real(wp), parameter :: first_range = 0.2_wp, range_growth = 3.0_wp
    !> Least weight of an element in the mean slip, relative to its bound; chosen
-   real(wp), parameter :: least_weight = 1.0e-3_wp
+   real(wp), parameter :: min_weight = 1.0e-3_wp
 
 contains
 
@@ -107,7 +107,7 @@ contains
          end do
          ! no more accuracy than the next residual can make use of
          forcing = min(rough, forcing_factor*(residual/max(previous, residual))**forcing_power)
-         forcing = max(forcing, min(least_accuracy, enough*tolerance/residual))
+         forcing = max(forcing, min(min_accuracy, enough*tolerance/residual))
          if (step == 0) forcing = rough
          call solve_linear(problem, operator, system, workspace, unbalance, forcing, correction, outcome%preconditionings)
 
@@ -275,7 +275,7 @@ contains
       do iy = 1, problem%my
          do ix = 1, problem%mx
             if (.not. problem%contact(ix, iy)) cycle
-            weight = max(least_weight*problem%bound(ix, iy), &
+            weight = max(min_weight*problem%bound(ix, iy), &
                & problem%bound(ix, iy) - hypot(solution%p(ix, iy, 1), solution%p(ix, iy, 2)))
             creep = creep + weight*solution%slip(ix, iy, :)
             if (allocated(problem%share)) weight = weight*problem%share(ix, iy)

@@ -1,7 +1,7 @@
 !> A tangential contact problem with given traction bounds, and its true residual
 !>
 !> The slip per step is  S(p) = W + dq c + B p,  with B the compliance A (shift, transient
-!> rolling) or the difference A - A' between two moments (steady rolling). Elements that have been in contact for a share of
+!> rolling) or the difference A - A' between two time steps (steady rolling). Elements that have been in contact for a share of
 !> the step have share dq c, and in steady rolling the displacement at the edge of contact for A'. In every element of
 !> the contact area: |p| <= g, and where S /= 0, p = -g S/|S|. Written as one equation,
 !>
@@ -176,7 +176,7 @@ contains
       type(yield_point) :: point
       integer :: ix, iy, k
       !> Limits far below the bound of friction count as this part of it: no more figures are left in p - r S
-      real(wp), parameter :: least_share = 1.0e-4_wp
+      real(wp), parameter :: min_share = 1.0e-4_wp
       real(wp) :: z(2), length, total, scale, sum_g, acts
 
       if (problem%hardens()) before = limits_before(problem, p, slip, r)
@@ -196,7 +196,7 @@ contains
             end if
             total = total + sum((p(ix, iy, :) - z)**2)
             acts = problem%bound(ix, iy)
-            if (allocated(before)) acts = max(min(acts, before(ix, iy)), least_share*acts)
+            if (allocated(before)) acts = max(min(acts, before(ix, iy)), min_share*acts)
             scale = scale + acts**2
             sum_g = sum_g + problem%bound(ix, iy)
          end do

@@ -105,7 +105,7 @@ contains
       class(streaming_rows), intent(inout) :: self
       type(tangential_problem), intent(in) :: problem
       class(compliance), intent(in) :: operator
-      !> Coefficients of the same particles at the previous moment, if that is not one element
+      !> Coefficients of the same particles at the previous time step, if that is not one element
       type(kernel_table), intent(in), optional :: shifted
       integer :: ix, iy, jx, mx, my
 

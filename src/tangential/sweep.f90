@@ -13,7 +13,7 @@ module contact_tangential_sweep
 
    ! As in CONTACT (Vollebregt)
    !> Tractions count as at least this [N/mm2], or as this part of a largest bound below 1 N/mm2
-   real(wp), parameter :: least_size = 1.0e-6_wp
+   real(wp), parameter :: min_size = 1.0e-6_wp
    !> Average factor of the updates above which the iteration limit means a standstill
    real(wp), parameter :: stagnating_rate = 0.997_wp
 
@@ -56,7 +56,7 @@ contains
       self%dif = self%mean(square_dif)
       self%size = self%mean(square_size)
       if (self%updates == 1) self%first = self%dif
-      if (self%dif <= self%eps*max(least_size*min(1.0_wp, self%largest_bound), self%size)) then
+      if (self%dif <= self%eps*max(min_size*min(1.0_wp, self%largest_bound), self%size)) then
          ended = ending%converged
       else if (self%updates >= limit) then
          ended = ending%iteration_limit

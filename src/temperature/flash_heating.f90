@@ -17,10 +17,10 @@ module contact_temperature_flash_heating
    implicit none (type, external)
    private
 
-   public :: body_pair, heat_passage, least_peclet_number, new_body_pair
+   public :: body_pair, heat_passage, min_peclet_number, new_body_pair
 
    !> From this Peclet number on, conduction along the surface changes the highest temperature by less than 3 %
-   real(wp), parameter :: least_peclet_number = 10.0_wp
+   real(wp), parameter :: min_peclet_number = 10.0_wp
 
    !> Thermal constants of both bodies
    type :: body_pair

@@ -18,7 +18,7 @@ module contact_toml_parser
    !> Deepest nesting of arrays and inline tables, most parts of a dotted key
    integer, parameter :: deepest = 20, longest_key = 20
    !> Most nodes of a document
-   integer, parameter :: most_nodes = 20000000
+   integer, parameter :: max_nodes = 20000000
 
    character(len=*), parameter :: figures = "0123456789"
    character(len=*), parameter :: letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
@@ -422,7 +422,7 @@ contains
       type(toml_parser), intent(inout) :: p
       type(toml_document), intent(in) :: document
 
-      if (document%count >= most_nodes) call fail(p, "there are more than " // integer_text(most_nodes) // " values")
+      if (document%count >= max_nodes) call fail(p, "there are more than " // integer_text(max_nodes) // " values")
    end subroutine check_size
 
    !> A string, which is in the text or, with escapes, added to the store

@@ -10,11 +10,11 @@ module contact_wheelrail_bodies
    use contact_profile_surface, only : large_swing, profile_surface, surface_cut
    use contact_wheelrail_flat_patch, only : wheel_height, wheel_row
    use contact_wheelrail_frame, only : frame
-   use contact_wheelrail_placement, only : pair_placement
+   use contact_wheelrail_placement, only : wheel_rail_placement
    implicit none (type, external)
    private
 
-   public :: pair_bodies, strip, place_bodies, search_reach, widest_reach, rail_section, find_rail, find_wheel
+   public :: wheel_rail_bodies, strip, place_bodies, search_reach, widest_reach, rail_section, find_rail, find_wheel
    public :: find_rail_row, find_wheel_row, slice_pair
 
    !> Sections on an even mesh
@@ -36,17 +36,17 @@ module contact_wheelrail_bodies
    end type strip
 
    !> Both surfaces in their present places
-   type :: pair_bodies
+   type :: wheel_rail_bodies
       !> The rail in track coordinates, the wheel in its own
       type(profile_curve) :: rail, wheel
-      type(pair_placement) :: placement
+      type(wheel_rail_placement) :: placement
       !> Sections of a variable rail in track coordinates; unallocated when it is prismatic
       type(strip), allocatable :: rail_strip
       !> Sections of a wheel that is out of round, in its own coordinates, by the angle from its bottom
       type(strip), allocatable :: wheel_strip
       !> See search_spec
       logical :: angle_below_axle = .false.
-   end type pair_bodies
+   end type wheel_rail_bodies
 
    !> The slices before and behind a place, for questions about places near each other
    type :: slice_pair
@@ -75,7 +75,7 @@ contains
    !> Sections are as far apart as elements: a flat or a joint that slices describe closely shows in the
    !> pressures, and coarser sections would take the edge off it (5 % of the highest pressure of `wheelflat` for 1 mm).
    subroutine place_bodies(bodies, s_ws, pitch, dx, rail_surface, wheel_surface)
-      type(pair_bodies), intent(inout) :: bodies
+      type(wheel_rail_bodies), intent(inout) :: bodies
       !> Position of the wheelset along the track [mm]; pitch angle of the wheel [rad]
       real(wp), intent(in) :: s_ws, pitch
       !> Size of the elements along the track [mm]
@@ -100,7 +100,7 @@ contains
    !> How far from the wheel contact is sought along the track [mm]: on the flank of a yawed wheel it is ahead of the axle or behind
    !> it by the radius times slope and yaw
    pure real(wp) function search_reach(bodies) result(length)
-      type(pair_bodies), intent(in) :: bodies
+      type(wheel_rail_bodies), intent(in) :: bodies
 
       associate (yaw => abs(bodies%placement%wheel%yaw()))
          length = max(reach, min(furthest, steepest_flank*tan(min(yaw, 1.0_wp))))*bodies%placement%wheel_radius
@@ -109,7 +109,7 @@ contains
 
    !> How far from the wheel contact may be [mm]
    pure real(wp) function widest_reach(bodies) result(length)
-      type(pair_bodies), intent(in) :: bodies
+      type(wheel_rail_bodies), intent(in) :: bodies
       length = furthest*bodies%placement%wheel_radius
    end function widest_reach
 
@@ -184,7 +184,7 @@ contains
 
    !> Origin (y, z) and roll angle of the track in rail coordinates
    pure function track_axes(placement) result(axes)
-      type(pair_placement), intent(in) :: placement
+      type(wheel_rail_placement), intent(in) :: placement
       real(wp) :: axes(3)
       real(wp) :: angle
 
@@ -197,7 +197,7 @@ contains
    !> Section of a variable rail in track coordinates
    subroutine rail_section(surface, placement, u, section)
       type(profile_surface), intent(in) :: surface
-      type(pair_placement), intent(in) :: placement
+      type(wheel_rail_placement), intent(in) :: placement
       !> Position along the track [mm]
       real(wp), intent(in) :: u
       !> `present` is false where there is no rail between slices
@@ -248,7 +248,7 @@ contains
    !>
    !> On the line along n the surface is found by Newton's method, with the slope across the rail.
    subroutine find_rail(bodies, plane, x, s, n, found)
-      type(pair_bodies), intent(inout) :: bodies
+      type(wheel_rail_bodies), intent(inout) :: bodies
       !> In track coordinates
       type(frame), intent(in) :: plane
       real(wp), intent(in) :: x, s
@@ -295,7 +295,7 @@ contains
 
    !> Heights n of the rail over a row of points (x, s) of a plane; each point starts from the three before it
    subroutine find_rail_row(bodies, plane, x, s, n, found)
-      type(pair_bodies), intent(inout) :: bodies
+      type(wheel_rail_bodies), intent(inout) :: bodies
       !> In track coordinates
       type(frame), intent(in) :: plane
       !> At even distances
@@ -316,7 +316,7 @@ contains
 
    !> Height n of the wheel over a point (x, s) of a plane
    subroutine find_wheel(bodies, seen, x, s, place, n, found)
-      type(pair_bodies), intent(inout) :: bodies
+      type(wheel_rail_bodies), intent(inout) :: bodies
       !> The plane seen from the wheel
       type(frame), intent(in) :: seen
       real(wp), intent(in) :: x, s
@@ -350,7 +350,7 @@ contains
 
    !> Heights n of the wheel over a row of points (x, s) of a plane
    subroutine find_wheel_row(bodies, seen, x, s, n, found)
-      type(pair_bodies), intent(inout) :: bodies
+      type(wheel_rail_bodies), intent(inout) :: bodies
       !> The plane seen from the wheel
       type(frame), intent(in) :: seen
       !> At even distances

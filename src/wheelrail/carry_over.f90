@@ -1,4 +1,4 @@
-!> Tractions of the previous moment, carried over to the patches of the present one
+!> Tractions of the previous time step, carried over to the patches of the present one
 !>
 !> Patches come and go, join and separate. What they leave behind is kept on one lattice of elements per
 !> pair: across the rail it is fixed to the arc length of the profile, along the track to the rail (shifts)
@@ -12,12 +12,12 @@ module contact_wheelrail_carry_over
    use contact_base_kinds, only : wp
    use contact_grid_element_division, only : element
    use contact_grid_potential_contact, only : potential_contact
-   use contact_patch_moments, only : clear_moment
+   use contact_patch_time_steps, only : clear_time_step
    use contact_patch_problem, only : memory_field, patch_problem, traction_fields
    implicit none (type, external)
    private
 
-   public :: carried_moment, lattice_box, lattice_window, place_on_lattice
+   public :: carried_step, lattice_box, lattice_window, place_on_lattice
 
    !> Bounds of a patch on the lattice [mm]
    type :: lattice_box
@@ -38,13 +38,13 @@ module contact_wheelrail_carry_over
       integer, allocatable :: owner(:, :)
    end type carried_patch
 
-   !> All patches of a pair at one moment
-   type :: carried_moment
+   !> All patches of a pair in one time step
+   type :: carried_step
       !> In the order of the results; unallocated before the first case
       type(carried_patch), allocatable :: patch(:)
       !> Is the lattice fixed to the rail along the track? Otherwise to the wheelset
       logical :: follows_rail = .false.
-      !> Position of the wheelset along the rail at that moment [mm]
+      !> Position of the wheelset along the rail at that time [mm]
       real(wp) :: travel = 0.0_wp
    contains
       !> No tractions
@@ -58,9 +58,9 @@ module contact_wheelrail_carry_over
       procedure :: drop_other_elements
       !> Forget tangential tractions
       procedure :: drop_tangential
-      !> Give elements to the patches of the present moment
+      !> Give elements to the patches of the present time step
       procedure :: share_out
-      !> Patches of that moment which a present one continues
+      !> Patches of that time step which a present one continues
       procedure :: sources
       !> Window that holds all elements of a present patch
       procedure :: widen
@@ -68,19 +68,19 @@ module contact_wheelrail_carry_over
       procedure :: hand_over
       !> Sum of the tractions of a present patch
       procedure :: total_force
-   end type carried_moment
+   end type carried_step
 
 contains
 
    !> No tractions
    pure subroutine clear(self)
-      class(carried_moment), intent(inout) :: self
+      class(carried_step), intent(inout) :: self
       if (allocated(self%patch)) deallocate(self%patch)
    end subroutine clear
 
-   !> Make place for the patches of a moment
+   !> Make place for the patches of a time step
    subroutine start(self, patches, follows_rail, travel)
-      class(carried_moment), intent(inout) :: self
+      class(carried_step), intent(inout) :: self
       !> Their number
       integer, intent(in) :: patches
       logical, intent(in) :: follows_rail
@@ -97,7 +97,7 @@ contains
    !>
    !> A window that is not on the lattice, as in steady rolling, is moved to the nearest place there.
    subroutine add(self, k, fields, reference, box)
-      class(carried_moment), intent(inout) :: self
+      class(carried_step), intent(inout) :: self
       integer, intent(in) :: k
       !> On a window in coordinates of the patch
       type(traction_fields), intent(in) :: fields
@@ -123,7 +123,7 @@ contains
 
    !> Change between lattices on the rail and on the wheelset, by whole elements
    pure subroutine set_frame(self, follows_rail)
-      class(carried_moment), intent(inout) :: self
+      class(carried_step), intent(inout) :: self
       logical, intent(in) :: follows_rail
       integer(int64) :: steps
       integer :: k
@@ -144,7 +144,7 @@ contains
 
    !> Leave out patches whose elements have other sides than those of the lattice
    subroutine drop_other_elements(self, dx, ds, dropped)
-      class(carried_moment), intent(inout) :: self
+      class(carried_step), intent(inout) :: self
       !> Sides of the elements [mm]
       real(wp), intent(in) :: dx, ds
       !> Number of patches left out
@@ -165,7 +165,7 @@ contains
 
    !> Forget tangential tractions
    pure subroutine drop_tangential(self)
-      class(carried_moment), intent(inout) :: self
+      class(carried_step), intent(inout) :: self
       integer :: k
 
       if (.not. allocated(self%patch)) return
@@ -177,7 +177,7 @@ contains
 
    !> Give every element that was in contact to one of the present patches
    subroutine share_out(self, boxes)
-      class(carried_moment), intent(inout) :: self
+      class(carried_step), intent(inout) :: self
       !> Bounds of the present patches
       type(lattice_box), intent(in) :: boxes(:)
       integer :: j, k, ix, iy, candidates(size(boxes)), n, nearest
@@ -230,9 +230,9 @@ contains
          & + max(box%s(1) - place(2), place(2) - box%s(2), 0.0_wp)**2
    end function squared_distance
 
-   !> Patches of that moment which a present one continues, rising
+   !> Patches of that time step which a present one continues, rising
    pure function sources(self, k) result(list)
-      class(carried_moment), intent(in) :: self
+      class(carried_step), intent(in) :: self
       !> Number of the present patch
       integer, intent(in) :: k
       integer, allocatable :: list(:)
@@ -247,7 +247,7 @@ contains
 
    !> Widen a window on the lattice so that it holds all elements given to a patch
    pure subroutine widen(self, k, window, grid)
-      class(carried_moment), intent(in) :: self
+      class(carried_step), intent(in) :: self
       !> Number of the present patch
       integer, intent(in) :: k
       type(lattice_window), intent(inout) :: window
@@ -276,9 +276,9 @@ contains
       window%first = low
    end subroutine widen
 
-   !> Fields of the previous moment on the window of a present patch
+   !> Fields of the previous time step on the window of a present patch
    subroutine hand_over(self, k, problem, window, fields)
-      class(carried_moment), intent(in) :: self
+      class(carried_step), intent(in) :: self
       !> Number of the present patch
       integer, intent(in) :: k
       !> Its problem, on a window that holds all its elements
@@ -288,7 +288,7 @@ contains
       integer :: j, ix, iy, jx, jy
       real(wp), allocatable :: zero(:)
 
-      call clear_moment(fields, problem%grid)
+      call clear_time_step(fields, problem%grid)
       allocate(zero(problem%grid%my), source=0.0_wp)
       if (problem%remembers_friction) then
          call start_memory(problem%static_mu, fields%mu)
@@ -339,7 +339,7 @@ contains
       end subroutine start_memory
    end subroutine hand_over
 
-   !> One value of a remembered field, where both moments have it
+   !> One value of a remembered field, where both time steps have it
    pure subroutine take(from, to, ix, iy, jx, jy)
       type(memory_field), intent(in) :: from
       type(memory_field), intent(inout) :: to
@@ -351,7 +351,7 @@ contains
 
    !> Sum of the tractions of a present patch: Fn, Fx, Fs [N]
    pure function total_force(self, k) result(force)
-      class(carried_moment), intent(in) :: self
+      class(carried_step), intent(in) :: self
       !> Number of the present patch
       integer, intent(in) :: k
       real(wp) :: force(3)

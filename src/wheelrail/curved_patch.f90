@@ -10,7 +10,7 @@ module contact_wheelrail_curved_patch
    use contact_grid_potential_contact, only : potential_contact
    use contact_patch_result, only : patch_result
    use contact_profile_curve, only : profile_curve
-   use contact_wheelrail_bodies, only : find_rail_row, find_wheel_row, pair_bodies
+   use contact_wheelrail_bodies, only : find_rail_row, find_wheel_row, wheel_rail_bodies
    use contact_wheelrail_creepage, only : contact_motion, rigid_motion, velocity_of
    use contact_wheelrail_flat_patch, only : nothing_there
    use contact_wheelrail_frame, only : frame, new_frame
@@ -41,7 +41,7 @@ module contact_wheelrail_curved_patch
    end type facing_profiles
 
    !> Rows end where the normals of the two bodies disagree: mean of rail's and wheel's reversed unit normal
-   real(wp), parameter :: least_agreement = 0.9_wp
+   real(wp), parameter :: min_agreement = 0.9_wp
    !> Range of rows that is looked at, relative to that of a flat patch
    real(wp), parameter :: wider = 1.2_wp
    !> Rows beyond the region on each side
@@ -62,7 +62,7 @@ contains
    subroutine curved_rows(rail, bodies, region, plane, grid)
       !> The rail in track coordinates in the section of the reference
       type(profile_curve), intent(in) :: rail
-      type(pair_bodies), intent(in) :: bodies
+      type(wheel_rail_bodies), intent(in) :: bodies
       type(contact_region), intent(in) :: region
       !> Contact reference
       type(frame), intent(in) :: plane
@@ -82,7 +82,7 @@ contains
       do iy = first, last
          call middle(bodies, facing, grid%y(iy), point, normal)
          if (point(1) < region%box%y(1) .or. point(1) > region%box%y(2)) cycle
-         if (norm2(normal) <= least_agreement) cycle
+         if (norm2(normal) <= min_agreement) cycle
          lowest = min(lowest, iy - guard_rows)
          highest = max(highest, iy + guard_rows)
       end do
@@ -94,7 +94,7 @@ contains
    function new_curved_reference(rail, bodies, plane, grid) result(curve)
       !> The rail in track coordinates in the section of the reference
       type(profile_curve), intent(in) :: rail
-      type(pair_bodies), intent(in) :: bodies
+      type(wheel_rail_bodies), intent(in) :: bodies
       !> Contact reference
       type(frame), intent(in) :: plane
       type(potential_contact), intent(in) :: grid
@@ -130,7 +130,7 @@ contains
    !> Profiles in the section of a patch: the wheel's point vertically above the reference faces it
    function face(rail, bodies, plane) result(facing)
       type(profile_curve), intent(in) :: rail
-      type(pair_bodies), intent(in) :: bodies
+      type(wheel_rail_bodies), intent(in) :: bodies
       type(frame), intent(in) :: plane
       type(facing_profiles) :: facing
       real(wp) :: seen(3)
@@ -147,7 +147,7 @@ contains
    !>
    !> The mean of two unit normals is the shorter the less they agree.
    subroutine middle(bodies, facing, s, point, normal)
-      type(pair_bodies), intent(in) :: bodies
+      type(wheel_rail_bodies), intent(in) :: bodies
       type(facing_profiles), intent(in) :: facing
       !> From the contact reference [mm]
       real(wp), intent(in) :: s
@@ -188,7 +188,7 @@ contains
    !> Point of the wheel in the section, facing a point of the rail, and the part of its unit normal in the section
    subroutine point_of_wheel(facing, bodies, s, point, normal)
       type(facing_profiles), intent(in) :: facing
-      type(pair_bodies), intent(in) :: bodies
+      type(wheel_rail_bodies), intent(in) :: bodies
       !> On the rail, from the contact reference [mm]; the wheel's arc length runs the other way
       real(wp), intent(in) :: s
       real(wp), intent(out) :: point(2), normal(2)
@@ -224,7 +224,7 @@ contains
    !> section runs obliquely over it
    pure real(wp) function length_in_section(facing, bodies, place) result(length)
       type(facing_profiles), intent(in) :: facing
-      type(pair_bodies), intent(in) :: bodies
+      type(wheel_rail_bodies), intent(in) :: bodies
       !> On the profile [mm]
       real(wp), intent(in) :: place
       real(wp) :: along(3), around(3), range(2), s
@@ -239,7 +239,7 @@ contains
 
    !> Heights of rail and wheel over the reference surface, along the normals of its rows [mm]
    subroutine surface_heights(bodies, curve, grid, rail, wheel)
-      type(pair_bodies), intent(inout) :: bodies
+      type(wheel_rail_bodies), intent(inout) :: bodies
       type(curved_reference), intent(in) :: curve
       type(potential_contact), intent(in) :: grid
       !> Shape (mx, my); far apart where a surface is missing

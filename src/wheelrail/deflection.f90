@@ -5,10 +5,10 @@ module contact_wheelrail_deflection
    use contact_base_log, only : log_type
    use contact_numeric_root_search, only : root_search
    use contact_wheelrail_height, only : out_of_sight, settle, small_step
-   use contact_wheelrail_memory, only : pair_memory, total_force, vertical_force
+   use contact_wheelrail_memory, only : wheel_rail_memory, total_force, vertical_force
    use contact_wheelrail_placement, only : side_sign
-   use contact_wheelrail_problem, only : pair_problem
-   use contact_wheelrail_result, only : pair_result
+   use contact_wheelrail_problem, only : wheel_rail_problem
+   use contact_wheelrail_result, only : wheel_rail_result
    implicit none (type, external)
    private
 
@@ -20,18 +20,18 @@ contains
    !>
    !> The lateral force falls when the rail gives way, and the force of the spring rises.
    subroutine search_deflection(problem, memory, z, log, result, error)
-      type(pair_problem), intent(in) :: problem
-      type(pair_memory), intent(inout) :: memory
+      type(wheel_rail_problem), intent(in) :: problem
+      type(wheel_rail_memory), intent(inout) :: memory
       !> Height of the wheelset above a rail without vertical deflection [mm]
       real(wp), intent(out) :: z
       type(log_type), intent(inout) :: log
-      type(pair_result), intent(inout) :: result
+      type(wheel_rail_result), intent(inout) :: result
       type(error_type), allocatable, intent(out) :: error
       type(root_search) :: search
       type(log_type) :: silent
       real(wp) :: first, step, tolerance, residual
 
-      first = memory%here%deflection
+      first = memory%geometry%deflection
       associate (rail => problem%spec%rail)
          call settle(problem, memory, z, silent, result, error)
          if (allocated(error)) return
@@ -45,12 +45,12 @@ contains
          do
             call search%answer(residual, abs(search%x - first) > out_of_sight)
             if (search%finished) exit
-            memory%here%deflection = search%x
+            memory%geometry%deflection = search%x
             call settle(problem, memory, z, silent, result, error)
             if (allocated(error)) return
             residual = unbalanced()
          end do
-         memory%here%deflection = search%best
+         memory%geometry%deflection = search%best
          call settle(problem, memory, z, log, result, error)
          if (allocated(error)) return
          residual = unbalanced()
@@ -65,7 +65,7 @@ contains
 
       !> Lateral force that the spring and the static force take [N], right-hand pair
       real(wp) function spring_force()
-         spring_force = problem%spec%rail%ky*memory%here%deflection - side_sign(problem%spec)*problem%spec%rail%fy
+         spring_force = problem%spec%rail%ky*memory%geometry%deflection - side_sign(problem%spec)*problem%spec%rail%fy
       end function spring_force
 
       !> Lateral force that neither the spring nor the static force takes [N], right-hand pair
@@ -78,11 +78,11 @@ contains
 
    !> Vertical deflection of a rail on springs: everything moves down with it
    subroutine lower_rail(problem, memory, z, result)
-      type(pair_problem), intent(in) :: problem
-      type(pair_memory), intent(inout) :: memory
+      type(wheel_rail_problem), intent(in) :: problem
+      type(wheel_rail_memory), intent(inout) :: memory
       !> Height of the wheelset above a rail without vertical deflection on entry, above the track on exit [mm]
       real(wp), intent(inout) :: z
-      type(pair_result), intent(inout) :: result
+      type(wheel_rail_result), intent(inout) :: result
       integer :: k
 
       if (.not. problem%force_prescribed) then

@@ -10,7 +10,7 @@ module contact_wheelrail_flat_patch
    use contact_numeric_spline, only : piece_of
    use contact_profile_curve, only : profile_curve
    use contact_wheelrail_frame, only : frame, new_frame
-   use contact_wheelrail_placement, only : pair_placement
+   use contact_wheelrail_placement, only : wheel_rail_placement
    use contact_wheelrail_regions, only : contact_region
    use contact_wheelrail_spec, only : search_spec
    implicit none (type, external)
@@ -27,7 +27,7 @@ contains
    function patch_frame(rail, placement, region) result(plane)
       !> The rail in track coordinates
       type(profile_curve), intent(in) :: rail
-      type(pair_placement), intent(in) :: placement
+      type(wheel_rail_placement), intent(in) :: placement
       type(contact_region), intent(in) :: region
       type(frame) :: plane
       real(wp) :: z, rho
@@ -41,7 +41,7 @@ contains
    end function patch_frame
 
    !> Elements that cover a region, with one more on each side
-   subroutine patch_grid(rail, search, region, plane, reference, most_elements, grid)
+   subroutine patch_grid(rail, search, region, plane, reference, max_elements, grid)
       !> The rail in track coordinates
       type(profile_curve), intent(in) :: rail
       type(search_spec), intent(in) :: search
@@ -50,7 +50,7 @@ contains
       !> Place of the contact reference relative to the centre of an element [mm]
       real(wp), intent(in) :: reference(2)
       !> Elements are doubled in size until there are fewer than this
-      integer, intent(in) :: most_elements
+      integer, intent(in) :: max_elements
       type(potential_contact), intent(out) :: grid
       real(wp) :: x(2), s(2), lead(2), dx, ds
       integer :: ix(2), iy(2), doubling
@@ -70,7 +70,7 @@ contains
          iy = [floor((s(1) + lead(2))/ds) - 1, ceiling((s(2) + lead(2))/ds) + 1]
          grid%mx = ix(2) - ix(1) + 1
          grid%my = iy(2) - iy(1) + 1
-         if (real(grid%mx, wp)*grid%my < most_elements) exit
+         if (real(grid%mx, wp)*grid%my < max_elements) exit
          if (grid%mx <= 10 .and. grid%my <= 10) exit
          if (grid%mx > 10) dx = 2.0_wp*dx
          if (grid%my > 10) ds = 2.0_wp*ds
@@ -140,7 +140,7 @@ contains
       type(profile_curve), intent(in) :: rail
       !> The wheel in its own coordinates
       type(profile_curve), intent(in) :: wheel
-      type(pair_placement), intent(in) :: placement
+      type(wheel_rail_placement), intent(in) :: placement
       type(frame), intent(in) :: plane
       !> See `start_places`. The section of the rail is followed from these on as long as s does not turn round; anything
       !> else that stands above the plane, such as the far wall of a groove, is not part of it
@@ -245,22 +245,22 @@ contains
       real(wp), intent(out) :: n(:)
       logical, intent(out) :: found(:)
       !> Place and height of the last three points, the last one first
-      real(wp) :: recent(2, 3), here(2), point(3)
+      real(wp) :: recent(2, 3), estimate(2), point(3)
       integer :: i, known, piece
 
       recent(:, 1) = start
       known = 0
       piece = 1
       do i = 1, size(x)
-         here = recent(:, 1)
-         if (known == 3) here = 3.0_wp*(recent(:, 1) - recent(:, 2)) + recent(:, 3)
+         estimate = recent(:, 1)
+         if (known == 3) estimate = 3.0_wp*(recent(:, 1) - recent(:, 2)) + recent(:, 3)
          point = seen%origin + seen%axes(:, 1)*x(i) + seen%axes(:, 2)*s
-         call meet_wheel(wheel, radius, point, seen%axes(:, 3), piece, here(1), here(2), found(i))
-         n(i) = here(2)
+         call meet_wheel(wheel, radius, point, seen%axes(:, 3), piece, estimate(1), estimate(2), found(i))
+         n(i) = estimate(2)
          if (found(i)) then
-            if (i == 1) start = here
+            if (i == 1) start = estimate
             recent(:, 2:3) = recent(:, 1:2)
-            recent(:, 1) = here
+            recent(:, 1) = estimate
             known = min(known + 1, 3)
          else
             recent(:, 1) = start
@@ -306,7 +306,7 @@ contains
       !> Of a step, relative to the radius: what remains after it is of the order of its square
       real(wp), parameter :: tolerance = 1.0e-8_wp
       !> Steps in a row that leave the profile, until the line is taken to miss it
-      integer, parameter :: most_beyond = 4
+      integer, parameter :: max_beyond = 4
 
       found = .false.
       associate (nodes => wheel%y%s)
@@ -339,7 +339,7 @@ contains
             found = abs(step(1)) + abs(step(2)) <= tolerance*radius
             beyond = merge(beyond + 1, 0, place < nodes(1) .or. place > last)
             place = min(max(place, nodes(1)), last)
-            if (found .or. beyond > most_beyond) return
+            if (found .or. beyond > max_beyond) return
          end do
       end associate
    end subroutine meet_wheel

@@ -45,7 +45,7 @@ module contact_wheelrail_force_balance
       !> Height of first touch, highest height allowed, width of a bracket that counts as a point [mm]
       real(wp) :: touch = 0.0_wp, highest = 0.0_wp, resolution = 1.0e-9_wp
       !> Number of trials so far and allowed
-      integer :: trials = 0, most_trials = 25
+      integer :: trials = 0, max_trials = 25
       !> Best trial so far: height [mm] and force [N]
       real(wp) :: z = 0.0_wp, force = 0.0_wp
       !> Member of balance_ending
@@ -80,7 +80,7 @@ module contact_wheelrail_force_balance
    !> Trials stay this part of a bracket away from its ends
    real(wp), parameter :: margin = 1.0e-3_wp
    !> Trials with estimated forces that fall further and further below zero, after which the ratio of friction leads nowhere
-   integer, parameter :: most_falling = 5
+   integer, parameter :: max_falling = 5
    !> A force that rises this many times as much as the contact is stiff seems to jump, and jumps
    real(wp), parameter :: seems_to_jump = 5.0_wp, jumps = 20.0_wp
    !> The place of a jump is sought up to this distance [mm], and this part of the penetration
@@ -89,7 +89,7 @@ module contact_wheelrail_force_balance
 contains
 
    !> Begin a search between the first touch and the highest height
-   subroutine start(self, target, eps, touch, highest, most_trials, forces_are_estimates)
+   subroutine start(self, target, eps, touch, highest, max_trials, forces_are_estimates)
       class(force_balance), intent(inout) :: self
       !> Force to be reached [N], positive
       real(wp), intent(in) :: target
@@ -97,7 +97,7 @@ contains
       real(wp), intent(in) :: eps
       !> Height of first touch and highest height allowed [mm], z downwards
       real(wp), intent(in) :: touch, highest
-      integer, intent(in) :: most_trials
+      integer, intent(in) :: max_trials
       !> Are the forces those of friction that is only estimated? A jump is then not located
       logical, intent(in) :: forces_are_estimates
 
@@ -106,7 +106,7 @@ contains
       self%touch = touch
       self%highest = highest
       self%resolution = 1.0e-12_wp*max(1.0_wp, abs(touch))
-      self%most_trials = most_trials
+      self%max_trials = max_trials
       self%trials = 0
       self%z = touch
       self%force = 0.0_wp
@@ -331,12 +331,12 @@ contains
       else
          ! the ratio of friction that was learned makes the force negative: deeper it falls further
          self%falling = merge(self%falling + 1, 0, force < min(0.0_wp, self%before%force) .and. slope < 0.0_wp)
-         if (z >= self%highest .or. (self%forces_are_estimates .and. self%falling >= most_falling)) then
+         if (z >= self%highest .or. (self%forces_are_estimates .and. self%falling >= max_falling)) then
             self%ended = balance_ending%out_of_reach
             return
          end if
       end if
-      if (self%trials >= self%most_trials) self%ended = balance_ending%trial_limit
+      if (self%trials >= self%max_trials) self%ended = balance_ending%trial_limit
    end subroutine record
 
    !> Does the force jump in the bracket, and is the place known well enough? Estimated forces only raise suspicion

@@ -7,7 +7,7 @@
 module contact_wheelrail_gap
    use contact_base_kinds, only : wp
    use contact_profile_curve, only : profile_curve
-   use contact_wheelrail_placement, only : pair_placement
+   use contact_wheelrail_placement, only : wheel_rail_placement
    implicit none (type, external)
    private
 
@@ -41,7 +41,7 @@ module contact_wheelrail_gap
    !> Mesh width relative to the elements
    real(wp), parameter :: mesh_share = 0.3_wp
    !> Smallest mesh width [mm]
-   real(wp), parameter :: least_mesh = 1.0e-3_wp
+   real(wp), parameter :: min_mesh = 1.0e-3_wp
    !> The locus is at most this part of the radius away from the lowest point of the wheel
    real(wp), parameter :: furthest = 0.5_wp
 
@@ -50,7 +50,7 @@ contains
    !> The rail's profile in track coordinates
    function rail_in_track(rail, placement) result(curve)
       type(profile_curve), intent(in) :: rail
-      type(pair_placement), intent(in) :: placement
+      type(wheel_rail_placement), intent(in) :: placement
       type(profile_curve) :: curve
       real(wp) :: angle, origin(2)
 
@@ -67,7 +67,7 @@ contains
    !> roller fall alike along it. See doc/theory/wheel_rail.md.
    function locus_point(wheel, placement, s, rail) result(point)
       type(profile_curve), intent(in) :: wheel
-      type(pair_placement), intent(in) :: placement
+      type(wheel_rail_placement), intent(in) :: placement
       !> Place on the profile [mm]
       real(wp), intent(in) :: s
       !> The profile of a roller in track coordinates; not looked at on a track
@@ -120,7 +120,7 @@ contains
 
    !> Slope of a roller's surface along the track: dz/dx at a distance from its top
    pure real(wp) function roller_slope(placement, x, z) result(slope)
-      type(pair_placement), intent(in) :: placement
+      type(wheel_rail_placement), intent(in) :: placement
       !> Longitudinal position and height of its profile there [mm]
       real(wp), intent(in) :: x, z
       real(wp) :: rho
@@ -131,7 +131,7 @@ contains
 
    !> How much lower a roller is at a distance from its top [mm]; 0 on a track
    pure real(wp) function roller_drop(placement, x, z) result(drop)
-      type(pair_placement), intent(in) :: placement
+      type(wheel_rail_placement), intent(in) :: placement
       !> Longitudinal position and height of its profile there [mm]
       real(wp), intent(in) :: x, z
       real(wp) :: rho
@@ -148,7 +148,7 @@ contains
       type(profile_curve), intent(in) :: rail
       !> The wheel in its own coordinates
       type(profile_curve), intent(in) :: wheel
-      type(pair_placement), intent(in) :: placement
+      type(wheel_rail_placement), intent(in) :: placement
       !> Lateral size of the elements [mm]
       real(wp), intent(in) :: ds
       type(gap_curve), intent(inout) :: gap
@@ -162,7 +162,7 @@ contains
       gap%far = no_surface
       gap%depth = huge(gap%depth)
       range = rail%y_range()
-      gap%dy = max(mesh_share*ds, least_mesh)
+      gap%dy = max(mesh_share*ds, min_mesh)
       gap%n = ceiling((range(2) - range(1))/gap%dy) + 1
       if (allocated(gap%y)) then
          if (size(gap%y) /= gap%n) deallocate(gap%y, gap%x, gap%gap, gap%z, gap%alpha)
@@ -198,17 +198,17 @@ contains
          real(wp), intent(in) :: places(2), lateral(2)
          !> Of the mesh width, so that no point is lost between two pieces
          real(wp), parameter :: tiny_part = 1.0e-9_wp
-         real(wp) :: point(3), here
+         real(wp) :: point(3), vertical
          integer :: i
 
          do i = max(1, ceiling((lateral(2) - range(1))/gap%dy - tiny_part) + 1), &
             & min(gap%n, floor((lateral(1) - range(1))/gap%dy + tiny_part) + 1)
             if (.not. on_rail(i)) cycle
             point = locus_at(wheel, placement, rail, gap%y(i), places(1), places(2), lateral(1), lateral(2))
-            here = gap%z(i) + roller_drop(placement, point(1), gap%z(i)) - point(3)
-            if (here >= gap%gap(i)) cycle
+            vertical = gap%z(i) + roller_drop(placement, point(1), gap%z(i)) - point(3)
+            if (vertical >= gap%gap(i)) cycle
             gap%x(i) = point(1)
-            gap%gap(i) = here
+            gap%gap(i) = vertical
          end do
       end subroutine add_piece
    end subroutine measure_gap
@@ -235,7 +235,7 @@ contains
    !> Lateral positions in the track of the locus at places of the wheel's profile [mm]
    function lateral_positions(wheel, placement, rail, places) result(lateral)
       type(profile_curve), intent(in) :: wheel
-      type(pair_placement), intent(in) :: placement
+      type(wheel_rail_placement), intent(in) :: placement
       !> See `locus_point`
       type(profile_curve), intent(in) :: rail
       !> [mm]
@@ -253,7 +253,7 @@ contains
    !> Point of the locus with a given lateral position between two places, by the Illinois method
    function locus_at(wheel, placement, rail, y, s_high, s_low, y_high, y_low) result(point)
       type(profile_curve), intent(in) :: wheel
-      type(pair_placement), intent(in) :: placement
+      type(wheel_rail_placement), intent(in) :: placement
       !> See `locus_point`
       type(profile_curve), intent(in) :: rail
       real(wp), intent(in) :: y

@@ -8,7 +8,7 @@ module contact_wheelrail_gap_bound
    use contact_base_kinds, only : wp
    use contact_profile_curve, only : profile_curve
    use contact_profile_surface_hull, only : stretch_breaks, stretch_hull
-   use contact_wheelrail_bodies, only : pair_bodies, strip
+   use contact_wheelrail_bodies, only : wheel_rail_bodies, strip
    use contact_wheelrail_gap, only : no_surface
    implicit none (type, external)
    private
@@ -32,7 +32,7 @@ contains
 
    !> Lower bound of the vertical gap [mm], for each lateral position over each stretch of track
    subroutine bound_gap(bodies, edges, y, low)
-      type(pair_bodies), intent(in) :: bodies
+      type(wheel_rail_bodies), intent(in) :: bodies
       !> Ends of the stretches, rising, and lateral positions at even distances, in track coordinates [mm]
       real(wp), intent(in) :: edges(:), y(:)
       !> Shape (stretches, lateral positions); `no_surface` where one body is missing
@@ -120,7 +120,7 @@ contains
 
    !> Lowest places of a round wheel over a stretch of track, as the least -z
    subroutine round_wheel_below(bodies, profile, range_x, y, below)
-      type(pair_bodies), intent(in) :: bodies
+      type(wheel_rail_bodies), intent(in) :: bodies
       !> Points y, z of its profile, shape (points, 2) [mm]
       real(wp), intent(in) :: profile(:, :)
       real(wp), intent(in) :: range_x(2), y(:)
@@ -137,7 +137,7 @@ contains
 
    !> The same of a wheel that is out of round
    subroutine varying_wheel_below(bodies, range_x, y, below)
-      type(pair_bodies), intent(in) :: bodies
+      type(wheel_rail_bodies), intent(in) :: bodies
       real(wp), intent(in) :: range_x(2), y(:)
       real(wp), intent(inout) :: below(:)
       real(wp), allocatable :: breaks(:), py(:, :), pz(:, :), angle(:)
@@ -175,7 +175,7 @@ contains
 
    !> Where the circles of a wheel's profile pass a place along the track
    subroutine find_angles(bodies, y, z, x, s)
-      type(pair_bodies), intent(in) :: bodies
+      type(wheel_rail_bodies), intent(in) :: bodies
       !> Of the profile [mm], and the place [mm]
       real(wp), intent(in) :: y(:), z(:), x
       !> Sine of the angle from the bottom of the wheel
@@ -197,7 +197,7 @@ contains
 
    !> Points on the circles of a wheel's profile, in track coordinates
    subroutine on_circles(bodies, y, z, s, track_y, track_z)
-      type(pair_bodies), intent(in) :: bodies
+      type(wheel_rail_bodies), intent(in) :: bodies
       !> Of the profile [mm], and the sine of the angle from the bottom
       real(wp), intent(in) :: y(:), z(:), s(:)
       !> [mm]
@@ -218,7 +218,7 @@ contains
 
    !> How far circles of the wheel reach below the chords between stations [mm]
    real(wp) function sagitta(bodies, range_x)
-      type(pair_bodies), intent(in) :: bodies
+      type(wheel_rail_bodies), intent(in) :: bodies
       real(wp), intent(in) :: range_x(2)
       real(wp) :: s
 

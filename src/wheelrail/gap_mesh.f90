@@ -1,7 +1,7 @@
 !> The vertical gap at points of a mesh over the track, row by row
 module contact_wheelrail_gap_mesh
    use contact_base_kinds, only : wp
-   use contact_wheelrail_bodies, only : find_wheel_row, pair_bodies
+   use contact_wheelrail_bodies, only : find_wheel_row, wheel_rail_bodies
    use contact_wheelrail_frame, only : frame
    use contact_wheelrail_gap, only : no_surface
    implicit none (type, external)
@@ -13,7 +13,7 @@ contains
 
    !> Vertical gap at points of a mesh; the rail has sections at its places x
    subroutine fill(bodies, x, y, first, last, table)
-      type(pair_bodies), intent(inout) :: bodies
+      type(wheel_rail_bodies), intent(inout) :: bodies
       !> Rising
       real(wp), intent(in) :: x(:), y(:)
       !> Points that are wanted in each row along the track, none if the last one is before the first; the others stay
@@ -43,7 +43,7 @@ contains
 
    !> Height of the rail at points of a mesh, section after section
    subroutine fill_rail(bodies, x, y, first, last, table)
-      type(pair_bodies), intent(inout) :: bodies
+      type(wheel_rail_bodies), intent(inout) :: bodies
       !> See `fill`
       real(wp), intent(in) :: x(:), y(:)
       integer, intent(in) :: first(:), last(:)
@@ -72,7 +72,7 @@ contains
 
    !> Heights of the rail's section at a place where it has one
    subroutine rail_heights(bodies, x, y, z, found)
-      type(pair_bodies), intent(inout) :: bodies
+      type(wheel_rail_bodies), intent(inout) :: bodies
       real(wp), intent(in) :: x
       !> Rising
       real(wp), intent(in) :: y(:)

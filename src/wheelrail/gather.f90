@@ -4,11 +4,11 @@ module contact_wheelrail_gather
    use contact_base_kinds, only : wp
    use contact_patch_border, only : find_border
    use contact_wheelrail_frame, only : frame
-   use contact_wheelrail_geometry, only : pair_geometry
-   use contact_wheelrail_memory, only : pair_memory, patch_slot
-   use contact_wheelrail_problem, only : friction_by_row, pair_problem
+   use contact_wheelrail_geometry, only : wheel_rail_geometry
+   use contact_wheelrail_memory, only : wheel_rail_memory, patch_slot
+   use contact_wheelrail_problem, only : friction_by_row, wheel_rail_problem
    use contact_wheelrail_profile_ends, only : find_buried_ends, find_spot_beside, mark_profile_ends
-   use contact_wheelrail_result, only : buried_end, pair_patch, pair_result
+   use contact_wheelrail_result, only : buried_end, wheel_rail_patch, wheel_rail_result
    implicit none (type, external)
    private
 
@@ -18,13 +18,13 @@ contains
 
    !> Collect the patches and sum up their forces
    subroutine gather(problem, memory, result)
-      type(pair_problem), intent(in) :: problem
-      type(pair_memory), intent(in) :: memory
-      type(pair_result), intent(inout) :: result
+      type(wheel_rail_problem), intent(in) :: problem
+      type(wheel_rail_memory), intent(in) :: memory
+      type(wheel_rail_result), intent(inout) :: result
       real(wp) :: force(3), moment(3), axes(3, 3), local(3)
       integer :: k
 
-      associate (p => memory%here%placement, material => problem%template%model%material)
+      associate (p => memory%geometry%placement, material => problem%template%model%material)
          result%gg = material%gg
          result%nu = material%nu
          result%ak = material%ak
@@ -46,10 +46,10 @@ contains
          end if
          if (.not. allocated(result%patches)) allocate(result%patches(memory%used))
          do k = 1, memory%used
-            call describe_patch(memory%here, memory%slot(k), result%patches(k))
+            call describe_patch(memory%geometry, memory%slot(k), result%patches(k))
             if (.not. problem%geometry_only) then
                call find_border(memory%slot(k)%problem, result%patches(k)%contact)
-               call mark_profile_ends(problem, memory%here, memory%slot(k), result%patches(k)%contact%border)
+               call mark_profile_ends(problem, memory%geometry, memory%slot(k), result%patches(k)%contact%border)
                call result%status%include(memory%slot(k)%result%status, "contact patch " // achar(iachar("0") + mod(k, 10)) &
                   & // ": ")
             end if
@@ -85,10 +85,10 @@ contains
    end function cross
 
    !> Place and forces of one patch
-   subroutine describe_patch(here, slot, patch)
-      type(pair_geometry), intent(in) :: here
+   subroutine describe_patch(geometry, slot, patch)
+      type(wheel_rail_geometry), intent(in) :: geometry
       type(patch_slot), intent(in) :: slot
-      type(pair_patch), intent(inout) :: patch
+      type(wheel_rail_patch), intent(inout) :: patch
       real(wp) :: local(3)
       type(frame) :: seen
 
@@ -103,11 +103,11 @@ contains
       patch%y = slot%plane%origin(2)
       patch%z = slot%plane%origin(3)
       patch%delta = slot%plane%roll()
-      seen = here%placement%rail%seen_from_here(slot%plane)
+      seen = geometry%placement%rail%seen_from_here(slot%plane)
       patch%y_rail = seen%origin(2)
       patch%z_rail = seen%origin(3)
       patch%delta_rail = seen%roll()
-      local = here%placement%wheel%to_local(slot%plane%origin)
+      local = geometry%placement%wheel%to_local(slot%plane%origin)
       patch%x_wheel = local(1)
       patch%y_wheel = local(2)
       patch%z_wheel = local(3)

@@ -4,20 +4,20 @@ module contact_wheelrail_geometry
    use contact_base_kinds, only : wp
    use contact_profile_curve, only : profile_curve
    use contact_profile_surface, only : surface_cut
-   use contact_wheelrail_bodies, only : pair_bodies, place_bodies, rail_section
-   use contact_wheelrail_carry_over, only : carried_moment, lattice_box
+   use contact_wheelrail_bodies, only : wheel_rail_bodies, place_bodies, rail_section
+   use contact_wheelrail_carry_over, only : carried_step, lattice_box
    use contact_wheelrail_gap, only : gap_curve, measure_gap, rail_in_track
-   use contact_wheelrail_placement, only : pair_placement, place_pair
-   use contact_wheelrail_problem, only : follows_surface, pair_problem
+   use contact_wheelrail_placement, only : wheel_rail_placement, place_wheel_rail
+   use contact_wheelrail_problem, only : follows_surface, wheel_rail_problem
    use contact_wheelrail_regions, only : contact_region, smallest_gap
    use contact_wheelrail_variable, only : measure_variable_gap
    implicit none (type, external)
    private
 
-   public :: most_patches, learned_share, pair_geometry, place, measure, rail_at, lattice_x, box_on_lattice
+   public :: max_patches, learned_share, wheel_rail_geometry, place, measure, rail_at, lattice_x, box_on_lattice
 
    !> Most patches of a pair
-   integer, parameter :: most_patches = 10
+   integer, parameter :: max_patches = 10
 
    !> Force of friction relative to the normal force that a tangential solution has found, and where
    type :: learned_share
@@ -32,18 +32,18 @@ module contact_wheelrail_geometry
    end type learned_share
 
    !> Where the bodies are and what the search for contact found: what the patches of a trial share
-   type :: pair_geometry
+   type :: wheel_rail_geometry
       !> Shares 1...shares are known. They serve all trials until the next tangential solution; a patch of a trial that
       !> continues none of those they were learned from is solved with friction, and what is found there is learned
       integer :: shares = 0
-      type(learned_share) :: learned(most_patches)
+      type(learned_share) :: learned(max_patches)
       type(gap_curve) :: gap
       !> The rail at the wheelset
       type(profile_curve) :: rail_in_track
       !> Sections of bodies that vary; used when `searches_table` or with curved reference surfaces
-      type(pair_bodies) :: bodies
+      type(wheel_rail_bodies) :: bodies
       logical :: searches_table = .false.
-      type(pair_placement) :: placement
+      type(wheel_rail_placement) :: placement
       !> Height at which the gap was measured, and that of first touch [mm]
       real(wp) :: gap_height = 0.0_wp, touch = 0.0_wp
       !> Regions of contact are those of this height at least [mm]; see `balance_forces`
@@ -56,11 +56,11 @@ module contact_wheelrail_geometry
       real(wp) :: deflection = 0.0_wp, pitch_rate = 0.0_wp
       !> Top of the canted rail and its gauge point [mm]
       real(wp) :: top_z = 0.0_wp, gauge_y = 0.0_wp
-      !> Where the tractions of the previous moment are
-      type(carried_moment) :: before
+      !> Where the tractions of the previous time step are
+      type(carried_step) :: before
       !> Position of the wheelset along the rail [mm], and the arc length of the rail's profile at its origin [mm]
       real(wp) :: travel = 0.0_wp, profile_origin = 0.0_wp
-   end type pair_geometry
+   end type wheel_rail_geometry
 
    !> A ratio is taken over by patches within this distance [mm] and angle [rad]
    real(wp), parameter :: same_place = 5.0_wp, same_angle = 0.2_wp
@@ -76,58 +76,58 @@ contains
    end function distance_to
 
    !> Put the wheelset at a height
-   subroutine place(problem, here, z, dz)
-      type(pair_problem), intent(in) :: problem
-      type(pair_geometry), intent(inout) :: here
+   subroutine place(problem, geometry, z, dz)
+      type(wheel_rail_problem), intent(in) :: problem
+      type(wheel_rail_geometry), intent(inout) :: geometry
       real(wp), intent(in) :: z
       !> Vertical deflection of the rail [mm], default 0
       real(wp), intent(in), optional :: dz
       real(wp) :: deflection(2)
 
-      deflection = [here%deflection, 0.0_wp]
+      deflection = [geometry%deflection, 0.0_wp]
       if (present(dz)) deflection(2) = dz
-      call place_pair(problem%spec, problem%wheel, here%top_z, here%gauge_y, z, deflection, &
-         & here%placement)
+      call place_wheel_rail(problem%spec, problem%wheel, geometry%top_z, geometry%gauge_y, z, deflection, &
+         & geometry%placement)
    end subroutine place
 
    !> Gap between the bodies, and the height of first touch
-   subroutine measure(problem, here, z, depth)
-      type(pair_problem), intent(in) :: problem
-      type(pair_geometry), intent(inout) :: here
+   subroutine measure(problem, geometry, z, depth)
+      type(wheel_rail_problem), intent(in) :: problem
+      type(wheel_rail_geometry), intent(inout) :: geometry
       !> Height of the wheelset [mm]
       real(wp), intent(in) :: z
       !> See `measure_variable_gap`
       real(wp), intent(in), optional :: depth
 
-      call place(problem, here, z)
-      here%rail_in_track = rail_at(problem, here%placement, 0.0_wp)
+      call place(problem, geometry, z)
+      geometry%rail_in_track = rail_at(problem, geometry%placement, 0.0_wp)
       ! the length along a prismatic rail is counted from its origin; sections of a variable one have other ends each
-      here%profile_origin = 0.0_wp
-      if (allocated(problem%rail_surface)) here%profile_origin = here%rail_in_track%s_at(here%placement%rail%origin(2))
-      here%searches_table = allocated(problem%rail_surface) .or. allocated(problem%wheel_surface) &
+      geometry%profile_origin = 0.0_wp
+      if (allocated(problem%rail_surface)) geometry%profile_origin = geometry%rail_in_track%s_at(geometry%placement%rail%origin(2))
+      geometry%searches_table = allocated(problem%rail_surface) .or. allocated(problem%wheel_surface) &
          & .or. any(problem%spec%search%location == [contact_location%grid, contact_location%steep_grid])
-      if (here%searches_table .or. follows_surface(problem)) then
-         here%bodies%rail = here%rail_in_track
-         here%bodies%wheel = problem%wheel
-         here%bodies%placement = here%placement
-         here%bodies%angle_below_axle = problem%spec%search%angle_below_axle
-         call place_bodies(here%bodies, problem%spec%wheelset%s, problem%spec%wheelset%pitch, &
+      if (geometry%searches_table .or. follows_surface(problem)) then
+         geometry%bodies%rail = geometry%rail_in_track
+         geometry%bodies%wheel = problem%wheel
+         geometry%bodies%placement = geometry%placement
+         geometry%bodies%angle_below_axle = problem%spec%search%angle_below_axle
+         call place_bodies(geometry%bodies, problem%spec%wheelset%s, problem%spec%wheelset%pitch, &
             & problem%spec%search%dx, problem%rail_surface, problem%wheel_surface)
       end if
-      if (here%searches_table) then
-         call measure_variable_gap(here%bodies, problem%spec%search%ds, allocated(problem%wheel_surface) &
-            & .or. any(problem%spec%search%location == [contact_location%grid, contact_location%steep_grid]), here%gap, depth)
+      if (geometry%searches_table) then
+         call measure_variable_gap(geometry%bodies, problem%spec%search%ds, allocated(problem%wheel_surface) &
+            & .or. any(problem%spec%search%location == [contact_location%grid, contact_location%steep_grid]), geometry%gap, depth)
       else
-         call measure_gap(here%rail_in_track, problem%wheel, here%placement, problem%spec%search%ds, here%gap)
+         call measure_gap(geometry%rail_in_track, problem%wheel, geometry%placement, problem%spec%search%ds, geometry%gap)
       end if
-      here%gap_height = z
-      here%touch = z + smallest_gap(here%gap)
+      geometry%gap_height = z
+      geometry%touch = z + smallest_gap(geometry%gap)
    end subroutine measure
 
    !> The rail's profile in track coordinates at a place along it; a variable one goes on as at its first and last slice
    function rail_at(problem, placement, x) result(curve)
-      type(pair_problem), intent(in) :: problem
-      type(pair_placement), intent(in) :: placement
+      type(wheel_rail_problem), intent(in) :: problem
+      type(wheel_rail_placement), intent(in) :: placement
       !> From the wheelset on [mm]
       real(wp), intent(in) :: x
       type(profile_curve) :: curve
@@ -144,26 +144,26 @@ contains
    end function rail_at
 
    !> Position along the track, relative to the origin of the lattice [mm]
-   pure real(wp) function lattice_x(problem, here, x)
-      type(pair_problem), intent(in) :: problem
-      type(pair_geometry), intent(in) :: here
+   pure real(wp) function lattice_x(problem, geometry, x)
+      type(wheel_rail_problem), intent(in) :: problem
+      type(wheel_rail_geometry), intent(in) :: geometry
       !> In the track [mm]
       real(wp), intent(in) :: x
 
       lattice_x = x
-      if (problem%template%motion == motion%shift) lattice_x = x + here%travel
+      if (problem%template%motion == motion%shift) lattice_x = x + geometry%travel
    end function lattice_x
 
    !> Bounds of a region on the lattice
-   function box_on_lattice(problem, here, region) result(box)
-      type(pair_problem), intent(in) :: problem
-      type(pair_geometry), intent(in) :: here
+   function box_on_lattice(problem, geometry, region) result(box)
+      type(wheel_rail_problem), intent(in) :: problem
+      type(wheel_rail_geometry), intent(in) :: geometry
       type(contact_region), intent(in) :: region
       type(lattice_box) :: box
       real(wp) :: s(2)
 
-      box%x = [lattice_x(problem, here, region%box%x(1)), lattice_x(problem, here, region%box%x(2))]
-      s = here%rail_in_track%s_at(region%box%y) - here%profile_origin
+      box%x = [lattice_x(problem, geometry, region%box%x(1)), lattice_x(problem, geometry, region%box%x(2))]
+      s = geometry%rail_in_track%s_at(region%box%y) - geometry%profile_origin
       box%s = [minval(s), maxval(s)]
    end function box_on_lattice
 end module contact_wheelrail_geometry

@@ -13,9 +13,9 @@ module contact_wheelrail_height
    use contact_text_words, only : integer_text, real_text
    use contact_wheelrail_force_balance, only : balance_ending, force_balance
    use contact_wheelrail_geometry, only : measure
-   use contact_wheelrail_memory, only : pair_memory, vertical_force, vertical_slope
-   use contact_wheelrail_problem, only : pair_problem
-   use contact_wheelrail_result, only : pair_result
+   use contact_wheelrail_memory, only : wheel_rail_memory, vertical_force, vertical_slope
+   use contact_wheelrail_problem, only : wheel_rail_problem
+   use contact_wheelrail_result, only : wheel_rail_result
    use contact_wheelrail_trial, only : evaluate, learn_shares
    implicit none (type, external)
    private
@@ -49,12 +49,12 @@ contains
 
    !> Height and contact for the present deflection of the rail and the present pitch rate
    subroutine settle(problem, memory, z, log, result, error)
-      type(pair_problem), intent(in) :: problem
-      type(pair_memory), intent(inout) :: memory
+      type(wheel_rail_problem), intent(in) :: problem
+      type(wheel_rail_memory), intent(inout) :: memory
       !> Height of the wheelset above a rail without vertical deflection [mm]
       real(wp), intent(out) :: z
       type(log_type), intent(inout) :: log
-      type(pair_result), intent(inout) :: result
+      type(wheel_rail_result), intent(inout) :: result
       type(error_type), allocatable, intent(out) :: error
       real(wp) :: target, spring
       character(len=12) :: wanted, touching
@@ -68,12 +68,12 @@ contains
          ! a case that starts anew does not depend on those before it
          if (memory%started .and. problem%use_previous) z = memory%z_ws
       end if
-      call measure(problem, memory%here, z)
-      memory%here%lowest_for_regions = -huge(z)
+      call measure(problem, memory%geometry, z)
+      memory%geometry%lowest_for_regions = -huge(z)
       if (.not. height_is_unknown) then
-         if (z - memory%here%touch > memory%here%placement%wheel_radius) then
+         if (z - memory%geometry%touch > memory%geometry%placement%wheel_radius) then
             write(wanted, "(ES10.3)") z
-            write(touching, "(F12.4)") memory%here%touch
+            write(touching, "(F12.4)") memory%geometry%touch
             call fatal_error(error, "Z_WS = " // trim(adjustl(wanted)) // " mm presses the wheel deeper into the rail than its &
                &radius; it touches the rail at Z_WS = " // trim(adjustl(touching)) // " mm")
             return
@@ -81,14 +81,14 @@ contains
          call evaluate(problem, memory, z, with_friction=.true., log=log, error=error)
          return
       end if
-      if (memory%here%touch - z > out_of_sight) then
+      if (memory%geometry%touch - z > out_of_sight) then
          memory%used = 0
          call result%status%miss_force("vertical force", problem%spec%wheelset%fz, 0.0_wp, &
             & "wheel and rail do not meet: their lateral positions are apart")
          call log%warning(result%status%reason)
          return
       end if
-      associate (touch => memory%here%touch, rail => problem%spec%rail)
+      associate (touch => memory%geometry%touch, rail => problem%spec%rail)
          if (problem%force_prescribed) then
             spring = 0.0_wp
             target = problem%spec%wheelset%fz
@@ -118,14 +118,14 @@ contains
    !> solution, which is corrected at every height found. Where that does not lead to the force, a new search begins with
    !> friction in every trial; what it says is final.
    subroutine balance_forces(problem, memory, target, spring, z, log, result, error)
-      type(pair_problem), intent(in) :: problem
-      type(pair_memory), intent(inout) :: memory
+      type(wheel_rail_problem), intent(in) :: problem
+      type(wheel_rail_memory), intent(inout) :: memory
       !> Prescribed force [N]: of the contact, and of a spring that is free of force at first touch, with its stiffness [N/mm]
       real(wp), intent(in) :: target, spring
       !> Height found [mm]
       real(wp), intent(out) :: z
       type(log_type), intent(inout) :: log
-      type(pair_result), intent(inout) :: result
+      type(wheel_rail_result), intent(inout) :: result
       type(error_type), allocatable, intent(out) :: error
       type(force_balance) :: balance
       character(len=:), allocatable :: why
@@ -137,16 +137,16 @@ contains
       logical :: separate
       integer :: round, trials
 
-      touch = memory%here%touch
+      touch = memory%geometry%touch
       ! friction decouples from the pressures for bodies that are alike
       separate = problem%template%motion /= motion%none .and. .not. problem%template%model%coupled()
       guess = penetration_guess(problem, memory, target)
       if (spring > 0.0_wp) guess = min(guess, target/spring)
-      call refuse_soft_bodies(memory%here%placement%wheel_radius, target, guess, error)
+      call refuse_soft_bodies(memory%geometry%placement%wheel_radius, target, guess, error)
       if (allocated(error)) return
       guess = touch + min(guess, deepest_guess)
       if (problem%use_previous .and. memory%started .and. memory%z_ws > touch) guess = memory%z_ws
-      if (memory%here%penetration > 0.0_wp) guess = touch + memory%here%penetration
+      if (memory%geometry%penetration > 0.0_wp) guess = touch + memory%geometry%penetration
       if (problem%geometry_only) then
          ! there are no forces to tell a better height
          z = guess
@@ -161,7 +161,7 @@ contains
       small = 1.0_wp
       do round = 1, rounds_apart
          if (.not. separate) exit
-         call search(with_friction=.false., most_trials=problem%template%settings%maxnr/2 - trials)
+         call search(with_friction=.false., max_trials=problem%template%settings%maxnr/2 - trials)
          if (allocated(error)) return
          if (balance%ended /= balance_ending%reached .and. abs(balance%force - target) > small_step*target) then
             separate = .false.
@@ -184,7 +184,7 @@ contains
       end do
       if (.not. separate) then
          ! one trial is left for a last look at the best height
-         call search(with_friction=.true., most_trials=problem%template%settings%maxnr - trials - 1)
+         call search(with_friction=.true., max_trials=problem%template%settings%maxnr - trials - 1)
          if (allocated(error)) return
          if (abs(balance%force - force) > 0.0_wp) then
             call try_height(z, with_friction=.true.)
@@ -192,9 +192,9 @@ contains
          end if
       end if
       call log%speak()
-      memory%here%penetration = z - touch
+      memory%geometry%penetration = z - touch
       result%force_evaluations = result%force_evaluations + trials
-      result%most_trials = max(result%most_trials, trials)
+      result%max_trials = max(result%max_trials, trials)
       result%force_error = vertical_force(memory) + spring*(z - touch) - target
       ! grids follow the contact in whole elements, which leaves small steps in the force
       if (abs(result%force_error) > max(balance%tolerance, small_step*target)) then
@@ -210,33 +210,33 @@ contains
    contains
 
       !> A search from a bracket of its own, from `guess` on; its best height is z
-      subroutine search(with_friction, most_trials)
+      subroutine search(with_friction, max_trials)
          logical, intent(in) :: with_friction
-         integer, intent(in) :: most_trials
+         integer, intent(in) :: max_trials
          integer :: before, k
 
          before = trials
-         call bracket(with_friction, most_trials)
+         call bracket(with_friction, max_trials)
          if (allocated(error) .or. balance%ended /= balance_ending%above_touch) return
          ! Elements overlap before the mesh of the gap does, by less than its width shows: the regions of the first touch stay
          ! while the wheel is lifted off
-         memory%here%lowest_for_regions = touch + 2.0_wp*balance%resolution
+         memory%geometry%lowest_for_regions = touch + 2.0_wp*balance%resolution
          bottom = touch - 1.0e-6_wp
          do k = 1, memory%used
             bottom = min(bottom, touch - 6.0_wp*memory%slot(k)%result%pen)
          end do
          guess = touch
-         call bracket(with_friction, most_trials - (trials - before))
+         call bracket(with_friction, max_trials - (trials - before))
       end subroutine search
 
       !> A search between two heights
-      subroutine bracket(with_friction, most_trials)
+      subroutine bracket(with_friction, max_trials)
          logical, intent(in) :: with_friction
-         integer, intent(in) :: most_trials
+         integer, intent(in) :: max_trials
          real(wp) :: trial
 
-         call balance%start(target, problem%template%settings%eps, bottom, touch + 1.1_wp*memory%here%placement%wheel_radius, &
-            & max(1, most_trials), forces_are_estimates=.not. with_friction)
+         call balance%start(target, problem%template%settings%eps, bottom, touch + 1.1_wp*memory%geometry%placement%wheel_radius, &
+            & max(1, max_trials), forces_are_estimates=.not. with_friction)
          do while (balance%ended == balance_ending%running)
             trial = balance%next_trial(guess)
             call try_height(trial, with_friction)
@@ -253,12 +253,12 @@ contains
 
          call log%hold()
          ! pressures within EPS of the last ones would be taken for those of this height
-         memory%here%pressure_eps = 1.0_wp
+         memory%geometry%pressure_eps = 1.0_wp
          if (off > problem%template%settings%eps .and. off*small < near_by*problem%template%settings%eps) &
-            & memory%here%pressure_eps = sharper*small
+            & memory%geometry%pressure_eps = sharper*small
          call evaluate(problem, memory, z, with_friction, log, error)
          trials = trials + 1
-         memory%here%pressure_eps = 1.0_wp
+         memory%geometry%pressure_eps = 1.0_wp
          if (allocated(error)) then
             call log%speak()
             return
@@ -288,7 +288,7 @@ contains
 
    !> Normal forces of all patches [N]
    pure real(wp) function sum_of_normal_forces(memory) result(total)
-      type(pair_memory), intent(in) :: memory
+      type(wheel_rail_memory), intent(in) :: memory
       integer :: k
 
       total = 0.0_wp
@@ -331,13 +331,13 @@ contains
 
    !> Penetration by Hertz's theory for the place of first touch [mm]
    real(wp) function penetration_guess(problem, memory, force) result(pen)
-      type(pair_problem), intent(in) :: problem
-      type(pair_memory), intent(in) :: memory
+      type(wheel_rail_problem), intent(in) :: problem
+      type(wheel_rail_memory), intent(in) :: memory
       real(wp), intent(in) :: force
       real(wp) :: a, b, bend, modulus
       integer :: i, k
 
-      associate (gap => memory%here%gap)
+      associate (gap => memory%geometry%gap)
          i = minloc(gap%gap, dim=1)
          a = gap%kappa
          b = a

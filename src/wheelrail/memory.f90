@@ -6,16 +6,16 @@ module contact_wheelrail_memory
    use contact_patch_problem, only : patch_problem, patch_state
    use contact_patch_result, only : patch_result
    use contact_patch_workspace, only : patch_workspace, release_workspace
-   use contact_wheelrail_carry_over, only : carried_moment, lattice_window
+   use contact_wheelrail_carry_over, only : carried_step, lattice_window
    use contact_wheelrail_creepage, only : contact_motion
    use contact_wheelrail_curved_patch, only : curved_reference
    use contact_wheelrail_frame, only : frame
-   use contact_wheelrail_geometry, only : pair_geometry
+   use contact_wheelrail_geometry, only : wheel_rail_geometry
    use contact_wheelrail_regions, only : contact_region
    implicit none (type, external)
    private
 
-   public :: patch_slot, pair_memory, release_pair, total_force, vertical_force, vertical_slope
+   public :: patch_slot, wheel_rail_memory, release_wheel_rail, total_force, vertical_force, vertical_slope
 
    !> One patch with its memory
    type :: patch_slot
@@ -38,7 +38,7 @@ module contact_wheelrail_memory
       type(lattice_window) :: window, solved_window
       !> Elements left out because the gap jumps between them and the reference; see `settle_distance`
       integer :: strangers = 0
-      !> Patches of the previous moment that this one continues
+      !> Patches of the previous time step that this one continues
       integer, allocatable :: previous(:)
       !> Forces [N] and moment [N mm] on the rail in the axes x, s, n of the plane
       real(wp) :: force(3) = 0.0_wp, moment(3) = 0.0_wp
@@ -50,36 +50,36 @@ module contact_wheelrail_memory
    end type patch_slot
 
    !> What a pair remembers from case to case, and scratch
-   type :: pair_memory
+   type :: wheel_rail_memory
       !> Height of the wheelset above a rail without vertical deflection in the previous case [mm]
       real(wp) :: z_ws = 0.0_wp
       logical :: started = .false.
       !> Patches 1...used are those of the last evaluation
       integer :: used = 0
       type(patch_slot), allocatable :: slot(:)
-      type(pair_geometry) :: here
+      type(wheel_rail_geometry) :: geometry
       !> Tractions of the last solved case
-      type(carried_moment) :: last
+      type(carried_step) :: last
       !> Motion of the last case
       integer :: motion = motion%none
-   end type pair_memory
+   end type wheel_rail_memory
 
 contains
 
    !> Free what the memory holds outside Fortran's own
-   subroutine release_pair(memory)
-      type(pair_memory), intent(inout) :: memory
+   subroutine release_wheel_rail(memory)
+      type(wheel_rail_memory), intent(inout) :: memory
       integer :: k
 
       if (.not. allocated(memory%slot)) return
       do k = 1, size(memory%slot)
          call release_workspace(memory%slot(k)%workspace)
       end do
-   end subroutine release_pair
+   end subroutine release_wheel_rail
 
    !> Force on the rail in track axes [N], friction from the last tangential solution
    pure function total_force(memory) result(force)
-      type(pair_memory), intent(in) :: memory
+      type(wheel_rail_memory), intent(in) :: memory
       real(wp) :: force(3)
       integer :: k
 
@@ -93,7 +93,7 @@ contains
 
    !> Vertical force on the rail [N], friction from the last tangential solution
    pure real(wp) function vertical_force(memory) result(force)
-      type(pair_memory), intent(in) :: memory
+      type(wheel_rail_memory), intent(in) :: memory
       real(wp) :: all(3)
 
       all = total_force(memory)
@@ -102,7 +102,7 @@ contains
 
    !> Derivative of the vertical force to the height, from the contact stiffness where it is known [N/mm]
    pure real(wp) function vertical_slope(memory) result(slope)
-      type(pair_memory), intent(in) :: memory
+      type(wheel_rail_memory), intent(in) :: memory
       integer :: k
 
       slope = 0.0_wp

@@ -13,10 +13,10 @@ module contact_wheelrail_patch_inputs
    use contact_wheelrail_curved_patch, only : curved_rows, fit_creepages, new_curved_reference, straight_reference, &
       & surface_heights, surface_slip
    use contact_wheelrail_flat_patch, only : patch_frame, patch_grid, settle_distance, start_places, undeformed_distance
-   use contact_wheelrail_geometry, only : lattice_x, pair_geometry, rail_at
+   use contact_wheelrail_geometry, only : lattice_x, wheel_rail_geometry, rail_at
    use contact_wheelrail_memory, only : patch_slot
    use contact_wheelrail_placement, only : rail_motion, wheel_motion
-   use contact_wheelrail_problem, only : follows_surface, friction_by_row, keeps_lattice, pair_problem, parameters_at
+   use contact_wheelrail_problem, only : follows_surface, friction_by_row, keeps_lattice, wheel_rail_problem, parameters_at
    use contact_wheelrail_variable, only : variable_distance
    implicit none (type, external)
    private
@@ -29,9 +29,9 @@ module contact_wheelrail_patch_inputs
 contains
 
    !> Problem of one patch for its region: everything but where the solution starts
-   subroutine set_up_patch(problem, here, number, slot, error)
-      type(pair_problem), intent(in) :: problem
-      type(pair_geometry), intent(inout) :: here
+   subroutine set_up_patch(problem, geometry, number, slot, error)
+      type(wheel_rail_problem), intent(in) :: problem
+      type(wheel_rail_geometry), intent(inout) :: geometry
       !> Number of the patch
       integer, intent(in) :: number
       type(patch_slot), intent(inout) :: slot
@@ -40,26 +40,26 @@ contains
       real(wp), allocatable :: h(:, :)
       real(wp) :: approach
 
-      rail = here%rail_in_track
-      if (allocated(problem%rail_surface)) rail = rail_at(problem, here%placement, slot%region%x)
-      slot%plane = patch_frame(rail, here%placement, slot%region)
+      rail = geometry%rail_in_track
+      if (allocated(problem%rail_surface)) rail = rail_at(problem, geometry%placement, slot%region%x)
+      slot%plane = patch_frame(rail, geometry%placement, slot%region)
       call move_alloc(slot%problem%h, h)
       slot%problem = problem%template
-      slot%problem%pressure_eps = here%pressure_eps
+      slot%problem%pressure_eps = geometry%pressure_eps
       if (allocated(slot%curve)) deallocate(slot%curve)
-      slot%reference = [lattice_x(problem, here, slot%region%x), rail%s_at(slot%region%y) - here%profile_origin]
+      slot%reference = [lattice_x(problem, geometry, slot%region%x), rail%s_at(slot%region%y) - geometry%profile_origin]
       if (keeps_lattice(problem)) then
          call patch_grid(rail, problem%spec%search, slot%region, slot%plane, slot%reference, huge(1), slot%problem%grid)
       else
          ! the reference is the centre of an element
-         call patch_grid(rail, problem%spec%search, slot%region, slot%plane, [0.0_wp, 0.0_wp], problem%most_elements, &
+         call patch_grid(rail, problem%spec%search, slot%region, slot%plane, [0.0_wp, 0.0_wp], problem%max_elements, &
             & slot%problem%grid)
       end if
       if (problem%spec%search%location == contact_location%conformal) &
-         & call curved_rows(rail, here%bodies, slot%region, slot%plane, slot%problem%grid)
+         & call curved_rows(rail, geometry%bodies, slot%region, slot%plane, slot%problem%grid)
       if (keeps_lattice(problem)) then
          slot%window = place_on_lattice(slot%problem%grid, slot%reference)
-         call here%before%widen(number, slot%window, slot%problem%grid)
+         call geometry%before%widen(number, slot%window, slot%problem%grid)
       else
          slot%window = place_on_lattice(slot%problem%grid, [0.0_wp, 0.0_wp])
       end if
@@ -67,9 +67,9 @@ contains
       if (.not. allocated(error)) call check_sides(problem, slot%problem%grid, error)
       if (allocated(error)) return
       if (follows_surface(problem)) then
-         call follow_surface(problem, here, rail, slot, h, approach)
+         call follow_surface(problem, geometry, rail, slot, h, approach)
       else
-         call cover_overlap(problem, here, rail, slot, h, approach)
+         call cover_overlap(problem, geometry, rail, slot, h, approach)
       end if
       call move_alloc(h, slot%problem%h)
       slot%problem%force_prescribed = .false.
@@ -79,14 +79,14 @@ contains
       if (problem%geometry_only) slot%problem%motion = motion%none
       call set_patch_friction(problem, slot, error)
       if (allocated(error)) return
-      call set_motion(problem, here, slot, approach)
+      call set_motion(problem, geometry, slot, approach)
    end subroutine set_up_patch
 
    !> Refuse a grid beyond the limits of the case, and one that makes a transient case hopeless
    !>
    !> The elements of transient cases stand on the rail and are not made larger where NPOT_MAX is exceeded.
    subroutine check_size(problem, grid, error)
-      type(pair_problem), intent(in) :: problem
+      type(wheel_rail_problem), intent(in) :: problem
       type(potential_contact), intent(in) :: grid
       type(error_type), allocatable, intent(out) :: error
       !> Times NPOT_MAX
@@ -96,15 +96,15 @@ contains
 
       number = int(grid%mx, long)*int(grid%my, long)
       call problem%limits%check(number, bytes_per_element, "elements", error)
-      if (allocated(error) .or. number <= hopeless*problem%most_elements) return
+      if (allocated(error) .or. number <= hopeless*problem%max_elements) return
       write(text, "(A, I0, A, I0, A)") "a contact patch needs ", number, " elements, more than ten times NPOT_MAX = ", &
-         & problem%most_elements, "; larger elements DX and DS, a larger NPOT_MAX, or stiffer bodies"
+         & problem%max_elements, "; larger elements DX and DS, a larger NPOT_MAX, or stiffer bodies"
       call fatal_error(error, trim(text), error_kind%input)
    end subroutine check_size
 
    !> Refuse elements that NPOT_MAX makes larger than those of a table of influence coefficients
    subroutine check_sides(problem, grid, error)
-      type(pair_problem), intent(in) :: problem
+      type(wheel_rail_problem), intent(in) :: problem
       type(potential_contact), intent(in) :: grid
       type(error_type), allocatable, intent(out) :: error
       !> Relative
@@ -116,7 +116,7 @@ contains
          if (abs(grid%dx - search%dx) <= same*search%dx .and. abs(grid%dy - search%ds) <= same*search%ds) return
       end associate
       write(text, "(A, F0.4, A, F0.4, A, I0, A)") "a contact patch needs larger elements than DX x DS, ", grid%dx, " x ", &
-         & grid%dy, " mm, because of NPOT_MAX = ", problem%most_elements, ", but influence coefficients from a file " // &
+         & grid%dy, " mm, because of NPOT_MAX = ", problem%max_elements, ", but influence coefficients from a file " // &
          & "(C = 9) hold for DX x DS only; a larger NPOT_MAX, or a file for larger elements"
       call fatal_error(error, trim(text), error_kind%input)
    end subroutine check_sides
@@ -125,9 +125,9 @@ contains
    !>
    !> The bounds of a region come from the vertical gap. Along the normal of the plane the bodies may overlap elsewhere, when
    !> the surface is steep or rough and the wheel turned; contact that is cut off there would make the force jump.
-   subroutine cover_overlap(problem, here, rail, slot, h, approach)
-      type(pair_problem), intent(in) :: problem
-      type(pair_geometry), intent(inout) :: here
+   subroutine cover_overlap(problem, geometry, rail, slot, h, approach)
+      type(wheel_rail_problem), intent(in) :: problem
+      type(wheel_rail_geometry), intent(inout) :: geometry
       !> The rail in track coordinates in the section of the reference
       type(profile_curve), intent(in) :: rail
       !> With its grid and window
@@ -139,13 +139,13 @@ contains
       integer :: most(2)
       logical :: grown
 
-      most = most_elements(slot%problem%grid)
+      most = max_elements(slot%problem%grid)
       do
-         if (here%searches_table) then
-            call variable_distance(here%bodies, slot%plane, size(slot%region%seeds) > 1, slot%problem%grid, h, approach, &
+         if (geometry%searches_table) then
+            call variable_distance(geometry%bodies, slot%plane, size(slot%region%seeds) > 1, slot%problem%grid, h, approach, &
                & slot%strangers)
          else
-            call undeformed_distance(rail, problem%wheel, here%placement, slot%plane, start_places(rail, slot%region), &
+            call undeformed_distance(rail, problem%wheel, geometry%placement, slot%plane, start_places(rail, slot%region), &
                & slot%problem%grid, h, approach, slot%strangers)
          end if
          call grow(slot, h < approach, most, .true., grown)
@@ -154,14 +154,14 @@ contains
    end subroutine cover_overlap
 
    !> A grid that does not hold all of the overlap grows at most to so many elements in each direction
-   pure function most_elements(grid) result(most)
+   pure function max_elements(grid) result(most)
       type(potential_contact), intent(in) :: grid
       integer :: most(2)
       !> Multiples of its size; small grids by a number
       integer, parameter :: times = 3, more = 40
 
       most = max(times*[grid%mx, grid%my], [grid%mx, grid%my] + more)
-   end function most_elements
+   end function max_elements
 
    !> Add elements at sides where bodies overlap in the outermost ones
    subroutine grow(slot, overlap, most, rows_too, grown)
@@ -202,9 +202,9 @@ contains
    end subroutine grow
 
    !> Reference surface of a patch at the rows of its grid, and the undeformed distance along its normals
-   subroutine follow_surface(problem, here, rail, slot, h, approach)
-      type(pair_problem), intent(in) :: problem
-      type(pair_geometry), intent(inout) :: here
+   subroutine follow_surface(problem, geometry, rail, slot, h, approach)
+      type(wheel_rail_problem), intent(in) :: problem
+      type(wheel_rail_geometry), intent(inout) :: geometry
       !> The rail in track coordinates in the section of the reference
       type(profile_curve), intent(in) :: rail
       !> With its grid
@@ -218,14 +218,14 @@ contains
 
       associate (patch => slot%problem)
          conformal = problem%spec%search%location == contact_location%conformal
-         most = most_elements(patch%grid)
+         most = max_elements(patch%grid)
          do
             if (conformal) then
-               slot%curve = new_curved_reference(rail, here%bodies, slot%plane, patch%grid)
+               slot%curve = new_curved_reference(rail, geometry%bodies, slot%plane, patch%grid)
             else
                slot%curve = straight_reference(slot%plane, patch%grid)
             end if
-            call surface_heights(here%bodies, slot%curve, patch%grid, slot%on_rail, slot%on_wheel)
+            call surface_heights(geometry%bodies, slot%curve, patch%grid, slot%on_rail, slot%on_wheel)
             h = slot%on_rail - slot%on_wheel
             call settle_distance(patch%grid, size(slot%region%seeds) > 1, h, approach, slot%strangers)
             ! rows of a curved reference are chosen with room to spare
@@ -241,7 +241,7 @@ contains
 
    !> Elements of the parts of a blended patch; what is outside of all parts cannot make contact
    subroutine divide_patch(problem, rail, slot)
-      type(pair_problem), intent(in) :: problem
+      type(wheel_rail_problem), intent(in) :: problem
       !> The rail in track coordinates in the section of the reference
       type(profile_curve), intent(in) :: rail
       type(patch_slot), intent(inout) :: slot
@@ -279,7 +279,7 @@ contains
 
    !> Friction of the patch: where it varies, that of the contact angle or of the place along the track
    subroutine set_patch_friction(problem, slot, error)
-      type(pair_problem), intent(in) :: problem
+      type(wheel_rail_problem), intent(in) :: problem
       type(patch_slot), intent(inout) :: slot
       type(error_type), allocatable, intent(out) :: error
       integer :: iy
@@ -312,23 +312,23 @@ contains
    end subroutine set_patch_friction
 
    !> Creepages of a patch from the motion of the bodies
-   subroutine set_motion(problem, here, slot, approach)
-      type(pair_problem), intent(in) :: problem
-      type(pair_geometry), intent(in) :: here
+   subroutine set_motion(problem, geometry, slot, approach)
+      type(wheel_rail_problem), intent(in) :: problem
+      type(wheel_rail_geometry), intent(in) :: geometry
       type(patch_slot), intent(inout) :: slot
       real(wp), intent(in) :: approach
       type(rigid_motion) :: rail, wheel
       real(wp) :: on_wheel(3), pitch_rate
 
-      pitch_rate = here%pitch_rate
-      rail = rail_motion(problem%spec, here%placement)
-      wheel = wheel_motion(problem%spec, here%placement, pitch_rate)
+      pitch_rate = geometry%pitch_rate
+      rail = rail_motion(problem%spec, geometry%placement)
+      wheel = wheel_motion(problem%spec, geometry%placement, pitch_rate)
       associate (plane => slot%plane)
          on_wheel = plane%origin + approach*plane%axes(:, 3)
          if (problem%template%motion == motion%shift) then
             slot%motion = flat_shift(rail, wheel, plane%origin, on_wheel, plane%roll())
          else
-            slot%motion = flat_creepage(rail, wheel, here%placement%wheelset%axes(:, 2), pitch_rate, plane%origin, on_wheel, &
+            slot%motion = flat_creepage(rail, wheel, geometry%placement%wheelset%axes(:, 2), pitch_rate, plane%origin, on_wheel, &
                & plane%roll(), problem%spec%roller)
          end if
       end associate
@@ -362,7 +362,7 @@ contains
 
    !> Slip element by element on a reference surface: creepages that describe it best, and the remainder
    subroutine set_surface_slip(problem, rail, wheel, slot)
-      type(pair_problem), intent(in) :: problem
+      type(wheel_rail_problem), intent(in) :: problem
       type(rigid_motion), intent(in) :: rail, wheel
       !> With the motion at the contact reference on entry
       type(patch_slot), intent(inout) :: slot

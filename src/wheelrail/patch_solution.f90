@@ -4,15 +4,15 @@ module contact_wheelrail_patch_solution
    use contact_base_error, only : error_type
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
-   use contact_patch_moments, only : link_moments
+   use contact_patch_time_steps, only : link_time_steps
    use contact_patch_problem, only : traction_fields
    use contact_patch_solve, only : solve_patch
-   use contact_wheelrail_carry_over, only : carried_moment
+   use contact_wheelrail_carry_over, only : carried_step
    use contact_wheelrail_curved_patch, only : curved_forces
-   use contact_wheelrail_geometry, only : learned_share, most_patches, pair_geometry
+   use contact_wheelrail_geometry, only : learned_share, max_patches, wheel_rail_geometry
    use contact_wheelrail_memory, only : patch_slot
    use contact_wheelrail_patch_inputs, only : set_up_patch
-   use contact_wheelrail_problem, only : pair_problem
+   use contact_wheelrail_problem, only : wheel_rail_problem
    implicit none (type, external)
    private
 
@@ -21,9 +21,9 @@ module contact_wheelrail_patch_solution
 contains
 
    !> Problem and solution of one patch
-   subroutine solve_slot(problem, here, number, slot, with_friction, log, error)
-      type(pair_problem), intent(in) :: problem
-      type(pair_geometry), intent(inout) :: here
+   subroutine solve_slot(problem, geometry, number, slot, with_friction, log, error)
+      type(wheel_rail_problem), intent(in) :: problem
+      type(wheel_rail_geometry), intent(inout) :: geometry
       !> Number of the patch
       integer, intent(in) :: number
       type(patch_slot), intent(inout) :: slot
@@ -34,17 +34,17 @@ contains
       type(error_type), allocatable, intent(out) :: error
       logical :: is_new, has_friction
 
-      call set_up_patch(problem, here, number, slot, error)
+      call set_up_patch(problem, geometry, number, slot, error)
       if (allocated(error)) return
       is_new = .false.
-      if (.not. with_friction .and. problem%template%motion /= motion%none .and. here%shares > 0) &
-         & call find_share(here, slot, is_new)
+      if (.not. with_friction .and. problem%template%motion /= motion%none .and. geometry%shares > 0) &
+         & call find_share(geometry, slot, is_new)
       has_friction = with_friction .or. is_new
       if (.not. has_friction) slot%problem%motion = motion%none
-      slot%friction_share = share_at(problem, here, slot)
+      slot%friction_share = share_at(problem, geometry, slot)
       if (problem%geometry_only) return
 
-      call link_slot(here%before, number, slot, error)
+      call link_slot(geometry%before, number, slot, error)
       if (allocated(error)) return
       call solve_patch(slot%problem, slot%state, slot%workspace, log, slot%result, error)
       if (allocated(error)) return
@@ -57,14 +57,14 @@ contains
       end if
       if (has_friction .and. problem%template%motion /= motion%none .and. slot%result%fn > 0.0_wp) then
          slot%friction_share = (slot%force - slot%pressure_force)/slot%result%fn
-         if (is_new) call add_share(here, slot)
+         if (is_new) call add_share(geometry, slot)
       end if
    end subroutine solve_slot
 
    !> Does the patch continue one whose friction is known? Each of these is continued by one patch; a patch that took the
    !> place of two of them is a new one
-   subroutine find_share(here, slot, is_new)
-      type(pair_geometry), intent(inout) :: here
+   subroutine find_share(geometry, slot, is_new)
+      type(wheel_rail_geometry), intent(inout) :: geometry
       type(patch_slot), intent(in) :: slot
       logical, intent(out) :: is_new
       real(wp) :: distance, smallest
@@ -73,8 +73,8 @@ contains
       nearest = 0
       inside = 0
       smallest = 1.0_wp
-      do k = 1, here%shares
-         associate (known => here%learned(k))
+      do k = 1, geometry%shares
+         associate (known => geometry%learned(k))
             if (known%y >= slot%region%box%y(1) .and. known%y <= slot%region%box%y(2)) inside = inside + 1
             distance = known%distance_to(slot%plane%origin(2), slot%plane%roll())
             if (known%is_taken .or. distance >= smallest) cycle
@@ -83,37 +83,38 @@ contains
          end associate
       end do
       is_new = nearest == 0 .or. inside > 1
-      if (nearest > 0) here%learned(nearest)%is_taken = .true.
+      if (nearest > 0) geometry%learned(nearest)%is_taken = .true.
    end subroutine find_share
 
    !> Learn the friction of a patch, in place of what was known of places within its bounds
-   subroutine add_share(here, slot)
-      type(pair_geometry), intent(inout) :: here
+   subroutine add_share(geometry, slot)
+      type(wheel_rail_geometry), intent(inout) :: geometry
       type(patch_slot), intent(in) :: slot
       integer :: k, kept
 
       kept = 0
-      do k = 1, here%shares
-         associate (known => here%learned(k))
+      do k = 1, geometry%shares
+         associate (known => geometry%learned(k))
             if (known%y >= slot%region%box%y(1) .and. known%y <= slot%region%box%y(2)) cycle
             kept = kept + 1
-            here%learned(kept) = known
+            geometry%learned(kept) = known
          end associate
       end do
-      if (kept == most_patches) then
-         here%learned(:kept - 1) = here%learned(2:kept)
+      if (kept == max_patches) then
+         geometry%learned(:kept - 1) = geometry%learned(2:kept)
          kept = kept - 1
       end if
-      here%shares = kept + 1
-      here%learned(here%shares) = learned_share(slot%plane%origin(2), slot%plane%roll(), slot%friction_share, is_taken=.true.)
+      geometry%shares = kept + 1
+      geometry%learned(geometry%shares) = learned_share(slot%plane%origin(2), slot%plane%roll(), slot%friction_share, &
+         & is_taken=.true.)
    end subroutine add_share
 
-   !> Estimate and previous moment on the window of this solution
+   !> Estimate and previous time step on the window of this solution
    !>
    !> Within a case, and from a previous case when asked for, the last solution is the estimate. The
-   !> previous moment is that of the previous case in every solution of this one.
+   !> previous time step is that of the previous case in every solution of this one.
    subroutine link_slot(before, number, slot, error)
-      type(carried_moment), intent(in) :: before
+      type(carried_step), intent(in) :: before
       !> Number of the patch
       integer, intent(in) :: number
       type(patch_slot), intent(inout) :: slot
@@ -132,13 +133,13 @@ contains
          slot%solved_window = slot%window
          problem%estimate = merge(estimate_choice%previous, estimate_choice%fresh, continues)
          state%started = continues
-         call link_moments(problem, time_link%initiate, state, error)
+         call link_time_steps(problem, time_link%initiate, state, error)
          if (allocated(error)) return
          if (transient) then
             estimate = state%now
             call before%hand_over(number, problem, slot%window, state%now)
             state%started = .true.
-            call link_moments(problem, time_link%continue_all, state, error)
+            call link_time_steps(problem, time_link%continue_all, state, error)
             if (allocated(error)) return
             state%now%division = estimate%division
             state%now%pn = estimate%pn
@@ -166,9 +167,9 @@ contains
    !>
    !> Weights by the inverse square of the distance make it a smooth function of the place: patches that move while the
    !> height is searched leave no jump in the force.
-   pure function share_at(problem, here, slot) result(share)
-      type(pair_problem), intent(in) :: problem
-      type(pair_geometry), intent(in) :: here
+   pure function share_at(problem, geometry, slot) result(share)
+      type(wheel_rail_problem), intent(in) :: problem
+      type(wheel_rail_geometry), intent(in) :: geometry
       type(patch_slot), intent(in) :: slot
       real(wp) :: share(3)
       !> Weight of the first estimate; what was learned weighs 1 halfway to where it ends
@@ -182,8 +183,8 @@ contains
       if (allocated(slot%problem%static_mu)) mu = sum(slot%problem%static_mu)/size(slot%problem%static_mu)
       total = first_weight
       share(2) = total*mu*sin(slot%plane%roll())
-      do k = 1, here%shares
-         associate (known => here%learned(k))
+      do k = 1, geometry%shares
+         associate (known => geometry%learned(k))
             distance = known%distance_to(slot%plane%origin(2), slot%plane%roll())
             weight = (max(0.0_wp, 1.0_wp - distance)/max(distance, 1.0e-6_wp))**2
             share = share + weight*known%share

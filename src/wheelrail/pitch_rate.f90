@@ -11,9 +11,9 @@ module contact_wheelrail_pitch_rate
    use contact_wheelrail_gap, only : roller_drop
    use contact_wheelrail_geometry, only : measure
    use contact_wheelrail_height, only : out_of_sight, settle, small_step
-   use contact_wheelrail_memory, only : pair_memory, total_force
-   use contact_wheelrail_problem, only : pair_problem, rate_of_pure_rolling
-   use contact_wheelrail_result, only : pair_result
+   use contact_wheelrail_memory, only : wheel_rail_memory, total_force
+   use contact_wheelrail_problem, only : wheel_rail_problem, rate_of_pure_rolling
+   use contact_wheelrail_result, only : wheel_rail_result
    implicit none (type, external)
    private
 
@@ -30,12 +30,12 @@ contains
    !> force changes no more; the search ends there only if friction acts in the direction in which force is missing, otherwise
    !> it has not come to the rate yet at which the slip changes its direction.
    subroutine search_pitch_rate(problem, memory, z, log, result, error)
-      type(pair_problem), intent(in) :: problem
-      type(pair_memory), intent(inout) :: memory
+      type(wheel_rail_problem), intent(in) :: problem
+      type(wheel_rail_memory), intent(inout) :: memory
       !> Height of the wheelset [mm]
       real(wp), intent(out) :: z
       type(log_type), intent(inout) :: log
-      type(pair_result), intent(inout) :: result
+      type(wheel_rail_result), intent(inout) :: result
       type(error_type), allocatable, intent(out) :: error
       type(root_search) :: search
       type(log_type) :: silent
@@ -48,20 +48,20 @@ contains
       slope = force_per_pitch_rate(memory)
       tolerance = problem%template%settings%eps*max(abs(problem%spec%wheelset%fx), norm2(total_force(memory)))
       if (memory%used > 0 .and. slope > 0.0_wp) then
-         call search%start(memory%here%pitch_rate, 1.1_wp*abs(residual)/slope, tolerance)
-         moving = maxval(memory%slot(:memory%used)%motion%veloc)/memory%here%placement%wheel_radius
+         call search%start(memory%geometry%pitch_rate, 1.1_wp*abs(residual)/slope, tolerance)
+         moving = maxval(memory%slot(:memory%used)%motion%veloc)/memory%geometry%placement%wheel_radius
          search%resolution = 1.0e-10_wp*moving
          ! where the spin turns the slip another way at each place, the force changes although all slides
          search%reach = part_of_slip*largest_slip(memory)*moving
          do
             call search%answer(residual, slides_fully(memory) .and. friction_along(memory)*residual > 0.0_wp)
             if (search%finished) exit
-            memory%here%pitch_rate = search%x
+            memory%geometry%pitch_rate = search%x
             call settle(problem, memory, z, silent, result, error)
             if (allocated(error)) return
             residual = missing()
          end do
-         memory%here%pitch_rate = search%best
+         memory%geometry%pitch_rate = search%best
       end if
       call settle(problem, memory, z, log, result, error)
       if (allocated(error)) return
@@ -86,21 +86,21 @@ contains
 
       !> Longitudinal force in wheelset axes that is missing [N]
       real(wp) function missing()
-         missing = problem%spec%wheelset%fx - dot_product(total_force(memory), memory%here%placement%wheelset%axes(:, 1))
+         missing = problem%spec%wheelset%fx - dot_product(total_force(memory), memory%geometry%placement%wheelset%axes(:, 1))
       end function missing
    end subroutine search_pitch_rate
 
    !> Begin with the rate at which the circumference of the wheel is as fast as the rail where they touch first
    subroutine roll_at_contact(problem, memory)
-      type(pair_problem), intent(in) :: problem
-      type(pair_memory), intent(inout) :: memory
+      type(wheel_rail_problem), intent(in) :: problem
+      type(wheel_rail_memory), intent(inout) :: memory
       real(wp) :: on_wheel(3), z, radius, on_roller
       integer :: i
 
       z = merge(memory%z_ws, 0.0_wp, memory%started .and. problem%use_previous)
-      call measure(problem, memory%here, z)
-      if (memory%here%touch - z > out_of_sight) return
-      associate (gap => memory%here%gap, placement => memory%here%placement)
+      call measure(problem, memory%geometry, z)
+      if (memory%geometry%touch - z > out_of_sight) return
+      associate (gap => memory%geometry%gap, placement => memory%geometry%placement)
          i = minloc(gap%gap, dim=1)
          on_wheel = placement%wheel%to_local([gap%x(i), gap%y(i), gap%z(i) + roller_drop(placement, gap%x(i), gap%z(i)) &
             & - gap%gap(i)])
@@ -108,7 +108,7 @@ contains
          on_roller = 1.0_wp
          if (problem%spec%roller) on_roller = 1.0_wp - gap%z(i)/placement%roller_radius
          if (radius > 0.0_wp .and. on_roller > 0.0_wp) &
-            & memory%here%pitch_rate = rate_of_pure_rolling(problem)*on_roller/radius
+            & memory%geometry%pitch_rate = rate_of_pure_rolling(problem)*on_roller/radius
       end associate
    end subroutine roll_at_contact
 
@@ -124,7 +124,7 @@ contains
    !> A contact area pi a**2 holds 2.5 G a per mm of rigid displacement, which comes about in a shift, in a
    !> step of transient rolling, or in rolling over the length a.
    real(wp) function force_per_pitch_rate(memory) result(slope)
-      type(pair_memory), intent(in) :: memory
+      type(wheel_rail_memory), intent(in) :: memory
       real(wp) :: a, length
       integer :: k
 
@@ -135,7 +135,7 @@ contains
             length = 1.0_wp
             if (patch%motion == motion%transient_rolling) length = patch%dq
             if (patch%motion == motion%steady_rolling) length = a
-            slope = slope + 2.5_wp*patch%model%material%gg*a*length*memory%here%placement%wheel_radius &
+            slope = slope + 2.5_wp*patch%model%material%gg*a*length*memory%geometry%placement%wheel_radius &
                & /max(patch%veloc, epsilon(1.0_wp))
          end associate
       end do
@@ -143,7 +143,7 @@ contains
 
    !> Order of magnitude of the largest slip in the contact, relative to the rolling velocity [-]
    pure real(wp) function largest_slip(memory) result(slip)
-      type(pair_memory), intent(in) :: memory
+      type(wheel_rail_memory), intent(in) :: memory
       integer :: k
 
       slip = 0.0_wp
@@ -156,21 +156,21 @@ contains
 
    !> Force of friction on the rail along the wheelset's x axis [N]
    pure real(wp) function friction_along(memory) result(force)
-      type(pair_memory), intent(in) :: memory
+      type(wheel_rail_memory), intent(in) :: memory
       integer :: k
 
       force = 0.0_wp
       do k = 1, memory%used
          associate (slot => memory%slot(k))
             force = force + slot%result%fn*dot_product(matmul(slot%plane%axes, slot%friction_share), &
-               & memory%here%placement%wheelset%axes(:, 1))
+               & memory%geometry%placement%wheelset%axes(:, 1))
          end associate
       end do
    end function friction_along
 
    !> Do all contact elements slip?
    pure logical function slides_fully(memory)
-      type(pair_memory), intent(in) :: memory
+      type(wheel_rail_memory), intent(in) :: memory
       integer :: k
 
       slides_fully = .true.

@@ -11,17 +11,17 @@ module contact_wheelrail_placement
    implicit none (type, external)
    private
 
-   public :: pair_placement, gauge_point, place_pair, rail_motion, wheel_motion, side_sign
+   public :: wheel_rail_placement, gauge_point, place_wheel_rail, rail_motion, wheel_motion, side_sign
 
    !> Frames in track coordinates
-   type :: pair_placement
+   type :: wheel_rail_placement
       !> Rail (or roller profile), wheelset and wheel
       type(frame) :: rail, wheelset, wheel
       !> Nominal radius of the wheel at the origin of its profile [mm]
       real(wp) :: wheel_radius = 460.0_wp
       !> Nominal radius of the roller [mm]; 0 on a track
       real(wp) :: roller_radius = 0.0_wp
-   end type pair_placement
+   end type wheel_rail_placement
 
    !> From this value on YTAPE says that there is no tape line [mm]
    real(wp), parameter :: no_tape = 999.0_wp
@@ -29,9 +29,9 @@ module contact_wheelrail_placement
 contains
 
    !> -1 for the left side of the track, 1 for the right one
-   pure real(wp) function side_sign(pair)
-      type(wheel_rail_spec), intent(in) :: pair
-      side_sign = merge(-1.0_wp, 1.0_wp, pair%left)
+   pure real(wp) function side_sign(wheel_rail)
+      type(wheel_rail_spec), intent(in) :: wheel_rail
+      side_sign = merge(-1.0_wp, 1.0_wp, wheel_rail%left)
    end function side_sign
 
    !> Top of the canted rail and its gauge point
@@ -102,8 +102,8 @@ contains
    end function innermost
 
    !> Frames of a pair for a height of the wheelset
-   subroutine place_pair(pair, wheel, top_z, gauge_y, z_ws, deflection, placement)
-      type(wheel_rail_spec), intent(in) :: pair
+   subroutine place_wheel_rail(wheel_rail, wheel, top_z, gauge_y, z_ws, deflection, placement)
+      type(wheel_rail_spec), intent(in) :: wheel_rail
       type(profile_curve), intent(in) :: wheel
       !> From gauge_point; not used with absolute placement
       real(wp), intent(in) :: top_z, gauge_y
@@ -111,22 +111,22 @@ contains
       real(wp), intent(in) :: z_ws
       !> Lateral and vertical deflection of a massless rail [mm], right-hand pair
       real(wp), intent(in) :: deflection(2)
-      type(pair_placement), intent(out) :: placement
+      type(wheel_rail_placement), intent(out) :: placement
       type(frame) :: wheel_in_set
       real(wp) :: s, y, z, tape
 
-      s = side_sign(pair)
-      associate (track => pair%track, deviation => pair%rail, w => pair%wheelset)
+      s = side_sign(wheel_rail)
+      associate (track => wheel_rail%track, deviation => wheel_rail%rail, w => wheel_rail%wheelset)
          if (track%gaught > 0.0_wp) then
             y = 0.5_wp*track%gaugwd - gauge_y + s*deviation%dy
             z = deviation%dz
-            if (.not. pair%roller) z = z - top_z
+            if (.not. wheel_rail%roller) z = z - top_z
          else
             y = s*(track%raily0 + deviation%dy)
             z = track%railz0 + deviation%dz
          end if
          placement%rail = new_frame([0.0_wp, y + deflection(1), z + deflection(2)], -track%cant + s*deviation%roll, 0.0_wp)
-         if (pair%roller) placement%roller_radius = track%nomradr
+         if (wheel_rail%roller) placement%roller_radius = track%nomradr
 
          placement%wheelset = new_frame([w%x, s*w%y, z_ws - w%nomradw], s*w%roll, s*w%yaw)
          tape = 0.0_wp
@@ -136,24 +136,24 @@ contains
          placement%wheel = placement%wheelset%of(wheel_in_set)
          placement%wheel_radius = w%nomradw - tape
       end associate
-   end subroutine place_pair
+   end subroutine place_wheel_rail
 
    !> Motion of the rail, or of the roller about its axle
-   pure function rail_motion(pair, placement) result(motion)
-      type(wheel_rail_spec), intent(in) :: pair
-      type(pair_placement), intent(in) :: placement
+   pure function rail_motion(wheel_rail, placement) result(motion)
+      type(wheel_rail_spec), intent(in) :: wheel_rail
+      type(wheel_rail_placement), intent(in) :: placement
       type(rigid_motion) :: motion
       real(wp) :: s, yaw_rate
 
-      s = side_sign(pair)
-      associate (rail => pair%rail)
-         if (pair%roller) then
-            yaw_rate = -s*placement%roller_radius*pair%wheelset%rpitch*pair%track%curvature
+      s = side_sign(wheel_rail)
+      associate (rail => wheel_rail%rail)
+         if (wheel_rail%roller) then
+            yaw_rate = -s*placement%roller_radius*wheel_rail%wheelset%rpitch*wheel_rail%track%curvature
             motion%origin = [0.0_wp, placement%rail%origin(2), placement%roller_radius]
-            motion%rotation = [s*rail%vroll, pair%wheelset%rpitch, yaw_rate]
+            motion%rotation = [s*rail%vroll, wheel_rail%wheelset%rpitch, yaw_rate]
             motion%velocity = [0.0_wp, s*rail%vy, rail%vz]
          else
-            yaw_rate = -s*pair%wheelset%vs*pair%track%curvature
+            yaw_rate = -s*wheel_rail%wheelset%vs*wheel_rail%track%curvature
             motion%origin = placement%rail%origin
             motion%rotation = [s*rail%vroll, 0.0_wp, yaw_rate]
             motion%velocity = [-yaw_rate*placement%rail%origin(2), s*rail%vy, rail%vz]
@@ -162,19 +162,19 @@ contains
    end function rail_motion
 
    !> Motion of the wheel: that of the wheelset, and its flexible deviations, which turn about the origin of the wheel profile
-   pure function wheel_motion(pair, placement, pitch_rate) result(motion)
-      type(wheel_rail_spec), intent(in) :: pair
-      type(pair_placement), intent(in) :: placement
+   pure function wheel_motion(wheel_rail, placement, pitch_rate) result(motion)
+      type(wheel_rail_spec), intent(in) :: wheel_rail
+      type(wheel_rail_placement), intent(in) :: placement
       !> Pitch rate of the wheelset [rad/s]
       real(wp), intent(in) :: pitch_rate
       type(rigid_motion) :: motion
       real(wp) :: s, lever(3), flexible(3)
 
-      s = side_sign(pair)
-      associate (w => pair%wheelset, axes => placement%wheelset%axes)
+      s = side_sign(wheel_rail)
+      associate (w => wheel_rail%wheelset, axes => placement%wheelset%axes)
          motion%origin = placement%wheelset%origin
          motion%rotation = matmul(axes, [s*w%vroll, pitch_rate, s*w%vyaw])
-         motion%velocity = [merge(0.0_wp, w%vs, pair%roller), s*w%vy, w%vz]
+         motion%velocity = [merge(0.0_wp, w%vs, wheel_rail%roller), s*w%vy, w%vz]
          if (.not. any(abs(w%flexible_rate) > 0.0_wp)) return
          ! the flexible deviations are those of the origin of the wheel profile, and so are their rates
          lever = placement%wheel%origin - placement%wheelset%origin

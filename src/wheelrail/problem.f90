@@ -11,7 +11,8 @@ module contact_wheelrail_problem
    implicit none (type, external)
    private
 
-   public :: pair_problem, relaxing_bodies, friction_by_row, follows_surface, keeps_lattice, parameters_at, rate_of_pure_rolling
+   public :: wheel_rail_problem, relaxing_bodies, friction_by_row, follows_surface, keeps_lattice, parameters_at, &
+      & rate_of_pure_rolling
 
    !> Viscoelastic bodies, rail and wheel; see `set_viscoelastic` of contact_elastic_model
    type :: relaxing_bodies
@@ -22,7 +23,7 @@ module contact_wheelrail_problem
    end type relaxing_bodies
 
    !> What is asked for a pair
-   type :: pair_problem
+   type :: wheel_rail_problem
       type(wheel_rail_spec) :: spec
       !> Prepared profiles in their own coordinates
       type(profile_curve) :: rail, wheel
@@ -56,67 +57,67 @@ module contact_wheelrail_problem
       !> The rail's part of the compliance of both bodies [-]
       real(wp) :: rail_share = 0.5_wp
       !> Elements of a patch at most
-      integer :: most_elements = 20000
-   end type pair_problem
+      integer :: max_elements = 20000
+   end type wheel_rail_problem
 
 contains
 
    !> Pitch rate at which the circumference of the wheel is as fast as the rail [rad/s]
    pure real(wp) function rate_of_pure_rolling(problem) result(rate)
-      type(pair_problem), intent(in) :: problem
+      type(wheel_rail_problem), intent(in) :: problem
 
-      associate (pair => problem%spec)
-         if (pair%roller) then
-            rate = -pair%wheelset%rpitch*pair%track%nomradr/pair%wheelset%nomradw
+      associate (wheel_rail => problem%spec)
+         if (wheel_rail%roller) then
+            rate = -wheel_rail%wheelset%rpitch*wheel_rail%track%nomradr/wheel_rail%wheelset%nomradw
          else
-            rate = -pair%wheelset%vs/pair%wheelset%nomradw
+            rate = -wheel_rail%wheelset%vs/wheel_rail%wheelset%nomradw
          end if
       end associate
    end function rate_of_pure_rolling
 
    !> Do the elements stand on the lattice of the pair, as a transient motion needs it?
    pure logical function keeps_lattice(problem) result(keeps)
-      type(pair_problem), intent(in) :: problem
+      type(wheel_rail_problem), intent(in) :: problem
       keeps = problem%template%motion == motion%shift .or. problem%template%motion == motion%transient_rolling
    end function keeps_lattice
 
    !> Do distances and slip of a patch follow a reference surface row by row?
    pure logical function follows_surface(problem) result(follows)
-      type(pair_problem), intent(in) :: problem
+      type(wheel_rail_problem), intent(in) :: problem
       follows = any(problem%spec%search%location == [contact_location%conformal, contact_location%locus_extended])
    end function follows_surface
 
    !> Does friction follow the inclination of the rail within a patch?
    pure logical function friction_by_row(problem) result(by_row)
-      type(pair_problem), intent(in) :: problem
+      type(wheel_rail_problem), intent(in) :: problem
       by_row = problem%variation == variation%by_angle .and. problem%spec%search%location == contact_location%conformal
    end function friction_by_row
 
    !> Parameters between control points, by linear interpolation; constant beyond them
-   pure function parameters_at(problem, position) result(here)
-      type(pair_problem), intent(in) :: problem
+   pure function parameters_at(problem, position) result(geometry)
+      type(wheel_rail_problem), intent(in) :: problem
       !> [rad] or [mm]
       real(wp), intent(in) :: position
-      type(friction_parameters) :: here
+      type(friction_parameters) :: geometry
       real(wp) :: t
       integer :: k, n
 
       n = size(problem%control_point)
       k = count(problem%control_point <= position)
       if (k == 0 .or. n == 1) then
-         here = problem%control(1)
+         geometry = problem%control(1)
          return
       end if
-      here = problem%control(min(k, n))
+      geometry = problem%control(min(k, n))
       if (k >= n) return
       t = (position - problem%control_point(k))/(problem%control_point(k + 1) - problem%control_point(k))
       associate (a => problem%control(k), b => problem%control(k + 1))
-         here%static = (1.0_wp - t)*a%static + t*b%static
-         here%kinetic = (1.0_wp - t)*a%kinetic + t*b%kinetic
-         here%term = (1.0_wp - t)*a%term + t*b%term
-         here%half_speed = (1.0_wp - t)*a%half_speed + t*b%half_speed
-         here%onset = (1.0_wp - t)*a%onset + t*b%onset
-         here%range = (1.0_wp - t)*a%range + t*b%range
+         geometry%static = (1.0_wp - t)*a%static + t*b%static
+         geometry%kinetic = (1.0_wp - t)*a%kinetic + t*b%kinetic
+         geometry%term = (1.0_wp - t)*a%term + t*b%term
+         geometry%half_speed = (1.0_wp - t)*a%half_speed + t*b%half_speed
+         geometry%onset = (1.0_wp - t)*a%onset + t*b%onset
+         geometry%range = (1.0_wp - t)*a%range + t*b%range
       end associate
    end function parameters_at
 end module contact_wheelrail_problem

@@ -14,9 +14,9 @@ module contact_wheelrail_profile_ends
    use contact_wheelrail_bodies, only : slice_pair
    use contact_wheelrail_frame, only : frame
    use contact_wheelrail_gap_bound, only : rail_extent
-   use contact_wheelrail_geometry, only : pair_geometry, rail_at
-   use contact_wheelrail_memory, only : pair_memory, patch_slot
-   use contact_wheelrail_problem, only : pair_problem
+   use contact_wheelrail_geometry, only : wheel_rail_geometry, rail_at
+   use contact_wheelrail_memory, only : wheel_rail_memory, patch_slot
+   use contact_wheelrail_problem, only : wheel_rail_problem
    use contact_wheelrail_result, only : buried_end
    implicit none (type, external)
    private
@@ -31,9 +31,9 @@ contains
 
    !> Which ends of the profiles contact reaches: in the next element along y a surface is missing, and the end is near;
    !> where none is near, the surface goes on unseen
-   subroutine mark_profile_ends(problem, here, slot, border)
-      type(pair_problem), intent(in) :: problem
-      type(pair_geometry), intent(in) :: here
+   subroutine mark_profile_ends(problem, geometry, slot, border)
+      type(wheel_rail_problem), intent(in) :: problem
+      type(wheel_rail_geometry), intent(in) :: geometry
       !> Solved
       type(patch_slot), intent(in) :: slot
       !> `surface_end`, `hidden` and `pressure` are set; body 1 is the rail
@@ -55,9 +55,9 @@ contains
                   if (next >= 1 .and. next <= grid%my) then
                      if (h(ix, next) < missing .or. h(ix, next) > excluded_threshold) cycle
                   end if
-                  if (.not. known) call find_ends(problem, here, slot%plane%origin, ends)
+                  if (.not. known) call find_ends(problem, geometry, slot%plane%origin, ends)
                   known = .true.
-                  distance = norm2(ends - in_sections(here, point_of(slot, ix, next)), dim=1)
+                  distance = norm2(ends - in_sections(geometry, point_of(slot, ix, next)), dim=1)
                   found = minloc(distance)
                   if (distance(found(1), found(2)) <= nearest*grid%dy) then
                      border%surface_end(found(1), found(2)) = .true.
@@ -77,9 +77,9 @@ contains
    !>
    !> The circle of each end is sampled as far as it may reach below the top of the rail, and finely around its deepest point.
    subroutine find_buried_ends(problem, memory, buried)
-      type(pair_problem), intent(in) :: problem
+      type(wheel_rail_problem), intent(in) :: problem
       !> With patches that are solved
-      type(pair_memory), intent(in) :: memory
+      type(wheel_rail_memory), intent(in) :: memory
       !> Ends of the lower and the higher y
       type(buried_end), intent(out) :: buried(2)
       !> Angle to both sides [rad], steps on a prismatic rail and on one that varies [mm], points to refine, and how often
@@ -92,18 +92,19 @@ contains
       real(wp) :: end(2), middle, half, step, top, y_range(2), angle, reach
       integer :: i, k, n, round
 
-      associate (here => memory%here, wheel => memory%here%placement%wheel, r0 => memory%here%placement%wheel_radius)
-         rail = section_at(problem, here, 0.0_wp)
+      associate (geometry => memory%geometry, wheel => memory%geometry%placement%wheel, &
+         & r0 => memory%geometry%placement%wheel_radius)
+         rail = section_at(problem, geometry, 0.0_wp)
          top = minval(rail%z%nodes())
          y_range = rail%y_range()
          step = fine
-         if (allocated(here%bodies%rail_strip)) then
-            call rail_extent(here%bodies%rail_strip, wheel%origin(1) + [-1.0_wp, 1.0_wp]*furthest*r0, y_range, top)
+         if (allocated(geometry%bodies%rail_strip)) then
+            call rail_extent(geometry%bodies%rail_strip, wheel%origin(1) + [-1.0_wp, 1.0_wp]*furthest*r0, y_range, top)
             if (y_range(2) < y_range(1)) return
             step = coarse
          end if
          do k = 1, 2
-            end = wheel_end(problem, here, k, 0.0_wp)
+            end = wheel_end(problem, geometry, k, 0.0_wp)
             ! heights are those of the axle at this end, and the radius times the cosine of the angle from the lowest point
             middle = atan2(wheel%axes(3, 1), wheel%axes(3, 3))
             reach = hypot(wheel%axes(3, 1), wheel%axes(3, 3))*(r0 + end(2))
@@ -150,10 +151,10 @@ contains
          real(wp), intent(in) :: angle
          real(wp) :: place(3), radius
 
-         if (allocated(problem%wheel_surface)) end = wheel_end(problem, memory%here, k, angle)
-         radius = memory%here%placement%wheel_radius + end(2)
-         place = memory%here%placement%wheel%to_parent([radius*sin(angle), end(1), &
-            & radius*cos(angle) - memory%here%placement%wheel_radius])
+         if (allocated(problem%wheel_surface)) end = wheel_end(problem, memory%geometry, k, angle)
+         radius = memory%geometry%placement%wheel_radius + end(2)
+         place = memory%geometry%placement%wheel%to_parent([radius*sin(angle), end(1), &
+            & radius*cos(angle) - memory%geometry%placement%wheel_radius])
       end function on_circle
 
       !> Remember the deepest of some points to both sides of the middle
@@ -166,12 +167,12 @@ contains
 
          do m = -count, count
             place = on_circle(middle + m*step)
-            if (allocated(problem%rail_surface)) rail = section_at(problem, memory%here, place(1))
-            depth = depth_within(rail, in_rail_section(memory%here, place))
+            if (allocated(problem%rail_surface)) rail = section_at(problem, memory%geometry, place(1))
+            depth = depth_within(rail, in_rail_section(memory%geometry, place))
             if (depth <= buried(k)%depth) cycle
-            if (depth > 0.0_wp .and. allocated(memory%here%bodies%rail_strip)) then
+            if (depth > 0.0_wp .and. allocated(memory%geometry%bodies%rail_strip)) then
                associate (z => rail%height(place(2)))
-                  if (place(3) - z < slices%swing(memory%here%bodies%rail_strip, place(1), place(2), z)) cycle
+                  if (place(3) - z < slices%swing(memory%geometry%bodies%rail_strip, place(1), place(2), z)) cycle
                end associate
             end if
             buried(k) = buried_end(depth, place)
@@ -183,9 +184,9 @@ contains
    !> Overlap outside of all patches: where the gap has a smallest value of its own along the track, the search keeps the smallest
    !> of them at each lateral position
    subroutine find_spot_beside(problem, memory, beside)
-      type(pair_problem), intent(in) :: problem
+      type(wheel_rail_problem), intent(in) :: problem
       !> With patches that are solved
-      type(pair_memory), intent(in) :: memory
+      type(wheel_rail_memory), intent(in) :: memory
       !> The deepest one, vertically
       type(buried_end), intent(out) :: beside
       !> Less is rounding [mm]
@@ -194,10 +195,10 @@ contains
       real(wp) :: depth, place(3), before, behind
       integer :: i, j, k
 
-      associate (gap => memory%here%gap)
-         depth = memory%z_ws - memory%here%gap_height - gap%far
+      associate (gap => memory%geometry%gap)
+         depth = memory%z_ws - memory%geometry%gap_height - gap%far
          if (depth > least) then
-            rail = section_at(problem, memory%here, gap%far_place(1))
+            rail = section_at(problem, memory%geometry, gap%far_place(1))
             place = [gap%far_place, rail%height(gap%far_place(2))]
             if (.not. any([(holds(memory%slot(i), place), i=1, memory%used)])) &
                & beside = buried_end(depth, place, beyond_reach=.true.)
@@ -206,7 +207,7 @@ contains
          do j = 1, gap%n
             do k = 1, size(gap%x_table)
                associate (g => gap%unweighed(k, j))
-                  depth = memory%z_ws - memory%here%gap_height - g
+                  depth = memory%z_ws - memory%geometry%gap_height - g
                   if (depth <= max(least, beside%depth)) cycle
                   before = gap%unweighed(max(1, k - 1), j)
                   behind = gap%unweighed(min(size(gap%x_table), k + 1), j)
@@ -287,9 +288,9 @@ contains
    end function holds
 
    !> Ends of the sections of rail and wheel, each in the coordinates of `in_sections` [mm]: (y z, low and high end, rail and wheel)
-   subroutine find_ends(problem, here, point, ends)
-      type(pair_problem), intent(in) :: problem
-      type(pair_geometry), intent(in) :: here
+   subroutine find_ends(problem, geometry, point, ends)
+      type(wheel_rail_problem), intent(in) :: problem
+      type(wheel_rail_geometry), intent(in) :: geometry
       !> Where the sections of bodies that vary are taken, in track coordinates [mm]
       real(wp), intent(in) :: point(3)
       real(wp), intent(out) :: ends(2, 2, 2)
@@ -297,61 +298,61 @@ contains
       real(wp) :: local(3)
       integer :: k
 
-      rail = section_at(problem, here, point(1))
-      local = here%placement%wheel%to_local(point)
+      rail = section_at(problem, geometry, point(1))
+      local = geometry%placement%wheel%to_local(point)
       do k = 1, 2
          ends(:, k, 1) = end_of(rail, k)
-         ends(:, k, 2) = wheel_end(problem, here, k, atan2(local(1), local(3) + here%placement%wheel_radius))
+         ends(:, k, 2) = wheel_end(problem, geometry, k, atan2(local(1), local(3) + geometry%placement%wheel_radius))
       end do
    end subroutine find_ends
 
    !> The section of the rail where it is now, in track coordinates: springs have lowered it since the gap was measured
-   function section_at(problem, here, x) result(rail)
-      type(pair_problem), intent(in) :: problem
-      type(pair_geometry), intent(in) :: here
+   function section_at(problem, geometry, x) result(rail)
+      type(wheel_rail_problem), intent(in) :: problem
+      type(wheel_rail_geometry), intent(in) :: geometry
       !> In track coordinates; does not matter to a prismatic rail [mm]
       real(wp), intent(in) :: x
       type(profile_curve) :: rail
 
       if (allocated(problem%rail_surface) .or. problem%force == force_control%massless_rail) then
-         rail = rail_at(problem, here%placement, x)
+         rail = rail_at(problem, geometry%placement, x)
       else
-         rail = here%rail_in_track
+         rail = geometry%rail_in_track
       end if
    end function section_at
 
    !> A point of the track in the sections of rail and wheel through it, twice each [mm]: (y z, both ends, rail and wheel)
-   pure function in_sections(here, point) result(sections)
-      type(pair_geometry), intent(in) :: here
+   pure function in_sections(geometry, point) result(sections)
+      type(wheel_rail_geometry), intent(in) :: geometry
       !> In track coordinates [mm]
       real(wp), intent(in) :: point(3)
       real(wp) :: sections(2, 2, 2)
       real(wp) :: local(3)
 
-      sections(:, :, 1) = spread(in_rail_section(here, point), 2, 2)
-      local = here%placement%wheel%to_local(point)
-      associate (r0 => here%placement%wheel_radius)
+      sections(:, :, 1) = spread(in_rail_section(geometry, point), 2, 2)
+      local = geometry%placement%wheel%to_local(point)
+      associate (r0 => geometry%placement%wheel_radius)
          sections(:, :, 2) = spread([local(2), hypot(local(1), local(3) + r0) - r0], 2, 2)
       end associate
    end function in_sections
 
    !> A point of the track in the rail's section: a roller is seen in the half plane through its axle
-   pure function in_rail_section(here, point) result(section)
-      type(pair_geometry), intent(in) :: here
+   pure function in_rail_section(geometry, point) result(section)
+      type(wheel_rail_geometry), intent(in) :: geometry
       !> In track coordinates [mm]
       real(wp), intent(in) :: point(3)
       real(wp) :: section(2)
 
       section = point(2:3)
-      associate (r => here%placement%roller_radius)
+      associate (r => geometry%placement%roller_radius)
          if (r > 0.0_wp) section(2) = r - hypot(point(1), r - point(3))
       end associate
    end function in_rail_section
 
    !> y and z of an end of the wheel's profile [mm], in its section at an angle
-   function wheel_end(problem, here, k, angle) result(point)
-      type(pair_problem), intent(in) :: problem
-      type(pair_geometry), intent(in) :: here
+   function wheel_end(problem, geometry, k, angle) result(point)
+      type(wheel_rail_problem), intent(in) :: problem
+      type(wheel_rail_geometry), intent(in) :: geometry
       !> See `end_of`
       integer, intent(in) :: k
       !> From the lowest point of the wheel; does not matter to a round one [rad]
@@ -365,7 +366,7 @@ contains
          return
       end if
       allocate(y(problem%wheel_surface%lines, 4), z(problem%wheel_surface%lines, 4))
-      call stretch_hull(problem%wheel_surface, [1.0_wp, 1.0_wp]*(angle + here%bodies%wheel_strip%origin), y, z, first, last)
+      call stretch_hull(problem%wheel_surface, [1.0_wp, 1.0_wp]*(angle + geometry%bodies%wheel_strip%origin), y, z, first, last)
       if (last < first) then
          point = end_of(problem%wheel, k)
       else if ((y(first, 1) <= y(last, 1)) .eqv. k == 1) then

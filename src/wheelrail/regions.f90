@@ -48,7 +48,7 @@ module contact_wheelrail_regions
    !> Gaps beyond this value do not take part in the search [mm]
    real(wp), parameter :: far_away = 777.0_wp
    !> Least weight of a mesh point; below that of the lightest contact, as points that weigh alike move its reference
-   real(wp), parameter :: least_weight = 1.0e-60_wp
+   real(wp), parameter :: min_weight = 1.0e-60_wp
    !> A contact of so few mesh points is described by the parabola through the gap around its deepest point
    integer, parameter :: few_points = 4
    !> Exponent of the decrease of interaction with the distance of blended parts
@@ -56,7 +56,7 @@ module contact_wheelrail_regions
    !> Angles nearer than this to a vertical plane are moved away from it [rad]
    real(wp), parameter :: upright = 1.0e-3_wp
    !> Near misses that are kept
-   integer, parameter :: most_misses = 2
+   integer, parameter :: max_misses = 2
 
 contains
 
@@ -191,9 +191,9 @@ contains
       integer :: place
 
       place = count(misses%gap <= region%gap) + 1
-      if (place > most_misses) return
+      if (place > max_misses) return
       misses = [misses(:place - 1), region, misses(place:)]
-      if (size(misses) > most_misses) misses = misses(:most_misses)
+      if (size(misses) > max_misses) misses = misses(:max_misses)
    end subroutine keep_miss
 
    !> Reference, weight and bounds of a stretch of interpenetration
@@ -217,7 +217,7 @@ contains
          else
             call weigh_parabola(gap, i, -g(i), weight_power, w, x, extent)
          end if
-         w = max(least_weight, w)
+         w = max(min_weight, w)
          total = total + w
          region%x = region%x + w*x
          region%y = region%y + w*gap%y(i)
@@ -279,7 +279,7 @@ contains
       region%deepest = place
       region%seeds = [place(2)]
       ! the weights of all lateral positions, integrated: (1 - u**2)**2.5 and (1 - u**2)**1.5 from -1 to 1
-      region%weight = max(least_weight, w)*half*merge(5.0_wp/16.0_wp, 3.0_wp/8.0_wp, weight_power == 2)*pi
+      region%weight = max(min_weight, w)*half*merge(5.0_wp/16.0_wp, 3.0_wp/8.0_wp, weight_power == 2)*pi
       region%box%x = extent
       region%box%y = place(2) + [-half, half]
       region%box%z = gap%z(i) + (region%box%y - gap%y(i))*(gap%z(i + 1) - gap%z(i - 1))/(2.0_wp*gap%dy)
@@ -456,7 +456,7 @@ contains
       region%x = gap%x(i)
       region%y = gap%y(i)
       region%alpha = gap%alpha(i)
-      region%weight = least_weight
+      region%weight = min_weight
       ! a miss does not become a contact by interpolation
       call find_deepest(gap, g, i, i, region%gap, region%deepest)
       region%gap = max(1.0e-10_wp, region%gap)

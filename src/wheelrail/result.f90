@@ -11,10 +11,11 @@ module contact_wheelrail_result
    implicit none (type, external)
    private
 
-   public :: buried_end, pair_result, pair_patch, profile_points, in_element_coordinates, mirrored, moment_about_elements
+   public :: buried_end, wheel_rail_result, wheel_rail_patch, profile_points, in_element_coordinates, mirrored, &
+      & moment_about_elements
 
    !> One contact patch of the pair
-   type :: pair_patch
+   type :: wheel_rail_patch
       !> Contact reference in track coordinates [mm], contact angle [rad]
       real(wp) :: x = 0.0_wp, y = 0.0_wp, z = 0.0_wp, delta = 0.0_wp
       !> The same in the rail profile's coordinates [mm], angle relative to the rail [rad]
@@ -42,7 +43,7 @@ module contact_wheelrail_result
       real(wp) :: moment(3) = 0.0_wp
       !> Tractions, slip, totals in the axes of the patch
       type(patch_result) :: contact
-   end type pair_patch
+   end type wheel_rail_patch
 
    !> Points of a profile in track coordinates
    type :: profile_points
@@ -61,7 +62,7 @@ module contact_wheelrail_result
    end type buried_end
 
    !> The pair
-   type :: pair_result
+   type :: wheel_rail_result
       !> How the case ended: its patches, and the searches for prescribed forces
       type(case_status) :: status
       !> Combined modulus [N/mm2], Poisson ratio [-], difference parameter [-]
@@ -82,8 +83,8 @@ module contact_wheelrail_result
       real(wp) :: wheel_x = 0.0_wp, wheel_y = 0.0_wp, wheel_z = 0.0_wp, wheel_roll = 0.0_wp, wheel_yaw = 0.0_wp
       real(wp) :: wheel_offset = 0.0_wp
       !> Contact patches, field side first; of size zero without contact
-      type(pair_patch), allocatable :: patches(:)
-      !> Ends of the wheel's profile within the rail, which carry no load here: those of the lower and the higher y
+      type(wheel_rail_patch), allocatable :: patches(:)
+      !> Ends of the wheel's profile within the rail, which carry no load geometry: those of the lower and the higher y
       type(buried_end) :: buried(2)
       !> Overlap at another place along the track, at a lateral position with contact: a search that keeps one place for each
       !> lateral position leaves it out
@@ -93,17 +94,17 @@ module contact_wheelrail_result
       !> Evaluations of the total force, and how far it is from the prescribed one [N]
       integer :: force_evaluations = 0
       !> Heights tried in one search for the vertical force: largest number of this case
-      integer :: most_trials = 0
+      integer :: max_trials = 0
       real(wp) :: force_error = 0.0_wp
    contains
       !> Are all totals, and those of the patches, finite numbers?
       procedure :: has_finite_totals
-   end type pair_result
+   end type wheel_rail_result
 
 contains
 
    pure logical function has_finite_totals(self) result(finite)
-      class(pair_result), intent(in) :: self
+      class(wheel_rail_result), intent(in) :: self
       integer :: k
 
       finite = all(ieee_is_finite([self%z_ws, self%vpitch, self%dy_defl, self%dz_defl, self%force_track, self%force_wheelset, &
@@ -116,7 +117,7 @@ contains
 
    !> The solution of a patch on its grid with the origin of the elements: in a transient case that is not the reference
    pure function in_element_coordinates(patch) result(contact)
-      type(pair_patch), intent(in) :: patch
+      type(wheel_rail_patch), intent(in) :: patch
       type(patch_result) :: contact
 
       contact = patch%contact
@@ -128,7 +129,7 @@ contains
 
    !> Moment about the normal through the origin of the elements, from that about the contact reference
    pure real(wp) function moment_about_elements(patch, fx, fy, mz) result(moment)
-      type(pair_patch), intent(in) :: patch
+      type(wheel_rail_patch), intent(in) :: patch
       !> Tangential forces [N] and the moment about the contact reference [N mm]
       real(wp), intent(in) :: fx, fy, mz
 

@@ -5,10 +5,10 @@ module contact_wheelrail_trial
    use contact_base_log, only : log_type
    use contact_patch_problem, only : patch_state
    use contact_wheelrail_carry_over, only : lattice_box, lattice_window
-   use contact_wheelrail_geometry, only : box_on_lattice, learned_share, measure, most_patches, pair_geometry, place
-   use contact_wheelrail_memory, only : pair_memory, patch_slot
+   use contact_wheelrail_geometry, only : box_on_lattice, learned_share, measure, max_patches, wheel_rail_geometry, place
+   use contact_wheelrail_memory, only : wheel_rail_memory, patch_slot
    use contact_wheelrail_patch_solution, only : solve_slot
-   use contact_wheelrail_problem, only : pair_problem
+   use contact_wheelrail_problem, only : wheel_rail_problem
    use contact_wheelrail_regions, only : contact_region, find_regions
    use contact_wheelrail_variable, only : turn_of_rail
    implicit none (type, external)
@@ -20,8 +20,8 @@ contains
 
    !> Patches and their solutions at a height
    subroutine evaluate(problem, memory, z, with_friction, log, error)
-      type(pair_problem), intent(in) :: problem
-      type(pair_memory), intent(inout) :: memory
+      type(wheel_rail_problem), intent(in) :: problem
+      type(wheel_rail_memory), intent(inout) :: memory
       real(wp), intent(in) :: z
       !> Solve the tangential problems, too?
       logical, intent(in) :: with_friction
@@ -35,16 +35,16 @@ contains
       call problem%limits%deadline%watch("in the search for contact", error)
       if (allocated(error)) return
       ! a gap that was measured for less penetration is measured again, with some more to spare for the next trials
-      if (z - memory%here%touch > memory%here%gap%depth) &
-         & call measure(problem, memory%here, memory%here%gap_height, 1.5_wp*(z - memory%here%touch))
-      call place(problem, memory%here, z)
-      memory%here%bodies%placement = memory%here%placement
-      call find_regions(memory%here%gap, max(z, memory%here%lowest_for_regions) - memory%here%gap_height, &
+      if (z - memory%geometry%touch > memory%geometry%gap%depth) &
+         & call measure(problem, memory%geometry, memory%geometry%gap_height, 1.5_wp*(z - memory%geometry%touch))
+      call place(problem, memory%geometry, z)
+      memory%geometry%bodies%placement = memory%geometry%placement
+      call find_regions(memory%geometry%gap, max(z, memory%geometry%lowest_for_regions) - memory%geometry%gap_height, &
          & problem%spec%search, problem%weight_power, regions, misses)
       n = size(regions)
-      if (n > most_patches) then
+      if (n > max_patches) then
          call log%warning("more than 10 contact patches; the ones with the smallest weight are left out")
-         do while (n > most_patches)
+         do while (n > max_patches)
             k = minloc(regions%weight, dim=1)
             regions = [regions(:k - 1), regions(k + 1:)]
             n = n - 1
@@ -54,21 +54,21 @@ contains
       memory%used = n
       allocate(boxes(n))
       do k = 1, n
-         boxes(k) = box_on_lattice(problem, memory%here, regions(k))
+         boxes(k) = box_on_lattice(problem, memory%geometry, regions(k))
       end do
-      call memory%here%before%share_out(boxes)
-      memory%here%learned%is_taken = .false.
+      call memory%geometry%before%share_out(boxes)
+      memory%geometry%learned%is_taken = .false.
       do k = 1, n
          memory%slot(k)%region = regions(k)
-         memory%slot(k)%previous = memory%here%before%sources(k)
-         call solve_slot(problem, memory%here, k, memory%slot(k), with_friction, log, error)
+         memory%slot(k)%previous = memory%geometry%before%sources(k)
+         call solve_slot(problem, memory%geometry, k, memory%slot(k), with_friction, log, error)
          name = "contact patch " // achar(iachar("0") + mod(k, 10))
          if (allocated(error)) then
             call add_context(error, name)
             return
          end if
          call warn_beyond_slices(problem, memory%slot(k), name, log)
-         call warn_of_angle(problem, memory%here, regions(k), name, log)
+         call warn_of_angle(problem, memory%geometry, regions(k), name, log)
          if (memory%slot(k)%strangers > 0) call log%warning(name // ": the gap falls by more than 1 mm from one row of elements &
             &to the next; what lies beyond belongs to another part of rail or wheel and is left out.")
       end do
@@ -76,9 +76,9 @@ contains
 
    !> Say that the plane of a patch does not follow the surfaces: on a rail that varies along the track it has the inclination of
    !> the section below the axle, unless asked otherwise
-   subroutine warn_of_angle(problem, here, region, name, log)
-      type(pair_problem), intent(in) :: problem
-      type(pair_geometry), intent(inout) :: here
+   subroutine warn_of_angle(problem, geometry, region, name, log)
+      type(wheel_rail_problem), intent(in) :: problem
+      type(wheel_rail_geometry), intent(inout) :: geometry
       type(contact_region), intent(in) :: region
       !> What messages call the patch
       character(len=*), intent(in) :: name
@@ -89,7 +89,7 @@ contains
       character(len=400) :: text
 
       if (.not. (problem%spec%search%angle_below_axle .and. allocated(problem%rail_surface))) return
-      turn = turn_of_rail(here%bodies, region%x, region%y)
+      turn = turn_of_rail(geometry%bodies, region%x, region%y)
       if (abs(turn) < noticeable) return
       write(text, "(A,F6.3,A)") ": its plane has the inclination of the rail's section below the axle, as in the &
          &established program. Where wheel and rail touch they are inclined by ", turn, " rad more; lateral forces &
@@ -100,7 +100,7 @@ contains
    !> Say that elements of a patch stand where no slice describes the rail. A wheel that is given on a part of the turn is
    !> meant to go on as at its last slice
    subroutine warn_beyond_slices(problem, slot, name, log)
-      type(pair_problem), intent(in) :: problem
+      type(wheel_rail_problem), intent(in) :: problem
       type(patch_slot), intent(in) :: slot
       !> What messages call the patch
       character(len=*), intent(in) :: name
@@ -120,7 +120,7 @@ contains
 
    !> Bring the slots into the order of the regions, so that each one continues its own solution
    subroutine match_slots(memory, regions)
-      type(pair_memory), intent(inout) :: memory
+      type(wheel_rail_memory), intent(inout) :: memory
       type(contact_region), intent(in) :: regions(:)
       integer :: k, j, best
       real(wp) :: overlap, largest
@@ -162,13 +162,13 @@ contains
 
    !> Remember the forces of friction of all patches
    subroutine learn_shares(memory)
-      type(pair_memory), intent(inout) :: memory
+      type(wheel_rail_memory), intent(inout) :: memory
       integer :: k
 
-      memory%here%shares = memory%used
+      memory%geometry%shares = memory%used
       do k = 1, memory%used
          associate (slot => memory%slot(k))
-            memory%here%learned(k) = learned_share(slot%plane%origin(2), slot%plane%roll(), slot%friction_share)
+            memory%geometry%learned(k) = learned_share(slot%plane%origin(2), slot%plane%roll(), slot%friction_share)
          end associate
       end do
    end subroutine learn_shares

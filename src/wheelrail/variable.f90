@@ -6,7 +6,7 @@
 module contact_wheelrail_variable
    use contact_base_kinds, only : wp
    use contact_grid_potential_contact, only : potential_contact
-   use contact_wheelrail_bodies, only : find_rail_row, find_wheel, find_wheel_row, pair_bodies, search_reach, &
+   use contact_wheelrail_bodies, only : find_rail_row, find_wheel, find_wheel_row, wheel_rail_bodies, search_reach, &
       & slice_pair, strip, widest_reach
    use contact_wheelrail_flat_patch, only : nothing_there, settle_distance
    use contact_wheelrail_frame, only : frame
@@ -24,7 +24,7 @@ module contact_wheelrail_variable
    integer, parameter :: coarse = 8
    !> Gaps are found on the fine mesh up to this above the smallest [mm]: as much as most wheels penetrate rails. Elsewhere
    !> they are interpolated, with errors of about a hundredth of a millimetre
-   real(wp), parameter :: least_depth = 0.2_wp
+   real(wp), parameter :: min_depth = 0.2_wp
    !> Prismatic bodies may be nearer to each other inside a coarse cell than at its corners by this [mm]; the contact locus tells
    !> where they are nearer still
    real(wp), parameter :: hidden = 0.1_wp
@@ -35,7 +35,7 @@ contains
 
    !> Gap table and, for each lateral position, its smallest value
    subroutine measure_variable_gap(bodies, ds, weighs_table, gap, depth)
-      type(pair_bodies), intent(inout) :: bodies
+      type(wheel_rail_bodies), intent(inout) :: bodies
       !> Lateral size of the elements [mm]
       real(wp), intent(in) :: ds
       !> Are weights of regions to come from the table? Otherwise it is kept to see what they leave out
@@ -59,7 +59,7 @@ contains
       prismatic = .not. (allocated(bodies%rail_strip) .or. allocated(bodies%wheel_strip))
       if (prismatic) then
          call measure_gap(bodies%rail, bodies%wheel, bodies%placement, ds, locus)
-         near = locus%gap < min(minval(locus%gap) + least_depth + hidden, 0.5_wp*no_surface)
+         near = locus%gap < min(minval(locus%gap) + min_depth + hidden, 0.5_wp*no_surface)
          if (any(near)) along = max(along, min(2.0_wp*coarse*dx + maxval(abs(locus%x - origin), near), &
             & 0.5_wp*bodies%placement%wheel_radius))
       end if
@@ -72,8 +72,8 @@ contains
       gap%y = [(range(1) + (j - 1)*gap%dy, j=1, gap%n)]
       gap%kappa = 0.5_wp/bodies%placement%wheel_radius
       if (bodies%placement%roller_radius > 0.0_wp) gap%kappa = gap%kappa + 0.5_wp/bodies%placement%roller_radius
-      gap%depth = least_depth
-      if (present(depth)) gap%depth = max(depth, least_depth)
+      gap%depth = min_depth
+      if (present(depth)) gap%depth = max(depth, min_depth)
 
       nyc = max(1, (gap%n - 1 + coarse - 1)/coarse) + 1
       yc = gap%y(1) + [(gap%dy*coarse*(j - 1), j=1, nyc)]
@@ -138,7 +138,7 @@ contains
 
    !> The same of bodies that vary, by lower bounds of the gap: what is left out is farther away, whatever its shape
    subroutine choose_by_bounds(bodies, gap, xc, smallest, first, last, least)
-      type(pair_bodies), intent(inout) :: bodies
+      type(wheel_rail_bodies), intent(inout) :: bodies
       !> With its rows and its depth; `far` and `far_place` are set
       type(gap_curve), intent(inout) :: gap
       !> Places of the coarse mesh along the track [mm]
@@ -153,7 +153,7 @@ contains
       integer, parameter :: tries = 20
       real(wp), parameter :: near_enough = 0.05_wp
       real(wp), allocatable :: low(:, :)
-      real(wp) :: limit, here, place(2), step
+      real(wp) :: limit, distance, place(2), step
       integer :: cells, j, ic
 
       cells = size(xc) - 1
@@ -189,7 +189,7 @@ contains
          real(wp), allocatable :: edges(:), beyond(:, :)
          integer :: n, i, k
 
-         here = min(limit, gap%far)
+         distance = min(limit, gap%far)
          do k = 1, size(together)
             associate (origin => bodies%placement%wheel%origin(1), length => together(k)*(xc(2) - xc(1)), &
                & start => merge(xc(1), xc(cells + 1), side < 0))
@@ -200,18 +200,18 @@ contains
             if (allocated(beyond)) deallocate(beyond)
             allocate(beyond(n, gap%n))
             call bound_gap(bodies, edges, gap%y, beyond)
-            if (minval(beyond) >= here) return
+            if (minval(beyond) >= distance) return
          end do
-         call look_closer(bodies, edges, gap%y, beyond, step, 0.0_wp, enough, here, place, without_swings=.true.)
-         if (here >= min(limit, gap%far)) return
-         gap%far = here
+         call look_closer(bodies, edges, gap%y, beyond, step, 0.0_wp, enough, distance, place, without_swings=.true.)
+         if (distance >= min(limit, gap%far)) return
+         gap%far = distance
          gap%far_place = place
       end subroutine look_beyond
    end subroutine choose_by_bounds
 
    !> Gaps of cells whose bound is lowest, until none can be smaller than what is known, or enough cells were looked at
    subroutine look_closer(bodies, edges, y, low, step, margin, most, smallest, place, without_swings)
-      type(pair_bodies), intent(inout) :: bodies
+      type(wheel_rail_bodies), intent(inout) :: bodies
       !> Ends of cells, and rows [mm]
       real(wp), intent(in) :: edges(:), y(:)
       !> Lower bounds [mm], shape (cells, rows)
@@ -269,7 +269,7 @@ contains
 
    !> Lateral range of a rail that varies: of its sections at some places
    function lateral_range(bodies, x) result(range)
-      type(pair_bodies), intent(inout) :: bodies
+      type(wheel_rail_bodies), intent(inout) :: bodies
       !> [mm]
       real(wp), intent(in) :: x(:)
       real(wp) :: range(2), one(2)
@@ -311,7 +311,7 @@ contains
 
    !> Place and value of the smallest gap along the track at each lateral position; the rail there
    subroutine find_smallest(bodies, gap, table, first, last, xc, corner)
-      type(pair_bodies), intent(inout) :: bodies
+      type(wheel_rail_bodies), intent(inout) :: bodies
       type(gap_curve), intent(inout) :: gap
       !> Gaps of the fine mesh [mm], shape (x, y), and where they are in each row
       real(wp), intent(in) :: table(:, :)
@@ -369,7 +369,7 @@ contains
    !> They belong to the section of the contact: wheel and rail share their tangent there, and the plane of a patch holds
    !> the direction of the track. The section below the axle is taken on request only (doc/theory/wheel_rail.md).
    subroutine find_inclinations(bodies, gap)
-      type(pair_bodies), intent(inout) :: bodies
+      type(wheel_rail_bodies), intent(inout) :: bodies
       type(gap_curve), intent(inout) :: gap
       real(wp) :: height(gap%n, 3), slope, x
       logical :: there(gap%n, 3)
@@ -397,7 +397,7 @@ contains
 
    !> How much more the rail is inclined at a place of contact than in the section below the axle [rad]; 0 where either is missing
    real(wp) function turn_of_rail(bodies, x, y) result(turn)
-      type(pair_bodies), intent(inout) :: bodies
+      type(wheel_rail_bodies), intent(inout) :: bodies
       !> The place in track coordinates [mm]
       real(wp), intent(in) :: x, y
       !> Distance of the points whose heights are compared [mm]
@@ -419,7 +419,7 @@ contains
 
    !> Distance of the undeformed bodies over a plane [mm], shifted so that its minimum is zero, and the approach
    subroutine variable_distance(bodies, plane, joined, grid, h, approach, strangers)
-      type(pair_bodies), intent(inout) :: bodies
+      type(wheel_rail_bodies), intent(inout) :: bodies
       type(frame), intent(in) :: plane
       !> See `settle_distance`
       logical, intent(in) :: joined

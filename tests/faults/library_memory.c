@@ -21,12 +21,12 @@
 
 #include "../capi/robust/pair.h"
 
-enum { most_values = 4000, largest_message = 400, most_elements = 201*201 };
+enum { max_values = 4000, largest_message = 400, max_elements = 201*201 };
 
 /* What a scenario gave: values, and whether the caller was told of trouble */
 struct outcome {
   int count, trouble, code;
-  double values[most_values];
+  double values[max_values];
   char message[largest_message];
 };
 
@@ -37,7 +37,7 @@ static struct outcome reference, seen;
 static long place;
 static int persistent, elements = 21;
 /* Of two threads; not from the heap */
-static double fields[2*3*most_elements];
+static double fields[2*3*max_elements];
 static struct outcome of_thread[2];
 
 static void crashed(int signal_number) {
@@ -55,7 +55,7 @@ static void ended(void) {
 }
 
 static void hand_over(struct outcome *o, const double *values, int n) {
-  for (int k = 0; k < n && o->count < most_values; k++) o->values[o->count++] = values[k];
+  for (int k = 0; k < n && o->count < max_values; k++) o->values[o->count++] = values[k];
 }
 
 /* A code of a call, and what the library tells */
@@ -83,7 +83,7 @@ static void contact_problem(struct outcome *o, int ire) {
   const int columns[4] = {1, 4, 8, 9}, points = 8, length = 2;
   int version = 0, error = 0;
 
-  for (int k = 0; k < 3; k++) field[k] = fields + ((size_t)3*(size_t)(ire - 1) + (size_t)k)*most_elements;
+  for (int k = 0; k < 3; k++) field[k] = fields + ((size_t)3*(size_t)(ire - 1) + (size_t)k)*max_elements;
   cntc_initialize(&ire, &module, &version, &error, " ", &one);
   look(o, 0, 0, error);
   cntc_setflags(&ire, &icp, &flag_count, flags, digits);
@@ -133,7 +133,7 @@ static void pair(struct outcome *o) {
   cntc_initialize(&ire, &module, &version, &error, " ", &one);
   look(o, 0, 0, error);
   snprintf(profiles, sizeof profiles, "%s/profiles", examples);
-  set_up_pair(ire, profiles, 1.0);
+  set_up_wheel_rail(ire, profiles, 1.0);
   for (int k = 0; k < 2; k++) {
     position[1] = 1.0 - 0.8*k;
     cntc_setwheelsetposition(&ire, &one, &six, position);

@@ -20,7 +20,7 @@
 
 const char fuzz_name[] = "calls";
 
-enum { most_arguments = 12, most_routines = 100, longest_array = 20000, most_calls = 60 };
+enum { max_arguments = 12, max_routines = 100, longest_array = 20000, max_calls = 60 };
 
 struct argument {
   char name[24];
@@ -32,11 +32,11 @@ struct argument {
 struct routine {
   char name[40];
   int count;
-  struct argument arguments[most_arguments];
+  struct argument arguments[max_arguments];
   void (*entry)(void *, void *, void *, void *, void *, void *, void *, void *, void *, void *, void *, void *);
 };
 
-static struct routine routines[most_routines];
+static struct routine routines[max_routines];
 static int routine_count;
 /* What outputs hold before a call */
 static const int unset = -777777;
@@ -72,14 +72,14 @@ void fuzz_begin(void)
     if ((strncmp(line, "cntc_", 5) != 0 && strncmp(line, "subs_", 5) != 0) || !bracket) continue;
     *bracket = '\0';
     snprintf(this->name, sizeof this->name, "%.39s", line);
-    for (rest = bracket + 1; *rest && *rest != ')' && this->count < most_arguments; this->count++) {
+    for (rest = bracket + 1; *rest && *rest != ')' && this->count < max_arguments; this->count++) {
       rest = read_argument(rest, &this->arguments[this->count]);
       if (!rest) fuzz_fail("src/capi/interface.txt cannot be read at %s", this->name);
       rest += *rest == ',';
     }
     *(void **)&this->entry = dlsym(RTLD_DEFAULT, this->name);
     if (!this->entry) fuzz_fail("%s is not in the library", this->name);
-    if (++routine_count == most_routines) break;
+    if (++routine_count == max_routines) break;
   }
   if (file) fclose(file);
   if (routine_count < 60) fuzz_fail("%d routines are known, not 70", routine_count);
@@ -299,8 +299,8 @@ static int sets_limit(struct routine *this, struct value *values)
 /* One call */
 static void call(const char *line, const char *end)
 {
-  struct value values[most_arguments] = {0};
-  void *pointers[most_arguments] = {0};
+  struct value values[max_arguments] = {0};
+  void *pointers[max_arguments] = {0};
   struct reader text = {line, end};
   struct routine *this = NULL;
   size_t n;
@@ -335,7 +335,7 @@ void fuzz_text(const char *text, size_t length)
 {
   const char *end = text + length;
   memset(is_limited, 0, sizeof is_limited);
-  for (int n = 0; text < end && n < most_calls; n++) {
+  for (int n = 0; text < end && n < max_calls; n++) {
     const char *last = memchr(text, '\n', (size_t)(end - text));
     if (!last) last = end;
     call(text, last);

@@ -19,8 +19,8 @@
 
 #include "fuzz.h"
 
-enum { most_texts = 20000 };
-static struct { char *text; size_t length; } texts[most_texts];
+enum { max_texts = 20000 };
+static struct { char *text; size_t length; } texts[max_texts];
 static int count;
 
 /* The text at hand, and where it goes */
@@ -57,7 +57,7 @@ static void add(const char *path)
 {
   char *text = malloc(fuzz_longest);
   FILE *file = fopen(path, "r");
-  if (!file || !text || count == most_texts) {
+  if (!file || !text || count == max_texts) {
     fprintf(stderr, "%s cannot be read\n", path);
     exit(70);
   }

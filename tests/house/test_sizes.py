@@ -18,7 +18,7 @@ OPEN = {
     ("src/cases/subsurface_inputs.f90", "visit_block"),
     ("src/elastic/operator.f90", ""),
     ("src/experiment/run.f90", ""),
-    ("src/output/report_pair.f90", ""),
+    ("src/output/report_wheel_rail.f90", ""),
     ("src/profile/curve.f90", ""),
     ("src/profile/miniprof.f90", "read_miniprof"),
     ("src/profile/simpack.f90", "read_simpack"),

@@ -34,7 +34,7 @@ module contact_bench_measure
       complex(wp), allocatable, private :: spectrum(:, :)
    contains
       procedure :: prepare => prepare_clock
-      procedure :: seconds => seconds_of_pair
+      procedure :: seconds => seconds_of_wheel_rail
    end type pair_clock
 
    !> What was measured of a case
@@ -103,7 +103,7 @@ contains
    end subroutine prepare_clock
 
    !> Seconds of one pair, mean over some milliseconds
-   real(wp) function seconds_of_pair(self) result(seconds)
+   real(wp) function seconds_of_wheel_rail(self) result(seconds)
       class(pair_clock), intent(inout) :: self
       real(wp), parameter :: shortest = 4.0e-3_wp
       real(wp) :: start
@@ -123,7 +123,7 @@ contains
          if (seconds > shortest) exit
       end do
       seconds = seconds/n
-   end function seconds_of_pair
+   end function seconds_of_wheel_rail
 
    !> Run a case until a time is used up, at least once after a first run that is not counted, and
    !> time pairs of transforms in between so that both see the same machine

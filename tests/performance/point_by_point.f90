@@ -6,7 +6,7 @@ module contact_bench_point_by_point
    use contact_base_kinds, only : wp
    use contact_numeric_b_spline, only : basis_values, interpolate_sites, interpolation_knots, knot_interval
    use contact_profile_surface, only : profile_surface, surface_cut
-   use contact_wheelrail_bodies, only : find_wheel, pair_bodies
+   use contact_wheelrail_bodies, only : find_wheel, wheel_rail_bodies
    use contact_wheelrail_frame, only : frame
    use contact_wheelrail_gap, only : no_surface
    implicit none (type, external)
@@ -98,7 +98,7 @@ contains
    subroutine smallest_gaps(rail, bodies, s_ws, x, y, gap, place_of_gap)
       type(tensor_rail), intent(in) :: rail
       !> For the wheel, which is round, and the place of the rail, which is not rolled
-      type(pair_bodies), intent(inout) :: bodies
+      type(wheel_rail_bodies), intent(inout) :: bodies
       !> Position of the wheelset along the rail [mm]
       real(wp), intent(in) :: s_ws
       !> Mesh in the track [mm]

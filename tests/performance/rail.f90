@@ -9,12 +9,12 @@ program performance_rail
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
    use contact_bench_point_by_point, only : new_tensor_rail, smallest_gaps, tensor_rail
-   use contact_cases_pair_session, only : pair_session, release_pair_session, solve_pair_case
+   use contact_cases_wheel_rail_session, only : wheel_rail_session, release_wheel_rail_session, solve_wheel_rail_case
    use contact_cases_spec, only : case_spec, friction_set
    use contact_wheelrail_gap, only : gap_curve
    use contact_wheelrail_geometry, only : measure
    use contact_wheelrail_regions, only : contact_region, find_regions
-   use contact_wheelrail_result, only : pair_result
+   use contact_wheelrail_result, only : wheel_rail_result
    use contact_wheelrail_spec, only : search_spec, wheel_rail_spec
    use omp_lib, only : omp_set_num_threads
    implicit none (type, external)
@@ -50,8 +50,8 @@ contains
 
    !> The positions of the Manchester benchmark A-2.2: 0 to 10 mm, 0 to 24 mrad, elements of 0.2 mm
    subroutine tread_to_flange()
-      type(pair_session) :: session
-      type(pair_result) :: result
+      type(wheel_rail_session) :: session
+      type(wheel_rail_result) :: result
       type(case_spec) :: spec
       integer, parameter :: rounds = 5
       real(wp) :: total(rounds), outside(rounds), start, inside
@@ -89,8 +89,8 @@ contains
 
    !> A nose that rises and widens in 600 mm: the search of the program, and one by points on the same mesh
    subroutine crossing()
-      type(pair_session) :: session
-      type(pair_result) :: result
+      type(wheel_rail_session) :: session
+      type(wheel_rail_result) :: result
       type(case_spec) :: spec
       type(tensor_rail) :: tensor
       type(gap_curve) :: by_points
@@ -106,7 +106,7 @@ contains
 
       call write_crossing(slices, u)
       spec = common_case()
-      associate (pair => spec%wheel_rail, here => session%memory%here)
+      associate (pair => spec%wheel_rail, here => session%memory%geometry)
          pair%rail_profile%name = "bench_crossing.slcs"
          pair%track%gaught = -1.0_wp
          pair%track%raily0 = 750.0_wp
@@ -242,23 +242,23 @@ contains
    end function common_case
 
    subroutine solve(session, spec, result)
-      type(pair_session), intent(inout) :: session
+      type(wheel_rail_session), intent(inout) :: session
       type(case_spec), intent(in) :: spec
-      type(pair_result), intent(inout) :: result
+      type(wheel_rail_result), intent(inout) :: result
       type(error_type), allocatable :: error
       type(log_type) :: log
 
-      call solve_pair_case(session, spec, "", log, result, error)
+      call solve_wheel_rail_case(session, spec, "", log, result, error)
       if (allocated(error)) error stop full_text(error)
       if (.not. result%status%is_solved()) error stop "the vertical force is not reached"
    end subroutine solve
 
    !> A session as on the first day
    subroutine forget(session)
-      type(pair_session), intent(inout) :: session
-      type(pair_session) :: fresh
+      type(wheel_rail_session), intent(inout) :: session
+      type(wheel_rail_session) :: fresh
 
-      call release_pair_session(session)
+      call release_wheel_rail_session(session)
       session = fresh
    end subroutine forget
 

@@ -17,10 +17,10 @@ program test_conformal
    use contact_wheelrail_creepage, only : contact_motion, rigid_motion
    use contact_wheelrail_curved_patch, only : curved_reference, fit_creepages, straight_reference, surface_slip
    use contact_wheelrail_frame, only : new_frame
-   use contact_wheelrail_memory, only : pair_memory, release_pair
-   use contact_wheelrail_pair, only : solve_pair
-   use contact_wheelrail_problem, only : pair_problem
-   use contact_wheelrail_result, only : pair_result
+   use contact_wheelrail_memory, only : wheel_rail_memory, release_wheel_rail
+   use contact_wheelrail_solve, only : solve_wheel_rail
+   use contact_wheelrail_problem, only : wheel_rail_problem
+   use contact_wheelrail_result, only : wheel_rail_result
    implicit none (type, external)
    !> Sphere and groove [mm], how far their centres are moved together beyond first touch [mm]
    real(wp), parameter :: sphere = 100.0_wp, groove = 105.0_wp, pressed = 0.05_wp
@@ -67,7 +67,7 @@ contains
       real(wp), intent(in) :: angle
       !> Member of contact_location
       integer, intent(in) :: location
-      type(pair_problem) :: problem
+      type(wheel_rail_problem) :: problem
 
       problem%rail = arc(profile_side%rail, 0.0_wp, groove, 1.45_wp)
       ! the profile is that of a wheel whose lowest point is its origin
@@ -97,26 +97,26 @@ contains
 
    subroutine solve(suite, problem, result, what)
       type(test_suite), intent(inout) :: suite
-      type(pair_problem), intent(in) :: problem
-      type(pair_result), intent(out) :: result
+      type(wheel_rail_problem), intent(in) :: problem
+      type(wheel_rail_result), intent(out) :: result
       character(len=*), intent(in) :: what
-      type(pair_memory) :: memory
+      type(wheel_rail_memory) :: memory
       type(error_type), allocatable :: error
       type(log_type) :: log
 
-      call solve_pair(problem, memory, log, result, error)
+      call solve_wheel_rail(problem, memory, log, result, error)
       if (allocated(error)) then
          call suite%check(.false., what // ": " // full_text(error))
          allocate(result%patches(0))
       end if
-      call release_pair(memory)
+      call release_wheel_rail(memory)
    end subroutine solve
 
    !> Size and direction of the force, and its lever, do not depend on where in the groove the sphere is
    subroutine any_direction(suite)
       type(test_suite), intent(inout) :: suite
       real(wp), parameter :: angle(3) = [0.3_wp, 0.7_wp, 1.1_wp]
-      type(pair_result) :: bottom, side
+      type(wheel_rail_result) :: bottom, side
       real(wp) :: force
       integer :: k
 
@@ -146,8 +146,8 @@ contains
    !> Reflection of a problem with friction reflects its solution
    subroutine mirrored(suite)
       type(test_suite), intent(inout) :: suite
-      type(pair_problem) :: problem
-      type(pair_result) :: one, other
+      type(wheel_rail_problem) :: problem
+      type(wheel_rail_result) :: one, other
       real(wp), parameter :: angle = 0.5_wp
 
       problem = sphere_in_groove(angle, contact_location%conformal)
@@ -179,8 +179,8 @@ contains
       type(test_suite), intent(inout) :: suite
       integer, parameter :: locations(3) = [contact_location%locus, contact_location%locus_extended, contact_location%conformal]
       real(wp), parameter :: approach(2) = [0.04_wp, 0.01_wp]
-      type(pair_problem) :: problem
-      type(pair_result) :: result(3)
+      type(wheel_rail_problem) :: problem
+      type(wheel_rail_result) :: result(3)
       real(wp) :: difference(2), force(2)
       integer :: i, k
 
@@ -222,8 +222,8 @@ contains
    !> Corrected coefficients: those of half-spaces in a plane, a stiffer groove, all variants; bilinear ones
    subroutine inclined_coefficients(suite)
       type(test_suite), intent(inout) :: suite
-      type(pair_problem) :: problem
-      type(pair_result) :: plain, corrected
+      type(wheel_rail_problem) :: problem
+      type(wheel_rail_result) :: plain, corrected
       real(wp) :: first
       integer :: variant
 
@@ -263,8 +263,8 @@ contains
    !> A ball that rolls at the bottom of a groove slips by V (1 - cos) on the flanks, everywhere along the track
    subroutine slip_in_groove(suite)
       type(test_suite), intent(inout) :: suite
-      type(pair_problem) :: problem
-      type(pair_result) :: result
+      type(wheel_rail_problem) :: problem
+      type(wheel_rail_result) :: result
       real(wp) :: expected, worst, place(2), normal(2), height
       integer :: ix, iy
 
@@ -333,8 +333,8 @@ contains
       type(test_suite), intent(inout) :: suite
       real(wp), parameter :: yaw(5) = [0.0_wp, 0.3_wp, -0.3_wp, 0.8_wp, 1.0_wp], rate = 10.0_wp
       integer, parameter :: location(2) = [contact_location%locus_extended, contact_location%conformal]
-      type(pair_problem) :: problem
-      type(pair_result) :: straight, oblique
+      type(wheel_rail_problem) :: problem
+      type(wheel_rail_result) :: straight, oblique
       real(wp) :: along, across
       integer :: k, j
 
@@ -420,8 +420,8 @@ contains
    !> With friction by angle each row has that of its inclination
    subroutine friction_by_angle(suite)
       type(test_suite), intent(inout) :: suite
-      type(pair_problem) :: problem
-      type(pair_result) :: result
+      type(wheel_rail_problem) :: problem
+      type(wheel_rail_result) :: result
       integer :: iy
 
       problem = sphere_in_groove(0.0_wp, contact_location%conformal)
@@ -447,8 +447,8 @@ contains
    !> Rows at the end of a rail, no contact, nearly no contact, few elements, no friction, only geometry
    subroutine hard_cases(suite)
       type(test_suite), intent(inout) :: suite
-      type(pair_problem) :: problem
-      type(pair_result) :: result
+      type(wheel_rail_problem) :: problem
+      type(wheel_rail_result) :: result
       real(wp) :: force
       integer :: k
 
@@ -472,7 +472,7 @@ contains
       call suite%check(finite(result) .and. norm2(result%force_track) < 1.0_wp, "a touch")
 
       problem = sphere_in_groove(0.0_wp, contact_location%conformal)
-      problem%most_elements = 60
+      problem%max_elements = 60
       problem%template%motion = motion%steady_rolling
       problem%template%mu = 0.0_wp
       call solve(suite, problem, result, "few elements")
@@ -512,7 +512,7 @@ contains
 
    !> Are all forces numbers?
    pure logical function finite(result)
-      type(pair_result), intent(in) :: result
+      type(wheel_rail_result), intent(in) :: result
       finite = all(abs(result%force_track) < 1.0e10_wp) .and. all(abs(result%moment_rail) < 1.0e12_wp)
    end function finite
 end program test_conformal

@@ -6,7 +6,7 @@ program test_pair_options
    use contact_grid_element_division, only : element
    use contact_test_harness, only : test_suite
    use contact_test_pair_builder, only : ball_case, pair_case, railway_case
-   use contact_wheelrail_result, only : pair_result
+   use contact_wheelrail_result, only : wheel_rail_result
    implicit none (type, external)
    type(test_suite) :: suite
 
@@ -182,7 +182,7 @@ contains
 
    !> Mean place of the pressure along the track [mm]
    real(wp) function pressure_place(result) result(x)
-      type(pair_result), intent(in) :: result
+      type(wheel_rail_result), intent(in) :: result
       integer :: ix
 
       associate (contact => result%patches(1)%contact)

@@ -11,11 +11,11 @@ program test_search_slices
    use contact_test_case_builder, only : random_numbers
    use contact_test_files, only : write_file
    use contact_test_harness, only : environment, test_suite
-   use contact_wheelrail_bodies, only : find_rail, find_wheel, pair_bodies, place_bodies, search_reach
+   use contact_wheelrail_bodies, only : find_rail, find_wheel, wheel_rail_bodies, place_bodies, search_reach
    use contact_wheelrail_frame, only : frame
    use contact_wheelrail_gap, only : gap_curve, no_surface, rail_in_track
    use contact_wheelrail_gap_bound, only : bound_gap
-   use contact_wheelrail_placement, only : place_pair
+   use contact_wheelrail_placement, only : place_wheel_rail
    use contact_wheelrail_spec, only : wheel_rail_spec
    use contact_wheelrail_variable, only : measure_variable_gap
    implicit none (type, external)
@@ -39,7 +39,7 @@ contains
       integer, intent(in) :: scene
       type(prepared_profile) :: rail, wheel
       type(wheel_rail_spec) :: pair
-      type(pair_bodies) :: bodies
+      type(wheel_rail_bodies) :: bodies
       type(gap_curve) :: gap
       type(frame) :: track, seen
       real(wp), allocatable :: lowest(:), low(:, :)
@@ -69,7 +69,7 @@ contains
       pair%wheelset%roll = random%uniform(-0.005_wp, 0.005_wp)
       pair%search%dx = 1.0_wp
       pair%search%ds = 1.0_wp
-      call place_pair(pair, wheel%curve, 0.0_wp, 0.0_wp, 0.0_wp, [0.0_wp, 0.0_wp], bodies%placement)
+      call place_wheel_rail(pair, wheel%curve, 0.0_wp, 0.0_wp, 0.0_wp, [0.0_wp, 0.0_wp], bodies%placement)
       bodies%rail = rail_in_track(rail%curve, bodies%placement)
       bodies%wheel = wheel%curve
       call place_bodies(bodies, 0.0_wp, 0.0_wp, pair%search%dx, rail%surface, wheel%surface)

@@ -4,11 +4,11 @@ module contact_test_pair_builder
    use contact_base_error, only : error_type, full_text
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
-   use contact_cases_pair_session, only : pair_session, release_pair_session, solve_pair_case
+   use contact_cases_wheel_rail_session, only : wheel_rail_session, release_wheel_rail_session, solve_wheel_rail_case
    use contact_cases_spec, only : case_spec, friction_set
    use contact_test_files, only : write_profile
    use contact_test_harness, only : environment, test_suite
-   use contact_wheelrail_result, only : pair_result
+   use contact_wheelrail_result, only : wheel_rail_result
    use contact_wheelrail_spec, only : wheel_rail_spec
    implicit none (type, external)
    private
@@ -18,8 +18,8 @@ module contact_test_pair_builder
    !> A specification with the session that solves it
    type :: pair_case
       type(case_spec) :: spec
-      type(pair_session) :: session
-      type(pair_result) :: result
+      type(wheel_rail_session) :: session
+      type(wheel_rail_result) :: result
       type(log_type) :: log
    contains
       !> Solve, and claim that there is a solution
@@ -58,12 +58,12 @@ contains
       class(pair_case), intent(inout) :: self
       type(error_type), allocatable, intent(out) :: error
 
-      call solve_pair_case(self%session, self%spec, "", self%log, self%result, error)
+      call solve_wheel_rail_case(self%session, self%spec, "", self%log, self%result, error)
    end subroutine try
 
    subroutine release(self)
       class(pair_case), intent(inout) :: self
-      call release_pair_session(self%session)
+      call release_wheel_rail_session(self%session)
    end subroutine release
 
    !> A wheel S1002 on a rail 60E1: 60 kN, slightly driven, on elements of half a millimetre

@@ -3,7 +3,7 @@ program test_left_out
    use contact_base_kinds, only : wp
    use contact_grid_element_division, only : element
    use contact_grid_potential_contact, only : potential_contact
-   use contact_patch_moments, only : elements_left_out
+   use contact_patch_time_steps, only : elements_left_out
    use contact_test_harness, only : test_suite
    implicit none (type, external)
    integer, parameter :: mx = 7, my = 5

@@ -509,7 +509,7 @@ contains
       real(wp), parameter :: z(9) = [12.0_wp, 8.0_wp, 2.0_wp, 0.1_wp, 0.0_wp, 0.1_wp, 2.0_wp, 8.0_wp, 12.0_wp]
 
       request%kink_high = 4.0_wp
-      request%most_hidden = 1.0_wp
+      request%max_hidden = 1.0_wp
       call prepare_points(request, y, z, curve, error)
       call suite%check(.not. allocated(error), "rail with an overhang")
       call suite%close_to(curve%height([-5.0_wp, 0.0_wp, 5.0_wp]), [0.1_wp, 0.0_wp, 0.1_wp], 1.0e-12_wp, "its top is seen")
@@ -523,7 +523,7 @@ contains
          & "the wheel is the mirror image")
       call in_a_row(suite, curve, "overhang of a wheel")
       request%side = profile_side%rail
-      request%most_hidden = 0.1_wp
+      request%max_hidden = 0.1_wp
       call prepare_points(request, y, z, curve, error)
       call suite%check(allocated(error), "more hidden than allowed is refused")
       request%doubt = doubt%ignore
@@ -531,7 +531,7 @@ contains
       call suite%check(.not. allocated(error), "unless the user says that it does not matter")
       request%doubt = doubt%warn
       ! A wall that hides nothing but has no width
-      request%most_hidden = 1.0_wp
+      request%max_hidden = 1.0_wp
       call prepare_points(request, [0.0_wp, 0.0_wp, 0.0_wp], [0.0_wp, 5.0_wp, 10.0_wp], curve, error)
       call suite%check(allocated(error), "a vertical wall is refused")
       call prepare_points(request, [0.0_wp, 0.0_wp, 10.0_wp, 10.0_wp], [8.0_wp, 0.0_wp, 0.0_wp, 8.0_wp], curve, error)

@@ -440,7 +440,7 @@ contains
       call write_slice("slice1.txt", 0.0_wp, 0.0_wp)
       call write_slice("slice2.txt", 0.0_wp, 0.0_wp)
       request%file = "slice1.txt"
-      profiles%most_profiles = 2
+      profiles%max_profiles = 2
       call profiles%get(request, one, log, error)
       call profiles%get(request, two, log, error)
       call suite%check(associated(one, two), "the same profile")

@@ -8,7 +8,7 @@ program test_flash_heating
    use contact_friction_law, only : friction_law, friction_parameters
    use contact_friction_memory, only : friction_memory
    use contact_friction_new_law, only : new_friction_law
-   use contact_temperature_flash_heating, only : body_pair, heat_passage, least_peclet_number, new_body_pair
+   use contact_temperature_flash_heating, only : body_pair, heat_passage, min_peclet_number, new_body_pair
    use contact_test_harness, only : test_suite
    implicit none (type, external)
    !> Half the length of the contact [mm], velocity [mm/s], heat flux [N/(mm s)]
@@ -113,7 +113,7 @@ contains
       type(test_suite), intent(inout) :: suite
       type(body_pair) :: bodies
 
-      call suite%close_to(fast_over_exact(least_peclet_number), 1.024_wp, 1.0e-3_wp, "at the limit of the Peclet number: 2.4 %")
+      call suite%close_to(fast_over_exact(min_peclet_number), 1.024_wp, 1.0e-3_wp, "at the limit of the Peclet number: 2.4 %")
       call suite%close_to(fast_over_exact(1.0_wp), 1.138_wp, 1.0e-3_wp, "too high in slow motion")
       call suite%close_to(fast_over_exact(400.0_wp), 1.0_wp, 1.5e-3_wp, "right in fast motion")
       bodies = new_body_pair([0.0_wp, 0.0_wp], [450.0_wp, 450.0_wp], [0.05_wp, 0.025_wp], [7.85e-6_wp, 7.85e-6_wp], 1.0_wp)

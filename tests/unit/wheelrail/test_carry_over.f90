@@ -3,10 +3,10 @@ program test_carry_over
    use contact_base_kinds, only : wp
    use contact_grid_element_division, only : element
    use contact_grid_potential_contact, only : potential_contact
-   use contact_patch_moments, only : clear_moment
+   use contact_patch_time_steps, only : clear_time_step
    use contact_patch_problem, only : patch_problem, traction_fields
    use contact_test_harness, only : test_suite
-   use contact_wheelrail_carry_over, only : carried_moment, lattice_box, lattice_window, place_on_lattice
+   use contact_wheelrail_carry_over, only : carried_step, lattice_box, lattice_window, place_on_lattice
    implicit none (type, external)
    real(wp), parameter :: dx = 0.2_wp, ds = 0.1_wp
    type(test_suite) :: suite
@@ -25,7 +25,7 @@ contains
 
    !> A patch whose elements around a lattice place are in contact; the tractions tell the element
    subroutine add_patch(moment, k, place, mx, my)
-      type(carried_moment), intent(inout) :: moment
+      type(carried_step), intent(inout) :: moment
       integer, intent(in) :: k, mx, my
       !> Place of the contact reference on the lattice [mm]
       real(wp), intent(in) :: place(2)
@@ -34,7 +34,7 @@ contains
       integer :: ix, iy
 
       grid = window_around(place, mx, my)
-      call clear_moment(fields, grid)
+      call clear_time_step(fields, grid)
       do iy = 2, my - 1
          do ix = 2, mx - 1
             fields%division(ix, iy) = element%slip
@@ -69,7 +69,7 @@ contains
 
    !> Total of all normal and tangential tractions of a moment [N]
    pure function total(moment) result(force)
-      type(carried_moment), intent(in) :: moment
+      type(carried_step), intent(in) :: moment
       real(wp) :: force(3)
       integer :: j
 
@@ -83,7 +83,7 @@ contains
 
    !> What the patches at the given places get
    subroutine receive(moment, places, mx, my, name, fields, problems)
-      type(carried_moment), intent(inout) :: moment
+      type(carried_step), intent(inout) :: moment
       !> Shape (2, patches)
       real(wp), intent(in) :: places(:, :)
       integer, intent(in) :: mx, my
@@ -121,7 +121,7 @@ contains
 
    !> A patch that moves by less than its size: same tractions at the same places of the lattice
    subroutine one_to_one()
-      type(carried_moment) :: moment
+      type(carried_step) :: moment
       type(traction_fields), allocatable :: fields(:)
       type(patch_problem), allocatable :: problems(:)
       real(wp) :: place(2), x, old_x
@@ -144,7 +144,7 @@ contains
 
    !> One patch becomes two, whose windows overlap
    subroutine separate()
-      type(carried_moment) :: moment
+      type(carried_step) :: moment
       type(traction_fields), allocatable :: fields(:)
       type(patch_problem), allocatable :: problems(:)
       real(wp) :: places(2, 2)
@@ -160,7 +160,7 @@ contains
 
    !> Two patches become one
    subroutine join()
-      type(carried_moment) :: moment
+      type(carried_step) :: moment
       type(traction_fields), allocatable :: fields(:)
       type(patch_problem), allocatable :: problems(:)
 
@@ -174,7 +174,7 @@ contains
 
    !> A patch without a predecessor is free of tractions; what no patch continues is gone
    subroutine appear_and_vanish()
-      type(carried_moment) :: moment
+      type(carried_step) :: moment
       type(traction_fields) :: fields
       type(patch_problem) :: problem
       type(lattice_window) :: window
@@ -198,7 +198,7 @@ contains
 
    !> A thousand kilometres of track: the lattice has 64-bit numbers
    subroutine far_along_the_track()
-      type(carried_moment) :: moment
+      type(carried_step) :: moment
       type(traction_fields), allocatable :: fields(:)
       type(patch_problem), allocatable :: problems(:)
 
@@ -210,7 +210,7 @@ contains
 
    !> From the lattice of the rail to that of the wheelset and back
    subroutine other_frame()
-      type(carried_moment) :: moment
+      type(carried_step) :: moment
       real(wp) :: before
 
       call moment%start(1, .false., 1234.56_wp)
@@ -224,7 +224,7 @@ contains
 
    !> Tractions on other elements cannot be continued
    subroutine other_elements()
-      type(carried_moment) :: moment
+      type(carried_step) :: moment
       integer :: dropped
 
       call moment%start(1, .false., 0.0_wp)

@@ -15,7 +15,7 @@ program test_search
    use contact_wheelrail_flat_patch, only : patch_frame, patch_grid, start_places, undeformed_distance
    use contact_wheelrail_frame, only : frame
    use contact_wheelrail_gap, only : gap_curve, measure_gap, no_surface, rail_in_track, smallest_in_row
-   use contact_wheelrail_placement, only : gauge_point, pair_placement, place_pair
+   use contact_wheelrail_placement, only : gauge_point, wheel_rail_placement, place_wheel_rail
    use contact_wheelrail_profile_ends, only : depth_within
    use contact_wheelrail_regions, only : contact_region, find_regions, smallest_gap
    use contact_wheelrail_spec, only : wheel_rail_spec
@@ -112,7 +112,7 @@ contains
       type(profile_curve) :: rail, wheel, in_track
       type(error_type), allocatable :: error
       type(wheel_rail_spec) :: pair
-      type(pair_placement) :: placement
+      type(wheel_rail_placement) :: placement
       type(gap_curve) :: gap
       real(wp) :: a, b, low, high, gap_a, gap_b, place
       integer :: i, j, k
@@ -134,7 +134,7 @@ contains
          pair%roller = .true.
          pair%track%nomradr = radius(k)
          ! wheel and roller nearly touch at y = 0
-         call place_pair(pair, wheel, 0.0_wp, 0.0_wp, -height, [0.0_wp, 0.0_wp], placement)
+         call place_wheel_rail(pair, wheel, 0.0_wp, 0.0_wp, -height, [0.0_wp, 0.0_wp], placement)
          in_track = rail_in_track(rail, placement)
          call measure_gap(in_track, wheel, placement, 0.5_wp, gap)
          do i = gap%n/2 - 40, gap%n/2 + 40, 20
@@ -161,7 +161,7 @@ contains
    !> Gap [mm] between a conical wheel and a roller at a lateral position of the track, on the section at a place x of the
    !> wheel's axes; and where this is along the track
    subroutine gap_by_hand(placement, rail, x, y, gap, place)
-      type(pair_placement), intent(in) :: placement
+      type(wheel_rail_placement), intent(in) :: placement
       !> In track coordinates
       type(profile_curve), intent(in) :: rail
       real(wp), intent(in) :: x, y
@@ -191,7 +191,7 @@ contains
       type(profile_curve) :: rail, wheel, in_track
       type(error_type), allocatable :: error
       type(wheel_rail_spec) :: pair
-      type(pair_placement) :: placement
+      type(wheel_rail_placement) :: placement
       type(gap_curve) :: gap
       type(contact_region), allocatable :: regions(:), misses(:)
       type(frame) :: plane
@@ -214,7 +214,7 @@ contains
       pair%wheelset%yaw = 0.01_wp
       pair%search%dx = 0.2_wp
       pair%search%ds = 0.2_wp
-      call place_pair(pair, wheel, 0.0_wp, 0.0_wp, pen, [0.0_wp, 0.0_wp], placement)
+      call place_wheel_rail(pair, wheel, 0.0_wp, 0.0_wp, pen, [0.0_wp, 0.0_wp], placement)
       in_track = rail_in_track(rail, placement)
       call measure_gap(in_track, wheel, placement, pair%search%ds, gap)
       call suite%close_to(smallest_gap(gap), -pen, 1.0e-5_wp, "smallest gap")
@@ -259,7 +259,7 @@ contains
       type(profile_curve) :: wheel
       type(error_type), allocatable :: error
       type(wheel_rail_spec) :: pair
-      type(pair_placement) :: right, left
+      type(wheel_rail_placement) :: right, left
 
       call profile_of("ball.txt", profile_side%wheel, wheel, error)
       if (allocated(error)) return
@@ -268,14 +268,14 @@ contains
       pair%wheelset%yaw = 0.02_wp
       pair%rail%dy = 0.5_wp
       pair%rail%roll = 0.003_wp
-      call place_pair(pair, wheel, 0.0_wp, -40.0_wp, 0.1_wp, [0.0_wp, 0.0_wp], right)
+      call place_wheel_rail(pair, wheel, 0.0_wp, -40.0_wp, 0.1_wp, [0.0_wp, 0.0_wp], right)
       pair%left = .true.
       pair%wheelset%y = -3.0_wp
       pair%wheelset%roll = 0.01_wp
       pair%wheelset%yaw = -0.02_wp
       pair%rail%dy = -0.5_wp
       pair%rail%roll = -0.003_wp
-      call place_pair(pair, wheel, 0.0_wp, -40.0_wp, 0.1_wp, [0.0_wp, 0.0_wp], left)
+      call place_wheel_rail(pair, wheel, 0.0_wp, -40.0_wp, 0.1_wp, [0.0_wp, 0.0_wp], left)
       call suite%check(all(right%wheel%origin == left%wheel%origin) .and. all(right%wheel%axes == left%wheel%axes) &
          & .and. all(right%rail%origin == left%rail%origin) .and. all(right%rail%axes == left%rail%axes), &
          & "mirrored input gives the same pair, to the last bit")
@@ -287,7 +287,7 @@ contains
       type(profile_curve) :: rail, wheel, in_track
       type(error_type), allocatable :: error
       type(wheel_rail_spec) :: pair
-      type(pair_placement) :: placement
+      type(wheel_rail_placement) :: placement
       type(gap_curve) :: gap
       type(contact_region), allocatable :: regions(:), misses(:)
       type(frame) :: plane
@@ -330,7 +330,7 @@ contains
          pair%wheelset%y = cases(1, k)
          pair%wheelset%roll = cases(2, k)
          pair%wheelset%yaw = cases(3, k)
-         call place_pair(pair, wheel, top_z, gauge_y, cases(4, k), [0.0_wp, 0.0_wp], placement)
+         call place_wheel_rail(pair, wheel, top_z, gauge_y, cases(4, k), [0.0_wp, 0.0_wp], placement)
          in_track = rail_in_track(rail, placement)
          call measure_gap(in_track, wheel, placement, pair%search%ds, gap)
          call find_regions(gap, 0.0_wp, pair%search, 2, regions, misses)

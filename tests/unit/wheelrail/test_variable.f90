@@ -12,11 +12,11 @@ program test_variable
    use contact_profile_surface, only : surface_cut
    use contact_test_files, only : write_file
    use contact_test_harness, only : environment, reference_folder, test_suite
-   use contact_wheelrail_bodies, only : find_rail, find_wheel, pair_bodies, place_bodies
+   use contact_wheelrail_bodies, only : find_rail, find_wheel, wheel_rail_bodies, place_bodies
    use contact_wheelrail_flat_patch, only : patch_frame, patch_grid, start_places, undeformed_distance
    use contact_wheelrail_frame, only : frame
    use contact_wheelrail_gap, only : gap_curve, measure_gap, no_surface, rail_in_track
-   use contact_wheelrail_placement, only : place_pair
+   use contact_wheelrail_placement, only : place_wheel_rail
    use contact_wheelrail_regions, only : contact_region, find_regions, smallest_gap
    use contact_wheelrail_spec, only : wheel_rail_spec
    use contact_wheelrail_variable, only : measure_variable_gap, variable_distance
@@ -127,7 +127,7 @@ contains
       type(wheel_rail_spec), intent(in) :: pair
       character(len=*), intent(in) :: what
       logical, intent(in) :: with_rail, with_wheel
-      type(pair_bodies) :: bodies
+      type(wheel_rail_bodies) :: bodies
       type(gap_curve) :: one, two
       type(contact_region), allocatable :: first(:), second(:), misses(:)
       integer :: strangers
@@ -136,7 +136,7 @@ contains
       real(wp), allocatable :: h(:, :), same(:, :)
       real(wp) :: z, pen, same_pen
 
-      call place_pair(pair, wheel%curve, 0.0_wp, 0.0_wp, 0.0_wp, [0.0_wp, 0.0_wp], bodies%placement)
+      call place_wheel_rail(pair, wheel%curve, 0.0_wp, 0.0_wp, 0.0_wp, [0.0_wp, 0.0_wp], bodies%placement)
       bodies%rail = rail_in_track(rail%curve, bodies%placement)
       bodies%wheel = wheel%curve
       call measure_gap(bodies%rail, bodies%wheel, bodies%placement, pair%search%ds, one)
@@ -163,7 +163,7 @@ contains
       call suite%close_to([second%x, second%y], [first%x, first%y], 1.0e-2_wp, what // ": place, weights of the locus")
       call suite%close_to(second%weight/first%weight, [1.0_wp], 2.0e-3_wp, what // ": weight of the locus")
 
-      call place_pair(pair, wheel%curve, 0.0_wp, 0.0_wp, z, [0.0_wp, 0.0_wp], bodies%placement)
+      call place_wheel_rail(pair, wheel%curve, 0.0_wp, 0.0_wp, z, [0.0_wp, 0.0_wp], bodies%placement)
       plane = patch_frame(bodies%rail, bodies%placement, first(1))
       call patch_grid(bodies%rail, pair%search, first(1), plane, [0.0_wp, 0.0_wp], 20000, grid)
       call undeformed_distance(bodies%rail, bodies%wheel, bodies%placement, plane, start_places(bodies%rail, first(1)), grid, h, &
@@ -176,7 +176,7 @@ contains
    end subroutine compare
 
    subroutine put_sections(bodies, pair, with_rail, with_wheel)
-      type(pair_bodies), intent(inout) :: bodies
+      type(wheel_rail_bodies), intent(inout) :: bodies
       type(wheel_rail_spec), intent(in) :: pair
       logical, intent(in) :: with_rail, with_wheel
 
@@ -194,7 +194,7 @@ contains
       type(test_suite), intent(inout) :: suite
       type(prepared_profile) :: plane, cylinder
       type(wheel_rail_spec) :: pair
-      type(pair_bodies) :: bodies
+      type(wheel_rail_bodies) :: bodies
       type(gap_curve) :: gap
       type(contact_region), allocatable :: regions(:), misses(:)
       character(len=:), allocatable :: text
@@ -221,7 +221,7 @@ contains
       pair = pair_at(0.0_wp, 0.0_wp)
       pair%track%cant = 0.0_wp
       pair%track%raily0 = 750.0_wp
-      call place_pair(pair, cylinder%curve, 0.0_wp, 0.0_wp, 0.0_wp, [0.0_wp, 0.0_wp], bodies%placement)
+      call place_wheel_rail(pair, cylinder%curve, 0.0_wp, 0.0_wp, 0.0_wp, [0.0_wp, 0.0_wp], bodies%placement)
       bodies%rail = rail_in_track(plane%curve, bodies%placement)
       bodies%wheel = cylinder%curve
       call place_bodies(bodies, 37.0_wp, 0.0_wp, 1.0_wp, plane%surface, cylinder%surface)
@@ -263,7 +263,7 @@ contains
       type(test_suite), intent(inout) :: suite
       type(prepared_profile) :: plane, spot
       type(wheel_rail_spec) :: pair
-      type(pair_bodies) :: bodies
+      type(wheel_rail_bodies) :: bodies
       type(gap_curve) :: gap(3)
       real(wp), parameter :: pitch(3) = [0.0_wp, 0.03_wp, -0.03_wp]
       integer :: i, j
@@ -276,7 +276,7 @@ contains
       pair = pair_at(0.0_wp, 0.0_wp)
       pair%track%cant = 0.0_wp
       pair%track%raily0 = 750.0_wp
-      call place_pair(pair, spot%curve, 0.0_wp, 0.0_wp, 0.0_wp, [0.0_wp, 0.0_wp], bodies%placement)
+      call place_wheel_rail(pair, spot%curve, 0.0_wp, 0.0_wp, 0.0_wp, [0.0_wp, 0.0_wp], bodies%placement)
       bodies%rail = rail_in_track(plane%curve, bodies%placement)
       bodies%wheel = spot%curve
       do i = 1, 3
@@ -363,7 +363,7 @@ contains
       type(test_suite), intent(inout) :: suite
       type(prepared_profile) :: plane, wheel
       type(wheel_rail_spec) :: pair
-      type(pair_bodies) :: bodies
+      type(wheel_rail_bodies) :: bodies
       type(surface_cut) :: exact
       character(len=:), allocatable :: text
       character(len=2) :: k
@@ -384,7 +384,7 @@ contains
       call load(suite, "dent.slcw", profile_side%wheel, wheel)
       if (.not. ready) return
       pair = pair_at(0.0_wp, 0.0_wp)
-      call place_pair(pair, wheel%curve, 0.0_wp, 0.0_wp, 0.0_wp, [0.0_wp, 0.0_wp], bodies%placement)
+      call place_wheel_rail(pair, wheel%curve, 0.0_wp, 0.0_wp, 0.0_wp, [0.0_wp, 0.0_wp], bodies%placement)
       bodies%rail = rail_in_track(plane%curve, bodies%placement)
       bodies%wheel = wheel%curve
       call place_bodies(bodies, 0.0_wp, 1.0e-3_wp, 0.4_wp, plane%surface, wheel%surface)
@@ -405,7 +405,7 @@ contains
       type(test_suite), intent(inout) :: suite
       type(prepared_profile) :: plane, wheel
       type(wheel_rail_spec) :: pair
-      type(pair_bodies) :: bodies
+      type(wheel_rail_bodies) :: bodies
       character(len=:), allocatable :: text
       character(len=1) :: k
       real(wp) :: place, y, z(3), z_y, z_u
@@ -424,7 +424,7 @@ contains
       call load(suite, "wide.slcw", profile_side%wheel, wheel)
       if (.not. ready) return
       pair = pair_at(0.0_wp, 0.0_wp)
-      call place_pair(pair, wheel%curve, 0.0_wp, 0.0_wp, 0.0_wp, [0.0_wp, 0.0_wp], bodies%placement)
+      call place_wheel_rail(pair, wheel%curve, 0.0_wp, 0.0_wp, 0.0_wp, [0.0_wp, 0.0_wp], bodies%placement)
       bodies%rail = rail_in_track(plane%curve, bodies%placement)
       bodies%wheel = wheel%curve
       call place_bodies(bodies, 0.0_wp, 0.0_wp, 0.4_wp, plane%surface, wheel%surface)
@@ -453,7 +453,7 @@ contains
       type(test_suite), intent(inout) :: suite
       type(prepared_profile) :: rail, wheel
       type(wheel_rail_spec) :: pair
-      type(pair_bodies) :: bodies
+      type(wheel_rail_bodies) :: bodies
       type(gap_curve) :: gap
       logical :: weighs
       type(prepared_profile) :: last
@@ -470,7 +470,7 @@ contains
       do k = 1, 2
          weighs = k == 2
          pair%wheelset%nomradw = 460.0_wp
-         call place_pair(pair, wheel%curve, 0.0_wp, 0.0_wp, 0.0_wp, [0.0_wp, 0.0_wp], bodies%placement)
+         call place_wheel_rail(pair, wheel%curve, 0.0_wp, 0.0_wp, 0.0_wp, [0.0_wp, 0.0_wp], bodies%placement)
          bodies%rail = rail_in_track(rail%curve, bodies%placement)
          bodies%wheel = wheel%curve
          do j = 1, 3
@@ -489,7 +489,7 @@ contains
          call suite%close_to(rail%surface%part_beyond([-151.0_wp, -149.0_wp]), 0.5_wp, 1.0e-12_wp, "half of it")
          call suite%close_to(rail%surface%part_beyond([-150.0_wp, 150.0_wp]), 0.0_wp, 0.0_wp, "none of it")
          pair%wheelset%nomradw = 10.0_wp
-         call place_pair(pair, wheel%curve, 0.0_wp, 0.0_wp, 0.0_wp, [0.0_wp, 0.0_wp], bodies%placement)
+         call place_wheel_rail(pair, wheel%curve, 0.0_wp, 0.0_wp, 0.0_wp, [0.0_wp, 0.0_wp], bodies%placement)
          call place_bodies(bodies, 0.0_wp, 0.0_wp, 0.5_wp, rail%surface, wheel%surface)
          call measure_variable_gap(bodies, 0.5_wp, weighs, gap)
          call suite%close_to(smallest_gap(gap), 0.8_wp, 1.0e-3_wp, "a small wheel stands in the dip")
@@ -502,7 +502,7 @@ contains
       type(test_suite), intent(inout) :: suite
       type(prepared_profile) :: rail, wheel
       type(wheel_rail_spec) :: pair
-      type(pair_bodies) :: bodies
+      type(wheel_rail_bodies) :: bodies
       type(gap_curve) :: gap
       character(len=:), allocatable :: text, points
       character(len=2) :: k
@@ -534,7 +534,7 @@ contains
          pair = pair_at(0.0_wp, yaw(i))
          pair%track%cant = 0.0_wp
          pair%track%raily0 = 750.0_wp
-         call place_pair(pair, wheel%curve, 0.0_wp, 0.0_wp, 0.0_wp, [0.0_wp, 0.0_wp], bodies%placement)
+         call place_wheel_rail(pair, wheel%curve, 0.0_wp, 0.0_wp, 0.0_wp, [0.0_wp, 0.0_wp], bodies%placement)
          bodies%rail = rail_in_track(rail%curve, bodies%placement)
          bodies%wheel = wheel%curve
          middle = bodies%placement%wheel%origin(1)
@@ -557,7 +557,7 @@ contains
 
    !> Smallest gap along the track at each lateral position and its place, every point from scratch
    subroutine search_everywhere(bodies, gap, lowest, place)
-      type(pair_bodies), intent(inout) :: bodies
+      type(wheel_rail_bodies), intent(inout) :: bodies
       !> For its mesh
       type(gap_curve), intent(in) :: gap
       real(wp), allocatable, intent(out) :: lowest(:), place(:)
@@ -633,7 +633,7 @@ contains
 
    !> Inclination of the wheel across the track at the reference of a region [rad], by differences
    real(wp) function wheel_angle(bodies, region) result(angle)
-      type(pair_bodies), intent(inout) :: bodies
+      type(wheel_rail_bodies), intent(inout) :: bodies
       type(contact_region), intent(in) :: region
       real(wp), parameter :: step = 0.01_wp
       type(frame) :: track, seen
@@ -658,7 +658,7 @@ contains
       real(wp), parameter :: yaw(3) = [0.0_wp, 0.02_wp, -0.02_wp]
       type(prepared_profile) :: rail, cone
       type(wheel_rail_spec) :: pair
-      type(pair_bodies) :: bodies
+      type(wheel_rail_bodies) :: bodies
       type(gap_curve) :: gap
       type(contact_region), allocatable :: regions(:), misses(:)
       character(len=:), allocatable :: text, points
@@ -691,7 +691,7 @@ contains
          pair%track%cant = 0.0_wp
          pair%track%raily0 = 750.0_wp
          pair%search%ds = 0.1_wp
-         call place_pair(pair, cone%curve, 0.0_wp, 0.0_wp, 0.0_wp, [0.0_wp, 0.0_wp], bodies%placement)
+         call place_wheel_rail(pair, cone%curve, 0.0_wp, 0.0_wp, 0.0_wp, [0.0_wp, 0.0_wp], bodies%placement)
          bodies%wheel = cone%curve
          call place_bodies(bodies, 0.0_wp, 0.0_wp, 0.2_wp, rail%surface, cone%surface)
          do j = 1, 2
@@ -713,7 +713,7 @@ contains
       real(wp), intent(in) :: expected(4)
       type(prepared_profile) :: nose, round
       type(wheel_rail_spec) :: pair
-      type(pair_bodies) :: bodies
+      type(wheel_rail_bodies) :: bodies
       type(gap_curve) :: gap
       type(contact_region), allocatable :: regions(:), misses(:)
       type(frame) :: track
@@ -730,7 +730,7 @@ contains
       pair%search%ds = 0.2_wp
       pair%search%dx = 0.2_wp
       call cpu_time(start)
-      call place_pair(pair, round%curve, 0.0_wp, 0.0_wp, z_ws, [0.0_wp, 0.0_wp], bodies%placement)
+      call place_wheel_rail(pair, round%curve, 0.0_wp, 0.0_wp, z_ws, [0.0_wp, 0.0_wp], bodies%placement)
       bodies%wheel = round%curve
       call place_bodies(bodies, s_ws, 0.0_wp, pair%search%dx, nose%surface, round%surface)
       call cpu_time(end)

@@ -1,5 +1,5 @@
 !> The .mat and .subs files of wheel on rail: one per contact patch, in true coordinates of its side
-module contact_output_pair_files
+module contact_output_wheel_rail_files
    use contact_base_error, only : error_type
    use contact_base_kinds, only : wp
    use contact_cases_spec, only : case_spec
@@ -8,22 +8,22 @@ module contact_output_pair_files
    use contact_output_mat_file, only : mat_file_name, mat_place, write_mat_file
    use contact_output_subs_file, only : subs_file_name, write_subs_file
    use contact_patch_result, only : patch_result
-   use contact_wheelrail_result, only : in_element_coordinates, mirrored, pair_patch, pair_result
+   use contact_wheelrail_result, only : in_element_coordinates, mirrored, wheel_rail_patch, wheel_rail_result
    implicit none (type, external)
    private
 
-   public :: write_pair_files
+   public :: write_wheel_rail_files
 
 contains
 
    !> Write the files that the case asks for; the first error ends it
-   subroutine write_pair_files(base, case_number, result_element, spec, result, error, time)
+   subroutine write_wheel_rail_files(base, case_number, result_element, spec, result, error, time)
       !> Folder and name of the experiment
       character(len=*), intent(in) :: base
       !> Result element 0 for none
       integer, intent(in) :: case_number, result_element
       type(case_spec), intent(in) :: spec
-      type(pair_result), intent(in) :: result
+      type(wheel_rail_result), intent(in) :: result
       type(error_type), allocatable, intent(out) :: error
       !> Time of the case, for the header [s]; default 0
       real(wp), intent(in), optional :: time
@@ -49,13 +49,13 @@ contains
             end if
          end associate
       end do
-   end subroutine write_pair_files
+   end subroutine write_wheel_rail_files
 
    !> Where the patch is
    pure function place_of(spec, result, patch, number, time) result(place)
       type(case_spec), intent(in) :: spec
-      type(pair_result), intent(in) :: result
-      type(pair_patch), intent(in) :: patch
+      type(wheel_rail_result), intent(in) :: result
+      type(wheel_rail_patch), intent(in) :: patch
       integer, intent(in) :: number
       real(wp), intent(in), optional :: time
       type(mat_place) :: place
@@ -79,4 +79,4 @@ contains
       place%d = spec%wheel_rail%search%location
       place%wheel_offset = result%wheel_offset
    end function place_of
-end module contact_output_pair_files
+end module contact_output_wheel_rail_files

@@ -1,5 +1,5 @@
-!> Moments of a patch: the present one becomes the previous one, on the window of the next case
-module contact_patch_moments
+!> Time steps of a patch: the present one becomes the previous one, on the window of the next case
+module contact_patch_time_steps
    use contact_base_choices, only : estimate_choice, motion, time_link
    use contact_base_error, only : error_type, fatal_error
    use contact_base_kinds, only : wp
@@ -9,12 +9,12 @@ module contact_patch_moments
    implicit none (type, external)
    private
 
-   public :: link_moments, clear_moment, elements_left_out
+   public :: link_time_steps, clear_time_step, elements_left_out
 
 contains
 
-   !> Present moment becomes the previous one, on the window of this case
-   subroutine link_moments(problem, link, state, error)
+   !> Present time step becomes the previous one, on the window of this case
+   subroutine link_time_steps(problem, link, state, error)
       type(patch_problem), intent(in) :: problem
       !> Member of time_link
       integer, intent(in) :: link
@@ -33,12 +33,12 @@ contains
          call move_window(state%now, problem%grid, kx, ky)
          if (state%before%grid%mx > 0) call move_window(state%before, problem%grid, kx, ky)
       else
-         call clear_moment(state%now, problem%grid)
+         call clear_time_step(state%now, problem%grid)
          state%creep = 0.0_wp
       end if
       select case (link)
       case (time_link%repeat_step)
-         if (.not. state%before%grid%mx > 0) call clear_moment(state%before, problem%grid)
+         if (.not. state%before%grid%mx > 0) call clear_time_step(state%before, problem%grid)
       case (time_link%continue_all)
          call copy_fields(state%now, state%before)
       case (time_link%continue_normal)
@@ -47,12 +47,12 @@ contains
          state%before%py = 0.0_wp
          state%before%force(2:3) = 0.0_wp
       case default
-         call clear_moment(state%before, problem%grid)
+         call clear_time_step(state%before, problem%grid)
       end select
       if (.not. problem%remembers_friction) call forget_friction(state)
       if (.not. problem%remembers_yield) call forget_yield(state)
       call link_memory(problem, link, linked, kx, ky, state)
-   end subroutine link_moments
+   end subroutine link_time_steps
 
    !> What particles carry along, for the effects that ask for it
    subroutine link_memory(problem, link, linked, kx, ky, state)
@@ -108,7 +108,7 @@ contains
       state%before%uply = nothing
    end subroutine forget_yield
 
-   !> The present values become those of the same particles at the previous moment
+   !> The present values become those of the same particles at the previous time step
    !>
    !> In rolling the window moves by one step, and the particles that are in its elements now
    !> were that far ahead in it: values in between are interpolated bilinearly.
@@ -249,7 +249,7 @@ contains
       end if
    end subroutine offset_of
 
-   !> Refuse a window that leaves out elements in contact, whose tractions act on in the next moment
+   !> Refuse a window that leaves out elements in contact, whose tractions act on in the next time step
    subroutine refuse_loss(state, grid, link, error)
       type(patch_state), intent(in) :: state
       type(potential_contact), intent(in) :: grid
@@ -261,7 +261,7 @@ contains
       character(len=12) :: number
       integer :: lost
 
-      ! a repeated step has its previous moment already, and the present one is an estimate
+      ! a repeated step has its previous time step already, and the present one is an estimate
       if (link == time_link%repeat_step) then
          if (.not. state%before%grid%mx > 0) return
          call elements_left_out(state%before%division, state%before%grid, grid, lost, box)
@@ -332,7 +332,7 @@ contains
    end subroutine move_window
 
    !> No contact
-   subroutine clear_moment(fields, grid)
+   subroutine clear_time_step(fields, grid)
       type(traction_fields), intent(inout) :: fields
       type(potential_contact), intent(in) :: grid
 
@@ -345,9 +345,9 @@ contains
       fields%pen = 0.0_wp
       fields%is_solved = .false.
       fields%force = 0.0_wp
-   end subroutine clear_moment
+   end subroutine clear_time_step
 
-   !> Copy of the fields of a moment
+   !> Copy of the fields of a time step
    subroutine copy_fields(from, to)
       type(traction_fields), intent(in) :: from
       type(traction_fields), intent(inout) :: to
@@ -363,7 +363,7 @@ contains
       to%force = from%force
    end subroutine copy_fields
 
-   !> Fields of a moment on a grid, zero where new; kept when the size is the same
+   !> Fields of a time step on a grid, zero where new; kept when the size is the same
    subroutine fit_fields(fields, grid_mx, grid_my)
       type(traction_fields), intent(inout) :: fields
       integer, intent(in) :: grid_mx, grid_my
@@ -375,4 +375,4 @@ contains
       allocate(fields%division(grid_mx, grid_my), source=element%exterior)
       allocate(fields%pn(grid_mx, grid_my), fields%px(grid_mx, grid_my), fields%py(grid_mx, grid_my), source=0.0_wp)
    end subroutine fit_fields
-end module contact_patch_moments
+end module contact_patch_time_steps

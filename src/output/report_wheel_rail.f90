@@ -2,7 +2,7 @@
 !>
 !> The calculation is that of a right-hand pair; for the left side of the track the values that
 !> depend on it are mirrored here.
-module contact_output_report_pair
+module contact_output_report_wheel_rail
    use contact_base_case_status, only : case_status
    use contact_base_choices, only : contact_location, has_slope_reduction, is_fastrip, is_simplified, kernel_model, &
       & material_model, motion, normal_control, pressure_model, time_link, variation
@@ -23,11 +23,11 @@ module contact_output_report_pair
       & write_solution_line, write_statistics
    use contact_output_report_subsurface, only : write_subsurface
    use contact_patch_result, only : patch_result
-   use contact_wheelrail_result, only : in_element_coordinates, moment_about_elements, pair_patch, pair_result
+   use contact_wheelrail_result, only : in_element_coordinates, moment_about_elements, wheel_rail_patch, wheel_rail_result
    implicit none (type, external)
    private
 
-   public :: write_pair
+   public :: write_wheel_rail
 
    !> Deviations below this magnitude are not echoed [mm] or [rad]
    real(wp), parameter :: no_deviation = 1.0e-10_wp
@@ -35,10 +35,10 @@ module contact_output_report_pair
 contains
 
    !> Everything of a case of module 1 behind its flow trace
-   subroutine write_pair(log, spec, result)
+   subroutine write_wheel_rail(log, spec, result)
       type(log_type), intent(inout) :: log
       type(case_spec), intent(in) :: spec
-      type(pair_result), intent(in) :: result
+      type(wheel_rail_result), intent(in) :: result
       integer :: k, patches
 
       if (.not. log%out%is_open() .and. log%screen == 0) return
@@ -57,13 +57,13 @@ contains
          call write_patch(log, spec, result%patches(k), k, result%status)
       end do
       if (spec%output_level >= 4) call write_profiles(log, spec, result)
-   end subroutine write_pair
+   end subroutine write_wheel_rail
 
    !> Digits, problem, and all groups of the input that the case gave
    subroutine write_echo(log, spec, result, patches)
       type(log_type), intent(inout) :: log
       type(case_spec), intent(in) :: spec
-      type(pair_result), intent(in) :: result
+      type(wheel_rail_result), intent(in) :: result
       !> Number of contact patches
       integer, intent(in) :: patches
       character(len=:), allocatable :: body
@@ -160,7 +160,7 @@ contains
       type(log_type), intent(inout) :: log
       type(case_spec), intent(in) :: spec
       !> For the combined constants
-      type(pair_result), intent(in) :: result
+      type(wheel_rail_result), intent(in) :: result
       integer :: body
       logical :: has_plastic_heat
 
@@ -299,7 +299,7 @@ contains
    subroutine write_rail(log, spec, result)
       type(log_type), intent(inout) :: log
       type(case_spec), intent(in) :: spec
-      type(pair_result), intent(in) :: result
+      type(wheel_rail_result), intent(in) :: result
 
       associate (rail => spec%wheel_rail%rail)
          if (any(abs([rail%dy, rail%dz, rail%roll, rail%vy, rail%vz, rail%vroll]) > no_deviation)) then
@@ -322,7 +322,7 @@ contains
    subroutine write_wheelset(log, spec, result)
       type(log_type), intent(inout) :: log
       type(case_spec), intent(in) :: spec
-      type(pair_result), intent(in) :: result
+      type(wheel_rail_result), intent(in) :: result
 
       associate (w => spec%wheel_rail%wheelset, roller => spec%wheel_rail%roller)
          call log%result("")
@@ -364,7 +364,7 @@ contains
    subroutine write_total_forces(log, spec, result)
       type(log_type), intent(inout) :: log
       type(case_spec), intent(in) :: spec
-      type(pair_result), intent(in) :: result
+      type(wheel_rail_result), intent(in) :: result
       character(len=:), allocatable :: body
       real(wp) :: force(3), other(3), s
 
@@ -394,7 +394,7 @@ contains
    subroutine write_patch(log, spec, patch, number, status)
       type(log_type), intent(inout) :: log
       type(case_spec), intent(in) :: spec
-      type(pair_patch), intent(in) :: patch
+      type(wheel_rail_patch), intent(in) :: patch
       integer, intent(in) :: number
       !> How the case ended
       type(case_status), intent(in) :: status
@@ -442,7 +442,7 @@ contains
    !> Place of the contact reference in track, rail and wheel
    subroutine write_reference(log, patch, s)
       type(log_type), intent(inout) :: log
-      type(pair_patch), intent(in) :: patch
+      type(wheel_rail_patch), intent(in) :: patch
       !> -1 for the left side
       real(wp), intent(in) :: s
 
@@ -459,7 +459,7 @@ contains
    !> How far the contact area reaches on its curved reference, the angles there, and the moments in the reference's axes
    subroutine write_curved_contact(log, patch, s)
       type(log_type), intent(inout) :: log
-      type(pair_patch), intent(in) :: patch
+      type(wheel_rail_patch), intent(in) :: patch
       !> -1 for the left side
       real(wp), intent(in) :: s
       type(bounding_box) :: box
@@ -485,7 +485,7 @@ contains
    subroutine write_patch_friction(log, spec, patch)
       type(log_type), intent(inout) :: log
       type(case_spec), intent(in) :: spec
-      type(pair_patch), intent(in) :: patch
+      type(wheel_rail_patch), intent(in) :: patch
 
       if (.not. allocated(patch%friction)) return
       call write_friction(log, spec%friction_law, merge(variation%by_row, variation%none, patch%friction_varies), &
@@ -519,7 +519,7 @@ contains
    !> Creepages of the patch
    subroutine write_patch_kinematics(log, patch, s)
       type(log_type), intent(inout) :: log
-      type(pair_patch), intent(in) :: patch
+      type(wheel_rail_patch), intent(in) :: patch
       !> -1 for the left side
       real(wp), intent(in) :: s
 
@@ -540,7 +540,7 @@ contains
    subroutine write_patch_totals(log, spec, patch, s)
       type(log_type), intent(inout) :: log
       type(case_spec), intent(in) :: spec
-      type(pair_patch), intent(in) :: patch
+      type(wheel_rail_patch), intent(in) :: patch
       !> -1 for the left side
       real(wp), intent(in) :: s
       type(shown_totals) :: totals
@@ -590,7 +590,7 @@ contains
    !> Curved reference surface of conformal contact
    subroutine write_curve(log, patch, s)
       type(log_type), intent(inout) :: log
-      type(pair_patch), intent(in) :: patch
+      type(wheel_rail_patch), intent(in) :: patch
       !> -1 for the left side
       real(wp), intent(in) :: s
       integer :: i
@@ -608,7 +608,7 @@ contains
    subroutine write_profiles(log, spec, result)
       type(log_type), intent(inout) :: log
       type(case_spec), intent(in) :: spec
-      type(pair_result), intent(in) :: result
+      type(wheel_rail_result), intent(in) :: result
       real(wp) :: s
       integer :: i
 
@@ -633,4 +633,4 @@ contains
          end do
       end if
    end subroutine write_profiles
-end module contact_output_report_pair
+end module contact_output_report_wheel_rail

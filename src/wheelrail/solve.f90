@@ -1,5 +1,5 @@
 !> One wheel on one rail: contact patches, their solutions, total forces
-module contact_wheelrail_pair
+module contact_wheelrail_solve
    use contact_base_case_status, only : case_status
    use contact_base_choices, only : force_control, motion, time_link
    use contact_base_error, only : error_type
@@ -8,49 +8,49 @@ module contact_wheelrail_pair
    use contact_text_words, only : real_text
    use contact_wheelrail_deflection, only : lower_rail, search_deflection
    use contact_wheelrail_gather, only : gather
-   use contact_wheelrail_geometry, only : box_on_lattice, most_patches, place
+   use contact_wheelrail_geometry, only : box_on_lattice, max_patches, place
    use contact_wheelrail_height, only : settle
-   use contact_wheelrail_memory, only : pair_memory
+   use contact_wheelrail_memory, only : wheel_rail_memory
    use contact_wheelrail_pitch_rate, only : search_pitch_rate
    use contact_wheelrail_placement, only : gauge_point
-   use contact_wheelrail_problem, only : keeps_lattice, pair_problem, rate_of_pure_rolling
-   use contact_wheelrail_result, only : pair_result
+   use contact_wheelrail_problem, only : keeps_lattice, wheel_rail_problem, rate_of_pure_rolling
+   use contact_wheelrail_result, only : wheel_rail_result
    implicit none (type, external)
    private
 
-   public :: solve_pair
+   public :: solve_wheel_rail
 
 contains
 
    !> Solve one case of a pair
-   subroutine solve_pair(problem, memory, log, result, error)
-      type(pair_problem), intent(in) :: problem
-      type(pair_memory), intent(inout) :: memory
+   subroutine solve_wheel_rail(problem, memory, log, result, error)
+      type(wheel_rail_problem), intent(in) :: problem
+      type(wheel_rail_memory), intent(inout) :: memory
       type(log_type), intent(inout) :: log
-      type(pair_result), intent(inout) :: result
+      type(wheel_rail_result), intent(inout) :: result
       type(error_type), allocatable, intent(out) :: error
       real(wp) :: z
 
-      if (.not. allocated(memory%slot)) allocate(memory%slot(most_patches))
+      if (.not. allocated(memory%slot)) allocate(memory%slot(max_patches))
       if (.not. problem%use_previous) then
          memory%slot%state%started = .false.
          memory%used = 0
-         memory%here%shares = 0
+         memory%geometry%shares = 0
       end if
       call begin_step(problem, memory, log)
       result%status = case_status()
       result%force_evaluations = 0
-      result%most_trials = 0
-      memory%here%penetration = 0.0_wp
+      result%max_trials = 0
+      memory%geometry%penetration = 0.0_wp
       if (.not. (memory%started .and. problem%use_previous)) then
-         memory%here%deflection = 0.0_wp
-         memory%here%pitch_rate = rate_of_pure_rolling(problem)
+         memory%geometry%deflection = 0.0_wp
+         memory%geometry%pitch_rate = rate_of_pure_rolling(problem)
       end if
-      if (problem%force /= force_control%massless_rail) memory%here%deflection = 0.0_wp
-      if (problem%force /= force_control%longitudinal_force) memory%here%pitch_rate = problem%spec%wheelset%vpitch
+      if (problem%force /= force_control%massless_rail) memory%geometry%deflection = 0.0_wp
+      if (problem%force /= force_control%longitudinal_force) memory%geometry%pitch_rate = problem%spec%wheelset%vpitch
       if (problem%spec%track%gaught > 0.0_wp) &
-         & call gauge_point(problem%rail, problem%spec%track%cant, problem%spec%track%gaught, memory%here%top_z, &
-         & memory%here%gauge_y)
+         & call gauge_point(problem%rail, problem%spec%track%cant, problem%spec%track%gaught, memory%geometry%top_z, &
+         & memory%geometry%gauge_y)
       if (problem%geometry_only .or. problem%force == force_control%creepages) then
          call settle(problem, memory, z, log, result, error)
       else if (problem%force == force_control%longitudinal_force) then
@@ -62,23 +62,23 @@ contains
          call memory%last%clear()
          return
       end if
-      call judge_direction(problem, memory%here%pitch_rate, log)
+      call judge_direction(problem, memory%geometry%pitch_rate, log)
       memory%z_ws = z
       memory%started = .true.
-      if (.not. problem%geometry_only) call keep_moment(problem, memory)
-      result%smallest_gap = memory%here%touch - z
-      result%vpitch = memory%here%pitch_rate
-      result%dy_defl = memory%here%deflection
+      if (.not. problem%geometry_only) call keep_time_step(problem, memory)
+      result%smallest_gap = memory%geometry%touch - z
+      result%vpitch = memory%geometry%pitch_rate
+      result%dy_defl = memory%geometry%deflection
       result%dz_defl = 0.0_wp
       if (problem%force == force_control%massless_rail) call lower_rail(problem, memory, z, result)
-      call place(problem, memory%here, z, result%dz_defl)
+      call place(problem, memory%geometry, z, result%dz_defl)
       result%z_ws = z
       call gather(problem, memory, result)
-   end subroutine solve_pair
+   end subroutine solve_wheel_rail
 
    !> Warn of a wheel that turns against its direction of travel
    subroutine judge_direction(problem, pitch_rate, log)
-      type(pair_problem), intent(in) :: problem
+      type(wheel_rail_problem), intent(in) :: problem
       !> Pitch rate of the wheelset, given or found [rad/s]
       real(wp), intent(in) :: pitch_rate
       type(log_type), intent(inout) :: log
@@ -97,45 +97,45 @@ contains
 
    !> What the case continues from, according to its link to the previous one
    subroutine begin_step(problem, memory, log)
-      type(pair_problem), intent(in) :: problem
-      type(pair_memory), intent(inout) :: memory
+      type(wheel_rail_problem), intent(in) :: problem
+      type(wheel_rail_memory), intent(inout) :: memory
       type(log_type), intent(inout) :: log
       integer :: dropped
 
-      associate (here => memory%here)
+      associate (geometry => memory%geometry)
          select case (problem%link)
          case (time_link%initiate)
-            call here%before%clear()
-            here%before%travel = 0.0_wp
+            call geometry%before%clear()
+            geometry%before%travel = 0.0_wp
          case (time_link%repeat_step)
             continue
          case default
-            here%before = memory%last
-            if (problem%link == time_link%continue_normal) call here%before%drop_tangential()
+            geometry%before = memory%last
+            if (problem%link == time_link%continue_normal) call geometry%before%drop_tangential()
          end select
-         here%travel = problem%spec%wheelset%s
-         if (problem%spec%roller) here%travel = here%before%travel + problem%spec%wheelset%rpitch*problem%spec%track%nomradr
+         geometry%travel = problem%spec%wheelset%s
+         if (problem%spec%roller) geometry%travel = geometry%before%travel + problem%spec%wheelset%rpitch*problem%spec%track%nomradr
          ! solutions on another lattice are no estimates
          if (problem%template%motion /= memory%motion) memory%slot%state%started = .false.
          memory%motion = problem%template%motion
-         call here%before%set_frame(follows_rail=problem%template%motion == motion%shift)
+         call geometry%before%set_frame(follows_rail=problem%template%motion == motion%shift)
          if (.not. keeps_lattice(problem)) return
-         call here%before%drop_other_elements(problem%spec%search%dx, problem%spec%search%ds, dropped)
+         call geometry%before%drop_other_elements(problem%spec%search%dx, problem%spec%search%ds, dropped)
          if (dropped > 0) call log%warning("the tractions of the previous case stand on other elements and are not continued")
       end associate
    end subroutine begin_step
 
    !> Keep the tractions of this case for the next one
-   subroutine keep_moment(problem, memory)
-      type(pair_problem), intent(in) :: problem
-      type(pair_memory), intent(inout) :: memory
+   subroutine keep_time_step(problem, memory)
+      type(wheel_rail_problem), intent(in) :: problem
+      type(wheel_rail_memory), intent(inout) :: memory
       integer :: k
 
-      call memory%last%start(memory%used, problem%template%motion == motion%shift, memory%here%travel)
+      call memory%last%start(memory%used, problem%template%motion == motion%shift, memory%geometry%travel)
       do k = 1, memory%used
          associate (slot => memory%slot(k))
-            call memory%last%add(k, slot%state%now, slot%reference, box_on_lattice(problem, memory%here, slot%region))
+            call memory%last%add(k, slot%state%now, slot%reference, box_on_lattice(problem, memory%geometry, slot%region))
          end associate
       end do
-   end subroutine keep_moment
-end module contact_wheelrail_pair
+   end subroutine keep_time_step
+end module contact_wheelrail_solve

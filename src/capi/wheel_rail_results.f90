@@ -2,7 +2,7 @@
 !>
 !> Inside, everything is that of a right-hand pair; for a wheel on the left side of the track lateral
 !> components are mirrored on the way out.
-module contact_capi_pair_results
+module contact_capi_wheel_rail_results
    use, intrinsic :: iso_c_binding, only : c_double, c_int
    use contact_base_kinds, only : wp
    use contact_capi_arguments, only : give, give_list, give_zeros, integer_of
@@ -11,7 +11,7 @@ module contact_capi_pair_results
    use contact_capi_registry, only : enter, leave, scope
    use contact_control_units, only : orientation, outward, quantity, quantity_type
    use contact_wheelrail_frame, only : frame, new_frame, roll_axes
-   use contact_wheelrail_result, only : pair_patch, pair_result
+   use contact_wheelrail_result, only : wheel_rail_patch, wheel_rail_result
    use contact_wheelrail_spec, only : wheel_rail_spec
    implicit none (type, external)
    private
@@ -27,7 +27,7 @@ module contact_capi_pair_results
    end type body_frames
 
    !> The centre of pressure divides by a sum of pressures that this keeps from zero [N/mm2]
-   real(wp), parameter :: least_pressure = 1.0e-10_wp
+   real(wp), parameter :: min_pressure = 1.0e-10_wp
 
 contains
 
@@ -37,7 +37,7 @@ contains
       real(c_double), intent(inout), optional :: rvalues(*)
       type(library_problem), pointer :: problem
 
-      call enter(entry_type("cntc_getWheelsetPosition", integer_of(ire)), scope%pair, problem)
+      call enter(entry_type("cntc_getWheelsetPosition", integer_of(ire)), scope%wheel_rail, problem)
       if (.not. associated(problem)) return
       associate (w => problem%spec%wheel_rail%wheelset, length => outward(problem%units, quantity%length), &
          & angle => outward(problem%units, quantity%angle))
@@ -52,7 +52,7 @@ contains
       real(c_double), intent(inout), optional :: rvalues(*)
       type(library_problem), pointer :: problem
 
-      call enter(entry_type("cntc_getWheelsetVelocity", integer_of(ire)), scope%pair, problem)
+      call enter(entry_type("cntc_getWheelsetVelocity", integer_of(ire)), scope%wheel_rail, problem)
       if (.not. associated(problem)) return
       associate (w => problem%spec%wheel_rail%wheelset, velocity => outward(problem%units, quantity%velocity), &
          & angle => outward(problem%units, quantity%angle))
@@ -68,16 +68,16 @@ contains
       integer(c_int), intent(inout), optional :: npatch
       type(library_problem), pointer :: problem
 
-      call enter(entry_type("cntc_getNumContactPatches", integer_of(ire)), scope%pair, problem)
+      call enter(entry_type("cntc_getNumContactPatches", integer_of(ire)), scope%wheel_rail, problem)
       if (.not. associated(problem)) return
-      call give(size(problem%pair_result%patches), npatch)
+      call give(size(problem%wheel_rail_result%patches), npatch)
       call leave(problem)
    end subroutine cntc_getnumcontactpatches
 
    !> Frames of the last calculation
    pure function frames_of(pair, result) result(frames)
       type(wheel_rail_spec), intent(in) :: pair
-      type(pair_result), intent(in) :: result
+      type(wheel_rail_result), intent(in) :: result
       type(body_frames) :: frames
       real(wp) :: s
 
@@ -101,7 +101,7 @@ contains
       integer :: sign(38)
 
       this = entry_type("cntc_getContactLocation", integer_of(ire), integer_of(icp))
-      call enter(this, scope%pair_patch, problem)
+      call enter(this, scope%wheel_rail_patch, problem)
       if (.not. associated(problem)) return
       call locate(problem, this%icp, list)
       unit = quantity%length
@@ -127,7 +127,8 @@ contains
       real(wp) :: centre(2), in_set(3)
 
       list = 0.0_wp
-      associate (result => problem%pair_result, patch => problem%pair_result%patches(number), pair => problem%pair%problem)
+      associate (result => problem%wheel_rail_result, patch => problem%wheel_rail_result%patches(number), &
+         & pair => problem%wheel_rail%problem)
          frames = frames_of(pair%spec, result)
          list(1:4) = [patch%x, patch%y, patch%z, patch%delta]
          list(5:9) = [patch%x, patch%y_rail, patch%z_rail, pair%rail%s_at(patch%y_rail), patch%delta_rail]
@@ -149,12 +150,12 @@ contains
    !> x and y in the track of the mean of the elements, weighted by their pressures; rows of a curved patch have places
    !> of their own
    pure function pressure_centre(patch) result(centre)
-      type(pair_patch), intent(in) :: patch
+      type(wheel_rail_patch), intent(in) :: patch
       real(wp) :: centre(2)
       real(wp) :: weight, x, y, row_y
       integer :: ix, iy
 
-      weight = least_pressure
+      weight = min_pressure
       x = 0.0_wp
       y = 0.0_wp
       associate (grid => patch%contact%grid, pn => patch%contact%pn)
@@ -185,18 +186,18 @@ contains
       integer :: k, first, last
 
       this = entry_type("cntc_getGlobalForces", integer_of(ire), integer_of(icp))
-      call enter(this, scope%pair_any, problem)
+      call enter(this, scope%wheel_rail_any, problem)
       if (.not. associated(problem)) return
       first = 1
-      last = size(problem%pair_result%patches)
+      last = size(problem%wheel_rail_result%patches)
       if (this%icp > 0) then
          first = this%icp
          last = this%icp
       end if
       list = 0.0_wp
-      if (problem%has_result) frames = frames_of(problem%pair%problem%spec, problem%pair_result)
+      if (problem%has_result) frames = frames_of(problem%wheel_rail%problem%spec, problem%wheel_rail_result)
       do k = first, last
-         list = list + forces_in_bodies(problem%pair_result%patches(k), frames)
+         list = list + forces_in_bodies(problem%wheel_rail_result%patches(k), frames)
       end do
       unit = [quantity%force, quantity%force, quantity%force, quantity%moment, quantity%moment, quantity%moment]
       do k = 0, 18, 6
@@ -210,7 +211,7 @@ contains
    !> Force on the rail and its moment, about the rail marker in track and rail axes, about the wheel marker in
    !> wheelset and wheel axes; damping included
    pure function forces_in_bodies(patch, frames) result(list)
-      type(pair_patch), intent(in) :: patch
+      type(wheel_rail_patch), intent(in) :: patch
       type(body_frames), intent(in) :: frames
       real(wp) :: list(24)
       real(wp) :: axes(3, 3), force(3), moment(3), about_rail(3), about_wheel(3)
@@ -233,4 +234,4 @@ contains
       real(wp) :: c(3)
       c = [a(2)*b(3) - a(3)*b(2), a(3)*b(1) - a(1)*b(3), a(1)*b(2) - a(2)*b(1)]
    end function cross
-end module contact_capi_pair_results
+end module contact_capi_wheel_rail_results

@@ -1,5 +1,5 @@
 !> Entries for track, rail and wheelset (module 1)
-module contact_capi_pair_settings
+module contact_capi_wheel_rail_settings
    use, intrinsic :: iso_c_binding, only : c_double, c_int
    use contact_base_kinds, only : wp
    use contact_capi_arguments, only : integer_of, real_of, reals_of
@@ -37,7 +37,7 @@ contains
       this = entry_type(name, integer_of(ire))
       method = integer_of(given_method)
       v = reals_of(nparam, params)
-      call enter(this, scope%pair, problem)
+      call enter(this, scope%wheel_rail, problem)
    end subroutine begin
 
    !> Prescribed vertical force on the rail (N = 1)
@@ -49,7 +49,7 @@ contains
       real(wp) :: value
 
       this = entry_type("cntc_setVerticalForce", integer_of(ire))
-      call enter(this, scope%pair, problem)
+      call enter(this, scope%wheel_rail, problem)
       if (.not. associated(problem)) return
       value = real_of(fz)*inward(problem%units, quantity%force)
       if (fits(this, "FZ", [value])) then
@@ -331,4 +331,4 @@ contains
       end if
       call leave(problem)
    end subroutine cntc_setwheelsetflexibility
-end module contact_capi_pair_settings
+end module contact_capi_wheel_rail_settings

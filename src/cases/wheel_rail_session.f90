@@ -1,5 +1,5 @@
 !> Wheel on rail through its cases: specification in, result out
-module contact_cases_pair_session
+module contact_cases_wheel_rail_session
    use contact_base_choices, only : contact_location, estimate_choice, force_control, kernel_model, material_model, &
       & motion, normal_control, pressure_model, sensitivity_choice, time_link, variation
    use contact_base_error, only : add_context, error_kind, error_type, fatal_error
@@ -24,62 +24,62 @@ module contact_cases_pair_session
    use contact_profile_store, only : prepared_profile, profile_store
    use contact_profile_surface, only : profile_surface
    use contact_text_words, only : integer_text, real_text
-   use contact_wheelrail_memory, only : pair_memory, release_pair
-   use contact_wheelrail_pair, only : solve_pair
-   use contact_wheelrail_problem, only : pair_problem, relaxing_bodies
-   use contact_wheelrail_result, only : pair_result
+   use contact_wheelrail_memory, only : wheel_rail_memory, release_wheel_rail
+   use contact_wheelrail_solve, only : solve_wheel_rail
+   use contact_wheelrail_problem, only : wheel_rail_problem, relaxing_bodies
+   use contact_wheelrail_result, only : wheel_rail_result
    use contact_wheelrail_spec, only : profile_spec
    implicit none (type, external)
    private
 
-   public :: pair_session, check_files, load_profile, release_pair_session, solve_pair_case
+   public :: wheel_rail_session, check_files, load_profile, release_wheel_rail_session, solve_wheel_rail_case
 
    !> Memory of one wheel on one rail
-   type :: pair_session
-      type(pair_problem) :: problem
-      type(pair_memory) :: memory
+   type :: wheel_rail_session
+      type(wheel_rail_problem) :: problem
+      type(wheel_rail_memory) :: memory
       !> Profiles that were used so far
       type(profile_store) :: profiles
       !> Influence coefficients from a file
       type(kept_table) :: coefficients
-   end type pair_session
+   end type wheel_rail_session
 
 contains
 
    !> Solve one case, or only take note of its input (R = 2, 3)
-   subroutine solve_pair_case(session, spec, folder, log, result, error)
-      type(pair_session), intent(inout) :: session
+   subroutine solve_wheel_rail_case(session, spec, folder, log, result, error)
+      type(wheel_rail_session), intent(inout) :: session
       !> Complete specification of a case of module 1
       type(case_spec), intent(in) :: spec
       !> Folder to which names of profile files are relative, "" for the current one
       character(len=*), intent(in) :: folder
       type(log_type), intent(inout) :: log
-      type(pair_result), intent(inout) :: result
+      type(wheel_rail_result), intent(inout) :: result
       type(error_type), allocatable, intent(out) :: error
 
       log%level = spec%flow_level
       call log%begin_case()
       call solve_and_describe(session, spec, folder, log, result, error)
       call log%end_case()
-   end subroutine solve_pair_case
+   end subroutine solve_wheel_rail_case
 
    !> The case between the first and the last word of the log
    subroutine solve_and_describe(session, spec, folder, log, result, error)
-      type(pair_session), intent(inout) :: session
+      type(wheel_rail_session), intent(inout) :: session
       type(case_spec), intent(in) :: spec
-      !> As for solve_pair_case
+      !> As for solve_wheel_rail_case
       character(len=*), intent(in) :: folder
       type(log_type), intent(inout) :: log
-      type(pair_result), intent(inout) :: result
+      type(wheel_rail_result), intent(inout) :: result
       type(error_type), allocatable, intent(out) :: error
       integer :: k
 
       call refuse_broken_rules(spec, error)
       if (.not. allocated(error)) call check_combinations(spec, error)
       if (allocated(error)) return
-      call set_pair(session, spec, folder, log, error)
+      call set_wheel_rail(session, spec, folder, log, error)
       if (allocated(error)) return
-      call solve_pair(session%problem, session%memory, log, result, error)
+      call solve_wheel_rail(session%problem, session%memory, log, result, error)
       if (allocated(error)) return
       if (.not. result%has_finite_totals()) then
          call refuse_nonsense(error)
@@ -127,13 +127,13 @@ contains
 
    !> Points of the profiles in track coordinates: the rail at the wheelset, the wheel at its lowest meridian
    subroutine keep_profiles(session, result)
-      type(pair_session), intent(in) :: session
-      type(pair_result), intent(inout) :: result
+      type(wheel_rail_session), intent(in) :: session
+      type(wheel_rail_result), intent(inout) :: result
       real(wp) :: point(3)
       integer :: i
 
-      associate (rail => session%memory%here%rail_in_track, wheel => session%problem%wheel, &
-         & axes => session%memory%here%placement%wheel)
+      associate (rail => session%memory%geometry%rail_in_track, wheel => session%problem%wheel, &
+         & axes => session%memory%geometry%placement%wheel)
          result%rail_profile%s = rail%y%s
          result%rail_profile%y = rail%y%nodes()
          result%rail_profile%z = rail%z%nodes()
@@ -151,11 +151,11 @@ contains
    end subroutine keep_profiles
 
    !> Free what a session holds outside Fortran's memory; call it before the session goes
-   subroutine release_pair_session(session)
-      type(pair_session), intent(inout) :: session
-      call release_pair(session%memory)
+   subroutine release_wheel_rail_session(session)
+      type(wheel_rail_session), intent(inout) :: session
+      call release_wheel_rail(session%memory)
       call session%profiles%release()
-   end subroutine release_pair_session
+   end subroutine release_wheel_rail_session
 
    !> What no digit alone forbids
    subroutine check_combinations(spec, error)
@@ -172,10 +172,10 @@ contains
    !> Read and prepare the files of a case without solving it: profiles, which must fit the nominal radii, and influence
    !> coefficients
    subroutine check_files(session, spec, folder, log, error)
-      type(pair_session), intent(inout) :: session
+      type(wheel_rail_session), intent(inout) :: session
       !> Complete specification of a case of module 1
       type(case_spec), intent(in) :: spec
-      !> As for solve_pair_case
+      !> As for solve_wheel_rail_case
       character(len=*), intent(in) :: folder
       type(log_type), intent(inout) :: log
       type(error_type), allocatable, intent(out) :: error
@@ -205,8 +205,8 @@ contains
    end subroutine check_files
 
    !> From the specification to the problem of the pair
-   subroutine set_pair(session, spec, folder, log, error)
-      type(pair_session), intent(inout) :: session
+   subroutine set_wheel_rail(session, spec, folder, log, error)
+      type(wheel_rail_session), intent(inout) :: session
       type(case_spec), intent(in) :: spec
       character(len=*), intent(in) :: folder
       type(log_type), intent(inout) :: log
@@ -226,7 +226,7 @@ contains
          problem%link = spec%link
          problem%weight_power = merge(1, 2, spec%wheel_rail%search%gap_weight == 1)
          problem%relative_step = spec%wheel_rail%search%dqrel
-         problem%most_elements = spec%iteration%npot_max
+         problem%max_elements = spec%iteration%npot_max
          problem%limits = spec%limits
          call require_memory(int(spec%iteration%npot_max, long), bytes_per_element, "elements, as many as are allowed,", error)
          if (.not. allocated(error)) call set_model(spec, template%model, error)
@@ -284,7 +284,7 @@ contains
          template%mxsens = spec%iteration%mxsens
          template%epsens = spec%iteration%epsens
       end associate
-   end subroutine set_pair
+   end subroutine set_wheel_rail
 
    !> Take a profile from the store, which reads it when it is new or has changed
    subroutine load_profile(profiles, profile, side, folder, curve, surface, log, error, confined)
@@ -327,7 +327,7 @@ contains
       wanted%kink_high = profile%kink_high
       wanted%kink_low = profile%kink_low
       wanted%kink_width = profile%kink_width
-      wanted%most_hidden = profile%largest_omission
+      wanted%max_hidden = profile%largest_omission
       wanted%doubt = profile%error_handling
       body = merge("rail ", "wheel", side == profile_side%rail)
       before = profiles%loads
@@ -341,4 +341,4 @@ contains
       if (allocated(surface)) deallocate(surface)
       if (allocated(prepared%surface)) allocate(surface, source=prepared%surface)
    end subroutine load_profile
-end module contact_cases_pair_session
+end module contact_cases_wheel_rail_session
