@@ -133,7 +133,7 @@ static void pair(struct outcome *o) {
   cntc_initialize(&ire, &module, &version, &error, " ", &one);
   look(o, 0, 0, error);
   snprintf(profiles, sizeof profiles, "%s/profiles", examples);
-  set_up_wheel_rail(ire, profiles, 1.0);
+  set_up_pair(ire, profiles, 1.0);
   for (int k = 0; k < 2; k++) {
     position[1] = 1.0 - 0.8*k;
     cntc_setwheelsetposition(&ire, &one, &six, position);
