@@ -14,7 +14,7 @@ module contact_tangential_gd_steady
    use contact_elastic_compliance, only : compliance
    use contact_grid_element_division, only : element
    use contact_numeric_minimum_search, only : minimum_search
-   use contact_tangential_problem, only : at_bound, residual_scale, slip_of, tangential_problem, true_residual
+   use contact_tangential_problem, only : at_bound, contact_residual, residual_scale, slip_of, tangential_problem
    use contact_tangential_sweep, only : trace_iteration, update_watch
    implicit none (type, external)
    private
@@ -93,7 +93,7 @@ contains
    subroutine gd_steady(problem, operator, eps, creep, p, state, report, log)
       type(tangential_problem), intent(in) :: problem
       class(compliance), intent(inout) :: operator
-      !> Tolerance of the updates, relative to the tractions, and with given creepages of the true residual [-]
+      !> Tolerance of the updates, relative to the tractions [-]; the contact conditions end within that of the settings
       real(wp), intent(in) :: eps
       !> Creepages [-]
       real(wp), intent(in) :: creep(2)
@@ -154,9 +154,9 @@ contains
          call watch%judge(sum(((p - before)*doubt(self%progress))**2), sum(p**2), problem%settings%maxgs, report%ended)
          call trace_iteration(log, watch, "GDsteady", state)
          if (report%ended == ending%converged .and. moved) report%ended = ending%not_started
-         ! small updates are no small residual; prescribed forces are missed until the end
-         if (report%ended == ending%converged .and. problem%n_forces == 0) then
-            if (true_residual(problem, p, self%slip, scale) > eps) then
+         ! small updates are no small residual; whether forces are met is the caller's question
+         if (report%ended == ending%converged) then
+            if (contact_residual(problem, p, self%slip, scale) > problem%settings%eps) then
                report%ended = ending%not_started
                watch%eps = sharper*watch%eps
             end if

@@ -21,7 +21,7 @@ module contact_tangential_problem
    private
 
    public :: tangential_problem, tangential_solution, prepare_solution
-   public :: add_creepages, apply_operator, slip_of, true_residual, divide_elements
+   public :: add_creepages, apply_operator, slip_of, true_residual, contact_residual, divide_elements
    public :: residual_scale, limits_before, settle, at_bound
 
    !> Tractions above this part of the bound count as on it: round-off of a traction that was scaled to its bound; chosen
@@ -169,20 +169,40 @@ contains
    !> and the yield limit where that changes
    pure real(wp) function true_residual(problem, p, slip, r) result(residual)
       type(tangential_problem), intent(in) :: problem
+      !> Tractions [N/mm2] and slip per step [mm], shape (mx, my, 2)
+      real(wp), intent(in) :: p(:, :, :), slip(:, :, :)
+      !> Scale of the slip, see residual_scale [(N/mm2)/mm]
+      real(wp), intent(in) :: r
+      real(wp) :: sum_g
+      integer :: k
+
+      residual = contact_residual(problem, p, slip, r)
+      if (problem%n_forces == 0) return
+      residual = residual**2
+      sum_g = sum(problem%bound, mask=problem%contact)
+      do k = 1, problem%n_forces
+         if (sum_g > 0.0_wp) residual = residual + ((sum(p(:, :, k)) - problem%target(k))/sum_g)**2
+      end do
+      residual = sqrt(residual)
+   end function true_residual
+
+   !> The part of true_residual that the contact conditions have
+   pure real(wp) function contact_residual(problem, p, slip, r) result(residual)
+      type(tangential_problem), intent(in) :: problem
+      !> Tractions [N/mm2] and slip per step [mm], shape (mx, my, 2)
       real(wp), intent(in) :: p(:, :, :), slip(:, :, :)
       !> Scale of the slip, see residual_scale [(N/mm2)/mm]
       real(wp), intent(in) :: r
       real(wp), allocatable :: before(:, :)
       type(yield_point) :: point
-      integer :: ix, iy, k
+      integer :: ix, iy
       !> Limits far below the bound of friction count as this part of it: no more figures are left in p - r S
       real(wp), parameter :: min_share = 1.0e-4_wp
-      real(wp) :: z(2), length, total, scale, sum_g, acts
+      real(wp) :: z(2), length, total, scale, acts
 
       if (problem%hardens()) before = limits_before(problem, p, slip, r)
       total = 0.0_wp
       scale = 0.0_wp
-      sum_g = 0.0_wp
       do iy = 1, problem%my
          do ix = 1, problem%mx
             if (.not. problem%contact(ix, iy)) cycle
@@ -198,16 +218,11 @@ contains
             acts = problem%bound(ix, iy)
             if (allocated(before)) acts = max(min(acts, before(ix, iy)), min_share*acts)
             scale = scale + acts**2
-            sum_g = sum_g + problem%bound(ix, iy)
          end do
       end do
       residual = 0.0_wp
-      if (scale > 0.0_wp) residual = total/scale
-      do k = 1, problem%n_forces
-         if (sum_g > 0.0_wp) residual = residual + ((sum(p(:, :, k)) - problem%target(k))/sum_g)**2
-      end do
-      residual = sqrt(residual)
-   end function true_residual
+      if (scale > 0.0_wp) residual = sqrt(total/scale)
+   end function contact_residual
 
    !> Return map of an element
    pure type(yield_point) function returned(problem, length, ix, iy, before, r) result(point)
