@@ -36,6 +36,8 @@ module contact_wheelrail_gap
       real(wp) :: far = no_surface, far_place(2) = 0.0_wp
       !> Penetration that the mesh serves [mm]
       real(wp) :: depth = huge(1.0_wp)
+      !> The mesh point of another curve whose surroundings this one shows on a finer mesh; 0: it shows all of the rail
+      integer :: shows = 0
    end type gap_curve
 
    !> Mesh width relative to the elements
@@ -44,6 +46,13 @@ module contact_wheelrail_gap
    real(wp), parameter :: min_mesh = 1.0e-3_wp
    !> The locus is at most this part of the radius away from the lowest point of the wheel
    real(wp), parameter :: furthest = 0.5_wp
+   !> A smallest gap by the parabola through three mesh points is right when the gap there differs by less than this part
+   !> of what the gap rises by to the next points; parabolas of resolved contacts are right to 0.2 %
+   real(wp), parameter :: right_share = 0.01_wp
+   !> A closer look shows so many mesh points to either side, with so many times as many points
+   integer, parameter :: shown = 6, finer = 8
+   !> It is taken at gaps that are larger than the smallest one by less than this [mm]: deeper contacts are not narrow
+   real(wp), parameter :: looked_at = 1.0_wp
 
 contains
 
@@ -143,7 +152,7 @@ contains
    end function roller_drop
 
    !> Gap between a rail and a wheel in their present places
-   subroutine measure_gap(rail, wheel, placement, ds, gap)
+   subroutine measure_gap(rail, wheel, placement, ds, gap, closer)
       !> The rail in track coordinates
       type(profile_curve), intent(in) :: rail
       !> The wheel in its own coordinates
@@ -152,18 +161,55 @@ contains
       !> Lateral size of the elements [mm]
       real(wp), intent(in) :: ds
       type(gap_curve), intent(inout) :: gap
+      !> Where the mesh is too coarse for a smallest gap: its surroundings on finer meshes
+      type(gap_curve), allocatable, intent(out), optional :: closer(:)
+      type(gap_curve) :: probe
       real(wp), allocatable :: lateral(:)
-      logical, allocatable :: on_rail(:)
-      real(wp) :: range(2), s
-      integer :: i, k
+      real(wp) :: range(2), dy, y, lowest
+      integer :: i, n, first, last
 
       if (allocated(gap%table)) deallocate(gap%table)
       if (allocated(gap%unweighed)) deallocate(gap%unweighed)
+      range = rail%y_range()
+      lateral = lateral_positions(wheel, placement, rail, wheel%y%s)
+      dy = max(mesh_share*ds, min_mesh)
+      n = ceiling((range(2) - range(1))/dy) + 1
+      call fill_gap(rail, wheel, placement, lateral, range(1), dy, n, gap)
+      if (.not. present(closer)) return
+      allocate(closer(0))
+      do i = 2, gap%n - 1
+         if (gap%gap(i) > gap%gap(i - 1) .or. gap%gap(i) > gap%gap(i + 1)) cycle
+         if (maxval(gap%gap(i - 1:i + 1)) >= no_surface .or. gap%gap(i) > minval(gap%gap) + looked_at) cycle
+         call smallest_in_row(gap%y(i - 1:i + 1), gap%gap(i - 1:i + 1), y, lowest)
+         call fill_gap(rail, wheel, placement, lateral, y, dy, 1, probe)
+         if (abs(probe%gap(1) - lowest) <= right_share*(maxval(gap%gap(i - 1:i + 1)) - gap%gap(i))) cycle
+         first = max(1, i - shown)
+         last = min(gap%n, i + shown)
+         call fill_gap(rail, wheel, placement, lateral, gap%y(first), dy/finer, (last - first)*finer + 1, probe)
+         probe%shows = i
+         closer = [closer, probe]
+      end do
+   end subroutine measure_gap
+
+   !> Gap at lateral positions at even distances
+   subroutine fill_gap(rail, wheel, placement, lateral, start, dy, n, gap)
+      !> As in `measure_gap`
+      type(profile_curve), intent(in) :: rail, wheel
+      type(wheel_rail_placement), intent(in) :: placement
+      !> Lateral positions in the track of the nodes of the wheel's profile [mm]
+      real(wp), intent(in) :: lateral(:)
+      !> The first lateral position, their distance [mm] and number
+      real(wp), intent(in) :: start, dy
+      integer, intent(in) :: n
+      type(gap_curve), intent(inout) :: gap
+      logical, allocatable :: on_rail(:)
+      real(wp) :: s
+      integer :: i, k
+
       gap%far = no_surface
       gap%depth = huge(gap%depth)
-      range = rail%y_range()
-      gap%dy = max(mesh_share*ds, min_mesh)
-      gap%n = ceiling((range(2) - range(1))/gap%dy) + 1
+      gap%dy = dy
+      gap%n = n
       if (allocated(gap%y)) then
          if (size(gap%y) /= gap%n) deallocate(gap%y, gap%x, gap%gap, gap%z, gap%alpha)
       end if
@@ -176,14 +222,13 @@ contains
       gap%alpha = 0.0_wp
       allocate(on_rail(gap%n))
       do i = 1, gap%n
-         gap%y(i) = range(1) + (i - 1)*gap%dy
+         gap%y(i) = start + (i - 1)*gap%dy
          call rail%find(gap%y(i), s, on_rail(i))
          if (.not. on_rail(i)) cycle
          gap%z(i) = rail%z%value(s)
          gap%alpha(i) = rail%inclination(s)
       end do
       associate (nodes => wheel%y%s)
-         lateral = lateral_positions(wheel, placement, rail, nodes)
          do k = 1, size(nodes) - 1
             ! the surface faces the rail where places run with falling y
             if (lateral(k) > lateral(k + 1)) call add_piece(nodes(k:k + 1), lateral(k:k + 1))
@@ -201,8 +246,8 @@ contains
          real(wp) :: point(3), vertical
          integer :: i
 
-         do i = max(1, ceiling((lateral(2) - range(1))/gap%dy - tiny_part) + 1), &
-            & min(gap%n, floor((lateral(1) - range(1))/gap%dy + tiny_part) + 1)
+         do i = max(1, ceiling((lateral(2) - start)/gap%dy - tiny_part) + 1), &
+            & min(gap%n, floor((lateral(1) - start)/gap%dy + tiny_part) + 1)
             if (.not. on_rail(i)) cycle
             point = locus_at(wheel, placement, rail, gap%y(i), places(1), places(2), lateral(1), lateral(2))
             vertical = gap%z(i) + roller_drop(placement, point(1), gap%z(i)) - point(3)
@@ -211,7 +256,7 @@ contains
             gap%gap(i) = vertical
          end do
       end subroutine add_piece
-   end subroutine measure_gap
+   end subroutine fill_gap
 
    !> Smallest gap of a row of points, between them by a parabola
    pure subroutine smallest_in_row(x, g, place, lowest)

@@ -38,6 +38,8 @@ module contact_wheelrail_geometry
       integer :: shares = 0
       type(learned_share) :: learned(max_patches)
       type(gap_curve) :: gap
+      !> Surroundings of smallest gaps that need a finer mesh
+      type(gap_curve), allocatable :: closer(:)
       !> The rail at the wheelset
       type(profile_curve) :: rail_in_track
       !> Sections of bodies that vary; used when `searches_table` or with curved reference surfaces
@@ -114,14 +116,16 @@ contains
          call place_bodies(geometry%bodies, problem%spec%wheelset%s, problem%spec%wheelset%pitch, &
             & problem%spec%search%dx, problem%rail_surface, problem%wheel_surface)
       end if
+      if (allocated(geometry%closer)) deallocate(geometry%closer)
       if (geometry%searches_table) then
          call measure_variable_gap(geometry%bodies, problem%spec%search%ds, allocated(problem%wheel_surface) &
             & .or. any(problem%spec%search%location == [contact_location%grid, contact_location%steep_grid]), geometry%gap, depth)
       else
-         call measure_gap(geometry%rail_in_track, problem%wheel, geometry%placement, problem%spec%search%ds, geometry%gap)
+         call measure_gap(geometry%rail_in_track, problem%wheel, geometry%placement, problem%spec%search%ds, geometry%gap, &
+            & geometry%closer)
       end if
       geometry%gap_height = z
-      geometry%touch = z + smallest_gap(geometry%gap)
+      geometry%touch = z + smallest_gap(geometry%gap, geometry%closer)
    end subroutine measure
 
    !> The rail's profile in track coordinates at a place along it; a variable one goes on as at its first and last slice

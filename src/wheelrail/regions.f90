@@ -61,22 +61,30 @@ module contact_wheelrail_regions
 contains
 
    !> Smallest gap, at mesh points and between them [mm]
-   pure real(wp) function smallest_gap(gap)
+   pure recursive real(wp) function smallest_gap(gap, closer) result(smallest)
       type(gap_curve), intent(in) :: gap
+      !> Smallest gaps that need a finer mesh, see `measure_gap`
+      type(gap_curve), intent(in), optional :: closer(:)
       real(wp) :: lowest, place(3)
-      integer :: i
+      integer :: i, k
 
-      smallest_gap = no_surface
-      if (gap%n > 0) smallest_gap = minval(gap%gap)
+      smallest = no_surface
+      if (gap%n > 0) smallest = minval(gap%gap)
       do i = 2, gap%n - 1
          if (gap%gap(i) > far_away .or. gap%gap(i) > gap%gap(i - 1) .or. gap%gap(i) > gap%gap(i + 1)) cycle
-         call find_deepest(gap, gap%gap, i, i, lowest, place)
-         smallest_gap = min(smallest_gap, lowest)
+         k = 0
+         if (present(closer)) k = findloc(closer%shows, i, dim=1)
+         if (k > 0) then
+            lowest = smallest_gap(closer(k))
+         else
+            call find_deepest(gap, gap%gap, i, i, lowest, place)
+         end if
+         smallest = min(smallest, lowest)
       end do
    end function smallest_gap
 
    !> Patches for a wheel that is lower by dz than where the gap was measured, field side first
-   subroutine find_regions(gap, dz, search, weight_power, regions, misses)
+   subroutine find_regions(gap, dz, search, weight_power, regions, misses, closer)
       type(gap_curve), intent(in) :: gap
       !> [mm]
       real(wp), intent(in) :: dz
@@ -86,11 +94,13 @@ contains
       type(contact_region), allocatable, intent(out) :: regions(:)
       !> Near misses by rising gap
       type(contact_region), allocatable, intent(out) :: misses(:)
+      !> Smallest gaps that need a finer mesh, see `measure_gap`
+      type(gap_curve), intent(in), optional :: closer(:)
       real(wp), allocatable :: g(:)
 
       g = gap%gap - dz
       where (gap%gap > far_away) g = no_surface
-      call preliminary_regions(gap, g, weight_power, regions, misses)
+      call preliminary_regions(gap, g, weight_power, regions, misses, closer)
       call sort_regions(regions)
       call join_regions(search, regions)
       call shift_near_misses(search, misses, regions)
@@ -125,15 +135,18 @@ contains
    end subroutine leave_room
 
    !> One region per stretch of interpenetration, or per spot where it falls apart along the track; the nearest misses
-   subroutine preliminary_regions(gap, g, weight_power, regions, misses)
+   recursive subroutine preliminary_regions(gap, g, weight_power, regions, misses, closer)
       type(gap_curve), intent(in) :: gap
       !> Gap at the present height [mm]
       real(wp), intent(in) :: g(:)
       integer, intent(in) :: weight_power
       type(contact_region), allocatable, intent(out) :: regions(:), misses(:)
+      !> Smallest gaps that need a finer mesh
+      type(gap_curve), intent(in), optional :: closer(:)
       type(contact_region) :: region
       type(spot), allocatable :: spots(:)
       integer :: i, k, first, last, n
+      logical :: found
 
       n = size(g)
       allocate(regions(0), misses(0))
@@ -148,7 +161,9 @@ contains
             end do
             allocate(spots(0))
             if (allocated(gap%table)) call separate_spots(gap, g, first, last, spots)
-            if (size(spots) == 0) then
+            found = .false.
+            if (last - first < few_points) call look_closer(gap, g, first, last, weight_power, regions, misses, found, closer)
+            if (size(spots) == 0 .and. .not. found) then
                call describe(gap, g, first, last, weight_power, region)
                if (last - first < few_points) call describe_small(gap, g, first, last, weight_power, region)
                regions = [regions, region]
@@ -161,18 +176,63 @@ contains
             i = last + 1
          else
             if (is_minimum(g, i)) then
-               call describe_miss(gap, g, i, region)
-               call describe_small(gap, g, i, i, weight_power, region)
-               if (region%touches) then
-                  regions = [regions, region]
-               else
-                  call keep_miss(region, misses)
+               call look_closer(gap, g, i, i, weight_power, regions, misses, found, closer)
+               if (.not. found) then
+                  call describe_miss(gap, g, i, region)
+                  call describe_small(gap, g, i, i, weight_power, region)
+                  if (region%touches) then
+                     regions = [regions, region]
+                  else
+                     call keep_miss(region, misses)
+                  end if
                end if
             end if
             i = i + 1
          end if
       end do
    end subroutine preliminary_regions
+
+   !> What a finer mesh shows between two points of this one, where there is one
+   recursive subroutine look_closer(gap, g, first, last, weight_power, regions, misses, found, closer)
+      type(gap_curve), intent(in) :: gap
+      !> Gap at the present height [mm]
+      real(wp), intent(in) :: g(:)
+      !> The points with g < 0, or a point with a lower gap than its neighbours
+      integer, intent(in) :: first, last
+      integer, intent(in) :: weight_power
+      !> Those of the finer mesh are added
+      type(contact_region), allocatable, intent(inout) :: regions(:), misses(:)
+      !> Is there a finer mesh?
+      logical, intent(out) :: found
+      type(gap_curve), intent(in), optional :: closer(:)
+      type(contact_region), allocatable :: here(:), nearly(:)
+      real(wp), allocatable :: fine(:)
+      integer :: i, k
+
+      found = .false.
+      i = first - 1 + minloc(g(first:last), dim=1)
+      if (first == 1 .or. last == gap%n .or. .not. is_shown(i, closer)) return
+      found = .true.
+      associate (near => closer(findloc(closer%shows, i, dim=1)))
+         fine = near%gap + (g(i) - gap%gap(i))
+         where (near%gap > far_away .or. near%y < gap%y(first - 1) - 0.5_wp*near%dy &
+            & .or. near%y > gap%y(last + 1) + 0.5_wp*near%dy) fine = no_surface
+         call preliminary_regions(near, fine, weight_power, here, nearly)
+      end associate
+      regions = [regions, here]
+      do k = 1, size(nearly)
+         call keep_miss(nearly(k), misses)
+      end do
+   end subroutine look_closer
+
+   !> Are the surroundings of a mesh point shown on a finer mesh?
+   pure logical function is_shown(i, closer)
+      integer, intent(in) :: i
+      type(gap_curve), intent(in), optional :: closer(:)
+
+      is_shown = .false.
+      if (present(closer)) is_shown = any(closer%shows == i)
+   end function is_shown
 
    !> Is the gap lower here than on both sides?
    pure logical function is_minimum(g, i)

@@ -40,7 +40,7 @@ contains
       call place(problem, memory%geometry, z)
       memory%geometry%bodies%placement = memory%geometry%placement
       call find_regions(memory%geometry%gap, max(z, memory%geometry%lowest_for_regions) - memory%geometry%gap_height, &
-         & problem%spec%search, problem%weight_power, regions, misses)
+         & problem%spec%search, problem%weight_power, regions, misses, memory%geometry%closer)
       n = size(regions)
       if (n > max_patches) then
          call log%warning("more than 10 contact patches; the ones with the smallest weight are left out")

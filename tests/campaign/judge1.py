@@ -224,7 +224,9 @@ def places(scene, case, placed, record, totals, patches, findings):
         if placed.rail.slices or placed.wheel.slices:
             across += geometry1.SLICED_PLACE
         share = 2.0 * min(1.0, across / width)
-        along_x = 0.01 * (region["x_bounds"][1] - region["x_bounds"][0]) + share * region["lean"] + 2e-3 * ds
+        # the mean over as many rows of the table as the overlap is wide: with four of them to 2 % of its length
+        rows = max(0.01, min(0.05, 0.5 * coarse))
+        along_x = rows * (region["x_bounds"][1] - region["x_bounds"][0]) + share * region["lean"] + 2e-3 * ds
         judge.exceeds(findings, "places", "YCP", abs(region["y"] - patch["ycp_tr"]), across)
         judge.exceeds(findings, "places", "XCP", abs(region["x"] - patch["xcp_tr"]), along_x)
         judge.exceeds(findings, "places", "DELTCP", abs(region["angle"] - patch["deltcp_tr"]), share * region["bend"] + 2e-4)
