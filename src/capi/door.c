@@ -1,18 +1,17 @@
 /* What happens at every door of the library: the routine runs under a guard, and when it was left for want of memory the
  * caller gets an error, whatever the thread held is given back, and the library can be used on */
 #include <omp.h>
-#include <stddef.h>
 #include "door.h"
 
 int contact_guard(void (*work)(void *), void *data, int owner);
+void contact_make_setting(const char *name, const char *kinds, void **arguments);
 void contact_call_failed(int cause, const char *name, const int *ire, const int *icp, int *ierror);
 
 /* Of any error, as CNTC_err_other; for callers who could not be told more */
 enum { other_error = -99 };
 
 struct call {
-  contact_routine routine;
-  int count;
+  const struct door *door;
   void **a;
 };
 
@@ -20,9 +19,13 @@ typedef void *p;
 
 static void go(void *data) {
   const struct call *call = data;
-  const contact_routine f = call->routine;
+  const contact_routine f = call->door->routine;
   void **a = call->a;
-  switch (call->count) {
+  if (f == NULL) {
+    contact_make_setting(call->door->setting, call->door->kinds, a);
+    return;
+  }
+  switch (call->door->count) {
   case 0: f(); break;
   case 1: ((void (*)(p))f)(a[0]); break;
   case 2: ((void (*)(p, p))f)(a[0], a[1]); break;
@@ -48,13 +51,13 @@ static void report(void *data) {
   contact_call_failed(failure->cause, failure->name, failure->ire, failure->icp, failure->ierror);
 }
 
-void contact_call(const char *name, contact_routine routine, int count, void **arguments, int ire, int icp, int ierror) {
-  struct call call = {routine, count, arguments};
+void contact_call(const struct door *door, void **arguments) {
+  struct call call = {door, arguments};
   const int threads = omp_get_max_threads();
   const int cause = contact_guard(go, &call, 0);
   if (cause == 0) return;
-  struct failure failure = {cause, name, ire < 0 ? NULL : arguments[ire], icp < 0 ? NULL : arguments[icp],
-    ierror < 0 ? NULL : arguments[ierror]};
+  struct failure failure = {cause, door->name, door->ire < 0 ? NULL : arguments[door->ire],
+    door->icp < 0 ? NULL : arguments[door->icp], door->ierror < 0 ? NULL : arguments[door->ierror]};
   omp_set_num_threads(threads);
   if (failure.ierror != NULL) *(int *)failure.ierror = other_error;
   contact_guard(report, &failure, 0);

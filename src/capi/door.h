@@ -1,41 +1,60 @@
 /* The doors of the library: each routine that it exports, from the table interface.txt, once under its name and once with
  * an underscore behind it, the name that Fortran callers get who declare no interface. All arguments are addresses; more
- * of them, such as the hidden lengths of texts, do no harm. Behind a door stands the Fortran routine, under a guard. */
+ * of them, such as the hidden lengths of texts, do no harm. Behind a door stands a Fortran routine, under a guard: for
+ * settings contact_make_setting, for the others the one named inside_... */
 #ifndef CONTACT_CAPI_DOOR_H
 #define CONTACT_CAPI_DOOR_H
 
+#include <stddef.h>
+
 typedef void (*contact_routine)(void);
 
-/* A call: the routine, its arguments, and which of them are result element, patch and error code (-1: none) */
-void contact_call(const char *name, contact_routine routine, int count, void **arguments, int ire, int icp, int ierror);
+/* A routine: its name, the Fortran routine behind it or the name and the kinds of arguments of a setting, the number of
+ * arguments, and which of them are result element, patch and error code (-1: none) */
+struct door {
+  const char *name;
+  contact_routine routine;
+  const char *setting, *kinds;
+  int count, ire, icp, ierror;
+};
+void contact_call(const struct door *door, void **arguments);
 
-#define CALL(name, count, ire, icp, ierror, ...) \
-  void *arguments[] = {__VA_ARGS__}; \
-  contact_call(#name, (contact_routine)inside_##name, count, arguments, ire, icp, ierror);
-#define DOOR(name, count, parameters, ire, icp, ierror, ...) \
-  void inside_##name parameters; \
-  void name parameters; \
-  void name##_ parameters; \
-  void name parameters { CALL(name, count, ire, icp, ierror, __VA_ARGS__) } \
-  void name##_ parameters { CALL(name, count, ire, icp, ierror, __VA_ARGS__) }
+#define PARAMETERS0 (void)
+#define PARAMETERS1 (void *a)
+#define PARAMETERS2 (void *a, void *b)
+#define PARAMETERS3 (void *a, void *b, void *c)
+#define PARAMETERS4 (void *a, void *b, void *c, void *d)
+#define PARAMETERS5 (void *a, void *b, void *c, void *d, void *e)
+#define PARAMETERS6 (void *a, void *b, void *c, void *d, void *e, void *f)
+#define PARAMETERS7 (void *a, void *b, void *c, void *d, void *e, void *f, void *g)
+#define PARAMETERS8 (void *a, void *b, void *c, void *d, void *e, void *f, void *g, void *h)
+#define PARAMETERS9 (void *a, void *b, void *c, void *d, void *e, void *f, void *g, void *h, void *i)
+#define PARAMETERS10 (void *a, void *b, void *c, void *d, void *e, void *f, void *g, void *h, void *i, void *j)
+#define ARGUMENTS0 NULL
+#define ARGUMENTS1 a
+#define ARGUMENTS2 a, b
+#define ARGUMENTS3 a, b, c
+#define ARGUMENTS4 a, b, c, d
+#define ARGUMENTS5 a, b, c, d, e
+#define ARGUMENTS6 a, b, c, d, e, f
+#define ARGUMENTS7 a, b, c, d, e, f, g
+#define ARGUMENTS8 a, b, c, d, e, f, g, h
+#define ARGUMENTS9 a, b, c, d, e, f, g, h, i
+#define ARGUMENTS10 a, b, c, d, e, f, g, h, i, j
 
-#define DOOR0(name, r, p, e) DOOR(name, 0, (void), r, p, e, (void *)0)
-#define DOOR1(name, r, p, e) DOOR(name, 1, (void *a), r, p, e, a)
-#define DOOR2(name, r, p, e) DOOR(name, 2, (void *a, void *b), r, p, e, a, b)
-#define DOOR3(name, r, p, e) DOOR(name, 3, (void *a, void *b, void *c), r, p, e, a, b, c)
-#define DOOR4(name, r, p, e) DOOR(name, 4, (void *a, void *b, void *c, void *d), r, p, e, a, b, c, d)
-#define DOOR5(name, r, p, e) DOOR(name, 5, (void *a, void *b, void *c, void *d, void *f), r, p, e, a, b, c, d, f)
-#define DOOR6(name, r, p, e) \
-  DOOR(name, 6, (void *a, void *b, void *c, void *d, void *f, void *g), r, p, e, a, b, c, d, f, g)
-#define DOOR7(name, r, p, e) \
-  DOOR(name, 7, (void *a, void *b, void *c, void *d, void *f, void *g, void *h), r, p, e, a, b, c, d, f, g, h)
-#define DOOR8(name, r, p, e) \
-  DOOR(name, 8, (void *a, void *b, void *c, void *d, void *f, void *g, void *h, void *i), r, p, e, a, b, c, d, f, g, h, i)
-#define DOOR9(name, r, p, e) \
-  DOOR(name, 9, (void *a, void *b, void *c, void *d, void *f, void *g, void *h, void *i, void *j), r, p, e, \
-    a, b, c, d, f, g, h, i, j)
-#define DOOR10(name, r, p, e) \
-  DOOR(name, 10, (void *a, void *b, void *c, void *d, void *f, void *g, void *h, void *i, void *j, void *k), r, p, e, \
-    a, b, c, d, f, g, h, i, j, k)
+#define BODY(count, ...) { \
+    static const struct door door = {__VA_ARGS__}; \
+    void *arguments[] = {ARGUMENTS##count}; \
+    contact_call(&door, arguments); \
+  }
+#define BOTH(name, count, ...) \
+  void name PARAMETERS##count; \
+  void name##_ PARAMETERS##count; \
+  void name PARAMETERS##count BODY(count, #name, __VA_ARGS__) \
+  void name##_ PARAMETERS##count BODY(count, #name, __VA_ARGS__)
+#define DOOR(name, count, ire, icp, ierror) \
+  void inside_##name PARAMETERS##count; \
+  BOTH(name, count, (contact_routine)inside_##name, NULL, NULL, count, ire, icp, ierror)
+#define SETTING(name, count, ire, icp, ierror, shown, kinds) BOTH(name, count, NULL, shown, kinds, count, ire, icp, ierror)
 
 #endif

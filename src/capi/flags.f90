@@ -1,14 +1,15 @@
-!> Entries for control digits and other flags, and for where a case comes from
+!> Control digits and other flags, and where a case comes from
 module contact_capi_flags
-   use, intrinsic :: iso_c_binding, only : c_double, c_int
+   use, intrinsic :: iso_c_binding, only : c_int
    use omp_lib, only : omp_in_parallel
    use contact_base_kinds, only : wp
-   use contact_capi_arguments, only : give_list, integer_of, integers_of, reals_of
+   use contact_capi_arguments, only : give_list, integer_of, integers_of
    use contact_capi_library, only : entry_type
    use contact_capi_lifecycle, only : set_global_flag
    use contact_capi_messages, only : begin_setting, complain, end_setting, fits, is_heard, say, warn
    use contact_capi_problem, only : library_problem
    use contact_capi_registry, only : enter, leave, scope
+   use contact_capi_setter, only : setter
    use contact_capi_timers, only : set_timer_level
    use contact_control_digits, only : choice_of, digit_value, put_digit
    use contact_control_flags, only : accepted_value, flag, flag_table, highest_of, row_of_flag
@@ -20,7 +21,7 @@ module contact_capi_flags
    implicit none (type, external)
    private
 
-   public :: cntc_setflags, cntc_getflags, cntc_setmetadata
+   public :: cntc_getflags, set_flags, set_metadata
 
    type :: metadata_code_list
       integer :: time = 2011, x_rail = 2012, y_rail = 2013, x_wheel = 2014, y_wheel = 2015, s_wheel = 2016
@@ -32,28 +33,22 @@ module contact_capi_flags
 contains
 
    !> Control digits, units and settings of one problem, in the order of the list
-   subroutine cntc_setflags(ire, icp, lenflg, params, values) bind(c, name="inside_cntc_setflags")
-      integer(c_int), intent(in), optional :: ire, icp, lenflg, params(*), values(*)
-      type(library_problem), pointer :: problem
-      type(entry_type) :: this
-      integer, allocatable :: codes(:), numbers(:)
+   subroutine set_flags(a, problem)
+      type(setter), intent(in) :: a
+      type(library_problem), intent(inout) :: problem
       integer :: k
 
-      this = entry_type("cntc_setFlags", integer_of(ire), integer_of(icp))
-      call enter(this, scope%settings, problem)
-      if (.not. associated(problem)) return
-      codes = integers_of(lenflg, params)
-      numbers = integers_of(lenflg, values)
       ! each flag is a setting of its own
       call end_setting(problem)
-      do k = 1, min(size(codes), size(numbers))
-         if (codes(k) == 0) cycle
-         if (acts_on_problem(codes(k))) call begin_setting(problem, this, group_of(codes(k)))
-         call set_flag(this, codes(k), numbers(k), problem)
-         call end_setting(problem)
-      end do
-      call leave(problem)
-   end subroutine cntc_setflags
+      associate (this => a%call_of, codes => a%integers(1)%v, numbers => a%integers(2)%v)
+         do k = 1, min(size(codes), size(numbers))
+            if (codes(k) == 0) cycle
+            if (acts_on_problem(codes(k))) call begin_setting(problem, this, group_of(codes(k)))
+            call set_flag(this, codes(k), numbers(k), problem)
+            call end_setting(problem)
+         end do
+      end associate
+   end subroutine set_flags
 
    !> Does a flag change what a problem computes? Codes that are not known, and those of the library as a whole, do not
    pure logical function acts_on_problem(code)
@@ -313,30 +308,21 @@ contains
    end subroutine look_at_patches
 
    !> Where a case comes from, for printing and .mat files
-   subroutine cntc_setmetadata(ire, icp, lenmta, params, values) bind(c, name="inside_cntc_setmetadata")
-      integer(c_int), intent(in), optional :: ire, icp, lenmta, params(*)
-      real(c_double), intent(in), optional :: values(*)
-      type(library_problem), pointer :: problem
-      type(entry_type) :: this
-      integer, allocatable :: codes(:)
-      real(wp), allocatable :: numbers(:)
+   subroutine set_metadata(a, problem)
+      type(setter), intent(in) :: a
+      type(library_problem), intent(inout) :: problem
       integer :: k
 
-      this = entry_type("cntc_setMetadata", integer_of(ire), integer_of(icp))
-      call enter(this, scope%settings, problem)
-      if (.not. associated(problem)) return
-      codes = integers_of(lenmta, params)
-      numbers = reals_of(lenmta, values)
-      if (fits(this, "SVF", numbers, "metadata")) then
+      associate (codes => a%integers(1)%v, numbers => a%numbers(1)%v)
+         if (.not. fits(a%call_of, "SVF", numbers, "metadata")) return
          do k = 1, min(size(codes), size(numbers))
-            if (codes(k) /= 0) call set_metadata(this, codes(k), numbers(k), problem)
+            if (codes(k) /= 0) call set_value(a%call_of, codes(k), numbers(k), problem)
          end do
-      end if
-      call leave(problem)
-   end subroutine cntc_setmetadata
+      end associate
+   end subroutine set_metadata
 
    !> One value
-   subroutine set_metadata(this, code, value, problem)
+   subroutine set_value(this, code, value, problem)
       type(entry_type), intent(in) :: this
       !> Member of metadata_code
       integer, intent(in) :: code
@@ -359,7 +345,7 @@ contains
          case default; call complain(this, "there is no metadata code " // integer_text(code) // ", it is ignored")
          end select
       end associate
-   end subroutine set_metadata
+   end subroutine set_value
 
    !> The nearest integer
    pure integer function whole(value)

@@ -47,6 +47,25 @@ class Routine:
         self.arguments = [Argument(text) for text in arguments.split(",") if text.strip()]
         self.text, self.about, self.words = [], [], []
 
+    @property
+    def setting(self):
+        """The name of a setting as messages have it, "" for other routines"""
+        return next((word for word in self.words if word.lower() == self.name), "")
+
+    def kinds(self):
+        """A letter for each argument of a setting: e, p result element and patch, i, r integer and number, n length of an array;
+        I, R, P, T and the place of their length: arrays of integers, numbers and pairs, a text"""
+        names = [item.name for item in self.arguments]
+        lengths = {name for item in self.arguments for name in item.lengths}
+        kinds = ""
+        for item in self.arguments:
+            if item.is_array:
+                letter = "P" if len(item.lengths) == 2 else {"int": "I", "real": "R", "text": "T"}[item.kind]
+                kinds += letter + str(names.index(item.lengths[-1]))
+            else:
+                kinds += {"ire": "e", "icp": "p"}.get(item.name) or ("n" if item.name in lengths else item.kind[0])
+        return kinds
+
     def describe(self, line):
         """Take an indented line of the table"""
         argument = re.fullmatch(r"- ([\w, ]+): (.+)", line)
@@ -225,13 +244,16 @@ def python_tables(constants, routines, undocumented):
 
 
 def c_doors(routines, undocumented):
-    """Text of doors.c: where result element, patch and error code stand among the arguments of each routine"""
-    lines = ["/* The routines that the library exports, see door.h; behind each name the places of ire, icp and ierror.",
-             f" * {ORIGIN} */", '#include "door.h"', ""]
+    """Text of doors.c: names, numbers of arguments, and what they are"""
+    lines = ["/* The routines that the library exports, see door.h: their number of arguments, places of ire, icp and ierror, and kinds",
+             f" * of arguments. {ORIGIN} */", '#include "door.h"', ""]
     for routine in [item for _, items in routines for item in items] + undocumented:
         names = [argument.name for argument in routine.arguments]
         places = ", ".join(str(names.index(name) if name in names else -1) for name in ("ire", "icp", "ierror"))
-        lines.append(f"DOOR{len(names)}({routine.name}, {places})")
+        if routine.setting:
+            lines.append(f'SETTING({routine.name}, {len(names)}, {places}, "{routine.setting}", "{routine.kinds()}")')
+        else:
+            lines.append(f"DOOR({routine.name}, {len(names)}, {places})")
     return lines
 
 

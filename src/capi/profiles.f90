@@ -1,19 +1,17 @@
-!> Entries that give profiles of rail and wheel (module 1)
+!> Profiles of rail and wheel that callers give (module 1)
 !>
 !> A profile is read at once. What goes wrong then is remembered and comes back when something is
 !> calculated or asked for.
 module contact_capi_profiles
-   use, intrinsic :: iso_c_binding, only : c_char, c_double, c_int
    use contact_base_constants, only : pi
    use contact_base_error, only : error_kind, error_type, full_text
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
-   use contact_capi_arguments, only : integer_of, integers_of, path_of, reals_of
    use contact_capi_files, only : find_working_folder
    use contact_capi_library, only : entry_type
    use contact_capi_messages, only : complain, fits, library_log
    use contact_capi_problem, only : library_problem, given_profile
-   use contact_capi_registry, only : enter, leave, scope
+   use contact_capi_setter, only : setter
    use contact_cases_wheel_rail_session, only : load_profile
    use contact_control_library_codes, only : library_code
    use contact_control_units, only : inward, quantity
@@ -23,7 +21,7 @@ module contact_capi_profiles
    implicit none (type, external)
    private
 
-   public :: cntc_setprofileinputfname, cntc_setprofileinputvalues, read_given_profile
+   public :: read_given_profile, set_profile
 
    !> Scales below this value stand for the unit of length of the caller [-]
    real(wp), parameter :: no_scale = 5.0e-4_wp
@@ -36,72 +34,43 @@ module contact_capi_profiles
 
 contains
 
-   !> A profile in a file
-   subroutine cntc_setprofileinputfname(ire, c_fname, len_fname, nints, iparam, nreals, rparam) &
-      & bind(c, name="inside_cntc_setprofileinputfname")
-      integer(c_int), intent(in), optional :: ire, len_fname, nints, iparam(*), nreals
-      character(kind=c_char), intent(in), optional :: c_fname(*)
-      real(c_double), intent(in), optional :: rparam(*)
-      type(library_problem), pointer :: problem
-      type(entry_type) :: this
+   !> A profile in a file, or as a table y1, z1, y2, z2, ...
+   subroutine set_profile(a, problem)
+      type(setter), intent(inout) :: a
+      type(library_problem), intent(inout) :: problem
       type(profile_spec) :: profile
-      integer, allocatable :: ints(:)
-      real(wp), allocatable :: reals(:)
+      integer, allocatable :: options(:)
+      real(wp), allocatable :: values(:)
       integer :: kind
+      logical :: is_file
 
-      this = entry_type("cntc_setProfileInputFname", integer_of(ire))
-      call enter(this, scope%wheel_rail, problem)
-      if (.not. associated(problem)) return
-      ints = integers_of(nints, iparam)
-      reals = reals_of(nreals, rparam)
-      profile%name = trim(path_of(c_fname, len_fname))
-      kind = -1
-      if (size(ints) >= 1) kind = ints(1)
-      if (kind /= 0 .and. kind /= 1) kind = merge(1, 0, names_wheel(profile%name))
+      is_file = allocated(a%path)
+      options = a%integers(1)%v
+      kind = merge(-1, 1, is_file)
+      if (size(options) >= 1) kind = options(1)
+      profile%name = "<values>"
+      values = a%numbers(1)%v
+      if (is_file) then
+         profile%name = a%path
+         if (kind /= 0 .and. kind /= 1) kind = merge(1, 0, names_wheel(profile%name))
+      else
+         kind = max(0, min(1, kind))
+         values = a%numbers(2)%v
+      end if
       problem%setting%group = profile_groups(kind)
       if (len(profile%name) == 0) then
-         call complain(this, "the name of the file is missing; nothing is stored")
-      else if (fits(this, option_names, reals)) then
-         call set_options(ints, reals, problem, profile)
-         call store_profile(this, kind == 1, profile, problem)
-      end if
-      call leave(problem)
-   end subroutine cntc_setprofileinputfname
-
-   !> A profile as a table y1, z1, y2, z2, ...
-   subroutine cntc_setprofileinputvalues(ire, npoint, values, nints, iparam, nreals, rparam) &
-      & bind(c, name="inside_cntc_setprofileinputvalues")
-      integer(c_int), intent(in), optional :: ire, npoint, nints, iparam(*), nreals
-      real(c_double), intent(in), optional :: values(*), rparam(*)
-      type(library_problem), pointer :: problem
-      type(entry_type) :: this
-      type(profile_spec) :: profile
-      integer, allocatable :: ints(:)
-      real(wp), allocatable :: reals(:)
-      integer :: n, kind
-
-      this = entry_type("cntc_setProfileInputValues", integer_of(ire))
-      call enter(this, scope%wheel_rail, problem)
-      if (.not. associated(problem)) return
-      ints = integers_of(nints, iparam)
-      reals = reals_of(nreals, rparam)
-      n = max(0, integer_of(npoint))
-      if (.not. present(values) .or. n > 1000000) n = 0
-      profile%name = "<values>"
-      kind = 1
-      if (size(ints) >= 1) kind = max(0, min(1, ints(1)))
-      problem%setting%group = profile_groups(kind)
-      if (n < 2) then
-         call complain(this, "a profile needs at least two points and at most a million; nothing is stored")
-      else if (fits(this, option_names, reals)) then
-         call set_options(ints, reals, problem, profile)
-         if (fits(this, "Y", real(values(:2*n), wp)*profile%scale)) then
-            profile%points = reshape(real(values(:2*n), wp), [2, n])
-            call store_profile(this, kind == 1, profile, problem)
+         call a%refuse_call("the name of the file is missing; nothing is stored")
+      else if (.not. is_file .and. size(a%numbers(1)%v) < 4) then
+         call a%refuse_call("a profile needs at least two points and at most a million; nothing is stored")
+      else if (fits(a%call_of, option_names, values)) then
+         call set_options(options, values, problem, profile)
+         if (.not. is_file) then
+            if (.not. fits(a%call_of, "Y", a%numbers(1)%v*profile%scale)) return
+            profile%points = reshape(a%numbers(1)%v, [2, size(a%numbers(1)%v)/2])
          end if
+         call store_profile(a%call_of, kind == 1, profile, problem)
       end if
-      call leave(problem)
-   end subroutine cntc_setprofileinputvalues
+   end subroutine set_profile
 
    !> Does the extension of a file belong to a wheel?
    pure logical function names_wheel(name)

@@ -1,9 +1,9 @@
 !> The archive that gives values to a case from the arrays of a caller
 module contact_capi_setter
    use contact_base_kinds, only : wp
-   use contact_capi_arguments, only : raised
+   use contact_capi_arguments, only : no_number, raised
    use contact_capi_library, only : entry_type
-   use contact_capi_messages, only : complain, warn
+   use contact_capi_messages, only : complain, count_fits, warn
    use contact_cases_archive, only : case_archive
    use contact_control_units, only : inward, quantity_of, unit_convention
    use contact_text_bounds, only : bounds_table, describe_breach
@@ -11,7 +11,7 @@ module contact_capi_setter
    implicit none (type, external)
    private
 
-   public :: min_value, new_setter, setter
+   public :: integer_list, min_value, real_list, setter
 
    !> A number that is not refused below a value that the models need, but raised to it: not negative ones, nor NaN
    type :: raised_number
@@ -24,17 +24,48 @@ module contact_capi_setter
       & raised_number("K0_MF", 1.0e-6_wp), raised_number("ALFAMF", 1.0e-6_wp), raised_number("BETAMF", 1.0e-6_wp), &
       & raised_number("A1", 1.0e-12_wp), raised_number("B1", 1.0e-12_wp), raised_number("LAYTHK", 1.0e-9_wp)]
 
-   !> Takes its numbers one after the other; the first that is wrong is complained about
-   type, extends(case_archive) :: setter
-      private
-      type(entry_type) :: call_of
-      type(unit_convention) :: units
-      !> Numbers of the caller; integers among them where there is no list of their own
-      real(wp), allocatable :: numbers(:)
-      integer, allocatable :: whole_numbers(:)
-      !> How many were taken
-      integer :: reals_taken = 0, integers_taken = 0
+   !> Numbers of a caller
+   type :: integer_list
+      integer, allocatable :: v(:)
+   end type integer_list
+   type :: real_list
+      real(wp), allocatable :: v(:)
+   end type real_list
+
+   !> How many numbers a setting takes, and has taken
+   type :: tally
+      !> Those that must be there, and those that may be left out; what is left of the latter
+      integer :: needed = 0, optional = 0, spare = 0
+      integer :: taken = 0
    contains
+      procedure :: go_on
+   end type tally
+
+   !> A call of a setting: takes its numbers one after the other; the first that is wrong is complained about
+   !>
+   !> A setting is described between `do while (a%next_pass())` and `end do`, and stored when `is_good` after that: the first pass
+   !> counts what it needs, and when the caller gave as many, the second takes them.
+   type, extends(case_archive) :: setter
+      type(entry_type) :: call_of
+      !> Of the caller
+      type(unit_convention) :: units
+      !> Integers that stand alone; what begins with the number of a method or an option has it first
+      integer :: single(2) = no_number
+      !> Lists of integers and of numbers; numbers that stand alone are the first list
+      type(integer_list) :: integers(2)
+      type(real_list) :: numbers(3)
+      !> Is there a list of integers? Otherwise integers stand among the reals
+      logical :: has_integers = .false.
+      !> Name of a file
+      character(len=:), allocatable :: path
+      !> May what comes next be missing? It keeps its value then
+      logical :: may_miss = .false.
+      integer, private :: pass = 0
+      type(tally), private :: integer_tally, real_tally
+   contains
+      procedure :: next_pass
+      procedure :: skip
+      procedure :: refuse_call
       procedure :: end_line => set_line
       procedure :: list => set_list
       procedure :: refuse => refuse_number
@@ -44,23 +75,66 @@ module contact_capi_setter
 
 contains
 
-   !> A setter for one call; how many numbers there must be has been checked
-   function new_setter(call_of, units, reals, integers) result(a)
-      type(entry_type), intent(in) :: call_of
-      !> Of the caller
-      type(unit_convention), intent(in) :: units
-      real(wp), intent(in) :: reals(:)
-      !> Absent: integers stand among the reals
-      integer, intent(in), optional :: integers(:)
-      type(setter) :: a
+   !> Is there something to do? First all numbers are counted, then they are taken
+   logical function next_pass(self)
+      class(setter), intent(inout) :: self
 
-      a%is_reading = .true.
-      a%of_library = .true.
-      a%call_of = call_of
-      a%units = units
-      a%numbers = reals
-      if (present(integers)) a%whole_numbers = integers
-   end function new_setter
+      self%pass = self%pass + 1
+      self%is_reading = self%pass > 1
+      next_pass = self%pass == 1 .and. self%is_good
+      if (self%pass /= 2 .or. .not. self%is_good) return
+      if (self%has_integers) self%is_good = fit(self%integer_tally, size(self%integers(1)%v))
+      if (self%is_good) self%is_good = fit(self%real_tally, size(self%numbers(1)%v))
+      next_pass = self%is_good
+
+   contains
+
+      !> Were as many given as are needed?
+      logical function fit(what, given)
+         type(tally), intent(inout) :: what
+         integer, intent(in) :: given
+
+         fit = count_fits(self%call_of, self%single(1), given, what%needed, what%needed + what%optional)
+         what%spare = given - what%needed
+      end function fit
+   end function next_pass
+
+   !> Pass over a number without a meaning
+   subroutine skip(self, optional)
+      class(setter), intent(inout) :: self
+      !> May it be missing?
+      logical, intent(in) :: optional
+      logical :: given
+
+      call self%real_tally%go_on(self%is_reading, optional, given)
+   end subroutine skip
+
+   !> Count one number more, or tell whether the caller gave it
+   pure subroutine go_on(self, is_taking, optional, given)
+      class(tally), intent(inout) :: self
+      !> Second pass? May the number be missing?
+      logical, intent(in) :: is_taking, optional
+      !> Is it there, behind those that were taken?
+      logical, intent(out) :: given
+
+      given = is_taking .and. (self%spare > 0 .or. .not. optional)
+      if (given) self%taken = self%taken + 1
+      if (optional) then
+         self%spare = self%spare - 1
+         if (.not. is_taking) self%optional = self%optional + 1
+      else if (.not. is_taking) then
+         self%needed = self%needed + 1
+      end if
+   end subroutine go_on
+
+   !> Nothing is stored, with the reason
+   subroutine refuse_call(self, reason)
+      class(setter), intent(inout) :: self
+      character(len=*), intent(in) :: reason
+
+      if (self%is_good) call complain(self%call_of, reason)
+      self%is_good = .false.
+   end subroutine refuse_call
 
    !> Give the items in hand their values, unless one of them is beyond its bounds
    subroutine set_line(self)
@@ -72,7 +146,7 @@ contains
          if (.not. self%is_good) exit
          call take(self, k, values(k))
       end do
-      if (self%is_good) then
+      if (self%is_good .and. self%is_reading) then
          do k = 1, self%count
             associate (item => self%items(k))
                if (associated(item%i)) item%i = nint(values(k))
@@ -89,19 +163,24 @@ contains
       !> In the line
       integer, intent(in) :: place
       real(wp), intent(out) :: value
+      logical :: is_among_reals
 
       associate (item => self%items(place), row => self%items(place)%row)
-         value = item%default
-         if (associated(item%i) .and. allocated(self%whole_numbers)) then
-            self%integers_taken = self%integers_taken + 1
-            value = real(self%whole_numbers(self%integers_taken), wp)
+         is_among_reals = .not. (associated(item%i) .and. self%has_integers)
+         if (is_among_reals) then
+            call self%real_tally%go_on(self%is_reading, item%is_optional .or. self%may_miss, item%given)
          else
-            item%given = self%reals_taken < size(self%numbers)
-            if (.not. item%given) return
-            self%reals_taken = self%reals_taken + 1
-            value = self%numbers(self%reals_taken)
+            call self%integer_tally%go_on(self%is_reading, item%is_optional .or. self%may_miss, item%given)
+         end if
+         value = item%default
+         if (self%may_miss .and. associated(item%r)) value = item%r
+         if (.not. item%given) return
+         if (is_among_reals) then
+            value = self%numbers(1)%v(self%real_tally%taken)
             if (associated(item%i)) value = anint(value)
             if (row > 0) value = value*inward(self%units, quantity_of(trim(bounds_table(row)%unit)))
+         else
+            value = real(self%integers(1)%v(self%integer_tally%taken), wp)
          end if
          value = raised(value, min_value(item%name))
          if (.not. item%is_unchecked) call check_bounds(self, trim(item%name), value)
@@ -130,9 +209,7 @@ contains
 
       if (.not. self%is_good) return
       call describe_breach(name, "", value, complaint, shown)
-      if (.not. allocated(complaint)) return
-      self%is_good = .false.
-      call complain(self%call_of, complaint // "; nothing is stored")
+      if (allocated(complaint)) call self%refuse_call(complaint // "; nothing is stored")
    end subroutine check_bounds
 
    !> Give a list its values
@@ -146,11 +223,14 @@ contains
       character(len=:), allocatable :: row
       integer :: k
 
-      if (.not. self%is_good) return
+      if (.not. self%is_reading) self%real_tally%needed = self%real_tally%needed + n
+      if (.not. (self%is_good .and. self%is_reading)) return
       row = name
       if (present(bounds)) row = bounds
-      values = self%numbers(self%reals_taken + 1:self%reals_taken + n)
-      self%reals_taken = self%reals_taken + n
+      associate (taken => self%real_tally%taken)
+         values = self%numbers(1)%v(taken + 1:taken + n)
+         taken = taken + n
+      end associate
       if (.not. present(units)) values = values*inward(self%units, quantity_of("mm"))
       do k = 1, n
          if (present(units)) values(k) = values(k)*inward(self%units, quantity_of(trim(units(1 + mod(k - 1, size(units))))))
@@ -164,9 +244,7 @@ contains
       class(setter), intent(inout) :: self
       character(len=*), intent(in) :: name, text
 
-      if (.not. self%is_good) return
-      self%is_good = .false.
-      call complain(self%call_of, trim(self%shown(name)) // text // "; nothing is stored")
+      if (self%is_reading) call self%refuse_call(trim(self%shown(name)) // text // "; nothing is stored")
    end subroutine refuse_number
 
    !> A number is doubtful or was replaced
@@ -174,7 +252,7 @@ contains
       class(setter), intent(inout) :: self
       character(len=*), intent(in) :: name, text
 
-      if (self%is_good) call warn(self%call_of, trim(self%shown(name)) // text)
+      if (self%is_good .and. self%is_reading) call warn(self%call_of, trim(self%shown(name)) // text)
    end subroutine warn_of_number
 
    !> Check the bounds of a number that the caller of the archive has seen before
@@ -185,7 +263,7 @@ contains
       integer :: k
 
       k = self%place_of(name)
-      if (k == 0) return
+      if (k == 0 .or. .not. self%is_reading) return
       if (present(bounds)) then
          call check_bounds(self, bounds, self%items(k)%r, name)
       else

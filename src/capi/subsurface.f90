@@ -5,12 +5,13 @@ module contact_capi_subsurface
    use contact_base_error, only : add_context, error_type, full_text
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
-   use contact_capi_arguments, only : give, integer_of, integers_of, raised, reals_of
+   use contact_capi_arguments, only : give, integer_of, integers_of, raised
    use contact_capi_files, only : find_result_file
    use contact_capi_library, only : entry_type
    use contact_capi_messages, only : complain, count_fits, first_refusal, fits, forget_complaint, library_log
    use contact_capi_problem, only : library_problem
    use contact_capi_registry, only : enter, enter_calculation, leave, leave_calculation, scope, threads_inside
+   use contact_capi_setter, only : setter
    use contact_capi_view, only : look_at, result_view
    use contact_cases_spec, only : case_spec
    use contact_cases_subsurface, only : subsurface_stresses, warn_of_steps
@@ -24,7 +25,7 @@ module contact_capi_subsurface
    implicit none (type, external)
    private
 
-   public :: subs_addblock, subs_calculate, subs_getblocksize, subs_getresults
+   public :: add_block, subs_calculate, subs_getblocksize, subs_getresults
 
    !> Blocks of a problem, points of a block in one direction
    integer, parameter :: max_blocks = 10, longest_list = 9999
@@ -41,32 +42,25 @@ contains
    !> A block of points; blocks of its number and above are forgotten, number 0 forgets all
    !>
    !> Points may be private to a patch of wheel and rail.
-   subroutine subs_addblock(ire, icp, iblk, isubs, npx, npy, npz, xparam, yparam, zparam) bind(c, name="inside_subs_addblock")
-      integer(c_int), intent(in), optional :: ire, icp, iblk, isubs, npx, npy, npz
-      real(c_double), intent(in), optional :: xparam(*), yparam(*), zparam(*)
-      type(library_problem), pointer :: problem
-      type(entry_type) :: this
+   subroutine add_block(a, problem)
+      type(setter), intent(in) :: a
+      type(library_problem), intent(inout) :: problem
       type(point_block) :: block
-      integer :: number
       logical :: accepted
 
-      this = entry_type("subs_addBlock", integer_of(ire), integer_of(icp))
-      call enter(this, scope%any, problem)
-      if (.not. associated(problem)) return
-      number = integer_of(iblk)
-      accepted = .true.
-      if (number > 0) call make_block(this, integer_of(isubs), reals_of(npx, xparam), reals_of(npy, yparam), &
-         & reals_of(npz, zparam), inward(problem%units, quantity%length), block, accepted)
-      if (accepted) then
+      associate (this => a%call_of, number => a%single(1))
+         accepted = .true.
+         if (number > 0) call make_block(this, a%single(2), a%numbers(1)%v, a%numbers(2)%v, a%numbers(3)%v, &
+            & inward(problem%units, quantity%length), block, accepted)
+         if (.not. accepted) return
          if (problem%module_number == 1 .and. this%icp > 0) then
             call store_block(this, number, block, problem%blocks(this%icp)%list)
             if (number == 0 .and. allocated(problem%blocks(this%icp)%list)) deallocate(problem%blocks(this%icp)%list)
          else
             call store_block(this, number, block, problem%spec%subsurface%blocks)
          end if
-      end if
-      call leave(problem)
-   end subroutine subs_addblock
+      end associate
+   end subroutine add_block
 
    !> Put a block into a list
    subroutine store_block(this, number, block, list)

@@ -1,0 +1,176 @@
+!> What is behind all settings: their arguments are unpacked, their problem is found, they are made, and other threads are let in
+!>
+!> A setting gets its arguments as a `setter`. A null pointer of C is no value: no elements, `no_number`, or not a number.
+module contact_capi_settings
+   use, intrinsic :: iso_c_binding, only : c_associated, c_char, c_double, c_f_pointer, c_int, c_null_char, c_ptr
+   use contact_base_kinds, only : wp
+   use contact_capi_arguments, only : integer_of, path_of, real_of
+   use contact_capi_contact, only : set_creepages, set_extra_slip, set_grid, set_hertz, set_normal_force, set_penetration, &
+      & set_undeformed_distance, set_velocity
+   use contact_capi_flags, only : set_flags, set_metadata
+   use contact_capi_wheel_rail_settings, only : set_dimensions, set_flexibility, set_position, set_track, set_vertical_force, &
+      & set_wheelset_velocity
+   use contact_capi_physics, only : set_friction, set_heat, set_materials, set_rolling_step, set_solver, set_tangential_forces, &
+      & set_time_step
+   use contact_capi_problem, only : library_problem
+   use contact_capi_profiles, only : set_profile
+   use contact_capi_registry, only : enter, leave, scope, scope_type
+   use contact_capi_setter, only : setter
+   use contact_capi_subsurface, only : add_block
+   implicit none (type, external)
+   private
+
+   public :: make_setting
+
+   !> Most points of a profile
+   integer, parameter :: most_points = 1000000
+
+contains
+
+   !> Make a setting
+   subroutine make_setting(name, kinds, arguments) bind(c, name="contact_make_setting")
+      !> The routine as messages have it, and a letter for each of its arguments, see make_interface.py; null-terminated
+      character(kind=c_char), intent(in) :: name(*), kinds(*)
+      !> Addresses of the arguments
+      type(c_ptr), intent(in) :: arguments(*)
+      type(library_problem), pointer :: problem
+      type(setter) :: a
+      integer :: k
+
+      do k = 1, len(a%call_of%name)
+         if (name(k) == c_null_char) exit
+         a%call_of%name(k:k) = name(k)
+      end do
+      a%is_reading = .true.
+      a%of_library = .true.
+      call unpack_arguments(kinds, arguments, a)
+      call enter(a%call_of, scope_of(a%call_of%name), problem)
+      if (.not. associated(problem)) return
+      a%units = problem%units
+      select case (a%call_of%name)
+      case ("cntc_setFlags"); call set_flags(a, problem)
+      case ("cntc_setMetadata"); call set_metadata(a, problem)
+      case ("cntc_setSolverFlags"); call set_solver(a, problem)
+      case ("cntc_setMaterialParameters"); call set_materials(a, problem)
+      case ("cntc_setTemperatureData"); call set_heat(a, problem)
+      case ("cntc_setTimeStep"); call set_time_step(a)
+      case ("cntc_setRollingStepsize"); call set_rolling_step(a, problem)
+      case ("cntc_setFrictionMethod"); call set_friction(a, problem)
+      case ("cntc_setTangentialForces"); call set_tangential_forces(a, problem)
+      case ("cntc_setPotContact"); call set_grid(a, problem)
+      case ("cntc_setHertzContact"); call set_hertz(a, problem)
+      case ("cntc_setUndeformedDistc"); call set_undeformed_distance(a, problem)
+      case ("cntc_setPenetration"); call set_penetration(a, problem)
+      case ("cntc_setNormalForce"); call set_normal_force(a, problem)
+      case ("cntc_setCreepages"); call set_creepages(a, problem)
+      case ("cntc_setExtraRigidSlip"); call set_extra_slip(a, problem)
+      case ("cntc_setReferenceVelocity"); call set_velocity(a, problem)
+      case ("cntc_setVerticalForce"); call set_vertical_force(a, problem)
+      case ("cntc_setTrackDimensions"); call set_track(a, problem)
+      case ("cntc_setWheelsetDimensions"); call set_dimensions(a, problem)
+      case ("cntc_setWheelsetPosition"); call set_position(a, problem)
+      case ("cntc_setWheelsetVelocity"); call set_wheelset_velocity(a, problem)
+      case ("cntc_setWheelsetFlexibility"); call set_flexibility(a, problem)
+      case ("cntc_setProfileInputFname"); call set_profile(a, problem)
+      case ("cntc_setProfileInputValues"); call set_profile(a, problem)
+      case ("subs_addBlock"); call add_block(a, problem)
+      end select
+      call leave(problem)
+   end subroutine make_setting
+
+   !> Which problems a setting is for
+   pure type(scope_type) function scope_of(name) result(allowed)
+      character(len=*), intent(in) :: name
+
+      select case (name)
+      case ("cntc_setTemperatureData", "subs_addBlock")
+         allowed = scope%any
+      case ("cntc_setHertzContact", "cntc_setUndeformedDistc", "cntc_setPenetration", "cntc_setNormalForce", &
+         & "cntc_setCreepages", "cntc_setExtraRigidSlip", "cntc_setReferenceVelocity")
+         allowed = scope%contact
+      case ("cntc_setVerticalForce", "cntc_setTrackDimensions", "cntc_setWheelsetDimensions", "cntc_setWheelsetPosition", &
+         & "cntc_setWheelsetVelocity", "cntc_setWheelsetFlexibility", "cntc_setProfileInputFname", "cntc_setProfileInputValues")
+         allowed = scope%wheel_rail
+      case default
+         allowed = scope%settings
+      end select
+   end function scope_of
+
+   !> Take the arguments of a call
+   subroutine unpack_arguments(kinds, arguments, a)
+      character(kind=c_char), intent(in) :: kinds(*)
+      type(c_ptr), intent(in) :: arguments(*)
+      type(setter), intent(inout) :: a
+      real(c_double), pointer :: list(:)
+      integer(c_int), pointer :: integers(:)
+      character(kind=c_char), pointer :: letters(:)
+      integer :: k, place, length, singles, integer_lists, real_lists
+
+      singles = 0
+      integer_lists = 0
+      real_lists = 0
+      allocate(a%numbers(1)%v(0))
+      k = 1
+      place = 1
+      do while (kinds(k) /= c_null_char)
+         select case (kinds(k))
+         case ("e")
+            a%call_of%ire = integer_at(arguments(place))
+         case ("p")
+            a%call_of%icp = integer_at(arguments(place))
+         case ("i")
+            singles = singles + 1
+            a%single(singles) = integer_at(arguments(place))
+         case ("r")
+            a%numbers(1)%v = [a%numbers(1)%v, real_at(arguments(place))]
+         case ("I")
+            call take_length()
+            integer_lists = integer_lists + 1
+            a%has_integers = .true.
+            call c_f_pointer(arguments(place), integers, [length])
+            a%integers(integer_lists)%v = integers
+         case ("R", "P")
+            call take_length()
+            real_lists = real_lists + 1
+            call c_f_pointer(arguments(place), list, [length])
+            a%numbers(real_lists)%v = list
+         case ("T")
+            call take_length()
+            call c_f_pointer(arguments(place), letters, [length])
+            a%path = trim(path_of(letters, int(length, c_int)))
+         end select
+         k = k + 1
+         place = place + 1
+      end do
+
+   contains
+
+      !> Number of elements of an array, by the place of its length among the arguments; none when the array is not there
+      subroutine take_length()
+         length = max(0, integer_at(arguments(1 + iachar(kinds(k + 1)) - iachar("0"))))
+         if (.not. c_associated(arguments(place))) length = 0
+         if (kinds(k) == "P") length = merge(2*length, 0, length <= most_points)
+         k = k + 1
+      end subroutine take_length
+   end subroutine unpack_arguments
+
+   !> An integer of the caller
+   integer function integer_at(address) result(value)
+      type(c_ptr), intent(in) :: address
+      integer(c_int), pointer :: argument
+
+      nullify(argument)
+      if (c_associated(address)) call c_f_pointer(address, argument)
+      value = integer_of(argument)
+   end function integer_at
+
+   !> A number of the caller
+   real(wp) function real_at(address) result(value)
+      type(c_ptr), intent(in) :: address
+      real(c_double), pointer :: argument
+
+      nullify(argument)
+      if (c_associated(address)) call c_f_pointer(address, argument)
+      value = real_of(argument)
+   end function real_at
+end module contact_capi_settings
