@@ -3,15 +3,19 @@ module contact_capi_calculate
    use, intrinsic :: iso_c_binding, only : c_int
    use omp_lib, only : omp_get_max_threads, omp_set_num_threads
    use contact_base_case_status, only : case_status
+   use contact_base_error, only : error_type, fatal_error, full_text
    use contact_base_kinds, only : wp
+   use contact_base_log, only : log_type
    use contact_capi_arguments, only : give, integer_of
-   use contact_capi_calculate1, only : calculate_wheel_rail
-   use contact_capi_calculate3, only : calculate_contact
+   use contact_capi_calculate1, only : check_data, finish_wheel_rail, solve_wheel_rail
+   use contact_capi_calculate3, only : finish_contact, solve_contact
    use contact_capi_library, only : entry_type
-   use contact_capi_messages, only : complain, first_refusal, forget_complaint, keep_status, say
+   use contact_capi_messages, only : complain, first_refusal, forget_complaint, keep_status, library_log, say
    use contact_capi_problem, only : library_problem, max_patches
    use contact_capi_registry, only : enter_calculation, leave_calculation, scope, scope_type, threads_inside
-   use contact_control_library_codes, only : code_text, library_code
+   use contact_control_digits, only : case_digits
+   use contact_control_library_codes, only : code_text
+   use contact_control_translation, only : take_digits
    implicit none (type, external)
    private
 
@@ -49,10 +53,8 @@ contains
       type(scope_type), intent(in) :: allowed
       integer(c_int), intent(inout), optional :: ierror
       type(library_problem), pointer :: problem
-      type(case_status) :: status
-      character(len=:), allocatable :: reason
       real(wp) :: cpu, wall
-      integer :: code, threads, k
+      integer :: code, threads
 
       call enter_calculation(this, allowed, problem, code)
       if (associated(problem)) then
@@ -64,18 +66,7 @@ contains
          wall = problem%watch%wall
          call problem%watch%start()
          call problem%total%start()
-         k = first_refusal(problem, "cntc_set")
-         if (k > 0) then
-            code = problem%refused(k)%code
-            reason = "a setting was refused and not made anew: " // problem%refused(k)%reason
-            call status%refuse(reason)
-            call keep_status(problem, status)
-            call complain(this, reason, code)
-         else if (problem%module_number == 1) then
-            call calculate_wheel_rail(this, problem, code)
-         else
-            call calculate_contact(this, problem, code)
-         end if
+         call calculate_case(this, problem, code)
          call problem%total%halt()
          call problem%watch%halt()
          if (problem%module_number == 1) call book_patches(problem, problem%watch%cpu - cpu, problem%watch%wall - wall)
@@ -86,6 +77,65 @@ contains
       end if
       call give(code, ierror)
    end subroutine calculate
+
+   !> One case: the settings must be there and go together, then it is solved, and told
+   subroutine calculate_case(this, problem, code)
+      type(entry_type), intent(in) :: this
+      type(library_problem), intent(inout) :: problem
+      !> Member of library_code, or in module 3 the number of elements in contact at the border
+      integer, intent(out) :: code
+      type(error_type), allocatable :: error
+      type(case_digits) :: digits
+      type(case_status) :: status
+      type(log_type) :: log
+      integer :: k
+
+      k = first_refusal(problem, "cntc_set")
+      if (k > 0) then
+         code = problem%refused(k)%code
+         call fatal_error(error, "a setting was refused and not made anew: " // problem%refused(k)%reason)
+      else
+         log = library_log()
+         problem%cases = problem%cases + 1
+         if (problem%module_number == 1) call check_data(problem, code, error)
+      end if
+      if (.not. allocated(error)) then
+         call choose(this, problem, digits)
+         if (problem%module_number == 1) then
+            call solve_wheel_rail(this, problem, digits, log, code, error)
+         else
+            call solve_contact(problem, digits, log, code, error)
+         end if
+      end if
+      if (allocated(error)) then
+         call status%refuse(full_text(error))
+         call complain(this, full_text(error), code)
+      else if (problem%module_number == 1) then
+         call finish_wheel_rail(this, problem, log, status, code)
+      else
+         call finish_contact(this, problem, log, status, code)
+      end if
+      call keep_status(problem, status)
+   end subroutine calculate_case
+
+   !> The input of the case: choices instead of digits, and what is stored; a first case has nothing to continue
+   subroutine choose(this, problem, digits)
+      type(entry_type), intent(in) :: this
+      type(library_problem), intent(inout) :: problem
+      !> Those that act
+      type(case_digits), intent(out) :: digits
+
+      digits = problem%digits
+      if (.not. problem%has_result) then
+         if (digits%p /= 2) call say(1, this, "the first case starts a new sequence, P = 2")
+         digits%p = 2
+         digits%i = 0
+      end if
+      problem%spec%kinematics = problem%stored%kinematics
+      problem%spec%rolling = problem%stored%rolling
+      if (problem%module_number == 1) problem%spec%wheel_rail%wheelset = problem%stored%wheelset
+      call take_digits(digits, problem%module_number, problem%spec)
+   end subroutine choose
 
    !> The time of wheel and rail is that of its patches, in proportion to their elements
    subroutine book_patches(problem, cpu, wall)

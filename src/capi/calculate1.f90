@@ -9,13 +9,12 @@ module contact_capi_calculate1
    use contact_capi_files, only : find_result_file, find_working_folder
    use contact_capi_input_dump, only : dump_wheel_rail_case
    use contact_capi_library, only : entry_type
-   use contact_capi_messages, only : complain, keep_status, library_log, say
+   use contact_capi_messages, only : complain, say
    use contact_capi_problem, only : library_problem, max_patches
    use contact_cases_wheel_rail_session, only : solve_wheel_rail_case
    use contact_cases_spec, only : case_spec
    use contact_control_digits, only : case_digits, digit_names, digit_value, is_known
    use contact_control_library_codes, only : code_of_wheel_rail, library_code
-   use contact_control_translation, only : take_digits
    use contact_input_control, only : check_physics, control_words, refuse_unbuilt_digits
    use contact_input_problems, only : problem_list
    use contact_output_wheel_rail_files, only : write_wheel_rail_files
@@ -24,55 +23,70 @@ module contact_capi_calculate1
    implicit none (type, external)
    private
 
-   public :: calculate_wheel_rail
+   public :: check_data, finish_wheel_rail, solve_wheel_rail
 
 contains
 
-   !> One case
-   subroutine calculate_wheel_rail(this, problem, code)
+   !> Solve a case whose data are there, unless its settings do not go together
+   subroutine solve_wheel_rail(this, problem, digits, log, code, error)
       type(entry_type), intent(in) :: this
       type(library_problem), intent(inout) :: problem
+      !> Those that act
+      type(case_digits), intent(in) :: digits
+      type(log_type), intent(inout) :: log
       !> Member of library_code
       integer, intent(out) :: code
-      type(error_type), allocatable :: error
-      type(log_type) :: log
+      type(error_type), allocatable, intent(out) :: error
       character(len=:), allocatable :: folder
-      type(case_status) :: status
-      type(case_digits) :: digits
 
-      log = library_log()
-      problem%cases = problem%cases + 1
-      call check_data(problem, code, error)
-      if (.not. allocated(error)) then
-         call choose(this, problem, digits)
-         call write_case_line(log, problem)
-         code = library_code%other
-         call check_settings(digits, problem%spec, error)
-         if (.not. allocated(error)) call dump_wheel_rail_case(this, problem)
-         call find_working_folder(folder)
-         if (.not. allocated(error)) call solve_wheel_rail_case(problem%wheel_rail, problem%spec, folder, log, &
-            & problem%wheel_rail_result, error)
-      end if
-      if (allocated(error)) then
-         call status%refuse(full_text(error))
-         call keep_status(problem, status)
-         call complain(this, full_text(error), code)
-         return
-      end if
+      code = library_code%other
+      ! the first coordinate is that along the track, on rollers that of the wheelset beside the top of the roller
+      associate (wheelset => problem%spec%wheel_rail%wheelset)
+         if (problem%spec%wheel_rail%roller) then
+            wheelset%x = wheelset%x + wheelset%s
+            wheelset%s = 0.0_wp
+         else
+            wheelset%s = wheelset%s + wheelset%x
+            wheelset%x = 0.0_wp
+         end if
+      end associate
+      call write_case_line(log, problem)
+      call check_settings(digits, problem%spec, error)
+      if (allocated(error)) return
+      call dump_wheel_rail_case(this, problem)
+      call find_working_folder(folder)
+      call solve_wheel_rail_case(problem%wheel_rail, problem%spec, folder, log, problem%wheel_rail_result, error)
+   end subroutine solve_wheel_rail
+
+   !> What was found becomes what is stored, and goes into print and files
+   !>
+   !> Results without contact, or with more patches than can be asked for, are told in the log only.
+   subroutine finish_wheel_rail(this, problem, log, status, code)
+      type(entry_type), intent(in) :: this
+      type(library_problem), intent(inout) :: problem
+      type(log_type), intent(inout) :: log
+      type(case_status), intent(inout) :: status
+      !> Member of library_code
+      integer, intent(out) :: code
+
       code = library_code%success
       problem%has_result = .true.
-      call keep_solution(problem)
-      if (problem%spec%solve) then
-         status = problem%wheel_rail_result%status
-         if (.not. status%is_solved()) then
-            code = code_of_wheel_rail(status, size(problem%wheel_rail_result%patches))
-            call complain(this, status%reason, code)
+      associate (result => problem%wheel_rail_result)
+         problem%stored%wheelset%z = result%z_ws
+         problem%stored%wheelset%vpitch = result%vpitch
+         if (problem%spec%solve) then
+            status = result%status
+            if (.not. status%is_solved()) then
+               code = code_of_wheel_rail(status, size(result%patches))
+               call complain(this, status%reason, code)
+            end if
+            call write_results(this, problem, log)
          end if
-         call write_results(this, problem, log)
-      end if
-      call keep_status(problem, status)
-      call report_patches(this, problem)
-   end subroutine calculate_wheel_rail
+         if (size(result%patches) == 0) call say(1, this, "wheel and rail do not touch")
+         if (size(result%patches) > max_patches) call say(0, this, "more than " // integer_text(max_patches) // &
+            & " contact patches, the last ones cannot be asked for")
+      end associate
+   end subroutine finish_wheel_rail
 
    !> Profiles, friction and discretisation must be there and fit
    subroutine check_data(problem, code, error)
@@ -108,32 +122,6 @@ contains
       if (problem%digits%t /= motion%shift .and. problem%digits%t /= motion%transient_rolling) return
       is_transient = size(problem%wheel_rail_result%patches) > 0
    end function is_transient
-
-   !> From digits to choices; a first case has nothing to continue
-   subroutine choose(this, problem, digits)
-      type(entry_type), intent(in) :: this
-      type(library_problem), intent(inout) :: problem
-      !> Those that act
-      type(case_digits), intent(out) :: digits
-
-      digits = problem%digits
-      associate (spec => problem%spec, wheelset => problem%spec%wheel_rail%wheelset)
-         if (.not. problem%has_result) then
-            if (digits%p /= 2) call say(1, this, "the first case starts a new sequence, P = 2")
-            digits%p = 2
-            digits%i = 0
-         end if
-         call take_digits(digits, 1, spec)
-         ! the first coordinate is that along the track, on rollers that of the wheelset beside the top of the roller
-         if (spec%wheel_rail%roller) then
-            wheelset%x = wheelset%x + wheelset%s
-            wheelset%s = 0.0_wp
-         else
-            wheelset%s = wheelset%s + wheelset%x
-            wheelset%x = 0.0_wp
-         end if
-      end associate
-   end subroutine choose
 
    !> Line that opens a case
    subroutine write_case_line(log, problem)
@@ -186,14 +174,6 @@ contains
       call first_problem(problems, error)
    end subroutine check_settings
 
-   !> What was found becomes what is stored, and the time is booked on the patches
-   subroutine keep_solution(problem)
-      type(library_problem), intent(inout) :: problem
-
-      problem%spec%wheel_rail%wheelset%z = problem%wheel_rail_result%z_ws
-      problem%spec%wheel_rail%wheelset%vpitch = problem%wheel_rail_result%vpitch
-   end subroutine keep_solution
-
    !> Printed output and the files with all elements
    subroutine write_results(this, problem, log)
       type(entry_type), intent(in) :: this
@@ -210,16 +190,4 @@ contains
          & problem%metadata%time)
       if (allocated(error)) call complain(this, full_text(error))
    end subroutine write_results
-
-   !> Results without contact, or with more patches than can be asked for, are told in the log only
-   subroutine report_patches(this, problem)
-      type(entry_type), intent(in) :: this
-      type(library_problem), intent(in) :: problem
-
-      associate (patches => problem%wheel_rail_result%patches)
-         if (size(patches) == 0) call say(1, this, "wheel and rail do not touch")
-         if (size(patches) > max_patches) call say(0, this, "more than " // integer_text(max_patches) // &
-            & " contact patches, the last ones cannot be asked for")
-      end associate
-   end subroutine report_patches
 end module contact_capi_calculate1

@@ -8,12 +8,11 @@ module contact_capi_calculate3
    use contact_capi_files, only : find_result_file, find_working_folder
    use contact_capi_input_dump, only : dump_contact_case
    use contact_capi_library, only : entry_type
-   use contact_capi_messages, only : complain, keep_status, library_log, say
+   use contact_capi_messages, only : complain
    use contact_capi_problem, only : library_problem
    use contact_cases_session, only : solve_case
    use contact_cases_spec, only : case_spec
    use contact_control_digits, only : case_digits
-   use contact_control_translation, only : take_digits
    use contact_control_library_codes, only : code_of_contact, library_code
    use contact_grid_potential_contact, only : potential_contact
    use contact_input_checks3, only : check_case
@@ -29,75 +28,64 @@ module contact_capi_calculate3
    implicit none (type, external)
    private
 
-   public :: calculate_contact, first_problem
+   public :: finish_contact, first_problem, solve_contact
 
 contains
 
-   !> One case
-   subroutine calculate_contact(this, problem, code)
+   !> Solve a case, unless its settings do not go together
+   subroutine solve_contact(problem, digits, log, code, error)
+      type(library_problem), intent(inout) :: problem
+      !> Those that act
+      type(case_digits), intent(in) :: digits
+      type(log_type), intent(inout) :: log
+      !> Member of library_code
+      integer, intent(out) :: code
+      type(error_type), allocatable, intent(out) :: error
+      character(len=:), allocatable :: folder
+
+      if (digits%e == 1) problem%spec%slip_source = slip_source%given
+      call write_case_line(log, problem)
+      code = library_code%other
+      call check_settings(digits, problem%spec, error)
+      if (allocated(error)) return
+      code = library_code%discretisation
+      call check_coefficients(digits%c == 0, problem%spec, problem%coefficients, error)
+      if (allocated(error)) return
+      call find_working_folder(folder)
+      call solve_case(problem%session, problem%spec, log, problem%result, error, folder)
+      code = library_code%other
+      if (.not. allocated(error)) return
+      if (.not. continues(problem)) code = library_code%discretisation
+   end subroutine solve_contact
+
+   !> What was found becomes what is stored, and goes into print and files
+   subroutine finish_contact(this, problem, log, status, code)
       type(entry_type), intent(in) :: this
       type(library_problem), intent(inout) :: problem
+      type(log_type), intent(inout) :: log
+      type(case_status), intent(inout) :: status
       !> Member of library_code, or the number of elements in contact at the border
       integer, intent(out) :: code
-      type(error_type), allocatable :: error
-      type(log_type) :: log
-      character(len=:), allocatable :: folder
-      type(case_status) :: status
-      type(case_digits) :: digits
+      type(case_spec) :: told
 
-      log = library_log()
-      problem%cases = problem%cases + 1
-      call choose(this, problem, digits)
-      call write_case_line(log, problem)
-      call check_settings(digits, problem%spec, error)
-      code = library_code%other
-      if (.not. allocated(error)) then
-         code = library_code%discretisation
-         call check_coefficients(digits%c == 0, problem%spec, problem%coefficients, error)
-      end if
-      if (.not. allocated(error)) then
-         call find_working_folder(folder)
-         call solve_case(problem%session, problem%spec, log, problem%result, error, folder)
-         code = library_code%other
-         if (allocated(error)) then
-            if (.not. continues(problem)) code = library_code%discretisation
-         end if
-      end if
-      if (allocated(error)) then
-         call status%refuse(full_text(error))
-         call keep_status(problem, status)
-         call complain(this, full_text(error), code)
-         return
-      end if
+      code = library_code%success
       if (problem%spec%solve) then
          status = problem%result%status
          problem%has_result = .true.
          call keep_solution(problem)
-         call write_results(this, problem, log)
-         call dump_contact_case(problem)
+         ! rolling direction and step are told as they acted
+         told = problem%spec
+         told%rolling = problem%stored%rolling
+         call write_results(this, problem, told, log)
+         call dump_contact_case(problem, told)
       end if
-      call keep_status(problem, status)
-      call judge(this, problem, code)
-   end subroutine calculate_contact
-
-   !> From digits to choices; a first case has nothing to continue
-   subroutine choose(this, problem, digits)
-      type(entry_type), intent(in) :: this
-      type(library_problem), intent(inout) :: problem
-      !> Those that act
-      type(case_digits), intent(out) :: digits
-
-      digits = problem%digits
-      associate (spec => problem%spec)
-         if (.not. problem%has_result) then
-            if (digits%p /= 2) call say(1, this, "the first case starts a new sequence, P = 2")
-            digits%p = 2
-            digits%i = 0
-         end if
-         call take_digits(digits, 3, spec)
-         if (digits%e == 1) spec%slip_source = slip_source%given
-      end associate
-   end subroutine choose
+      if (.not. status%is_solved()) then
+         code = code_of_contact(status)
+         call complain(this, status%reason, code)
+      else if (problem%has_result) then
+         code = border_elements(problem%result%division)
+      end if
+   end subroutine finish_contact
 
    !> Line that opens a case
    subroutine write_case_line(log, problem)
@@ -189,7 +177,8 @@ contains
    subroutine keep_solution(problem)
       type(library_problem), intent(inout) :: problem
 
-      associate (result => problem%result, kinematics => problem%spec%kinematics, rolling => problem%spec%rolling)
+      associate (result => problem%result, kinematics => problem%stored%kinematics, &
+         & rolling => problem%stored%rolling)
          ! what is prescribed stays, also where it was missed
          if (problem%spec%normal == normal_control%force) then
             kinematics%pen = result%pen
@@ -208,21 +197,23 @@ contains
    end subroutine keep_solution
 
    !> Printed output and the file with all elements
-   subroutine write_results(this, problem, log)
+   subroutine write_results(this, problem, spec, log)
       type(entry_type), intent(in) :: this
       type(library_problem), intent(in) :: problem
+      !> The case
+      type(case_spec), intent(in) :: spec
       type(log_type), intent(inout) :: log
       type(error_type), allocatable :: error
       character(len=40) :: name
       character(len=:), allocatable :: path
 
       !$omp critical (contact_printing)
-      call write_case(log, problem%spec, problem%result)
+      call write_case(log, spec, problem%result)
       !$omp end critical (contact_printing)
-      if (problem%spec%mat_file < 1) return
+      if (spec%mat_file < 1) return
       write(name, '("caddon_re", I3.3, "_cp", I1, ".", I0.4, ".mat")') problem%ire, problem%icp, problem%cases
       call find_result_file(trim(name), path)
-      call write_mat_file(path, problem%spec, problem%result, problem%result%status, error, place_of(problem))
+      call write_mat_file(path, spec, problem%result, problem%result%status, error, place_of(problem))
       if (allocated(error)) call complain(this, full_text(error))
    end subroutine write_results
 
@@ -237,20 +228,4 @@ contains
          place%reference(5:6) = [metadata%x_wheel, metadata%y_wheel]
       end associate
    end function place_of
-
-   !> How it ended: solvers that did not converge, else elements in contact at the border
-   subroutine judge(this, problem, code)
-      type(entry_type), intent(in) :: this
-      type(library_problem), intent(in) :: problem
-      integer, intent(out) :: code
-
-      code = library_code%success
-      if (.not. problem%has_result) return
-      if (problem%spec%solve .and. .not. problem%result%status%is_solved()) then
-         code = code_of_contact(problem%result%status)
-         call complain(this, problem%result%status%reason, code)
-         return
-      end if
-      code = border_elements(problem%result%division)
-   end subroutine judge
 end module contact_capi_calculate3

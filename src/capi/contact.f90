@@ -133,7 +133,7 @@ contains
       type(setter), intent(inout) :: a
       type(library_problem), intent(inout), target :: problem
 
-      call a%real("PEN", problem%spec%kinematics%pen)
+      call a%real("PEN", problem%stored%kinematics%pen)
       call a%end_line()
       if (a%is_good) problem%digits%n = 0
    end subroutine set_penetration
@@ -143,7 +143,7 @@ contains
       type(setter), intent(inout) :: a
       type(library_problem), intent(inout), target :: problem
 
-      call a%real("FN", problem%spec%kinematics%fn)
+      call a%real("FN", problem%stored%kinematics%fn)
       call a%end_line()
       if (a%is_good) problem%digits%n = 1
    end subroutine set_normal_force
@@ -160,7 +160,7 @@ contains
          creep = inward(problem%units, quantity%length)
          spin = inward(problem%units, quantity%angle)
       end if
-      associate (values => a%numbers(1)%v, kinematics => problem%spec%kinematics)
+      associate (values => a%numbers(1)%v, kinematics => problem%stored%kinematics)
          values = values*[creep, creep, spin]
          if (.not. fits(a%call_of, "CKSI CETA CPHI", values)) return
          kinematics%cksi = values(1)
@@ -196,7 +196,7 @@ contains
 
       ! as the published interface has it, a velocity without sign
       associate (value => raised(abs(a%numbers(1)%v)*inward(problem%units, quantity%velocity), min_velocity))
-         if (fits(a%call_of, "VELOC", value)) problem%spec%rolling%veloc = value(1)
+         if (fits(a%call_of, "VELOC", value)) problem%stored%rolling%veloc = value(1)
       end associate
    end subroutine set_velocity
 end module contact_capi_contact

@@ -1,5 +1,5 @@
-/* The routines that the library exports, see door.h: their number of arguments, places of ire, icp and ierror, and kinds
- * of arguments. Made by src/capi/make_interface.py from src/capi/interface.txt; change those. */
+/* The routines that the library exports, see door.h: their number of arguments, places of ire, icp and ierror,
+ * and kinds of arguments. Made by src/capi/make_interface.py from src/capi/interface.txt; change those. */
 #include "door.h"
 
 DOOR(cntc_setfileunits, 2, -1, -1, -1)

@@ -20,8 +20,10 @@ module contact_capi_input_dump
 contains
 
    !> A contact problem, after it was solved
-   subroutine dump_contact_case(problem)
+   subroutine dump_contact_case(problem, spec)
       type(library_problem), intent(in) :: problem
+      !> The case
+      type(case_spec), intent(in) :: spec
       character(len=80) :: line
       logical :: ignored
 
@@ -31,7 +33,7 @@ contains
       write(line, "(I4, 2I5, A, I0)") 3, problem%ire, problem%icp, "   % MODULE, RE, CP: case ", problem%cases
       !$omp critical (contact_printing)
       call library%input_dump%line(trim(line))
-      call write_contact_case(library%input_dump, problem%spec, problem%result)
+      call write_contact_case(library%input_dump, spec, problem%result)
       call library%input_dump%line("")
       !$omp end critical (contact_printing)
       ignored = dumps_input()

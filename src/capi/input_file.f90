@@ -104,6 +104,7 @@ contains
 
       kept = problem%digits
       previous = problem%spec
+      previous%wheel_rail%wheelset = problem%stored%wheelset
       ! once for the digits, so that nothing seems to change against the previous case, and once for the values
       call read_simpack_case(file, previous, spec, found, problems, error)
       if (allocated(error)) return
@@ -171,6 +172,7 @@ contains
       wheel = problem%spec%wheel_rail%wheel_profile
       problem%digits = digits
       problem%spec = spec
+      problem%stored%wheelset = spec%wheel_rail%wheelset
       ! a complete case takes the place of settings that were refused
       if (allocated(problem%refused)) deallocate(problem%refused)
       ! stresses below the surface are calculated by a routine of their own

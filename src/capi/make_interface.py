@@ -245,8 +245,8 @@ def python_tables(constants, routines, undocumented):
 
 def c_doors(routines, undocumented):
     """Text of doors.c: names, numbers of arguments, and what they are"""
-    lines = ["/* The routines that the library exports, see door.h: their number of arguments, places of ire, icp and ierror, and kinds",
-             f" * of arguments. {ORIGIN} */", '#include "door.h"', ""]
+    lines = ["/* The routines that the library exports, see door.h: their number of arguments, places of ire, icp and ierror,",
+             f" * and kinds of arguments. {ORIGIN} */", '#include "door.h"', ""]
     for routine in [item for _, items in routines for item in items] + undocumented:
         names = [argument.name for argument in routine.arguments]
         places = ", ".join(str(names.index(name) if name in names else -1) for name in ("ire", "icp", "ierror"))

@@ -157,8 +157,8 @@ contains
             if (a%is_good .and. problem%digits%d == 1) problem%digits%d = search%location
          end associate
       else
-         call a%real("CHI", problem%spec%rolling%chi)
-         call a%real("DQ", problem%spec%rolling%dq)
+         call a%real("CHI", problem%stored%rolling%chi)
+         call a%real("DQ", problem%stored%rolling%dq)
          call a%end_line()
       end if
    end subroutine set_rolling_step
@@ -258,9 +258,9 @@ contains
       type(setter), intent(inout) :: a
       type(library_problem), intent(inout), target :: problem
 
-      associate (force => a%numbers(1)%v, kinematics => problem%spec%kinematics)
+      associate (force => a%numbers(1)%v, kinematics => problem%stored%kinematics)
          if (problem%module_number == 1) then
-            call a%real("FX_WS", problem%spec%wheel_rail%wheelset%fx)
+            call a%real("FX_WS", problem%stored%wheelset%fx)
             call a%end_line()
          ! forces beyond the friction bound are shortened to it, so that the bounds of FX are too narrow here
          else if (fits(a%call_of, "CKSI CETA", force, "FX FY")) then

@@ -12,7 +12,7 @@ module contact_capi_problem
    use contact_base_guard, only : free_left_blocks, new_owner
    use contact_base_kinds, only : wp
    use contact_cases_slot, only : open_contact, open_wheel_rail, problem_slot, release_slot
-   use contact_cases_spec, only : case_spec, friction_set
+   use contact_cases_spec, only : case_spec, friction_set, kinematics_spec, rolling_spec
    use contact_control_digits, only : case_digits
    use contact_control_units, only : unit_convention
    use contact_experiment_stopwatch, only : stopwatch
@@ -20,7 +20,7 @@ module contact_capi_problem
    use contact_profile_curve, only : profile_curve
    use contact_profile_surface, only : profile_surface
    use contact_subsurface_points, only : point_block
-   use contact_wheelrail_spec, only : wheel_rail_spec
+   use contact_wheelrail_spec, only : wheel_rail_spec, wheelset_spec
    implicit none (type, external)
    private
 
@@ -42,6 +42,16 @@ module contact_capi_problem
       !> Numbers of run, axle and side
       integer :: run = 0, axle = 0, side = 0
    end type case_metadata
+
+   !> Values that callers set, or that the last case found where they were not prescribed, whichever came last: the next case
+   !> starts from them, and callers can ask for them
+   type :: stored_values
+      !> Of contact problems
+      type(kinematics_spec) :: kinematics
+      type(rolling_spec) :: rolling
+      !> Of module 1
+      type(wheelset_spec) :: wheelset
+   end type stored_values
 
    !> A profile as prepared when it was given
    type :: given_profile
@@ -73,8 +83,9 @@ module contact_capi_problem
       type(unit_convention) :: units
       !> Digits that callers gave; the next calculation makes choices of them
       type(case_digits) :: digits
-      !> What the next calculation solves
+      !> The input of the next calculation, but for the values that are stored beside it
       type(case_spec) :: spec
+      type(stored_values) :: stored
       !> Profiles of module 1
       type(given_profile) :: rail, wheel
       !> Grid for which influence coefficients were last asked for (C of 1 and above); mx = 0 before
@@ -131,12 +142,15 @@ contains
       problem%owner = new_owner()
       call omp_init_lock(problem%lock)
       call set_common_defaults(problem%digits, problem%spec)
+      problem%stored%rolling%veloc = 1000.0_wp
       if (module_number == 1) then
          call set_wheel_rail_defaults(problem%digits, problem%spec)
+         problem%stored%wheelset%vs = 30000.0_wp
          call open_wheel_rail(problem%problem_slot)
          allocate(problem%wheel_rail_result%patches(0))
       else
          call set_contact_defaults(problem%spec)
+         problem%stored%rolling%dq = 2.0_wp
          call open_contact(problem%problem_slot)
       end if
    end function new_problem
@@ -207,7 +221,6 @@ contains
       spec%pressure = pressure_model%full
       allocate(spec%friction%sets(1))
       spec%friction%sets = friction_set(sabsh1=10000.0_wp, sabsh2=10000.0_wp)
-      spec%rolling%veloc = 1000.0_wp
       ! as the published interface has it, a million times the conductivity of steel
       spec%heat%lambda = 50.0e3_wp
       spec%heat%is_given = .true.
@@ -217,7 +230,6 @@ contains
    subroutine set_contact_defaults(spec)
       type(case_spec), intent(inout) :: spec
 
-      spec%rolling%dq = 2.0_wp
       associate (grid => spec%grid)
          grid%form = grid_form%corner_and_sides
          grid%mx = 1
@@ -246,7 +258,6 @@ contains
       digits%z = 0
       allocate(spec%wheel_rail, source=wheel_rail_spec())
       spec%wheel_rail%track%nomradr = 0.0_wp
-      spec%wheel_rail%wheelset%vs = 30000.0_wp
       spec%wheel_rail%rail_profile%zigzag = 150.0_wp*pi/180.0_wp
    end subroutine set_wheel_rail_defaults
 end module contact_capi_problem

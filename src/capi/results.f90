@@ -50,7 +50,7 @@ contains
       integer, intent(in) :: icp
       real(wp) :: list(6)
 
-      associate (units => problem%units, rolling => problem%spec%rolling, kinematics => problem%spec%kinematics)
+      associate (units => problem%units, rolling => problem%stored%rolling, kinematics => problem%stored%kinematics)
          list(1:3) = [rolling%veloc, rolling%chi, rolling%dq]
          if (problem%module_number == 1) then
             associate (patch => problem%wheel_rail_result%patches(icp)%contact)
@@ -255,7 +255,7 @@ contains
       if (problem%module_number == 1) then
          call give(problem%wheel_rail_result%patches(this%icp)%contact%pen*length, pen)
       else
-         call give(problem%spec%kinematics%pen*length, pen)
+         call give(problem%stored%kinematics%pen*length, pen)
       end if
       call leave(problem)
    end subroutine cntc_getpenetration
@@ -273,7 +273,7 @@ contains
       this = entry_type("cntc_getCreepages", integer_of(ire), integer_of(icp))
       call enter(this, scope%one_patch, problem)
       if (.not. associated(problem)) return
-      creep = [problem%spec%kinematics%cksi, problem%spec%kinematics%ceta, problem%spec%kinematics%cphi]
+      creep = [problem%stored%kinematics%cksi, problem%stored%kinematics%ceta, problem%stored%kinematics%cphi]
       left = .false.
       if (problem%module_number == 1) then
          left = problem%spec%wheel_rail%left

@@ -39,7 +39,7 @@ contains
 
       call enter(entry_type("cntc_getWheelsetPosition", integer_of(ire)), scope%wheel_rail, problem)
       if (.not. associated(problem)) return
-      associate (w => problem%spec%wheel_rail%wheelset, length => outward(problem%units, quantity%length), &
+      associate (w => problem%stored%wheelset, length => outward(problem%units, quantity%length), &
          & angle => outward(problem%units, quantity%angle))
          call give_list([(w%s + w%x)*length, w%y*length, w%z*length, w%roll*angle, w%yaw*angle, w%pitch*angle], lenarr, rvalues)
       end associate
@@ -54,7 +54,7 @@ contains
 
       call enter(entry_type("cntc_getWheelsetVelocity", integer_of(ire)), scope%wheel_rail, problem)
       if (.not. associated(problem)) return
-      associate (w => problem%spec%wheel_rail%wheelset, velocity => outward(problem%units, quantity%velocity), &
+      associate (w => problem%stored%wheelset, velocity => outward(problem%units, quantity%velocity), &
          & angle => outward(problem%units, quantity%angle))
          call give_list([w%vs*velocity, w%vy*velocity, w%vz*velocity, w%vroll*angle, w%vyaw*angle, w%vpitch*angle], lenarr, &
             & rvalues)

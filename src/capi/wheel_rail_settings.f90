@@ -20,7 +20,7 @@ contains
       type(setter), intent(inout) :: a
       type(library_problem), intent(inout), target :: problem
 
-      call a%real("FZ", problem%spec%wheel_rail%wheelset%fz)
+      call a%real("FZ", problem%stored%wheelset%fz)
       call a%end_line()
       if (a%is_good) problem%digits%n = 1
    end subroutine set_vertical_force
@@ -88,12 +88,12 @@ contains
 
       associate (method => a%single(1), e => problem%digits%e)
          call check_method(a, 0)
-         wheelset = problem%spec%wheel_rail%wheelset
+         wheelset = problem%stored%wheelset
          do while (a%next_pass())
             if (method == 3 .or. method == 5) call visit_dimensions(a, wheelset)
          end do
          if (.not. a%is_good) return
-         problem%spec%wheel_rail%wheelset = wheelset
+         problem%stored%wheelset = wheelset
          ! the digit that input files of the case get
          if (e <= 3) then
             e = method
@@ -120,13 +120,13 @@ contains
 
       if (a%single(1) == 0) return
       call check_method(a, 1)
-      wheelset = problem%spec%wheel_rail%wheelset
+      wheelset = problem%stored%wheelset
       do while (a%next_pass())
          ! on rollers as well; which place the first value is will be seen when the case is solved
          call visit_position(a, wheelset, roller=.false., with_force=.false.)
       end do
       if (.not. a%is_good) return
-      problem%spec%wheel_rail%wheelset = wheelset
+      problem%stored%wheelset = wheelset
       problem%digits%e = max(1, problem%digits%e)
    end subroutine set_position
 
@@ -139,7 +139,7 @@ contains
 
       if (a%single(1) == 0) return
       call check_method(a, 1)
-      wheelset = problem%spec%wheel_rail%wheelset
+      wheelset = problem%stored%wheelset
       is_roller = problem%digits%c1 >= 4
       do while (a%next_pass())
          call visit_velocity(a, wheelset, is_roller, with_force=.false.)
@@ -147,7 +147,7 @@ contains
       if (.not. a%is_good) return
       if (a%single(1) == 1) call say(1, a%call_of, "method 1 is taken for 2")
       if (is_roller) wheelset%vs = 0.0_wp
-      problem%spec%wheel_rail%wheelset = wheelset
+      problem%stored%wheelset = wheelset
       if (problem%digits%e <= 1) problem%digits%e = max(2, a%single(1))
    end subroutine set_wheelset_velocity
 
@@ -160,7 +160,7 @@ contains
       associate (method => a%single(1), e => problem%digits%e)
          if (method == 0) return
          call check_method(a, 1)
-         wheelset = problem%spec%wheel_rail%wheelset
+         wheelset = problem%stored%wheelset
          do while (a%next_pass())
             if (method >= 4) then
                call visit_flexibility(a, wheelset)
@@ -171,7 +171,7 @@ contains
             end if
          end do
          if (.not. a%is_good) return
-         problem%spec%wheel_rail%wheelset = wheelset
+         problem%stored%wheelset = wheelset
          if (method >= 4) then
             e = merge(5, 4, method == 5 .or. e == 3 .or. e == 5)
          else if (e >= 4) then

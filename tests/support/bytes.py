@@ -273,7 +273,7 @@ def do_store(store, arguments, tools):
         freeze(store, arguments.source, arguments.inputs)
     # what takes long comes last, so that a store can be used while it is being made
     index = read_index(store)
-    waiting = [task for task in tasks(store, ["*"]) if f"{task[0]}/{task[1]}" not in index]
+    waiting = [task for task in tasks(store, arguments.only) if f"{task[0]}/{task[1]}" not in index]
     for tools["limit"] in (SHORT, None):
         again = []
         for task, files, seconds in everything(waiting, store, tools, arguments.jobs):
