@@ -65,3 +65,13 @@ function(contact_python_test name)
   cmake_parse_arguments(arg "" "TIMEOUT" "LABEL;SCRIPT" ${ARGN})
   contact_command_test(${name} LABEL ${arg_LABEL} TIMEOUT ${arg_TIMEOUT} COMMAND python3 -B ${arg_SCRIPT})
 endfunction()
+
+# Python is not instrumented; it loads a library with the address sanitizer when that comes first. What Python keeps is no leak
+set(CONTACT_INSTRUMENTS)
+if(CONTACT_SANITIZE MATCHES address)
+  foreach(library asan ubsan)
+    execute_process(COMMAND ${CMAKE_C_COMPILER} -print-file-name=lib${library}.so OUTPUT_VARIABLE path OUTPUT_STRIP_TRAILING_WHITESPACE)
+    list(APPEND CONTACT_INSTRUMENTS ${path})
+  endforeach()
+  list(JOIN CONTACT_INSTRUMENTS " " CONTACT_INSTRUMENTS)
+endif()

@@ -9,6 +9,7 @@ import re
 import resource
 import signal
 import subprocess
+import sys
 
 import numpy as np
 
@@ -167,6 +168,10 @@ class Tools:
         """Run a command in the scratch folder: (exit code or None when it took too long, output, errors, seconds)"""
         environment = dict(os.environ, OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1", CONTACT_LIBRARY=self.library or "",
                            PYTHONPATH=self.python_path or "")
+        if arguments[0] == sys.executable and "CONTACT_INSTRUMENTS" in os.environ:
+            # a library with the sanitizers wants theirs first; what Python keeps is no leak
+            environment.update(LD_PRELOAD=os.environ["CONTACT_INSTRUMENTS"],
+                               ASAN_OPTIONS="detect_leaks=0:allocator_may_return_null=1")
         before = resource.getrusage(resource.RUSAGE_CHILDREN)
         process = subprocess.Popen(arguments, cwd=self.folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                                    stderr=subprocess.PIPE, env=environment, preexec_fn=self._limits, start_new_session=True)

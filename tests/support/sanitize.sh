@@ -25,7 +25,6 @@ reason_of() {
     performance*) echo "judges times and requests for memory" ;;
     octave_*) echo "Octave is not instrumented and cannot load the library; its scripts read files that other tests write too" ;;
     report_browser) echo "tests the page in the browser" ;;
-    campaign_module[13]) echo "compare with the library in a Python without instruments; their program runs in campaign_cases" ;;
     capi_wheel | capi_types) echo "tests the package of Python, not the library" ;;
   esac
 }
@@ -34,7 +33,7 @@ export ASAN_OPTIONS=allocator_may_return_null=1 UBSAN_OPTIONS=print_stacktrace=1
 export LSAN_OPTIONS="suppressions=$top/tests/support/leaks.supp:print_suppressions=0"
 # programs of the tests that are timed get more time
 export CONTACT_SLOWER=20
-elsewhere='^(performance|performance_rail|octave_.*|report_browser|no_exports|campaign_module[13])$'
+elsewhere='^(performance|performance_rail|octave_.*|report_browser|no_exports)$'
 
 build sanitize -DCONTACT_TESTS=ON
 part "Address and undefined-behaviour sanitizers, leaks" \
