@@ -214,6 +214,9 @@ module contact_control_digits
 
    !> Every accepted value of every digit, in the order of digit_names
    type(digit_row), parameter :: digit_table(*) = [word1_rows, word2_rows, word3_rows]
+   !> The columns that are searched, names as numbers
+   integer, parameter :: name_column(*) = iachar(digit_table%name(1:1)) + 128*iachar(digit_table%name(2:2))
+   integer, parameter :: digit_column(*) = digit_table%digit, choice_column(*) = digit_table%choice
 
 contains
 
@@ -223,15 +226,24 @@ contains
       integer, intent(in) :: digit
       !> 1 or 3
       integer, intent(in) :: module_number
-      character(len=2) :: key
+      integer :: number
 
-      key = name
+      number = number_of(name)
       do row = 1, size(digit_table)
-         if (digit_table(row)%digit == digit .and. digit_table(row)%name == key .and. belongs(digit_table(row), module_number)) &
-            & return
+         if (name_column(row) /= number .or. digit_column(row) /= digit) cycle
+         if (belongs(digit_table(row), module_number)) return
       end do
       row = 0
    end function row_of
+
+   !> The name of a digit as a number
+   pure integer function number_of(name)
+      character(len=*), intent(in) :: name
+      character(len=2) :: key
+
+      key = name
+      number_of = iachar(key(1:1)) + 128*iachar(key(2:2))
+   end function number_of
 
    !> Does a module know this row?
    elemental logical function belongs(row, module_number)
@@ -284,11 +296,12 @@ contains
       integer, intent(in) :: choice
       !> 1 or 3
       integer, intent(in) :: module_number
-      integer :: row
+      integer :: row, number
 
       digit = -1
+      number = number_of(name)
       do row = 1, size(digit_table)
-         if (digit_table(row)%choice /= choice .or. digit_table(row)%name /= name) cycle
+         if (name_column(row) /= number .or. choice_column(row) /= choice) cycle
          if (.not. belongs(digit_table(row), module_number)) cycle
          digit = digit_table(row)%digit
          return

@@ -477,8 +477,9 @@ module contact_text_bounds
    !> All numbers, in the order in which the groups of a case come
    type(number_bounds), parameter :: bounds_table(*) = [solver_rows, motion_rows, friction_rows, material_rows, grid_rows, &
       & subsurface_rows, track_rows, wheel_rows]
-   !> The names one beside the other, to be searched
+   !> The names one beside the other, to be searched, and the first three letters of each as a number
    character(len=*), parameter :: names(*) = bounds_table%name
+   integer, parameter :: beginnings(*) = iachar(names(:)(1:1)) + 128*(iachar(names(:)(2:2)) + 128*iachar(names(:)(3:3)))
 
 contains
 
@@ -506,13 +507,14 @@ contains
    pure integer function row_of(name) result(row)
       character(len=*), intent(in) :: name
       character(len=len(names)) :: whole
+      integer :: beginning
 
       row = 0
       if (len_trim(name) > len(whole)) return
       whole = name
-      ! the first letter alone is compared without a call of the library
+      beginning = iachar(whole(1:1)) + 128*(iachar(whole(2:2)) + 128*iachar(whole(3:3)))
       do row = 1, size(names)
-         if (names(row)(1:1) /= whole(1:1)) cycle
+         if (beginnings(row) /= beginning) cycle
          if (names(row) == whole) return
       end do
       row = 0
