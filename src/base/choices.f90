@@ -11,7 +11,7 @@ module contact_base_choices
    public :: variation, contact_location
    public :: sensitivity_choice
    public :: grid_form, distance_form, planform_choice
-   public :: has_slope_reduction, is_fastrip, is_simplified
+   public :: has_slope_reduction, is_fastrip, is_rolling, is_simplified
 
    !> How a case is linked to the previous one (P)
    type :: time_link_list
@@ -151,6 +151,14 @@ module contact_base_choices
    type(sensitivity_choice_list), parameter :: sensitivity_choice = sensitivity_choice_list()
 
 contains
+
+   !> Does one body roll over the other?
+   elemental logical function is_rolling(kind)
+      !> Member of motion
+      integer, intent(in) :: kind
+
+      is_rolling = kind == motion%transient_rolling .or. kind == motion%steady_rolling
+   end function is_rolling
 
    !> Is the tangential problem one of simplified theory?
    elemental logical function is_simplified(model)

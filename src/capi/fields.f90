@@ -2,15 +2,14 @@
 module contact_capi_fields
    use, intrinsic :: iso_c_binding, only : c_double, c_int
    use contact_base_kinds, only : wp
-   use contact_capi_arguments, only : give, give_list, integer_of, count_of
+   use contact_capi_arguments, only : give, give_list, integer_of
    use contact_capi_library, only : entry_type
    use contact_capi_messages, only : complain
    use contact_capi_problem, only : library_problem
-   use contact_capi_registry, only : enter, leave, scope
-   use contact_capi_view, only : field_list, look_at, result_view
-   use contact_control_library_codes, only : field_kind, field_row, field_table
-   use contact_control_units, only : outward, quantity_type
-   use contact_patch_result, only : patch_result
+   use contact_capi_registry, only : leave
+   use contact_capi_view, only : enter_result, result_view
+   use contact_control_units, only : outward, quantity, quantity_of, quantity_type
+   use contact_patch_quantities, only : element_field
    use contact_text_words, only : integer_text
    implicit none (type, external)
    private
@@ -20,165 +19,111 @@ module contact_capi_fields
 
 contains
 
-   !> One element field by its code
+   !> One element field by its number
    subroutine cntc_getfielddata(ire, icp, ifld, lenarr, fld) bind(c, name="inside_cntc_getfielddata")
       integer(c_int), intent(in), optional :: ire, icp, ifld, lenarr
       real(c_double), intent(inout), optional :: fld(*)
       type(library_problem), pointer :: problem
       type(entry_type) :: this
+      type(result_view) :: view
+      type(element_field), allocatable :: rows(:)
+      integer :: row
 
       this = entry_type("cntc_getFieldData", integer_of(ire), integer_of(icp))
-      call enter(this, scope%one_patch, problem)
+      call enter_result(this, problem, view)
       if (.not. associated(problem)) return
-      call give_field(this, look_at(this, problem), integer_of(ifld), lenarr, fld)
+      call view%patch%fields(rows)
+      row = findloc(rows%code, integer_of(ifld), 1)
+      if (row == 0) then
+         call complain(this, "there is no field " // integer_text(integer_of(ifld)))
+      else if (.not. associated(rows(row)%values)) then
+         call complain(this, "field " // integer_text(integer_of(ifld)) // " is not available in this case")
+      else
+         call give_field(view, rows(row), lenarr, fld)
+      end if
       call leave(problem)
    end subroutine cntc_getfielddata
 
-   !> Pressures and shear tractions
+   !> Pressures and tangential tractions
    subroutine cntc_gettractions(ire, icp, lenarr, pn, px, py) bind(c, name="inside_cntc_gettractions")
       integer(c_int), intent(in), optional :: ire, icp, lenarr
       real(c_double), intent(inout), optional :: pn(*), px(*), py(*)
-      type(library_problem), pointer :: problem
-      type(entry_type) :: this
-      type(result_view) :: view
 
-      this = entry_type("cntc_getTractions", integer_of(ire), integer_of(icp))
-      call enter(this, scope%one_patch, problem)
-      if (.not. associated(problem)) return
-      view = look_at(this, problem)
-      call give_field(this, view, field_kind%pn, lenarr, pn)
-      call give_field(this, view, field_kind%px, lenarr, px)
-      call give_field(this, view, field_kind%py, lenarr, py)
-      call leave(problem)
+      call give_fields("cntc_getTractions", ire, icp, ["pn", "px", "py"], lenarr, pn, px, py)
    end subroutine cntc_gettractions
 
    !> Slip
    subroutine cntc_getmicroslip(ire, icp, lenarr, sx, sy) bind(c, name="inside_cntc_getmicroslip")
       integer(c_int), intent(in), optional :: ire, icp, lenarr
       real(c_double), intent(inout), optional :: sx(*), sy(*)
-      type(library_problem), pointer :: problem
-      type(entry_type) :: this
-      type(result_view) :: view
 
-      this = entry_type("cntc_getMicroSlip", integer_of(ire), integer_of(icp))
-      call enter(this, scope%one_patch, problem)
-      if (.not. associated(problem)) return
-      view = look_at(this, problem)
-      call give_field(this, view, field_kind%sx, lenarr, sx)
-      call give_field(this, view, field_kind%sy, lenarr, sy)
-      call leave(problem)
+      call give_fields("cntc_getMicroSlip", ire, icp, ["sx", "sy"], lenarr, sx, sy)
    end subroutine cntc_getmicroslip
 
    !> Displacement differences, the normal one first
    subroutine cntc_getdisplacements(ire, icp, lenarr, un, ux, uy) bind(c, name="inside_cntc_getdisplacements")
       integer(c_int), intent(in), optional :: ire, icp, lenarr
       real(c_double), intent(inout), optional :: un(*), ux(*), uy(*)
-      type(library_problem), pointer :: problem
-      type(entry_type) :: this
-      type(result_view) :: view
 
-      this = entry_type("cntc_getDisplacements", integer_of(ire), integer_of(icp))
-      call enter(this, scope%one_patch, problem)
-      if (.not. associated(problem)) return
-      view = look_at(this, problem)
-      call give_field(this, view, field_kind%un, lenarr, un)
-      call give_field(this, view, field_kind%ux, lenarr, ux)
-      call give_field(this, view, field_kind%uy, lenarr, uy)
-      call leave(problem)
+      call give_fields("cntc_getDisplacements", ire, icp, ["un", "ux", "uy"], lenarr, un, ux, uy)
    end subroutine cntc_getdisplacements
 
-   !> Hand over one field as far as there is room
-   subroutine give_field(this, view, kind, length, array)
-      type(entry_type), intent(in) :: this
+   !> Hand over fields that all cases have
+   subroutine give_fields(routine, ire, icp, names, length, first, second, third)
+      !> Name of the routine that was called
+      character(len=*), intent(in) :: routine
+      integer(c_int), intent(in), optional :: ire, icp, length
+      !> Of the fields
+      character(len=*), intent(in) :: names(:)
+      real(c_double), intent(inout), optional :: first(*), second(*), third(*)
+      type(library_problem), pointer :: problem
+      type(result_view) :: view
+      type(element_field), allocatable :: rows(:)
+      integer :: k
+
+      call enter_result(entry_type(routine, integer_of(ire), integer_of(icp)), problem, view)
+      if (.not. associated(problem)) return
+      call view%patch%fields(rows)
+      do k = 1, size(names)
+         associate (row => rows(findloc(rows%name == names(k), .true., 1)))
+            if (k == 1) call give_field(view, row, length, first)
+            if (k == 2) call give_field(view, row, length, second)
+            if (k == 3) call give_field(view, row, length, third)
+         end associate
+      end do
+      call leave(problem)
+   end subroutine give_fields
+
+   !> Hand over one field as far as there is room, x running fastest, from the lowest y as the caller sees it
+   subroutine give_field(view, row, length, array)
       type(result_view), intent(in) :: view
-      !> Member of field_kind
-      integer, intent(in) :: kind
+      type(element_field), intent(in) :: row
       integer(c_int), intent(in), optional :: length
       real(c_double), intent(inout), optional :: array(*)
-      real(wp), allocatable :: field(:, :)
+      type(quantity_type) :: unit
       real(wp) :: factor
-      integer :: row
 
-      if (.not. associated(view%patch)) return
-      do row = size(field_table), 1, -1
-         if (field_table(row)%kind == kind) exit
-      end do
-      if (row == 0) then
-         call complain(this, "there is no field " // integer_text(kind))
-         return
-      end if
-      call take_field(view%patch, kind, field)
-      if (.not. allocated(field)) then
-         call complain(this, "field " // integer_text(kind) // " is not available in this case")
-         return
-      end if
-      associate (this_row => field_table(row))
-         factor = outward(view%units, quantity_type(length=this_row%length, force=this_row%force), this_row%along, view%left)
-      end associate
-      call give_list(field_list(field, view%left, factor), length, array)
+      unit = quantity_of(row%unit)
+      factor = 1.0_wp
+      ! by contract shifts are in mm in all units, and the rigid slip has the other sign
+      if (any(row%name == ["sx", "sy", "wx", "wy"])) unit = quantity%number
+      if (any(row%name == ["wx", "wy"])) factor = -1.0_wp
+      factor = factor/row%divisor*outward(view%units, unit, row%along, view%left)
+      call give_list(factor*reshape(row%values(:, view%rows()), [size(row%values)]), length, array)
    end subroutine give_field
-
-   !> A field in internal units; unallocated when the case has none
-   subroutine take_field(patch, kind, field)
-      type(patch_result), intent(in) :: patch
-      integer, intent(in) :: kind
-      real(wp), allocatable, intent(out) :: field(:, :)
-
-      select case (kind)
-      case (field_kind%h); call copy(patch%h)
-      case (field_kind%mu); call copy(patch%mu)
-      case (field_kind%px); call copy(patch%px)
-      case (field_kind%py); call copy(patch%py)
-      case (field_kind%pn); call copy(patch%pn)
-      case (field_kind%ux); call copy(patch%ux)
-      case (field_kind%uy); call copy(patch%uy)
-      case (field_kind%un); call copy(patch%un)
-      case (field_kind%taucrt); call copy(patch%tau_c)
-      case (field_kind%uplsx); call copy(patch%uplx)
-      case (field_kind%uplsy); call copy(patch%uply)
-      case (field_kind%sx); call copy(patch%sx, 1.0_wp/patch%dq)
-      case (field_kind%sy); call copy(patch%sy, 1.0_wp/patch%dq)
-      case (field_kind%temp1); call copy(patch%temp1)
-      case (field_kind%temp2); call copy(patch%temp2)
-      ! the published interface hands out the rigid slip with the other sign
-      case (field_kind%wx); call copy(patch%wx, -1.0_wp/patch%dq)
-      case (field_kind%wy); call copy(patch%wy, -1.0_wp/patch%dq)
-      end select
-
-   contains
-
-      !> Copy what is there
-      subroutine copy(source, factor)
-         real(wp), allocatable, intent(in) :: source(:, :)
-         real(wp), intent(in), optional :: factor
-
-         if (.not. allocated(source)) return
-         field = source
-         if (present(factor)) field = factor*field
-      end subroutine copy
-   end subroutine take_field
 
    !> States of the elements
    subroutine cntc_getelementdivision(ire, icp, lenarr, eldiv) bind(c, name="inside_cntc_getelementdivision")
       integer(c_int), intent(in), optional :: ire, icp, lenarr
       integer(c_int), intent(inout), optional :: eldiv(*)
       type(library_problem), pointer :: problem
-      type(entry_type) :: this
       type(result_view) :: view
 
-      this = entry_type("cntc_getElementDivision", integer_of(ire), integer_of(icp))
-      call enter(this, scope%one_patch, problem)
+      call enter_result(entry_type("cntc_getElementDivision", integer_of(ire), integer_of(icp)), problem, view)
       if (.not. associated(problem)) return
-      view = look_at(this, problem)
-      if (associated(view%patch)) then
-         associate (division => view%patch%division)
-            if (view%left) then
-               call give_list(reshape(division(:, size(division, 2):1:-1), [size(division)]), lenarr, eldiv)
-            else
-               call give_list(reshape(division, [size(division)]), lenarr, eldiv)
-            end if
-         end associate
-      end if
+      associate (division => view%patch%division)
+         call give_list(reshape(division(:, view%rows()), [size(division)]), lenarr, eldiv)
+      end associate
       call leave(problem)
    end subroutine cntc_getelementdivision
 
@@ -187,31 +132,24 @@ contains
       integer(c_int), intent(in), optional :: ire, icp
       real(c_double), intent(inout), optional :: pnmax
       type(library_problem), pointer :: problem
-      type(entry_type) :: this
       type(result_view) :: view
 
-      this = entry_type("cntc_getMaximumPressure", integer_of(ire), integer_of(icp))
-      call enter(this, scope%one_patch, problem)
+      call enter_result(entry_type("cntc_getMaximumPressure", integer_of(ire), integer_of(icp)), problem, view)
       if (.not. associated(problem)) return
-      view = look_at(this, problem)
-      if (associated(view%patch)) call give(view%patch%pmax*outward(view%units, quantity_type(length=-2, force=1)), pnmax)
+      call give(sum(view%totals(["pmax"])), pnmax)
       call leave(problem)
    end subroutine cntc_getmaximumpressure
 
-   !> Largest shear traction
+   !> Largest tangential traction
    subroutine cntc_getmaximumtraction(ire, icp, ptmax) bind(c, name="inside_cntc_getmaximumtraction")
       integer(c_int), intent(in), optional :: ire, icp
       real(c_double), intent(inout), optional :: ptmax
       type(library_problem), pointer :: problem
-      type(entry_type) :: this
       type(result_view) :: view
 
-      this = entry_type("cntc_getMaximumTraction", integer_of(ire), integer_of(icp))
-      call enter(this, scope%one_patch, problem)
+      call enter_result(entry_type("cntc_getMaximumTraction", integer_of(ire), integer_of(icp)), problem, view)
       if (.not. associated(problem)) return
-      view = look_at(this, problem)
-      if (associated(view%patch)) call give(maxval(hypot(view%patch%px, view%patch%py))* &
-         & outward(view%units, quantity_type(length=-2, force=1)), ptmax)
+      call give(maxval(hypot(view%patch%px, view%patch%py))*outward(view%units, quantity%pressure), ptmax)
       call leave(problem)
    end subroutine cntc_getmaximumtraction
 
@@ -224,18 +162,15 @@ contains
       type(result_view) :: view
 
       this = entry_type("cntc_getMaximumTemperature", integer_of(ire), integer_of(icp))
-      call enter(this, scope%one_patch, problem)
+      call enter_result(this, problem, view)
       if (.not. associated(problem)) return
-      view = look_at(this, problem)
-      if (associated(view%patch)) then
-         if (allocated(view%patch%temp1)) then
-            call give(maxval(view%patch%temp1), t1max)
-            call give(maxval(view%patch%temp2), t2max)
-         else
-            call complain(this, "surface temperatures are not calculated in this case")
-            call give(0.0_wp, t1max)
-            call give(0.0_wp, t2max)
-         end if
+      if (allocated(view%patch%temp1)) then
+         call give(maxval(view%patch%temp1), t1max)
+         call give(maxval(view%patch%temp2), t2max)
+      else
+         call complain(this, "surface temperatures are not calculated in this case")
+         call give(0.0_wp, t1max)
+         call give(0.0_wp, t2max)
       end if
       call leave(problem)
    end subroutine cntc_getmaximumtemperature

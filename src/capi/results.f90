@@ -1,18 +1,17 @@
 !> Entries that hand out totals and settings of one patch
 module contact_capi_results
    use, intrinsic :: iso_c_binding, only : c_double, c_int
-   use contact_base_choices, only : motion, variation
+   use contact_base_choices, only : motion
    use contact_base_kinds, only : wp
    use contact_capi_arguments, only : give, give_list, give_zeros, integer_of
    use contact_capi_library, only : entry_type
    use contact_capi_messages, only : complain
    use contact_capi_problem, only : library_problem
    use contact_capi_registry, only : enter, leave, scope
-   use contact_capi_view, only : look_at, result_view
+   use contact_capi_view, only : enter_result, look_at, result_view
    use contact_cases_spec, only : case_spec
    use contact_control_units, only : inward, orientation, outward, quantity, quantity_type
    use contact_elastic_material, only : combine, combined_material
-   use contact_grid_element_division, only : element
    use contact_patch_result, only : patch_result
    use contact_text_words, only : integer_text
    implicit none (type, external)
@@ -172,17 +171,12 @@ contains
       integer(c_int), intent(in), optional :: ire, icp
       integer(c_int), intent(inout), optional :: mx, my
       type(library_problem), pointer :: problem
-      type(entry_type) :: this
       type(result_view) :: view
 
-      this = entry_type("cntc_getNumElements", integer_of(ire), integer_of(icp))
-      call enter(this, scope%one_patch, problem)
+      call enter_result(entry_type("cntc_getNumElements", integer_of(ire), integer_of(icp)), problem, view)
       if (.not. associated(problem)) return
-      view = look_at(this, problem)
-      if (associated(view%patch)) then
-         call give(view%patch%grid%mx, mx)
-         call give(view%patch%grid%my, my)
-      end if
+      call give(view%patch%grid%mx, mx)
+      call give(view%patch%grid%my, my)
       call leave(problem)
    end subroutine cntc_getnumelements
 
@@ -222,21 +216,18 @@ contains
       real(wp) :: first_x, first_y, origin(2)
 
       this = entry_type("cntc_getPotContact", integer_of(ire), integer_of(icp))
-      call enter(this, scope%one_patch, problem)
+      call enter_result(this, problem, view)
       if (.not. associated(problem)) return
-      view = look_at(this, problem)
-      if (associated(view%patch)) then
-         associate (grid => view%patch%grid, length => outward(view%units, quantity%length))
-            origin = 0.0_wp
-            if (problem%module_number == 1) origin = problem%wheel_rail_result%patches(this%icp)%grid_reference
-            first_x = grid%x(1) + origin(1)
-            first_y = grid%y(1) + origin(2)
-            if (view%left) first_y = -(grid%y(grid%my) + origin(2))
-            call give_list([real(grid%mx, wp), real(grid%my, wp), first_x*length, first_y*length, grid%dx*length, &
-               & grid%dy*length], lenarr, rvalues)
-            call give_zeros(7, lenarr, rvalues)
-         end associate
-      end if
+      associate (grid => view%patch%grid, length => outward(view%units, quantity%length))
+         origin = 0.0_wp
+         if (problem%module_number == 1) origin = problem%wheel_rail_result%patches(this%icp)%grid_reference
+         first_x = grid%x(1) + origin(1)
+         first_y = grid%y(1) + origin(2)
+         if (view%left) first_y = -(grid%y(grid%my) + origin(2))
+         call give_list([real(grid%mx, wp), real(grid%my, wp), first_x*length, first_y*length, grid%dx*length, &
+            & grid%dy*length], lenarr, rvalues)
+         call give_zeros(7, lenarr, rvalues)
+      end associate
       call leave(problem)
    end subroutine cntc_getpotcontact
 
@@ -298,21 +289,16 @@ contains
       integer(c_int), intent(in), optional :: ire, icp
       real(c_double), intent(inout), optional :: fn, tx, ty, mz
       type(library_problem), pointer :: problem
-      type(entry_type) :: this
       type(result_view) :: view
+      real(wp) :: values(4)
 
-      this = entry_type("cntc_getContactForces", integer_of(ire), integer_of(icp))
-      call enter(this, scope%one_patch, problem)
+      call enter_result(entry_type("cntc_getContactForces", integer_of(ire), integer_of(icp)), problem, view)
       if (.not. associated(problem)) return
-      view = look_at(this, problem)
-      if (associated(view%patch)) then
-         associate (patch => view%patch, units => view%units)
-            call give(patch%fn*outward(units, quantity%force), fn)
-            call give(patch%fx*outward(units, quantity%force, orientation%along, view%left), tx)
-            call give(patch%fy*outward(units, quantity%force, orientation%across, view%left), ty)
-            call give(patch%mz*outward(units, quantity%moment, orientation%across, view%left), mz)
-         end associate
-      end if
+      values = view%totals(["fn", "fx", "fy", "mz"])
+      call give(values(1), fn)
+      call give(values(2), tx)
+      call give(values(3), ty)
+      call give(values(4), mz)
       call leave(problem)
    end subroutine cntc_getcontactforces
 
@@ -321,22 +307,17 @@ contains
       integer(c_int), intent(in), optional :: ire, icp
       real(c_double), intent(inout), optional :: carea, harea, sarea
       type(library_problem), pointer :: problem
-      type(entry_type) :: this
       type(result_view) :: view
       real(wp) :: area
 
-      this = entry_type("cntc_getContactPatchAreas", integer_of(ire), integer_of(icp))
-      call enter(this, scope%one_patch, problem)
+      call enter_result(entry_type("cntc_getContactPatchAreas", integer_of(ire), integer_of(icp)), problem, view)
       if (.not. associated(problem)) return
-      view = look_at(this, problem)
-      if (associated(view%patch)) then
-         associate (patch => view%patch)
-            area = patch%grid%dx*patch%grid%dy*outward(view%units, quantity%area)
-            call give(count(patch%division > element%exterior)*area, carea)
-            call give(count(patch%division == element%adhesion)*area, harea)
-            call give(count(patch%division == element%slip)*area, sarea)
-         end associate
-      end if
+      associate (patch => view%patch)
+         area = patch%grid%dx*patch%grid%dy*outward(view%units, quantity%area)
+         call give(patch%ncon*area, carea)
+         call give(patch%nadh*area, harea)
+         call give(patch%nslip*area, sarea)
+      end associate
       call leave(problem)
    end subroutine cntc_getcontactpatchareas
 
@@ -345,30 +326,26 @@ contains
       integer(c_int), intent(in), optional :: ire, icp, lenout, lenin
       real(c_double), intent(inout), optional :: sens(*)
       type(library_problem), pointer :: problem
-      type(entry_type) :: this
       type(result_view) :: view
       real(wp) :: per_input(4), per_output(4), side
-      integer :: i, j, rows, columns
+      integer :: i, j, rows
 
-      this = entry_type("cntc_getSensitivities", integer_of(ire), integer_of(icp))
-      call enter(this, scope%one_patch, problem)
+      call enter_result(entry_type("cntc_getSensitivities", integer_of(ire), integer_of(icp)), problem, view)
       if (.not. associated(problem)) return
-      view = look_at(this, problem)
       rows = max(0, integer_of(lenout))
-      columns = max(0, integer_of(lenin))
-      if (associated(view%patch) .and. present(sens)) then
-         associate (units => problem%units, is_shift => problem%digits%t == motion%shift)
+      if (present(sens)) then
+         associate (units => problem%units)
             side = merge(-1.0_wp, 1.0_wp, view%left)
             per_input = [inward(units, quantity%length), 1.0_wp, side, side*inward(units, quantity%spin)]
-            if (is_shift) per_input(2:4) = [1.0_wp, side, 0.0_wp]*inward(units, quantity%length) &
+            if (problem%digits%t == motion%shift) per_input(2:4) = [1.0_wp, side, 0.0_wp]*inward(units, quantity%length) &
                & + [0.0_wp, 0.0_wp, side*inward(units, quantity%angle)]
             per_output = [inward(units, quantity%force), 1.0_wp, side, side*inward(units, quantity%moment)]
-            do j = 1, min(4, columns)
-               do i = 1, min(4, rows)
-                  sens((j - 1)*rows + i) = view%patch%sensitivity(i, j)*per_input(j)/per_output(i)
-               end do
-            end do
          end associate
+         do j = 1, min(4, integer_of(lenin))
+            do i = 1, min(4, rows)
+               sens((j - 1)*rows + i) = view%patch%sensitivity(i, j)*per_input(j)/per_output(i)
+            end do
+         end do
       end if
       call leave(problem)
    end subroutine cntc_getsensitivities

@@ -4,12 +4,14 @@ module contact_capi_view
    use contact_capi_library, only : entry_type
    use contact_capi_messages, only : complain
    use contact_capi_problem, only : library_problem
-   use contact_control_units, only : inward, outward, quantity, unit_convention
+   use contact_capi_registry, only : enter, leave, scope
+   use contact_control_units, only : outward, quantity_of, unit_convention
+   use contact_patch_quantities, only : total_list
    use contact_patch_result, only : patch_result
    implicit none (type, external)
    private
 
-   public :: result_view, look_at, field_list
+   public :: result_view, enter_result, look_at
 
    !> One patch with the factors for the caller
    type :: result_view
@@ -18,6 +20,10 @@ module contact_capi_view
       type(unit_convention) :: units
       !> Is it a mirrored wheel on the left side?
       logical :: left = .false.
+   contains
+      !> Totals by their names, and numbers of rows of elements
+      procedure :: totals
+      procedure :: rows
    end type result_view
 
 contains
@@ -42,18 +48,41 @@ contains
       end if
    end function look_at
 
-   !> A field as a list, x running fastest, from the lowest y as the caller sees it
-   pure function field_list(field, left, factor) result(list)
-      !> Shape (mx, my)
-      real(wp), intent(in) :: field(:, :)
-      logical, intent(in) :: left
-      real(wp), intent(in) :: factor
-      real(wp), allocatable :: list(:)
+   !> Enter a problem that has results of a patch; null when there are none, which is complained about
+   subroutine enter_result(this, problem, view)
+      type(entry_type), intent(in) :: this
+      type(library_problem), pointer, intent(out) :: problem
+      type(result_view), intent(out) :: view
 
-      if (left) then
-         list = factor*reshape(field(:, size(field, 2):1:-1), [size(field)])
-      else
-         list = factor*reshape(field, [size(field)])
-      end if
-   end function field_list
+      call enter(this, scope%one_patch, problem)
+      if (.not. associated(problem)) return
+      view = look_at(this, problem)
+      if (.not. associated(view%patch)) call leave(problem)
+   end subroutine enter_result
+
+   !> Totals by their names, in the units and with the signs of the caller
+   pure function totals(self, names) result(values)
+      class(result_view), intent(in) :: self
+      character(len=*), intent(in) :: names(:)
+      real(wp) :: values(size(names))
+      type(total_list) :: list
+      integer :: k
+
+      call self%patch%totals(list)
+      do k = 1, size(names)
+         associate (row => list%row(names(k)))
+            values(k) = row%value*outward(self%units, quantity_of(row%unit), row%along, self%left)
+         end associate
+      end do
+   end function totals
+
+   !> Numbers of rows of elements, from the lowest y as the caller sees it
+   pure function rows(self)
+      class(result_view), intent(in) :: self
+      integer :: rows(self%patch%grid%my)
+      integer :: iy
+
+      rows = [(iy, iy = 1, size(rows))]
+      if (self%left) rows = rows(size(rows):1:-1)
+   end function rows
 end module contact_capi_view

@@ -9,13 +9,12 @@ module contact_cases_subsurface
    use contact_cases_spec, only : case_spec
    use contact_grid_element_division, only : bounding_box, contact_box
    use contact_grid_potential_contact, only : potential_contact
-   use contact_patch_result, only : patch_result, subsurface_result
+   use contact_patch_result, only : mirrored, patch_result, subsurface_result
    use contact_subsurface_invariants, only : stress_invariants
    use contact_subsurface_load, only : new_surface_load, surface_load
    use contact_subsurface_points, only : expand_points, list_points, point_block, point_set, stepped_depth, stepped_points
    use contact_text_words, only : integer_text, real_text
    use contact_subsurface_stress, only : subsurface_field
-   use contact_wheelrail_result, only : mirrored
    implicit none (type, external)
    private
 

@@ -1,12 +1,11 @@
-!> Numbers that callers of the library get and give: error codes, fields, kinds of input files
+!> Numbers that callers of the library get and give: error codes, kinds of input files
 module contact_control_library_codes
    use contact_base_case_status, only : case_status, missed_iteration
-   use contact_control_units, only : orientation
    implicit none (type, external)
    private
 
    public :: code_of_contact, code_of_wheel_rail
-   public :: library_code, code_text, input_type, field_row, field_table, field_kind, interface_version
+   public :: library_code, code_text, input_type, interface_version
 
    !> What initialisation tells callers, 100 major + 10 minor + update of the published interface
    integer, parameter :: interface_version = 2520
@@ -31,44 +30,6 @@ module contact_control_library_codes
    end type input_type_list
    !> Kinds of files that can be read
    type(input_type_list), parameter :: input_type = input_type_list()
-
-   type :: field_kind_list
-      integer :: h = 1, mu = 2, px = 3, py = 4, pn = 5, ux = 7, uy = 8, un = 9, taucrt = 11, uplsx = 12, uplsy = 13
-      integer :: sx = 15, sy = 16, temp1 = 20, temp2 = 21, wx = 22, wy = 23
-   end type field_kind_list
-   !> Codes of element fields
-   type(field_kind_list), parameter :: field_kind = field_kind_list()
-
-   !> One element field
-   type :: field_row
-      integer :: kind = 0
-      !> Powers of the unit of length and of force
-      integer :: length = 0, force = 0
-      !> Member of orientation
-      integer :: along = 0
-   end type field_row
-
-   !> All element fields: kind, unit, sign
-   !>
-   !> Displacements do not follow the body that is looked at, contrary to tractions and slip.
-   type(field_row), parameter :: field_table(*) = [ &
-      & field_row(field_kind%h, 1, 0, orientation%none), &
-      & field_row(field_kind%mu, 0, 0, orientation%none), &
-      & field_row(field_kind%px, -2, 1, orientation%along), &
-      & field_row(field_kind%py, -2, 1, orientation%across), &
-      & field_row(field_kind%pn, -2, 1, orientation%none), &
-      & field_row(field_kind%ux, 1, 0, orientation%none), &
-      & field_row(field_kind%uy, 1, 0, orientation%side), &
-      & field_row(field_kind%un, 1, 0, orientation%none), &
-      & field_row(field_kind%taucrt, -2, 1, orientation%none), &
-      & field_row(field_kind%uplsx, 1, 0, orientation%none), &
-      & field_row(field_kind%uplsy, 1, 0, orientation%side), &
-      & field_row(field_kind%sx, 0, 0, orientation%along), &
-      & field_row(field_kind%sy, 0, 0, orientation%across), &
-      & field_row(field_kind%temp1, 0, 0, orientation%none), &
-      & field_row(field_kind%temp2, 0, 0, orientation%none), &
-      & field_row(field_kind%wx, 0, 0, orientation%along), &
-      & field_row(field_kind%wy, 0, 0, orientation%across)]
 
 contains
 

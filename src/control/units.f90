@@ -5,6 +5,7 @@
 !> Time and temperature are the same in all of them.
 module contact_control_units
    use contact_base_kinds, only : wp
+   use contact_patch_quantities, only : is_lateral, orientation
    implicit none (type, external)
    private
 
@@ -60,19 +61,6 @@ module contact_control_units
    !> Names of quantities
    type(quantity_list), parameter :: quantity = quantity_list()
 
-   type :: orientation_list
-      !> The same for both bodies and both sides of the track
-      integer :: none = 0
-      !> Along the track: changes with the body that is looked at
-      integer :: along = 1
-      !> Across the track, and turning about x and z: changes with body and side
-      integer :: across = 2
-      !> Changes with the side of the track only
-      integer :: side = 3
-   end type orientation_list
-   !> Which sign an output has
-   type(orientation_list), parameter :: orientation = orientation_list()
-
 contains
 
    !> The convention with a code; an unknown code changes nothing
@@ -102,6 +90,8 @@ contains
       case ("mm/s"); what = quantity%velocity
       case ("s/mm"); what = quantity%per_velocity
       case ("N", "N/s"); what = quantity%force
+      case ("N mm"); what = quantity%moment
+      case ("mm2"); what = quantity%area
       case ("N/mm2"); what = quantity%pressure
       case ("N/mm3"); what = quantity%pressure_slope
       case ("N/mm"); what = quantity%stiffness
@@ -133,6 +123,6 @@ contains
       if (.not. present(along)) return
       if (along == orientation%along .or. along == orientation%across) factor = units%body*factor
       if (.not. present(left)) return
-      if (left .and. (along == orientation%across .or. along == orientation%side)) factor = -factor
+      if (left .and. is_lateral(along)) factor = -factor
    end function outward
 end module contact_control_units

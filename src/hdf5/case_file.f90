@@ -1,17 +1,18 @@
 !> A case as groups of an HDF5 file
 module contact_hdf5_case_file
-   use contact_base_choices, only : motion
+   use contact_base_choices, only : is_rolling
    use contact_base_error, only : error_type
    use contact_base_kinds, only : long, wp
    use contact_cases_spec, only : case_spec
    use contact_hdf5_file, only : hdf5_file
-   use contact_output_case_record, only : case_head, describe_border, describe_head, describe_wheel_rail, describe_patch, &
-      & describe_resolution, describe_place, describe_run, describe_solution, is_rolling, run_summary, side_sign
+   use contact_output_case_record, only : case_head, describe_head, describe_list, describe_patch, describe_run, &
+      & describe_wheel_rail, run_summary, side_sign
    use contact_output_input_record, only : describe_input
-   use contact_patch_result, only : patch_result, subsurface_result
+   use contact_patch_quantities, only : element_field, total_list
+   use contact_patch_result, only : mirrored, patch_result, subsurface_result
    use contact_profile_curve, only : profile_curve
    use contact_text_words, only : integer_text
-   use contact_wheelrail_result, only : mirrored, wheel_rail_patch, wheel_rail_result
+   use contact_wheelrail_result, only : wheel_rail_patch, wheel_rail_result
    implicit none (type, external)
    private
 
@@ -156,6 +157,7 @@ contains
       type(wheel_rail_result), intent(in) :: pair
       !> Profiles, or sections at the first contact, in their own axes for a right-hand pair
       type(profile_curve), intent(in), optional :: rail, wheel
+      type(total_list) :: markers
       integer :: k
 
       call begin(self%file, head)
@@ -163,18 +165,14 @@ contains
       call describe_input(self%file, spec)
       call self%file%leave()
       call describe_wheel_rail(self%file, spec, pair)
-      call write_markers(self%file, spec, pair)
+      call pair%markers(spec%wheel_rail%left, markers)
+      call describe_list(self%file, "markers", markers)
       call self%file%enter("profiles")
       if (present(rail)) call write_profile(self%file, "rail", spec, rail)
       if (present(wheel)) call write_profile(self%file, "wheel", spec, wheel)
       call self%file%leave()
       do k = 1, size(pair%patches)
-         if (side_sign(spec) < 0.0_wp) then
-            call write_patch(self%file, head, k, spec, pair%patches(k)%contact, pair%patches(k), &
-               & mirrored(pair%patches(k)%contact))
-         else
-            call write_patch(self%file, head, k, spec, pair%patches(k)%contact, pair%patches(k))
-         end if
+         call write_patch(self%file, head, k, spec, pair%patches(k)%contact, pair%patches(k))
       end do
       call self%file%end_case(head%finished)
    end subroutine write_wheel_rail
@@ -213,7 +211,7 @@ contains
    end function name_of
 
    !> One contact patch
-   subroutine write_patch(file, head, number, spec, contact, place, mirror)
+   subroutine write_patch(file, head, number, spec, contact, place)
       type(hdf5_file), intent(inout) :: file
       type(case_head), intent(in) :: head
       !> Number of the patch in its case
@@ -222,8 +220,6 @@ contains
       type(patch_result), intent(in) :: contact
       !> Where it is, in module 1
       type(wheel_rail_patch), intent(in), optional :: place
-      !> Its fields in true coordinates of the left side of the track
-      type(patch_result), intent(in), optional :: mirror
       integer :: k
 
       call file%begin_row(patch=.true.)
@@ -232,13 +228,7 @@ contains
       call file%count("patch", "number of the patch in its case", number)
       call file%close_group()
       call file%enter("patch_" // integer_text(number))
-      call file%open_group("totals", columns=.true.)
-      call describe_patch(file, spec, contact)
-      if (present(place)) call describe_place(file, spec, place)
-      call file%close_group()
-      call describe_border(file, spec, contact)
-      call describe_resolution(file, contact)
-      call describe_solution(file, spec, contact)
+      call describe_patch(file, spec, contact, place)
       if (allocated(contact%effects)) then
          call file%open_group("effects")
          call file%text("names", "effects that acted", contact%effects)
@@ -249,12 +239,10 @@ contains
          call file%numbers("flx", "mm3/N", "flexibilities L1, L2, L3 of simplified theory, given or found", contact%flx)
          call file%close_group()
       end if
-      if (present(mirror)) then
-         call write_grid(file, spec, mirror, place)
-         call write_fields(file, spec, mirror)
+      if (side_sign(spec) < 0.0_wp) then
+         call write_elements(file, .true., mirrored(contact), place)
       else
-         call write_grid(file, spec, contact, place)
-         call write_fields(file, spec, contact)
+         call write_elements(file, .false., contact, place)
       end if
       if (present(place)) then
          if (allocated(place%curve)) call write_curve(file, spec, place)
@@ -271,17 +259,22 @@ contains
       call file%leave()
    end subroutine write_patch
 
-   !> The elements
-   subroutine write_grid(file, spec, contact, place)
+   !> The elements and their fields
+   subroutine write_elements(file, left, contact, place)
       type(hdf5_file), intent(inout) :: file
-      type(case_spec), intent(in) :: spec
-      type(patch_result), intent(in) :: contact
+      !> Is this a wheel on the left side of the track?
+      logical, intent(in) :: left
+      !> In true coordinates of its side of the track
+      type(patch_result), target, intent(in) :: contact
       !> In module 1
       type(wheel_rail_patch), intent(in), optional :: place
-      integer :: i
+      type(element_field), allocatable :: rows(:)
+      type(total_list) :: totals
+      real(wp) :: reference(2)
+      integer :: i, k
 
+      call file%open_group("grid")
       associate (grid => contact%grid)
-         call file%open_group("grid")
          call file%count("mx", "columns", grid%mx)
          call file%count("my", "rows", grid%my)
          call file%number("xl", "mm", "edge of the first column", grid%xl)
@@ -290,58 +283,28 @@ contains
          call file%number("dy", "mm", "width of an element", grid%dy)
          call file%numbers("x", "mm", "centres of columns", grid%x([(i, i = 1, grid%mx)]))
          call file%numbers("y", "mm", "centres of rows", grid%y([(i, i = 1, grid%my)]))
-         if (is_rolling(spec)) then
-            call file%number("chi", "rad", "rolling direction", contact%chi)
-            call file%number("dq", "mm", "distance of a step", contact%dq)
-         end if
-         call file%number("veloc", "mm/s", "velocity", contact%veloc)
-         if (present(place)) then
-            call file%number("x_elem", "mm", "contact reference in the coordinates of the elements", place%grid_reference(1))
-            call file%number("y_elem", "mm", "contact reference in the coordinates of the elements", &
-               & side_sign(spec)*place%grid_reference(2))
-         end if
-         call file%close_group()
       end associate
-   end subroutine write_grid
-
-   !> Arrays over the elements
-   subroutine write_fields(file, spec, contact)
-      type(hdf5_file), intent(inout) :: file
-      type(case_spec), intent(in) :: spec
-      type(patch_result), intent(in) :: contact
-      logical :: rolling
-
-      rolling = is_rolling(spec)
+      if (is_rolling(contact%motion)) then
+         call file%number("chi", "rad", "rolling direction", contact%chi)
+         call file%number("dq", "mm", "distance of a step", contact%dq)
+      end if
+      call file%number("veloc", "mm/s", "velocity", contact%veloc)
+      if (present(place)) then
+         call place%totals(totals, left)
+         reference = totals%of(["x_elem", "y_elem"])
+         call file%number("x_elem", "mm", "contact reference in the coordinates of the elements", reference(1))
+         call file%number("y_elem", "mm", "contact reference in the coordinates of the elements", reference(2))
+      end if
+      call file%close_group()
       call file%enter("fields")
       call file%division("eldiv", "element state: 0 exterior, 1 adhesion, 2 slip, 3 plastic", contact%division)
-      call file%field("h", "mm", "undeformed distance, approach not subtracted", contact%h)
-      call file%field("pn", "N/mm2", "pressure", contact%pn)
-      call file%field("un", "mm", "normal displacement difference", contact%un)
-      call file%field("mu", "-", "coefficient of friction", contact%mu)
-      if (spec%motion /= motion%none) then
-         call file%field("px", "N/mm2", "longitudinal traction on body 1", contact%px)
-         call file%field("py", "N/mm2", "lateral traction on body 1", contact%py)
-         call file%field("ux", "mm", "longitudinal displacement difference", contact%ux)
-         call file%field("uy", "mm", "lateral displacement difference", contact%uy)
-         if (rolling) then
-            call file%field("sx", "-", "longitudinal slip, relative", contact%sx/contact%dq)
-            call file%field("sy", "-", "lateral slip, relative", contact%sy/contact%dq)
-         else
-            call file%field("sx", "mm", "longitudinal slip distance", contact%sx)
-            call file%field("sy", "mm", "lateral slip distance", contact%sy)
-         end if
-      end if
-      if (allocated(contact%tau_c)) then
-         call file%field("taucrt", "N/mm2", "yield limit", contact%tau_c)
-         call file%field("uplsx", "mm", "longitudinal plastic displacement", contact%uplx)
-         call file%field("uplsy", "mm", "lateral plastic displacement", contact%uply)
-      end if
-      if (allocated(contact%temp1)) then
-         call file%field("temp1", "degC", "surface temperature of body 1", contact%temp1)
-         call file%field("temp2", "degC", "surface temperature of body 2", contact%temp2)
-      end if
+      call contact%fields(rows)
+      do k = 1, size(rows)
+         if (rows(k)%is_written()) call file%field(trim(rows(k)%name), trim(rows(k)%unit), trim(rows(k)%meaning), &
+            & rows(k)%values/rows(k)%divisor)
+      end do
       call file%leave()
-   end subroutine write_fields
+   end subroutine write_elements
 
    !> Curved reference of conformal contact, one point per row of elements
    subroutine write_curve(file, spec, place)
@@ -372,27 +335,6 @@ contains
          call file%numbers("angle", "rad", "inclination", s*curve(3, :))
       end subroutine put
    end subroutine write_curve
-
-   !> Where rail and wheel are, in track coordinates
-   subroutine write_markers(file, spec, pair)
-      type(hdf5_file), intent(inout) :: file
-      type(case_spec), intent(in) :: spec
-      type(wheel_rail_result), intent(in) :: pair
-      real(wp) :: s
-
-      s = side_sign(spec)
-      call file%open_group("markers")
-      call file%number("y_r", "mm", "rail marker, lateral", s*pair%rail_y)
-      call file%number("z_r", "mm", "rail marker, vertical", pair%rail_z)
-      call file%number("roll_r", "rad", "roll angle of the rail", s*pair%rail_roll)
-      call file%number("x_w", "mm", "wheel marker, longitudinal", pair%wheel_x)
-      call file%number("y_w", "mm", "wheel marker, lateral", s*pair%wheel_y)
-      call file%number("z_w", "mm", "wheel marker, vertical", pair%wheel_z)
-      call file%number("roll_w", "rad", "roll angle of the wheel", s*pair%wheel_roll)
-      call file%number("yaw_w", "rad", "yaw angle of the wheel", s*pair%wheel_yaw)
-      call file%number("ynom_whl", "mm", "origin of the profile from the middle of the wheelset, outwards", pair%wheel_offset)
-      call file%close_group()
-   end subroutine write_markers
 
    !> Points of a profile about its marker
    subroutine write_profile(file, name, spec, curve)

@@ -1,7 +1,6 @@
 !> What a solved case has to tell to programs: status, totals, how they were obtained
 !>
-!> Values are unfiltered, unlike those of the .out file. For a wheel on the left side of the track
-!> they are mirrored to that side here.
+!> Values are unfiltered, unlike those of the .out file.
 module contact_output_case_record
    use contact_base_case_status, only : case_state, case_status
    use contact_base_choices, only : motion
@@ -9,16 +8,16 @@ module contact_output_case_record
    use contact_base_solve_report, only : ending, solve_report
    use contact_cases_border_warning, only : beside_words, border_words, buried_words
    use contact_cases_spec, only : case_spec
-   use contact_grid_element_division, only : element
    use contact_output_record, only : record_writer
+   use contact_patch_quantities, only : total_list
    use contact_patch_resolution, only : elements_across, is_coarse
    use contact_patch_result, only : patch_result
-   use contact_wheelrail_result, only : moment_about_elements, wheel_rail_patch, wheel_rail_result
+   use contact_wheelrail_result, only : wheel_rail_patch, wheel_rail_result
    implicit none (type, external)
    private
 
-   public :: case_head, describe_border, describe_head, describe_wheel_rail, describe_patch, describe_place, describe_run, &
-      & describe_resolution, describe_solution, is_rolling, planned_text, run_summary, side_sign
+   public :: case_head, describe_head, describe_list, describe_patch, describe_run, describe_wheel_rail, planned_text, &
+      & run_summary, side_sign
 
    !> How far a run has come
    type :: run_summary
@@ -95,12 +94,6 @@ contains
       if (spec%wheel_rail%left) s = -1.0_wp
    end function side_sign
 
-   !> Is the relative motion rolling?
-   pure logical function is_rolling(spec)
-      type(case_spec), intent(in) :: spec
-      is_rolling = spec%motion == motion%transient_rolling .or. spec%motion == motion%steady_rolling
-   end function is_rolling
-
    !> Number, status and time of a case
    subroutine describe_head(record, head)
       class(record_writer), intent(inout) :: record
@@ -125,43 +118,17 @@ contains
       if (.not. head%status%has_result()) call record%text("failure", "why there is no result", head%status%reason)
    end subroutine describe_head
 
-   !> Forces of wheel on rail that all patches make together, and the positions that were found
+   !> What all patches of wheel and rail make together
    subroutine describe_wheel_rail(record, spec, pair)
       class(record_writer), intent(inout) :: record
       type(case_spec), intent(in) :: spec
       type(wheel_rail_result), intent(in) :: pair
       character(len=5), parameter :: names(2) = ["inner", "outer"]
-      real(wp) :: s
+      type(total_list) :: totals
       integer :: k
 
-      s = side_sign(spec)
-      call record%open_group("totals", columns=.true.)
-      call record%number("fx_tr", "N", "force on the rail along the track", pair%force_track(1))
-      call record%number("fy_tr", "N", "lateral force on the rail in track coordinates", s*pair%force_track(2))
-      call record%number("fz_tr", "N", "vertical force on the rail in track coordinates", pair%force_track(3))
-      call record%number("fx_ws", "N", "longitudinal force on the rail in wheelset coordinates", pair%force_wheelset(1))
-      call record%number("fy_ws", "N", "lateral force on the rail in wheelset coordinates", s*pair%force_wheelset(2))
-      call record%number("fz_ws", "N", "vertical force on the rail in wheelset coordinates", pair%force_wheelset(3))
-      ! moments are axial vectors: the mirror changes the sign of their x and z components
-      call record%number("mx_r_tr", "N mm", "roll moment about the rail marker, track axes", s*pair%moment_rail(1))
-      call record%number("my_r_tr", "N mm", "pitch moment about the rail marker, track axes", pair%moment_rail(2))
-      call record%number("mz_r_tr", "N mm", "yaw moment about the rail marker, track axes", s*pair%moment_rail(3))
-      call record%number("mx_w_ws", "N mm", "roll moment about the wheel marker, wheelset axes", s*pair%moment_wheel(1))
-      call record%number("my_w_ws", "N mm", "pitch moment about the wheel marker, wheelset axes", pair%moment_wheel(2))
-      call record%number("mz_w_ws", "N mm", "yaw moment about the wheel marker, wheelset axes", s*pair%moment_wheel(3))
-      associate (w => spec%wheel_rail%wheelset)
-         call record%number("s_ws", "mm", "position of the wheelset along the track", w%s)
-         call record%number("y_ws", "mm", "lateral position of the wheelset", w%y)
-         call record%number("z_ws", "mm", "height of the wheelset, given or found", pair%z_ws)
-         call record%number("roll_ws", "rad", "roll angle of the wheelset", w%roll)
-         call record%number("yaw_ws", "rad", "yaw angle of the wheelset", w%yaw)
-         call record%number("vpitch_ws", "rad/s", "pitch rate of the wheelset, given or found", pair%vpitch)
-      end associate
-      call record%number("dy_defl", "mm", "lateral deflection of the rail", s*pair%dy_defl)
-      call record%number("dz_defl", "mm", "vertical deflection of the rail", pair%dz_defl)
-      call record%number("smallest_gap", "mm", "smallest vertical gap, negative: overlap", pair%smallest_gap)
-      call record%count("force_trials", "heights tried in a search for the vertical force, at most", pair%max_trials)
-      call record%close_group()
+      call pair%totals(spec%wheel_rail, totals)
+      call describe_list(record, "totals", totals)
       if (pair%beside%depth > 0.0_wp) call record%text("beside", "another place along the track where wheel and rail &
          &overlap, which carries no load here", trim(beside_words(spec, pair%beside)))
       if (.not. any(pair%buried%depth > 0.0_wp)) return
@@ -173,94 +140,47 @@ contains
       call record%close_group()
    end subroutine describe_wheel_rail
 
-   !> Totals of one contact patch
-   subroutine describe_patch(record, spec, contact)
+   !> One contact patch: totals, what is to be thought of it, how it was solved
+   subroutine describe_patch(record, spec, contact, place)
       class(record_writer), intent(inout) :: record
       type(case_spec), intent(in) :: spec
       type(patch_result), intent(in) :: contact
-      real(wp) :: s
-      logical :: rolling
+      !> Where it is, in module 1
+      type(wheel_rail_patch), intent(in), optional :: place
+      type(total_list) :: totals
 
-      s = side_sign(spec)
-      rolling = is_rolling(spec)
-      call record%number("fn", "N", "normal force", contact%fn)
-      call record%number("fx", "N", "longitudinal force on body 1", contact%fx)
-      call record%number("fy", "N", "lateral force on body 1", s*contact%fy)
-      call record%number("mz", "N mm", "moment about the normal through the origin, on body 1; wheel on rail: through the " &
-         & // "contact reference", s*contact%mz)
-      call record%number("fx_rel", "-", "FX over friction coefficient times FN", contact%fx_rel)
-      call record%number("fy_rel", "-", "FY over friction coefficient times FN", s*contact%fy_rel)
-      call record%number("mu_scal", "-", "friction coefficient of the relative forces", contact%mu_scal)
-      call record%number("pen", "mm", "approach of the bodies", contact%pen)
-      call record%number("pmax", "N/mm2", "largest pressure", contact%pmax)
-      if (rolling) then
-         call record%number("cksi", "-", "longitudinal creepage, given or found", contact%cksi)
-         call record%number("ceta", "-", "lateral creepage, given or found", s*contact%ceta)
-         call record%number("cphi", "rad/mm", "spin", s*contact%cphi)
-         call record%number("friction_power", "W", "frictional power, dissipation negative", contact%friction_power)
-      else if (spec%motion == motion%shift) then
-         call record%number("shift_x", "mm", "longitudinal shift, given or found", contact%cksi)
-         call record%number("shift_y", "mm", "lateral shift, given or found", s*contact%ceta)
-         call record%number("rotation", "rad", "rotation", s*contact%cphi)
-         call record%number("friction_work", "J", "frictional work, dissipation negative", contact%friction_power)
+      if (present(place)) then
+         call place%totals(totals, spec%wheel_rail%left)
+      else
+         call contact%totals(totals)
       end if
-      call record%number("elastic_energy", "J", "elastic energy", contact%elastic_energy)
-      if (allocated(contact%damping)) then
-         call record%number("fn_damp", "N", "normal damping force, not part of FN", contact%damping(1))
-         call record%number("fx_damp", "N", "longitudinal damping force, not part of FX", contact%damping(2))
-         call record%number("fy_damp", "N", "lateral damping force, not part of FY", s*contact%damping(3))
-      end if
-      if (allocated(contact%temp1)) then
-         call record%number("max_temp1", "degC", "highest surface temperature of body 1", highest(contact, contact%temp1))
-         call record%number("max_temp2", "degC", "highest surface temperature of body 2", highest(contact, contact%temp2))
-      end if
-      call record%number("contact_area", "mm2", "area of the elements in contact", contact%contact_area())
-      call record%count("ncon", "elements in contact", contact%ncon)
-      call record%count("border_elements", "elements in contact in the outer rows and columns", contact%border%elements)
-      call record%count("nadh", "elements in adhesion", contact%nadh)
-      call record%count("nslip", "slipping elements", contact%nslip)
-      if (allocated(contact%tau_c)) call record%count("nplast", "yielding elements", contact%nplast)
+      call describe_list(record, "totals", totals)
+      call describe_border(record, spec, contact)
+      call describe_resolution(record, contact)
+      call describe_solution(record, spec, contact)
    end subroutine describe_patch
 
-   !> Highest temperature in contact; anywhere without contact
-   pure real(wp) function highest(contact, temperature)
-      type(patch_result), intent(in) :: contact
-      real(wp), intent(in) :: temperature(:, :)
-
-      highest = maxval(temperature)
-      if (contact%ncon > 0) highest = maxval(temperature, contact%division > element%exterior)
-   end function highest
-
-   !> Where the reference of a patch of wheel and rail is
-   subroutine describe_place(record, spec, patch)
+   !> A group of totals, or of other values of a list
+   subroutine describe_list(record, name, totals)
       class(record_writer), intent(inout) :: record
-      type(case_spec), intent(in) :: spec
-      type(wheel_rail_patch), intent(in) :: patch
-      real(wp) :: s
+      !> Of the group; a curve over the cases can be drawn of each total
+      character(len=*), intent(in) :: name
+      type(total_list), intent(in) :: totals
+      integer :: k
 
-      s = side_sign(spec)
-      call record%number("xcp_tr", "mm", "contact reference along the track", patch%x)
-      call record%number("ycp_tr", "mm", "contact reference, lateral, track coordinates", s*patch%y)
-      call record%number("zcp_tr", "mm", "contact reference, vertical, track coordinates", patch%z)
-      call record%number("deltcp_tr", "rad", "contact angle in track coordinates", s*patch%delta)
-      call record%number("ycp_r", "mm", "contact reference, lateral, rail profile", s*patch%y_rail)
-      call record%number("zcp_r", "mm", "contact reference, vertical, rail profile", patch%z_rail)
-      call record%number("deltcp_r", "rad", "contact angle in the rail profile", s*patch%delta_rail)
-      call record%number("xcp_w", "mm", "contact reference, longitudinal, wheel profile", patch%x_wheel)
-      call record%number("ycp_w", "mm", "contact reference, lateral, wheel profile", s*patch%y_wheel)
-      call record%number("zcp_w", "mm", "contact reference, vertical, wheel profile", patch%z_wheel)
-      if (spec%motion == motion%shift .or. spec%motion == motion%transient_rolling) then
-         ! steps share the elements, not the contact reference
-         call record%number("mz_elem", "N mm", "moment about the normal through the origin of the elements, MN of the .out file", &
-            & s*moment_about_elements(patch, patch%contact%fx, patch%contact%fy, patch%contact%mz))
-      end if
-      if (.not. allocated(patch%curve)) return
-      ! FN, FX and FY are plain sums of the tractions then
-      call record%number("bar_fn", "N", "normal force of a curved patch, axes of the contact reference", patch%force(3))
-      call record%number("bar_fx", "N", "longitudinal force of a curved patch, axes of the contact reference", patch%force(1))
-      call record%number("bar_fs", "N", "lateral force of a curved patch, axes of the contact reference", s*patch%force(2))
-      call record%number("bar_mn", "N mm", "moment of a curved patch about the normal of the contact reference", s*patch%moment(3))
-   end subroutine describe_place
+      call record%open_group(name, columns=name == "totals")
+      do k = 1, totals%length
+         associate (row => totals%rows(k))
+            if (.not. row%in_files) cycle
+            if (row%is_count) then
+               call record%count(trim(row%name), trim(row%meaning), nint(row%value))
+            else
+               call record%number(trim(row%name), trim(row%unit), trim(row%meaning), row%value)
+            end if
+         end associate
+      end do
+      call record%close_group()
+   end subroutine describe_list
 
    !> Where contact is cut off by the border of the potential contact or the end of a profile; nothing where it is not
    subroutine describe_border(record, spec, contact)

@@ -7,11 +7,16 @@ module contact_output_element_table
    use contact_cases_spec, only : case_spec
    use contact_grid_element_division, only : element
    use contact_output_formats, only : fixed, general, generals, whole
+   use contact_patch_quantities, only : element_field
    use contact_patch_result, only : patch_result
+   use contact_text_words, only : capital
    implicit none (type, external)
    private
 
    public :: write_element_table
+
+   !> Width of a column
+   integer, parameter :: width = 11
 
 contains
 
@@ -19,12 +24,15 @@ contains
    subroutine write_element_table(log, spec, result)
       type(log_type), intent(inout) :: log
       type(case_spec), intent(in) :: spec
-      type(patch_result), intent(in) :: result
+      type(patch_result), target, intent(in) :: result
+      type(element_field), allocatable :: fields(:)
       logical :: all_elements, new_row
       integer :: ix, iy
 
       all_elements = spec%output_level >= 6
-      call write_table_head(log, spec%motion, allocated(result%temp1))
+      call result%fields(fields)
+      fields = pack(fields, has_column(fields))
+      call write_table_head(log, spec%motion, fields)
       do iy = 1, result%grid%my
          new_row = .true.
          do ix = 1, result%grid%mx
@@ -36,22 +44,25 @@ contains
                call log%result("")
                new_row = .false.
             end if
-            call write_element(log, spec%motion, result, ix, iy)
+            call write_element(log, spec%motion, result, fields, ix, iy)
          end do
       end do
    end subroutine write_element_table
 
    !> Title, explanation and column heading
-   subroutine write_table_head(log, motion_kind, has_temperatures)
+   subroutine write_table_head(log, motion_kind, fields)
       type(log_type), intent(inout) :: log
       !> Member of motion
       integer, intent(in) :: motion_kind
-      !> Are surface temperatures known?
-      logical, intent(in) :: has_temperatures
-      character(len=:), allocatable :: more
+      !> Those that have columns of their own
+      type(element_field), intent(in) :: fields(:)
+      character(len=1 + width*size(fields)) :: more
+      integer :: k
 
       more = ""
-      if (has_temperatures) more = "       TEMP1      TEMP2"
+      do k = 1, size(fields)
+         more(2 + width*(k - 1):1 + width*k) = repeat(" ", width - len_trim(fields(k)%name)) // capital(fields(k)%name)
+      end do
       call log%result("")
       call log%result(" QUANTITIES DISTRIBUTED OVER THE CONTACT AREA:")
       call log%result(" H-PEN: UNDEFORMED DISTANCE MINUS APPROACH [MM], X [MM], PN: NORMAL PRESSURE [N/MM2],")
@@ -71,19 +82,29 @@ contains
          call log%result(" S: RELATIVE SLIP VELOCITY [-], OPPOSITE TO PT, RIGID SLIP: THE SAME WITHOUT DEFORMATION.")
          call log%result("")
          call log%result("     X         H-PEN        PN      TRCBND    ABS(PT)     ARG(PT;-S)  ABS(S)      " &
-            & // "RIGID SLIP(X, Y)" // more)
+            & // "RIGID SLIP(X, Y)" // trim(more))
       end if
    end subroutine write_table_head
 
+   !> Has a field a column of its own?
+   elemental logical function has_column(field)
+      type(element_field), intent(in) :: field
+
+      has_column = associated(field%values) .and. field%figures > 0
+   end function has_column
+
    !> Write the line of one element; slip per step becomes relative slip
-   subroutine write_element(log, motion_kind, result, ix, iy)
+   subroutine write_element(log, motion_kind, result, fields, ix, iy)
       type(log_type), intent(inout) :: log
       !> Member of motion
       integer, intent(in) :: motion_kind
       type(patch_result), intent(in) :: result
+      !> Those that have columns of their own
+      type(element_field), intent(in) :: fields(:)
       integer, intent(in) :: ix, iy
       character(len=:), allocatable :: line
       real(wp) :: px, py, traction, angle, gap, bound
+      integer :: k
 
       px = result%px(ix, iy)
       py = result%py(ix, iy)
@@ -100,7 +121,9 @@ contains
             & // general(bound, 11, 3) // general(traction, 11, 3) // fixed(angle, 10, 1) &
             & // "  " // general(hypot(result%sx(ix, iy), result%sy(ix, iy))/result%dq, 11, 3) &
             & // general(result%wx(ix, iy)/result%dq, 11, 3) // general(result%wy(ix, iy)/result%dq, 11, 3)
-         if (allocated(result%temp1)) line = line // general(result%temp1(ix, iy), 11, 4) // general(result%temp2(ix, iy), 11, 4)
+         do k = 1, size(fields)
+            line = line // general(fields(k)%values(ix, iy)/fields(k)%divisor, width, fields(k)%figures)
+         end do
       end if
       call log%result(line)
    end subroutine write_element

@@ -12,7 +12,7 @@ module contact_output_formats
    implicit none (type, external)
    private
 
-   public :: fixed, general, generals, heading, scientific, smart, smarts, whole
+   public :: fixed, fixeds, general, generals, heading, scientific, smart, smarts, whole
 
    !> Smaller magnitudes are shown as zero: their exponents would need three digits [-]
    real(wp), parameter :: smallest = 1.0e-99_wp
@@ -163,6 +163,16 @@ contains
          text(12*i - 11:12*i) = general(values(i), 12, 4)
       end do
    end function generals
+
+   !> Values next to each other in 12 columns with four decimals
+   pure function fixeds(values) result(text)
+      real(wp), intent(in) :: values(:)
+      character(len=12*size(values)) :: text
+      integer :: i
+      do i = 1, size(values)
+         text(12*i - 11:12*i) = fixed(values(i), 12, 4)
+      end do
+   end function fixeds
 
    !> Values next to each other in the format S 12/4/4
    pure function smarts(values) result(text)

@@ -10,12 +10,11 @@ module contact_output_json_file
    use contact_base_limits, only : case_limits
    use contact_base_output_file, only : output_file
    use contact_cases_spec, only : case_spec
-   use contact_output_case_record, only : case_head, describe_border, describe_head, describe_wheel_rail, describe_patch, &
-      & describe_resolution, describe_place, describe_run, describe_solution, run_summary
+   use contact_output_case_record, only : case_head, describe_head, describe_wheel_rail, describe_patch, describe_run, run_summary
    use contact_output_finished_file, only : close_result, open_result, open_result_again
    use contact_output_record, only : record_writer
    use contact_patch_result, only : patch_result
-   use contact_wheelrail_result, only : wheel_rail_result
+   use contact_wheelrail_result, only : wheel_rail_patch, wheel_rail_result
    implicit none (type, external)
    private
 
@@ -169,33 +168,27 @@ contains
       call self%add("[")
       do k = 1, size(pair%patches)
          if (k > 1) call self%add(",")
-         call write_patch(self, k, spec, pair%patches(k)%contact, pair)
+         call write_patch(self, k, spec, pair%patches(k)%contact, pair%patches(k))
       end do
       call self%add("]")
       call self%end_line()
    end subroutine write_wheel_rail_line
 
    !> One contact patch as an object
-   subroutine write_patch(self, number, spec, contact, pair)
+   subroutine write_patch(self, number, spec, contact, place)
       class(json_file), intent(inout) :: self
       !> Number of the patch in its case
       integer, intent(in) :: number
       type(case_spec), intent(in) :: spec
       type(patch_result), intent(in) :: contact
-      !> The pair it belongs to, in module 1
-      type(wheel_rail_result), intent(in), optional :: pair
+      !> Where it is, in module 1
+      type(wheel_rail_patch), intent(in), optional :: place
 
       call self%add("{")
       self%follows = .false.
       call self%count("patch", "", number)
       if (allocated(contact%effects)) call self%text("effects", "", contact%effects)
-      call self%open_group("totals", columns=.true.)
-      call describe_patch(self, spec, contact)
-      if (present(pair)) call describe_place(self, spec, pair%patches(number))
-      call self%close_group()
-      call describe_border(self, spec, contact)
-      call describe_resolution(self, contact)
-      call describe_solution(self, spec, contact)
+      call describe_patch(self, spec, contact, place)
       call self%add("}")
       self%follows = .true.
    end subroutine write_patch

@@ -4,7 +4,7 @@
 !> that what other programs do not know, the status, stands behind the names of the first line.
 module contact_output_mat_file
    use contact_base_case_status, only : case_status
-   use contact_base_choices, only : friction_model, material_model, motion
+   use contact_base_choices, only : friction_model, is_rolling, material_model
    use contact_base_error, only : add_context, error_type
    use contact_base_kinds, only : wp
    use contact_cases_friction_setup, only : values_of
@@ -14,7 +14,9 @@ module contact_output_mat_file
    use contact_grid_element_division, only : element
    use contact_output_finished_file, only : case_file_name, finished_file
    use contact_output_formats, only : general, whole
+   use contact_patch_quantities, only : element_field
    use contact_patch_result, only : patch_result
+   use contact_text_words, only : capital
    implicit none (type, external)
    private
 
@@ -22,10 +24,6 @@ module contact_output_mat_file
 
    !> Number of the layout; readers refuse larger numbers
    integer, parameter :: layout = 2410
-   !> Number of columns without plasticity and heat
-   integer, parameter :: basic_columns = 11
-   !> Length of a line that holds all columns
-   integer, parameter :: width = 14*(basic_columns + 5)
    !> Value of A from which on all elements are written
    integer, parameter :: all_elements = 2
 
@@ -77,7 +75,7 @@ contains
    subroutine write_mat_file(file_name, spec, result, status, error, place)
       character(len=*), intent(in) :: file_name
       type(case_spec), intent(in) :: spec
-      type(patch_result), intent(in) :: result
+      type(patch_result), target, intent(in) :: result
       !> How the case ended, with all its patches
       type(case_status), intent(in) :: status
       type(error_type), allocatable, intent(out) :: error
@@ -85,35 +83,42 @@ contains
       type(mat_place), intent(in), optional :: place
       type(mat_place) :: here
       type(finished_file) :: file
+      type(element_field), allocatable :: fields(:)
 
       if (present(place)) here = place
+      call result%fields(fields)
+      fields = pack(fields, has_column(fields))
       call file%start(file_name, error, spec%limits)
       if (allocated(error)) return
-      call write_header(file, spec, result, status, here)
-      call write_elements(file, spec, result)
+      call write_header(file, spec, result, status, here, fields)
+      call write_elements(file, spec, result, fields)
       call file%finish(error)
       call add_context(error, "writing the .mat file")
    end subroutine write_mat_file
 
    !> Six pairs of a line with names and a line with values, then the names of the table columns
-   subroutine write_header(file, spec, result, status, place)
+   subroutine write_header(file, spec, result, status, place, fields)
       type(finished_file), intent(in) :: file
       type(case_spec), intent(in) :: spec
       type(patch_result), intent(in) :: result
       type(case_status), intent(in) :: status
       type(mat_place), intent(in) :: place
-      character(len=width) :: lines(13)
+      !> Those that have columns
+      type(element_field), intent(in) :: fields(:)
+      character(len=14*(size(fields) + 2)) :: lines(13)
       real(wp), allocatable :: values(:)
-      character(len=11), allocatable :: more(:)
+      character(len=11) :: names(size(fields) + 1)
       real(wp) :: chi, dq
       logical :: rolling
       type(case_digits) :: digits
       integer :: i, columns
 
       digits = digits_of(spec)
-      more = extra_names(result)
-      columns = basic_columns + size(more)
-      rolling = spec%motion == motion%transient_rolling .or. spec%motion == motion%steady_rolling
+      columns = size(fields) + 2
+      names(1) = "   I  IGS"
+      names(2:) = capital(fields%name)
+      where (names == "SX") names = merge("SREL", "SHFT", is_rolling(result%motion))
+      rolling = is_rolling(spec%motion)
       chi = merge(result%chi, 0.0_wp, rolling)
       dq = merge(result%dq, 1.0_wp, rolling)
 
@@ -137,8 +142,7 @@ contains
       lines(11) = name_line(completed("   L    H", friction_names(spec%friction_law), columns))
       values = [merge(result%veloc, spec%rolling%veloc, place%patches > 0), friction_values(spec)]
       lines(12) = two_integers(spec%friction_law, digits%h) // reals([values, zeros(columns - 2 - size(values))])
-      lines(13) = name_line([character(len=11) :: "   I  IGS", "H", "MU", "PN", "PX", "PY", "UN", "UX", "UY", &
-         & merge("SREL", "SHFT", rolling), more])
+      lines(13) = name_line(names)
       if (status%is_solved()) then
          call file%line(trim(lines(1)) // "   STATUS: " // trim(status%word()))
       else
@@ -150,53 +154,38 @@ contains
       end do
    end subroutine write_header
 
-   !> One line per element in ascending number; slip per step becomes relative slip
-   subroutine write_elements(file, spec, result)
+   !> Has a field a column in the table? Slip has one, its magnitude in the place of its first component
+   elemental logical function has_column(field)
+      type(element_field), intent(in) :: field
+
+      has_column = associated(field%values) .and. field%in_files .and. field%name /= "sy"
+   end function has_column
+
+   !> One line per element in ascending number
+   subroutine write_elements(file, spec, result, fields)
       type(finished_file), intent(in) :: file
       type(case_spec), intent(in) :: spec
       type(patch_result), intent(in) :: result
-      character(len=width) :: line
-      real(wp) :: slip, distance
-      logical :: every, rolling
-      integer :: ix, iy, number
+      !> Those that have columns
+      type(element_field), intent(in) :: fields(:)
+      character(len=14*(size(fields) + 2)) :: line
+      real(wp) :: values(size(fields))
+      integer :: ix, iy, k, number
 
-      every = spec%mat_file >= all_elements
-      rolling = spec%motion == motion%transient_rolling .or. spec%motion == motion%steady_rolling
-      distance = merge(result%dq, 1.0_wp, rolling)
       number = 0
       do iy = 1, result%grid%my
          do ix = 1, result%grid%mx
             number = number + 1
-            if (result%division(ix, iy) == element%exterior .and. .not. every) cycle
-            slip = hypot(result%sx(ix, iy), result%sy(ix, iy))/distance
-            line = two_integers(number, result%division(ix, iy)) // reals([result%h(ix, iy), result%mu(ix, iy), &
-               & result%pn(ix, iy), result%px(ix, iy), result%py(ix, iy), result%un(ix, iy), result%ux(ix, iy), &
-               & result%uy(ix, iy), slip, extra_values(result, ix, iy)])
+            if (result%division(ix, iy) == element%exterior .and. spec%mat_file < all_elements) cycle
+            do k = 1, size(fields)
+               values(k) = fields(k)%values(ix, iy)
+               if (fields(k)%name == "sx") values(k) = hypot(values(k), result%sy(ix, iy))
+            end do
+            line = two_integers(number, result%division(ix, iy)) // reals(values/fields%divisor)
             call file%line(trim(line))
          end do
       end do
    end subroutine write_elements
-
-   !> Names of the columns that the effects of a case add
-   pure function extra_names(result) result(names)
-      type(patch_result), intent(in) :: result
-      character(len=11), allocatable :: names(:)
-
-      allocate(names(0))
-      if (allocated(result%tau_c)) names = [character(len=11) :: names, "TAUCRT", "UPLSX", "UPLSY"]
-      if (allocated(result%temp1)) names = [character(len=11) :: names, "TEMP1", "TEMP2"]
-   end function extra_names
-
-   !> Values of an element that belong to extra_names
-   pure function extra_values(result, ix, iy) result(values)
-      type(patch_result), intent(in) :: result
-      integer, intent(in) :: ix, iy
-      real(wp), allocatable :: values(:)
-
-      allocate(values(0))
-      if (allocated(result%tau_c)) values = [values, result%tau_c(ix, iy), result%uplx(ix, iy), result%uply(ix, iy)]
-      if (allocated(result%temp1)) values = [values, result%temp1(ix, iy), result%temp2(ix, iy)]
-   end function extra_values
 
    !> Names of the material constants that the model has
    pure function material_names(model) result(names)

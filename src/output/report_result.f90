@@ -1,55 +1,42 @@
 !> Results of a case in the .out file: totals, sensitivities, statistics, how it was solved
 module contact_output_report_result
    use contact_base_case_status, only : case_status
-   use contact_base_choices, only : force_control, motion, pressure_model, variation
+   use contact_base_choices, only : force_control, is_rolling, motion, pressure_model, variation
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
    use contact_base_solve_report, only : solve_report
    use contact_cases_spec, only : case_spec
-   use contact_grid_element_division, only : element
    use contact_output_formats, only : scientific, smart, smarts, whole
+   use contact_patch_quantities, only : total_list
    use contact_patch_result, only : patch_result
    implicit none (type, external)
    private
 
-   public :: ending_text, highest_temperature, shown_totals, without_noise
-   public :: write_sensitivities, write_damping, write_solution_line, write_statistics, write_totals
-
-   !> Totals as they are printed: what is below the solver tolerance is zero
-   type :: shown_totals
-      !> Forces [N], moment [N mm]
-      real(wp) :: fx = 0.0_wp, fy = 0.0_wp, mz = 0.0_wp
-      !> Relative forces [-]
-      real(wp) :: fx_rel = 0.0_wp, fy_rel = 0.0_wp
-      !> Creepages [-] or shifts [mm]
-      real(wp) :: cksi = 0.0_wp, ceta = 0.0_wp
-      !> Elastic energy [J]
-      real(wp) :: elastic_energy = 0.0_wp
-   end type shown_totals
+   public :: ending_text, remove_noise, write_sensitivities, write_solution_line, write_statistics, write_total_lines, write_totals
 
 contains
 
-   !> Totals with values below the tolerance of the solution set to zero
-   pure function without_noise(spec, result) result(totals)
+   !> Set totals below the tolerance of the solution to zero, as they are printed
+   pure subroutine remove_noise(spec, totals)
       type(case_spec), intent(in) :: spec
-      type(patch_result), intent(in) :: result
-      type(shown_totals) :: totals
-      real(wp) :: small
+      type(total_list), intent(inout) :: totals
+      real(wp) :: small, scale(2)
+      integer :: k
 
       small = 0.5_wp*spec%iteration%eps
-      totals%fx = clean(result%fx, small*abs(result%fn)*result%mu_scal)
-      totals%fy = clean(result%fy, small*abs(result%fn)*result%mu_scal)
-      totals%mz = clean(result%mz, small*abs(result%fn)*result%mu_scal)
-      totals%fx_rel = clean(result%fx_rel, small)
-      totals%fy_rel = clean(result%fy_rel, small)
-      totals%cksi = result%cksi
-      totals%ceta = result%ceta
-      if (spec%force >= force_control%fx_and_ceta) totals%cksi = clean(result%cksi, spec%iteration%eps*abs(result%ceta))
-      if (spec%force == force_control%fx_and_fy) totals%ceta = clean(result%ceta, spec%iteration%eps*abs(result%cksi))
-      totals%elastic_energy = result%elastic_energy
-      if (any(spec%pressure == [pressure_model%elliptical, pressure_model%parabolical, pressure_model%sdec])) &
-         & totals%elastic_energy = 0.0_wp
-   end function without_noise
+      scale = totals%of([character(len=7) :: "fn", "mu_scal"])
+      do k = 1, totals%length
+         associate (row => totals%rows(k))
+            select case (row%name)
+            case ("fx", "fy", "mz"); row%value = clean(row%value, small*abs(scale(1))*scale(2))
+            case ("fx_rel", "fy_rel"); row%value = clean(row%value, small)
+            case ("elastic_energy")
+               if (any(spec%pressure == [pressure_model%elliptical, pressure_model%parabolical, pressure_model%sdec])) &
+                  & row%value = 0.0_wp
+            end select
+         end associate
+      end do
+   end subroutine remove_noise
 
    !> Zero if the magnitude is below the limit
    elemental real(wp) function clean(value, limit)
@@ -58,81 +45,71 @@ contains
       if (abs(value) < limit) clean = 0.0_wp
    end function clean
 
-   !> Forces, energy, approach, and the creepages or relative forces that were not prescribed
+   !> Totals of a contact problem: forces, energy, approach, and the creepages or relative forces that were not prescribed
    subroutine write_totals(log, spec, result)
       type(log_type), intent(inout) :: log
       type(case_spec), intent(in) :: spec
       type(patch_result), intent(in) :: result
-      type(shown_totals) :: totals
-      character(len=12) :: first_name, second_name
-      logical :: rolling, by_row
-      real(wp) :: first, second
-      character(len=:), allocatable :: last_name, last
+      type(total_list) :: totals
+      character(len=12) :: names(2)
+      logical :: rolling
+      real(wp) :: values(3)
 
-      last_name = ""
-      last = ""
-      if (allocated(result%temp1)) then
-         last_name = "  MAX(T1,T2)"
-         last = smart(highest_temperature(result), 12, 4, 4)
-      end if
-      totals = without_noise(spec, result)
-      rolling = spec%motion == motion%transient_rolling .or. spec%motion == motion%steady_rolling
-      by_row = spec%variation == variation%by_row
-
+      call result%totals(totals)
+      call remove_noise(spec, totals)
+      rolling = is_rolling(spec%motion)
+      names = [character(len=12) :: "FX/FSTAT/FN", "FY/FSTAT/FN"]
+      if (spec%variation == variation%by_row) names = [character(len=12) :: "  FX/FN", " FY/FN"]
+      values = [result%fn/result%gg, totals%of(["fx_rel", "fy_rel"])]
       if (spec%force >= force_control%fx_and_ceta) then
-         first_name = merge(" CREEP X    ", " SHIFT X    ", rolling)
-         first = totals%cksi
-      else
-         first_name = merge("  FX/FN     ", "FX/FSTAT/FN ", by_row)
-         first = totals%fx_rel
+         names(1) = merge(" CREEP X", " SHIFT X", rolling)
+         values(2) = clean(result%cksi, spec%iteration%eps*abs(result%ceta))
       end if
       if (spec%force == force_control%fx_and_fy) then
-         second_name = merge(" CREEP Y    ", " SHIFT Y    ", rolling)
-         second = totals%ceta
-      else
-         second_name = merge(" FY/FN      ", "FY/FSTAT/FN ", by_row)
-         second = totals%fy_rel
+         names(2) = merge(" CREEP Y", " SHIFT Y", rolling)
+         values(3) = clean(result%ceta, spec%iteration%eps*abs(result%cksi))
       end if
+      call write_total_lines(log, spec, totals, "     FN          FX          FY          MZ         ELAST.EN.   FRIC." &
+         & // trim(merge("POWER", "WORK ", rolling)), [totals%of(["fn", "fx", "fy", "mz"]), &
+         & totals%of(["elastic_energy"]), result%friction_power], "     FN/G      " // names(1) // " " // names(2) // " ", values, &
+         & "FY")
+   end subroutine write_totals
+
+   !> Lines with totals: six of them; three, approach, largest pressure, and those that have a heading; damping forces
+   subroutine write_total_lines(log, spec, totals, first_heading, first, second_heading, second, lateral)
+      type(log_type), intent(inout) :: log
+      type(case_spec), intent(in) :: spec
+      type(total_list), intent(in) :: totals
+      !> Names above the values that follow
+      character(len=*), intent(in) :: first_heading, second_heading
+      real(wp), intent(in) :: first(6), second(3)
+      !> Name of the lateral force
+      character(len=2), intent(in) :: lateral
+      character(len=:), allocatable :: names, values
+      real(wp) :: approach(2)
+      integer :: k
 
       if (spec%output_level >= 2) then
          call log%result("")
          call log%result(" TOTAL FORCES, TORSIONAL MOMENT, ELASTIC ENERGY, FRICTIONAL POWER")
       end if
-      call log%result("     FN          FX          FY          MZ         ELAST.EN.   FRIC." &
-         & // trim(merge("POWER", "WORK ", rolling)))
-      call log%result("  " // smarts([result%fn, totals%fx, totals%fy, totals%mz, totals%elastic_energy, &
-         & result%friction_power]))
-      call log%result("     FN/G      " // first_name // " " // second_name // " APPROACH     PMAX    " // last_name)
-      call log%result("  " // smarts([result%fn/result%gg, first, second]) // smart(result%pen, 12, 6, 4) &
-         & // smart(result%pmax, 12, 4, 4) // last)
-      call write_damping(log, spec, result, "FY", 1.0_wp)
-   end subroutine write_totals
-
-   !> Damping forces, where there are any
-   subroutine write_damping(log, spec, result, lateral, sign)
-      type(log_type), intent(inout) :: log
-      type(case_spec), intent(in) :: spec
-      type(patch_result), intent(in) :: result
-      !> Name of the lateral force, and -1 for the left side of the track
-      character(len=2), intent(in) :: lateral
-      real(wp), intent(in) :: sign
-
-      if (.not. allocated(result%damping)) return
+      call log%result(first_heading)
+      call log%result("  " // smarts(first))
+      approach = totals%of([character(len=4) :: "pen", "pmax"])
+      names = second_heading // "APPROACH     PMAX    "
+      values = smart(approach(1), 12, 6, 4) // smart(approach(2), 12, 4, 4)
+      do k = 1, totals%length
+         if (totals%rows(k)%heading == "") cycle
+         names = names // adjustr(totals%rows(k)%heading)
+         values = values // smart(totals%rows(k)%value, 12, 4, 4)
+      end do
+      call log%result(names)
+      call log%result("  " // smarts(second) // values)
+      if (.not. any(totals%rows(:totals%length)%name == "fn_damp")) return
       if (spec%output_level >= 2) call log%result("")
       call log%result(" DAMPING FORCES, NOT INCLUDED ABOVE:    FN          FX          " // lateral)
-      call log%result("                                  " // smarts([result%damping(:2), sign*result%damping(3)]))
-   end subroutine write_damping
-
-   !> Highest surface temperature in contact [degC]; anywhere without contact
-   pure real(wp) function highest_temperature(result) result(highest)
-      !> With temperatures
-      type(patch_result), intent(in) :: result
-
-      highest = max(maxval(result%temp1), maxval(result%temp2))
-      if (result%ncon == 0) return
-      highest = max(maxval(result%temp1, result%division > element%exterior), &
-         & maxval(result%temp2, result%division > element%exterior))
-   end function highest_temperature
+      call log%result("                                  " // smarts(totals%of(["fn_damp", "fx_damp", "fy_damp"])))
+   end subroutine write_total_lines
 
    !> Derivatives of the forces to approach, creepages and spin
    subroutine write_sensitivities(log, spec, result)

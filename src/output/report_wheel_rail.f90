@@ -16,14 +16,15 @@ module contact_output_report_wheel_rail
    use contact_grid_element_division, only : bounding_box, contact_box
    use contact_wheelrail_spec, only : profile_spec, wheel_rail_spec
    use contact_output_element_table, only : write_element_table
-   use contact_output_formats, only : fixed, general, generals, heading, smart, smarts, whole
+   use contact_output_formats, only : fixed, fixeds, general, generals, heading, smart, smarts, whole
    use contact_grid_picture, only : write_picture
    use contact_output_report_input, only : write_friction, write_sheet
-   use contact_output_report_result, only : ending_text, highest_temperature, shown_totals, without_noise, write_damping, &
-      & write_solution_line, write_statistics
+   use contact_output_report_result, only : ending_text, remove_noise, write_solution_line, write_statistics, &
+      & write_total_lines
    use contact_output_report_subsurface, only : write_subsurface
+   use contact_patch_quantities, only : total_list
    use contact_patch_result, only : patch_result
-   use contact_wheelrail_result, only : in_element_coordinates, moment_about_elements, wheel_rail_patch, wheel_rail_result
+   use contact_wheelrail_result, only : in_element_coordinates, wheel_rail_patch, wheel_rail_result
    implicit none (type, external)
    private
 
@@ -366,9 +367,9 @@ contains
       type(case_spec), intent(in) :: spec
       type(wheel_rail_result), intent(in) :: result
       character(len=:), allocatable :: body
-      real(wp) :: force(3), other(3), s
+      type(total_list) :: totals
 
-      s = sign_of(spec)
+      call result%totals(spec%wheel_rail, totals)
       body = trim(merge("ROLLER", "RAIL  ", spec%wheel_rail%roller))
       if (spec%output_level >= 4) then
          call log%result(" ")
@@ -377,17 +378,12 @@ contains
          call log%result("")
          call log%result(" TOTAL FORCES ON " // body)
       end if
-      force = [1.0_wp, s, 1.0_wp]*result%force_track
-      other = [1.0_wp, s, 1.0_wp]*result%force_wheelset
       call log%result("     FX(TR)      FY(TR)      FZ(TR)      FX(WS)      FY(WS)      FZ(WS)")
-      call log%result(smarts([force, other]))
+      call log%result(smarts(totals%of(["fx_tr", "fy_tr", "fz_tr", "fx_ws", "fy_ws", "fz_ws"])))
       if (spec%output_level < 4) return
-      ! moments are axial vectors: the mirror changes the sign of their x and z components
-      force = [s, 1.0_wp, s]*result%moment_rail
-      other = [s, 1.0_wp, s]*result%moment_wheel
       call log%result("")
       call log%result("     MX@R(TR)    MY@R(TR)    MZ@R(TR)    MX@W(WS)    MY@W(WS)    MZ@W(WS)")
-      call log%result(smarts([force, other]))
+      call log%result(smarts(totals%of(["mx_r_tr", "my_r_tr", "mz_r_tr", "mx_w_ws", "my_w_ws", "mz_w_ws"])))
    end subroutine write_total_forces
 
    !> One contact patch
@@ -399,11 +395,13 @@ contains
       !> How the case ended
       type(case_status), intent(in) :: status
       character(len=:), allocatable :: origin
+      type(total_list) :: totals
       real(wp) :: s
       integer :: k
 
       if (spec%output_level >= 1) then
          s = sign_of(spec)
+         call patch%totals(totals, spec%wheel_rail%left)
          origin = ""
          if (spec%link /= time_link%initiate) then
             origin = " (NEW PATCH)"
@@ -420,13 +418,13 @@ contains
          call log%result("")
          call log%result(" ----- DATA FOR CONTACT PATCH" // whole(number, 3) // origin // " -----")
          if (spec%output_level >= 2) then
-            call write_reference(log, patch, s)
+            call write_reference(log, totals)
             if (allocated(patch%curve)) call write_curved_contact(log, patch, s)
             call write_patch_friction(log, spec, patch)
             if (spec%motion /= motion%none) call write_patch_flexibility(log, spec%material_model, patch%contact)
             call write_patch_kinematics(log, patch, s)
          end if
-         call write_patch_totals(log, spec, patch, s)
+         call write_patch_totals(log, spec, patch, totals)
          if (spec%output_level >= 2) call write_statistics(log, spec, patch%contact)
          call write_solution_line(log, spec, patch%contact, status)
          if (spec%output_level >= 3) then
@@ -440,20 +438,18 @@ contains
    end subroutine write_patch
 
    !> Place of the contact reference in track, rail and wheel
-   subroutine write_reference(log, patch, s)
+   subroutine write_reference(log, totals)
       type(log_type), intent(inout) :: log
-      type(wheel_rail_patch), intent(in) :: patch
-      !> -1 for the left side
-      real(wp), intent(in) :: s
+      !> Of the patch
+      type(total_list), intent(in) :: totals
 
       call log%result("")
       call log%result(" CONTACT REFERENCE LOCATION")
       call log%result("     XCP(TR)     YCP(TR)     ZCP(TR)    DELTCP(TR)   YCP(R)      ZCP(R)")
-      call log%result(fixed(patch%x, 12, 4) // fixed(s*patch%y, 12, 4) // fixed(patch%z, 12, 4) // fixed(s*patch%delta, 12, 4) &
-         & // fixed(s*patch%y_rail, 12, 4) // fixed(patch%z_rail, 12, 4))
+      call log%result(fixeds(totals%of([character(len=9) :: "xcp_tr", "ycp_tr", "zcp_tr", "deltcp_tr", "ycp_r", "zcp_r"])))
       call log%result("")
       call log%result("     XCP(W)      YCP(W)      ZCP(W)")
-      call log%result(fixed(patch%x_wheel, 12, 4) // fixed(s*patch%y_wheel, 12, 4) // fixed(patch%z_wheel, 12, 4))
+      call log%result(fixeds(totals%of(["xcp_w", "ycp_w", "zcp_w"])))
    end subroutine write_reference
 
    !> How far the contact area reaches on its curved reference, the angles there, and the moments in the reference's axes
@@ -537,54 +533,33 @@ contains
    end subroutine write_patch_kinematics
 
    !> Forces, energy, approach, largest pressure
-   subroutine write_patch_totals(log, spec, patch, s)
+   subroutine write_patch_totals(log, spec, patch, totals)
       type(log_type), intent(inout) :: log
       type(case_spec), intent(in) :: spec
       type(wheel_rail_patch), intent(in) :: patch
-      !> -1 for the left side
-      real(wp), intent(in) :: s
-      type(shown_totals) :: totals
-      character(len=12) :: names(3)
-      character(len=:), allocatable :: last_name, last
-      real(wp) :: first, fx, fs
-      logical :: conformal
+      !> Its totals, of which those below the tolerance become zero
+      type(total_list), intent(inout) :: totals
+      character(len=*), parameter :: more = "ELAST.EN.   FRIC.POWER"
+      character(len=12) :: names(2)
+      real(wp) :: energy(2), force(4), reference(2)
 
-      conformal = spec%wheel_rail%search%location == contact_location%conformal
-      totals = without_noise(spec, patch%contact)
-      ! the moment is about the origin of the elements
-      totals%mz = moment_about_elements(patch, totals%fx, totals%fy, totals%mz)
-      if (spec%output_level >= 2) then
-         call log%result("")
-         call log%result(" TOTAL FORCES, TORSIONAL MOMENT, ELASTIC ENERGY, FRICTIONAL POWER")
+      call remove_noise(spec, totals)
+      names = [character(len=12) :: "FX/FSTAT/FN ", "FS/FSTAT/FN "]
+      if (patch%friction_varies) names = [character(len=12) :: "   FX/FN    ", "   FS/FN    "]
+      energy = [totals%of(["elastic_energy"]), patch%contact%friction_power]
+      if (spec%wheel_rail%search%location == contact_location%conformal) then
+         call write_total_lines(log, spec, totals, "   BAR_FN      BAR_FX      BAR_FS        MN         " // more, &
+            & [totals%of(["bar_fn", "bar_fx", "bar_fs", "bar_mn"]), energy], "    TILDE_FN  " // names(1) // names(2) // "   ", &
+            & [patch%tilde_fn, totals%of(["fx_rel", "fy_rel"])], "FS")
+      else
+         ! the moment is about the origin of the elements
+         force = totals%of(["fn", "fx", "fy", "mz"])
+         reference = totals%of(["x_elem", "y_elem"])
+         force(4) = force(4) + reference(1)*force(3) - reference(2)*force(2)
+         call write_total_lines(log, spec, totals, "     FN          FX          FS          MN         " // more, &
+            & [force, energy], "     FN/G     " // names(1) // names(2) // "   ", &
+            & [patch%contact%fn/patch%contact%gg, totals%of(["fx_rel", "fy_rel"])], "FS")
       end if
-      associate (contact => patch%contact)
-         if (conformal) then
-            call log%result("   BAR_FN      BAR_FX      BAR_FS        MN         ELAST.EN.   FRIC.POWER")
-            call log%result("  " // smarts([patch%force(3), patch%force(1), s*patch%force(2), s*patch%moment(3), &
-               & totals%elastic_energy, contact%friction_power]))
-            names(1) = "  TILDE_FN  "
-            first = patch%tilde_fn
-         else
-            call log%result("     FN          FX          FS          MN         ELAST.EN.   FRIC.POWER")
-            call log%result("  " // smarts([contact%fn, totals%fx, s*totals%fy, s*totals%mz, totals%elastic_energy, &
-               & contact%friction_power]))
-            names(1) = "   FN/G     "
-            first = contact%fn/contact%gg
-         end if
-         names(2:3) = [character(len=12) :: "FX/FSTAT/FN ", "FS/FSTAT/FN "]
-         if (patch%friction_varies) names(2:3) = [character(len=12) :: "   FX/FN    ", "   FS/FN    "]
-         fx = totals%fx_rel
-         fs = s*totals%fy_rel
-         last_name = ""
-         last = ""
-         if (allocated(contact%temp1)) then
-            last_name = "  MAX(T1,T2)"
-            last = smart(highest_temperature(contact), 12, 4, 4)
-         end if
-         call log%result("  " // names(1) // names(2) // names(3) // "   APPROACH     PMAX    " // last_name)
-         call log%result("  " // smarts([first, fx, fs]) // smart(contact%pen, 12, 6, 4) // smart(contact%pmax, 12, 4, 4) // last)
-         call write_damping(log, spec, contact, "FS", s)
-      end associate
    end subroutine write_patch_totals
 
    !> Curved reference surface of conformal contact

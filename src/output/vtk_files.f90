@@ -5,14 +5,15 @@
 !> appended as raw binary numbers. Wheel and rail: points and vectors are in track coordinates.
 module contact_output_vtk_files
    use, intrinsic :: iso_c_binding, only : c_long
-   use contact_base_choices, only : motion
+   use contact_base_choices, only : is_rolling, motion
    use contact_base_error, only : add_context, error_kind, error_type, fatal_error
    use contact_base_kinds, only : long, wp
    use contact_base_limits, only : case_limits
    use contact_base_output_file, only : output_file
    use contact_cases_spec, only : case_spec
-   use contact_output_case_record, only : case_head, is_rolling, planned_text, run_summary, side_sign
+   use contact_output_case_record, only : case_head, planned_text, run_summary, side_sign
    use contact_output_finished_file, only : case_file_name, close_result, finished_file, open_result, open_result_again
+   use contact_patch_quantities, only : element_field, is_lateral
    use contact_patch_result, only : patch_result, subsurface_result
    use contact_text_words, only : integer_text, replaced
    use contact_wheelrail_result, only : wheel_rail_patch, wheel_rail_result
@@ -263,15 +264,18 @@ contains
    subroutine write_surface(name, spec, contact, error, place)
       character(len=*), intent(in) :: name
       type(case_spec), intent(in) :: spec
-      type(patch_result), intent(in) :: contact
+      type(patch_result), target, intent(in) :: contact
       type(error_type), allocatable, intent(out) :: error
       type(wheel_rail_patch), intent(in), optional :: place
       type(vtk_grid) :: grid
+      type(element_field), allocatable :: fields(:)
+      character(len=32) :: label
       real(wp), allocatable :: points(:, :, :), traction(:, :, :), slip(:, :, :)
       real(wp) :: distance, s
-      integer :: ix, iy
+      integer :: ix, iy, k
 
       s = side_sign(spec)
+      call contact%fields(fields)
       associate (mx => contact%grid%mx, my => contact%grid%my)
          allocate(points(3, 0:mx, 0:my), traction(3, mx, my), slip(3, mx, my))
          do iy = 0, my
@@ -280,31 +284,25 @@ contains
                   & s, place, real(iy, wp) + 0.5_wp)
             end do
          end do
-         distance = merge(contact%dq, 1.0_wp, is_rolling(spec))
+         distance = merge(contact%dq, 1.0_wp, is_rolling(contact%motion))
          do iy = 1, my
             do ix = 1, mx
                traction(:, ix, iy) = turned([contact%px(ix, iy), contact%py(ix, iy), contact%pn(ix, iy)], s, place, iy)
                slip(:, ix, iy) = turned([contact%sx(ix, iy), contact%sy(ix, iy), 0.0_wp], s, place, iy)/distance
             end do
          end do
-         call start_grid(grid, [mx + 1, my + 1, 1], .true., size(points) + mx*my*25)
+         call start_grid(grid, [mx + 1, my + 1, 1], .true., size(points) + mx*my*(7 + size(fields)))
          call put(grid, "element state", 1, reshape(real(contact%division, wp), [mx*my]))
-         call put(grid, "pressure [N/mm2]", 1, reshape(contact%pn, [mx*my]))
+         do k = 1, size(fields)
+            if (fields(k)%label == "" .or. .not. fields(k)%is_written()) cycle
+            label = fields(k)%label
+            if (fields(k)%unit /= "-") label = trim(label) // " [" // trim(fields(k)%unit) // "]"
+            call put(grid, trim(label), 1, merge(s, 1.0_wp, is_lateral(fields(k)%along))/fields(k)%divisor &
+               & *reshape(fields(k)%values, [mx*my]))
+         end do
          call put(grid, "traction [N/mm2]", 3, reshape(traction, [3*mx*my]))
-         if (spec%motion /= motion%none) then
-            call put(grid, "px [N/mm2]", 1, reshape(contact%px, [mx*my]))
-            call put(grid, "py [N/mm2]", 1, s*reshape(contact%py, [mx*my]))
-            call put(grid, "friction coefficient", 1, reshape(contact%mu, [mx*my]))
-            if (is_rolling(spec)) then
-               call put(grid, "relative slip", 3, reshape(slip, [3*mx*my]))
-            else
-               call put(grid, "slip [mm]", 3, reshape(slip, [3*mx*my]))
-            end if
-         end if
-         if (allocated(contact%temp1)) then
-            call put(grid, "temperature 1 [degC]", 1, reshape(contact%temp1, [mx*my]))
-            call put(grid, "temperature 2 [degC]", 1, reshape(contact%temp2, [mx*my]))
-         end if
+         if (contact%motion /= motion%none) call put(grid, trim(merge("relative slip", "slip [mm]    ", &
+            & is_rolling(contact%motion))), 3, reshape(slip, [3*mx*my]))
          call finish_grid(grid, name, reshape(points, [size(points)]), error, spec%limits)
       end associate
    end subroutine write_surface

@@ -7,8 +7,9 @@ module contact_output_wheel_rail_files
    use contact_control_translation, only : digits_of
    use contact_output_mat_file, only : mat_file_name, mat_place, write_mat_file
    use contact_output_subs_file, only : subs_file_name, write_subs_file
-   use contact_patch_result, only : patch_result
-   use contact_wheelrail_result, only : in_element_coordinates, mirrored, wheel_rail_patch, wheel_rail_result
+   use contact_patch_quantities, only : total_list
+   use contact_patch_result, only : mirrored, patch_result
+   use contact_wheelrail_result, only : in_element_coordinates, wheel_rail_patch, wheel_rail_result
    implicit none (type, external)
    private
 
@@ -60,18 +61,18 @@ contains
       real(wp), intent(in), optional :: time
       type(mat_place) :: place
       type(case_digits) :: digits
-      real(wp) :: s
+      type(total_list) :: totals, markers
 
       digits = digits_of(spec)
-      s = merge(-1.0_wp, 1.0_wp, spec%wheel_rail%left)
-      associate (w => spec%wheel_rail%wheelset)
-         place%rail = [0.0_wp, merge(0.0_wp, w%s, spec%wheel_rail%roller), w%pitch, s*result%rail_y, result%rail_z, &
-            & s*result%rail_roll, merge(spec%wheel_rail%track%nomradr, 0.0_wp, spec%wheel_rail%roller)]
-         place%wheel = [result%wheel_x, s*result%wheel_y, result%wheel_z, s*result%wheel_roll, s*result%wheel_yaw, w%nomradw]
+      call patch%totals(totals, spec%wheel_rail%left)
+      call result%markers(spec%wheel_rail%left, markers)
+      associate (w => spec%wheel_rail%wheelset, roller => spec%wheel_rail%roller)
+         place%rail = [0.0_wp, merge(0.0_wp, w%s, roller), w%pitch, markers%of([character(len=6) :: "y_r", "z_r", "roll_r"]), &
+            & merge(spec%wheel_rail%track%nomradr, 0.0_wp, roller)]
+         place%wheel = [markers%of([character(len=6) :: "x_w", "y_w", "z_w", "roll_w", "yaw_w"]), w%nomradw]
       end associate
-      place%reference = [patch%x, s*patch%y_rail, patch%z_rail, s*patch%delta_rail, patch%x_wheel, s*patch%y_wheel, &
-         & patch%z_wheel]
-      place%spin_centre = [patch%grid_reference(1), s*patch%grid_reference(2)]
+      place%reference = totals%of([character(len=8) :: "xcp_tr", "ycp_r", "zcp_r", "deltcp_r", "xcp_w", "ycp_w", "zcp_w"])
+      place%spin_centre = totals%of(["x_elem", "y_elem"])
       if (present(time)) place%rail(1) = time
       place%patches = size(result%patches)
       place%patch = number

@@ -29,6 +29,7 @@ contains
       result%gg = problem%model%material%gg
       result%nu = problem%model%material%nu
       result%ak = problem%model%material%ak
+      result%motion = problem%motion
       result%chi = problem%chi
       result%dq = problem%dq
       result%veloc = problem%veloc

@@ -2,13 +2,16 @@
 module contact_patch_result
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
    use contact_base_case_status, only : case_status
+   use contact_base_choices, only : is_rolling, motion_choice => motion
    use contact_base_kinds, only : wp
    use contact_base_solve_report, only : solve_report
+   use contact_grid_element_division, only : element
    use contact_grid_potential_contact, only : potential_contact
+   use contact_patch_quantities, only : element_field, is_lateral, orientation, total_list
    implicit none (type, external)
    private
 
-   public :: border_contact, patch_result, hertz_result, subsurface_result
+   public :: border_contact, mirrored, patch_result, hertz_result, subsurface_result
 
    !> Where contact reaches the end of what is known of the surfaces
    type :: border_contact
@@ -49,11 +52,13 @@ module contact_patch_result
       integer :: stepped = 0
    end type subsurface_result
 
-   !> Totals, fields and reports of a solved patch
+   !> Totals, fields and reports of a solved patch; what of them goes to outputs is listed in `totals` and `fields`
    type :: patch_result
       !> How the solution ended, from the reports below and the prescribed forces
       type(case_status) :: status
       type(potential_contact) :: grid
+      !> Relative motion of the bodies, member of motion
+      integer :: motion = motion_choice%none
       !> Hertz data; unallocated for other geometries
       type(hertz_result), allocatable :: hertz
       !> Combined constants: modulus [N/mm2], Poisson ratio [-], difference parameter K [-]
@@ -115,6 +120,9 @@ module contact_patch_result
    contains
       !> Area of the elements in contact [mm2]
       procedure :: contact_area
+      !> All totals and all element fields, for outputs
+      procedure :: totals
+      procedure :: fields
       !> Are all totals finite numbers?
       procedure :: has_finite_totals
    end type patch_result
@@ -127,12 +135,167 @@ contains
       area = self%ncon*self%grid%dx*self%grid%dy
    end function contact_area
 
+   !> All totals, in the order in which they are written: names, units and meanings for all outputs
+   pure subroutine totals(self, list, left)
+      class(patch_result), intent(in) :: self
+      type(total_list), intent(inout) :: list
+      !> Is this a wheel on the left side, of which the result is the mirror image? Default: no
+      logical, intent(in), optional :: left
+
+      call list%start(left)
+      call list%add("fn", "N", "normal force", self%fn)
+      call list%add("fx", "N", "longitudinal force on body 1", self%fx, orientation%along)
+      call list%add("fy", "N", "lateral force on body 1", self%fy, orientation%across)
+      call list%add("mz", "N mm", "moment about the normal through the origin, on body 1; wheel on rail: through the contact &
+         &reference", self%mz, orientation%across)
+      call list%add("fx_rel", "-", "FX over friction coefficient times FN", self%fx_rel, orientation%along)
+      call list%add("fy_rel", "-", "FY over friction coefficient times FN", self%fy_rel, orientation%across)
+      call list%add("mu_scal", "-", "friction coefficient of the relative forces", self%mu_scal)
+      call list%add("pen", "mm", "approach of the bodies", self%pen)
+      call list%add("pmax", "N/mm2", "largest pressure", self%pmax)
+      if (is_rolling(self%motion)) then
+         call list%add("cksi", "-", "longitudinal creepage, given or found", self%cksi, orientation%along)
+         call list%add("ceta", "-", "lateral creepage, given or found", self%ceta, orientation%across)
+         call list%add("cphi", "rad/mm", "spin", self%cphi, orientation%across)
+         call list%add("friction_power", "W", "frictional power, dissipation negative", self%friction_power)
+      else if (self%motion == motion_choice%shift) then
+         call list%add("shift_x", "mm", "longitudinal shift, given or found", self%cksi, orientation%along)
+         call list%add("shift_y", "mm", "lateral shift, given or found", self%ceta, orientation%across)
+         call list%add("rotation", "rad", "rotation", self%cphi, orientation%across)
+         call list%add("friction_work", "J", "frictional work, dissipation negative", self%friction_power)
+      end if
+      call list%add("elastic_energy", "J", "elastic energy", self%elastic_energy)
+      if (allocated(self%damping)) then
+         call list%add("fn_damp", "N", "normal damping force, not part of FN", self%damping(1))
+         call list%add("fx_damp", "N", "longitudinal damping force, not part of FX", self%damping(2), orientation%along)
+         call list%add("fy_damp", "N", "lateral damping force, not part of FY", self%damping(3), orientation%across)
+      end if
+      if (allocated(self%temp1)) then
+         associate (highest => [highest_in_contact(self, self%temp1), highest_in_contact(self, self%temp2)])
+            call list%add("max_temp1", "degC", "highest surface temperature of body 1", highest(1))
+            call list%add("max_temp2", "degC", "highest surface temperature of body 2", highest(2))
+            call list%add("max_temp", "degC", "highest surface temperature", maxval(highest), heading="MAX(T1,T2)", &
+               & in_files=.false.)
+         end associate
+      end if
+      call list%add("contact_area", "mm2", "area of the elements in contact", self%contact_area())
+      call list%count("ncon", "elements in contact", self%ncon)
+      call list%count("border_elements", "elements in contact in the outer rows and columns", self%border%elements)
+      call list%count("nadh", "elements in adhesion", self%nadh)
+      call list%count("nslip", "slipping elements", self%nslip)
+      if (allocated(self%tau_c)) call list%count("nplast", "yielding elements", self%nplast)
+   end subroutine totals
+
+   !> Highest temperature in contact; anywhere without contact [degC]
+   pure real(wp) function highest_in_contact(contact, temperature) result(highest)
+      class(patch_result), intent(in) :: contact
+      !> Shape (mx, my)
+      real(wp), intent(in) :: temperature(:, :)
+
+      highest = maxval(temperature)
+      if (contact%ncon > 0) highest = maxval(temperature, contact%division > element%exterior)
+   end function highest_in_contact
+
+   !> All element fields, in the order of the columns of the .mat file: names, units and meanings for all outputs
+   !>
+   !> Displacements do not follow the body that is looked at, contrary to tractions and slip.
+   subroutine fields(self, rows)
+      class(patch_result), target, intent(in) :: self
+      !> Their values are those of `self`, of which the caller has the attribute target
+      type(element_field), allocatable, intent(out) :: rows(:)
+      logical :: still
+
+      still = self%motion == motion_choice%none
+      allocate(rows(0))
+      call add(1, "h", "mm", "undeformed distance, approach not subtracted", self%h)
+      call add(2, "mu", "-", "coefficient of friction", self%mu, label="friction coefficient")
+      call add(5, "pn", "N/mm2", "pressure", self%pn, label="pressure")
+      call add(3, "px", "N/mm2", "longitudinal traction on body 1", self%px, orientation%along, label="px", zero=still)
+      call add(4, "py", "N/mm2", "lateral traction on body 1", self%py, orientation%across, label="py", zero=still)
+      call add(9, "un", "mm", "normal displacement difference", self%un)
+      call add(7, "ux", "mm", "longitudinal displacement difference", self%ux, zero=still)
+      call add(8, "uy", "mm", "lateral displacement difference", self%uy, orientation%side, zero=still)
+      if (is_rolling(self%motion)) then
+         call add(15, "sx", "-", "longitudinal slip, relative", self%sx, orientation%along, self%dq)
+         call add(16, "sy", "-", "lateral slip, relative", self%sy, orientation%across, self%dq)
+         call add(22, "wx", "-", "longitudinal rigid slip, relative", self%wx, orientation%along, self%dq, in_files=.false.)
+         call add(23, "wy", "-", "lateral rigid slip, relative", self%wy, orientation%across, self%dq, in_files=.false.)
+      else
+         call add(15, "sx", "mm", "longitudinal slip distance", self%sx, orientation%along, zero=still)
+         call add(16, "sy", "mm", "lateral slip distance", self%sy, orientation%across, zero=still)
+         call add(22, "wx", "mm", "longitudinal rigid shift", self%wx, orientation%along, in_files=.false.)
+         call add(23, "wy", "mm", "lateral rigid shift", self%wy, orientation%across, in_files=.false.)
+      end if
+      call add(11, "taucrt", "N/mm2", "yield limit", self%tau_c)
+      call add(12, "uplsx", "mm", "longitudinal plastic displacement", self%uplx)
+      call add(13, "uplsy", "mm", "lateral plastic displacement", self%uply, orientation%side)
+      call add(20, "temp1", "degC", "surface temperature of body 1", self%temp1, label="temperature 1", figures=4)
+      call add(21, "temp2", "degC", "surface temperature of body 2", self%temp2, label="temperature 2", figures=4)
+
+   contains
+
+      !> Add a row, see element_field
+      subroutine add(code, name, unit, meaning, values, along, divisor, zero, label, figures, in_files)
+         integer, intent(in) :: code
+         character(len=*), intent(in) :: name, unit, meaning
+         !> Unallocated: the case has no such field
+         real(wp), allocatable, target, intent(in) :: values(:, :)
+         integer, intent(in), optional :: along, figures
+         real(wp), intent(in), optional :: divisor
+         logical, intent(in), optional :: zero, in_files
+         character(len=*), intent(in), optional :: label
+         type(element_field) :: row
+
+         row = element_field(name, unit, meaning, code)
+         if (allocated(values)) row%values => values
+         if (present(along)) row%along = along
+         if (present(divisor)) row%divisor = divisor
+         if (present(zero)) row%is_zero = zero
+         if (present(label)) row%label = label
+         if (present(figures)) row%figures = figures
+         if (present(in_files)) row%in_files = in_files
+         rows = [rows, row]
+      end subroutine add
+   end subroutine fields
+
+   !> The mirror image: rows of elements in reversed order, lateral components with the other sign. Totals and stresses below the
+   !> surface stay
+   function mirrored(right) result(left)
+      type(patch_result), intent(in) :: right
+      type(patch_result) :: left
+
+      left = right
+      left%grid%yl = -(right%grid%yl + right%grid%my*right%grid%dy)
+      left%division = right%division(:, right%grid%my:1:-1)
+      call turn_over(left)
+
+   contains
+
+      !> Turn over all fields
+      subroutine turn_over(contact)
+         type(patch_result), target, intent(inout) :: contact
+         type(element_field), allocatable :: rows(:)
+         integer :: k
+
+         call contact%fields(rows)
+         do k = 1, size(rows)
+            if (.not. associated(rows(k)%values)) cycle
+            associate (values => rows(k)%values)
+               values = merge(-1.0_wp, 1.0_wp, is_lateral(rows(k)%along))*values(:, contact%grid%my:1:-1)
+            end associate
+         end do
+      end subroutine turn_over
+   end function mirrored
+
    !> Sums over all elements of tractions, displacements and slip are among the totals, so that no element escapes
    pure logical function has_finite_totals(self) result(finite)
       class(patch_result), intent(in) :: self
+      type(total_list) :: list
 
-      finite = all(ieee_is_finite([self%fn, self%pen, self%pmax, self%fx, self%fy, self%fx_rel, self%fy_rel, self%mx, self%my, &
-         & self%mz, self%cksi, self%ceta, self%cphi, self%elastic_energy, self%friction_power]))
+      call self%totals(list)
+      finite = all(ieee_is_finite(list%rows(:list%length)%value)) .and. all(ieee_is_finite([self%mx, self%my, self%cksi, &
+         & self%ceta, self%cphi, self%friction_power]))
+      ! the highest temperature passes over what is no number
       if (finite .and. allocated(self%temp1)) finite = ieee_is_finite(sum(self%temp1) + sum(self%temp2))
    end function has_finite_totals
 end module contact_patch_result

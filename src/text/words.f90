@@ -8,7 +8,7 @@ module contact_text_words
    implicit none (type, external)
    private
 
-   public :: word_state, to_integer, to_real, to_angle, columns_of, integer_text, real_text, exact_text, replaced, small
+   public :: word_state, to_integer, to_real, to_angle, columns_of, integer_text, real_text, exact_text, replaced, small, capital
 
    type :: word_state_list
       integer :: good = 0
@@ -374,4 +374,16 @@ contains
          if (text(k:k) >= "A" .and. text(k:k) <= "Z") small(k:k) = achar(iachar(text(k:k)) + 32)
       end do
    end function small
+
+   !> A text in capital letters
+   elemental function capital(text)
+      character(len=*), intent(in) :: text
+      character(len=len(text)) :: capital
+      integer :: k
+
+      capital = text
+      do k = 1, len(text)
+         if (text(k:k) >= "a" .and. text(k:k) <= "z") capital(k:k) = achar(iachar(text(k:k)) - 32)
+      end do
+   end function capital
 end module contact_text_words

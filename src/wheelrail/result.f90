@@ -7,12 +7,14 @@ module contact_wheelrail_result
    use contact_base_case_status, only : case_status
    use contact_base_kinds, only : wp
    use contact_friction_law, only : friction_parameters
+   use contact_base_choices, only : motion
+   use contact_patch_quantities, only : orientation, total_list
    use contact_patch_result, only : patch_result
+   use contact_wheelrail_spec, only : wheel_rail_spec
    implicit none (type, external)
    private
 
-   public :: buried_end, wheel_rail_result, wheel_rail_patch, profile_points, in_element_coordinates, mirrored, &
-      & moment_about_elements
+   public :: buried_end, wheel_rail_result, wheel_rail_patch, profile_points, in_element_coordinates, moment_about_elements
 
    !> One contact patch of the pair
    type :: wheel_rail_patch
@@ -43,6 +45,9 @@ module contact_wheelrail_result
       real(wp) :: moment(3) = 0.0_wp
       !> Tractions, slip, totals in the axes of the patch
       type(patch_result) :: contact
+   contains
+      !> All totals of the patch, for outputs
+      procedure :: totals => patch_totals
    end type wheel_rail_patch
 
    !> Points of a profile in track coordinates
@@ -84,7 +89,7 @@ module contact_wheelrail_result
       real(wp) :: wheel_offset = 0.0_wp
       !> Contact patches, field side first; of size zero without contact
       type(wheel_rail_patch), allocatable :: patches(:)
-      !> Ends of the wheel's profile within the rail, which carry no load geometry: those of the lower and the higher y
+      !> Ends of the wheel's profile within the rail, which carry no load here: those of the lower and the higher y
       type(buried_end) :: buried(2)
       !> Overlap at another place along the track, at a lateral position with contact: a search that keeps one place for each
       !> lateral position leaves it out
@@ -97,11 +102,109 @@ module contact_wheelrail_result
       integer :: max_trials = 0
       real(wp) :: force_error = 0.0_wp
    contains
+      !> All totals, for outputs
+      procedure :: totals => wheel_rail_totals
+      !> Where rail and wheel are, for outputs
+      procedure :: markers
       !> Are all totals, and those of the patches, finite numbers?
       procedure :: has_finite_totals
    end type wheel_rail_result
 
 contains
+
+   !> Forces of wheel on rail that all patches make together, and the positions that were found, in the order in which they are
+   !> written
+   pure subroutine wheel_rail_totals(self, pair, list)
+      class(wheel_rail_result), intent(in) :: self
+      !> For the side of the track and the position of the wheelset, which is that of its side
+      type(wheel_rail_spec), intent(in) :: pair
+      type(total_list), intent(inout) :: list
+
+      call list%start(pair%left)
+      call list%add("fx_tr", "N", "force on the rail along the track", self%force_track(1), orientation%along)
+      call list%add("fy_tr", "N", "lateral force on the rail in track coordinates", self%force_track(2), orientation%across)
+      call list%add("fz_tr", "N", "vertical force on the rail in track coordinates", self%force_track(3), orientation%along)
+      call list%add("fx_ws", "N", "longitudinal force on the rail in wheelset coordinates", self%force_wheelset(1), &
+         & orientation%along)
+      call list%add("fy_ws", "N", "lateral force on the rail in wheelset coordinates", self%force_wheelset(2), orientation%across)
+      call list%add("fz_ws", "N", "vertical force on the rail in wheelset coordinates", self%force_wheelset(3), orientation%along)
+      ! moments are axial vectors: the mirror changes the sign of their x and z components
+      call list%add("mx_r_tr", "N mm", "roll moment about the rail marker, track axes", self%moment_rail(1), orientation%across)
+      call list%add("my_r_tr", "N mm", "pitch moment about the rail marker, track axes", self%moment_rail(2), orientation%along)
+      call list%add("mz_r_tr", "N mm", "yaw moment about the rail marker, track axes", self%moment_rail(3), orientation%across)
+      call list%add("mx_w_ws", "N mm", "roll moment about the wheel marker, wheelset axes", self%moment_wheel(1), &
+         & orientation%across)
+      call list%add("my_w_ws", "N mm", "pitch moment about the wheel marker, wheelset axes", self%moment_wheel(2), &
+         & orientation%along)
+      call list%add("mz_w_ws", "N mm", "yaw moment about the wheel marker, wheelset axes", self%moment_wheel(3), &
+         & orientation%across)
+      call list%add("s_ws", "mm", "position of the wheelset along the track", pair%wheelset%s)
+      call list%add("y_ws", "mm", "lateral position of the wheelset", pair%wheelset%y)
+      call list%add("z_ws", "mm", "height of the wheelset, given or found", self%z_ws)
+      call list%add("roll_ws", "rad", "roll angle of the wheelset", pair%wheelset%roll)
+      call list%add("yaw_ws", "rad", "yaw angle of the wheelset", pair%wheelset%yaw)
+      call list%add("vpitch_ws", "rad/s", "pitch rate of the wheelset, given or found", self%vpitch)
+      call list%add("dy_defl", "mm", "lateral deflection of the rail", self%dy_defl, orientation%side)
+      call list%add("dz_defl", "mm", "vertical deflection of the rail", self%dz_defl)
+      call list%add("smallest_gap", "mm", "smallest vertical gap, negative: overlap", self%smallest_gap)
+      call list%count("force_trials", "heights tried in a search for the vertical force, at most", self%max_trials)
+   end subroutine wheel_rail_totals
+
+   !> Where rail and wheel are, in track coordinates
+   pure subroutine markers(self, left, list)
+      class(wheel_rail_result), intent(in) :: self
+      !> Is this a wheel on the left side of the track?
+      logical, intent(in) :: left
+      type(total_list), intent(inout) :: list
+
+      call list%start(left)
+      call list%add("y_r", "mm", "rail marker, lateral", self%rail_y, orientation%side)
+      call list%add("z_r", "mm", "rail marker, vertical", self%rail_z)
+      call list%add("roll_r", "rad", "roll angle of the rail", self%rail_roll, orientation%side)
+      call list%add("x_w", "mm", "wheel marker, longitudinal", self%wheel_x)
+      call list%add("y_w", "mm", "wheel marker, lateral", self%wheel_y, orientation%side)
+      call list%add("z_w", "mm", "wheel marker, vertical", self%wheel_z)
+      call list%add("roll_w", "rad", "roll angle of the wheel", self%wheel_roll, orientation%side)
+      call list%add("yaw_w", "rad", "yaw angle of the wheel", self%wheel_yaw, orientation%side)
+      call list%add("ynom_whl", "mm", "origin of the profile from the middle of the wheelset, outwards", self%wheel_offset)
+   end subroutine markers
+
+   !> All totals of a patch: those of the contact, and where its reference is
+   pure subroutine patch_totals(self, list, left)
+      class(wheel_rail_patch), intent(in) :: self
+      type(total_list), intent(inout) :: list
+      !> Is this a wheel on the left side of the track?
+      logical, intent(in) :: left
+
+      call self%contact%totals(list, left)
+      call list%add("xcp_tr", "mm", "contact reference along the track", self%x)
+      call list%add("ycp_tr", "mm", "contact reference, lateral, track coordinates", self%y, orientation%side)
+      call list%add("zcp_tr", "mm", "contact reference, vertical, track coordinates", self%z)
+      call list%add("deltcp_tr", "rad", "contact angle in track coordinates", self%delta, orientation%side)
+      call list%add("ycp_r", "mm", "contact reference, lateral, rail profile", self%y_rail, orientation%side)
+      call list%add("zcp_r", "mm", "contact reference, vertical, rail profile", self%z_rail)
+      call list%add("deltcp_r", "rad", "contact angle in the rail profile", self%delta_rail, orientation%side)
+      call list%add("xcp_w", "mm", "contact reference, longitudinal, wheel profile", self%x_wheel)
+      call list%add("ycp_w", "mm", "contact reference, lateral, wheel profile", self%y_wheel, orientation%side)
+      call list%add("zcp_w", "mm", "contact reference, vertical, wheel profile", self%z_wheel)
+      call list%add("x_elem", "mm", "contact reference in the coordinates of the elements", self%grid_reference(1), &
+         & in_files=.false.)
+      call list%add("y_elem", "mm", "contact reference in the coordinates of the elements", self%grid_reference(2), &
+         & orientation%side, in_files=.false.)
+      ! steps share the elements, not the contact reference
+      if (self%contact%motion == motion%shift .or. self%contact%motion == motion%transient_rolling) &
+         & call list%add("mz_elem", "N mm", "moment about the normal through the origin of the elements, MN of the .out file", &
+         & moment_about_elements(self, self%contact%fx, self%contact%fy, self%contact%mz), orientation%across)
+      if (.not. allocated(self%curve)) return
+      ! FN, FX and FY are plain sums of the tractions then
+      call list%add("bar_fn", "N", "normal force of a curved patch, axes of the contact reference", self%force(3))
+      call list%add("bar_fx", "N", "longitudinal force of a curved patch, axes of the contact reference", self%force(1), &
+         & orientation%along)
+      call list%add("bar_fs", "N", "lateral force of a curved patch, axes of the contact reference", self%force(2), &
+         & orientation%across)
+      call list%add("bar_mn", "N mm", "moment of a curved patch about the normal of the contact reference", self%moment(3), &
+         & orientation%across)
+   end subroutine patch_totals
 
    pure logical function has_finite_totals(self) result(finite)
       class(wheel_rail_result), intent(in) :: self
@@ -135,36 +238,4 @@ contains
 
       moment = mz + patch%grid_reference(1)*fy - patch%grid_reference(2)*fx
    end function moment_about_elements
-
-   !> The mirror image of a patch: rows in reversed order, lateral components with the other sign. Totals and stresses
-   !> below the surface stay
-   function mirrored(right) result(left)
-      type(patch_result), intent(in) :: right
-      type(patch_result) :: left
-      integer :: n
-
-      left = right
-      n = right%grid%my
-      left%grid%yl = -(right%grid%yl + n*right%grid%dy)
-      left%division = right%division(:, n:1:-1)
-      left%h = right%h(:, n:1:-1)
-      left%mu = right%mu(:, n:1:-1)
-      left%pn = right%pn(:, n:1:-1)
-      left%px = right%px(:, n:1:-1)
-      left%py = -right%py(:, n:1:-1)
-      left%un = right%un(:, n:1:-1)
-      left%ux = right%ux(:, n:1:-1)
-      left%uy = -right%uy(:, n:1:-1)
-      left%sx = right%sx(:, n:1:-1)
-      left%sy = -right%sy(:, n:1:-1)
-      if (allocated(right%tau_c)) then
-         left%tau_c = right%tau_c(:, n:1:-1)
-         left%uplx = right%uplx(:, n:1:-1)
-         left%uply = -right%uply(:, n:1:-1)
-      end if
-      if (allocated(right%temp1)) then
-         left%temp1 = right%temp1(:, n:1:-1)
-         left%temp2 = right%temp2(:, n:1:-1)
-      end if
-   end function mirrored
 end module contact_wheelrail_result

@@ -3,9 +3,11 @@ program test_library_tables
    use contact_base_kinds, only : wp
    use contact_control_digits, only : case_digits, digit_value, put_digit
    use contact_control_flags, only : accepted_value, flag, flag_table, row_of_flag
-   use contact_control_library_codes, only : code_text, field_table, library_code
+   use contact_control_library_codes, only : code_text, library_code
    use contact_control_units, only : convention_code, find_convention, inward, orientation, outward, quantity, &
-      & quantity_type, unit_convention
+      & quantity_of, quantity_type, unit_convention
+   use contact_patch_quantities, only : element_field
+   use contact_patch_result, only : patch_result
    use contact_test_harness, only : test_suite
    implicit none (type, external)
    type(test_suite) :: suite
@@ -49,17 +51,17 @@ contains
    subroutine there_and_back(suite)
       type(test_suite), intent(inout) :: suite
       type(unit_convention) :: units
+      type(patch_result), target :: nothing
+      type(element_field), allocatable :: fields(:)
       logical :: known
       integer :: code, k
       real(wp) :: factor
 
+      call nothing%fields(fields)
       do code = convention_code%contact, convention_code%imperial
          call find_convention(code, units, known)
-         do k = 1, size(field_table)
-            associate (row => field_table(k))
-               factor = inward(units, quantity_type(length=row%length, force=row%force)) &
-                  & *outward(units, quantity_type(length=row%length, force=row%force))
-            end associate
+         do k = 1, size(fields)
+            factor = inward(units, quantity_of(fields(k)%unit))*outward(units, quantity_of(fields(k)%unit))
             call suite%check(abs(factor - 1.0_wp) < 1.0e-14_wp, "field and back")
          end do
       end do

@@ -42,6 +42,7 @@ contains
                spec%friction_law = laws(law)
                spec%material_model = models(model)
                spec%motion = 3
+               result%motion = spec%motion
                spec%kinematics%spinxo = 0.5_wp
                spec%rolling%veloc = 5000.0_wp
                result%chi = 3.14_wp
@@ -78,6 +79,7 @@ contains
       call suite%check(index(lines(13)%text, "SREL") > 0, "relative slip in rolling")
 
       spec%motion = 1
+      result%motion = spec%motion
       call write_mat_file("sample.mat", spec, result, result%status, error)
       call read_lines("sample.mat", lines)
       values = numbers_on(lines(8)%text)

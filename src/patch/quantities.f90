@@ -1,0 +1,186 @@
+!> Totals and element fields with name, unit, meaning and sign: the lists that all outputs walk
+!>
+!> Each list is written once, beside the values: totals of a patch and fields in contact_patch_result, totals of wheel and rail in
+!> contact_wheelrail_result.
+module contact_patch_quantities
+   use contact_base_kinds, only : wp
+   implicit none (type, external)
+   private
+
+   public :: element_field, is_lateral, orientation, total, total_list
+
+   type :: orientation_list
+      !> The same for both bodies and both sides of the track
+      integer :: none = 0
+      !> Along the track: changes with the body that is looked at
+      integer :: along = 1
+      !> Across the track, and turning about x and z: changes with body and side
+      integer :: across = 2
+      !> Changes with the side of the track only
+      integer :: side = 3
+   end type orientation_list
+   !> Which sign a quantity has; inside it is that on body 1 of a pair on the right side
+   type(orientation_list), parameter :: orientation = orientation_list()
+
+   !> One total
+   type :: total
+      !> Name in JSON and HDF5
+      character(len=16) :: name = ""
+      !> Unit, "-" for a ratio, "" for a number of elements or trials
+      character(len=8) :: unit = ""
+      !> What it is
+      character(len=104) :: meaning = ""
+      real(wp) :: value = 0.0_wp
+      !> Member of orientation
+      integer :: along = orientation%none
+      !> Is it an integer?
+      logical :: is_count = .false.
+      !> Column behind the largest pressure in the .out file; blank: none
+      character(len=12) :: heading = ""
+      !> Does it go to JSON and HDF5?
+      logical :: in_files = .true.
+   end type total
+
+   !> Totals in the order in which they are written
+   type :: total_list
+      !> The first `length` of them count
+      type(total), allocatable :: rows(:)
+      integer :: length = 0
+      !> Are values those of the left side of the track?
+      logical, private :: left = .false.
+   contains
+      !> Make the list empty
+      procedure :: start
+      !> Add a real number, an integer
+      procedure :: add
+      procedure :: count
+      !> The row with a name, and values by their names
+      procedure :: row
+      procedure :: of
+   end type total_list
+
+   !> One element field
+   type :: element_field
+      !> Name in HDF5; in capitals in the .mat and .out file
+      character(len=8) :: name = ""
+      !> Unit, "-" for a ratio
+      character(len=8) :: unit = ""
+      !> What it is
+      character(len=48) :: meaning = ""
+      !> Number by which callers of the library ask for it, CNTC_fld_NAME
+      integer :: code = 0
+      !> Member of orientation
+      integer :: along = orientation%none
+      !> Values times `divisor`, shape (mx, my); null: the case has no such field
+      real(wp), pointer :: values(:, :) => null()
+      real(wp) :: divisor = 1.0_wp
+      !> Is it zero because the bodies do not move?
+      logical :: is_zero = .false.
+      !> Does it go to files?
+      logical :: in_files = .true.
+      !> Name in VTK files; blank: not there
+      character(len=24) :: label = ""
+      !> Figures in the table of the .out file; 0: not there
+      integer :: figures = 0
+   contains
+      !> Does a file have it that leaves out what is zero?
+      procedure :: is_written
+   end type element_field
+
+   !> Rows for which there is room at first
+   integer, parameter :: usual_rows = 40
+
+contains
+
+   !> Does the sign change with the side of the track?
+   elemental logical function is_lateral(along)
+      !> Member of orientation
+      integer, intent(in) :: along
+
+      is_lateral = along == orientation%across .or. along == orientation%side
+   end function is_lateral
+
+   pure logical function is_written(self)
+      class(element_field), intent(in) :: self
+
+      is_written = associated(self%values) .and. self%in_files .and. .not. self%is_zero
+   end function is_written
+
+   !> Make the list empty
+   pure subroutine start(self, left)
+      class(total_list), intent(inout) :: self
+      !> Shall values be those of the left side of the track? Otherwise, and by default, those of its mirror image
+      logical, intent(in), optional :: left
+
+      if (.not. allocated(self%rows)) allocate(self%rows(usual_rows))
+      self%length = 0
+      self%left = .false.
+      if (present(left)) self%left = left
+   end subroutine start
+
+   !> Add a real number
+   pure subroutine add(self, name, unit, meaning, value, along, heading, in_files)
+      class(total_list), intent(inout) :: self
+      !> See total
+      character(len=*), intent(in) :: name, unit, meaning
+      !> On body 1 of a pair on the right side
+      real(wp), intent(in) :: value
+      !> Member of orientation; default none
+      integer, intent(in), optional :: along
+      !> See total
+      character(len=*), intent(in), optional :: heading
+      logical, intent(in), optional :: in_files
+      type(total), allocatable :: longer(:)
+
+      if (self%length == size(self%rows)) then
+         allocate(longer(2*self%length))
+         longer(:self%length) = self%rows
+         call move_alloc(longer, self%rows)
+      end if
+      self%length = self%length + 1
+      self%rows(self%length) = total(name, unit, meaning, value)
+      associate (row => self%rows(self%length))
+         if (present(along)) row%along = along
+         if (self%left .and. is_lateral(row%along)) row%value = -value
+         if (present(heading)) row%heading = heading
+         if (present(in_files)) row%in_files = in_files
+      end associate
+   end subroutine add
+
+   !> Add an integer
+   pure subroutine count(self, name, meaning, value)
+      class(total_list), intent(inout) :: self
+      !> See total
+      character(len=*), intent(in) :: name, meaning
+      integer, intent(in) :: value
+
+      call self%add(name, "", meaning, real(value, wp))
+      self%rows(self%length)%is_count = .true.
+   end subroutine count
+
+   !> The row with a name, which must be there
+   pure type(total) function row(self, name)
+      class(total_list), intent(in) :: self
+      character(len=*), intent(in) :: name
+      integer :: k
+
+      do k = 1, self%length - 1
+         if (self%rows(k)%name == name) exit
+      end do
+      row = self%rows(k)
+   end function row
+
+   !> Values by their names
+   pure function of(self, names) result(values)
+      class(total_list), intent(in) :: self
+      character(len=*), intent(in) :: names(:)
+      real(wp) :: values(size(names))
+      type(total) :: found
+      integer :: k
+
+      do k = 1, size(names)
+         found = self%row(names(k))
+         values(k) = found%value
+      end do
+   end function of
+end module contact_patch_quantities
