@@ -214,9 +214,13 @@ module contact_control_digits
 
    !> Every accepted value of every digit, in the order of digit_names
    type(digit_row), parameter :: digit_table(*) = [word1_rows, word2_rows, word3_rows]
-   !> The columns that are searched, names as numbers
-   integer, parameter :: name_column(*) = iachar(digit_table%name(1:1)) + 128*iachar(digit_table%name(2:2))
-   integer, parameter :: digit_column(*) = digit_table%digit, choice_column(*) = digit_table%choice
+   !> The names one beside the other, and their first letters, with an end
+   character(len=2), parameter :: row_names(*) = digit_table%name
+   integer, parameter :: letters(*) = [iachar(row_names(:)(1:1)), 0]
+   integer :: i
+   !> The first row with a letter, 0: none, and the next one with the same letter; the last one is followed by itself
+   integer, parameter :: first_row(0:127) = [(findloc(letters(:size(digit_table)), i, dim=1), i=0, 127)]
+   integer, parameter :: next_row(*) = [(i + findloc(letters(i + 1:), letters(i), dim=1), i=1, size(digit_table))]
 
 contains
 
@@ -226,24 +230,17 @@ contains
       integer, intent(in) :: digit
       !> 1 or 3
       integer, intent(in) :: module_number
-      integer :: number
-
-      number = number_of(name)
-      do row = 1, size(digit_table)
-         if (name_column(row) /= number .or. digit_column(row) /= digit) cycle
-         if (belongs(digit_table(row), module_number)) return
-      end do
-      row = 0
-   end function row_of
-
-   !> The name of a digit as a number
-   pure integer function number_of(name)
-      character(len=*), intent(in) :: name
       character(len=2) :: key
 
       key = name
-      number_of = iachar(key(1:1)) + 128*iachar(key(2:2))
-   end function number_of
+      row = first_row(iachar(key(1:1)))
+      do while (row > 0)
+         if (digit_table(row)%digit == digit .and. belongs(digit_table(row), module_number)) then
+            if (digit_table(row)%name == key) return
+         end if
+         row = merge(0, next_row(row), next_row(row) == row)
+      end do
+   end function row_of
 
    !> Does a module know this row?
    elemental logical function belongs(row, module_number)
@@ -296,15 +293,18 @@ contains
       integer, intent(in) :: choice
       !> 1 or 3
       integer, intent(in) :: module_number
-      integer :: row, number
+      integer :: row
 
       digit = -1
-      number = number_of(name)
-      do row = 1, size(digit_table)
-         if (name_column(row) /= number .or. choice_column(row) /= choice) cycle
-         if (.not. belongs(digit_table(row), module_number)) cycle
-         digit = digit_table(row)%digit
-         return
+      row = first_row(iachar(name(1:1)))
+      do while (row > 0)
+         if (digit_table(row)%choice == choice .and. belongs(digit_table(row), module_number)) then
+            if (digit_table(row)%name == name) then
+               digit = digit_table(row)%digit
+               return
+            end if
+         end if
+         row = merge(0, next_row(row), next_row(row) == row)
       end do
    end function digit_of
 

@@ -477,9 +477,13 @@ module contact_text_bounds
    !> All numbers, in the order in which the groups of a case come
    type(number_bounds), parameter :: bounds_table(*) = [solver_rows, motion_rows, friction_rows, material_rows, grid_rows, &
       & subsurface_rows, track_rows, wheel_rows]
-   !> The names one beside the other, to be searched, and the first three letters of each as a number
+   !> The names one beside the other, to be searched, and their first letters, with an end
    character(len=*), parameter :: names(*) = bounds_table%name
-   integer, parameter :: beginnings(*) = iachar(names(:)(1:1)) + 128*(iachar(names(:)(2:2)) + 128*iachar(names(:)(3:3)))
+   integer, parameter :: letters(*) = [iachar(names(:)(1:1)), 0]
+   integer :: i
+   !> The first row with a letter, 0: none, and the next one with the same letter; the last one is followed by itself
+   integer, parameter :: first_row(0:127) = [(findloc(letters(:size(names)), i, dim=1), i=0, 127)]
+   integer, parameter :: next_row(*) = [(i + findloc(letters(i + 1:), letters(i), dim=1), i=1, size(names))]
 
 contains
 
@@ -507,15 +511,18 @@ contains
    pure integer function row_of(name) result(row)
       character(len=*), intent(in) :: name
       character(len=len(names)) :: whole
-      integer :: beginning
+      integer :: letter
 
       row = 0
-      if (len_trim(name) > len(whole)) return
+      letter = iachar(name(1:1))
+      if (len_trim(name) > len(whole) .or. letter > ubound(first_row, 1)) return
       whole = name
-      beginning = iachar(whole(1:1)) + 128*(iachar(whole(2:2)) + 128*iachar(whole(3:3)))
-      do row = 1, size(names)
-         if (beginnings(row) /= beginning) cycle
+      row = first_row(letter)
+      if (row == 0) return
+      do
          if (names(row) == whole) return
+         if (next_row(row) == row) exit
+         row = next_row(row)
       end do
       row = 0
    end function row_of
