@@ -106,6 +106,7 @@ contains
       integer, intent(in) :: iteration
       !> What was iterated, such as "normal problem"
       character(len=*), intent(in) :: name
+      !> How it ended; one that converged, or was not done, changes nothing
       type(solve_report), intent(in) :: report
 
       if (report%succeeded()) return
@@ -173,6 +174,7 @@ contains
    !> A part of the case ended like that
    subroutine include_part(self, part, where)
       class(case_status), intent(inout) :: self
+      !> The part's own status: its findings are added, its reasons kept with the part's name
       type(case_status), intent(in) :: part
       !> Which part, in front of its reason
       character(len=*), intent(in) :: where

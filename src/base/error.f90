@@ -51,11 +51,15 @@ contains
 
    !> Allocate an error
    subroutine fatal_error(error, message, kind, file, line, column)
+      !> The error that is made; what was allocated before is replaced
       type(error_type), allocatable, intent(out) :: error
+      !> One sentence for the user, without place: what is wrong, what stands there, what would be accepted
       character(len=*), intent(in) :: message
       !> Member of error_kind; default input
       integer, intent(in), optional :: kind
+      !> File that the sentence is about, as the user named it; absent: none
       character(len=*), intent(in), optional :: file
+      !> Place in the file, from 1; absent: not known
       integer, intent(in), optional :: line, column
 
       allocate(error)
@@ -69,7 +73,9 @@ contains
 
    !> Add a station to the trail of an error; does nothing on success
    subroutine add_context(error, station)
+      !> Unallocated on success: nothing is done then
       type(error_type), allocatable, intent(inout) :: error
+      !> Where the error passed, such as "case 3", put behind those passed before
       character(len=*), intent(in) :: station
 
       if (.not. allocated(error)) return
@@ -126,6 +132,7 @@ contains
 
    !> "file:line:column: message (trail)", the form compilers print
    pure function full_text(error) result(text)
+      !> An error that has happened
       type(error_type), intent(in) :: error
       character(len=full_length(error)) :: text
       character(len=:), allocatable :: parts

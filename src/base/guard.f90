@@ -63,6 +63,7 @@ contains
    !> What it was changing then is in no defined state: it must not be read, assigned to or deallocated any more, and
    !> blocks of memory that belong to the owner are freed by `free_left_blocks`.
    subroutine do_guarded(work, data, owner, cause)
+      !> What is done under the guard
       procedure(guarded_work) :: work
       !> Handed to the work
       type(c_ptr), intent(in) :: data
@@ -91,18 +92,21 @@ contains
 
    !> Larger blocks that this thread allocates from now on belong to an owner, 0 for none
    subroutine set_owner(owner)
+      !> From `new_owner`
       integer, intent(in) :: owner
       call contact_guard_set_owner(int(owner, c_int))
    end subroutine set_owner
 
    !> Free the larger blocks of an owner whose work was left; nobody may use them any more
    subroutine free_left_blocks(owner)
+      !> The one that was given to `do_guarded`
       integer, intent(in) :: owner
       call contact_guard_free(int(owner, c_int))
    end subroutine free_left_blocks
 
    !> Does the code that follows ask with `stat` whether its memory was had? Then it is not left
    subroutine expect_refusals(expected)
+      !> From now on: true where the code looks at `stat` itself, false behind it
       logical, intent(in) :: expected
       call contact_guard_expect(merge(1_c_int, 0_c_int, expected))
    end subroutine expect_refusals

@@ -52,9 +52,11 @@ contains
 
    !> The limits of a confined run, where none are set
    pure subroutine fill_limits(limits, run_seconds, output_bytes)
+      !> Limits of one case; those that are set already are kept
       type(case_limits), intent(inout) :: limits
       !> Time of the run [s], size of all its files [bytes], huge for any
       real(wp), intent(inout) :: run_seconds
+      !> Size of all files of the run [bytes], huge for any
       integer(long), intent(inout) :: output_bytes
 
       if (limits%deadline%seconds >= huge(1.0_wp)) limits%deadline%seconds = confined_seconds
@@ -97,6 +99,7 @@ contains
       class(deadline_type), intent(in) :: self
       !> What was going on, such as "in the normal problem"
       character(len=*), intent(in) :: where
+      !> Allocated when the time is up
       type(error_type), allocatable, intent(out) :: error
       character(len=24) :: text
 
@@ -111,6 +114,7 @@ contains
       integer(long), intent(in) :: number, bytes_each
       !> What they are: "elements" are limited in number, everything in memory
       character(len=*), intent(in) :: what
+      !> Allocated when one of the limits, or the memory of the system, does not suffice
       type(error_type), allocatable, intent(out) :: error
       character(len=160) :: text
 

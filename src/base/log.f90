@@ -61,6 +61,7 @@ contains
 
    subroutine log_line(self, text)
       class(log_type), intent(inout) :: self
+      !> The line, without its end
       character(len=*), intent(in) :: text
       if (self%screen /= 0) write(self%screen, "(A)") text
       call self%out%line(text)
@@ -68,6 +69,7 @@ contains
 
    subroutine log_result(self, text)
       class(log_type), intent(inout) :: self
+      !> The line, without its end
       character(len=*), intent(in) :: text
       call self%out%line(text)
    end subroutine log_result
@@ -76,6 +78,7 @@ contains
       class(log_type), intent(inout) :: self
       !> Lowest flow-trace level at which the line appears
       integer, intent(in) :: level
+      !> The line, without its end
       character(len=*), intent(in) :: text
       if (self%level >= level) call self%line(text)
    end subroutine log_trace
@@ -174,6 +177,7 @@ contains
 
    pure logical function log_shows(self, level) result(shows)
       class(log_type), intent(in) :: self
+      !> Flow-trace level that is asked about, 0 to 9
       integer, intent(in) :: level
       shows = self%level >= level .and. (self%screen /= 0 .or. self%out%is_open())
    end function log_shows

@@ -25,6 +25,7 @@ contains
       integer(long), intent(in) :: number, bytes_each
       !> What they are, for the message
       character(len=*), intent(in) :: what
+      !> Allocated when the system refuses; names what needs how much
       type(error_type), allocatable, intent(out) :: error
       ! a compiler may take an allocation for granted that is not used
       integer(int8), allocatable, volatile :: probe(:)

@@ -129,6 +129,7 @@ contains
    !> A file that would exceed what is left is cut off there, and no other file gets the rest
    logical function take(self, bytes) result(granted)
       class(output_budget), intent(inout) :: self
+      !> Bytes that are to be written
       integer(long), intent(in) :: bytes
 
       granted = bytes <= self%left
@@ -166,6 +167,7 @@ contains
 
    subroutine open_file(self, name, reason, confined)
       class(output_file), intent(inout) :: self
+      !> Path of the file, as the user gave it
       character(len=*), intent(in) :: name
       !> Why the file could not be opened, one sentence; unallocated when it was
       character(len=:), allocatable, intent(out) :: reason
@@ -199,11 +201,13 @@ contains
 
    subroutine open_again(self, name, place, reason, confined)
       class(output_file), intent(inout) :: self
+      !> Path of a file that is there
       character(len=*), intent(in) :: name
       !> Bytes that are kept
       integer(c_long), intent(in) :: place
       !> As for open_file
       character(len=:), allocatable, intent(out) :: reason
+      !> As for open_file
       logical, intent(in), optional :: confined
 
       call open_stream(self, name, "r+" // c_null_char, reason, confined, place)
@@ -220,6 +224,7 @@ contains
 
    subroutine line(self, text)
       class(output_file), intent(in) :: self
+      !> The line, without its end
       character(len=*), intent(in) :: text
       !> Longer lines are put together on the heap: stacks are small
       integer, parameter :: usual = 1000
@@ -239,6 +244,7 @@ contains
 
    subroutine text_bytes(self, text)
       class(output_file), intent(in) :: self
+      !> Bytes that are written as they are, without an end of line
       character(len=*), intent(in) :: text
 
       if (len(text) == 0) return
@@ -256,6 +262,7 @@ contains
 
    subroutine real_bytes(self, values)
       class(output_file), intent(in) :: self
+      !> Numbers that are written as 8 bytes each, in the order of this machine
       real(c_double), intent(in), target, contiguous :: values(:)
       integer(c_size_t) :: ignored
 
@@ -317,6 +324,7 @@ contains
 
    !> Delete a file; nothing happens when it is not there
    subroutine remove_file(name)
+      !> Path of the file
       character(len=*), intent(in) :: name
       integer(c_int) :: ignored
 

@@ -65,6 +65,7 @@ contains
    function failure_text(name, report) result(text)
       !> What was iterated, such as "normal problem"
       character(len=*), intent(in) :: name
+      !> How the iteration ended, and its residual and tolerance
       type(solve_report), intent(in) :: report
       character(len=len(name) + name_length + 80) :: text
       character(len=11) :: numbers(2)
@@ -91,6 +92,7 @@ contains
 
    !> A number that may have any exponent, such as "1.6E-07"
    pure function size_text(value, decimals) result(text)
+      !> Any number; one that is not finite gives its name
       real(wp), intent(in) :: value
       !> 1 or 2
       integer, intent(in) :: decimals

@@ -66,6 +66,7 @@ module contact_base_system
 
       subroutine close_descriptor(file) bind(c, name="contact_close")
          import :: c_int
+         !> Descriptor from `open_input`, `open_output` or the C library
          integer(c_int), value :: file
       end subroutine close_descriptor
 
@@ -87,7 +88,9 @@ module contact_base_system
       !> Give a lock back; the name is null-terminated
       subroutine unlock_experiment(file, name) bind(c, name="contact_unlock")
          import :: c_char, c_int
+         !> Descriptor from `lock_experiment`
          integer(c_int), value :: file
+         !> Path of the lock file, which is deleted
          character(kind=c_char), intent(in) :: name(*)
       end subroutine unlock_experiment
 
@@ -102,6 +105,7 @@ contains
 
    !> Open an ordinary file for reading; anything else, such as a FIFO or a device, is refused without waiting for it
    subroutine open_input(name, file, length, reason, below)
+      !> Path of the file
       character(len=*), intent(in) :: name
       !> Descriptor, to be given back by `close_descriptor`
       integer(c_int), intent(out) :: file
@@ -156,7 +160,9 @@ contains
 
    !> Read an open file from where it stands
    subroutine read_input(file, text, done, reason)
+      !> Descriptor from `open_input`
       integer(c_int), intent(in) :: file
+      !> Gets the bytes, from its first character on
       character(len=*), intent(inout), target :: text
       !> Bytes that were read, fewer than the text has when the file ended before
       integer(long), intent(out) :: done
@@ -170,9 +176,11 @@ contains
 
    !> Open a file for writing; what it held is gone, or what it holds behind a place
    subroutine open_output(name, confined, file, reason, keep)
+      !> Path of the file
       character(len=*), intent(in) :: name
       !> Only an ordinary file, and no link to one?
       logical, intent(in) :: confined
+      !> Descriptor, to be given back by `close_descriptor`
       integer(c_int), intent(out) :: file
       !> Why it is not opened, one sentence; unallocated when it is
       character(len=:), allocatable, intent(out) :: reason
@@ -219,6 +227,7 @@ contains
       character(len=*), intent(in) :: folder
       !> With what their names begin
       character(len=*), intent(in) :: start
+      !> Tells from the rest of a name whether a file was left behind
       procedure(name_test) :: is_leftover
 
       call contact_clean(folder // c_null_char, start // c_null_char, c_funloc(is_leftover))

@@ -25,7 +25,9 @@ contains
 
    !> All coefficients without shift: one quadrant is computed, the rest follows by symmetry
    subroutine fill_bilinear(table, material, dx, dy, nx, ny)
+      !> Gets offsets, sides and coefficients; its arrays are allocated here
       type(kernel_table), intent(inout) :: table
+      !> Constants of both bodies together
       type(combined_material), intent(in) :: material
       !> Sides of the elements [mm]
       real(wp), intent(in) :: dx, dy
@@ -48,9 +50,13 @@ contains
 
    !> All coefficients with the observation point moved by (shift_x, shift_y)
    subroutine fill_shifted_bilinear(table, material, dx, dy, nx, ny, shift_x, shift_y)
+      !> Gets offsets, sides and coefficients; its arrays are allocated here
       type(kernel_table), intent(inout) :: table
+      !> Constants of both bodies together
       type(combined_material), intent(in) :: material
+      !> Sides of the elements [mm]
       real(wp), intent(in) :: dx, dy
+      !> Largest offsets in elements
       integer, intent(in) :: nx, ny
       !> Displacement of the observation points [mm]
       real(wp), intent(in) :: shift_x, shift_y

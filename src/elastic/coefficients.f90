@@ -16,7 +16,9 @@ contains
 
    !> Coefficients without shift; for a curved surface whose correction depends on rows those of flat bodies
    subroutine fill_coefficients(table, model, dx, dy, nx, ny)
+      !> Gets offsets, sides and coefficients; its arrays are allocated here
       type(kernel_table), intent(inout) :: table
+      !> The bodies: half-spaces, layer, memory, or a table from a file
       type(elastic_model), intent(in) :: model
       !> Sides of the elements [mm]
       real(wp), intent(in) :: dx, dy
@@ -40,9 +42,13 @@ contains
    !>
    !> The layer sees the traction at the moved point, interpolated between the elements around it.
    subroutine fill_shifted_coefficients(table, model, dx, dy, nx, ny, shift_x, shift_y)
+      !> Gets offsets, sides and coefficients; its arrays are allocated here
       type(kernel_table), intent(inout) :: table
+      !> The bodies, flat and without memory
       type(elastic_model), intent(in) :: model
+      !> Sides of the elements [mm]
       real(wp), intent(in) :: dx, dy
+      !> Largest offsets in elements
       integer, intent(in) :: nx, ny
       !> Displacement of the observation points [mm]
       real(wp), intent(in) :: shift_x, shift_y

@@ -69,6 +69,7 @@ module contact_elastic_compliance
          import :: compliance, elastic_model, wp
          implicit none (type, external)
          class(compliance), intent(inout) :: self
+         !> The bodies whose surfaces are displaced
          type(elastic_model), intent(in) :: model
          !> Sides of the elements [mm]
          real(wp), intent(in) :: dx, dy
@@ -85,7 +86,9 @@ module contact_elastic_compliance
          import :: compliance, wp
          implicit none (type, external)
          class(compliance), intent(inout) :: self
+         !> Pressures [N/mm2], positive in compression
          real(wp), contiguous, intent(in) :: p(:, :)
+         !> Difference of the normal displacements of the bodies [mm], positive where the surfaces move apart
          real(wp), contiguous, intent(inout) :: u(:, :)
       end subroutine normal_interface
 
@@ -94,7 +97,9 @@ module contact_elastic_compliance
          import :: compliance, wp
          implicit none (type, external)
          class(compliance), intent(inout) :: self
+         !> Tangential tractions on body 1 [N/mm2]: along x, along y
          real(wp), contiguous, intent(in) :: p(:, :, :)
+         !> Difference of the displacements, body 1 less body 2 [mm], along x and along y; its change per step in `steady`
          real(wp), contiguous, intent(inout) :: u(:, :, :)
       end subroutine tangential_interface
 
@@ -123,7 +128,9 @@ module contact_elastic_compliance
          import :: compliance, wp
          implicit none (type, external)
          class(compliance), intent(inout) :: self
+         !> Tangential tractions on body 1 [N/mm2]: along x, along y
          real(wp), contiguous, intent(in) :: p(:, :, :)
+         !> Difference of the normal displacements of the bodies [mm], positive where the surfaces move apart
          real(wp), contiguous, intent(inout) :: u(:, :)
       end subroutine to_normal_interface
 
@@ -132,7 +139,9 @@ module contact_elastic_compliance
          import :: compliance, wp
          implicit none (type, external)
          class(compliance), intent(inout) :: self
+         !> Pressures [N/mm2], positive in compression
          real(wp), contiguous, intent(in) :: p(:, :)
+         !> Difference of the tangential displacements, body 1 less body 2 [mm]: along x, along y
          real(wp), contiguous, intent(inout) :: u(:, :, :)
       end subroutine from_normal_interface
 
@@ -157,8 +166,11 @@ contains
 
    pure logical function is_for(self, model, dx, dy, mx, my)
       class(compliance), intent(in) :: self
+      !> Bodies that an operator is wanted for
       type(elastic_model), intent(in) :: model
+      !> Sides of the elements [mm]
       real(wp), intent(in) :: dx, dy
+      !> Size of the window in elements
       integer, intent(in) :: mx, my
 
       is_for = self%mx == mx .and. self%my == my .and. self%dx == dx .and. self%dy == dy

@@ -35,7 +35,9 @@ contains
 
    !> All coefficients without shift: one quadrant is computed, the rest follows by symmetry
    subroutine fill_table(table, material, dx, dy, nx, ny)
+      !> Gets offsets, sides and coefficients; its arrays are allocated here
       type(kernel_table), intent(inout) :: table
+      !> Constants of both bodies together
       type(combined_material), intent(in) :: material
       !> Sides of the elements [mm]
       real(wp), intent(in) :: dx, dy
@@ -65,9 +67,13 @@ contains
 
    !> All coefficients with the observation point moved by (shift_x, shift_y)
    subroutine fill_shifted_table(table, material, dx, dy, nx, ny, shift_x, shift_y)
+      !> Gets offsets, sides and coefficients; its arrays are allocated here
       type(kernel_table), intent(inout) :: table
+      !> Constants of both bodies together
       type(combined_material), intent(in) :: material
+      !> Sides of the elements [mm]
       real(wp), intent(in) :: dx, dy
+      !> Largest offsets in elements
       integer, intent(in) :: nx, ny
       !> Displacement of the observation points [mm]
       real(wp), intent(in) :: shift_x, shift_y
@@ -95,6 +101,7 @@ contains
 
    !> Coefficients at an offset and at its three mirror images
    pure subroutine set_mirrored(table, k, l, v)
+      !> Large enough for the offset; see `shape_table`
       type(kernel_table), intent(inout) :: table
       !> Offset, not negative
       integer, intent(in) :: k, l
@@ -117,7 +124,9 @@ contains
 
    !> Coefficients at an offset
    pure subroutine set_entry(table, k, l, v)
+      !> Large enough for the offset; see `shape_table`
       type(kernel_table), intent(inout) :: table
+      !> Offset along x and y in elements, of either sign
       integer, intent(in) :: k, l
       !> nn, xx, yy, xy, xn, yn
       real(wp), intent(in) :: v(6)
@@ -133,9 +142,13 @@ contains
 
    !> Allocate the arrays of a table for a range of offsets
    subroutine shape_table(table, material, dx, dy, nx, ny, coupled)
+      !> Gets offsets, sides and arrays; coefficients are not set
       type(kernel_table), intent(inout) :: table
+      !> Constants of both bodies together, kept in the table
       type(combined_material), intent(in) :: material
+      !> Sides of the elements [mm]
       real(wp), intent(in) :: dx, dy
+      !> Largest offsets in elements
       integer, intent(in) :: nx, ny
       !> With coefficients xn, yn? Default: when the material couples
       logical, intent(in), optional :: coupled
@@ -162,7 +175,9 @@ contains
    !> x asinh(y/|x|), y asinh(x/|y|), r, and for coupled problems y ln r + x atan(y/x),
    !> x ln r + y atan(x/y). The limits for x = 0 or y = 0 are taken.
    pure function corner_functions(x, y, coupled) result(f)
+      !> Position relative to a corner [mm]
       real(wp), intent(in) :: x, y
+      !> Are the last two wanted? They are zero otherwise
       logical, intent(in) :: coupled
       real(wp) :: f(5), r
 
@@ -180,7 +195,9 @@ contains
 
    !> From differences of the corner functions to nn, xx, yy, xy, xn, yn
    pure function combine_corners(d, material) result(v)
+      !> Mixed differences of the five corner functions [mm]
       real(wp), intent(in) :: d(5)
+      !> Constants of both bodies together
       type(combined_material), intent(in) :: material
       real(wp) :: v(6), factor
 

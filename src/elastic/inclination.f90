@@ -19,6 +19,7 @@ contains
    subroutine rotate_table(table, inclination)
       !> Of flat bodies on entry; coupling coefficients are made when there are none
       type(kernel_table), intent(inout) :: table
+      !> Rate at which the normal turns along the surface
       type(surface_inclination), intent(in) :: inclination
       real(wp) :: alpha, c, s, c_half, s_half, half_sum, half_difference, a_xs, a_xn, a_sn
       integer :: k, l

@@ -39,6 +39,7 @@ contains
 
    elemental logical function same_as(self, other)
       class(combined_material), intent(in) :: self
+      !> Constants to be compared bit by bit
       type(combined_material), intent(in) :: other
       same_as = self%gg == other%gg .and. self%nu == other%nu .and. self%ak == other%ak
    end function same_as

@@ -46,9 +46,11 @@ contains
 
    !> Elastic coefficients plus memory; no symmetry in x is left
    subroutine fill_with_memory(table, material, memory, coupled, dx, dy, nx, ny)
+      !> Gets offsets, sides and coefficients; its arrays are allocated here
       type(kernel_table), intent(inout) :: table
       !> Constants of the instantaneous response
       type(combined_material), intent(in) :: material
+      !> The late response, and the distance travelled in a relaxation time
       type(fading_memory), intent(in) :: memory
       !> With coefficients between pressures and tangential displacements?
       logical, intent(in) :: coupled

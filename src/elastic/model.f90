@@ -112,6 +112,7 @@ contains
 
    pure logical function same_as(self, other) result(same)
       class(elastic_model), intent(in) :: self
+      !> Bodies to be compared, parameter by parameter
       type(elastic_model), intent(in) :: other
 
       same = self%material%same_as(other%material) .and. self%kernel == other%kernel .and. self%layer == other%layer &
@@ -132,6 +133,7 @@ contains
    !> Do two tables come from the same file, for the same window?
    pure logical function same_table(self, other) result(same)
       class(influence_table), intent(in) :: self
+      !> Table to be compared: by its file and window, not by its coefficients
       type(influence_table), intent(in) :: other
 
       same = self%fingerprint == other%fingerprint .and. self%nx == other%nx .and. self%ny == other%ny &

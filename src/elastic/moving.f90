@@ -26,7 +26,9 @@ module contact_elastic_moving
          import :: moving_operator, wp
          implicit none (type, external)
          class(moving_operator), intent(inout) :: self
+         !> Tangential tractions on body 1 [N/mm2]
          real(wp), contiguous, intent(in) :: p(:, :, :)
+         !> Displacement difference [mm]
          real(wp), contiguous, intent(inout) :: u(:, :, :)
          !> From step to step in steady rolling?
          logical, intent(in) :: change
@@ -37,8 +39,11 @@ module contact_elastic_moving
          import :: moving_operator, wp
          implicit none (type, external)
          class(moving_operator), intent(inout) :: self
+         !> Pressures [N/mm2], positive in compression
          real(wp), contiguous, intent(in) :: p(:, :)
+         !> Displacement difference [mm]
          real(wp), contiguous, intent(inout) :: u(:, :, :)
+         !> From step to step in steady rolling?
          logical, intent(in) :: change
       end subroutine from_normal
    end interface

@@ -18,7 +18,9 @@ contains
 
    !> Make an operator of the kind that a model needs; one that is of this kind already is kept
    subroutine new_compliance(model, operator)
+      !> The bodies, whose kind decides
       type(elastic_model), intent(in) :: model
+      !> Unallocated, or of any kind; not prepared for a window when it is new
       class(compliance), allocatable, intent(inout) :: operator
       integer :: kind_
 

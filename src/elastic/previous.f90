@@ -41,6 +41,7 @@ contains
 
    subroutine prepare(self, model, dx, dy, mx, my, shift_x, shift_y)
       class(previous_operator), intent(inout) :: self
+      !> The bodies whose surfaces are displaced
       type(elastic_model), intent(in) :: model
       !> Sides of the elements [mm]
       real(wp), intent(in) :: dx, dy

@@ -11,6 +11,7 @@ contains
 
    !> Free a plan, if there is one; not thread-safe, see the planner
    subroutine destroy(plan)
+      !> Null: there is none; null on exit
       type(c_ptr), intent(inout) :: plan
 
       if (c_associated(plan)) call fftw_destroy_plan(plan)

@@ -51,6 +51,7 @@ contains
 
    !> Smallest even number 2^a 3^b 5^c 7^d (a >= 1) that is at least n, or 1 for n <= 1
    pure integer function good_size(n) result(size)
+      !> Number of points that are needed, with those of the padding
       integer, intent(in) :: n
       integer :: rest, factor
       integer, parameter :: primes(4) = [2, 3, 5, 7]
@@ -72,6 +73,7 @@ contains
 
    !> Even length of at least n that is transformed quickly, or 1 for n <= 1
    pure integer function fast_size(n)
+      !> Number of points that are needed, with those of the padding
       integer, intent(in) :: n
 
       fast_size = good_size(n)

@@ -67,6 +67,7 @@ contains
    !> Number of the set that belongs to a row
    pure integer function set_of_row(self, iy) result(number)
       class(friction_law), intent(in) :: self
+      !> Row of the grid, from 1
       integer, intent(in) :: iy
       number = min(iy, size(self%sets))
    end function set_of_row

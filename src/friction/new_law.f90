@@ -18,8 +18,11 @@ contains
    subroutine new_friction_law(choice, sets, law, error)
       !> Member of friction_model
       integer, intent(in) :: choice
+      !> Parameters: one set, or one per row of the grid, shape (my)
       type(friction_parameters), intent(in) :: sets(:)
+      !> Of the type that belongs to the choice
       class(friction_law), allocatable, intent(out) :: law
+      !> Allocated when no law has this number
       type(error_type), allocatable, intent(out) :: error
       integer :: k, i
 

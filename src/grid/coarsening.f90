@@ -13,12 +13,14 @@ contains
 
    !> Number of fine elements per coarse element in a direction of n elements: 2 or 1
    pure integer function coarsening_factor(n)
+      !> Number of fine elements in this direction
       integer, intent(in) :: n
       coarsening_factor = merge(2, 1, n >= shortest_side)
    end function coarsening_factor
 
    !> Number of coarse elements in a direction of n fine elements
    pure integer function coarse_size(n)
+      !> Number of fine elements in this direction
       integer, intent(in) :: n
       coarse_size = (n + coarsening_factor(n) - 1)/coarsening_factor(n)
    end function coarse_size

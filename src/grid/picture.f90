@@ -24,6 +24,7 @@ contains
 
    !> Picture of a solution, with its title and the rolling direction
    subroutine write_picture(log, division, motion_kind, chi)
+      !> The picture goes to the .out file only
       type(log_type), intent(inout) :: log
       !> Element states, shape (mx, my)
       integer, intent(in) :: division(:, :)
@@ -49,6 +50,7 @@ contains
 
    !> An intermediate element division, for the most detailed flow trace
    subroutine trace_picture(log, division)
+      !> Sees the picture from flow-trace level 9 on
       type(log_type), intent(inout) :: log
       !> Element states, shape (mx, my)
       integer, intent(in) :: division(:, :)

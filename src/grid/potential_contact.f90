@@ -27,18 +27,21 @@ contains
 
    elemental real(wp) function centre_x(self, ix) result(x)
       class(potential_contact), intent(in) :: self
+      !> Column, from 1 at the smallest x; columns outside the grid are continued
       integer, intent(in) :: ix
       x = self%xl + (real(ix, wp) - 0.5_wp)*self%dx
    end function centre_x
 
    elemental real(wp) function centre_y(self, iy) result(y)
       class(potential_contact), intent(in) :: self
+      !> Row, from 1 at the smallest y; rows outside the grid are continued
       integer, intent(in) :: iy
       y = self%yl + (real(iy, wp) - 0.5_wp)*self%dy
    end function centre_y
 
    !> Room for one value per element; kept with its values when the shape is right
    pure subroutine fit_field(grid, field)
+      !> Grid whose size the field gets
       type(potential_contact), intent(in) :: grid
       !> Shape (mx, my)
       real(wp), allocatable, intent(inout) :: field(:, :)

@@ -38,6 +38,7 @@ contains
 
    !> Pressures and approach or force, from those where another method gave up
    subroutine solve_by_active_sets(problem, operator, p, pen, report)
+      !> Undeformed distance, prescribed force or approach, tolerance
       type(normal_problem), intent(in) :: problem
       !> Prepared for the window
       class(compliance), intent(inout) :: operator

@@ -39,6 +39,7 @@ contains
 
    !> Pressures [N/mm2]
    pure subroutine analyn_pressure(grid, gap, modulus, pn)
+      !> Centres and sides of the elements
       type(potential_contact), intent(in) :: grid
       !> Distance of the undeformed surfaces less the approach [mm], shape (mx, my); negative where
       !> they overlap, above excluded_threshold where there is no contact possible

@@ -26,6 +26,7 @@ contains
    subroutine approximate_pressure(model, grid, gap, modulus, operator, pn, report, log)
       !> Member of pressure_model: kpec or analyn
       integer, intent(in) :: model
+      !> Centres and sides of the elements
       type(potential_contact), intent(in) :: grid
       !> Distance of the surfaces less the approach, with displacements by tangential tractions [mm],
       !> shape (mx, my); negative where they overlap, above excluded_threshold: no contact possible
@@ -36,7 +37,9 @@ contains
       class(compliance), intent(inout) :: operator
       !> Pressures [N/mm2], shape (mx, my)
       real(wp), contiguous, intent(inout) :: pn(:, :)
+      !> How it ended; transforms are added to those of before
       type(solve_report), intent(inout) :: report
+      !> Told why there are no pressures where surfaces overlap
       type(log_type), intent(inout) :: log
 
       if (overlaps_at_edge(gap)) call log%warning("the surfaces overlap at the edge of the potential contact area; " &

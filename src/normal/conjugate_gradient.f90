@@ -56,14 +56,17 @@ contains
 
    !> Solve for pressures and approach or force
    subroutine solve_normal(problem, operator, workspace, p, pen, report, log)
+      !> Undeformed distance, prescribed force or approach, tolerance
       type(normal_problem), intent(in) :: problem
       !> Prepared for the window
       class(compliance), intent(inout) :: operator
+      !> Coarser levels, their operators and scratch, kept from call to call
       type(normal_workspace), intent(inout) :: workspace
       !> Estimate on entry (zero when there is none), pressures on exit [N/mm2], shape (mx, my)
       real(wp), contiguous, intent(inout) :: p(:, :)
       !> Approach [mm]: prescribed, or an exit value
       real(wp), intent(inout) :: pen
+      !> How it ended, iterations, residual; transforms are added to those of before
       type(solve_report), intent(inout) :: report
       !> Gets a line per iteration from flow-trace level 6 on; absent: no trace
       type(log_type), intent(inout), optional :: log
@@ -448,6 +451,7 @@ contains
 
    !> Free the plans of all levels
    subroutine release_normal(workspace)
+      !> Levels whose plans are freed; may be used again
       type(normal_workspace), intent(inout) :: workspace
       integer :: k
 

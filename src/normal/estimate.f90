@@ -18,6 +18,7 @@ contains
    !>
    !> A line contact has the same semi-ellipse in each row with |y| <= bb.
    pure subroutine elliptic_pressure(grid, aa, bb, line_contact, fn, pn)
+      !> Centres of the elements
       type(potential_contact), intent(in) :: grid
       !> Semi-axes [mm]; zero: no contact
       real(wp), intent(in) :: aa, bb
@@ -39,6 +40,7 @@ contains
 
    !> Paraboloid of pressure over the same area, the traction bound of the simplified theory
    pure subroutine parabolic_pressure(grid, aa, bb, line_contact, fn, pn)
+      !> Centres of the elements
       type(potential_contact), intent(in) :: grid
       !> Semi-axes [mm]; zero: no contact
       real(wp), intent(in) :: aa, bb
@@ -59,6 +61,7 @@ contains
 
    !> Pressure of the simple double-elliptical contact: two half ellipses joined at their widest row
    pure subroutine sdec_pressure(grid, aa, bneg, bpos, fn, pn)
+      !> Centres of the elements
       type(potential_contact), intent(in) :: grid
       !> Semi-axis along x, extents towards negative and positive y from the widest row [mm]
       real(wp), intent(in) :: aa, bneg, bpos
@@ -125,6 +128,7 @@ contains
    !> belongs to the penetration, solved by bisection. With a positive force at least the
    !> closest element is in contact; excluded elements never are.
    pure subroutine guess_contact(grid, h, control, fn, pen, gg, nu, radius, contact, approach, stiffness)
+      !> Centres and sides of the elements
       type(potential_contact), intent(in) :: grid
       !> Undeformed distance [mm], shape (mx, my)
       real(wp), intent(in) :: h(:, :)

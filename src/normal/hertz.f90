@@ -107,6 +107,7 @@ contains
 
    !> Both curvatures given
    elemental function hertz_by_curvatures(load, a1, b1) result(hertz)
+      !> Prescribed force or approach, and combined elastic constants
       type(hertz_load), intent(in) :: load
       !> Curvatures along x and y [1/mm], positive
       real(wp), intent(in) :: a1, b1
@@ -122,6 +123,7 @@ contains
 
    !> Curvature along x and ratio of the semi-axes given
    elemental function hertz_by_ratio(load, a1, aob) result(hertz)
+      !> Prescribed force or approach, and combined elastic constants
       type(hertz_load), intent(in) :: load
       !> Curvature along x [1/mm] and ratio aa/bb [-], positive
       real(wp), intent(in) :: a1, aob
@@ -174,6 +176,7 @@ contains
    !> Without load the curvatures are those of a very small approach; force and approach are
    !> then zero when a force was prescribed, and the small ones otherwise.
    elemental function hertz_by_axes(load, aa, bb) result(hertz)
+      !> Prescribed force or approach, and combined elastic constants
       type(hertz_load), intent(in) :: load
       !> Semi-axes [mm], positive
       real(wp), intent(in) :: aa, bb

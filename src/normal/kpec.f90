@@ -48,6 +48,7 @@ contains
    !> The factor is found by the caller, who knows the compliance: at the deepest place the pressures bring about a
    !> displacement equal to the overlap.
    pure subroutine kpec_shape(grid, gap, shape_, weight)
+      !> Centres and sides of the elements
       type(potential_contact), intent(in) :: grid
       !> Distance of the undeformed surfaces less the approach [mm], shape (mx, my); negative where
       !> they overlap, above excluded_threshold where there is no contact possible

@@ -33,10 +33,13 @@ contains
    !> Bit by bit what was solved last, with the same estimate
    pure logical function is_same_question(self, problem, operator, p, pen) result(same)
       class(answer_type), intent(in) :: self
+      !> The question that is asked now
       type(normal_problem), intent(in) :: problem
+      !> Operator that would answer it
       class(compliance), intent(in) :: operator
       !> Pressures [N/mm2], shape (mx, my), and approach [mm]
       real(wp), contiguous, intent(in) :: p(:, :)
+      !> Approach of the estimate [mm]
       real(wp), intent(in) :: pen
 
       same = self%is_known .and. .not. allocated(problem%parts)
@@ -60,7 +63,9 @@ contains
    !> Arrays that fit are kept, which a copy of the problem as a whole would not do
    subroutine note_question(self, problem, operator, p)
       class(answer_type), intent(inout) :: self
+      !> Copied, but for its deadline
       type(normal_problem), intent(in) :: problem
+      !> Operator that will answer it; its model and window are noted
       class(compliance), intent(in) :: operator
       !> Estimate [N/mm2], shape (mx, my)
       real(wp), contiguous, intent(in) :: p(:, :)
@@ -86,10 +91,13 @@ contains
    !> Keep an answer, if the method converged
    subroutine note_answer(self, problem, p, pen, report)
       class(answer_type), intent(inout) :: self
+      !> The question that was noted
       type(normal_problem), intent(in) :: problem
       !> Pressures [N/mm2], shape (mx, my), and approach [mm]
       real(wp), contiguous, intent(in) :: p(:, :)
+      !> Approach of the solution [mm]
       real(wp), intent(in) :: pen
+      !> How the method ended
       type(solve_report), intent(in) :: report
 
       if (report%ended /= ending%converged .or. allocated(problem%parts)) return

@@ -39,7 +39,9 @@ contains
 
    !> Normal displacements by pressures [mm]
    subroutine pressure_displacement(problem, operator, p, u)
+      !> Its parts decide what acts on each other
       type(normal_problem), intent(in) :: problem
+      !> Prepared for the window
       class(compliance), intent(inout) :: operator
       !> Pressures [N/mm2], shape (mx, my)
       real(wp), contiguous, intent(in) :: p(:, :)
@@ -59,6 +61,7 @@ contains
 
    !> Pressures that are not negative, zero where contact is impossible, and of the right total
    subroutine make_admissible(problem, p)
+      !> Undeformed distance, and the force if it is prescribed
       type(normal_problem), intent(in) :: problem
       !> Pressures [N/mm2], shape (mx, my)
       real(wp), contiguous, intent(inout) :: p(:, :)
@@ -76,6 +79,7 @@ contains
 
    !> Put the load on the element that is nearest to contact
    subroutine load_lowest_element(problem, p)
+      !> Undeformed distance, and the force if it is prescribed
       type(normal_problem), intent(in) :: problem
       !> Pressures [N/mm2], shape (mx, my)
       real(wp), contiguous, intent(inout) :: p(:, :)

@@ -25,6 +25,7 @@ contains
       logical, contiguous, intent(in) :: contact(:, :)
       !> On the residual relative to 1, root of the mean square over the contact area
       real(wp), intent(in) :: tolerance
+      !> Iterations after which the best so far is handed back
       integer, intent(in) :: max_iterations
       !> Derivative of the pressures [N/mm3], zero outside the contact area
       real(wp), contiguous, intent(inout) :: q(:, :)

@@ -59,6 +59,7 @@ contains
       class(anderson_iteration), intent(inout) :: self
       !> What g was computed from on entry, what it is to be computed from next on exit
       real(wp), intent(inout) :: x(size(self%f))
+      !> Value of the map at x, in the unit of x; the iteration looks for g(x) = x
       real(wp), intent(in) :: g(size(self%f))
       integer :: k
       !> Growth of f at which the history is dropped

@@ -15,6 +15,7 @@ contains
    pure integer function knot_interval(t, s) result(j)
       !> Knots, not decreasing; at least eight
       real(wp), intent(in) :: t(:)
+      !> Argument of the spline, in the unit of the knots
       real(wp), intent(in) :: s
 
       j = piece_of(t(4:size(t) - 3), s) + 3
@@ -28,9 +29,13 @@ contains
    !>
    !> Recurrence of de Boor and Cox. s may lie outside of the interval: its polynomials go on.
    pure subroutine basis_values(t, j, s, b, slope, bend)
+      !> Knots, not decreasing, in any unit
       real(wp), intent(in) :: t(:)
+      !> Interval from `knot_interval`
       integer, intent(in) :: j
+      !> Argument of the spline, in the unit of the knots
       real(wp), intent(in) :: s
+      !> Values of the four basis functions [-], that of the lowest knots first
       real(wp), intent(out) :: b(4)
       !> First and second derivatives
       real(wp), intent(out), optional :: slope(4), bend(4)
@@ -92,6 +97,7 @@ contains
    subroutine interpolate_sites(t, sites, values, solved)
       !> Knots, four more than sites
       real(wp), intent(in) :: t(:)
+      !> Where values are given, rising, one in the support of each basis function
       real(wp), intent(in) :: sites(:)
       !> On entry the values (site, function), on exit the coefficients
       real(wp), intent(inout) :: values(:, :)
@@ -119,10 +125,13 @@ contains
    !> Interpolating splines without extra conditions at the ends, one per function; sections of
    !> three points are parabolas, of two points straight
    subroutine not_a_knot_splines(s, f, splines, solved, is_kink)
+      !> Places of the points [mm], strictly increasing, at least two
       real(wp), intent(in) :: s(:)
       !> Values (point, function)
       real(wp), intent(in) :: f(:, :)
+      !> One per function, all with the same pieces
       type(cubic_spline), allocatable, intent(out) :: splines(:)
+      !> False when the points leave the system singular
       logical, intent(out) :: solved
       !> Points where the slope may jump
       logical, intent(in), optional :: is_kink(:)
@@ -185,8 +194,13 @@ contains
 
    !> A B-spline in pieces of polynomials between given ends, none of which may straddle a knot
    pure subroutine pieces_from_b_spline(t, coefficients, breaks, spline)
-      real(wp), intent(in) :: t(:), coefficients(:)
+      !> Knots, not decreasing
+      real(wp), intent(in) :: t(:)
+      !> Coefficients of the basis functions, four fewer than knots
+      real(wp), intent(in) :: coefficients(:)
+      !> Ends of the pieces, increasing; every knot between the first and the last is one
       real(wp), intent(in) :: breaks(:)
+      !> The same function in pieces of polynomials
       type(cubic_spline), intent(out) :: spline
       real(wp) :: b(4), slope(4), h, start(2), finish(2), chord
       integer :: i, j
@@ -222,6 +236,7 @@ contains
       real(wp), intent(in) :: lambda
       !> Largest distance of knots [mm], positive
       real(wp), intent(in) :: spacing
+      !> One per function, all with the same pieces
       type(cubic_spline), allocatable, intent(out) :: splines(:)
       !> False when the matrix is not positive definite within the precision of the machine
       logical, intent(out) :: solved

@@ -10,9 +10,11 @@ contains
 
    !> Real roots of c + b x + a x**2 strictly inside an interval, in rising order
    pure subroutine quadratic_roots(a, b, c, low, high, roots, n)
+      !> Coefficients of x**2, of x, and without x; any of them may be zero
       real(wp), intent(in) :: a, b, c
       !> Ends of the interval
       real(wp), intent(in) :: low, high
+      !> The first n are set
       real(wp), intent(out) :: roots(2)
       !> Number of roots found, 0 to 2; a double root counts once
       integer, intent(out) :: n
@@ -46,6 +48,7 @@ contains
    pure real(wp) function monotone_cubic_root(c, low, high, value) result(x)
       !> Coefficients of the powers 0 to 3
       real(wp), intent(in) :: c(0:3)
+      !> Ends of the interval, and the value that is looked for
       real(wp), intent(in) :: low, high, value
       real(wp) :: a, b, residual, slope, step, direction, from_low, from_high, bend, precision
       logical :: newton

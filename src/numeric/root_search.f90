@@ -70,6 +70,7 @@ contains
    !> Take the value of the function at x, and think of the next question
    pure subroutine answer(self, f, saturated)
       class(root_search), intent(inout) :: self
+      !> Value of the function at `x` of the search
       real(wp), intent(in) :: f
       !> Can the function only change slowly from here on? The walk then ends when it does
       logical, intent(in) :: saturated

@@ -37,6 +37,7 @@ contains
    pure integer function piece_of(breaks, s) result(piece)
       !> Ends of the pieces, increasing; at least two
       real(wp), intent(in) :: breaks(:)
+      !> Argument, in the unit of the ends
       real(wp), intent(in) :: s
       integer :: high, middle, n, step
 
@@ -76,6 +77,7 @@ contains
 
    elemental real(wp) function spline_value(self, s) result(value)
       class(cubic_spline), intent(in) :: self
+      !> Argument [mm]
       real(wp), intent(in) :: s
       real(wp) :: t
       integer :: j
@@ -86,6 +88,7 @@ contains
 
    elemental real(wp) function spline_slope(self, s) result(slope)
       class(cubic_spline), intent(in) :: self
+      !> Argument [mm]
       real(wp), intent(in) :: s
       real(wp) :: t
       integer :: j
@@ -96,6 +99,7 @@ contains
 
    elemental real(wp) function spline_bend(self, s) result(bend)
       class(cubic_spline), intent(in) :: self
+      !> Argument [mm]
       real(wp), intent(in) :: s
       real(wp) :: t
       integer :: j
@@ -115,8 +119,11 @@ contains
    !> Piece and place in it, the place kept between the ends of the spline
    pure subroutine place_in_piece(self, s, piece, t)
       class(cubic_spline), intent(in) :: self
+      !> Argument [mm]
       real(wp), intent(in) :: s
+      !> Number of the piece, from 1
       integer, intent(out) :: piece
+      !> Distance from the start of the piece [mm]
       real(wp), intent(out) :: t
 
       piece = piece_of(self%s, s)
@@ -127,7 +134,9 @@ contains
       class(cubic_spline), intent(in) :: self
       !> From place_in_piece
       integer, intent(in) :: piece
+      !> Distance from the start of the piece [mm]
       real(wp), intent(in) :: t
+      !> Value, and its derivative by s
       real(wp), intent(out) :: value, slope
 
       value = self%c(0, piece) + t*(self%c(1, piece) + t*(self%c(2, piece) + t*self%c(3, piece)))

@@ -21,6 +21,7 @@ contains
    !> A side whose gap is the same in the element next to it is the end of a body, a cylinder of finite length or
    !> a punch, and no cut. Directions of less than 3 elements have no border: they stand for plane strain.
    pure subroutine find_border(problem, result)
+      !> Grid and undeformed distance
       type(patch_problem), intent(in) :: problem
       !> Solved; `border` is set
       type(patch_result), intent(inout) :: result
@@ -78,6 +79,7 @@ contains
    !> Sides and ends as one number: 1 x low, 2 x high, 4 y low, 8 y high, 16 and 32 the low and high end of body 1, 64 and
    !> 128 those of body 2, 256 a surface that is hidden
    pure integer function border_code(border, mirrored) result(code)
+      !> Sides of the grid, ends of bodies and hidden surfaces that contact reaches
       type(border_contact), intent(in) :: border
       !> Is y of the other sign for the caller? Default: no
       logical, intent(in), optional :: mirrored

@@ -25,6 +25,7 @@ contains
 
    !> Forces that come on top of the elastic ones [N]
    pure function damping_forces(law, before, now, dt) result(force)
+      !> Coefficients and the largest forces
       type(damping_law), intent(in) :: law
       !> Elastic forces Fn, Fx, Fy of the previous and the present time step [N]
       real(wp), intent(in) :: before(3), now(3)

@@ -18,8 +18,11 @@ contains
 
    !> Start values of a result
    subroutine reset_result(problem, state, result)
+      !> Size of the grid; which fields are wanted
       type(patch_problem), intent(in) :: problem
+      !> Present tractions, the estimate of the solution
       type(patch_state), intent(in) :: state
+      !> Gets its arrays, zero, and what is known before anything is solved
       type(patch_result), intent(inout) :: result
       integer :: mx, my
 
@@ -84,9 +87,13 @@ contains
 
    !> Totals and fields that follow from the tractions
    subroutine derive(problem, state, workspace, result)
+      !> Elasticity, motion, and what the case wants to know
       type(patch_problem), intent(in) :: problem
+      !> Solved tractions; gets approach and creepages for later cases
       type(patch_state), intent(inout) :: state
+      !> Compliances, and the displacements of the last solutions
       type(patch_workspace), intent(inout) :: workspace
+      !> Slip and coefficients of friction on entry; gets totals and fields
       type(patch_result), intent(inout) :: result
       type(bounding_box) :: box
       real(wp) :: area, scale
@@ -186,8 +193,11 @@ contains
 
    !> What particles carry along of friction, where it matters
    subroutine remember_friction(problem, result, state)
+      !> Does anything depend on the past of friction?
       type(patch_problem), intent(in) :: problem
+      !> Coefficients of friction and slip of the solution
       type(patch_result), intent(in) :: result
+      !> Gets them as those of the present time step
       type(patch_state), intent(inout) :: state
 
       if (.not. problem%remembers_friction) return

@@ -66,7 +66,9 @@ contains
    !> First coefficients of a case, or those on a contact area that has changed
    subroutine start(self, problem, state, dt, is_first, mu)
       class(friction_iteration), intent(inout) :: self
+      !> Friction law with its memory, pressures, motion
       type(patch_problem), intent(in) :: problem
+      !> Coefficients and slip of the same particles at the previous time step
       type(patch_state), intent(in) :: state
       !> Time step [s]
       real(wp), intent(in) :: dt
@@ -97,13 +99,17 @@ contains
    !> Take a solution; choose the next coefficients or end
    subroutine advance(self, problem, state, box, solution, converged, log, mu)
       class(friction_iteration), intent(inout) :: self
+      !> Friction law with its memory, tolerance and limit of the iteration
       type(patch_problem), intent(in) :: problem
+      !> Coefficients and slip of the same particles at the previous time step
       type(patch_state), intent(in) :: state
       !> Part of the grid on which the solution is
       type(bounding_box), intent(in) :: box
+      !> Tractions and slip with the coefficients on entry
       type(tangential_solution), intent(in) :: solution
       !> Did the tangential problem reach its tolerance?
       logical, intent(in) :: converged
+      !> Takes a line per iteration from flow-trace level 2 on
       type(log_type), intent(inout) :: log
       !> Coefficients of the solution on entry, the next ones on exit [-], shape (mx, my)
       real(wp), contiguous, intent(inout) :: mu(:, :)
@@ -243,7 +249,9 @@ contains
    !> How the iteration ended
    subroutine report_iteration(self, problem, report)
       class(friction_iteration), intent(in) :: self
+      !> Tolerance of the iteration
       type(patch_problem), intent(in) :: problem
+      !> Iterations and residual of the coefficients
       type(solve_report), intent(out) :: report
 
       report%method = "friction iteration"

@@ -32,7 +32,9 @@ contains
 
    !> Temperatures of both surfaces from slip and tractions; bulk temperatures where nothing moves
    subroutine derive_temperatures(problem, log, result)
+      !> Thermal constants, friction law, motion and step
       type(patch_problem), intent(in) :: problem
+      !> Told when the steps are too long for the model
       type(log_type), intent(inout) :: log
       !> Solved, with element states, slip and tractions
       type(patch_result), intent(inout) :: result

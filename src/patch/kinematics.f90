@@ -17,7 +17,9 @@ contains
    !>
    !> The offset of a sixth of the step makes the spin contribution second order accurate.
    pure subroutine rigid_slip(problem, result, spin_weight)
+      !> Creepages, spin with its centre, extra slip, distance per step
       type(patch_problem), intent(in) :: problem
+      !> Gets the rigid slip `wx`, `wy` per step [mm]
       type(patch_result), intent(inout) :: result
       !> Weight of the spin in x and y, for simplified theory [-]; default 1
       real(wp), intent(in), optional :: spin_weight(2)
@@ -43,8 +45,11 @@ contains
 
    !> Displacements at the previous time of the particles that are in the elements now
    subroutine previous_displacement(problem, state, workspace)
+      !> Motion, grid and elasticity
       type(patch_problem), intent(in) :: problem
+      !> Tractions of the previous time step on the window of this one
       type(patch_state), intent(in) :: state
+      !> Gets the displacements `old_displacement` [mm]
       type(patch_workspace), intent(inout) :: workspace
       real(wp), allocatable :: edge(:, :, :)
       real(wp) :: shift_x, shift_y

@@ -24,6 +24,7 @@ contains
 
    !> Change the fixed part of the slip where elements entered late
    subroutine correct_leading_edge(problem, state, box, result, workspace, log)
+      !> Motion, steps and grid
       type(patch_problem), intent(in) :: problem
       !> now: the present contact area
       type(patch_state), intent(in) :: state
@@ -33,6 +34,7 @@ contains
       type(patch_result), intent(in) :: result
       !> Tangential problem with its shift; displacements at the edge by previous tractions are known. Gets shares and edges
       type(patch_workspace), intent(inout) :: workspace
+      !> Told from flow-trace level 3 on which rows are left out
       type(log_type), intent(inout) :: log
       real(wp) :: share
       integer :: iy, k, ix, edge, hidden

@@ -25,10 +25,15 @@ contains
 
    !> Pressures, approach or force, and the contact area
    subroutine normal_step(problem, state, workspace, log, result)
+      !> Undeformed distance, prescribed force or approach, method
       type(patch_problem), intent(in) :: problem
+      !> Estimate of pressures and approach on entry; solution with element states on exit
       type(patch_state), intent(inout) :: state
+      !> Compliance of the window, and scratch
       type(patch_workspace), intent(inout) :: workspace
+      !> Takes the trace of the solver, and warnings of approximate methods
       type(log_type), intent(inout) :: log
+      !> Gets the report of the normal problem and the contact area
       type(patch_result), intent(inout) :: result
       integer :: ix, iy
       logical :: first
@@ -116,8 +121,11 @@ contains
 
    !> Normal displacements by the present tangential tractions
    subroutine shear_lift(problem, state, workspace)
+      !> Elasticity and grid
       type(patch_problem), intent(in) :: problem
+      !> Present tangential tractions
       type(patch_state), intent(in) :: state
+      !> Gets the displacements `lift` [mm], positive where the surfaces move apart
       type(patch_workspace), intent(inout) :: workspace
 
       call prepare_window(problem, workspace)

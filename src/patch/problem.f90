@@ -144,6 +144,7 @@ contains
 
    !> Rolling towards increasing or decreasing x
    pure integer function rolling_direction(problem)
+      !> Motion and the angle chi
       type(patch_problem), intent(in) :: problem
       rolling_direction = merge(-1, 1, problem%motion >= motion%transient_rolling .and. cos(problem%chi) < 0.0_wp)
    end function rolling_direction

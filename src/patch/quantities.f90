@@ -129,6 +129,7 @@ contains
       integer, intent(in), optional :: along
       !> See total
       character(len=*), intent(in), optional :: heading
+      !> Does it go to files? Default yes
       logical, intent(in), optional :: in_files
       type(total), allocatable :: longer(:)
 
@@ -152,6 +153,7 @@ contains
       class(total_list), intent(inout) :: self
       !> See total
       character(len=*), intent(in) :: name, meaning
+      !> Number of things, without unit
       integer, intent(in) :: value
 
       call self%add(name, "", meaning, real(value, wp))
@@ -161,6 +163,7 @@ contains
    !> The row with a name, which must be there
    pure type(total) function row(self, name)
       class(total_list), intent(in) :: self
+      !> Name of a row, as in total
       character(len=*), intent(in) :: name
       integer :: k
 
@@ -173,6 +176,7 @@ contains
    !> Values by their names
    pure function of(self, names) result(values)
       class(total_list), intent(in) :: self
+      !> Names of rows, as in total; they may come in any order
       character(len=*), intent(in) :: names(:)
       real(wp) :: values(size(names))
       type(total) :: found

@@ -70,6 +70,7 @@ contains
 
    !> Sides of elements of which about ten would be as wide as the contact, with two digits; those of the grid where these do
    pure function enough_sides(result) result(sides)
+      !> Extent of the contact area, and the grid
       type(patch_result), intent(in) :: result
       !> [mm]
       real(wp) :: sides(2)

@@ -138,6 +138,7 @@ contains
    !> All totals, in the order in which they are written: names, units and meanings for all outputs
    pure subroutine totals(self, list, left)
       class(patch_result), intent(in) :: self
+      !> Emptied, then filled with the rows of a patch
       type(total_list), intent(inout) :: list
       !> Is this a wheel on the left side, of which the result is the mirror image? Default: no
       logical, intent(in), optional :: left
@@ -261,6 +262,7 @@ contains
    !> The mirror image: rows of elements in reversed order, lateral components with the other sign. Totals and stresses below the
    !> surface stay
    function mirrored(right) result(left)
+      !> Solution for the right side of the track
       type(patch_result), intent(in) :: right
       type(patch_result) :: left
 

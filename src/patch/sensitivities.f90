@@ -31,6 +31,7 @@ contains
 
    !> Fill the table of sensitivities as far as the problem asks for it
    subroutine find_sensitivities(problem, workspace, result, log)
+      !> Which sensitivities, with what tolerance; prescribed forces
       type(patch_problem), intent(in) :: problem
       !> Compliances, and the tangential problem with its solution
       type(patch_workspace), intent(inout) :: workspace

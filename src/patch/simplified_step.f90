@@ -20,10 +20,15 @@ contains
 
    !> Tangential tractions and slip on the given contact area
    subroutine simplified_step(problem, state, workspace, log, result)
+      !> Flexibilities, creepages or forces, friction
       type(patch_problem), intent(in) :: problem
+      !> Pressures on entry; tangential tractions on exit
       type(patch_state), intent(inout) :: state
+      !> The simplified problem and its solution
       type(patch_workspace), intent(inout) :: workspace
+      !> Takes the trace, and warnings
       type(log_type), intent(inout) :: log
+      !> Gets slip, element states, creepages and the report
       type(patch_result), intent(inout) :: result
       type(bounding_box) :: box
       integer :: iy

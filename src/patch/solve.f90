@@ -37,12 +37,17 @@ contains
 
    !> Solve for the tractions of this step
    subroutine solve_patch(problem, state, workspace, log, result, error)
+      !> Everything that is asked
       type(patch_problem), intent(in) :: problem
       !> now: estimate on entry, solution on exit; before: the previous time step
       type(patch_state), intent(inout) :: state
+      !> Kept from case to case for speed; its contents do not matter
       type(patch_workspace), intent(inout) :: workspace
+      !> Takes the trace of all solvers, and warnings
       type(log_type), intent(inout) :: log
+      !> Tractions, slip, totals, reports and the status of the case
       type(patch_result), intent(inout) :: result
+      !> Allocated when the problem has no solution, or time is up
       type(error_type), allocatable, intent(out) :: error
       !> Iteration between pressures and tractions
       type(solve_report) :: turns
@@ -160,7 +165,9 @@ contains
 
    !> Refuse what has no solution
    subroutine check_problem(problem, error)
+      !> Everything that is asked
       type(patch_problem), intent(in) :: problem
+      !> Allocated with the reason
       type(error_type), allocatable, intent(out) :: error
       real(wp) :: force
       character(len=16) :: text

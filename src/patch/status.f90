@@ -15,6 +15,7 @@ contains
 
    !> Status of a patch whose totals are known
    subroutine derive_status(problem, outer, result)
+      !> Prescribed forces and tolerances
       type(patch_problem), intent(in) :: problem
       !> Iteration between pressures and tractions
       type(solve_report), intent(in) :: outer

@@ -26,10 +26,15 @@ contains
 
    !> Tangential tractions and slip on the given contact area
    subroutine tangential_step(problem, state, workspace, log, result)
+      !> Motion, friction, creepages or forces, method
       type(patch_problem), intent(in) :: problem
+      !> Pressures and element states on entry, estimate of the tractions; solution on exit
       type(patch_state), intent(inout) :: state
+      !> Compliance of the box, the tangential problem and its solution
       type(patch_workspace), intent(inout) :: workspace
+      !> Takes the trace of the solvers, and warnings
       type(log_type), intent(inout) :: log
+      !> Gets slip, coefficients of friction, creepages and reports
       type(patch_result), intent(inout) :: result
       type(bounding_box) :: box
 

@@ -15,10 +15,13 @@ contains
 
    !> Present time step becomes the previous one, on the window of this case
    subroutine link_time_steps(problem, link, state, error)
+      !> Grid of this case, and the effects that remember
       type(patch_problem), intent(in) :: problem
       !> Member of time_link
       integer, intent(in) :: link
+      !> On entry as the previous case left it; on exit `now` is the estimate and `before` the previous time step, on the new window
       type(patch_state), intent(inout) :: state
+      !> Allocated when the windows do not fit each other, or the new one leaves out contact that matters
       type(error_type), allocatable, intent(out) :: error
       integer :: kx, ky
       logical :: linked
@@ -280,6 +283,7 @@ contains
    pure subroutine elements_left_out(division, old, new, n, box)
       !> Element states on the old window
       integer, intent(in) :: division(:, :)
+      !> Windows of elements of the same size on the same lattice
       type(potential_contact), intent(in) :: old, new
       !> Their number
       integer, intent(out) :: n
@@ -333,7 +337,9 @@ contains
 
    !> No contact
    subroutine clear_time_step(fields, grid)
+      !> Gets arrays of the size of the grid, zero, without element in contact
       type(traction_fields), intent(inout) :: fields
+      !> Window of the time step
       type(potential_contact), intent(in) :: grid
 
       call fit_fields(fields, grid%mx, grid%my)

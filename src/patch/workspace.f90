@@ -56,7 +56,9 @@ contains
 
    !> Scratch of the size of the window; kept when the size is the same
    subroutine fit_workspace(problem, workspace)
+      !> Its grid gives the size
       type(patch_problem), intent(in) :: problem
+      !> Arrays on the window; zero when they are new
       type(patch_workspace), intent(inout) :: workspace
       integer :: mx, my
 
@@ -72,7 +74,9 @@ contains
 
    !> Compliance on the whole window
    subroutine prepare_window(problem, workspace)
+      !> Elasticity, grid and rolling direction
       type(patch_problem), intent(in) :: problem
+      !> Its `window` is prepared
       type(patch_workspace), intent(inout) :: workspace
 
       call new_compliance(problem%model, workspace%window)
@@ -82,8 +86,11 @@ contains
 
    !> Compliance on the bounding box of the contact area
    subroutine prepare_box(problem, box, workspace)
+      !> Elasticity, grid and rolling direction
       type(patch_problem), intent(in) :: problem
+      !> First and last column and row of the box in the grid
       type(bounding_box), intent(in) :: box
+      !> Its `box` is prepared
       type(patch_workspace), intent(inout) :: workspace
 
       call new_compliance(problem%model, workspace%box)
@@ -93,6 +100,7 @@ contains
 
    !> Free what the workspace holds outside Fortran's memory: plans of transforms
    subroutine release_workspace(workspace)
+      !> Plans of its compliances and solvers are freed; may be used again
       type(patch_workspace), intent(inout) :: workspace
 
       if (allocated(workspace%window)) call workspace%window%release()

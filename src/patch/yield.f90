@@ -22,9 +22,11 @@ contains
    !>
    !> Without slope they are just another bound of the tractions.
    subroutine set_yield(problem, before, box, tangential)
+      !> Initial yield limit and its slope
       type(patch_problem), intent(in) :: problem
       !> The previous time step
       type(traction_fields), intent(in) :: before
+      !> First and last column and row of the tangential problem in the window
       type(bounding_box), intent(in) :: box
       !> Bounds of friction on entry
       type(tangential_problem), intent(inout) :: tangential
@@ -44,10 +46,13 @@ contains
 
    !> Limits and plastic displacements after the step; material out of contact keeps them
    subroutine carry_yield(problem, box, solution, state)
+      !> Does anything depend on the past of plastic shearing?
       type(patch_problem), intent(in) :: problem
       !> Place of the solution in the window; empty without contact
       type(bounding_box), intent(in) :: box
+      !> Plastic displacements and yield limits on the box
       type(tangential_solution), intent(in) :: solution
+      !> Gets both as those of the present time step
       type(patch_state), intent(inout) :: state
       integer :: ix, iy, k, jx, jy
       logical :: upwards
@@ -95,9 +100,13 @@ contains
 
    !> Fields, number of plastic elements and the work of plastic shearing
    subroutine derive_yield(problem, state, solution, result)
+      !> Grid, motion, and whether surfaces yield
       type(patch_problem), intent(in) :: problem
+      !> Yield limits and plastic displacements; without motion those of the previous time step
       type(patch_state), intent(inout) :: state
+      !> Plastic displacements of the step on the box
       type(tangential_solution), intent(in) :: solution
+      !> Gets the fields and `nplast`; the work of plastic shearing is added to the frictional power
       type(patch_result), intent(inout) :: result
 
       if (allocated(result%tau_c)) deallocate(result%tau_c, result%uplx, result%uply)

@@ -89,6 +89,7 @@ contains
 
    !> Cut the curve where y turns round, and keep at each y what is seen
    subroutine find_visible(curve, around)
+      !> Splines and pieces on entry; visible parts are set
       type(profile_curve), intent(inout) :: curve
       !> Places s [mm]: only the stretches that hold one of them are looked at; default all
       real(wp), intent(in), optional :: around(:)
@@ -302,6 +303,7 @@ contains
    !> Beyond the visible range of y that of its nearer end; in a gap between visible parts that of the part below
    elemental real(wp) function place_at(self, y) result(s)
       class(profile_curve), intent(in) :: self
+      !> Lateral coordinate [mm]
       real(wp), intent(in) :: y
       integer :: part, k
 
@@ -321,9 +323,11 @@ contains
    !> Place of the visible point with a given y
    pure subroutine find_point(self, y, s, found)
       class(profile_curve), intent(in) :: self
+      !> Lateral coordinate [mm]
       real(wp), intent(in) :: y
       !> Unchanged when there is none
       real(wp), intent(inout) :: s
+      !> Is there a visible point?
       logical, intent(out) :: found
       integer :: part
 
@@ -335,11 +339,13 @@ contains
    !> Piece of the splines that holds the visible point with a given y, and the place in it
    pure subroutine locate(self, y, piece, place, found)
       class(profile_curve), intent(in) :: self
+      !> Lateral coordinate [mm]
       real(wp), intent(in) :: y
       !> 0 when there is none
       integer, intent(out) :: piece
       !> From the beginning of the piece [mm]
       real(wp), intent(out) :: place
+      !> Is there a visible point?
       logical, intent(out) :: found
       integer :: part
 
@@ -355,6 +361,7 @@ contains
    !> Coordinates at a place and their slopes; beyond the ends those of the nearest end
    pure subroutine point_at(self, s, y, z, y_s, z_s)
       class(profile_curve), intent(in) :: self
+      !> Arc length [mm]
       real(wp), intent(in) :: s
       !> [mm], [-]
       real(wp), intent(out) :: y, z, y_s, z_s
@@ -368,6 +375,7 @@ contains
 
    elemental logical function has_point(self, y) result(has)
       class(profile_curve), intent(in) :: self
+      !> Lateral coordinate [mm]
       real(wp), intent(in) :: y
 
       has = part_of(self, y) > 0
@@ -375,6 +383,7 @@ contains
 
    elemental real(wp) function height(self, y)
       class(profile_curve), intent(in) :: self
+      !> Lateral coordinate [mm]
       real(wp), intent(in) :: y
 
       height = self%z%value(self%s_at(y))
@@ -387,6 +396,7 @@ contains
       real(wp), intent(in) :: y(:)
       !> 0 where there is no visible point
       real(wp), intent(out) :: z(:)
+      !> Is there a visible point? Shape of y
       logical, intent(out) :: found(:)
       real(wp) :: slope
       integer :: i, part, piece
@@ -425,6 +435,7 @@ contains
 
    elemental real(wp) function inclination(self, s)
       class(profile_curve), intent(in) :: self
+      !> Arc length [mm]
       real(wp), intent(in) :: s
 
       if (self%side == profile_side%rail) then
@@ -436,6 +447,7 @@ contains
 
    pure function normal(self, s) result(n)
       class(profile_curve), intent(in) :: self
+      !> Arc length [mm]
       real(wp), intent(in) :: s
       !> Components along y and z
       real(wp) :: n(2)
@@ -496,6 +508,7 @@ contains
    !> Place s and height z of the point with the smallest z
    pure subroutine top(self, s, z)
       class(profile_curve), intent(in) :: self
+      !> Arc length, and coordinate z, down [mm]
       real(wp), intent(out) :: s, z
       real(wp) :: roots(2), places(3)
       integer :: i, k, n

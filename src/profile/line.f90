@@ -35,6 +35,7 @@ contains
 
    !> The last column before the first comment mark outside of single quotes
    pure integer function end_of_values(line, marks) result(last)
+      !> Line of a profile file
       character(len=*), intent(in) :: line
       !> Characters that begin a comment
       character(len=*), intent(in) :: marks
@@ -51,8 +52,11 @@ contains
 
    !> Parts before and behind the first equals sign, without blanks around; is there one?
    pure subroutine split_assignment(line, key, value, found)
+      !> Line of a profile file, without comment
       character(len=*), intent(in) :: line
+      !> Texts before and behind the sign; unallocated without one
       character(len=:), allocatable, intent(out) :: key, value
+      !> Is there an equals sign?
       logical, intent(out) :: found
       integer :: i
 
@@ -64,8 +68,11 @@ contains
 
    !> How many numbers does a line begin with, and does text follow them?
    pure subroutine leading_numbers(line, n, text_follows)
+      !> Line of a profile file, without comment
       character(len=*), intent(in) :: line
+      !> Numbers before anything else
       integer, intent(out) :: n
+      !> Is there a word behind them that is no number?
       logical, intent(out) :: text_follows
       real(wp) :: value
       integer :: first, last, state
@@ -85,7 +92,9 @@ contains
 
    !> All numbers of a line; a word that is none is an error
    subroutine read_row(line, place, expected, row, n, error, enough)
+      !> Line of a profile file, without comment
       character(len=*), intent(in) :: line
+      !> File and line, for messages
       type(file_place), intent(in) :: place
       !> What should stand here, for messages
       character(len=*), intent(in) :: expected
@@ -93,6 +102,7 @@ contains
       real(wp), intent(out) :: row(max_columns)
       !> How many there are, also beyond the last that is kept
       integer, intent(out) :: n
+      !> Names file, line, column, what stands there and what should
       type(error_type), allocatable, intent(out) :: error
       !> Behind so many numbers text is ignored; default: nowhere
       integer, intent(in), optional :: enough
@@ -160,7 +170,9 @@ contains
 
    pure subroutine add_point(self, y, z, line)
       class(point_list), intent(inout) :: self
+      !> Coordinates as they stand in the file
       real(wp), intent(in) :: y, z
+      !> Number of the line they stand in
       integer, intent(in) :: line
 
       if (.not. allocated(self%y)) allocate(self%y(256), self%z(256), self%line(256))
@@ -178,7 +190,9 @@ contains
    !> Take the points that were collected
    pure subroutine take_points(self, y, z, line)
       class(point_list), intent(in) :: self
+      !> Coordinates as they stand in the file, shape (number of points)
       real(wp), allocatable, intent(out) :: y(:), z(:)
+      !> Number of the line that each stands in, of the same shape
       integer, allocatable, intent(out) :: line(:)
 
       if (self%n == 0) then

@@ -25,9 +25,13 @@ module contact_profile_miniprof
 contains
 
    subroutine read_miniprof(text, profile, log, error)
+      !> The file, read as a whole
       type(input_lexer), intent(in) :: text
+      !> Points with their lines, and what the header prescribes
       type(profile_file), intent(out) :: profile
+      !> Takes warnings of headers that are not used
       type(log_type), intent(inout) :: log
+      !> Names file, line and what would be accepted
       type(error_type), allocatable, intent(out) :: error
       type(file_place) :: place
       type(point_list) :: points

@@ -19,7 +19,9 @@ contains
 
    !> Drop every point that is nearer than a distance to the last one kept
    pure subroutine drop_close_points(y, z, nearest)
+      !> Coordinates [mm], shape (number of points); shortened
       real(wp), allocatable, intent(inout) :: y(:), z(:)
+      !> Smallest distance of two points [mm]
       real(wp), intent(in) :: nearest
       logical :: keep(size(y))
       integer :: i, last
@@ -34,7 +36,9 @@ contains
    end subroutine drop_close_points
 
    pure subroutine keep_points(y, z, keep)
+      !> Coordinates [mm], shape (number of points); shortened
       real(wp), allocatable, intent(inout) :: y(:), z(:)
+      !> Which points stay, of the same shape
       logical, intent(in) :: keep(:)
 
       if (all(keep)) return
@@ -44,6 +48,7 @@ contains
 
    !> Turning angle at each point [rad], in (-pi, pi]; zero at the ends
    pure function turning_angles(y, z) result(turn)
+      !> Coordinates [mm], shape (number of points)
       real(wp), intent(in) :: y(:), z(:)
       real(wp) :: turn(size(y))
       real(wp) :: dy(2), dz(2)
@@ -141,6 +146,7 @@ contains
    !>
    !> A zig-zag is a segment with sharp turns at both ends, as it comes from two sections that overlap.
    pure subroutine remove_zig_zags(y, z, threshold, count)
+      !> Coordinates [mm], shape (number of points); shortened
       real(wp), allocatable, intent(inout) :: y(:), z(:)
       !> Turning angle of a sharp turn [rad]
       real(wp), intent(in) :: threshold
@@ -172,6 +178,7 @@ contains
    pure logical function needs_mirror_z(side, z) result(mirror)
       !> Member of profile_side
       integer, intent(in) :: side
+      !> Vertical coordinates [mm] in the order of the file
       real(wp), intent(in) :: z(:)
 
       if (side == profile_side%rail) then
@@ -230,6 +237,7 @@ contains
 
    !> Must the list be reversed? Found from the steps at the highest place of a rail and at the tip of a flange
    pure logical function needs_reversal(side, y, z) result(reverse)
+      !> Member of profile_side
       integer, intent(in) :: side
       !> Coordinates with z down; at least two points
       real(wp), intent(in) :: y(:), z(:)
@@ -262,7 +270,9 @@ contains
 
    !> Is the overall direction wrong? Rails must end at a larger y than they begin, wheels at a smaller one
    pure logical function runs_backwards(side, y) result(backwards)
+      !> Member of profile_side
       integer, intent(in) :: side
+      !> Lateral coordinates [mm] in the order of the list
       real(wp), intent(in) :: y(:)
 
       if (side == profile_side%rail) then
@@ -274,6 +284,7 @@ contains
 
    !> Sums of chords from the first point on [mm]
    pure function chord_lengths(y, z) result(s)
+      !> Coordinates [mm], shape (number of points)
       real(wp), intent(in) :: y(:), z(:)
       real(wp) :: s(size(y))
       integer :: i
@@ -288,6 +299,7 @@ contains
    !>
    !> Boxes around groups of segments keep the work far below that of all pairs.
    pure subroutine find_loop(y, z, first, second)
+      !> Coordinates [mm], shape (number of points)
       real(wp), intent(in) :: y(:), z(:)
       !> Numbers of the points where the segments begin; 0 when there is no loop
       integer, intent(out) :: first, second
@@ -356,6 +368,7 @@ contains
    !>
    !> Two corners with one point between them make that point a corner too.
    pure function find_kinks(y, z, high, low, width) result(is_kink)
+      !> Coordinates [mm], shape (number of points)
       real(wp), intent(in) :: y(:), z(:)
       !> Turning angle of a corner, largest one nearby [rad], and what is nearby [mm]
       real(wp), intent(in) :: high, low, width

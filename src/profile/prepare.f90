@@ -28,9 +28,13 @@ contains
 
    !> Read and prepare a profile; what becomes of warnings is the user's choice
    subroutine read_profile(request, curve, log, error)
+      !> Which file, and how it is to be read and smoothed
       type(profile_request), intent(in) :: request
+      !> Splines, visible parts and statistics
       type(profile_curve), intent(out) :: curve
+      !> Takes warnings
       type(log_type), intent(inout) :: log
+      !> Names file, line and what is wrong with it
       type(error_type), allocatable, intent(out) :: error
       type(log_type) :: unheard
       character(len=:), allocatable :: name
@@ -87,6 +91,7 @@ contains
 
    !> Small letters behind the last dot of the file name, at most four, of known kinds three
    pure function extension_of(file) result(extension)
+      !> Path as the user gave it
       character(len=*), intent(in) :: file
       character(len=4) :: extension
       integer :: i
@@ -304,10 +309,13 @@ contains
 
    !> Smooth points in canonical order and find out what is seen of the curve
    subroutine prepare_points(request, y, z, curve, error)
+      !> Side and smoothing
       type(profile_request), intent(in) :: request
       !> Coordinates [mm]
       real(wp), intent(in) :: y(:), z(:)
+      !> Splines and visible parts
       type(profile_curve), intent(out) :: curve
+      !> Why the points make no profile
       type(error_type), allocatable, intent(out) :: error
       type(cubic_spline), allocatable :: splines(:)
       real(wp), allocatable :: s(:)
@@ -389,6 +397,7 @@ contains
 
    !> Where s is to be zero: at y = 0 when y is monotone, otherwise at the point nearest to the origin
    pure real(wp) function length_origin(s, y, z) result(origin)
+      !> Arc length, and coordinates of the points [mm], all of one shape
       real(wp), intent(in) :: s(:), y(:), z(:)
       integer :: n, i
       logical :: rises

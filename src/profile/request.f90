@@ -98,6 +98,7 @@ contains
 
    !> Would both give the same profile?
    pure logical function same_request(a, b) result(same)
+      !> Two requests, compared in all that a result depends on
       type(profile_request), intent(in) :: a, b
 
       same = allocated(a%file) .and. allocated(b%file)

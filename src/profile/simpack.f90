@@ -31,11 +31,15 @@ contains
 
    !> Read the points and the processing
    subroutine read_simpack(text, side, profile, log, error)
+      !> The file, read as a whole
       type(input_lexer), intent(in) :: text
       !> Member of profile_side
       integer, intent(in) :: side
+      !> Points with their lines, and the processing that the file prescribes
       type(profile_file), intent(out) :: profile
+      !> Takes warnings of keywords that are not used
       type(log_type), intent(inout) :: log
+      !> Names file, line and what would be accepted
       type(error_type), allocatable, intent(out) :: error
       type(file_place) :: place
       type(point_list) :: points

@@ -50,10 +50,13 @@ module contact_profile_slices_file
 contains
 
    subroutine read_slices_file(text, side, list, error)
+      !> The file, read as a whole; the place in it moves on
       type(input_lexer), intent(inout) :: text
       !> Member of profile_side
       integer, intent(in) :: side
+      !> Positions and names of the files of the slices, features, kinks
       type(slices_list), intent(out) :: list
+      !> Names file, line and what would be accepted
       type(error_type), allocatable, intent(out) :: error
       type(input_value) :: v(3)
       real(wp) :: offset, scale

@@ -57,10 +57,13 @@ contains
    !> The profile for a request, from the store or from its file
    subroutine get(self, request, profile, log, error)
       class(profile_store), intent(inout) :: self
+      !> Which file, and how it is to be read and smoothed
       type(profile_request), intent(in) :: request
       !> Belongs to the store; valid until `max_profiles` others were asked for. Null on errors
       type(prepared_profile), pointer, intent(out) :: profile
+      !> Takes warnings of a profile that is read; one from the store has had its say
       type(log_type), intent(inout) :: log
+      !> Names the file and what is wrong with it
       type(error_type), allocatable, intent(out) :: error
       integer(long) :: fingerprint
       integer :: k, slot
@@ -137,9 +140,13 @@ contains
 
    !> Read a profile or all slices of a variable one
    subroutine load_profile(request, profile, log, error)
+      !> Which file, and how it is to be read and smoothed
       type(profile_request), intent(in) :: request
+      !> The curve, or the surface through all slices
       type(prepared_profile), intent(out) :: profile
+      !> Takes warnings
       type(log_type), intent(inout) :: log
+      !> Names the file and what is wrong with it
       type(error_type), allocatable, intent(out) :: error
       type(input_lexer) :: text
       type(slices_list) :: list

@@ -86,12 +86,15 @@ contains
    subroutine new_surface(side, list, curves, file, surface, error)
       !> Member of profile_side
       integer, intent(in) :: side
+      !> Positions of the slices, features and kinks
       type(slices_list), intent(in) :: list
       !> One per slice
       type(profile_curve), intent(in) :: curves(:)
       !> Name of the slices file, for messages
       character(len=*), intent(in) :: file
+      !> Splines through the points of all slices
       type(profile_surface), intent(out) :: surface
+      !> Names the file, and the slice that does not fit the others
       type(error_type), allocatable, intent(out) :: error
       real(wp), allocatable :: features(:, :), y(:, :), z(:, :), u(:)
       integer, allocatable :: first_line(:)
@@ -284,6 +287,7 @@ contains
       class(profile_surface), intent(in) :: self
       !> [mm] or [rad]
       real(wp), intent(in) :: position
+      !> The section: lines, coordinates and derivatives along u
       type(surface_cut), intent(out) :: section
       !> Where the section is seen from: origin (y, z) [mm] and roll angle [rad] in the axes of the surface. Splines through
       !> points that are moved and rolled are the moved and rolled splines
@@ -348,6 +352,7 @@ contains
       class(profile_surface), intent(in) :: self
       !> [mm] or [rad]
       real(wp), intent(in) :: position
+      !> The section; always present
       type(surface_cut), intent(out) :: section
       !> See `cut`
       real(wp), intent(in), optional :: axes(3)
@@ -410,6 +415,7 @@ contains
    !> linear in the arc length
    pure subroutine on_line(self, v, y, z, found)
       class(surface_cut), intent(in) :: self
+      !> Second coordinate of the surface [-], from 0
       real(wp), intent(in) :: v
       !> [mm]
       real(wp), intent(out) :: y, z
@@ -436,7 +442,9 @@ contains
    !> Height z of the visible point at y, dz/dy and dz/du
    pure subroutine at(self, y, z, z_y, z_u, found)
       class(surface_cut), intent(in) :: self
+      !> Lateral coordinate [mm]
       real(wp), intent(in) :: y
+      !> Height [mm], and its derivatives along y [-] and along u, per mm or per rad
       real(wp), intent(out) :: z, z_y, z_u
       !> False where the section has no point with this y
       logical, intent(out) :: found
@@ -462,6 +470,7 @@ contains
    !> dz/du at fixed y of the visible point, from the derivatives on the lines: z_u - z_s y_u / y_s; 0 where there is none
    elemental real(wp) function slope_along(self, y) result(slope)
       class(surface_cut), intent(in) :: self
+      !> Lateral coordinate [mm]
       real(wp), intent(in) :: y
       real(wp) :: z, z_y
       logical :: found

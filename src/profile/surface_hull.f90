@@ -17,6 +17,7 @@ contains
 
    !> Positions that divide a range into stretches without knots; ends of the surface are among them
    subroutine stretch_breaks(surface, range, breaks)
+      !> Surface whose knots along u count
       type(profile_surface), intent(in) :: surface
       !> Rising: along the track [mm], or around the wheel, less than one turn [rad]
       real(wp), intent(in) :: range(2)
@@ -57,6 +58,7 @@ contains
 
    !> Control points of all lines of a stretch; beyond the ends of the surface those of its end
    subroutine stretch_hull(surface, stretch, y, z, first, last)
+      !> Surface with at least one line
       type(profile_surface), intent(in) :: surface
       !> Between two neighbours of `stretch_breaks`
       real(wp), intent(in) :: stretch(2)

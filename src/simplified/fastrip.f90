@@ -36,6 +36,7 @@ contains
 
    !> Replace Fastsim's tractions, row by row and there in each run of neighbours in contact
    pure subroutine apply_strip_theory(data, x, y, dx, mu, contact, bound, p, slip, division)
+      !> Ellipse, material, force and creepages that strip theory starts from
       type(strip_data), intent(in) :: data
       !> Centres of the columns and rows [mm], shapes (mx) and (my); width of the elements [mm]
       real(wp), intent(in) :: x(:), y(:), dx
@@ -47,6 +48,7 @@ contains
       real(wp), contiguous, intent(in) :: bound(:, :)
       !> Fastsim's answer on entry: tractions [N/mm2], slip per step [mm], element states
       real(wp), contiguous, intent(inout) :: p(:, :, :), slip(:, :, :)
+      !> Element states, shape (mx, my)
       integer, contiguous, intent(inout) :: division(:, :)
       integer :: mx, iy, first, last
 
@@ -139,7 +141,9 @@ contains
    !>
    !> Kalker's coefficients over those of a strip, pi**2/(4 (1 - nu)) and so on.
    pure subroutine scaled_creepages(data, mu, creep, spin)
+      !> Ellipse, material, force and creepages that strip theory starts from
       type(strip_data), intent(in) :: data
+      !> Coefficient of friction [-]
       real(wp), intent(in) :: mu
       !> Creepages [-] on entry, scaled on exit
       real(wp), intent(inout) :: creep(2)

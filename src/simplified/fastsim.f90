@@ -32,6 +32,7 @@ contains
       integer, intent(in) :: direction
       !> Tractions [N/mm2], slip per step [mm], both of shape (mx, my, 2); element states
       real(wp), contiguous, intent(inout) :: p(:, :, :), slip(:, :, :)
+      !> Members of element, shape (mx, my)
       integer, contiguous, intent(inout) :: division(:, :)
       real(wp), dimension(rows_at_once) :: ux, uy
       integer :: mx, my, first, last, ix, iy, k, start, finish
@@ -66,12 +67,17 @@ contains
    !>
    !> Their displacements follow with the flexibilities of now: without motion nothing changes.
    pure subroutine step_fastsim(contact, bound, shift, flx, before, p, slip, division)
+      !> Elements in contact, shape (mx, my)
       logical, contiguous, intent(in) :: contact(:, :)
+      !> Traction bound [N/mm2], shape (mx, my), and rigid slip per step [mm], shape (mx, my, 2)
       real(wp), contiguous, intent(in) :: bound(:, :), shift(:, :, :)
+      !> Flexibility along x and y [mm3/N]
       real(wp), intent(in) :: flx(2)
       !> Tractions one step before [N/mm2], shape (mx, my, 2)
       real(wp), contiguous, intent(in) :: before(:, :, :)
+      !> Tractions [N/mm2] and slip per step [mm], both of shape (mx, my, 2)
       real(wp), contiguous, intent(inout) :: p(:, :, :), slip(:, :, :)
+      !> Members of element, shape (mx, my)
       integer, contiguous, intent(inout) :: division(:, :)
       real(wp) :: ux, uy
       integer :: ix, iy

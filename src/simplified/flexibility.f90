@@ -61,6 +61,7 @@ contains
    !> Flexibilities for longitudinal, lateral and spin creepage [mm3/N]: equal forces at
    !> vanishing creepage, Kalker (1982)
    pure function three_flexibilities(area, gg, nu) result(flx)
+      !> Semi-axes of the contact area [mm]
       type(ellipse), intent(in) :: area
       !> Combined modulus of rigidity [N/mm2] and Poisson ratio [-]
       real(wp), intent(in) :: gg, nu
@@ -79,7 +80,9 @@ contains
    pure function blended_flexibilities(flx, area, gg, nu, load, creep, spin) result(blend)
       !> Values for vanishing creepage [mm3/N]
       real(wp), intent(in) :: flx(3)
+      !> Semi-axes of the contact area [mm]
       type(ellipse), intent(in) :: area
+      !> Combined modulus of rigidity [N/mm2] and Poisson ratio [-]
       real(wp), intent(in) :: gg, nu
       !> Largest friction force mu Fn [N]
       real(wp), intent(in) :: load
@@ -102,8 +105,11 @@ contains
 
    !> Factor k by which stiffness 1/L is reduced [-]
    pure real(wp) function slope_factor(reduction, area, gg, nu, load, creep, spin) result(k)
+      !> Parameters of the reduction for contaminated surfaces
       type(slope_reduction), intent(in) :: reduction
+      !> Semi-axes of the contact area [mm]
       type(ellipse), intent(in) :: area
+      !> Combined modulus of rigidity [N/mm2] and Poisson ratio [-]
       real(wp), intent(in) :: gg, nu
       !> Friction force in full sliding, mu Fn, with the friction of sliding [N]
       real(wp), intent(in) :: load

@@ -94,7 +94,9 @@ contains
 
    !> Derive areas and flexibilities, and give the solution its arrays
    subroutine complete_problem(problem, solution)
+      !> Grid, pressures, model and creepages on entry; areas and flexibilities are added
       type(simplified_problem), intent(inout) :: problem
+      !> Gets arrays of the size of the grid
       type(simplified_solution), intent(inout) :: solution
       integer :: mx, my
       real(wp) :: lowest(2), highest(2)
@@ -133,7 +135,9 @@ contains
       !> Completed
       type(simplified_problem), intent(in) :: problem
       !> [-]
+      !> Longitudinal and lateral creepage [-]
       real(wp), intent(in) :: creep(2)
+      !> Gets tractions, slip, element states and forces
       type(simplified_solution), intent(inout) :: solution
       integer :: iy
 
@@ -184,6 +188,7 @@ contains
    end subroutine friction_of_rows
 
    pure real(wp) function mean(values)
+      !> Any numbers, at least one
       real(wp), intent(in) :: values(:)
 
       mean = sum(values)/size(values)

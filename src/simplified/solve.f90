@@ -20,8 +20,11 @@ contains
    !> Tractions, slip, creepages. The iterations of the report are marches through the area, 0 for
    !> given creepages; its residual is the error of the relative forces.
    subroutine solve_simplified(problem, solution, report)
+      !> What is given; completed here
       type(simplified_problem), intent(inout) :: problem
+      !> Tractions, slip, element states, forces, and the creepages that were looked for
       type(simplified_solution), intent(inout) :: solution
+      !> How the search for creepages ended
       type(solve_report), intent(inout) :: report
       real(wp) :: creep(2)
       integer :: n

@@ -38,6 +38,7 @@ contains
    !> Points with z >= 0 lie in body 1, those with z < 0 in body 2. Each point is summed in one
    !> fixed order; results do not depend on the number of threads.
    subroutine sum_directly(load, position, displacement, stress)
+      !> Tractions of the surface and the constants of the bodies
       type(surface_load), intent(in) :: load
       !> Points [mm], shape (3, n)
       real(wp), contiguous, intent(in) :: position(:, :)
@@ -77,6 +78,7 @@ contains
 
    !> Number of closed forms that are summed per point
    pure integer function number_of_terms(load) result(n)
+      !> Tractions of the surface; elements without load do not count
       type(surface_load), intent(in) :: load
       type(load_list) :: corners
 

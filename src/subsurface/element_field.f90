@@ -53,6 +53,7 @@ contains
    !> Quadrature for a unit load on an element: Gauss rules for constant weight on (-1/2, 1/2) and for
    !> the weight 1 - |s| on (-1, 1)
    pure function new_quadrature(bilinear) result(rule)
+      !> Does the load fall linearly to the centres of the neighbours? Otherwise it is constant on the element
       logical, intent(in) :: bilinear
       type(load_quadrature) :: rule
       real(wp), parameter :: root(2) = &
@@ -76,6 +77,7 @@ contains
    pure real(wp) function far_distance(dx, dy, bilinear)
       !> Sides of the elements [mm]
       real(wp), intent(in) :: dx, dy
+      !> As for new_quadrature
       logical, intent(in) :: bilinear
 
       far_distance = merge(far_bilinear, far_constant, bilinear)*max(dx, dy)
@@ -83,6 +85,7 @@ contains
 
    !> Does a field change sign from x to -x, by a load in direction 1 (x), 2 or 3 at the origin?
    elemental logical function odd_in_x(field, load)
+      !> Number of the field, 1 to 9 (three displacements, six stresses), and direction of the load: 1 (x), 2 (y), 3 (pressure)
       integer, intent(in) :: field, load
       logical, parameter :: by_pressure(n_fields) = &
          & [.true., .false., .false., .false., .true., .true., .false., .false., .false.]
@@ -92,6 +95,7 @@ contains
 
    !> The same from y to -y
    elemental logical function odd_in_y(field, load)
+      !> As for odd_in_x
       integer, intent(in) :: field, load
       logical, parameter :: by_pressure(n_fields) = &
          & [.false., .true., .false., .false., .true., .false., .false., .true., .false.]

@@ -38,6 +38,7 @@ contains
 
    !> Displacements and stresses in element centres
    subroutine transform_layers(load, ix, iy, z, displacement, stress)
+      !> Tractions of the surface and the constants of the bodies
       type(surface_load), intent(in) :: load
       !> Columns and rows of the points, ascending; they may lie outside the grid
       integer, intent(in) :: ix(:), iy(:)
@@ -67,8 +68,11 @@ contains
 
    !> Number of padded elements, and of differences between points and loads, as measures of the cost
    pure subroutine padded_size(load, ix, iy, padded, differences)
+      !> Tractions of the surface
       type(surface_load), intent(in) :: load
+      !> Columns and rows of the points, ascending
       integer, intent(in) :: ix(:), iy(:)
+      !> Elements of the padded window; pairs of a point and a load that differ in place
       real(wp), intent(out) :: padded, differences
       type(layer_window) :: window
 

@@ -27,7 +27,9 @@ contains
 
    !> Collect the loads of a solved contact
    pure subroutine new_surface_load(load, grid, pn, px, py, gg, nu, bilinear)
+      !> Gets copies of what is loaded: the bounding box of all tractions
       type(surface_load), intent(out) :: load
+      !> Centres and sides of the elements
       type(potential_contact), intent(in) :: grid
       !> Tractions on body 1 [N/mm2], shape (mx, my); pn positive for compression
       real(wp), contiguous, intent(in) :: pn(:, :), px(:, :), py(:, :)

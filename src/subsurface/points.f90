@@ -50,8 +50,11 @@ contains
    !>
    !> Repeated columns and rows count once, repeated coordinates do not disturb and stay.
    pure subroutine expand_points(block, grid, points)
+      !> Coordinates as they were given
       type(point_block), intent(in) :: block
+      !> Potential contact, whose centres a block may refer to
       type(potential_contact), intent(in) :: grid
+      !> Sorted coordinates, and columns and rows where they are centres of elements
       type(point_set), intent(out) :: points
 
       select case (block%selection)
@@ -73,6 +76,7 @@ contains
 
    !> Positions of all points, x fastest, then y, then z
    pure subroutine list_points(points, position)
+      !> Sorted coordinates
       type(point_set), intent(in) :: points
       !> Points [mm], shape (3, number of points)
       real(wp), contiguous, intent(out) :: position(:, :)
@@ -91,6 +95,7 @@ contains
 
    !> Depth above which the steps of the tractions between elements are felt off their centres [mm]
    elemental real(wp) function stepped_depth(grid) result(depth)
+      !> Centres and sides of the elements
       type(potential_contact), intent(in) :: grid
 
       depth = 0.25_wp*grid%dx
@@ -98,7 +103,9 @@ contains
 
    !> Number of points over a grid, of 0 elements and more, that are nearer to the surface and not at centres of elements
    pure integer function stepped_points(points, grid) result(n)
+      !> Sorted coordinates
       type(point_set), intent(in) :: points
+      !> Centres and sides of the elements
       type(potential_contact), intent(in) :: grid
       integer :: inside(2), off(2), near
 

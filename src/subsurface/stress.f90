@@ -26,7 +26,9 @@ contains
    !>
    !> By fast transforms where the points are centres of elements and it pays off, else by direct sums.
    subroutine subsurface_field(load, points, displacement, stress)
+      !> Tractions of the surface and the constants of the bodies
       type(surface_load), intent(in) :: load
+      !> Sorted coordinates
       type(point_set), intent(in) :: points
       !> Displacements of the body that the point belongs to [mm], shape (3, n), x fastest
       real(wp), contiguous, intent(out) :: displacement(:, :)

@@ -84,14 +84,17 @@ contains
    !> Always ends. The solution is admissible and finite in every case; report%ended tells
    !> what it is worth. A method that does not suit the problem is replaced by one that does.
    subroutine solve_classical(problem, operator, choice, solution, report, log, shifted)
+      !> Rigid slip, bounds, prescribed forces, tolerance
       type(tangential_problem), intent(in) :: problem
       !> Prepared for the window of the problem
       class(compliance), intent(inout) :: operator
       !> Member of classical_method
       integer, intent(in) :: choice
+      !> Estimate of tractions and creepages on entry; solution with slip and element states on exit
       type(tangential_solution), intent(inout) :: solution
       !> Products and transforms are added up, everything else is of this call
       type(solve_report), intent(inout) :: report
+      !> Takes a line per iteration from flow-trace level 5 on, and warnings of a method that was replaced
       type(log_type), intent(inout) :: log
       !> Coefficients of the same particles at the previous time, in steady rolling with steps
       !> other than one element or in an oblique direction (ConvexGS only)

@@ -41,6 +41,7 @@ contains
 
    !> Traction and state of one element, without relaxation
    pure subroutine solve_element(c, s0, g, p, state)
+      !> Coefficients of the element on itself
       type(element_compliance), intent(in) :: c
       !> Slip without the element's own traction [mm]
       real(wp), intent(in) :: s0(2)
@@ -73,6 +74,7 @@ contains
 
    !> The same for an element that may yield
    pure subroutine solve_yielding_element(c, s0, g, before, slope, lowest, p, point)
+      !> Coefficients of the element on itself
       type(element_compliance), intent(in) :: c
       !> Slip without the element's own traction [mm]
       real(wp), intent(in) :: s0(2)
@@ -183,11 +185,13 @@ contains
    !> Move from the old traction part of the way to the new one: along the line in adhesion,
    !> along the circle in slip. Admissible whenever the old traction is.
    pure subroutine relax_element(old, g, omegah, omegas, state, p)
+      !> Traction before the relaxation [N/mm2]
       real(wp), intent(in) :: old(2)
       !> Traction bound [N/mm2]
       real(wp), intent(in) :: g
       !> Relaxation in adhesion and in slip [-]
       real(wp), intent(in) :: omegah, omegas
+      !> Member of element: adhesion or slip
       integer, intent(in) :: state
       !> Solution of the element on entry, relaxed on exit
       real(wp), intent(inout) :: p(2)

@@ -23,6 +23,7 @@ contains
 
    !> Are more tangential forces prescribed than the traction bounds give?
    pure logical function is_beyond_friction(problem) result(beyond)
+      !> Traction bounds and prescribed forces
       type(tangential_problem), intent(in) :: problem
 
       beyond = .false.
@@ -33,11 +34,13 @@ contains
 
    !> Tractions at the bounds, against slip in the direction of the forces
    subroutine slide_fully(problem, operator, solution, report)
+      !> Traction bounds and prescribed forces
       type(tangential_problem), intent(in) :: problem
       !> Prepared for the window and the rolling direction of the problem
       class(compliance), intent(inout) :: operator
       !> Solution on exit; what it holds on entry does not matter
       type(tangential_solution), intent(inout) :: solution
+      !> Gets ended, iterations, residual
       type(solve_report), intent(inout) :: report
       real(wp) :: direction(2), slip, length
       integer :: ix, iy, k, products_before

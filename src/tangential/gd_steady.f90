@@ -91,7 +91,9 @@ contains
 
    !> Iterate from given tractions; they stay admissible whatever happens
    subroutine gd_steady(problem, operator, eps, creep, p, state, report, log)
+      !> Rigid slip, bounds, number of iterations
       type(tangential_problem), intent(in) :: problem
+      !> Prepared for the window and the rolling direction of the problem
       class(compliance), intent(inout) :: operator
       !> Tolerance of the updates, relative to the tractions [-]; the contact conditions end within that of the settings
       real(wp), intent(in) :: eps
@@ -103,6 +105,7 @@ contains
       integer, contiguous, intent(inout) :: state(:, :)
       !> Gets ended, iterations; stagnated asks for another method
       type(solve_report), intent(inout) :: report
+      !> Takes a line per iteration from flow-trace level 5 on
       type(log_type), intent(inout) :: log
       type(update_watch) :: watch
       type(descent) :: self

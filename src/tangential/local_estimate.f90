@@ -20,6 +20,7 @@ contains
    subroutine estimate_locally(problem, operator, p, scratch)
       !> With friction in some element
       type(tangential_problem), intent(in) :: problem
+      !> Prepared for the window and the rolling direction of the problem
       class(compliance), intent(inout) :: operator
       !> Tractions [N/mm2], shape (mx, my, 2)
       real(wp), contiguous, intent(inout) :: p(:, :, :)

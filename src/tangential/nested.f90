@@ -49,12 +49,15 @@ contains
 
    !> Solve a tangential problem by Newton-Krylov; nested iteration where that pays
    subroutine solve_newton_krylov(problem, operator, workspace, solution, report, log)
+      !> Rigid slip, bounds, prescribed forces, tolerance
       type(tangential_problem), intent(in) :: problem
       !> Prepared for the window and the rolling direction of the problem
       class(compliance), intent(inout) :: operator
+      !> Coarser levels with their operators, and scratch, kept from call to call
       type(nested_workspace), intent(inout) :: workspace
       !> Estimate on entry (zero tractions when there is none)
       type(tangential_solution), intent(inout) :: solution
+      !> How it ended, iterations, residual; transforms are added to those of before
       type(solve_report), intent(inout) :: report
       !> For the flow trace; absent: none
       type(log_type), intent(inout), optional :: log
@@ -91,13 +94,23 @@ contains
 
    !> Derivative of the tractions at a solution, whatever method found it; see newton_derivative
    subroutine traction_derivative(problem, operator, tolerance, workspace, solution, shift, bound, derivative, reached)
+      !> The problem that was solved
       type(tangential_problem), intent(in) :: problem
+      !> Prepared for the window and the rolling direction of the problem
       class(compliance), intent(inout) :: operator
+      !> Of the linear system, relative to its right-hand side [-]
       real(wp), intent(in) :: tolerance
+      !> That of the solution, or any other: only its scratch is used
       type(nested_workspace), intent(inout) :: workspace
+      !> Where the derivative is taken
       type(tangential_solution), intent(in) :: solution
-      real(wp), contiguous, intent(in) :: shift(:, :, :), bound(:, :)
+      !> Derivative of the rigid slip per step by a parameter, shape (mx, my, 2)
+      real(wp), contiguous, intent(in) :: shift(:, :, :)
+      !> Derivative of the traction bound by the same parameter, shape (mx, my)
+      real(wp), contiguous, intent(in) :: bound(:, :)
+      !> Derivative of the tractions by the parameter, shape (mx, my, 2)
       real(wp), contiguous, intent(inout) :: derivative(:, :, :)
+      !> Relative residual of the linear system that was reached [-]
       real(wp), intent(out) :: reached
 
       if (.not. allocated(workspace%level)) allocate(workspace%level(levels))
@@ -106,6 +119,7 @@ contains
 
    !> Free the plans of all levels
    subroutine release_nested(workspace)
+      !> Levels whose plans are freed; may be used again
       type(nested_workspace), intent(inout) :: workspace
       integer :: k
 

@@ -52,14 +52,17 @@ contains
 
    !> Improve a solution until the true residual is below a tolerance
    subroutine newton_solve(problem, operator, tolerance, workspace, solution, outcome, log)
+      !> Rigid slip, bounds, prescribed forces, limits of the iteration
       type(tangential_problem), intent(in) :: problem
       !> Prepared for the window and the rolling direction of the problem
       class(compliance), intent(inout) :: operator
       !> On the true residual [-]
       real(wp), intent(in) :: tolerance
+      !> Scratch of the size of the window, fitted here
       type(newton_workspace), intent(inout) :: workspace
       !> Tractions inside the discs and creepages to start from
       type(tangential_solution), intent(inout) :: solution
+      !> How it ended, steps, residual
       type(newton_outcome), intent(out) :: outcome
       !> Gets a line per step from flow-trace level 5 on; absent: no trace
       type(log_type), intent(inout), optional :: log
@@ -201,12 +204,15 @@ contains
    !> of the tractions. In adhesion the bound has no influence. Where an element is about to
    !> change between adhesion and slip, it is the derivative to the side on which the element is.
    subroutine newton_derivative(problem, operator, tolerance, workspace, solution, shift, bound, derivative, reached)
+      !> The problem that was solved
       type(tangential_problem), intent(in) :: problem
       !> Prepared for the window and the rolling direction of the problem
       class(compliance), intent(inout) :: operator
       !> Relative to the right-hand side
       real(wp), intent(in) :: tolerance
+      !> Scratch of the size of the window, fitted here
       type(newton_workspace), intent(inout) :: workspace
+      !> Where the derivative is taken
       type(tangential_solution), intent(in) :: solution
       !> Derivatives of the rigid slip per step, shape (mx, my, 2), and of the bound, shape (mx, my)
       real(wp), contiguous, intent(in) :: shift(:, :, :), bound(:, :)

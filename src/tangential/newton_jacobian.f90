@@ -55,7 +55,9 @@ contains
 
    !> Scales of a problem; those of the creepages and the Schur complement are left to the caller
    type(linear_system) function new_system(problem, operator) result(system)
+      !> Its size, forces and bounds give the scales
       type(tangential_problem), intent(in) :: problem
+      !> Its diagonal coefficients give the scale of the slip
       class(compliance), intent(in) :: operator
 
       system%n = 2*problem%mx*problem%my
@@ -66,7 +68,9 @@ contains
 
    !> Allocate scratch for a window; keeps it when the size is the same
    subroutine fit_workspace(workspace, mx, my)
+      !> Scratch that gets its arrays
       type(newton_workspace), intent(inout) :: workspace
+      !> Size of the window in elements
       integer, intent(in) :: mx, my
 
       if (workspace%mx == mx .and. workspace%my == my) return
@@ -88,9 +92,13 @@ contains
 
    !> Weights and directions of D, and the residual field, at the present tractions
    subroutine linearise(problem, system, solution, workspace)
+      !> Bounds, yield data, and the elements that count
       type(tangential_problem), intent(in) :: problem
+      !> Scale of the slip, and those of tractions and creepages
       type(linear_system), intent(in) :: system
+      !> Tractions and slip at which the derivatives are taken
       type(tangential_solution), intent(in) :: solution
+      !> Gets weights, directions and the residual field
       type(newton_workspace), intent(inout) :: workspace
       integer :: ix, iy
       real(wp) :: z(2), length, g
@@ -160,8 +168,11 @@ contains
 
    !> v := v + n radial n.w, what the derivative of the return map has along n
    subroutine add_radial(workspace, w, v)
+      !> Radial parts n, from `linearise`
       type(newton_workspace), intent(in) :: workspace
+      !> Field whose part along n is taken, shape (mx, my, 2)
       real(wp), contiguous, intent(in) :: w(:, :, :)
+      !> Field that the part is added to, shape (mx, my, 2)
       real(wp), contiguous, intent(inout) :: v(:, :, :)
       integer :: ix, iy
       real(wp) :: c
@@ -178,10 +189,15 @@ contains
    !>
    !> In steady rolling the changes of the yield limits are carried downstream.
    subroutine differentiate_return_map(problem, workspace, z, out, bound)
+      !> Bounds, yield data, and the rolling direction
       type(tangential_problem), intent(in) :: problem
+      !> Weights and directions, from `linearise`
       type(newton_workspace), intent(in) :: workspace
+      !> Changes of p - r S [N/mm2], shape (mx, my, 2)
       real(wp), contiguous, intent(in) :: z(:, :, :)
+      !> Changes of the tractions [N/mm2], shape (mx, my, 2)
       real(wp), contiguous, intent(inout) :: out(:, :, :)
+      !> Changes of the traction bound [N/mm2], shape (mx, my); absent: none
       real(wp), contiguous, intent(in), optional :: bound(:, :)
       integer :: ix, iy, k
       real(wp) :: c, g, limit, n(2)
@@ -211,7 +227,9 @@ contains
 
    !> v := D v
    subroutine apply_d(workspace, v)
+      !> Weights and directions, from `linearise`
       type(newton_workspace), intent(in) :: workspace
+      !> Field of two components, shape (mx, my, 2)
       real(wp), contiguous, intent(inout) :: v(:, :, :)
       real(wp), allocatable :: whole(:, :, :)
       integer :: ix, iy
@@ -230,11 +248,17 @@ contains
 
    !> out := J y, y = (tractions, creepages), both scaled
    subroutine apply_jacobian(problem, operator, system, workspace, y, out)
+      !> The problem that is solved
       type(tangential_problem), intent(in) :: problem
+      !> Prepared for the window and the rolling direction of the problem
       class(compliance), intent(inout) :: operator
+      !> Scales of tractions, slip and creepages
       type(linear_system), intent(in) :: system
+      !> Weights and directions, from `linearise`; its scratch is overwritten
       type(newton_workspace), intent(inout) :: workspace
+      !> Scaled tractions, then the scaled creepages that are unknown; shape (2 mx my + n_forces)
       real(wp), contiguous, target, intent(in) :: y(:)
+      !> Of the same shape: scaled residuals of the contact conditions, then of the forces
       real(wp), contiguous, target, intent(out) :: out(:)
       real(wp), pointer, contiguous :: dp(:, :, :), res(:, :, :)
       real(wp) :: creep(2), c, vx, vy

@@ -25,9 +25,13 @@ contains
    !>
    !> On exit workspace%step holds the correction of the tractions [N/mm2].
    subroutine solve_linear(problem, operator, system, workspace, unbalance, tolerance, correction, preconditionings, reached)
+      !> The problem that is solved
       type(tangential_problem), intent(in) :: problem
+      !> Prepared for the window and the rolling direction of the problem
       class(compliance), intent(inout) :: operator
+      !> Scales; gets the Schur complement of the creepages
       type(linear_system), intent(inout) :: system
+      !> Weights, directions and residual field on entry; vectors of the Krylov space are kept here
       type(newton_workspace), target, intent(inout) :: workspace
       !> Errors of the prescribed forces, relative
       real(wp), intent(in) :: unbalance(2)
@@ -35,6 +39,7 @@ contains
       real(wp), intent(in) :: tolerance
       !> Correction of the creepages
       real(wp), intent(out) :: correction(2)
+      !> Applications of the preconditioner, counted on
       integer, intent(inout) :: preconditionings
       !> Relative residual that was reached; a Newton step is judged by the residual of the tractions it leads to
       real(wp), intent(out), optional :: reached

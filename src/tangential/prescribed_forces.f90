@@ -76,7 +76,9 @@ contains
 
    subroutine start(self, problem, operator, sensitivity)
       class(force_iteration), intent(inout) :: self
+      !> Prescribed forces, traction bounds and tolerance
       type(tangential_problem), intent(in) :: problem
+      !> Its stiffness gives the first sensitivities where none are known
       class(compliance), intent(inout) :: operator
       !> Sensitivities of the previous case, 0 when unknown
       real(wp), intent(in) :: sensitivity(2, 2)

@@ -95,7 +95,9 @@ contains
 
    !> Allocate a solution for a problem, zero; keeps arrays of the right size and their values
    subroutine prepare_solution(problem, solution)
+      !> Size of the window
       type(tangential_problem), intent(in) :: problem
+      !> Gets its arrays; what it holds stays when they have the right size
       type(tangential_solution), intent(inout) :: solution
 
       if (allocated(solution%plastic)) deallocate(solution%plastic, solution%limit)
@@ -110,9 +112,13 @@ contains
 
    !> B p, on the whole window
    subroutine apply_operator(problem, operator, p, u)
+      !> Steady rolling or a step in time decides about the operator
       type(tangential_problem), intent(in) :: problem
+      !> Prepared for the window and the rolling direction of the problem
       class(compliance), intent(inout) :: operator
+      !> Tractions [N/mm2], shape (mx, my, 2)
       real(wp), contiguous, intent(in) :: p(:, :, :)
+      !> Their contribution to the slip per step [mm], shape (mx, my, 2)
       real(wp), contiguous, intent(inout) :: u(:, :, :)
 
       if (problem%steady) then
@@ -124,10 +130,15 @@ contains
 
    !> Slip per step S = W + dq c + B p [mm], on the whole window
    subroutine slip_of(problem, operator, p, creep, slip)
+      !> Rigid slip and the effect of unknown creepages
       type(tangential_problem), intent(in) :: problem
+      !> Prepared for the window and the rolling direction of the problem
       class(compliance), intent(inout) :: operator
+      !> Tractions [N/mm2], shape (mx, my, 2)
       real(wp), contiguous, intent(in) :: p(:, :, :)
+      !> Creepages [-], of which the first n_forces count
       real(wp), intent(in) :: creep(2)
+      !> Slip per step S [mm], shape (mx, my, 2)
       real(wp), contiguous, intent(inout) :: slip(:, :, :)
 
       call apply_operator(problem, operator, p, slip)
@@ -137,6 +148,7 @@ contains
 
    !> Add the slip per step by unknown creepages
    pure subroutine add_creepages(problem, creep, slip)
+      !> Distance per step, and the number of unknown creepages
       type(tangential_problem), intent(in) :: problem
       !> Creepages [-], of which the first n_forces count
       real(wp), intent(in) :: creep(2)
@@ -156,7 +168,9 @@ contains
    !> Scale r of the slip in the residual [(N/mm2)/mm]: the stiffness of an element, 1/A_xx(0), but
    !> enough for the return map when the yield limit falls
    pure real(wp) function residual_scale(problem, operator) result(r)
+      !> Bounds, and slopes of the yield limit
       type(tangential_problem), intent(in) :: problem
+      !> Prepared; its diagonal coefficients are used
       class(compliance), intent(in) :: operator
 
       r = 1.0_wp/operator%diagonal(2)
@@ -168,6 +182,7 @@ contains
    !> sqrt(|p - P_g(p - r S)|^2/|g|^2 + |sum p - target|^2/(sum g)^2), g in the first term the lower of the bound of friction
    !> and the yield limit where that changes
    pure real(wp) function true_residual(problem, p, slip, r) result(residual)
+      !> Traction bounds, prescribed forces, yield data
       type(tangential_problem), intent(in) :: problem
       !> Tractions [N/mm2] and slip per step [mm], shape (mx, my, 2)
       real(wp), intent(in) :: p(:, :, :), slip(:, :, :)
@@ -188,6 +203,7 @@ contains
 
    !> The part of true_residual that the contact conditions have
    pure real(wp) function contact_residual(problem, p, slip, r) result(residual)
+      !> Traction bounds and yield data
       type(tangential_problem), intent(in) :: problem
       !> Tractions [N/mm2] and slip per step [mm], shape (mx, my, 2)
       real(wp), intent(in) :: p(:, :, :), slip(:, :, :)
@@ -239,8 +255,11 @@ contains
    !> In steady rolling these are the limits of the next elements upstream after the step: every
    !> row is followed from its leading side. Material keeps its limit in gaps between contact areas.
    pure function limits_before(problem, p, slip, r) result(before)
+      !> Yield data and rolling direction
       type(tangential_problem), intent(in) :: problem
+      !> Tractions p [N/mm2] and slip per step S [mm], both of shape (mx, my, 2)
       real(wp), intent(in) :: p(:, :, :), slip(:, :, :)
+      !> Scale of the slip, see residual_scale [(N/mm2)/mm]
       real(wp), intent(in) :: r
       real(wp), allocatable :: before(:, :)
       type(yield_point) :: point
@@ -264,9 +283,13 @@ contains
 
    !> Element states that belong to tractions and slip: slip where |p - r S| > g
    subroutine divide_elements(problem, p, slip, r, division)
+      !> Traction bounds, and the elements in contact
       type(tangential_problem), intent(in) :: problem
+      !> Tractions p [N/mm2] and slip per step S [mm], both of shape (mx, my, 2)
       real(wp), intent(in) :: p(:, :, :), slip(:, :, :)
+      !> Scale of the slip, see residual_scale [(N/mm2)/mm]
       real(wp), intent(in) :: r
+      !> Members of element, shape (mx, my)
       integer, intent(inout) :: division(:, :)
       real(wp), allocatable :: before(:, :)
       type(yield_point) :: point
@@ -294,9 +317,11 @@ contains
    !> Without slope an element yields when its limit is the bound. Nothing happens where the
    !> surface does not yield.
    subroutine settle(problem, r, solution)
+      !> Yield data and rolling direction
       type(tangential_problem), intent(in) :: problem
       !> Scale of the slip, see residual_scale [(N/mm2)/mm]
       real(wp), intent(in) :: r
+      !> Gets plastic displacements, yield limits and element states; its slip loses the plastic part
       type(tangential_solution), intent(inout) :: solution
       real(wp), allocatable :: before(:, :)
       type(yield_point) :: point

@@ -22,6 +22,7 @@ contains
 
    !> Iterate from the tractions in the rows; they stay admissible whatever happens
    subroutine steady_gs(problem, rows, eps, report, log)
+      !> Rigid slip, bounds, relaxation and number of iterations
       type(tangential_problem), intent(in) :: problem
       !> Prepared for increments and started
       type(streaming_rows), intent(inout) :: rows
@@ -29,6 +30,7 @@ contains
       real(wp), intent(in) :: eps
       !> Gets ended, iterations
       type(solve_report), intent(inout) :: report
+      !> Takes a line per iteration from flow-trace level 5 on
       type(log_type), intent(inout) :: log
       type(update_watch) :: watch
       real(wp), allocatable :: before(:, :, :)

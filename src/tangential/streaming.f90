@@ -103,7 +103,9 @@ contains
 
    subroutine prepare(self, problem, operator, shifted)
       class(streaming_rows), intent(inout) :: self
+      !> Window, rolling direction and elements in contact
       type(tangential_problem), intent(in) :: problem
+      !> Prepared for the window; its table of coefficients is used
       class(compliance), intent(in) :: operator
       !> Coefficients of the same particles at the previous time step, if that is not one element
       type(kernel_table), intent(in), optional :: shifted
@@ -195,7 +197,9 @@ contains
    !> Take over rigid slip (with the creepages) and tractions in window order
    subroutine start(self, problem, creep, p)
       class(streaming_rows), intent(inout) :: self
+      !> Rigid slip and the effect of creepages
       type(tangential_problem), intent(in) :: problem
+      !> Creepages [-], of which the first n_forces count
       real(wp), intent(in) :: creep(2)
       !> Estimate of the tractions [N/mm2], shape (mx, my, 2), admissible
       real(wp), intent(in) :: p(:, :, :)
@@ -258,7 +262,9 @@ contains
    !> Solve an element problem; the state becomes that of the element, the traction is relaxed
    subroutine solve_one(self, i, iy, c, s0, omegah, omegas, p)
       class(streaming_rows), intent(inout) :: self
+      !> Place in the row, in the order of the march, and number of the row
       integer, intent(in) :: i, iy
+      !> Coefficients of the element on itself
       type(element_compliance), intent(in) :: c
       !> Slip without the element's own traction [mm]
       real(wp), intent(in) :: s0(2)
@@ -290,6 +296,7 @@ contains
 
    pure real(wp) function largest(self, i, iy)
       class(streaming_rows), intent(in) :: self
+      !> Place in the row, in the order of the march, and number of the row
       integer, intent(in) :: i, iy
       largest = self%bound(i, iy)
       if (allocated(self%yield)) largest = min(largest, self%limit(i, iy))

@@ -48,6 +48,7 @@ contains
       real(wp), intent(in) :: square_dif, square_size
       !> Largest number of updates
       integer, intent(in) :: limit
+      !> Member of ending
       integer, intent(out) :: ended
 
       ended = ending%diverged
@@ -86,8 +87,11 @@ contains
 
    !> One line per iteration at flow-trace level 5
    subroutine trace_iteration(log, watch, method, state)
+      !> Takes the line
       type(log_type), intent(inout) :: log
+      !> Number of the iteration, size of the update
       type(update_watch), intent(in) :: watch
+      !> Name of the method, at the head of the line
       character(len=*), intent(in) :: method
       !> Element states
       integer, intent(in) :: state(:, :)

@@ -57,7 +57,9 @@ contains
 
    !> Iterate from given tractions; they stay admissible whatever happens
    subroutine tang_cg(problem, operator, eps, creep, p, state, report, log)
+      !> Rigid slip, bounds, number of iterations
       type(tangential_problem), intent(in) :: problem
+      !> Prepared for the window of the problem
       class(compliance), intent(inout) :: operator
       !> Tolerance of the updates, relative to the tractions [-]
       real(wp), intent(in) :: eps
@@ -69,6 +71,7 @@ contains
       integer, contiguous, intent(inout) :: state(:, :)
       !> Gets ended, iterations
       type(solve_report), intent(inout) :: report
+      !> Takes a line per iteration from flow-trace level 5 on
       type(log_type), intent(inout) :: log
       type(update_watch) :: watch
       type(conjugate_gradients) :: self

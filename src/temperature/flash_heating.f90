@@ -65,6 +65,7 @@ contains
 
    !> From bulk temperatures [degC], specific heats [J/(kg degC)], conductivities [W/(mm degC)], densities [kg/mm3]
    pure function new_body_pair(bulk, specific_heat, conductivity, density, plastic_share) result(bodies)
+      !> Values of body 1 and body 2 in these units
       real(wp), intent(in) :: bulk(2), specific_heat(2), conductivity(2), density(2)
       !> Share of the plastic work that becomes heat [-]
       real(wp), intent(in) :: plastic_share
@@ -171,7 +172,9 @@ contains
    !> velocity here but its lower bound, as in the original program.
    subroutine heat_by_friction(self, law, memory, pn, speed, heat, dt, mu, t1)
       class(heat_passage), intent(in) :: self
+      !> Law whose coefficient falls with temperature
       type(heated_law), intent(in) :: law
+      !> Adaptation of the coefficients along the way of the particles; its slip velocity is the lower bound
       type(friction_memory), intent(in) :: memory
       !> Pressure [N/mm2], and slip velocity [mm/s] of elements whose traction is mu pn, shapes (mx, my)
       real(wp), contiguous, intent(in) :: pn(:, :), speed(:, :)

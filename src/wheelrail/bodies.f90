@@ -75,6 +75,7 @@ contains
    !> Sections are as far apart as elements: a flat or a joint that slices describe closely shows in the
    !> pressures, and coarser sections would take the edge off it (5 % of the highest pressure of `wheelflat` for 1 mm).
    subroutine place_bodies(bodies, s_ws, pitch, dx, rail_surface, wheel_surface)
+      !> Profiles and placement on entry; sections along the track and their extent are made here
       type(wheel_rail_bodies), intent(inout) :: bodies
       !> Position of the wheelset along the track [mm]; pitch angle of the wheel [rad]
       real(wp), intent(in) :: s_ws, pitch
@@ -100,6 +101,7 @@ contains
    !> How far from the wheel contact is sought along the track [mm]: on the flank of a yawed wheel it is ahead of the axle or behind
    !> it by the radius times slope and yaw
    pure real(wp) function search_reach(bodies) result(length)
+      !> Prepared by `place_bodies`
       type(wheel_rail_bodies), intent(in) :: bodies
 
       associate (yaw => abs(bodies%placement%wheel%yaw()))
@@ -109,6 +111,7 @@ contains
 
    !> How far from the wheel contact may be [mm]
    pure real(wp) function widest_reach(bodies) result(length)
+      !> Prepared by `place_bodies`
       type(wheel_rail_bodies), intent(in) :: bodies
       length = furthest*bodies%placement%wheel_radius
    end function widest_reach
@@ -134,6 +137,7 @@ contains
    !> Make a section if it is not there yet
    subroutine need(self, number)
       class(strip), intent(inout) :: self
+      !> Number of the section, from 1
       integer, intent(in) :: number
 
       if (self%made(number)) return
@@ -146,6 +150,7 @@ contains
    !> What a spline makes of sudden changes is no body that anything could touch.
    real(wp) function swing(self, along, x, y, z)
       class(slice_pair), intent(inout) :: self
+      !> The sections of the rail
       type(strip), intent(in) :: along
       !> In track coordinates; z is the height of the rail there [mm]
       real(wp), intent(in) :: x, y, z
@@ -176,6 +181,7 @@ contains
    !> The nearest section; 0 beyond the ends
    pure integer function number_at(self, place)
       class(strip), intent(in) :: self
+      !> Place along the mesh [mm]
       real(wp), intent(in) :: place
 
       number_at = 1 + nint((place - self%first)/self%step)
@@ -196,7 +202,9 @@ contains
 
    !> Section of a variable rail in track coordinates
    subroutine rail_section(surface, placement, u, section)
+      !> Surface through the slices of the rail
       type(profile_surface), intent(in) :: surface
+      !> Where the rail's origin is in the track, and how it is turned
       type(wheel_rail_placement), intent(in) :: placement
       !> Position along the track [mm]
       real(wp), intent(in) :: u
@@ -211,6 +219,7 @@ contains
       class(strip), intent(inout) :: self
       !> Along the mesh, and lateral position [mm]
       real(wp), intent(in) :: place, y
+      !> Height [mm], z down, and its derivative across [-]
       real(wp), intent(out) :: z, z_y
       !> Do both sections have this point?
       logical, intent(out) :: found
@@ -248,12 +257,15 @@ contains
    !>
    !> On the line along n the surface is found by Newton's method, with the slope across the rail.
    subroutine find_rail(bodies, plane, x, s, n, found)
+      !> Prepared by `place_bodies`; sections that are needed are made
       type(wheel_rail_bodies), intent(inout) :: bodies
       !> In track coordinates
       type(frame), intent(in) :: plane
+      !> Position in the plane [mm]
       real(wp), intent(in) :: x, s
       !> Estimate on entry, solution on exit [mm]
       real(wp), intent(inout) :: n
+      !> Does the line along n meet the rail?
       logical, intent(out) :: found
       real(wp) :: point(3), z, z_y, correction, rho, place, along, across, facing
       logical :: vertical
@@ -295,12 +307,15 @@ contains
 
    !> Heights n of the rail over a row of points (x, s) of a plane; each point starts from the three before it
    subroutine find_rail_row(bodies, plane, x, s, n, found)
+      !> Prepared by `place_bodies`; sections that are needed are made
       type(wheel_rail_bodies), intent(inout) :: bodies
       !> In track coordinates
       type(frame), intent(in) :: plane
       !> At even distances
       real(wp), intent(in) :: x(:), s
+      !> Height over each point [mm]
       real(wp), intent(out) :: n(:)
+      !> Does the line along n meet the rail there?
       logical, intent(out) :: found(:)
       real(wp) :: recent(3)
       integer :: i, known
@@ -316,12 +331,15 @@ contains
 
    !> Height n of the wheel over a point (x, s) of a plane
    subroutine find_wheel(bodies, seen, x, s, place, n, found)
+      !> Prepared by `place_bodies`; sections that are needed are made
       type(wheel_rail_bodies), intent(inout) :: bodies
       !> The plane seen from the wheel
       type(frame), intent(in) :: seen
+      !> Position in the plane [mm]
       real(wp), intent(in) :: x, s
       !> Place on the profile of a round wheel, and height [mm]: estimates on entry, solution on exit
       real(wp), intent(inout) :: place, n
+      !> Does the line along n meet the wheel?
       logical, intent(out) :: found
       real(wp) :: q(3), k(3), rho, z, z_y, correction
       integer :: step
@@ -350,12 +368,15 @@ contains
 
    !> Heights n of the wheel over a row of points (x, s) of a plane
    subroutine find_wheel_row(bodies, seen, x, s, n, found)
+      !> Prepared by `place_bodies`; sections that are needed are made
       type(wheel_rail_bodies), intent(inout) :: bodies
       !> The plane seen from the wheel
       type(frame), intent(in) :: seen
       !> At even distances
       real(wp), intent(in) :: x(:), s
+      !> Height over each point [mm]
       real(wp), intent(out) :: n(:)
+      !> Does the line along n meet the wheel there?
       logical, intent(out) :: found(:)
       real(wp) :: start(2), recent(3)
       integer :: i, known

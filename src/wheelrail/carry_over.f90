@@ -83,6 +83,7 @@ contains
       class(carried_step), intent(inout) :: self
       !> Their number
       integer, intent(in) :: patches
+      !> Is the lattice fixed to the rail along the track? Otherwise to the wheelset
       logical, intent(in) :: follows_rail
       !> Position of the wheelset along the rail [mm]
       real(wp), intent(in) :: travel
@@ -98,11 +99,13 @@ contains
    !> A window that is not on the lattice, as in steady rolling, is moved to the nearest place there.
    subroutine add(self, k, fields, reference, box)
       class(carried_step), intent(inout) :: self
+      !> Number of the patch, 1 to those of `start`
       integer, intent(in) :: k
       !> On a window in coordinates of the patch
       type(traction_fields), intent(in) :: fields
       !> Place of the contact reference on the lattice [mm]
       real(wp), intent(in) :: reference(2)
+      !> Bounds of the patch on the lattice [mm], as it was solved
       type(lattice_box), intent(in) :: box
 
       self%patch(k)%fields = fields
@@ -124,6 +127,7 @@ contains
    !> Change between lattices on the rail and on the wheelset, by whole elements
    pure subroutine set_frame(self, follows_rail)
       class(carried_step), intent(inout) :: self
+      !> Is the lattice to be fixed to the rail along the track? Otherwise to the wheelset
       logical, intent(in) :: follows_rail
       integer(int64) :: steps
       integer :: k
@@ -250,7 +254,9 @@ contains
       class(carried_step), intent(in) :: self
       !> Number of the present patch
       integer, intent(in) :: k
+      !> Place of the first element on the lattice
       type(lattice_window), intent(inout) :: window
+      !> Size and place of the window in coordinates of the patch
       type(potential_contact), intent(inout) :: grid
       integer(int64) :: low(2), high(2)
       integer :: j, ix, iy
@@ -283,7 +289,9 @@ contains
       integer, intent(in) :: k
       !> Its problem, on a window that holds all its elements
       type(patch_problem), intent(in) :: problem
+      !> Place of the first element of the problem's grid on the lattice
       type(lattice_window), intent(in) :: window
+      !> Gets the tractions, and what particles carry along; zero where no patch was
       type(traction_fields), intent(inout) :: fields
       integer :: j, ix, iy, jx, jy
       real(wp), allocatable :: zero(:)

@@ -36,6 +36,7 @@ contains
 
    !> Velocity of a point of the body [mm/s]
    pure function velocity_of(motion, point) result(v)
+      !> Velocity and rotation of the body
       type(rigid_motion), intent(in) :: motion
       !> In track coordinates [mm]
       real(wp), intent(in) :: point(3)
@@ -57,6 +58,7 @@ contains
       real(wp), intent(in) :: on_rail(3), on_wheel(3)
       !> Contact angle [rad]
       real(wp), intent(in) :: delta
+      !> Does the wheel run on a roller? Otherwise on a track
       logical, intent(in) :: roller
       type(contact_motion) :: motion
       real(wp) :: p(3), q(3), circumference(3), translation

@@ -52,6 +52,7 @@ contains
    !> Axes of a row
    pure function row_axes(self, iy) result(axes)
       class(curved_reference), intent(in) :: self
+      !> Number of the row, from 1
       integer, intent(in) :: iy
       type(frame) :: axes
 
@@ -62,7 +63,9 @@ contains
    subroutine curved_rows(rail, bodies, region, plane, grid)
       !> The rail in track coordinates in the section of the reference
       type(profile_curve), intent(in) :: rail
+      !> Sections of rail and wheel, and where they are
       type(wheel_rail_bodies), intent(in) :: bodies
+      !> Interpenetration that the rows have to cover
       type(contact_region), intent(in) :: region
       !> Contact reference
       type(frame), intent(in) :: plane
@@ -94,9 +97,11 @@ contains
    function new_curved_reference(rail, bodies, plane, grid) result(curve)
       !> The rail in track coordinates in the section of the reference
       type(profile_curve), intent(in) :: rail
+      !> Sections of rail and wheel, and where they are
       type(wheel_rail_bodies), intent(in) :: bodies
       !> Contact reference
       type(frame), intent(in) :: plane
+      !> Rows that the curve is given at
       type(potential_contact), intent(in) :: grid
       type(curved_reference) :: curve
       type(facing_profiles) :: facing
@@ -116,7 +121,9 @@ contains
 
    !> The same for a plane
    function straight_reference(plane, grid) result(curve)
+      !> Plane whose x and s the reference follows
       type(frame), intent(in) :: plane
+      !> Rows that it is given at
       type(potential_contact), intent(in) :: grid
       type(curved_reference) :: curve
       integer :: iy
@@ -239,8 +246,11 @@ contains
 
    !> Heights of rail and wheel over the reference surface, along the normals of its rows [mm]
    subroutine surface_heights(bodies, curve, grid, rail, wheel)
+      !> Sections of rail and wheel, and where they are
       type(wheel_rail_bodies), intent(inout) :: bodies
+      !> Points and normals of the rows
       type(curved_reference), intent(in) :: curve
+      !> Columns and rows at which heights are wanted
       type(potential_contact), intent(in) :: grid
       !> Shape (mx, my); far apart where a surface is missing
       real(wp), allocatable, intent(out) :: rail(:, :), wheel(:, :)
@@ -274,7 +284,9 @@ contains
    subroutine surface_slip(rail, wheel, curve, grid, on_rail, on_wheel, rail_share, slip)
       !> Motion of the bodies in track axes
       type(rigid_motion), intent(in) :: rail, wheel
+      !> Points and normals of the rows
       type(curved_reference), intent(in) :: curve
+      !> Columns and rows at which the slip is wanted
       type(potential_contact), intent(in) :: grid
       !> Heights of the surfaces [mm], shape (mx, my)
       real(wp), intent(in) :: on_rail(:, :), on_wheel(:, :)
@@ -330,6 +342,7 @@ contains
    !>
    !> Least squares of w_x - (cksi - cphi s) and w_s - (ceta + cphi x).
    subroutine fit_creepages(grid, inside, slip, motion)
+      !> Centres of the elements
       type(potential_contact), intent(in) :: grid
       !> Elements that count, shape (mx, my)
       logical, intent(in) :: inside(:, :)
@@ -373,8 +386,11 @@ contains
 
    !> Forces and moment on the rail in the axes of the contact reference, summed up with the axes of the rows
    pure subroutine curved_forces(curve, plane, contact, pressure_force, force, moment)
+      !> Points and normals of the rows
       type(curved_reference), intent(in) :: curve
+      !> Contact reference and its axes
       type(frame), intent(in) :: plane
+      !> Solved tractions on the grid of the curve
       type(patch_result), intent(in) :: contact
       !> Of the pressures alone, and of all tractions [N]
       real(wp), intent(out) :: pressure_force(3), force(3)

@@ -20,12 +20,17 @@ contains
    !>
    !> The lateral force falls when the rail gives way, and the force of the spring rises.
    subroutine search_deflection(problem, memory, z, log, result, error)
+      !> What is asked; stiffness of the spring and static force
       type(wheel_rail_problem), intent(in) :: problem
+      !> Patches of the trials; that of the last one stays
       type(wheel_rail_memory), intent(inout) :: memory
       !> Height of the wheelset above a rail without vertical deflection [mm]
       real(wp), intent(out) :: z
+      !> Told when no deflection balances the forces
       type(log_type), intent(inout) :: log
+      !> Says whether the forces are in balance
       type(wheel_rail_result), intent(inout) :: result
+      !> Allocated when a trial has no result
       type(error_type), allocatable, intent(out) :: error
       type(root_search) :: search
       type(log_type) :: silent
@@ -63,12 +68,12 @@ contains
 
    contains
 
-      !> Lateral force that the spring and the static force take [N], right-hand pair
+      !> Lateral force that the spring and the static force take [N], right-hand side of the track
       real(wp) function spring_force()
          spring_force = problem%spec%rail%ky*memory%geometry%deflection - side_sign(problem%spec)*problem%spec%rail%fy
       end function spring_force
 
-      !> Lateral force that neither the spring nor the static force takes [N], right-hand pair
+      !> Lateral force that neither the spring nor the static force takes [N], right-hand side of the track
       real(wp) function unbalanced()
          real(wp) :: force(3)
          force = total_force(memory)
@@ -78,10 +83,13 @@ contains
 
    !> Vertical deflection of a rail on springs: everything moves down with it
    subroutine lower_rail(problem, memory, z, result)
+      !> Stiffness of the vertical spring and static force
       type(wheel_rail_problem), intent(in) :: problem
+      !> Solved patches
       type(wheel_rail_memory), intent(inout) :: memory
       !> Height of the wheelset above a rail without vertical deflection on entry, above the track on exit [mm]
       real(wp), intent(inout) :: z
+      !> Gets the deflection
       type(wheel_rail_result), intent(inout) :: result
       integer :: k
 

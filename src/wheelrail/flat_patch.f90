@@ -27,7 +27,9 @@ contains
    function patch_frame(rail, placement, region) result(plane)
       !> The rail in track coordinates
       type(profile_curve), intent(in) :: rail
+      !> Where the bodies are
       type(wheel_rail_placement), intent(in) :: placement
+      !> Region whose weighted centre becomes the contact reference
       type(contact_region), intent(in) :: region
       type(frame) :: plane
       real(wp) :: z, rho
@@ -44,13 +46,17 @@ contains
    subroutine patch_grid(rail, search, region, plane, reference, max_elements, grid)
       !> The rail in track coordinates
       type(profile_curve), intent(in) :: rail
+      !> Sizes of the elements [mm]
       type(search_spec), intent(in) :: search
+      !> Extent of the interpenetration
       type(contact_region), intent(in) :: region
+      !> Contact reference and its axes
       type(frame), intent(in) :: plane
       !> Place of the contact reference relative to the centre of an element [mm]
       real(wp), intent(in) :: reference(2)
       !> Elements are doubled in size until there are fewer than this
       integer, intent(in) :: max_elements
+      !> Elements in coordinates of the patch
       type(potential_contact), intent(out) :: grid
       real(wp) :: x(2), s(2), lead(2), dx, ds
       integer :: ix(2), iy(2), doubling
@@ -86,6 +92,7 @@ contains
    function start_places(rail, region) result(places)
       !> The rail in track coordinates
       type(profile_curve), intent(in) :: rail
+      !> Region with the stretches it was joined of
       type(contact_region), intent(in) :: region
       real(wp), allocatable :: places(:)
 
@@ -97,6 +104,7 @@ contains
    !> Where the gap falls by more than surfaces do from one row to the next, the line along n has met another part of the
    !> rail or wheel, such as a guard rail. This and what lies beyond, seen from the reference, is taken to be missing.
    pure subroutine settle_distance(grid, joined, h, approach, strangers)
+      !> Size of the grid
       type(potential_contact), intent(in) :: grid
       !> Was the region joined of several? Then what lies between them may be of any shape, and nothing is left out
       logical, intent(in) :: joined
@@ -140,16 +148,20 @@ contains
       type(profile_curve), intent(in) :: rail
       !> The wheel in its own coordinates
       type(profile_curve), intent(in) :: wheel
+      !> Where the bodies are
       type(wheel_rail_placement), intent(in) :: placement
+      !> Plane of the patch, in track coordinates
       type(frame), intent(in) :: plane
       !> See `start_places`. The section of the rail is followed from these on as long as s does not turn round; anything
       !> else that stands above the plane, such as the far wall of a groove, is not part of it
       real(wp), intent(in) :: places(:)
+      !> Centres of the elements
       type(potential_contact), intent(in) :: grid
       !> Shape (mx, my)
       real(wp), allocatable, intent(inout) :: h(:, :)
       !> See `settle_distance`
       real(wp), intent(out) :: approach
+      !> Elements that are left out, as for `settle_distance`
       integer, intent(out) :: strangers
       type(profile_curve) :: section
       type(frame) :: seen
@@ -234,15 +246,19 @@ contains
    !>
    !> Places and heights follow parabolas closely along the track: each point starts from the three before it.
    pure subroutine wheel_row(wheel, radius, seen, x, s, start, n, found)
+      !> Profile of a round wheel in its own coordinates
       type(profile_curve), intent(in) :: wheel
       !> See `wheel_height`
       real(wp), intent(in) :: radius
+      !> The plane seen from the wheel
       type(frame), intent(in) :: seen
       !> At even distances
       real(wp), intent(in) :: x(:), s
       !> Place on the profile and height: estimates for the first point, on exit the solution there if it has one
       real(wp), intent(inout) :: start(2)
+      !> Height over each point [mm]
       real(wp), intent(out) :: n(:)
+      !> Does the line along n meet the wheel there?
       logical, intent(out) :: found(:)
       !> Place and height of the last three points, the last one first
       real(wp) :: recent(2, 3), estimate(2), point(3)
@@ -271,14 +287,17 @@ contains
 
    !> Height n of the wheel's surface over a point (x, s) of the plane
    pure subroutine wheel_height(wheel, radius, seen, x, s, place, n, found)
+      !> Profile of a round wheel in its own coordinates
       type(profile_curve), intent(in) :: wheel
       !> Of the wheel at the origin of its profile [mm]
       real(wp), intent(in) :: radius
       !> The plane seen from the wheel
       type(frame), intent(in) :: seen
+      !> Position in the plane [mm]
       real(wp), intent(in) :: x, s
       !> Estimates on entry, solution on exit
       real(wp), intent(inout) :: place, n
+      !> Does the line along n meet the wheel?
       logical, intent(out) :: found
       integer :: piece
 

@@ -97,6 +97,7 @@ contains
       real(wp), intent(in) :: eps
       !> Height of first touch and highest height allowed [mm], z downwards
       real(wp), intent(in) :: touch, highest
+      !> Trials after which the search ends without success
       integer, intent(in) :: max_trials
       !> Are the forces those of friction that is only estimated? A jump is then not located
       logical, intent(in) :: forces_are_estimates

@@ -45,6 +45,7 @@ contains
 
    !> Axes that are rolled by an angle
    pure function roll_axes(angle) result(axes)
+      !> Angle about x [rad]
       real(wp), intent(in) :: angle
       real(wp) :: axes(3, 3)
 
@@ -55,6 +56,7 @@ contains
 
    !> Axes that are yawed by an angle
    pure function yaw_axes(angle) result(axes)
+      !> Angle about z [rad]
       real(wp), intent(in) :: angle
       real(wp) :: axes(3, 3)
 
@@ -65,6 +67,7 @@ contains
 
    pure function to_parent(self, point) result(parent)
       class(frame), intent(in) :: self
+      !> Coordinates in the axes of the frame [mm]
       real(wp), intent(in) :: point(3)
       real(wp) :: parent(3)
 
@@ -73,6 +76,7 @@ contains
 
    pure function to_local(self, point) result(local)
       class(frame), intent(in) :: self
+      !> Coordinates in the axes that the frame is given in [mm]
       real(wp), intent(in) :: point(3)
       real(wp) :: local(3)
 

@@ -58,7 +58,9 @@ contains
 
    !> The rail's profile in track coordinates
    function rail_in_track(rail, placement) result(curve)
+      !> Profile in the rail's own coordinates
       type(profile_curve), intent(in) :: rail
+      !> Where the rail's origin is in the track, and how it is turned
       type(wheel_rail_placement), intent(in) :: placement
       type(profile_curve) :: curve
       real(wp) :: angle, origin(2)
@@ -75,7 +77,9 @@ contains
    !> On a track the normal of the surface of revolution is perpendicular to the track there; on a roller wheel and
    !> roller fall alike along it. See doc/theory/wheel_rail.md.
    function locus_point(wheel, placement, s, rail) result(point)
+      !> Profile of a round wheel in its own coordinates
       type(profile_curve), intent(in) :: wheel
+      !> Where the bodies are
       type(wheel_rail_placement), intent(in) :: placement
       !> Place on the profile [mm]
       real(wp), intent(in) :: s
@@ -140,6 +144,7 @@ contains
 
    !> How much lower a roller is at a distance from its top [mm]; 0 on a track
    pure real(wp) function roller_drop(placement, x, z) result(drop)
+      !> Radius of the roller, 0 for a track, and its top
       type(wheel_rail_placement), intent(in) :: placement
       !> Longitudinal position and height of its profile there [mm]
       real(wp), intent(in) :: x, z
@@ -157,9 +162,11 @@ contains
       type(profile_curve), intent(in) :: rail
       !> The wheel in its own coordinates
       type(profile_curve), intent(in) :: wheel
+      !> Where the bodies are
       type(wheel_rail_placement), intent(in) :: placement
       !> Lateral size of the elements [mm]
       real(wp), intent(in) :: ds
+      !> Gets mesh and gap; its arrays are kept when they have the right size
       type(gap_curve), intent(inout) :: gap
       !> Where the mesh is too coarse for a smallest gap: its surroundings on finer meshes
       type(gap_curve), allocatable, intent(out), optional :: closer(:)
@@ -260,7 +267,9 @@ contains
 
    !> Smallest gap of a row of points, between them by a parabola
    pure subroutine smallest_in_row(x, g, place, lowest)
+      !> Rising positions along the row, and gaps there [mm]
       real(wp), intent(in) :: x(:), g(:)
+      !> Position and value of the smallest gap [mm]
       real(wp), intent(out) :: place, lowest
       real(wp) :: bend, shift
       integer :: i

@@ -32,6 +32,7 @@ contains
 
    !> Lower bound of the vertical gap [mm], for each lateral position over each stretch of track
    subroutine bound_gap(bodies, edges, y, low)
+      !> Sections of rail and wheel, and where they are
       type(wheel_rail_bodies), intent(in) :: bodies
       !> Ends of the stretches, rising, and lateral positions at even distances, in track coordinates [mm]
       real(wp), intent(in) :: edges(:), y(:)
@@ -75,6 +76,7 @@ contains
 
    !> Box that holds a stretch of a rail that varies
    subroutine rail_extent(along, range_x, range_y, top)
+      !> Sections of the rail
       type(strip), intent(in) :: along
       !> Of the track [mm]
       real(wp), intent(in) :: range_x(2)

@@ -13,6 +13,7 @@ contains
 
    !> Vertical gap at points of a mesh; the rail has sections at its places x
    subroutine fill(bodies, x, y, first, last, table)
+      !> Sections of rail and wheel, and where they are; sections that are needed are made
       type(wheel_rail_bodies), intent(inout) :: bodies
       !> Rising
       real(wp), intent(in) :: x(:), y(:)
@@ -72,11 +73,15 @@ contains
 
    !> Heights of the rail's section at a place where it has one
    subroutine rail_heights(bodies, x, y, z, found)
+      !> Sections of rail and wheel; those that are needed are made
       type(wheel_rail_bodies), intent(inout) :: bodies
+      !> Place along the track [mm]
       real(wp), intent(in) :: x
       !> Rising
       real(wp), intent(in) :: y(:)
+      !> Height at each y [mm], z down
       real(wp), intent(out) :: z(:)
+      !> Is there a visible point at this y?
       logical, intent(out) :: found(:)
       integer :: k
 

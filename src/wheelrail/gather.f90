@@ -18,8 +18,11 @@ contains
 
    !> Collect the patches and sum up their forces
    subroutine gather(problem, memory, result)
+      !> Placement and what is prescribed
       type(wheel_rail_problem), intent(in) :: problem
+      !> Solved patches, and where the bodies are
       type(wheel_rail_memory), intent(in) :: memory
+      !> Gets patches, forces, moments, penetrations and status
       type(wheel_rail_result), intent(inout) :: result
       real(wp) :: force(3), moment(3), axes(3, 3), local(3)
       integer :: k

@@ -79,8 +79,11 @@ contains
 
    !> Put the wheelset at a height
    subroutine place(problem, geometry, z, dz)
+      !> Profiles, and how the bodies stand in the track
       type(wheel_rail_problem), intent(in) :: problem
+      !> Gets the placement; its deflection and pitch rate are those of the trial
       type(wheel_rail_geometry), intent(inout) :: geometry
+      !> Height of the wheelset above a rail without vertical deflection [mm], z down
       real(wp), intent(in) :: z
       !> Vertical deflection of the rail [mm], default 0
       real(wp), intent(in), optional :: dz
@@ -94,7 +97,9 @@ contains
 
    !> Gap between the bodies, and the height of first touch
    subroutine measure(problem, geometry, z, depth)
+      !> Profiles, and the size of elements
       type(wheel_rail_problem), intent(in) :: problem
+      !> Placed; gets the gap, its height and the height of first touch
       type(wheel_rail_geometry), intent(inout) :: geometry
       !> Height of the wheelset [mm]
       real(wp), intent(in) :: z
@@ -130,7 +135,9 @@ contains
 
    !> The rail's profile in track coordinates at a place along it; a variable one goes on as at its first and last slice
    function rail_at(problem, placement, x) result(curve)
+      !> Profile or surface of the rail
       type(wheel_rail_problem), intent(in) :: problem
+      !> Where the rail's origin is in the track, and how it is turned
       type(wheel_rail_placement), intent(in) :: placement
       !> From the wheelset on [mm]
       real(wp), intent(in) :: x
@@ -149,7 +156,9 @@ contains
 
    !> Position along the track, relative to the origin of the lattice [mm]
    pure real(wp) function lattice_x(problem, geometry, x)
+      !> Does the lattice follow the rail or the wheelset?
       type(wheel_rail_problem), intent(in) :: problem
+      !> Travel of the wheelset
       type(wheel_rail_geometry), intent(in) :: geometry
       !> In the track [mm]
       real(wp), intent(in) :: x
@@ -160,8 +169,11 @@ contains
 
    !> Bounds of a region on the lattice
    function box_on_lattice(problem, geometry, region) result(box)
+      !> Does the lattice follow the rail or the wheelset?
       type(wheel_rail_problem), intent(in) :: problem
+      !> Travel of the wheelset, and the rail in the track
       type(wheel_rail_geometry), intent(in) :: geometry
+      !> Region of interpenetration
       type(contact_region), intent(in) :: region
       type(lattice_box) :: box
       real(wp) :: s(2)

@@ -49,12 +49,17 @@ contains
 
    !> Height and contact for the present deflection of the rail and the present pitch rate
    subroutine settle(problem, memory, z, log, result, error)
+      !> What is asked: height or force, profiles, friction
       type(wheel_rail_problem), intent(in) :: problem
+      !> Solved patches of the height that is found; estimates of former searches help
       type(wheel_rail_memory), intent(inout) :: memory
       !> Height of the wheelset above a rail without vertical deflection [mm]
       real(wp), intent(out) :: z
+      !> Takes a line per trial, and warnings
       type(log_type), intent(inout) :: log
+      !> Says whether force and friction were found
       type(wheel_rail_result), intent(inout) :: result
+      !> Allocated when a trial has no result
       type(error_type), allocatable, intent(out) :: error
       real(wp) :: target, spring
       character(len=12) :: wanted, touching

@@ -68,6 +68,7 @@ contains
 
    !> Free what the memory holds outside Fortran's own
    subroutine release_wheel_rail(memory)
+      !> Workspaces of all patches are freed; tractions stay
       type(wheel_rail_memory), intent(inout) :: memory
       integer :: k
 
@@ -79,6 +80,7 @@ contains
 
    !> Force on the rail in track axes [N], friction from the last tangential solution
    pure function total_force(memory) result(force)
+      !> Patches of the last trial
       type(wheel_rail_memory), intent(in) :: memory
       real(wp) :: force(3)
       integer :: k
@@ -93,6 +95,7 @@ contains
 
    !> Vertical force on the rail [N], friction from the last tangential solution
    pure real(wp) function vertical_force(memory) result(force)
+      !> Patches of the last trial
       type(wheel_rail_memory), intent(in) :: memory
       real(wp) :: all(3)
 
@@ -102,6 +105,7 @@ contains
 
    !> Derivative of the vertical force to the height, from the contact stiffness where it is known [N/mm]
    pure real(wp) function vertical_slope(memory) result(slope)
+      !> Patches of the last trial
       type(wheel_rail_memory), intent(in) :: memory
       integer :: k
 

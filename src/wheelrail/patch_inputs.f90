@@ -30,11 +30,15 @@ contains
 
    !> Problem of one patch for its region: everything but where the solution starts
    subroutine set_up_patch(problem, geometry, number, slot, error)
+      !> What is asked for wheel and rail
       type(wheel_rail_problem), intent(in) :: problem
+      !> Where the bodies are, and the rail in the track
       type(wheel_rail_geometry), intent(inout) :: geometry
       !> Number of the patch
       integer, intent(in) :: number
+      !> Its region on entry; gets grid, distance, creepages and friction
       type(patch_slot), intent(inout) :: slot
+      !> Allocated when the grid would be too large
       type(error_type), allocatable, intent(out) :: error
       type(profile_curve) :: rail
       real(wp), allocatable :: h(:, :)

@@ -22,15 +22,20 @@ contains
 
    !> Problem and solution of one patch
    subroutine solve_slot(problem, geometry, number, slot, with_friction, log, error)
+      !> What is asked for wheel and rail
       type(wheel_rail_problem), intent(in) :: problem
+      !> Where the bodies are, and what is known of friction
       type(wheel_rail_geometry), intent(inout) :: geometry
       !> Number of the patch
       integer, intent(in) :: number
+      !> Its region on entry; gets problem, solution and forces
       type(patch_slot), intent(inout) :: slot
       !> Solve the tangential problem, too? It is solved in any case for a patch of which nothing is known while something
       !> is known of others
       logical, intent(in) :: with_friction
+      !> Takes the trace of the solvers
       type(log_type), intent(inout) :: log
+      !> Allocated when the patch has no result
       type(error_type), allocatable, intent(out) :: error
       logical :: is_new, has_friction
 

@@ -30,12 +30,17 @@ contains
    !> force changes no more; the search ends there only if friction acts in the direction in which force is missing, otherwise
    !> it has not come to the rate yet at which the slip changes its direction.
    subroutine search_pitch_rate(problem, memory, z, log, result, error)
+      !> Prescribed longitudinal force, and what is asked besides
       type(wheel_rail_problem), intent(in) :: problem
+      !> Patches of the trials; those of the last one stay
       type(wheel_rail_memory), intent(inout) :: memory
       !> Height of the wheelset [mm]
       real(wp), intent(out) :: z
+      !> Told when no rate gives the force
       type(log_type), intent(inout) :: log
+      !> Says whether the force was found
       type(wheel_rail_result), intent(inout) :: result
+      !> Allocated when a trial has no result
       type(error_type), allocatable, intent(out) :: error
       type(root_search) :: search
       type(log_type) :: silent

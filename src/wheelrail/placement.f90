@@ -30,6 +30,7 @@ contains
 
    !> -1 for the left side of the track, 1 for the right one
    pure real(wp) function side_sign(wheel_rail)
+      !> Its side of the track counts
       type(wheel_rail_spec), intent(in) :: wheel_rail
       side_sign = merge(-1.0_wp, 1.0_wp, wheel_rail%left)
    end function side_sign
@@ -39,6 +40,7 @@ contains
    !> The gauge face is where the profile, from its gauge end on, comes to lie less than the gauge height
    !> below the top; the gauge point is the innermost point above that.
    subroutine gauge_point(rail, cant, height, top_z, gauge_y)
+      !> Profile in the rail's own coordinates
       type(profile_curve), intent(in) :: rail
       !> Cant [rad] and gauge height [mm]
       real(wp), intent(in) :: cant, height
@@ -103,7 +105,9 @@ contains
 
    !> Frames of a pair for a height of the wheelset
    subroutine place_wheel_rail(wheel_rail, wheel, top_z, gauge_y, z_ws, deflection, placement)
+      !> Track, deviations of the rail, and position of the wheelset, as they were given for the side of the track
       type(wheel_rail_spec), intent(in) :: wheel_rail
+      !> Profile of the wheel in its own coordinates; its radius is measured there
       type(profile_curve), intent(in) :: wheel
       !> From gauge_point; not used with absolute placement
       real(wp), intent(in) :: top_z, gauge_y
@@ -111,6 +115,7 @@ contains
       real(wp), intent(in) :: z_ws
       !> Lateral and vertical deflection of a massless rail [mm], right-hand pair
       real(wp), intent(in) :: deflection(2)
+      !> Frames of rail, wheelset and wheel in track coordinates, right-hand side
       type(wheel_rail_placement), intent(out) :: placement
       type(frame) :: wheel_in_set
       real(wp) :: s, y, z, tape
@@ -140,7 +145,9 @@ contains
 
    !> Motion of the rail, or of the roller about its axle
    pure function rail_motion(wheel_rail, placement) result(motion)
+      !> Velocities of rail and roller, as they were given
       type(wheel_rail_spec), intent(in) :: wheel_rail
+      !> Where the bodies are
       type(wheel_rail_placement), intent(in) :: placement
       type(rigid_motion) :: motion
       real(wp) :: s, yaw_rate
@@ -163,7 +170,9 @@ contains
 
    !> Motion of the wheel: that of the wheelset, and its flexible deviations, which turn about the origin of the wheel profile
    pure function wheel_motion(wheel_rail, placement, pitch_rate) result(motion)
+      !> Velocities of wheelset and wheel, as they were given
       type(wheel_rail_spec), intent(in) :: wheel_rail
+      !> Where the bodies are
       type(wheel_rail_placement), intent(in) :: placement
       !> Pitch rate of the wheelset [rad/s]
       real(wp), intent(in) :: pitch_rate

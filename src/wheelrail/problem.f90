@@ -64,6 +64,7 @@ contains
 
    !> Pitch rate at which the circumference of the wheel is as fast as the rail [rad/s]
    pure real(wp) function rate_of_pure_rolling(problem) result(rate)
+      !> Velocity, nominal radius of the wheel, and that of a roller
       type(wheel_rail_problem), intent(in) :: problem
 
       associate (wheel_rail => problem%spec)
@@ -77,47 +78,51 @@ contains
 
    !> Do the elements stand on the lattice of the pair, as a transient motion needs it?
    pure logical function keeps_lattice(problem) result(keeps)
+      !> Motion of the bodies
       type(wheel_rail_problem), intent(in) :: problem
       keeps = problem%template%motion == motion%shift .or. problem%template%motion == motion%transient_rolling
    end function keeps_lattice
 
    !> Do distances and slip of a patch follow a reference surface row by row?
    pure logical function follows_surface(problem) result(follows)
+      !> Member of contact_reference, and the kind of bodies
       type(wheel_rail_problem), intent(in) :: problem
       follows = any(problem%spec%search%location == [contact_location%conformal, contact_location%locus_extended])
    end function follows_surface
 
    !> Does friction follow the inclination of the rail within a patch?
    pure logical function friction_by_row(problem) result(by_row)
+      !> Control points of friction, and where they count
       type(wheel_rail_problem), intent(in) :: problem
       by_row = problem%variation == variation%by_angle .and. problem%spec%search%location == contact_location%conformal
    end function friction_by_row
 
    !> Parameters between control points, by linear interpolation; constant beyond them
-   pure function parameters_at(problem, position) result(geometry)
+   pure function parameters_at(problem, position) result(parameters)
+      !> Control points and the parameters there
       type(wheel_rail_problem), intent(in) :: problem
       !> [rad] or [mm]
       real(wp), intent(in) :: position
-      type(friction_parameters) :: geometry
+      type(friction_parameters) :: parameters
       real(wp) :: t
       integer :: k, n
 
       n = size(problem%control_point)
       k = count(problem%control_point <= position)
       if (k == 0 .or. n == 1) then
-         geometry = problem%control(1)
+         parameters = problem%control(1)
          return
       end if
-      geometry = problem%control(min(k, n))
+      parameters = problem%control(min(k, n))
       if (k >= n) return
       t = (position - problem%control_point(k))/(problem%control_point(k + 1) - problem%control_point(k))
       associate (a => problem%control(k), b => problem%control(k + 1))
-         geometry%static = (1.0_wp - t)*a%static + t*b%static
-         geometry%kinetic = (1.0_wp - t)*a%kinetic + t*b%kinetic
-         geometry%term = (1.0_wp - t)*a%term + t*b%term
-         geometry%half_speed = (1.0_wp - t)*a%half_speed + t*b%half_speed
-         geometry%onset = (1.0_wp - t)*a%onset + t*b%onset
-         geometry%range = (1.0_wp - t)*a%range + t*b%range
+         parameters%static = (1.0_wp - t)*a%static + t*b%static
+         parameters%kinetic = (1.0_wp - t)*a%kinetic + t*b%kinetic
+         parameters%term = (1.0_wp - t)*a%term + t*b%term
+         parameters%half_speed = (1.0_wp - t)*a%half_speed + t*b%half_speed
+         parameters%onset = (1.0_wp - t)*a%onset + t*b%onset
+         parameters%range = (1.0_wp - t)*a%range + t*b%range
       end associate
    end function parameters_at
 end module contact_wheelrail_problem

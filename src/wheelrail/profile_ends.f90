@@ -32,7 +32,9 @@ contains
    !> Which ends of the profiles contact reaches: in the next element along y a surface is missing, and the end is near;
    !> where none is near, the surface goes on unseen
    subroutine mark_profile_ends(problem, geometry, slot, border)
+      !> Profiles of rail and wheel
       type(wheel_rail_problem), intent(in) :: problem
+      !> Where the bodies are
       type(wheel_rail_geometry), intent(in) :: geometry
       !> Solved
       type(patch_slot), intent(in) :: slot
@@ -77,6 +79,7 @@ contains
    !>
    !> The circle of each end is sampled as far as it may reach below the top of the rail, and finely around its deepest point.
    subroutine find_buried_ends(problem, memory, buried)
+      !> Profiles of rail and wheel
       type(wheel_rail_problem), intent(in) :: problem
       !> With patches that are solved
       type(wheel_rail_memory), intent(in) :: memory
@@ -184,6 +187,7 @@ contains
    !> Overlap outside of all patches: where the gap has a smallest value of its own along the track, the search keeps the smallest
    !> of them at each lateral position
    subroutine find_spot_beside(problem, memory, beside)
+      !> Profiles of rail and wheel
       type(wheel_rail_problem), intent(in) :: problem
       !> With patches that are solved
       type(wheel_rail_memory), intent(in) :: memory
@@ -223,6 +227,7 @@ contains
 
    !> How far a point is below the surface of a section of the rail [mm]; negative above it, and where there is no surface above
    pure function depth_within(rail, point) result(depth)
+      !> Section of the rail in track coordinates
       type(profile_curve), intent(in) :: rail
       !> y and z [mm]
       real(wp), intent(in) :: point(2)

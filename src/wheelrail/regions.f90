@@ -62,6 +62,7 @@ contains
 
    !> Smallest gap, at mesh points and between them [mm]
    pure recursive real(wp) function smallest_gap(gap, closer) result(smallest)
+      !> Gaps at the mesh points, and where the table was looked at
       type(gap_curve), intent(in) :: gap
       !> Smallest gaps that need a finer mesh, see `measure_gap`
       type(gap_curve), intent(in), optional :: closer(:)
@@ -85,12 +86,15 @@ contains
 
    !> Patches for a wheel that is lower by dz than where the gap was measured, field side first
    subroutine find_regions(gap, dz, search, weight_power, regions, misses, closer)
+      !> Mesh, gaps, and the table of bodies that vary
       type(gap_curve), intent(in) :: gap
       !> [mm]
       real(wp), intent(in) :: dz
+      !> Distances and angles at which regions are joined or separated
       type(search_spec), intent(in) :: search
       !> Weights by the square (2) or the first power (1) of the interpenetration
       integer, intent(in) :: weight_power
+      !> One per patch
       type(contact_region), allocatable, intent(out) :: regions(:)
       !> Near misses by rising gap
       type(contact_region), allocatable, intent(out) :: misses(:)

@@ -118,6 +118,7 @@ contains
       class(wheel_rail_result), intent(in) :: self
       !> For the side of the track and the position of the wheelset, which is that of its side
       type(wheel_rail_spec), intent(in) :: pair
+      !> Emptied, then filled with the rows of wheel and rail
       type(total_list), intent(inout) :: list
 
       call list%start(pair%left)
@@ -155,6 +156,7 @@ contains
       class(wheel_rail_result), intent(in) :: self
       !> Is this a wheel on the left side of the track?
       logical, intent(in) :: left
+      !> Emptied, then filled with the rows of both markers
       type(total_list), intent(inout) :: list
 
       call list%start(left)
@@ -172,6 +174,7 @@ contains
    !> All totals of a patch: those of the contact, and where its reference is
    pure subroutine patch_totals(self, list, left)
       class(wheel_rail_patch), intent(in) :: self
+      !> Emptied, then filled with the rows of the patch
       type(total_list), intent(inout) :: list
       !> Is this a wheel on the left side of the track?
       logical, intent(in) :: left
@@ -220,6 +223,7 @@ contains
 
    !> The solution of a patch on its grid with the origin of the elements: in a transient case that is not the reference
    pure function in_element_coordinates(patch) result(contact)
+      !> Patch with the origin of its elements
       type(wheel_rail_patch), intent(in) :: patch
       type(patch_result) :: contact
 
@@ -232,6 +236,7 @@ contains
 
    !> Moment about the normal through the origin of the elements, from that about the contact reference
    pure real(wp) function moment_about_elements(patch, fx, fy, mz) result(moment)
+      !> Patch with the origin of its elements
       type(wheel_rail_patch), intent(in) :: patch
       !> Tangential forces [N] and the moment about the contact reference [N mm]
       real(wp), intent(in) :: fx, fy, mz

@@ -24,10 +24,15 @@ contains
 
    !> Solve one case of a pair
    subroutine solve_wheel_rail(problem, memory, log, result, error)
+      !> Everything that is asked
       type(wheel_rail_problem), intent(in) :: problem
+      !> Carried from case to case: patches, forces of friction, heights
       type(wheel_rail_memory), intent(inout) :: memory
+      !> Takes the trace, and warnings
       type(log_type), intent(inout) :: log
+      !> Patches, forces, position, and the status of the case
       type(wheel_rail_result), intent(inout) :: result
+      !> Allocated when the case has no result
       type(error_type), allocatable, intent(out) :: error
       real(wp) :: z
 

@@ -30,6 +30,7 @@ contains
       real(wp), intent(in) :: g(:)
       !> The lateral positions with g < 0
       integer, intent(in) :: first, last
+      !> One part of the gap for each, in the order in which they are met along y
       type(spot), allocatable, intent(out) :: spots(:)
       integer :: label(size(gap%x_table), first:last)
       integer :: i, k, n

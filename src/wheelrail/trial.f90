@@ -20,12 +20,17 @@ contains
 
    !> Patches and their solutions at a height
    subroutine evaluate(problem, memory, z, with_friction, log, error)
+      !> What is asked for wheel and rail
       type(wheel_rail_problem), intent(in) :: problem
+      !> Gets patches and solutions in the slots 1...used
       type(wheel_rail_memory), intent(inout) :: memory
+      !> Height of the wheelset above a rail without vertical deflection [mm], z down
       real(wp), intent(in) :: z
       !> Solve the tangential problems, too?
       logical, intent(in) :: with_friction
+      !> Takes the trace of the solvers, and warnings
       type(log_type), intent(inout) :: log
+      !> Allocated when a patch has no result
       type(error_type), allocatable, intent(out) :: error
       type(contact_region), allocatable :: regions(:), misses(:)
       type(lattice_box), allocatable :: boxes(:)
@@ -162,6 +167,7 @@ contains
 
    !> Remember the forces of friction of all patches
    subroutine learn_shares(memory)
+      !> Solved patches on entry; what was found is kept with its place in `geometry%learned`
       type(wheel_rail_memory), intent(inout) :: memory
       integer :: k
 

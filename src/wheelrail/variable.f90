@@ -35,11 +35,13 @@ contains
 
    !> Gap table and, for each lateral position, its smallest value
    subroutine measure_variable_gap(bodies, ds, weighs_table, gap, depth)
+      !> Sections of rail and wheel, and where they are; sections that are needed are made
       type(wheel_rail_bodies), intent(inout) :: bodies
       !> Lateral size of the elements [mm]
       real(wp), intent(in) :: ds
       !> Are weights of regions to come from the table? Otherwise it is kept to see what they leave out
       logical, intent(in) :: weighs_table
+      !> Gets mesh, gaps and table; its arrays are kept when they have the right size
       type(gap_curve), intent(inout) :: gap
       !> Penetration that will be asked for [mm], if it is known to be large
       real(wp), intent(in), optional :: depth
@@ -397,6 +399,7 @@ contains
 
    !> How much more the rail is inclined at a place of contact than in the section below the axle [rad]; 0 where either is missing
    real(wp) function turn_of_rail(bodies, x, y) result(turn)
+      !> Sections of rail and wheel, and where they are; sections that are needed are made
       type(wheel_rail_bodies), intent(inout) :: bodies
       !> The place in track coordinates [mm]
       real(wp), intent(in) :: x, y
@@ -419,15 +422,19 @@ contains
 
    !> Distance of the undeformed bodies over a plane [mm], shifted so that its minimum is zero, and the approach
    subroutine variable_distance(bodies, plane, joined, grid, h, approach, strangers)
+      !> Sections of rail and wheel, and where they are; sections that are needed are made
       type(wheel_rail_bodies), intent(inout) :: bodies
+      !> Plane of the patch, in track coordinates
       type(frame), intent(in) :: plane
       !> See `settle_distance`
       logical, intent(in) :: joined
+      !> Centres of the elements
       type(potential_contact), intent(in) :: grid
       !> Shape (mx, my)
       real(wp), allocatable, intent(inout) :: h(:, :)
       !> See `settle_distance`
       real(wp), intent(out) :: approach
+      !> Elements that are left out, as for `settle_distance`
       integer, intent(out) :: strangers
       type(frame) :: seen
       real(wp) :: x(grid%mx), n_wheel(grid%mx), n_rail(grid%mx)
