@@ -74,23 +74,23 @@ function [ CNTC ] = cntc_getmagicnumbers( )
 %
 % Fields of cntc_getfielddata
 %
-%   CNTC.fld_h        undeformed distance [L]
-%   CNTC.fld_mu       friction coefficient [-]
-%   CNTC.fld_px       tangential traction along x [F/L2]
-%   CNTC.fld_py       tangential traction along y [F/L2]
+%   CNTC.fld_h        undeformed distance, approach not subtracted [L]
+%   CNTC.fld_mu       coefficient of friction [-]
+%   CNTC.fld_px       longitudinal traction on body 1 [F/L2]
+%   CNTC.fld_py       lateral traction on body 1 [F/L2]
 %   CNTC.fld_pn       pressure [F/L2]
-%   CNTC.fld_ux       displacement difference along x [L]
-%   CNTC.fld_uy       displacement difference along y [L]
-%   CNTC.fld_un       displacement difference, normal [L]
+%   CNTC.fld_ux       longitudinal displacement difference [L]
+%   CNTC.fld_uy       lateral displacement difference [L]
+%   CNTC.fld_un       normal displacement difference [L]
 %   CNTC.fld_taucrt   yield limit [F/L2]
-%   CNTC.fld_uplsx    plastic deformation along x [L]
-%   CNTC.fld_uplsy    plastic deformation along y [L]
-%   CNTC.fld_sx       micro-slip along x [-]; shift distance in mm when T is 0 or 1
-%   CNTC.fld_sy       micro-slip along y [-]; shift distance in mm when T is 0 or 1
-%   CNTC.fld_temp1    surface temperature of body 1 [degrees C]
-%   CNTC.fld_temp2    surface temperature of body 2 [degrees C]
-%   CNTC.fld_wx       rigid slip along x [-]
-%   CNTC.fld_wy       rigid slip along y [-]
+%   CNTC.fld_uplsx    longitudinal plastic displacement [L]
+%   CNTC.fld_uplsy    lateral plastic displacement [L]
+%   CNTC.fld_sx       longitudinal slip, relative [-]; longitudinal slip distance [mm]
+%   CNTC.fld_sy       lateral slip, relative [-]; lateral slip distance [mm]
+%   CNTC.fld_temp1    surface temperature of body 1 [degC]
+%   CNTC.fld_temp2    surface temperature of body 2 [degC]
+%   CNTC.fld_wx       longitudinal rigid slip, relative [-]; longitudinal rigid shift [mm]
+%   CNTC.fld_wy       lateral rigid slip, relative [-]; lateral rigid shift [mm]
 %
 % Kinds of input files of cntc_readinpfile
 %

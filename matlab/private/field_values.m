@@ -91,6 +91,10 @@ function [ f ] = field_values( sol, field )
       case {'temp1','temp2'}
          f = plain(f, stored(sol, field), ['Temperature of body ' field(5)], '^oC');
       otherwise
+         if (isfield(sol, field) && isequal(size(sol.(field)), size(sol.pn)))
+            f = plain(f, sol.(field), field, '');
+            return
+         end
          error('plot3d: there is no field ''%s''; help plot3d lists them.', field);
    end
 

@@ -98,8 +98,7 @@ function [ s ] = patch_struct( c, p, ipatch, npatch )
       s.srel = hypot(p.fields.sx, p.fields.sy)';
    end
    s.shft = s.srel * dq;
-   names = {'taucrt','uplsx','uplsy','temp1','temp2'};
-   names = names(isfield(p.fields, names));
+   names = setdiff(fieldnames(p.fields), [names, {'sx','sy'}]);
    for i = 1 : numel(names)
       s.(names{i}) = p.fields.(names{i})';
    end

@@ -32,7 +32,7 @@ function [ s ] = read_mat_file( fname, icase )
    s.y = s.yl + ((1:s.my)-0.5) * s.dy;
    s.meta.icase = icase;
 
-   s = read_elements(s, elements, fname);
+   s = read_elements(s, elements, comments{min(7,numel(comments))}, fname);
 
 end % function read_mat_file
 
@@ -110,7 +110,7 @@ end % function read_friction
 
 %------------------------------------------------------------------------------------------------------
 
-function [ s ] = read_elements( s, table, fname )
+function [ s ] = read_elements( s, table, heading, fname )
 % Values of elements as (my,mx) arrays
 
    plastic = has_plasticity(s.mater);
@@ -121,6 +121,11 @@ function [ s ] = read_elements( s, table, fname )
    end
    if (heat)
       names = [names, {'temp1','temp2'}];
+   end
+   % with columns that this script does not know, the heading tells the names
+   heading = lower(regexp(heading, '\S+', 'match'));
+   if (~isempty(table) && size(table,2)>numel(names)+2 && numel(heading)>=size(table,2))
+      names = regexprep(heading(end-size(table,2)+3:end), '^(srel|shft)$', 'slip');
    end
    if (~isempty(table) && size(table,2)~=numel(names)+2)
       error('loadcase: "%s" has %d columns; %d were expected.', fname, size(table,2), numel(names)+2);
@@ -162,8 +167,9 @@ function [ s ] = read_elements( s, table, fname )
    if (s.kincns.t_digit>=2)
       s.shft = v.slip * s.kincns.dq;
    end
-   for i = 10 : numel(names)
-      s.(names{i}) = v.(names{i});
+   more = setdiff(names, [order, {'slip'}]);
+   for i = 1 : numel(more)
+      s.(more{i}) = v.(more{i});
    end
 
    s = add_bound(s);

@@ -153,23 +153,23 @@ MAGIC_NUMBERS = {
     "mt_axle": 2022,  # number of the axle
     "mt_side": 2023,  # number of the side
     # Fields of cntc_getfielddata
-    "fld_h": 1,  # undeformed distance [L]
-    "fld_mu": 2,  # friction coefficient [-]
-    "fld_px": 3,  # tangential traction along x [F/L2]
-    "fld_py": 4,  # tangential traction along y [F/L2]
+    "fld_h": 1,  # undeformed distance, approach not subtracted [L]
+    "fld_mu": 2,  # coefficient of friction [-]
+    "fld_px": 3,  # longitudinal traction on body 1 [F/L2]
+    "fld_py": 4,  # lateral traction on body 1 [F/L2]
     "fld_pn": 5,  # pressure [F/L2]
-    "fld_ux": 7,  # displacement difference along x [L]
-    "fld_uy": 8,  # displacement difference along y [L]
-    "fld_un": 9,  # displacement difference, normal [L]
+    "fld_ux": 7,  # longitudinal displacement difference [L]
+    "fld_uy": 8,  # lateral displacement difference [L]
+    "fld_un": 9,  # normal displacement difference [L]
     "fld_taucrt": 11,  # yield limit [F/L2]
-    "fld_uplsx": 12,  # plastic deformation along x [L]
-    "fld_uplsy": 13,  # plastic deformation along y [L]
-    "fld_sx": 15,  # micro-slip along x [-]; shift distance in mm when T is 0 or 1
-    "fld_sy": 16,  # micro-slip along y [-]; shift distance in mm when T is 0 or 1
-    "fld_temp1": 20,  # surface temperature of body 1 [degrees C]
-    "fld_temp2": 21,  # surface temperature of body 2 [degrees C]
-    "fld_wx": 22,  # rigid slip along x [-]
-    "fld_wy": 23,  # rigid slip along y [-]
+    "fld_uplsx": 12,  # longitudinal plastic displacement [L]
+    "fld_uplsy": 13,  # lateral plastic displacement [L]
+    "fld_sx": 15,  # longitudinal slip, relative [-]; longitudinal slip distance [mm]
+    "fld_sy": 16,  # lateral slip, relative [-]; lateral slip distance [mm]
+    "fld_temp1": 20,  # surface temperature of body 1 [degC]
+    "fld_temp2": 21,  # surface temperature of body 2 [degC]
+    "fld_wx": 22,  # longitudinal rigid slip, relative [-]; longitudinal rigid shift [mm]
+    "fld_wy": 23,  # lateral rigid slip, relative [-]; lateral rigid shift [mm]
     # Kinds of input files of cntc_readinpfile
     "inp_vamp": 1984,  # not available
     "inp_modul1": 1988,  # input of wheel/rail contact

@@ -86,6 +86,18 @@ class Constant:
         self.name, self.value, self.text = name, int(value), text
 
 
+def element_fields():
+    """Constants of the element fields, from the list of them in the sources"""
+    with open(os.path.join(TOP, "src/patch/result.f90"), encoding="utf-8") as file:
+        text = file.read()
+    fields, letters = {}, {"mm": "L", "N/mm2": "F/L2"}
+    for code, name, unit, meaning in re.findall(r'call add\((\d+), "(\w+)", "([^"]*)", "([^"]*)"', text):
+        _, texts = fields.setdefault(int(code), (name, []))
+        # shifts, which come behind slip, are in mm in all units
+        texts.append(f"{meaning} [{unit if texts else letters.get(unit, unit)}]")
+    return [Constant("CNTC_fld_" + name, code, "; ".join(texts)) for code, (name, texts) in sorted(fields.items())]
+
+
 def read_table():
     """Sections of the table as (title, list of constants or routines); undocumented routines apart"""
     constants, routines, undocumented = [], [], []
@@ -105,6 +117,8 @@ def read_table():
                 items = undocumented
             elif constant:
                 items.append(Constant(*constant.groups()))
+            elif line.startswith("CNTC_fld_*"):
+                items += element_fields()
             elif routine:
                 items.append(Routine(*routine.groups()))
             elif line.startswith("   "):

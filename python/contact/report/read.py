@@ -8,7 +8,8 @@ import re
 import zlib
 from typing import Any
 
-SHOWN_FIELDS = ("eldiv", "h", "pn", "px", "py", "sx", "sy", "mu", "taucrt", "uplsx", "uplsy", "temp1", "temp2")
+# Fields that the page leaves out; it shows all others that there are
+HIDDEN_FIELDS = ("un", "ux", "uy")
 # Below the surface: what is shown of any block, and what of blocks of some size only
 SHOWN_STRESSES = ("sigvm", "sighyd", "sigtr", "sigma1", "sigma3")
 MORE_STRESSES = ("sigma2", "sigxx", "sigyy", "sigzz", "sigxy", "sigxz", "sigyz", "ux", "uy", "uz")
@@ -73,6 +74,7 @@ class _Reader:
         self.blobs = Blobs()
         self.inputs: list[dict[str, Any]] = []
         self._input_numbers: dict[tuple[Any, ...], int] = {}
+        self.titles: dict[str, str] = {}
         self._groups: dict[int, dict[str, Any]] = {}
         self._fields: dict[int, int] = {}
         self._meanings: dict[tuple[Any, ...], tuple[str, str]] = {}
@@ -137,11 +139,10 @@ class _Reader:
         arrays = group["fields"]
         grid = {name: value for name, value in self.values(group["grid"]).items() if name not in ("x", "y")}
         pen = totals.get("pen") or 0.0
-        for name in SHOWN_FIELDS:
-            if name not in arrays:
+        for name, item in arrays.items():
+            if name in HIDDEN_FIELDS:
                 continue
-            item = arrays[name]
-            units[name] = self.meaning(("fields", name, rolling), item)[0]
+            units[name], self.titles[name] = self.meaning(("fields", name, rolling), item)
             at = self.address(item)
             if name == "h":
                 gap = self.data(item) - pen
@@ -260,7 +261,8 @@ def _read(file: Any, path: str) -> tuple[dict[str, Any], list[dict[str, str]]]:
             case["patches"].append(reader.patch(group["patch_%d" % number], number, totals))
         cases.append(case)
     data = {"experiment": _plain(file.attrs["experiment"]), "program": _plain(file.attrs["program"]),
-            "run": _run_of(file), "columns": {**case_meta, **patch_meta}, "inputs": reader.inputs, "cases": cases}
+            "run": _run_of(file), "columns": {**case_meta, **patch_meta}, "inputs": reader.inputs,
+            "titles": reader.titles, "cases": cases}
     return data, reader.blobs.items
 
 

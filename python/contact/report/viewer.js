@@ -10,6 +10,9 @@ const NAMES = { pn: "pressure", px: "longitudinal traction", py: "lateral tracti
   slip: "slip", sx: "longitudinal slip", sy: "lateral slip", mu: "friction coefficient", gap: "gap",
   use: "use of friction, |pt| / (mu pn)", temp1: "temperature of body 1", temp2: "temperature of body 2",
   taucrt: "yield limit", upls: "plastic displacement" };
+// Fields that are shown in other ways than by themselves
+const PARTS = ["eldiv", "uplsx", "uplsy"];
+const nameOf = name => NAMES[name] || data.titles[name] || name;
 
 // ---------------------------------------------------------------- data
 
@@ -575,7 +578,7 @@ function readElement(x, y) {
     if (f.px) pairs.push(["px", figures(f.px[e.i])], ["py", figures(f.py[e.i])], ["|pt|", figures(f.pt[e.i])], ["slip", `${figures(f.slip[e.i])} ${pretty(unitOf(p, "slip"))}`]);
     if (f.temp1) pairs.push(["temperatures", `${figures(f.temp1[e.i])}, ${figures(f.temp2[e.i])} \u00b0C`]);
     const more = byId("quantity").value;
-    if (f[more] && !["px", "py", "pn", "slip", "temp1", "temp2"].includes(more)) pairs.push([NAMES[more], `${figures(f[more][e.i])} ${pretty(unitOf(p, more))}`]);
+    if (f[more] && !["px", "py", "pn", "slip", "temp1", "temp2"].includes(more)) pairs.push([nameOf(more), `${figures(f[more][e.i])} ${pretty(unitOf(p, more))}`]);
   }
   read(pairs);
 }
@@ -718,9 +721,9 @@ async function go(index, patch = 0) {
   }
   byId("card-profiles").hidden = !c.markers;
   byId("card-pt").hidden = !!fields && !fields.pt;
-  const select = byId("quantity"), keep = select.value, offer = Object.keys(NAMES).filter(n => fields && fields[n] && n !== "pn" && n !== "pt");
+  const select = byId("quantity"), keep = select.value, offer = [...new Set([...Object.keys(NAMES), ...Object.keys(fields || {})])].filter(n => fields && fields[n] && !PARTS.includes(n) && n !== "pn" && n !== "pt");
   if (fields && !fields.pt) offer.unshift("pn");
-  select.replaceChildren(...offer.map(n => new Option(NAMES[n] + (pretty(unitOf(p, n)) ? ` [${pretty(unitOf(p, n))}]` : ""), n)));
+  select.replaceChildren(...offer.map(n => new Option(nameOf(n) + (pretty(unitOf(p, n)) ? ` [${pretty(unitOf(p, n))}]` : ""), n)));
   select.value = offer.includes(keep) ? keep : offer.includes("temp1") ? "temp1" : offer[0] || "";
   plots.section.own = null;
   tellTotals();
