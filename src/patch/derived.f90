@@ -5,7 +5,7 @@ module contact_patch_derived
    use contact_base_solve_report, only : solve_report
    use contact_grid_element_division, only : bounding_box, contact_box, element
    use contact_normal_conjugate_gradient, only : approach_scale
-   use contact_patch_problem, only : patch_problem, patch_state
+   use contact_patch_problem, only : carried, patch_problem, patch_state
    use contact_patch_result, only : patch_result
    use contact_patch_workspace, only : patch_workspace, prepare_window
    use contact_patch_yield, only : derive_yield
@@ -201,9 +201,9 @@ contains
       type(patch_state), intent(inout) :: state
 
       if (.not. problem%remembers_friction) return
-      state%now%mu%value = result%mu
-      state%now%sx%value = result%sx
-      state%now%sy%value = result%sy
+      state%now%memory(carried%mu)%value = result%mu
+      state%now%memory(carried%sx)%value = result%sx
+      state%now%memory(carried%sy)%value = result%sy
    end subroutine remember_friction
 
    !> Displacement differences: on the contact area, or on the whole window when wanted

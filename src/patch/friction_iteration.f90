@@ -14,7 +14,7 @@ module contact_patch_friction_iteration
    use contact_friction_law, only : friction_driver
    use contact_grid_element_division, only : bounding_box, element
    use contact_patch_heat, only : new_heat_passage
-   use contact_patch_problem, only : patch_problem, patch_state, rolling_direction
+   use contact_patch_problem, only : carried, patch_problem, patch_state, rolling_direction
    use contact_tangential_problem, only : tangential_solution
    use contact_temperature_flash_heating, only : heat_passage
    implicit none (type, external)
@@ -89,7 +89,7 @@ contains
          else if (problem%slip_start > 0) then
             self%speed = spread(spread(0.0_wp, 1, size(mu, 1)), 2, size(mu, 2))
          else
-            self%speed = hypot(state%before%sx%value, state%before%sy%value)/dt
+            self%speed = hypot(state%before%memory(carried%sx)%value, state%before%memory(carried%sy)%value)/dt
          end if
       end if
       where (state%now%division == element%exterior) self%speed = 0.0_wp
@@ -189,7 +189,7 @@ contains
       if (problem%motion == motion%steady_rolling) then
          call problem%friction_memory%march(self%speed, self%dt, rolling_direction(problem), problem%static_mu, mu)
       else
-         call problem%friction_memory%step(self%speed, self%dt, state%before%mu%value, mu)
+         call problem%friction_memory%step(self%speed, self%dt, state%before%memory(carried%mu)%value, mu)
       end if
    end subroutine set_coefficients
 
@@ -205,7 +205,7 @@ contains
 
       mx = size(mu, 1)
       if (problem%motion /= motion%steady_rolling) then
-         before = state%before%mu%value
+         before = state%before%memory(carried%mu)%value
       else if (rolling_direction(problem) > 0) then
          before(:mx - 1, :) = mu(2:, :)
          before(mx, :) = problem%static_mu

@@ -16,7 +16,7 @@ module contact_patch_problem
    implicit none (type, external)
    private
 
-   public :: patch_problem, patch_state, traction_fields, memory_field, rolling_direction
+   public :: carried, patch_problem, patch_state, traction_fields, memory_field, rolling_direction
 
    !> Everything that defines the problem of one step; constant from here on
    type :: patch_problem
@@ -106,9 +106,23 @@ module contact_patch_problem
       procedure :: solves_for_pressure
       !> Do pressures depend on the tangential tractions?
       procedure :: couples
+      !> Do particles carry a quantity along, and which value have those without history?
+      procedure :: carries
+      procedure :: fresh
    end type patch_problem
 
-   !> A quantity that particles carry along from time step to time step
+   type :: carried_list
+      !> Coefficient of friction [-] and slip per step [mm]
+      integer :: mu = 1, sx = 2, sy = 3
+      !> Yield limit [N/mm2] and plastic displacement difference [mm] of the interfacial layer
+      integer :: tau_c = 4, uplx = 5, uply = 6
+      !> Their number
+      integer :: count = 6
+   end type carried_list
+   !> Quantities that particles may carry along from time step to time step
+   type(carried_list), parameter :: carried = carried_list()
+
+   !> One of them
    type :: memory_field
       !> One value per element, shape (mx, my); unallocated when no effect of the case asks for it
       real(wp), allocatable :: value(:, :)
@@ -124,10 +138,8 @@ module contact_patch_problem
       !> Does the time step belong to a solved case? Its forces Fn, Fx, Fy, without damping [N]
       logical :: is_solved = .false.
       real(wp) :: force(3) = 0.0_wp
-      !> Coefficient of friction [-] and slip per step [mm]
-      type(memory_field) :: mu, sx, sy
-      !> Yield limit [N/mm2] and plastic displacement difference [mm] of the interfacial layer
-      type(memory_field) :: tau_c, uplx, uply
+      !> What particles carry along, by the members of carried
+      type(memory_field) :: memory(carried%count)
    end type traction_fields
 
    !> What the physics remembers from case to case
@@ -159,4 +171,24 @@ contains
       couples = self%model%coupled() .and. self%motion /= motion%none .and. .not. allocated(self%given_pressure) &
          & .and. .not. allocated(self%simplified)
    end function couples
+
+   pure logical function carries(self, kind)
+      class(patch_problem), intent(in) :: self
+      !> Member of carried
+      integer, intent(in) :: kind
+
+      carries = merge(self%remembers_friction, self%remembers_yield, kind <= carried%sy)
+   end function carries
+
+   !> Per row of elements
+   pure function fresh(self, kind) result(value)
+      class(patch_problem), intent(in) :: self
+      !> Member of carried
+      integer, intent(in) :: kind
+      real(wp) :: value(self%grid%my)
+
+      value = 0.0_wp
+      if (kind == carried%mu) value = self%static_mu
+      if (kind == carried%tau_c) value = self%initial_yield_limit
+   end function fresh
 end module contact_patch_problem

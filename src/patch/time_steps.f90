@@ -5,7 +5,7 @@ module contact_patch_time_steps
    use contact_base_kinds, only : wp
    use contact_grid_element_division, only : element
    use contact_grid_potential_contact, only : potential_contact
-   use contact_patch_problem, only : memory_field, patch_problem, patch_state, traction_fields
+   use contact_patch_problem, only : carried, memory_field, patch_problem, patch_state, traction_fields
    implicit none (type, external)
    private
 
@@ -23,7 +23,7 @@ contains
       type(patch_state), intent(inout) :: state
       !> Allocated when the windows do not fit each other, or the new one leaves out contact that matters
       type(error_type), allocatable, intent(out) :: error
-      integer :: kx, ky
+      integer :: kind, kx, ky
       logical :: linked
 
       kx = 0
@@ -52,64 +52,15 @@ contains
       case default
          call clear_time_step(state%before, problem%grid)
       end select
-      if (.not. problem%remembers_friction) call forget_friction(state)
-      if (.not. problem%remembers_yield) call forget_yield(state)
-      call link_memory(problem, link, linked, kx, ky, state)
+      do kind = 1, carried%count
+         if (problem%carries(kind)) then
+            call hand_over(problem, link, linked, kx, ky, problem%fresh(kind), state%now%memory(kind), state%before%memory(kind))
+         else
+            state%now%memory(kind) = memory_field()
+            state%before%memory(kind) = memory_field()
+         end if
+      end do
    end subroutine link_time_steps
-
-   !> What particles carry along, for the effects that ask for it
-   subroutine link_memory(problem, link, linked, kx, ky, state)
-      type(patch_problem), intent(in) :: problem
-      !> Member of time_link
-      integer, intent(in) :: link
-      !> Is there a previous case to go on from? Otherwise all particles are without history
-      logical, intent(in) :: linked
-      !> Elements by which the window was moved
-      integer, intent(in) :: kx, ky
-      type(patch_state), intent(inout) :: state
-      real(wp), allocatable :: zero(:)
-
-      if (.not. (problem%remembers_friction .or. problem%remembers_yield)) return
-      allocate(zero(problem%grid%my), source=0.0_wp)
-      associate (now => state%now, before => state%before)
-         if (problem%remembers_friction) then
-            call hand_over(problem, link, linked, kx, ky, problem%static_mu, now%mu, before%mu)
-            call hand_over(problem, link, linked, kx, ky, zero, now%sx, before%sx)
-            call hand_over(problem, link, linked, kx, ky, zero, now%sy, before%sy)
-         end if
-         if (problem%remembers_yield) then
-            call hand_over(problem, link, linked, kx, ky, zero + problem%initial_yield_limit, now%tau_c, before%tau_c)
-            call hand_over(problem, link, linked, kx, ky, zero, now%uplx, before%uplx)
-            call hand_over(problem, link, linked, kx, ky, zero, now%uply, before%uply)
-         end if
-      end associate
-   end subroutine link_memory
-
-   !> No coefficients of friction and slip are carried along
-   subroutine forget_friction(state)
-      type(patch_state), intent(inout) :: state
-      type(memory_field) :: nothing
-
-      state%now%mu = nothing
-      state%now%sx = nothing
-      state%now%sy = nothing
-      state%before%mu = nothing
-      state%before%sx = nothing
-      state%before%sy = nothing
-   end subroutine forget_friction
-
-   !> No yield limits and plastic displacements are carried along
-   subroutine forget_yield(state)
-      type(patch_state), intent(inout) :: state
-      type(memory_field) :: nothing
-
-      state%now%tau_c = nothing
-      state%now%uplx = nothing
-      state%now%uply = nothing
-      state%before%tau_c = nothing
-      state%before%uplx = nothing
-      state%before%uply = nothing
-   end subroutine forget_yield
 
    !> The present values become those of the same particles at the previous time step
    !>
@@ -119,7 +70,7 @@ contains
       type(patch_problem), intent(in) :: problem
       !> Member of time_link
       integer, intent(in) :: link
-      !> See link_memory
+      !> Is there a previous case to go on from? Otherwise all particles are without history
       logical, intent(in) :: linked
       !> Elements by which the window was moved
       integer, intent(in) :: kx, ky

@@ -3,7 +3,7 @@ module contact_patch_yield
    use contact_base_choices, only : motion
    use contact_base_kinds, only : wp
    use contact_grid_element_division, only : bounding_box, element
-   use contact_patch_problem, only : patch_problem, patch_state, rolling_direction, traction_fields
+   use contact_patch_problem, only : carried, patch_problem, patch_state, rolling_direction, traction_fields
    use contact_patch_result, only : patch_result
    use contact_tangential_problem, only : tangential_problem, tangential_solution
    implicit none (type, external)
@@ -38,7 +38,7 @@ contains
          if (tangential%steady) then
             allocate(yield%limit(tangential%mx, tangential%my), source=problem%initial_yield_limit)
          else
-            yield%limit = before%tau_c%value(box%ix0:box%ix1, box%iy0:box%iy1)
+            yield%limit = before%memory(carried%tau_c)%value(box%ix0:box%ix1, box%iy0:box%iy1)
          end if
          if (.not. tangential%hardens()) tangential%bound = min(tangential%bound, yield%limit)
       end associate
@@ -60,13 +60,11 @@ contains
 
       associate (now => state%now, before => state%before, mx => problem%grid%mx)
          if (problem%motion /= motion%steady_rolling) then
-            now%tau_c = before%tau_c
-            now%uplx = before%uplx
-            now%uply = before%uply
+            now%memory(carried%tau_c:carried%uply) = before%memory(carried%tau_c:carried%uply)
             if (box%ix0 > box%ix1) return
-            now%tau_c%value(box%ix0:box%ix1, box%iy0:box%iy1) = solution%limit
-            call add(now%uplx%value(box%ix0:box%ix1, box%iy0:box%iy1), solution%plastic(:, :, 1))
-            call add(now%uply%value(box%ix0:box%ix1, box%iy0:box%iy1), solution%plastic(:, :, 2))
+            now%memory(carried%tau_c)%value(box%ix0:box%ix1, box%iy0:box%iy1) = solution%limit
+            call add(now%memory(carried%uplx)%value(box%ix0:box%ix1, box%iy0:box%iy1), solution%plastic(:, :, 1))
+            call add(now%memory(carried%uply)%value(box%ix0:box%ix1, box%iy0:box%iy1), solution%plastic(:, :, 2))
             return
          end if
          ! what an element has is what flows in from the next one upstream, and the change in the step
@@ -82,9 +80,9 @@ contains
                   limit = solution%limit(jx, jy)
                   displacement = displacement + solution%plastic(jx, jy, :)
                end if
-               now%tau_c%value(ix, iy) = limit
-               now%uplx%value(ix, iy) = displacement(1)
-               now%uply%value(ix, iy) = displacement(2)
+               now%memory(carried%tau_c)%value(ix, iy) = limit
+               now%memory(carried%uplx)%value(ix, iy) = displacement(1)
+               now%memory(carried%uply)%value(ix, iy) = displacement(2)
             end do
          end do
       end associate
@@ -113,13 +111,11 @@ contains
       result%nplast = count(result%division == element%plastic)
       if (.not. problem%remembers_yield) return
       if (problem%motion == motion%none) then
-         state%now%tau_c = state%before%tau_c
-         state%now%uplx = state%before%uplx
-         state%now%uply = state%before%uply
+         state%now%memory(carried%tau_c:carried%uply) = state%before%memory(carried%tau_c:carried%uply)
       end if
-      result%tau_c = state%now%tau_c%value
-      result%uplx = state%now%uplx%value
-      result%uply = state%now%uply%value
+      result%tau_c = state%now%memory(carried%tau_c)%value
+      result%uplx = state%now%memory(carried%uplx)%value
+      result%uply = state%now%memory(carried%uply)%value
       if (problem%motion == motion%none .or. result%ncon == 0) return
       result%friction_power = result%friction_power &
          & - problem%grid%dx*problem%grid%dy/(1000.0_wp*result%dt)*sum(solution%p*solution%plastic)

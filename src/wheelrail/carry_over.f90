@@ -13,7 +13,7 @@ module contact_wheelrail_carry_over
    use contact_grid_element_division, only : element
    use contact_grid_potential_contact, only : potential_contact
    use contact_patch_time_steps, only : clear_time_step
-   use contact_patch_problem, only : memory_field, patch_problem, traction_fields
+   use contact_patch_problem, only : carried, patch_problem, traction_fields
    implicit none (type, external)
    private
 
@@ -293,21 +293,15 @@ contains
       type(lattice_window), intent(in) :: window
       !> Gets the tractions, and what particles carry along; zero where no patch was
       type(traction_fields), intent(inout) :: fields
-      integer :: j, ix, iy, jx, jy
-      real(wp), allocatable :: zero(:)
+      integer :: j, ix, iy, jx, jy, kind
 
       call clear_time_step(fields, problem%grid)
-      allocate(zero(problem%grid%my), source=0.0_wp)
-      if (problem%remembers_friction) then
-         call start_memory(problem%static_mu, fields%mu)
-         call start_memory(zero, fields%sx)
-         call start_memory(zero, fields%sy)
-      end if
-      if (problem%remembers_yield) then
-         call start_memory(zero + problem%initial_yield_limit, fields%tau_c)
-         call start_memory(zero, fields%uplx)
-         call start_memory(zero, fields%uply)
-      end if
+      do kind = 1, carried%count
+         if (.not. problem%carries(kind)) cycle
+         if (allocated(fields%memory(kind)%value)) deallocate(fields%memory(kind)%value)
+         allocate(fields%memory(kind)%value(problem%grid%mx, problem%grid%my), &
+            & source=spread(problem%fresh(kind), 1, problem%grid%mx))
+      end do
       if (.not. allocated(self%patch)) return
       do j = 1, size(self%patch)
          associate (patch => self%patch(j), old => self%patch(j)%fields)
@@ -322,40 +316,17 @@ contains
                   fields%pn(jx, jy) = fields%pn(jx, jy) + old%pn(ix, iy)
                   fields%px(jx, jy) = fields%px(jx, jy) + old%px(ix, iy)
                   fields%py(jx, jy) = fields%py(jx, jy) + old%py(ix, iy)
-                  call take(old%mu, fields%mu, ix, iy, jx, jy)
-                  call take(old%sx, fields%sx, ix, iy, jx, jy)
-                  call take(old%sy, fields%sy, ix, iy, jx, jy)
-                  call take(old%tau_c, fields%tau_c, ix, iy, jx, jy)
-                  call take(old%uplx, fields%uplx, ix, iy, jx, jy)
-                  call take(old%uply, fields%uply, ix, iy, jx, jy)
+                  do kind = 1, carried%count
+                     ! where both time steps have it
+                     if (allocated(old%memory(kind)%value) .and. allocated(fields%memory(kind)%value)) &
+                        & fields%memory(kind)%value(jx, jy) = old%memory(kind)%value(ix, iy)
+                  end do
                end do
             end do
          end associate
       end do
       fields%force = self%total_force(k)
-
-   contains
-
-      !> A field of particles without history
-      subroutine start_memory(fresh, field)
-         !> Value per row
-         real(wp), intent(in) :: fresh(:)
-         type(memory_field), intent(inout) :: field
-
-         if (allocated(field%value)) deallocate(field%value)
-         allocate(field%value(problem%grid%mx, problem%grid%my), source=spread(fresh, 1, problem%grid%mx))
-      end subroutine start_memory
    end subroutine hand_over
-
-   !> One value of a remembered field, where both time steps have it
-   pure subroutine take(from, to, ix, iy, jx, jy)
-      type(memory_field), intent(in) :: from
-      type(memory_field), intent(inout) :: to
-      integer, intent(in) :: ix, iy, jx, jy
-
-      if (.not. (allocated(from%value) .and. allocated(to%value))) return
-      to%value(jx, jy) = from%value(ix, iy)
-   end subroutine take
 
    !> Sum of the tractions of a present patch: Fn, Fx, Fs [N]
    pure function total_force(self, k) result(force)

@@ -6,9 +6,11 @@ program test_moments
    use contact_base_kinds, only : wp
    use contact_grid_potential_contact, only : potential_contact
    use contact_patch_time_steps, only : link_time_steps
-   use contact_patch_problem, only : patch_problem, patch_state
+   use contact_patch_problem, only : carried, patch_problem, patch_state
    use contact_test_harness, only : test_suite
    implicit none (type, external)
+   !> What is looked at
+   integer, parameter :: yield = carried%tau_c
    real(wp), parameter :: closed = 100.0_wp*epsilon(1.0_wp)
    type(test_suite) :: suite
 
@@ -43,7 +45,7 @@ contains
       state%started = .true.
       do iy = 1, problem%grid%my
          do ix = 1, problem%grid%mx
-            state%now%tau_c%value(ix, iy) = 10.0_wp*ix + iy
+            state%now%memory(yield)%value(ix, iy) = 10.0_wp*ix + iy
          end do
       end do
    end subroutine fill
@@ -56,25 +58,25 @@ contains
 
       call new_problem(problem)
       call fill(problem, state)
-      call suite%close_to(state%before%tau_c%value(3, 2), 7.0_wp, closed, "fresh material at the start of a sequence")
+      call suite%close_to(state%before%memory(yield)%value(3, 2), 7.0_wp, closed, "fresh material at the start of a sequence")
 
       call link_time_steps(problem, time_link%continue_all, state, error)
-      call suite%close_to(state%before%tau_c%value(:, 2), [22.0_wp, 32.0_wp, 42.0_wp, 52.0_wp, 7.0_wp], closed, &
+      call suite%close_to(state%before%memory(yield)%value(:, 2), [22.0_wp, 32.0_wp, 42.0_wp, 52.0_wp, 7.0_wp], closed, &
          & "one element per step: the particles were one element ahead")
 
       problem%dq = 0.625_wp
       call link_time_steps(problem, time_link%continue_all, state, error)
-      call suite%close_to(state%before%tau_c%value(2, 3), 35.5_wp, closed, "a step of one and a quarter element: interpolated")
+      call suite%close_to(state%before%memory(yield)%value(2, 3), 35.5_wp, closed, "a step of 1.25 elements: interpolated")
 
       problem%chi = pi
       call link_time_steps(problem, time_link%continue_all, state, error)
-      call suite%close_to(state%before%tau_c%value(4, 3), 30.5_wp, 1.0e-12_wp, "the same in the other direction")
-      call suite%close_to(state%before%tau_c%value(1, 3), 7.0_wp, 1.0e-12_wp, "fresh material at the leading edge")
+      call suite%close_to(state%before%memory(yield)%value(4, 3), 30.5_wp, 1.0e-12_wp, "the same in the other direction")
+      call suite%close_to(state%before%memory(yield)%value(1, 3), 7.0_wp, 1.0e-12_wp, "fresh material at the leading edge")
 
       problem%chi = 0.5_wp*pi
       problem%dq = 1.0_wp
       call link_time_steps(problem, time_link%continue_all, state, error)
-      call suite%close_to(state%before%tau_c%value(2, 1), 21.5_wp, 1.0e-12_wp, "rolling sideways by half an element")
+      call suite%close_to(state%before%memory(yield)%value(2, 1), 21.5_wp, 1.0e-12_wp, "rolling sideways by half an element")
    end subroutine rolling
 
    subroutine moved_window(suite)
@@ -90,9 +92,11 @@ contains
       problem%grid = potential_contact(mx=4, my=4, dx=0.5_wp, dy=2.0_wp, xl=1.0_wp, yl=-2.0_wp)
       call link_time_steps(problem, time_link%continue_all, state, error)
       call suite%check(.not. allocated(error), "a window that moves by whole elements")
-      call suite%check(all(shape(state%before%tau_c%value) == [4, 4]), "fields take the size of the window")
-      call suite%close_to(state%before%tau_c%value(:, 2), [31.0_wp, 41.0_wp, 51.0_wp, 7.0_wp], closed, "values stay in place")
-      call suite%close_to(state%before%tau_c%value(:, 1), [7.0_wp, 7.0_wp, 7.0_wp, 7.0_wp], closed, "fresh where the window is new")
+      call suite%check(all(shape(state%before%memory(yield)%value) == [4, 4]), "fields take the size of the window")
+      call suite%close_to(state%before%memory(yield)%value(:, 2), [31.0_wp, 41.0_wp, 51.0_wp, 7.0_wp], closed, &
+         & "values stay in place")
+      call suite%close_to(state%before%memory(yield)%value(:, 1), [7.0_wp, 7.0_wp, 7.0_wp, 7.0_wp], closed, &
+         & "fresh where the window is new")
    end subroutine moved_window
 
    subroutine other_links(suite)
@@ -104,14 +108,14 @@ contains
       call new_problem(problem)
       call fill(problem, state)
       call link_time_steps(problem, time_link%continue_all, state, error)
-      state%now%tau_c%value = 1.0_wp
+      state%now%memory(yield)%value = 1.0_wp
       call link_time_steps(problem, time_link%repeat_step, state, error)
-      call suite%close_to(state%before%tau_c%value(1, 2), 22.0_wp, closed, "a repeated step keeps the previous moment")
+      call suite%close_to(state%before%memory(yield)%value(1, 2), 22.0_wp, closed, "a repeated step keeps the previous moment")
       call link_time_steps(problem, time_link%continue_normal, state, error)
-      call suite%close_to(state%before%tau_c%value(1, 2), 7.0_wp, closed, "fresh material when only pressures go on")
+      call suite%close_to(state%before%memory(yield)%value(1, 2), 7.0_wp, closed, "fresh material when only pressures go on")
       problem%remembers_yield = .false.
       call link_time_steps(problem, time_link%continue_all, state, error)
-      call suite%check(.not. allocated(state%before%tau_c%value) .and. .not. allocated(state%now%tau_c%value), &
+      call suite%check(.not. allocated(state%before%memory(yield)%value) .and. .not. allocated(state%now%memory(yield)%value), &
          & "nothing is carried along that no effect asks for")
    end subroutine other_links
 end program test_moments
