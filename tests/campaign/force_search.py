@@ -193,8 +193,11 @@ def find_force(program, folder, d, found):
     def forces(heights):
         run = Run(program, folder, "heights", input_text(d, heights, vpitch))
         answer = [totals(case).get("fz_tr", math.nan) if case["solved"] else math.nan for case in run.cases]
+        for k, case in enumerate(run.cases):
+            normal[heights[k]] = sum(totals(patch)["fn"] for patch in case["patches"]) if case["solved"] else math.nan
         return np.array(answer + [math.nan]*(len(heights) - len(answer)))
 
+    normal, carried = {}, None  # normal forces by height; a height at which friction carries the wheel
     pens = np.geomspace(1e-6, 8.0, 48)
     z = touch + pens
     f = forces(z) - d["fz"]
@@ -204,21 +207,30 @@ def find_force(program, folder, d, found):
         if not (np.isfinite(f[i:i + 2]).all() and f[i]*f[i + 1] <= 0):
             continue
         low, high, fl, fh = z[i], z[i + 1], f[i], f[i + 1]
+        wedged = False
         for _ in range(8):
             inner = np.linspace(low, high, 12)
             g = np.concatenate(([fl], forces(inner[1:-1]) - d["fz"], [fh]))
             if not np.isfinite(g).all():
                 break
-            best = min(best, np.abs(g).min())
+            best = np.nanmin([best, np.abs(g).min()])
             if best <= STEPS*d["fz"]:
-                return "there", inner[np.abs(g).argmin()], best
+                here = inner[np.abs(g).argmin()]
+                if STEPS*normal[here] <= d["fz"]:
+                    return "there", here, best
+                # wedged between flanks: what is left of the normal forces is less than what their steps can tell
+                carried, best, wedged = here, math.nan, True
+                break
             k = next(j for j in range(11) if g[j]*g[j + 1] <= 0)
             low, high, fl, fh = inner[k], inner[k + 1], g[k], g[k + 1]
             if high - low < 1e-9:
                 break
-        jump = (low, fl + d["fz"], fh + d["fz"])
+        if not wedged:
+            jump = (low, fl + d["fz"], fh + d["fz"])
     if jump:
         return "jump", jump[0], jump[1:]
+    if carried:
+        return "friction carries", carried, math.nan
     return "not there", None, best
 
 

@@ -203,7 +203,8 @@ def places(scene, case, placed, record, totals, patches, findings):
     if placed.rail.slices or placed.wheel.slices:
         slack += geometry1.SLICED * (1.0 + min(steep, 20.0))
     by_rows = digits["D"] not in (5, 6) and not placed.wheel.slices
-    regions = [region for region in placed.regions(depth, by_rows) if region["depth"] > 1e-3 * depth]
+    every = placed.regions(depth, by_rows)
+    regions = [region for region in every if region["depth"] > 1e-3 * depth]
     if not regions:
         return
     deepest = max(regions, key=lambda region: region["depth"])
@@ -233,7 +234,7 @@ def places(scene, case, placed, record, totals, patches, findings):
         judge.exceeds(findings, "places", "approach beyond the overlap", patch["pen"] - depth * math.cos(patch["deltcp_tr"]),
                       (0.05 + 0.5 * region["bend"]) * depth + slack)
     elif not placed.wheel.slices and all(distance > 1.5 * max(2 * d_sep - d_comb, d_sep) for distance in apart) \
-            and all(region["depth"] > 0.05 * depth for region in regions):
+            and all(region["depth"] > 0.05 * depth for region in every):
         judge.exceeds(findings, "places", "number of patches", abs(len(patches) - len(regions)), 0)
 
 
