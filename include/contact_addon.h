@@ -149,7 +149,7 @@ void cntc_settangentialforces(const int *ire, const int *icp, const double *fx, 
 
 /* Take the settings of wheel and rail from the first case of an input file.
  *   inp_type: CNTC_inp_modul1 or CNTC_inp_spck
- *   c_fname: name of the file
+ *   c_fname: name of the file; with CNTC_inp_modul1 .inp or .toml, the readable format
  *   ierror: 0, or a negative code CNTC_err_* */
 void cntc_readinpfile(const int *ire, const int *inp_type, const char *c_fname,
                       const int *len_fname, int *ierror);

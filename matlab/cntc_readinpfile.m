@@ -5,7 +5,7 @@ function [ ierror ] = cntc_readinpfile( ire, inp_type, fname )
 %
 %   ire       result element of a wheel-rail problem (default 1)
 %   inp_type  CNTC.inp_modul1 or CNTC.inp_spck
-%   fname     name of the file
+%   fname     name of the file; with CNTC.inp_modul1 .inp or .toml, the readable format
 %   ierror    0, or a negative code CNTC.err_*
 %
 % Made by src/capi/make_interface.py from src/capi/interface.txt; change those.

@@ -5,7 +5,6 @@ module contact_capi_calculate1
    use contact_base_error, only : error_kind, error_type, fatal_error, full_text
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
-   use contact_capi_calculate3, only : first_problem
    use contact_capi_files, only : find_result_file, find_working_folder
    use contact_capi_input_dump, only : dump_wheel_rail_case
    use contact_capi_library, only : entry_type
@@ -171,7 +170,7 @@ contains
       words%digits = digits
       call refuse_unbuilt_digits(words, 1, spec, problems)
       call check_physics(words, spec, problems)
-      call first_problem(problems, error)
+      call problems%first_failure(error)
    end subroutine check_settings
 
    !> Printed output and the files with all elements

@@ -19,7 +19,7 @@ module contact_capi_calculate3
    use contact_input_control, only : check_physics, control_words, refuse_unbuilt_digits
    use contact_input_grid_frame, only : frame_of, grid_frame
    use contact_input_file_reader, only : file_reader
-   use contact_input_problems, only : problem_list, severity
+   use contact_input_problems, only : problem_list
    use contact_output_mat_file, only : mat_place, write_mat_file
    use contact_output_report, only : write_case
    use contact_patch_border, only : border_elements
@@ -28,7 +28,7 @@ module contact_capi_calculate3
    implicit none (type, external)
    private
 
-   public :: finish_contact, first_problem, solve_contact
+   public :: finish_contact, solve_contact
 
 contains
 
@@ -114,7 +114,7 @@ contains
       call check_physics(words, spec, problems)
       call check_case(words, nowhere, spec, .false., grid_frame(), spec, problems)
       call refuse_unbuilt_digits(words, 3, spec, problems)
-      call first_problem(problems, error)
+      call problems%first_failure(error)
    end subroutine check_settings
 
    !> Influence coefficients that are kept (C = 0) are for elements of the same size, and for no more of them
@@ -138,19 +138,6 @@ contains
             & call fatal_error(error, "the elements differ in size from those of the influence coefficients that are kept (C = 0)")
       end if
    end subroutine check_coefficients
-
-   !> The first problem that is not a warning, as an error
-   subroutine first_problem(problems, error)
-      type(problem_list), intent(in) :: problems
-      type(error_type), allocatable, intent(out) :: error
-      integer :: k
-
-      do k = 1, problems%count
-         if (problems%items(k)%severity == severity%warning) cycle
-         call fatal_error(error, problems%items(k)%what%message, problems%items(k)%what%kind)
-         return
-      end do
-   end subroutine first_problem
 
    !> Does the grid of a case that was refused go with the one of the previous case?
    pure logical function continues(problem)

@@ -2,6 +2,7 @@
  * caller gets an error, whatever the thread held is given back, and the library can be used on */
 #include <omp.h>
 #include "door.h"
+#include "../../include/contact.h"
 
 int contact_guard(void (*work)(void *), void *data, int owner);
 void contact_make_setting(const char *name, const char *kinds, void **arguments);
@@ -63,11 +64,18 @@ void contact_call(const struct door *door, void **arguments) {
   contact_guard(report, &failure, 0);
 }
 
+int contact_run_with(const char *experiment, int mode, const char *output_dir, int threads, int outputs, char *message,
+                     int message_length) {
+  return contact_run_limited(experiment, mode, output_dir, threads, outputs, 0, 0.0, 0.0, 0.0, message, message_length);
+}
+
+int contact_run(const char *experiment, int mode, const char *output_dir, int threads, char *message, int message_length) {
+  return contact_run_with(experiment, mode, output_dir, threads, 0, message, message_length);
+}
+
 /* The two questions that are functions */
 int inside_contact_last_error(int ire, int icp, char *message, int length);
-int contact_last_error(int ire, int icp, char *message, int length);
 int inside_contact_case_status(int ire, int icp, int *iteration, char *message, int length);
-int contact_case_status(int ire, int icp, int *iteration, char *message, int length);
 
 struct question {
   int ire, icp, *iteration;

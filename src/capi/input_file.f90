@@ -3,7 +3,6 @@ module contact_capi_input_file
    use, intrinsic :: iso_c_binding, only : c_char, c_int
    use contact_base_error, only : error_type, fatal_error, full_text
    use contact_capi_arguments, only : give, integer_of, path_of
-   use contact_capi_calculate3, only : first_problem
    use contact_capi_files, only : find_working_folder
    use contact_capi_library, only : entry_type
    use contact_capi_messages, only : complain, say
@@ -11,9 +10,9 @@ module contact_capi_input_file
    use contact_capi_profiles, only : read_given_profile
    use contact_capi_registry, only : enter, leave, scope
    use contact_cases_spec, only : case_spec
-   use contact_control_digits, only : case_digits, digit_value
+   use contact_control_digits, only : case_digits, digit_value, put_digit
    use contact_control_library_codes, only : input_type, library_code
-   use contact_input_experiment_file, only : experiment_reader, input_case
+   use contact_input_experiment_file, only : experiment_reader, input_case, is_readable_format
    use contact_input_problems, only : problem_list
    use contact_input_reader, only : read_case
    use contact_profile_request, only : profile_side
@@ -25,8 +24,9 @@ module contact_capi_input_file
 
    public :: cntc_readinpfile
 
-   !> Digits that a file of Simpack does not change
-   character(len=2), parameter :: kept_digits(*) = [character(len=2) :: "P", "N", "F", "H", "S"]
+   !> Digits that a file of Simpack does not change; the first ones are told when they differ
+   character(len=2), parameter :: kept_digits(*) = [character(len=2) :: "P", "N", "F", "H", "S", "C1", "I"]
+   integer, parameter :: told = 5
 
 contains
 
@@ -85,7 +85,7 @@ contains
          call fatal_error(error, "the file must start with a case of module 1, wheel and rail", file=file)
          return
       end if
-      call first_problem(first%problems, error)
+      call first%problems%first_failure(error)
       if (allocated(error)) return
       call adopt(this, file, first%digits, first%spec, problem)
    end subroutine take_first_case
@@ -98,11 +98,14 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(case_spec) :: spec, previous
       type(problem_list) :: problems
-      type(case_digits) :: kept, found
+      type(case_digits) :: found
       character(len=:), allocatable :: name
-      integer :: k
+      integer :: k, digit
 
-      kept = problem%digits
+      if (is_readable_format(file)) then
+         call fatal_error(error, "a file of the Simpack user routine cannot be in the readable format; .inp files can", file=file)
+         return
+      end if
       previous = problem%spec
       previous%wheel_rail%wheelset = problem%stored%wheelset
       ! once for the digits, so that nothing seems to change against the previous case, and once for the values
@@ -112,7 +115,7 @@ contains
       previous%wheel_rail%roller = spec%wheel_rail%roller
       previous%normal = spec%normal
       call read_simpack_case(file, previous, spec, found, problems, error)
-      if (.not. allocated(error)) call first_problem(problems, error)
+      if (.not. allocated(error)) call problems%first_failure(error)
       if (allocated(error)) return
       if (all(found%z /= [0, 3]) .or. all(found%e /= [0, 3])) then
          call fatal_error(error, "the digits Z and E must be 0 or 3, they are " // integer_text(found%z) // " and " // &
@@ -121,17 +124,12 @@ contains
       end if
       do k = 1, size(kept_digits)
          name = trim(kept_digits(k))
-         if (digit_value(found, name) /= digit_value(kept, name)) call complain(this, "the digit " // name // " = " // &
-            & integer_text(digit_value(found, name)) // " of the file is not used, it stays " // &
-            & integer_text(digit_value(kept, name)), library_code%success)
+         digit = digit_value(problem%digits, name)
+         if (digit_value(found, name) /= digit .and. k <= told) call complain(this, "the digit " // name // " = " // &
+            & integer_text(digit_value(found, name)) // " of the file is not used, it stays " // integer_text(digit), &
+            & library_code%success)
+         call put_digit(found, name, digit)
       end do
-      found%c1 = kept%c1
-      found%p = kept%p
-      found%n = kept%n
-      found%f = kept%f
-      found%h = kept%h
-      found%s = kept%s
-      found%i = kept%i
       call adopt(this, file, found, spec, problem)
    end subroutine take_simpack_file
 

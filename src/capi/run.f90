@@ -1,6 +1,6 @@
-!> The C interface: an experiment run by a host program, see include/contact.h
+!> The C interface: an experiment run by a host program, the two formats of input, an experiment in words; see include/contact.h
 module contact_capi_run
-   use, intrinsic :: iso_c_binding, only : c_associated, c_char, c_double, c_f_pointer, c_int, c_loc, c_ptr, c_size_t
+   use, intrinsic :: iso_c_binding, only : c_associated, c_char, c_double, c_f_pointer, c_int, c_loc, c_null_ptr, c_ptr, c_size_t
    use contact_base_choices, only : heat_source
    use contact_base_error, only : error_kind, error_type, fatal_error, full_text
    use contact_base_guard, only : do_guarded, end_text, guard_end
@@ -8,11 +8,14 @@ module contact_capi_run
    use contact_base_limits, only : case_limits, fill_limits
    use contact_capi_arguments, only : give_message
    use contact_capi_host, only : give_floats_back, hold_floats
+   use contact_experiment_convert, only : convert_experiment
+   use contact_experiment_explain, only : explain_experiment
    use contact_experiment_run, only : run_experiment, run_settings
+   use contact_text_buffer, only : text_buffer
    implicit none (type, external)
    private
 
-   public :: contact_run, contact_run_limited, contact_run_with, take_text
+   public :: contact_run_limited, contact_convert_experiment, contact_explain_experiment
 
    !> What a host may ask for, as in the header
    integer(c_int), parameter :: mode_run = 2, mode_check = 3
@@ -22,17 +25,26 @@ module contact_capi_run
    !> Failures by their cause start here, so that 1 stays free for a wrong call
    integer(c_int), parameter :: wrong_call = 1, first_failure = 10
 
-   !> A call of contact_run_limited
-   type :: run_request
-      type(c_ptr) :: experiment
-      integer(c_int) :: mode
-      type(c_ptr) :: output_dir
-      integer(c_int) :: threads, outputs, strict
-      real(c_double) :: seconds, megabytes, elements
-      type(c_ptr) :: message
-      integer(c_int) :: message_length
+   !> What a call is for
+   integer, parameter :: to_run = 1, to_convert = 2, to_explain = 3
+
+   !> A call
+   type :: request_type
+      !> to_run, to_convert or to_explain
+      integer :: task
+      !> Names of the experiment and of the folder of its results, null-terminated; the latter may be null
+      type(c_ptr) :: experiment, folder = c_null_ptr
+      !> Of runs, as for contact_run_limited
+      integer(c_int) :: mode = mode_run, threads = 0, outputs = 0
+      logical :: strict = .false.
+      real(c_double) :: limits(3) = 0.0_c_double
+      !> Convert: is a file replaced that is there?
+      logical :: overwrite = .false.
+      !> Buffer of what is told, null if not wanted, its size, and the size that the whole text needs
+      type(c_ptr) :: text = c_null_ptr
+      integer(c_int) :: length = 0, needed = 0
       integer(c_int) :: status = 0
-   end type run_request
+   end type request_type
 
    interface
       !> Length of a null-terminated text
@@ -44,38 +56,6 @@ module contact_capi_run
    end interface
 
 contains
-
-   !> Run or check one experiment silently, with the usual files
-   function contact_run(experiment, mode, output_dir, threads, message, message_length) result(status) &
-      & bind(c, name="contact_run")
-      !> As for contact_run_with
-      type(c_ptr), value :: experiment
-      integer(c_int), value :: mode
-      type(c_ptr), value :: output_dir
-      integer(c_int), value :: threads
-      type(c_ptr), value :: message
-      integer(c_int), value :: message_length
-      integer(c_int) :: status
-
-      status = contact_run_with(experiment, mode, output_dir, threads, 0_c_int, message, message_length)
-   end function contact_run
-
-   !> Run or check one experiment silently, without limits
-   function contact_run_with(experiment, mode, output_dir, threads, outputs, message, message_length) result(status) &
-      & bind(c, name="contact_run_with")
-      !> As for contact_run_limited
-      type(c_ptr), value :: experiment
-      integer(c_int), value :: mode
-      type(c_ptr), value :: output_dir
-      integer(c_int), value :: threads
-      integer(c_int), value :: outputs
-      type(c_ptr), value :: message
-      integer(c_int), value :: message_length
-      integer(c_int) :: status
-
-      status = contact_run_limited(experiment, mode, output_dir, threads, outputs, 0_c_int, 0.0_c_double, 0.0_c_double, &
-         & 0.0_c_double, message, message_length)
-   end function contact_run_with
 
    !> Run or check one experiment silently
    !>
@@ -99,117 +79,175 @@ contains
       type(c_ptr), value :: message
       integer(c_int), value :: message_length
       integer(c_int) :: status
-      type(run_request), target :: request
-      integer :: cause
+      type(request_type), target :: request
 
-      request = run_request(experiment, mode, output_dir, threads, outputs, strict, seconds, megabytes, elements, message, &
-         & message_length)
-      call do_guarded(run_request_inside, c_loc(request), 0, cause)
+      request = request_type(to_run, experiment, output_dir, mode, threads, outputs, strict /= 0_c_int, &
+         & [seconds, megabytes, elements], text=message, length=message_length)
+      call do_request(request)
       status = request%status
-      if (cause == guard_end%done) return
-      call give_floats_back()
-      status = first_failure + int(error_kind%memory, c_int)
-      call do_guarded(tell_want_of_memory, c_loc(request), 0, cause)
    end function contact_run_limited
 
-   !> Why a run was left
-   subroutine tell_want_of_memory(data) bind(c)
-      !> A run_request
-      type(c_ptr), value :: data
-      type(run_request), pointer :: request
+   !> Write an experiment in the other format
+   function contact_convert_experiment(experiment, output_dir, overwrite, message, message_length) result(status) &
+      & bind(c, name="contact_convert_experiment")
+      !> Path of the experiment, folder of the new file, null-terminated; the folder may be null
+      type(c_ptr), value :: experiment, output_dir
+      !> Not 0: replace a file that is there
+      integer(c_int), value :: overwrite
+      !> Buffer of what is told, null if not wanted, and its size
+      type(c_ptr), value :: message
+      integer(c_int), value :: message_length
+      integer(c_int) :: status
+      type(request_type), target :: request
 
-      call c_f_pointer(data, request)
-      call give_message(trim(end_text(guard_end%no_memory)) // " for the run", request%message, request%message_length)
-   end subroutine tell_want_of_memory
+      request = request_type(to_convert, experiment, output_dir, overwrite=overwrite /= 0_c_int, text=message, &
+         & length=message_length)
+      call do_request(request)
+      status = request%status
+   end function contact_convert_experiment
 
-   !> Run what a request says
-   subroutine run_request_inside(data) bind(c)
-      !> A run_request
-      type(c_ptr), value :: data
-      type(run_request), pointer :: request
+   !> Tell an experiment in words
+   function contact_explain_experiment(experiment, text, text_length, needed) result(status) &
+      & bind(c, name="contact_explain_experiment")
+      !> Path of the experiment, null-terminated
+      type(c_ptr), value :: experiment
+      !> Buffer of the words, null if not wanted, and its size
+      type(c_ptr), value :: text
+      integer(c_int), value :: text_length
+      !> Size that the whole text needs
+      integer(c_int), intent(out), optional :: needed
+      integer(c_int) :: status
+      type(request_type), target :: request
 
-      call c_f_pointer(data, request)
-      associate (r => request)
-         call run_unguarded(r%experiment, r%mode, r%output_dir, r%threads, r%outputs, r%strict, r%seconds, r%megabytes, &
-            & r%elements, r%message, r%message_length, r%status)
-      end associate
-   end subroutine run_request_inside
+      request = request_type(to_explain, experiment, text=text, length=text_length)
+      call do_request(request)
+      if (present(needed)) needed = request%needed
+      status = request%status
+   end function contact_explain_experiment
 
-   !> The run itself
-   subroutine run_unguarded(experiment, mode, output_dir, threads, outputs, strict, seconds, megabytes, elements, message, &
-      & message_length, status)
-      !> As for contact_run_limited
-      type(c_ptr), intent(in) :: experiment, output_dir, message
-      integer(c_int), intent(in) :: mode, threads, outputs, strict, message_length
-      real(c_double), intent(in) :: seconds, megabytes, elements
-      integer(c_int), intent(out) :: status
-      type(run_settings) :: settings
-      type(error_type), allocatable :: error
+   !> Do what is asked for, and survive want of memory
+   subroutine do_request(request)
+      type(request_type), intent(inout), target :: request
+      integer :: cause
 
       ! before the first comparison: a limit that is not a number must not stop a host that traps invalid operations
       call hold_floats()
-      call take_text(experiment, settings%experiment)
-      call take_text(output_dir, settings%output_folder)
-      settings%check_only = mode == mode_check
-      settings%threads = int(threads)
-      settings%strict = strict /= 0_c_int
-      if (btest(outputs, json_bit)) settings%exports%json = ""
-      settings%exports%hdf5 = btest(outputs, hdf5_bit)
-      settings%exports%vtk = btest(outputs, vtk_bit)
-      if (btest(outputs, heat_bit)) settings%heat_source = heat_source%moving
-      if (btest(outputs, angle_bit)) settings%angle_below_axle = .false.
-      settings%limits%confined = btest(outputs, confine_bit)
-      if (len_trim(settings%experiment) == 0) then
-         call fatal_error(error, "contact_run: the name of the experiment is missing")
-      else if (mode /= mode_run .and. mode /= mode_check) then
-         call fatal_error(error, "contact_run: the mode is neither CONTACT_RUN nor CONTACT_CHECK")
-      else if (threads < 0) then
-         call fatal_error(error, "contact_run: the number of threads is negative")
-      else if (outputs < 0 .or. outputs > all_outputs) then
-         call fatal_error(error, "contact_run_with: the outputs are not a sum of CONTACT_WRITE_JSON, _HDF5, _VTK, " // &
-            & "CONTACT_MOVING_HEAT, CONTACT_ANGLE_AT_CONTACT and CONTACT_CONFINE")
-      else
-         call set_limits(settings%limits, error)
-      end if
-      if (settings%limits%confined) call fill_limits(settings%limits, settings%run_deadline%seconds, settings%output_bytes)
-      status = 0
-      if (allocated(error)) then
-         status = wrong_call
-      else
-         call run_experiment(settings, error)
-         if (allocated(error)) status = first_failure + int(error%kind, c_int)
-      end if
-      if (allocated(error)) then
-         call give_message(full_text(error), message, message_length)
-      else
-         call give_message("", message, message_length)
+      call do_guarded(do_inside, c_loc(request), 0, cause)
+      if (cause /= guard_end%done) then
+         request%status = first_failure + int(error_kind%memory, c_int)
+         call do_guarded(tell_want_of_memory, c_loc(request), 0, cause)
       end if
       call give_floats_back()
+   end subroutine do_request
 
-   contains
+   !> Why a request was left
+   subroutine tell_want_of_memory(data) bind(c)
+      !> A request_type
+      type(c_ptr), value :: data
+      type(request_type), pointer :: request
 
-      !> The limits of the caller, or an error about the first that cannot be one
-      subroutine set_limits(limits, problem)
-         type(case_limits), intent(inout) :: limits
-         type(error_type), allocatable, intent(out) :: problem
-         character(len=*), parameter :: names(3) = [character(len=9) :: "seconds", "megabytes", "elements"]
-         real(c_double) :: asked(3)
-         character(len=16) :: text
-         integer :: k
+      call c_f_pointer(data, request)
+      if (request%task == to_run) then
+         call give_message(trim(end_text(guard_end%no_memory)) // " for the run", request%text, request%length)
+      else
+         call give_message(trim(end_text(guard_end%no_memory)), request%text, request%length)
+      end if
+   end subroutine tell_want_of_memory
 
-         asked = [seconds, megabytes, elements]
-         do k = 1, size(asked)
-            if (asked(k) >= 0.0_c_double .and. asked(k) < 1.0e12_c_double) cycle
-            write(text, "(G0.6)") asked(k)
-            call fatal_error(problem, "contact_run_limited: " // trim(names(k)) // " is " // trim(text) // &
-               & ", not a limit from 0 to below 1e12; 0 stands for none")
-            return
-         end do
-         if (seconds > 0.0_c_double) limits%deadline%seconds = seconds
-         if (megabytes > 0.0_c_double) limits%bytes = int(1.0e6_c_double*megabytes, long)
-         if (elements > 0.0_c_double) limits%elements = int(elements, long)
-      end subroutine set_limits
-   end subroutine run_unguarded
+   !> Do what is asked for
+   recursive subroutine do_inside(data) bind(c)
+      !> A request_type
+      type(c_ptr), value :: data
+      type(request_type), pointer :: request
+      type(error_type), allocatable :: error
+      type(text_buffer) :: told
+      character(len=:), allocatable :: experiment, folder, output, text
+
+      call c_f_pointer(data, request)
+      call take_text(request%experiment, experiment)
+      call take_text(request%folder, folder)
+      if (request%task == to_run) then
+         call run(request, experiment, folder, error)
+      else if (len_trim(experiment) == 0) then
+         call fatal_error(error, "the name of the experiment is missing")
+         request%status = wrong_call
+      else if (request%task == to_explain) then
+         call explain_experiment(experiment, told, error)
+      else
+         call convert_experiment(experiment, folder, request%overwrite, told, output, error)
+      end if
+      if (allocated(error)) then
+         call told%add(full_text(error))
+         if (request%task /= to_run) call told%add(new_line("a"))
+         if (request%status == 0) request%status = first_failure + int(error%kind, c_int)
+      end if
+      call told%get(text)
+      request%needed = int(len(text), c_int) + 1_c_int
+      call give_message(text, request%text, request%length)
+   end subroutine do_inside
+
+   !> Run or check an experiment
+   subroutine run(request, experiment, folder, error)
+      type(request_type), intent(inout) :: request
+      !> Names, the latter "" for the folder of the input
+      character(len=*), intent(in) :: experiment, folder
+      type(error_type), allocatable, intent(out) :: error
+      type(run_settings) :: settings
+
+      settings%experiment = experiment
+      settings%output_folder = folder
+      settings%check_only = request%mode == mode_check
+      settings%threads = int(request%threads)
+      settings%strict = request%strict
+      associate (outputs => request%outputs)
+         if (btest(outputs, json_bit)) settings%exports%json = ""
+         settings%exports%hdf5 = btest(outputs, hdf5_bit)
+         settings%exports%vtk = btest(outputs, vtk_bit)
+         if (btest(outputs, heat_bit)) settings%heat_source = heat_source%moving
+         if (btest(outputs, angle_bit)) settings%angle_below_axle = .false.
+         settings%limits%confined = btest(outputs, confine_bit)
+         if (len_trim(experiment) == 0) then
+            call fatal_error(error, "contact_run: the name of the experiment is missing")
+         else if (request%mode /= mode_run .and. request%mode /= mode_check) then
+            call fatal_error(error, "contact_run: the mode is neither CONTACT_RUN nor CONTACT_CHECK")
+         else if (request%threads < 0) then
+            call fatal_error(error, "contact_run: the number of threads is negative")
+         else if (outputs < 0 .or. outputs > all_outputs) then
+            call fatal_error(error, "contact_run_with: the outputs are not a sum of CONTACT_WRITE_JSON, _HDF5, _VTK, " // &
+               & "CONTACT_MOVING_HEAT, CONTACT_ANGLE_AT_CONTACT and CONTACT_CONFINE")
+         else
+            call set_limits(request%limits, settings%limits, error)
+         end if
+      end associate
+      if (allocated(error)) then
+         request%status = wrong_call
+      else
+         if (settings%limits%confined) call fill_limits(settings%limits, settings%run_deadline%seconds, settings%output_bytes)
+         call run_experiment(settings, error)
+      end if
+   end subroutine run
+
+   !> The limits of the caller, or an error about the first that cannot be one
+   subroutine set_limits(asked, limits, error)
+      !> Time [s], memory [MB], number of elements; 0 for none
+      real(c_double), intent(in) :: asked(3)
+      type(case_limits), intent(inout) :: limits
+      type(error_type), allocatable, intent(out) :: error
+      character(len=*), parameter :: names(3) = [character(len=9) :: "seconds", "megabytes", "elements"]
+      character(len=16) :: text
+      integer :: k
+
+      do k = 1, size(asked)
+         if (asked(k) >= 0.0_c_double .and. asked(k) < 1.0e12_c_double) cycle
+         write(text, "(G0.6)") asked(k)
+         call fatal_error(error, "contact_run_limited: " // trim(names(k)) // " is " // trim(text) // &
+            & ", not a limit from 0 to below 1e12; 0 stands for none")
+         return
+      end do
+      if (asked(1) > 0.0_c_double) limits%deadline%seconds = asked(1)
+      if (asked(2) > 0.0_c_double) limits%bytes = int(1.0e6_c_double*asked(2), long)
+      if (asked(3) > 0.0_c_double) limits%elements = int(asked(3), long)
+   end subroutine set_limits
 
    !> A null-terminated text as a Fortran one, "" for a null pointer
    subroutine take_text(pointer, text)

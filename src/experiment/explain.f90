@@ -47,9 +47,8 @@ contains
          end if
          do k = 1, this%problems%count
             call told%add_line("  " // problem_text(this%problems%items(k)))
-            if (this%problems%items(k)%severity /= severity%warning .and. .not. allocated(error)) &
-               & error = this%problems%items(k)%what
          end do
+         call this%problems%first_failure(error)
          if (allocated(error)) exit
       end do
    end subroutine explain_experiment

@@ -33,13 +33,14 @@ module contact_input_problems
    type :: problem_list
       integer :: count = 0
       type(input_problem), allocatable :: items(:)
-      !> Name of the input file
+      !> Name of the input file, "" when there is none
       character(len=:), allocatable :: file
    contains
       procedure :: start
       procedure :: add
       procedure :: number_of
       procedure :: is_usable
+      procedure :: first_failure
       procedure :: check_bounds
    end type problem_list
 
@@ -78,7 +79,7 @@ contains
          item%what%kind = error_kind%input
          if (kind == severity%unsupported) item%what%kind = error_kind%unsupported
          item%what%message = message
-         item%what%file = self%file
+         if (len(self%file) > 0) item%what%file = self%file
          item%what%line = line
          if (present(column)) item%what%column = column
       end associate
@@ -100,6 +101,19 @@ contains
 
       is_usable = self%number_of(severity%error) == 0 .and. self%number_of(severity%unsupported) == 0
    end function is_usable
+
+   !> The first problem that is not a warning, as an error
+   subroutine first_failure(self, error)
+      class(problem_list), intent(in) :: self
+      type(error_type), allocatable, intent(out) :: error
+      integer :: k
+
+      do k = 1, self%count
+         if (self%items(k)%severity == severity%warning) cycle
+         error = self%items(k)%what
+         return
+      end do
+   end subroutine first_failure
 
    !> A number must keep its bounds
    subroutine check_bounds(self, value, name)

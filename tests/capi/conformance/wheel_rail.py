@@ -511,6 +511,20 @@ def from_inputs():
         forces = cntc.getglobalforces(ire, -1)
         printed = program_forces(name)[0]
         close(forces[[0, 1, 2]], printed, 5.1e-4 * np.abs(printed), f"{label}: forces to the printed digits")
+        if os.path.isfile(name + ".toml"):
+            other = 100 + ire
+            cntc.initialize(other, 1)
+            same(cntc.readinpfile(other, CNTC["inp_modul1"], name + ".toml"), 0, f"{label}: the readable format")
+            same(cntc.calculate(other, -1), 0, f"{label}: error code of the readable format")
+            same(list(cntc.getglobalforces(other, -1)), list(forces), f"{label}: forces of the readable format")
+    for name, kind, reason in (("cattaneo", "inp_modul1", "module 1"), ("roller_rig", "inp_spck", "readable format")):
+        same(cntc.readinpfile(1, CNTC[kind], os.path.join(SOURCE, "examples", name + ".toml")), CNTC["err_input"], name)
+        check(reason in last_error(1, -1)[1], f"{name}.toml is refused by name")
+    with open("wrong.toml", "w", encoding="utf-8") as file, \
+            open(os.path.join(SOURCE, "examples/wheel_on_rail.toml"), encoding="utf-8") as right:
+        file.write(right.read().replace("cant = 0.025", "cant = 25.0", 1))
+    same(cntc.readinpfile(1, CNTC["inp_modul1"], "wrong.toml"), CNTC["err_input"], "a cant of 25 rad")
+    check(re.search(r"wrong.toml:\d+:\d+: cant = 25.0 is above", last_error(1, -1)[1]), "a cant of 25 rad is told with its place")
     same(cntc.readinpfile(1, CNTC["inp_modul1"], "no_such_file.inp"), CNTC["err_input"], "a file that is not there")
     same(cntc.readinpfile(1, CNTC["inp_vamp"], "no_such_file.inp"), CNTC["err_input"], "a kind that is not there")
 
