@@ -124,8 +124,14 @@ contains
       integer, intent(in) :: code, number
       type(library_problem), intent(inout) :: problem
       logical :: known, is_wheel_rail
+      integer, pointer :: place
 
       is_wheel_rail = problem%module_number == 1
+      place => place_of(problem, code)
+      if (associated(place)) place = number
+      if (code == flag%npomax .and. .not. is_wheel_rail) call say(0, this, &
+         & "the number of elements is limited for wheel and rail only, the flag is ignored")
+      if (associated(place)) return
       associate (spec => problem%spec)
          select case (code)
          case (flag%units)
@@ -155,24 +161,6 @@ contains
             else
                problem%digits%f = number
             end if
-         case (flag%sens)
-            spec%iteration%sensitivity = number
-         case (flag%ifmeth)
-            spec%material%if_meth = number
-         case (flag%ifvari)
-            spec%material%variant = number
-         case (flag%sbsout)
-            spec%subsurface%output = number
-         case (flag%sbsfil)
-            spec%subsurface%matfil = number
-         case (flag%npomax)
-            spec%iteration%npot_max = number
-            if (.not. is_wheel_rail) call say(0, this, &
-               & "the number of elements is limited for wheel and rail only, the flag is ignored")
-         case (flag%wrtinp)
-            problem%write_input = number
-         case (flag%own_heat)
-            spec%heat%source = number
          case (flag%own_angle)
             if (is_wheel_rail) spec%wheel_rail%search%angle_below_axle = number == 0
          case (flag%timers)
@@ -193,6 +181,28 @@ contains
          end select
       end associate
    end subroutine store_flag
+
+   !> Where the value of a flag is kept as it is; null for digits and for flags that act in another way
+   function place_of(problem, code) result(place)
+      type(library_problem), intent(inout), target :: problem
+      !> Member of flag
+      integer, intent(in) :: code
+      integer, pointer :: place
+
+      associate (spec => problem%spec)
+         select case (code)
+         case (flag%sens); place => spec%iteration%sensitivity
+         case (flag%ifmeth); place => spec%material%if_meth
+         case (flag%ifvari); place => spec%material%variant
+         case (flag%sbsout); place => spec%subsurface%output
+         case (flag%sbsfil); place => spec%subsurface%matfil
+         case (flag%npomax); place => spec%iteration%npot_max
+         case (flag%wrtinp); place => problem%write_input
+         case (flag%own_heat); place => spec%heat%source
+         case default; nullify(place)
+         end select
+      end associate
+   end function place_of
 
    !> Control digits as they were given; other entries keep their content
    subroutine cntc_getflags(ire, icp, lenflg, params, values) bind(c, name="inside_cntc_getflags")
@@ -225,24 +235,23 @@ contains
 
    !> The value of a flag; a patch of module 1 has some of its own
    integer function flag_value(problem, icp, code) result(number)
-      type(library_problem), intent(in) :: problem
+      type(library_problem), intent(inout) :: problem
       integer, intent(in) :: icp, code
       logical :: is_wheel_rail, is_part
+      integer, pointer :: place
       integer :: other(2)
 
       is_wheel_rail = problem%module_number == 1
       is_part = is_wheel_rail .and. icp > 0
+      place => place_of(problem, code)
+      if (associated(place)) then
+         number = place
+         if (code == flag%npomax .and. .not. is_wheel_rail) number = 0
+         return
+      end if
       associate (spec => problem%spec)
          select case (code)
-         case (flag%sens); number = spec%iteration%sensitivity
-         case (flag%ifmeth); number = spec%material%if_meth
-         case (flag%ifvari); number = spec%material%variant
-         case (flag%sbsout); number = spec%subsurface%output
-         case (flag%sbsfil); number = spec%subsurface%matfil
-         case (flag%npomax); number = merge(spec%iteration%npot_max, 0, is_wheel_rail)
-         case (flag%wrtinp); number = problem%write_input
          case (flag%ncase); number = problem%cases
-         case (flag%own_heat); number = spec%heat%source
          case (flag%own_angle)
             number = 0
             if (is_wheel_rail) number = merge(0, 1, spec%wheel_rail%search%angle_below_axle)

@@ -12,14 +12,14 @@ module contact_capi_profile_values
    use contact_capi_registry, only : enter, leave, scope
    use contact_cases_wheel_rail_session, only : load_profile
    use contact_control_library_codes, only : library_code
-   use contact_control_units, only : orientation, outward, quantity
+   use contact_control_units, only : outward, quantity
    use contact_output_finished_file, only : finished_file
    use contact_profile_curve, only : profile_curve
    use contact_profile_request, only : profile_side
+   use contact_profile_sampling, only : curve_positions, line_point
    use contact_profile_surface, only : profile_surface, surface_cut
    use contact_text_words, only : integer_text
-   use contact_wheelrail_frame, only : frame, new_frame
-   use contact_wheelrail_placement, only : gauge_point
+   use contact_wheelrail_profile_places, only : gauge_places, places_in_track
    use contact_wheelrail_spec, only : profile_spec
    implicit none (type, external)
    private
@@ -29,6 +29,7 @@ module contact_capi_profile_values
    !> What is asked for
    type :: task_list
       integer :: status = -1, count = 0, points = 1, in_track = 2, gauge = 3, arc_length = 4, slope = 5
+      !> Lines as in line_kind, 5 higher; the surface itself
       integer :: along_u = 6, along_v = 7, along_y = 8, dump = 9
    end type task_list
    type(task_list), parameter :: task = task_list()
@@ -47,8 +48,6 @@ module contact_capi_profile_values
    !> Smallest even step [mm]
    real(wp), parameter :: min_step = 1.0e-4_wp
    integer, parameter :: max_parts = 100
-   !> Stands for points that are not there [mm]
-   real(wp), parameter :: no_point_along = 99.0e9_wp, no_point = 999.0_wp
    !> The file of a surface
    character(len=*), parameter :: surface_file = "dump_spl2d.m"
 
@@ -147,20 +146,22 @@ contains
          call give_list([real(library_code%profile, wp)], length, values)
          return
       end if
-      call sample_curve(curve, sample, s)
+      call curve_positions(curve, sample%method, sample%step, s)
       select case (wanted)
       case (task%count)
          call give_list([real(size(s), wp)], length, values)
       case (task%points)
          call give_list([curve%y%value(s), curve%z%value(s)], length, values)
       case (task%in_track)
-         call give_list(track_points(problem, is_wheel, curve%y%value(s), curve%z%value(s)), length, values)
+         call give_list(places_in_track(problem%spec%wheel_rail, problem%wheel_rail_result, is_wheel, curve%y%value(s), &
+            & curve%z%value(s)), length, values)
       case (task%gauge)
          if (is_wheel) then
             call complain(this, "a wheel has no gauge point")
             call give_list([real(library_code%profile, wp)], length, values)
          else
-            call give_list(gauge_values(problem, curve), length, values)
+            call give_list(gauge_places(problem%spec%wheel_rail, problem%wheel_rail_result, curve)* &
+               & outward(problem%units, quantity%length), length, values)
          end if
       case (task%arc_length)
          call give_list(s, length, values)
@@ -208,122 +209,6 @@ contains
       end if
    end subroutine section_of
 
-   !> Arc lengths of the points
-   pure subroutine sample_curve(curve, sample, s)
-      type(profile_curve), intent(in) :: curve
-      type(sampling), intent(in) :: sample
-      real(wp), allocatable, intent(out) :: s(:)
-      integer :: i, k, n
-
-      associate (nodes => curve%y%s)
-         n = size(nodes)
-         select case (sample%method)
-         case (:0)
-            s = nodes
-         case (1)
-            s = [(nodes(1) + i*sample%step, i=0, int((nodes(n) - nodes(1))/sample%step))]
-         case default
-            k = sample%method
-            allocate(s(k*(n - 1) + 1))
-            do i = 0, k - 1
-               s(1 + i:size(s) - 1:k) = nodes(:n - 1) + i*(nodes(2:) - nodes(:n - 1))/k
-            end do
-            s(size(s)) = nodes(n)
-         end select
-      end associate
-   end subroutine sample_curve
-
-   !> Points in the track, where the last calculation has the bodies; all y, then all z [mm]
-   function track_points(problem, is_wheel, y, z) result(list)
-      type(library_problem), intent(in) :: problem
-      logical, intent(in) :: is_wheel
-      real(wp), intent(in) :: y(:), z(:)
-      real(wp) :: list(2*size(y))
-      type(frame) :: body
-      real(wp) :: point(3), side
-      integer :: i
-
-      side = merge(-1.0_wp, 1.0_wp, problem%spec%wheel_rail%left)
-      associate (result => problem%wheel_rail_result)
-         if (is_wheel) then
-            body = new_frame([result%wheel_x, result%wheel_y, result%wheel_z], result%wheel_roll, result%wheel_yaw)
-         else
-            body = new_frame([0.0_wp, result%rail_y, result%rail_z], result%rail_roll, 0.0_wp)
-         end if
-      end associate
-      do i = 1, size(y)
-         point = body%to_parent([0.0_wp, y(i), z(i)])
-         list(i) = side*point(2)
-         list(size(y) + i) = point(3)
-      end do
-   end function track_points
-
-   !> The innermost point within the gauge height: y, z; offsets of the profile in the track: y, z; the point at gauge
-   !> height: y, z
-   function gauge_values(problem, curve) result(list)
-      type(library_problem), intent(in) :: problem
-      type(profile_curve), intent(in) :: curve
-      real(wp) :: list(6)
-      type(profile_curve) :: canted
-      real(wp) :: top_z, gauge_y, side, s_at_height
-
-      associate (track => problem%spec%wheel_rail%track)
-         call gauge_point(curve, track%cant, max(track%gaught, 0.0_wp), top_z, gauge_y)
-         canted = curve%seen_from([0.0_wp, 0.0_wp], track%cant)
-         s_at_height = first_crossing(canted, top_z + max(track%gaught, 0.0_wp))
-         side = merge(-1.0_wp, 1.0_wp, problem%spec%wheel_rail%left)
-         list(1:2) = [gauge_y, height_at(canted, s_at_height, gauge_y)]
-         list(3:4) = [side*problem%wheel_rail_result%rail_y, problem%wheel_rail_result%rail_z]
-         list(5:6) = [canted%y%value(s_at_height), canted%z%value(s_at_height)]
-      end associate
-      list = list*outward(problem%units, quantity%length)
-   end function gauge_values
-
-   !> Arc length at which a rail rises above a height for the first time
-   pure real(wp) function first_crossing(curve, height) result(s)
-      type(profile_curve), intent(in) :: curve
-      real(wp), intent(in) :: height
-      real(wp) :: low, high
-      integer :: i, step
-
-      associate (nodes => curve%z%s)
-         s = nodes(1)
-         do i = 2, size(nodes)
-            if (curve%z%value(nodes(i)) > height) cycle
-            low = nodes(i - 1)
-            high = nodes(i)
-            do step = 1, 60
-               s = 0.5_wp*(low + high)
-               if (curve%z%value(s) <= height) then
-                  high = s
-               else
-                  low = s
-               end if
-            end do
-            return
-         end do
-      end associate
-   end function first_crossing
-
-   !> Height of the point of the gauge face with a given y: where it crosses the gauge height, or the nearest node
-   pure real(wp) function height_at(curve, s_at_height, y) result(z)
-      type(profile_curve), intent(in) :: curve
-      real(wp), intent(in) :: s_at_height, y
-      real(wp) :: distance, nearest
-      integer :: i
-
-      z = curve%z%value(s_at_height)
-      nearest = abs(curve%y%value(s_at_height) - y)
-      associate (nodes => curve%z%s)
-         do i = 1, size(nodes)
-            distance = abs(curve%y%value(nodes(i)) - y)
-            if (nodes(i) < s_at_height .or. distance >= nearest) cycle
-            nearest = distance
-            z = curve%z%value(nodes(i))
-         end do
-      end associate
-   end function height_at
-
    !> Lines on a variable profile: along one of its coordinates u and v, or along the track; or the surface itself
    subroutine answer_along(this, wanted, given, sample, length, values)
       type(entry_type), intent(in) :: this
@@ -357,42 +242,12 @@ contains
          list(i) = range(1) + (i - 1)*sample%step
          if (wanted == task%along_u) list(i) = sample%place
          if (n + i > size(list)) cycle
-         call point_along(wanted, given%surface, sample%place, range(1) + (i - 1)*sample%step, y, z)
+         call line_point(given%surface, 1 + wanted - task%along_u, sample%place, range(1) + (i - 1)*sample%step, y, z)
          list(n + i) = y
          if (2*n + i <= size(list)) list(2*n + i) = z
       end do
       call give_list(list, length, values)
    end subroutine answer_along
-
-   !> One point of a line: at u = place and v = position, v = place and u = position, or y = place and u = position
-   subroutine point_along(wanted, surface, place, position, y, z)
-      integer, intent(in) :: wanted
-      type(profile_surface), intent(in) :: surface
-      real(wp), intent(in) :: place, position
-      !> [mm]; what stands for no point when there is none
-      real(wp), intent(out) :: y, z
-      type(surface_cut) :: section
-      logical :: found
-
-      call surface%cut(merge(place, position, wanted == task%along_u), section)
-      select case (wanted)
-      case (task%along_u)
-         call section%on_line(position, y, z, found)
-         if (found) return
-         y = no_point_along
-         z = no_point_along
-      case (task%along_v)
-         call section%on_line(place, y, z, found)
-         if (found) return
-         y = no_point
-         z = no_point
-      case default
-         y = place
-         z = no_point
-         if (.not. section%present) return
-         if (section%curve%has(place)) z = section%curve%height(place)
-      end select
-   end subroutine point_along
 
    !> The surface as a script of Matlab or Octave, a struct with its knots and coefficients
    subroutine write_surface(this, surface)

@@ -2,9 +2,11 @@
 """Every flag with every value within and around its range: what is stored, what is refused, what a calculation makes of it"""
 import ctypes
 import ctypes.util
+import os
+import re
 
 import numpy as np
-from checks import check, finish, profiles, same
+from checks import SOURCE, check, finish, profiles, same
 from contact import cntc
 from contact._library import call, last_error
 from contact.cntc import CNTC
@@ -29,6 +31,24 @@ def read(ire, icp, name):
 def values_of(low, high):
     near = {low - 100, low - 2, low - 1, low, low + 1, high - 1, high, high + 1, high + 2, high + 100}
     return sorted(near | set(range(low, high + 1)) if high < 100 else near)
+
+
+
+def documents():
+    """The manual names the flags that take another value than the one that is given"""
+    with open(os.path.join(SOURCE, "doc/user/library.md"), encoding="utf-8") as file:
+        told = file.read().split("These flags take the nearest", 1)[1].split("Each time", 1)[0].split(":", 1)[1]
+    near, zero = (re.sub(r", 3 becomes 2", "", part).replace(" and ", ", ").split(",") for part in told.split(";"))
+    with open(os.path.join(SOURCE, "src/capi/interface.txt"), encoding="utf-8") as file:
+        letters = dict(re.findall(r"^CNTC_(ic_\w+) = \d+  ([A-Z]\d?): ", file.read(), re.MULTILINE))
+    # E of module 3 cannot be read, see ranges
+    outside = {name: row[2] for name, row in FLAGS.items()} | {"ic_exrhs": "near"}
+    for words, rule in ((near, "near"), (zero, "zero")):
+        expected = sorted(name for name in outside if outside[name] == rule)
+        found = sorted(name for name in outside for word in words
+                       if f"`{name}`" in word or word.split() == [letters.get(name)])
+        same(found, expected, f"flags that doc/user/library.md names, {rule}")
+        same(len(words), len(expected), f"number of flags in doc/user/library.md, {rule}")
 
 
 def ranges():
@@ -145,6 +165,7 @@ def threads():
     same(call("cntc_getmaxnumthreads"), first + 5, "what there was once stays")
 
 
+documents()
 ranges()
 unknown()
 rollers()
