@@ -6,7 +6,7 @@ module contact_base_choices
    implicit none (type, external)
    private
 
-   public :: time_link, pressure_model, motion, normal_control, force_control, friction_model
+   public :: time_link, pressure_model, motion, normal_control, force_control
    public :: kernel_model, material_model, solver_choice, estimate_choice, slip_source, heat_source, heat_source_name
    public :: variation, contact_location
    public :: sensitivity_choice
@@ -44,12 +44,6 @@ module contact_base_choices
       integer :: longitudinal_force = 1, massless_rail = 3
    end type force_control_list
    type(force_control_list), parameter :: force_control = force_control_list()
-
-   !> Friction law (L)
-   type :: friction_model_list
-      integer :: coulomb = 0, linear = 2, rational = 3, exponential = 4, temperature = 6
-   end type friction_model_list
-   type(friction_model_list), parameter :: friction_model = friction_model_list()
 
    !> Variation of friction over the contact (V)
    type :: variation_list

@@ -1,6 +1,6 @@
 !> Settings that both modules know: solvers, materials, temperatures, friction, rolling
 module contact_capi_physics
-   use contact_base_choices, only : friction_model, material_model, pressure_model, variation
+   use contact_base_choices, only : material_model, pressure_model, variation
    use contact_base_kinds, only : wp
    use contact_capi_messages, only : fits, say
    use contact_capi_problem, only : library_problem
@@ -11,6 +11,7 @@ module contact_capi_physics
    use contact_cases_whole_case, only : quasi_identical
    use contact_control_digits, only : choice_of, digit_of
    use contact_elastic_material, only : combine, combined_material
+   use contact_friction_new_law, only : friction_model, is_friction_law
    use contact_text_words, only : integer_text
    implicit none (type, external)
    private
@@ -169,10 +170,12 @@ contains
       type(library_problem), intent(inout) :: problem
       type(friction_spec) :: friction
       integer :: method, digit, law, varies, n, k
+      logical :: is_known_law
 
       method = max(-1, a%single(1))
       digit = mod(method, 10)
-      if (method < 0 .or. method > 29 .or. digit > 6) then
+      is_known_law = is_friction_law(choice_of("L", digit, problem%module_number))
+      if (method < 0 .or. method > 29 .or. .not. (is_known_law .or. digit == keep .or. digit == polach)) then
          call a%refuse_call("there is no friction method " // integer_text(method))
       else if (method >= 10 .and. problem%module_number /= 1) then
          call a%refuse_call("friction that varies over the rail belongs to wheel and rail, method " // integer_text(method))

@@ -95,7 +95,7 @@ contains
       subroutine add_friction()
          call add(", ")
          if (allocated(problem%friction)) then
-            call add(problem%friction%name)
+            call add(trim(problem%friction%title()))
             if (problem%friction%varies_by_row()) call add(" by row")
             if (problem%friction_memory%acts() .and. problem%remembers_friction) call add(" with memory")
          else

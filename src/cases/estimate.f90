@@ -4,13 +4,14 @@
 !> area in contact, EPS 1e-5, grids of 20 x 20 to 400 x 400 elements, at commit f1ba010 on one core of a server of 2022.
 !> Stresses below the surface count for memory only.
 module contact_cases_estimate
-   use contact_base_choices, only : friction_model, motion, normal_control, solver_choice
+   use contact_base_choices, only : motion, normal_control, solver_choice
    use contact_base_kinds, only : long, wp
    use contact_base_memory, only : bytes_per_element
    use contact_cases_spec, only : case_spec
    use contact_cases_subsurface, only : stress_memory
    use contact_elastic_material, only : combine, combined_material
    use contact_grid_potential_contact, only : potential_contact
+   use contact_friction_new_law, only : is_varying_law
    implicit none (type, external)
    private
 
@@ -79,7 +80,7 @@ contains
          tangential = by_step*n
       end select
       if (spec%solver == solver_choice%convex_gs .and. spec%motion /= motion%none) tangential = by_convex_gs*n**1.5_wp
-      if (spec%friction_law /= friction_model%coulomb) tangential = changing_friction*tangential
+      if (is_varying_law(spec%friction_law)) tangential = changing_friction*tangential
       if (is_dissimilar(spec)) then
          tangential = tangential*min(spec%iteration%maxout, turns)
          cost%seconds = cost%seconds + pressures*n*(min(spec%iteration%maxout, turns) - 1)

@@ -1,19 +1,19 @@
 !> From the specification of a case to its friction law and thermal constants
 module contact_cases_friction_setup
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
-   use contact_base_choices, only : friction_model, motion, variation
+   use contact_base_choices, only : motion, variation
    use contact_base_error, only : error_kind, error_type, fatal_error
    use contact_base_kinds, only : wp
-   use contact_cases_spec, only : case_spec, friction_set, heat_spec
-   use contact_friction_law, only : friction_driver, friction_law, friction_parameters
+   use contact_cases_spec, only : case_spec, heat_spec
+   use contact_friction_law, only : friction_driver, friction_law
    use contact_friction_memory, only : friction_memory
-   use contact_friction_new_law, only : new_friction_law
+   use contact_friction_new_law, only : is_varying_law, new_friction_law
    use contact_patch_problem, only : patch_problem
    use contact_temperature_flash_heating, only : new_body_pair
    implicit none (type, external)
    private
 
-   public :: parameters_of, set_friction, set_thermal, set_of, values_of
+   public :: set_friction, set_thermal
 
 contains
 
@@ -38,12 +38,12 @@ contains
          return
       end if
       by_row = spec%variation == variation%by_row
-      if (spec%friction_law == friction_model%coulomb .and. size(spec%friction%sets) == 1 .and. .not. by_row) return
+      if (.not. is_varying_law(spec%friction_law) .and. size(spec%friction%sets) == 1 .and. .not. by_row) return
       if (size(spec%friction%sets) /= 1 .and. size(spec%friction%sets) /= problem%grid%my) then
          call fatal_error(error, "friction parameters per row were given for another number of rows")
          return
       end if
-      call new_friction_law(spec%friction_law, [parameters_of(spec%friction%sets)], law, error)
+      call new_friction_law(spec%friction_law, spec%friction%sets, law, error)
       if (allocated(error)) return
       ! also for a grid of one row, so that forces do not change their meaning with its size
       if (by_row .or. law%varies_by_row()) problem%mu = 1.0_wp
@@ -51,7 +51,7 @@ contains
       if (spec%iteration%inislp == 0) problem%slip_start = 0
       problem%slip_relaxation = spec%iteration%omgslp
       problem%friction_memory = friction_memory(spec%friction%memdst, spec%friction%mem_s0)
-      if (law%driver /= friction_driver%none) then
+      if (law%driver() /= friction_driver%none) then
          if (.not. all(ieee_is_finite([spec%friction%memdst, spec%friction%mem_s0, spec%iteration%omgslp])) &
             & .or. min(spec%friction%memdst, spec%friction%mem_s0) < 0.0_wp) then
             call fatal_error(error, "the distance and the velocity of friction memory must not be negative, and OMGSLP finite")
@@ -59,45 +59,9 @@ contains
          end if
          problem%remembers_friction = .true.
       end if
-      problem%static_mu = law%sets([(law%set_of_row(iy), iy=1, problem%grid%my)])%static
+      problem%static_mu = law%sets([(law%set_of_row(iy), iy=1, problem%grid%my)])%fstat
       call move_alloc(law, problem%friction)
    end subroutine set_friction
-
-   !> The parameters in the words of the friction room
-   elemental function parameters_of(set) result(parameters)
-      type(friction_set), intent(in) :: set
-      type(friction_parameters) :: parameters
-
-      parameters = friction_parameters(static=set%fstat, kinetic=set%fkin, term=[set%coef1, set%coef2], &
-         & half_speed=[set%sabsh1, set%sabsh2], onset=set%tref, range=set%dtheat)
-   end function parameters_of
-
-   !> The way back
-   elemental function set_of(parameters) result(set)
-      type(friction_parameters), intent(in) :: parameters
-      type(friction_set) :: set
-
-      set = friction_set(fstat=parameters%static, fkin=parameters%kinetic, coef1=parameters%term(1), &
-         & sabsh1=parameters%half_speed(1), coef2=parameters%term(2), sabsh2=parameters%half_speed(2), &
-         & fref=parameters%static, tref=parameters%onset, dfheat=parameters%kinetic - parameters%static, dtheat=parameters%range)
-   end function set_of
-
-   !> The values of a set that its law has, in the order of the input
-   pure function values_of(law, set) result(values)
-      !> Member of friction_model
-      integer, intent(in) :: law
-      type(friction_set), intent(in) :: set
-      real(wp), allocatable :: values(:)
-
-      select case (law)
-      case (friction_model%coulomb)
-         values = [set%fstat, set%fkin]
-      case (friction_model%temperature)
-         values = [set%fref, set%tref, set%dfheat, set%dtheat]
-      case default
-         values = [set%fkin, set%coef1, set%sabsh1, set%coef2, set%sabsh2]
-      end select
-   end function values_of
 
    !> Thermal constants, when temperatures are asked for
    subroutine set_thermal(spec, problem, error)

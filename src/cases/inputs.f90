@@ -3,11 +3,13 @@
 !> Each procedure takes the numbers of its group to or from an archive in the order of the input files; which groups a case has is
 !> known to the caller. What follows from numbers that come in is done here too.
 module contact_cases_inputs
-   use contact_base_choices, only : force_control, friction_model, material_model, normal_control, solver_choice, variation
+   use contact_base_choices, only : force_control, material_model, normal_control, solver_choice, variation
    use contact_base_kinds, only : wp
    use contact_cases_archive, only : case_archive, shown_length, text_variable
-   use contact_cases_spec, only : damping_spec, friction_set, friction_spec, heat_spec, iteration_spec, kinematics_spec, &
+   use contact_cases_spec, only : damping_spec, friction_spec, heat_spec, iteration_spec, kinematics_spec, &
       & largest_yield_limit, material_spec, rolling_spec
+   use contact_friction_law, only : friction_set
+   use contact_friction_new_law, only : friction_model, is_friction_law, is_varying_law
    use contact_text_words, only : integer_text, real_text
    implicit none (type, external)
    private
@@ -225,11 +227,9 @@ contains
       !> Members of friction_model and variation
       integer, intent(in) :: law, varies
       type(friction_set), intent(inout), target :: set
-      !> What the coefficients are called in the laws that fall with slip velocity
-      character(len=4), parameter :: falling(2:4) = ["FLIN", "FRAT", "FEXP"]
-      real(wp) :: static
+      real(wp) :: hot
 
-      if (.not. is_law(law)) return
+      if (.not. is_friction_law(law)) return
       if (varies == variation%by_angle) call a%real("ALPHA", set%position)
       if (varies == variation%by_position) call a%real("SVF", set%position)
       select case (law)
@@ -244,51 +244,56 @@ contains
             & ", by cntc_setFrictionMethod the smaller one")
          if (a%of_library) set%fstat = min(set%fstat, set%fkin)
          set%fkin = set%fstat
-      case (friction_model%linear, friction_model%rational, friction_model%exponential)
-         call a%real("FKIN", set%fkin)
-         call a%real(falling(law) // "1", set%coef1)
-         call a%real("SABSH1", set%sabsh1, unchecked=.true.)
-         call a%real(falling(law) // "2", set%coef2)
-         call a%real("SABSH2", set%sabsh2, unchecked=.true.)
-         call a%end_line()
-         if (a%is_reading) then
-            if (set%coef1 < no_term) set%sabsh1 = max(smallest_unused, set%sabsh1)
-            if (set%coef2 < no_term) set%sabsh2 = max(smallest_unused, set%sabsh2)
-            set%fstat = set%fkin + set%coef1 + set%coef2
-         end if
-         call a%check("SABSH1")
-         call a%check("SABSH2")
+      case (friction_model%linear)
+         call visit_terms(a, "FLIN", set)
+      case (friction_model%rational)
+         call visit_terms(a, "FRAT", set)
+      case (friction_model%exponential)
+         call visit_terms(a, "FEXP", set)
       case (friction_model%temperature)
          call a%real("FREF", set%fref)
          call a%real("TREF", set%tref)
          call a%real("DFHEAT", set%dfheat)
          call a%real("DTHEAT", set%dtheat)
          call a%end_line()
-         static = set%fref + set%dfheat
-         if (static < 0.0_wp) call a%refuse("DFHEAT", ": FREF + DFHEAT = " // real_text(static) // " is below its lower bound 0")
+         hot = set%fref + set%dfheat
+         if (hot < 0.0_wp) call a%refuse("DFHEAT", ": FREF + DFHEAT = " // real_text(hot) // " is below its lower bound 0")
          if (.not. a%is_reading) return
          set%fstat = set%fref
-         set%fkin = static
+         set%fkin = hot
       end select
    end subroutine visit_friction_set
 
-   !> Is there such a law? A wrong digit stands for none
-   pure logical function is_law(law)
-      !> Member of friction_model, or a wrong digit
-      integer, intent(in) :: law
+   !> Friction that falls with the slip velocity in two terms
+   subroutine visit_terms(a, name, set)
+      class(case_archive), intent(inout) :: a
+      !> What the coefficients of the terms are called, without the number of the term
+      character(len=*), intent(in) :: name
+      type(friction_set), intent(inout), target :: set
 
-      is_law = any(law == [friction_model%coulomb, friction_model%linear, friction_model%rational, friction_model%exponential, &
-         & friction_model%temperature])
-   end function is_law
+      call a%real("FKIN", set%fkin)
+      call a%real(name // "1", set%coef1)
+      call a%real("SABSH1", set%sabsh1, unchecked=.true.)
+      call a%real(name // "2", set%coef2)
+      call a%real("SABSH2", set%sabsh2, unchecked=.true.)
+      call a%end_line()
+      if (a%is_reading) then
+         if (set%coef1 < no_term) set%sabsh1 = max(smallest_unused, set%sabsh1)
+         if (set%coef2 < no_term) set%sabsh2 = max(smallest_unused, set%sabsh2)
+         set%fstat = set%fkin + set%coef1 + set%coef2
+      end if
+      call a%check("SABSH1")
+      call a%check("SABSH2")
+   end subroutine visit_terms
 
-   !> Friction memory, which all laws but Coulomb's have
+   !> Friction memory of laws that change with slip or temperature
    subroutine visit_friction_memory(a, law, friction)
       class(case_archive), intent(inout) :: a
       !> Member of friction_model
       integer, intent(in) :: law
       type(friction_spec), intent(inout), target :: friction
 
-      if (law == friction_model%coulomb .or. .not. is_law(law)) return
+      if (.not. is_varying_law(law)) return
       call a%real("MEMDST", friction%memdst)
       call a%real("MEM_S0", friction%mem_s0)
       call a%end_line()

@@ -1,6 +1,6 @@
 !> From the specification of a case to the problem of its patch
 module contact_cases_patch_setup
-   use contact_base_choices, only : friction_model, grid_form, has_slope_reduction, is_simplified, material_model, motion, &
+   use contact_base_choices, only : grid_form, has_slope_reduction, is_simplified, material_model, motion, &
       & normal_control, pressure_model, sensitivity_choice, slip_source, solver_choice
    use contact_base_error, only : error_kind, error_type, fatal_error
    use contact_base_kinds, only : long, wp
@@ -13,6 +13,7 @@ module contact_cases_patch_setup
    use contact_cases_rules, only : refuse_broken_rules
    use contact_cases_spec, only : case_spec
    use contact_friction_law, only : friction_driver
+   use contact_friction_new_law, only : friction_model
    use contact_grid_potential_contact, only : fit_field, potential_contact
    use contact_normal_estimate, only : elliptic_pressure, parabolic_pressure, sdec_pressure
    use contact_patch_damping, only : damping_law
@@ -350,6 +351,6 @@ contains
          & .and. .not. allocated(problem%simplified) .and. .not. problem%remembers_yield &
          & .and. .not. allocated(problem%thermal)
       if (takes_any_step .and. allocated(problem%friction)) takes_any_step = .not. problem%friction_memory%acts() &
-         & .and. problem%friction%driver /= friction_driver%temperature
+         & .and. problem%friction%driver() /= friction_driver%temperature
    end function takes_any_step
 end module contact_cases_patch_setup

@@ -3,10 +3,11 @@
 !> Readers of input and the library tell the digits or words of the choices that break a rule, `refuse_broken_rules` tells callers
 !> that have neither, and the manual has a table of all rules.
 module contact_cases_rules
-   use contact_base_choices, only : force_control, friction_model, kernel_model, material_model, motion, normal_control, &
+   use contact_base_choices, only : force_control, kernel_model, material_model, motion, normal_control, &
       & pressure_model, slip_source
    use contact_base_error, only : error_kind, error_type, fatal_error
    use contact_cases_spec, only : case_spec
+   use contact_friction_new_law, only : friction_model
    implicit none (type, external)
    private
 

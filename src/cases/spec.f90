@@ -8,6 +8,7 @@ module contact_cases_spec
    use contact_base_kinds, only : wp
    use contact_base_limits, only : case_limits
    use contact_base_solver_settings, only : solver_settings
+   use contact_friction_law, only : friction_set
    use contact_wheelrail_spec, only : wheel_rail_spec
    use contact_subsurface_points, only : point_block
    implicit none (type, external)
@@ -60,18 +61,6 @@ module contact_cases_spec
       !> Spin centre [mm]
       real(wp) :: spinxo = 0.0_wp, spinyo = 0.0_wp
    end type kinematics_spec
-
-   !> One set of friction parameters
-   type :: friction_set
-      !> Angle [rad] or position [mm] to which the set belongs (variation by angle or position)
-      real(wp) :: position = 0.0_wp
-      !> Static and kinetic coefficient [-]
-      real(wp) :: fstat = 0.3_wp, fkin = 0.3_wp
-      !> Coefficients [-] and half-value slip velocities [mm/s] of the two terms of laws 2, 3, 4
-      real(wp) :: coef1 = 0.0_wp, sabsh1 = 1.0_wp, coef2 = 0.0_wp, sabsh2 = 1.0_wp
-      !> Temperature dependence: FREF [-], TREF [degC], DFHEAT [-], DTHEAT [degC]
-      real(wp) :: fref = 0.3_wp, tref = 0.0_wp, dfheat = -0.1_wp, dtheat = 800.0_wp
-   end type friction_set
 
    !> Friction law
    type :: friction_spec

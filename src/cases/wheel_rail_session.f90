@@ -10,7 +10,7 @@ module contact_cases_wheel_rail_session
    use contact_cases_resolution_warning, only : warn_of_few_elements
    use contact_cases_effects, only : name_effects
    use contact_cases_elastic_setup, only : kept_table, set_model, update_table
-   use contact_cases_friction_setup, only : parameters_of, set_friction, set_thermal
+   use contact_cases_friction_setup, only : set_friction, set_thermal
    use contact_cases_patch_setup, only : set_method, set_simplified_theory, set_yield_limit
    use contact_cases_session, only : refuse_nonsense
    use contact_cases_rules, only : refuse_broken_rules
@@ -255,7 +255,7 @@ contains
             call set_friction(spec, template, error)
          else
             problem%control_point = spec%friction%sets%position
-            problem%control = parameters_of(spec%friction%sets)
+            problem%control = spec%friction%sets
             allocate(first_set, source=spec)
             first_set%friction%sets = spec%friction%sets(:1)
             call set_friction(first_set, template, error)

@@ -3,8 +3,9 @@
 !> The table serves reading, checking, refusing what is not built, writing of input files and
 !> the tables of doc/user. Decoding and encoding of the three control words is here too.
 module contact_control_digits
-   use contact_base_choices, only : contact_location, estimate_choice, force_control, friction_model, kernel_model, &
+   use contact_base_choices, only : contact_location, estimate_choice, force_control, kernel_model, &
       & material_model, motion, normal_control, pressure_model, slip_source, solver_choice, time_link, variation
+   use contact_friction_new_law, only : friction_model
    implicit none (type, external)
    private
 

@@ -3,7 +3,7 @@
 !>     mu(T) = mu_cold + (mu_hot - mu_cold) min(1, max(0, (T - T_onset)/range))
 module contact_friction_heated
    use contact_base_kinds, only : wp
-   use contact_friction_law, only : friction_law
+   use contact_friction_law, only : friction_driver, friction_law, friction_set, title_length
    implicit none (type, external)
    private
 
@@ -12,11 +12,32 @@ module contact_friction_heated
    type, extends(friction_law) :: heated_law
    contains
       procedure :: coefficient
+      procedure, nopass :: title
+      procedure, nopass :: driver
+      procedure, nopass :: fault
       !> Coefficient of elements that are heated by their own friction
       procedure :: self_heated
    end type heated_law
 
 contains
+
+   pure function title()
+      character(len=title_length) :: title
+      title = "friction changing with temperature"
+   end function title
+
+   pure integer function driver()
+      driver = friction_driver%temperature
+   end function driver
+
+   !> The range of temperatures must be positive
+   pure function fault(set) result(text)
+      type(friction_set), intent(in) :: set
+      character(len=100) :: text
+
+      text = ""
+      if (set%dtheat <= 0.0_wp) text = "the range of temperature in which friction changes must be positive"
+   end function fault
 
    pure subroutine coefficient(self, cause, mu)
       class(heated_law), intent(in) :: self
@@ -26,8 +47,8 @@ contains
 
       do iy = 1, size(mu, 2)
          associate (set => self%sets(self%set_of_row(iy)))
-            mu(:, iy) = set%static + (set%kinetic - set%static) &
-               & *min(1.0_wp, max(0.0_wp, (cause(:, iy) - set%onset)/set%range))
+            mu(:, iy) = set%fstat + (set%fkin - set%fstat) &
+               & *min(1.0_wp, max(0.0_wp, (cause(:, iy) - set%tref)/set%dtheat))
          end associate
       end do
    end subroutine coefficient
@@ -48,14 +69,14 @@ contains
       real(wp) :: change, slope
 
       associate (set => self%sets(self%set_of_row(iy)))
-         mu = theta*mu_before + (1.0_wp - theta)*set%static
-         if (temperature + rise*mu <= set%onset) return
-         change = (1.0_wp - theta)*(set%kinetic - set%static)
-         slope = change/set%range
-         if (temperature + rise*(mu + change) >= set%onset + set%range) then
+         mu = theta*mu_before + (1.0_wp - theta)*set%fstat
+         if (temperature + rise*mu <= set%tref) return
+         change = (1.0_wp - theta)*(set%fkin - set%fstat)
+         slope = change/set%dtheat
+         if (temperature + rise*(mu + change) >= set%tref + set%dtheat) then
             mu = mu + change
          else
-            mu = (mu + slope*(temperature - set%onset))/(1.0_wp - slope*rise)
+            mu = (mu + slope*(temperature - set%tref))/(1.0_wp - slope*rise)
          end if
       end associate
    end function self_heated

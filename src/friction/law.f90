@@ -6,7 +6,10 @@ module contact_friction_law
    implicit none (type, external)
    private
 
-   public :: coulomb_law, friction_driver, friction_law, friction_parameters
+   public :: coulomb_law, friction_driver, friction_law, friction_set, mixed, title_length
+
+   !> Room for a law in words
+   integer, parameter :: title_length = 48
 
    type :: friction_driver_list
       integer :: none = 0, slip_speed = 1, temperature = 2
@@ -14,28 +17,37 @@ module contact_friction_law
    !> What a law depends on
    type(friction_driver_list), parameter :: friction_driver = friction_driver_list()
 
-   !> One set of parameters; a law uses those that it has
-   type :: friction_parameters
+   !> One set of friction parameters; a law uses those that it has
+   !>
+   !> All components are real numbers: `numbers` and `mixed` see them as one array.
+   type :: friction_set
+      !> Angle [rad] or position [mm] to which the set belongs, where friction varies along the rail
+      real(wp) :: position = 0.0_wp
       !> Coefficient at rest or in the cold, and limit at high velocity or temperature [-]
-      real(wp) :: static = 0.3_wp, kinetic = 0.3_wp
-      !> Contributions of two terms that vanish at high velocity [-] and the velocities [mm/s] at which
-      !> half of them is left
-      real(wp) :: term(2) = 0.0_wp, half_speed(2) = 1.0_wp
-      !> Temperature at which friction begins to change and range over which it does [degC]
-      real(wp) :: onset = 0.0_wp, range = 1.0_wp
-   end type friction_parameters
+      real(wp) :: fstat = 0.3_wp, fkin = 0.3_wp
+      !> Contributions of two terms that vanish at high velocity [-] and the velocities [mm/s] at which half of them is left
+      real(wp) :: coef1 = 0.0_wp, sabsh1 = 1.0_wp, coef2 = 0.0_wp, sabsh2 = 1.0_wp
+      !> Temperature dependence: coefficient in the cold [-], temperature at which friction begins to change [degC], change [-],
+      !> and range over which it does [degC]
+      real(wp) :: fref = 0.3_wp, tref = 0.0_wp, dfheat = -0.1_wp, dtheat = 800.0_wp
+   contains
+      !> All components as an array
+      procedure :: numbers
+   end type friction_set
 
    !> Friction law with its parameters
    type, abstract :: friction_law
       !> One set, or one per row of the grid
-      type(friction_parameters), allocatable :: sets(:)
-      !> Member of friction_driver
-      integer :: driver = friction_driver%none
-      !> The law in words
-      character(len=:), allocatable :: name
+      type(friction_set), allocatable :: sets(:)
    contains
       !> Coefficient in every element
       procedure(coefficient_interface), deferred :: coefficient
+      !> The law in words, with blanks behind
+      procedure(title_interface), deferred, nopass :: title
+      !> Member of friction_driver
+      procedure, nopass :: driver => no_driver
+      !> What is wrong with a set of parameters, beyond what is wrong with it in every law; blank when nothing is
+      procedure, nopass :: fault => no_fault
       !> Coefficient at rest and in the cold in every element
       procedure, non_overridable :: at_rest
       !> Number of the set of a row
@@ -54,15 +66,57 @@ module contact_friction_law
          !> Coefficient of friction [-], shape (mx, my)
          real(wp), contiguous, intent(inout) :: mu(:, :)
       end subroutine coefficient_interface
+
+      pure function title_interface() result(title)
+         import :: title_length
+         implicit none (type, external)
+         character(len=title_length) :: title
+      end function title_interface
    end interface
 
    !> Coulomb's law: one coefficient, whatever slip and temperature
    type, extends(friction_law) :: coulomb_law
    contains
       procedure :: coefficient => coulomb_coefficient
+      procedure, nopass :: title => coulomb_title
    end type coulomb_law
 
 contains
+
+   !> All components as an array
+   pure function numbers(self) result(list)
+      class(friction_set), intent(in) :: self
+      real(wp) :: list(storage_size(self)/storage_size(0.0_wp))
+      type(friction_set) :: set
+
+      set = self
+      list = transfer(set, list)
+   end function numbers
+
+   !> Parameters between two sets, by linear interpolation
+   pure function mixed(a, b, t) result(set)
+      type(friction_set), intent(in) :: a, b
+      !> Share of b, 0...1
+      real(wp), intent(in) :: t
+      type(friction_set) :: set
+
+      set = transfer((1.0_wp - t)*a%numbers() + t*b%numbers(), set)
+   end function mixed
+
+   !> A law that depends on nothing
+   pure integer function no_driver() result(driver)
+      driver = friction_driver%none
+   end function no_driver
+
+   !> Laws without limits of their own
+   pure function no_fault(set) result(text)
+      type(friction_set), intent(in) :: set
+      character(len=100) :: text
+
+      associate (unused => set%fstat)
+         text = ""
+      end associate
+   end function no_fault
 
    !> Number of the set that belongs to a row
    pure integer function set_of_row(self, iy) result(number)
@@ -80,7 +134,7 @@ contains
       integer :: iy
 
       do iy = 1, size(mu, 2)
-         mu(:, iy) = self%sets(self%set_of_row(iy))%static
+         mu(:, iy) = self%sets(self%set_of_row(iy))%fstat
       end do
    end subroutine at_rest
 
@@ -98,4 +152,9 @@ contains
          call self%at_rest(mu)
       end associate
    end subroutine coulomb_coefficient
+
+   pure function coulomb_title() result(title)
+      character(len=title_length) :: title
+      title = "Coulomb friction"
+   end function coulomb_title
 end module contact_friction_law

@@ -9,28 +9,51 @@
 !> See Vollebregt and Schuttelaars (2012) for what they do to contact problems.
 module contact_friction_slip_laws
    use contact_base_kinds, only : wp
-   use contact_friction_law, only : friction_law
+   use contact_friction_law, only : friction_driver, friction_law, friction_set, title_length
    implicit none (type, external)
    private
 
    public :: exponential_law, linear_law, rational_law
 
-   type, extends(friction_law) :: linear_law
+   !> Laws that depend on the slip velocity, in terms with a velocity each
+   type, abstract, extends(friction_law) :: slip_law
+   contains
+      procedure, nopass :: driver => slip_speed
+      procedure, nopass :: fault => fault_of_speeds
+   end type slip_law
+
+   type, extends(slip_law) :: linear_law
    contains
       procedure :: coefficient => linear_coefficient
+      procedure, nopass :: title => linear_title
    end type linear_law
 
-   type, extends(friction_law) :: rational_law
+   type, extends(slip_law) :: rational_law
    contains
       procedure :: coefficient => rational_coefficient
+      procedure, nopass :: title => rational_title
    end type rational_law
 
-   type, extends(friction_law) :: exponential_law
+   type, extends(slip_law) :: exponential_law
    contains
       procedure :: coefficient => exponential_coefficient
+      procedure, nopass :: title => exponential_title
    end type exponential_law
 
 contains
+
+   pure integer function slip_speed() result(driver)
+      driver = friction_driver%slip_speed
+   end function slip_speed
+
+   !> Velocities of the terms must be positive
+   pure function fault_of_speeds(set) result(text)
+      type(friction_set), intent(in) :: set
+      character(len=100) :: text
+
+      text = ""
+      if (.not. min(set%sabsh1, set%sabsh2) > 0.0_wp) text = "the velocities at which friction has fallen by half must be positive"
+   end function fault_of_speeds
 
    pure subroutine linear_coefficient(self, cause, mu)
       class(linear_law), intent(in) :: self
@@ -40,11 +63,16 @@ contains
 
       do iy = 1, size(mu, 2)
          associate (set => self%sets(self%set_of_row(iy)))
-            mu(:, iy) = set%kinetic + set%term(1)*max(0.0_wp, 1.0_wp - 0.5_wp*cause(:, iy)/set%half_speed(1)) &
-               & + set%term(2)*max(0.0_wp, 1.0_wp - 0.5_wp*cause(:, iy)/set%half_speed(2))
+            mu(:, iy) = set%fkin + set%coef1*max(0.0_wp, 1.0_wp - 0.5_wp*cause(:, iy)/set%sabsh1) &
+               & + set%coef2*max(0.0_wp, 1.0_wp - 0.5_wp*cause(:, iy)/set%sabsh2)
          end associate
       end do
    end subroutine linear_coefficient
+
+   pure function linear_title() result(title)
+      character(len=title_length) :: title
+      title = "friction falling linearly with slip"
+   end function linear_title
 
    pure subroutine rational_coefficient(self, cause, mu)
       class(rational_law), intent(in) :: self
@@ -54,11 +82,16 @@ contains
 
       do iy = 1, size(mu, 2)
          associate (set => self%sets(self%set_of_row(iy)))
-            mu(:, iy) = set%kinetic + set%term(1)/(1.0_wp + cause(:, iy)/set%half_speed(1)) &
-               & + set%term(2)/(1.0_wp + (cause(:, iy)/set%half_speed(2))**2)
+            mu(:, iy) = set%fkin + set%coef1/(1.0_wp + cause(:, iy)/set%sabsh1) &
+               & + set%coef2/(1.0_wp + (cause(:, iy)/set%sabsh2)**2)
          end associate
       end do
    end subroutine rational_coefficient
+
+   pure function rational_title() result(title)
+      character(len=title_length) :: title
+      title = "friction falling rationally with slip"
+   end function rational_title
 
    pure subroutine exponential_coefficient(self, cause, mu)
       class(exponential_law), intent(in) :: self
@@ -68,9 +101,14 @@ contains
 
       do iy = 1, size(mu, 2)
          associate (set => self%sets(self%set_of_row(iy)))
-            mu(:, iy) = set%kinetic + set%term(1)*2.0_wp**(-cause(:, iy)/set%half_speed(1)) &
-               & + set%term(2)*2.0_wp**(-cause(:, iy)/set%half_speed(2))
+            mu(:, iy) = set%fkin + set%coef1*2.0_wp**(-cause(:, iy)/set%sabsh1) &
+               & + set%coef2*2.0_wp**(-cause(:, iy)/set%sabsh2)
          end associate
       end do
    end subroutine exponential_coefficient
+
+   pure function exponential_title() result(title)
+      character(len=title_length) :: title
+      title = "friction falling exponentially with slip"
+   end function exponential_title
 end module contact_friction_slip_laws

@@ -1,12 +1,16 @@
 !> The input of a case for programs: what was asked, kept groups included
 module contact_output_input_record
-   use contact_base_choices, only : friction_model, has_slope_reduction, heat_source_name, material_model, pressure_model
+   use contact_base_choices, only : has_slope_reduction, heat_source_name, material_model, pressure_model
    use contact_base_kinds, only : wp
    use contact_cases_spec, only : case_spec, friction_set
-   use contact_control_digits, only : case_digits
+   use contact_cases_collector, only : collected_length, collector, friction_numbers
+   use contact_control_digits, only : case_digits, digit_table
    use contact_control_translation, only : digits_of
    use contact_output_record, only : record_writer
    use contact_wheelrail_spec, only : profile_spec
+   use contact_friction_new_law, only : is_varying_law
+   use contact_text_bounds, only : bounds_of, bounds_table
+   use contact_text_words, only : integer_text, small
    implicit none (type, external)
    private
 
@@ -128,34 +132,57 @@ contains
       class(record_writer), intent(inout) :: record
       type(case_spec), intent(in) :: spec
       type(friction_set), allocatable :: sets(:)
+      type(collector), allocatable :: numbers(:)
+      character(len=:), allocatable :: laws
+      integer :: k
 
       call record%open_group("friction")
-      call record%count("law", "0 Coulomb, 2 linear, 3 rational, 4 exponential in slip velocity, 6 temperature", spec%friction_law)
+      laws = ""
+      do k = 1, size(digit_table)
+         associate (row => digit_table(k))
+            if (row%name == "L" .and. row%word /= "") laws = laws // ", " // integer_text(row%choice) // " " // trim(row%word)
+         end associate
+      end do
+      call record%count("law", laws(3:), spec%friction_law)
       call record%count("variation", "0 none, 1 by angle, 2 by position, 3 by row", spec%variation)
       allocate(sets(0))
       if (allocated(spec%friction%sets)) sets = spec%friction%sets
       if (spec%variation > 0) call record%numbers("position", "rad or mm", "angles or positions of the sets", sets%position)
-      if (spec%friction_law == friction_model%coulomb) then
-         call record%numbers("fstat", "-", "static coefficient of friction", sets%fstat)
-         call record%numbers("fkin", "-", "kinetic coefficient of friction", sets%fkin)
-      else if (spec%friction_law == friction_model%temperature) then
-         call record%numbers("fref", "-", "coefficient of friction up to TREF", sets%fref)
-         call record%numbers("tref", "degC", "where friction begins to change", sets%tref)
-         call record%numbers("dfheat", "-", "change of the coefficient of friction", sets%dfheat)
-         call record%numbers("dtheat", "degC", "range of temperatures of the change", sets%dtheat)
-      else
-         call record%numbers("fkin", "-", "coefficient of friction at large slip velocity", sets%fkin)
-         call record%numbers("coef1", "-", "coefficient of the first term", sets%coef1)
-         call record%numbers("sabsh1", "mm/s", "slip velocity of the first term", sets%sabsh1)
-         call record%numbers("coef2", "-", "coefficient of the second term", sets%coef2)
-         call record%numbers("sabsh2", "mm/s", "slip velocity of the second term", sets%sabsh2)
-      end if
-      if (spec%friction_law /= friction_model%coulomb) then
+      allocate(numbers(0:size(sets)))
+      ! the first one tells the names, also where there is no set
+      call friction_numbers(numbers(0), spec%friction_law, friction_set())
+      do k = 1, size(sets)
+         call friction_numbers(numbers(k), spec%friction_law, sets(k))
+      end do
+      do k = 1, size(numbers(0)%names)
+         call describe_parameter(record, numbers, k)
+      end do
+      if (is_varying_law(spec%friction_law)) then
          call record%number("memdst", "mm", "distance of the friction memory", spec%friction%memdst)
          call record%number("mem_s0", "mm/s", "lowest velocity of the friction memory", spec%friction%mem_s0)
       end if
       call record%close_group()
    end subroutine describe_friction
+
+   !> One friction parameter in all sets
+   subroutine describe_parameter(record, numbers, k)
+      class(record_writer), intent(inout) :: record
+      !> Parameters of the sets, behind one that is there for the names
+      type(collector), intent(in) :: numbers(0:)
+      !> Place of the parameter
+      integer, intent(in) :: k
+      character(len=collected_length) :: key
+      integer :: i
+
+      associate (name => numbers(0)%names(k))
+         key = small(name)
+         ! one name serves for the coefficients of the terms of three laws
+         if (any(name(:4) == ["FLIN", "FRAT", "FEXP"])) key = "coef" // name(5:)
+         associate (row => bounds_table(bounds_of(trim(name))))
+            call record%numbers(trim(key), trim(row%unit), trim(row%title), [(numbers(i)%values(k), i=1, ubound(numbers, 1))])
+         end associate
+      end associate
+   end subroutine describe_parameter
 
    !> Elastic constants and those of the material model
    subroutine describe_material(record, spec)

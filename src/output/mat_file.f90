@@ -4,10 +4,10 @@
 !> that what other programs do not know, the status, stands behind the names of the first line.
 module contact_output_mat_file
    use contact_base_case_status, only : case_status
-   use contact_base_choices, only : friction_model, is_rolling, material_model
+   use contact_base_choices, only : is_rolling, material_model
    use contact_base_error, only : add_context, error_type
    use contact_base_kinds, only : wp
-   use contact_cases_friction_setup, only : values_of
+   use contact_cases_collector, only : collector, friction_numbers
    use contact_cases_spec, only : case_spec, friction_set
    use contact_control_digits, only : case_digits
    use contact_control_translation, only : digits_of
@@ -106,6 +106,7 @@ contains
       !> Those that have columns
       type(element_field), intent(in) :: fields(:)
       character(len=14*(size(fields) + 2)) :: lines(13)
+      type(collector) :: friction
       real(wp), allocatable :: values(:)
       character(len=11) :: names(size(fields) + 1)
       real(wp) :: chi, dq
@@ -139,8 +140,9 @@ contains
       lines(9) = name_line(completed("   T    M", material_names(spec%material_model), columns))
       values = material_values(spec, result)
       lines(10) = two_integers(digits%t, digits%m) // reals([values, zeros(columns - 2 - size(values))])
-      lines(11) = name_line(completed("   L    H", friction_names(spec%friction_law), columns))
-      values = [merge(result%veloc, spec%rolling%veloc, place%patches > 0), friction_values(spec)]
+      call list_friction(spec, friction)
+      lines(11) = name_line(completed("   L    H", [character(len=11) :: "VELOC", friction%names], columns))
+      values = [merge(result%veloc, spec%rolling%veloc, place%patches > 0), friction%values]
       lines(12) = two_integers(spec%friction_law, digits%h) // reals([values, zeros(columns - 2 - size(values))])
       lines(13) = name_line(names)
       if (status%is_solved()) then
@@ -228,38 +230,17 @@ contains
       end associate
    end function material_values
 
-   !> Names of the velocity and of the parameters that the friction law has
-   pure function friction_names(law) result(names)
-      !> Member of friction_model
-      integer, intent(in) :: law
-      character(len=11), allocatable :: names(:)
-
-      select case (law)
-      case (friction_model%coulomb)
-         names = [character(len=11) :: "VELOC", "FSTAT", "FKIN"]
-      case (friction_model%linear)
-         names = [character(len=11) :: "VELOC", "FKIN", "FLIN1", "SABSH1", "FLIN2", "SABSH2", "MEMDST", "MEM_S0"]
-      case (friction_model%rational)
-         names = [character(len=11) :: "VELOC", "FKIN", "FRAT1", "SABSH1", "FRAT2", "SABSH2", "MEMDST", "MEM_S0"]
-      case (friction_model%exponential)
-         names = [character(len=11) :: "VELOC", "FKIN", "FEXP1", "SABSH1", "FEXP2", "SABSH2", "MEMDST", "MEM_S0"]
-      case default
-         names = [character(len=11) :: "VELOC", "FREF", "TREF", "DFHEAT", "DTHEAT", "MEMDST", "MEM_S0"]
-      end select
-   end function friction_names
-
-   !> Values of the first set of friction parameters, without the velocity
-   pure function friction_values(spec) result(values)
+   !> Names and values of the first set of friction parameters and of the memory
+   subroutine list_friction(spec, a)
       type(case_spec), intent(in) :: spec
-      real(wp), allocatable :: values(:)
+      type(collector), intent(out) :: a
       type(friction_set) :: set
 
       if (allocated(spec%friction%sets)) then
          if (size(spec%friction%sets) > 0) set = spec%friction%sets(1)
       end if
-      values = values_of(spec%friction_law, set)
-      if (spec%friction_law /= friction_model%coulomb) values = [values, spec%friction%memdst, spec%friction%mem_s0]
-   end function friction_values
+      call friction_numbers(a, spec%friction_law, set, spec%friction)
+   end subroutine list_friction
 
    !> The names with one in front and a dash for each unused column behind
    pure function completed(first, names, columns) result(all_names)

@@ -1,10 +1,10 @@
 !> Echo of the input of a case in the .out file (output level 2 and higher)
 module contact_output_report_input
-   use contact_base_choices, only : force_control, friction_model, grid_form, has_slope_reduction, is_fastrip, material_model, &
+   use contact_base_choices, only : force_control, grid_form, has_slope_reduction, is_fastrip, material_model, &
       & motion, normal_control, pressure_model, solver_choice, variation
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
-   use contact_cases_friction_setup, only : values_of
+   use contact_cases_collector, only : collector, friction_numbers
    use contact_cases_spec, only : case_spec, friction_set, kinematics_spec, material_spec, part_source
    use contact_control_digits, only : case_digits
    use contact_control_translation, only : digits_of
@@ -296,44 +296,47 @@ contains
       type(friction_set), intent(in) :: sets(:)
       !> Output level
       integer, intent(in) :: level
+      type(collector) :: line
       character(len=:), allocatable :: names
       integer :: i, count
       logical :: shorten
 
-      select case (law)
-      case (friction_model%coulomb)
-         names = heading([character(len=9) :: "FSTAT", "FKIN"])
-      case (friction_model%linear)
-         names = heading([character(len=9) :: "FKIN", "FLIN1", "SABSH1", "FLIN2", "SABSH2"])
-      case (friction_model%rational)
-         names = heading([character(len=9) :: "FKIN", "FRAT1", "SABSH1", "FRAT2", "SABSH2"])
-      case (friction_model%exponential)
-         names = heading([character(len=9) :: "FKIN", "FEXP1", "SABSH1", "FEXP2", "SABSH2"])
-      case default
-         names = heading([character(len=9) :: "FREF", "TREF", "DFHEAT", "DTHEAT"])
-      end select
+      call friction_numbers(line, law, friction_set())
+      names = heading(line%names)
       call log%result("")
       call log%result(" FRICTION LAW PARAMETERS")
       count = size(sets)
       select case (varies)
       case (variation%none)
          call log%result(names)
-         if (count > 0) call log%result("  " // generals(values_of(law, sets(1))))
+         if (count > 0) call log%result("  " // numbers_of(sets(1)))
       case (variation%by_row)
          call log%result("     IY     " // names)
          shorten = level < full_friction_table .and. count > 4
          do i = 1, count
             if (shorten .and. i == 3) call log%result(repeat(" ", 22) // "...")
             if (shorten .and. i > 2 .and. i < count - 1) cycle
-            call log%result("  " // whole(i, 8) // "    " // generals(values_of(law, sets(i))))
+            call log%result("  " // whole(i, 8) // "    " // numbers_of(sets(i)))
          end do
       case default
          call log%result(merge("     ALPHA  ", "     SVF    ", varies == variation%by_angle) // names)
          do i = 1, count
             call log%result("  " // general(sets(i)%position, 12, 4) &
-               & // generals(values_of(law, sets(i))))
+               & // numbers_of(sets(i)))
          end do
       end select
+
+   contains
+
+      !> The values of a set, below their names
+      function numbers_of(set) result(text)
+         type(friction_set), intent(in) :: set
+         character(len=12*size(line%names)) :: text
+         type(collector) :: a
+
+         call friction_numbers(a, law, set)
+         text = generals(a%values)
+      end function numbers_of
    end subroutine write_friction
 
    !> Prescribed creepages or forces; what was found follows with the results

@@ -12,7 +12,6 @@ module contact_output_report_wheel_rail
    use contact_cases_spec, only : case_spec, material_spec, part_source
    use contact_control_digits, only : case_digits
    use contact_control_translation, only : digits_of
-   use contact_cases_friction_setup, only : set_of
    use contact_grid_element_division, only : bounding_box, contact_box
    use contact_wheelrail_spec, only : profile_spec, wheel_rail_spec
    use contact_output_element_table, only : write_element_table
@@ -485,7 +484,7 @@ contains
 
       if (.not. allocated(patch%friction)) return
       call write_friction(log, spec%friction_law, merge(variation%by_row, variation%none, patch%friction_varies), &
-         & set_of(patch%friction), spec%output_level)
+         & patch%friction, spec%output_level)
    end subroutine write_patch_friction
 
    !> Flexibilities of simplified theory, and what the slope reduction came to

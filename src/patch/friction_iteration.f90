@@ -117,7 +117,7 @@ contains
       integer :: slipping, patience, ix, iy
       logical :: by_temperature
 
-      by_temperature = problem%friction%driver == friction_driver%temperature
+      by_temperature = problem%friction%driver() == friction_driver%temperature
       self%passes = self%passes + 1
       self%failures = merge(0, self%failures + 1, converged)
       slipping = count(solution%division == element%slip)
@@ -180,7 +180,7 @@ contains
       type(patch_state), intent(in) :: state
       real(wp), contiguous, intent(inout) :: mu(:, :)
 
-      if (problem%friction%driver == friction_driver%temperature) then
+      if (problem%friction%driver() == friction_driver%temperature) then
          call heat_up(self, problem, state, mu)
          return
       end if
@@ -260,7 +260,7 @@ contains
       report%passes = self%passes
       report%residual = self%change/max(self%size, epsilon(self%size)*self%change, tiny(self%size))
       report%tolerance = merge(temperature_tolerance, speed_tolerance, &
-         & problem%friction%driver == friction_driver%temperature)
+         & problem%friction%driver() == friction_driver%temperature)
    end subroutine report_iteration
 
    !> Line of the flow trace about a pass

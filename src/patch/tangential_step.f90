@@ -76,7 +76,7 @@ contains
       type(patch_problem), intent(in) :: problem
 
       iterates_friction = .false.
-      if (allocated(problem%friction)) iterates_friction = problem%friction%driver /= friction_driver%none
+      if (allocated(problem%friction)) iterates_friction = problem%friction%driver() /= friction_driver%none
    end function iterates_friction
 
    !> Alternate between tractions and the coefficients of friction that depend on their slip

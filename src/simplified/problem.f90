@@ -180,7 +180,7 @@ contains
 
       mu = problem%mu
       if (.not. allocated(problem%law)) return
-      if (problem%law%driver /= friction_driver%slip_speed) return
+      if (problem%law%driver() /= friction_driver%slip_speed) return
       allocate(speed(1, size(mu)), source=problem%velocity*creepage)
       allocate(field(1, size(mu)))
       call problem%law%coefficient(speed, field)

@@ -198,7 +198,7 @@ contains
       last = m + 1 - first
       do iy = 1, size(pn, 2)
          rise = 0.0_wp
-         before = law%sets(law%set_of_row(iy))%static
+         before = law%sets(law%set_of_row(iy))%fstat
          jx = 0
          do ix = first, last, -self%direction
             jx = jx + 1

@@ -2,7 +2,7 @@
 module contact_wheelrail_memory
    use contact_base_choices, only : motion
    use contact_base_kinds, only : wp
-   use contact_friction_law, only : friction_parameters
+   use contact_friction_law, only : friction_set
    use contact_patch_problem, only : patch_problem, patch_state
    use contact_patch_result, only : patch_result
    use contact_patch_workspace, only : patch_workspace, release_workspace
@@ -31,7 +31,7 @@ module contact_wheelrail_memory
       real(wp), allocatable :: on_rail(:, :), on_wheel(:, :)
       type(contact_motion) :: motion
       !> Where friction varies over the rail: one set of parameters or one per row; otherwise unallocated
-      type(friction_parameters), allocatable :: friction(:)
+      type(friction_set), allocatable :: friction(:)
       !> Place of the contact reference on the lattice of the pair [mm]
       real(wp) :: reference(2) = 0.0_wp
       !> Window of the grid on the lattice, and that of the solution in `state`

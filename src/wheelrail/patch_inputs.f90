@@ -1,12 +1,12 @@
 !> Grid, undeformed distance, creepages and friction of one patch of a pair
 module contact_wheelrail_patch_inputs
-   use contact_base_choices, only : contact_location, friction_model, motion, variation
+   use contact_base_choices, only : contact_location, motion, variation
    use contact_base_constants, only : excluded_distance
    use contact_base_error, only : error_kind, error_type, fatal_error
    use contact_base_kinds, only : long, wp
    use contact_base_memory, only : bytes_per_element
    use contact_grid_potential_contact, only : potential_contact
-   use contact_friction_new_law, only : new_friction_law
+   use contact_friction_new_law, only : is_varying_law, new_friction_law
    use contact_profile_curve, only : profile_curve
    use contact_wheelrail_carry_over, only : place_on_lattice
    use contact_wheelrail_creepage, only : flat_creepage, flat_shift, rigid_motion
@@ -296,7 +296,7 @@ contains
             call new_friction_law(problem%friction_law, slot%friction, patch%friction, error)
             if (allocated(error)) return
             patch%mu = 1.0_wp
-            patch%static_mu = patch%friction%sets%static
+            patch%static_mu = patch%friction%sets%fstat
             return
          end if
          if (problem%variation /= variation%none .and. problem%template%motion /= motion%none) then
@@ -305,8 +305,8 @@ contains
             else
                slot%friction = [parameters_at(problem, problem%spec%wheelset%s)]
             end if
-            patch%mu = slot%friction(1)%static
-            if (problem%friction_law /= friction_model%coulomb) then
+            patch%mu = slot%friction(1)%fstat
+            if (is_varying_law(problem%friction_law)) then
                call new_friction_law(problem%friction_law, slot%friction, patch%friction, error)
                if (allocated(error)) return
             end if

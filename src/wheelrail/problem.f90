@@ -1,9 +1,10 @@
 !> What is asked for a wheel on a rail, and what follows from it without looking at the contact
 module contact_wheelrail_problem
-   use contact_base_choices, only : contact_location, force_control, friction_model, motion, time_link, variation
+   use contact_base_choices, only : contact_location, force_control, motion, time_link, variation
    use contact_base_kinds, only : wp
    use contact_base_limits, only : case_limits
-   use contact_friction_law, only : friction_parameters
+   use contact_friction_law, only : friction_set, mixed
+   use contact_friction_new_law, only : friction_model
    use contact_patch_problem, only : patch_problem
    use contact_profile_curve, only : profile_curve
    use contact_profile_surface, only : profile_surface
@@ -53,7 +54,7 @@ module contact_wheelrail_problem
       integer :: variation = variation%none, friction_law = friction_model%coulomb
       !> Parameters at control points: angles [rad] or positions along the track [mm], rising
       real(wp), allocatable :: control_point(:)
-      type(friction_parameters), allocatable :: control(:)
+      type(friction_set), allocatable :: control(:)
       !> The rail's part of the compliance of both bodies [-]
       real(wp) :: rail_share = 0.5_wp
       !> Elements of a patch at most
@@ -103,7 +104,7 @@ contains
       type(wheel_rail_problem), intent(in) :: problem
       !> [rad] or [mm]
       real(wp), intent(in) :: position
-      type(friction_parameters) :: parameters
+      type(friction_set) :: parameters
       real(wp) :: t
       integer :: k, n
 
@@ -116,13 +117,6 @@ contains
       parameters = problem%control(min(k, n))
       if (k >= n) return
       t = (position - problem%control_point(k))/(problem%control_point(k + 1) - problem%control_point(k))
-      associate (a => problem%control(k), b => problem%control(k + 1))
-         parameters%static = (1.0_wp - t)*a%static + t*b%static
-         parameters%kinetic = (1.0_wp - t)*a%kinetic + t*b%kinetic
-         parameters%term = (1.0_wp - t)*a%term + t*b%term
-         parameters%half_speed = (1.0_wp - t)*a%half_speed + t*b%half_speed
-         parameters%onset = (1.0_wp - t)*a%onset + t*b%onset
-         parameters%range = (1.0_wp - t)*a%range + t*b%range
-      end associate
+      parameters = mixed(problem%control(k), problem%control(k + 1), t)
    end function parameters_at
 end module contact_wheelrail_problem

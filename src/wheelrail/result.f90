@@ -6,7 +6,7 @@ module contact_wheelrail_result
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
    use contact_base_case_status, only : case_status
    use contact_base_kinds, only : wp
-   use contact_friction_law, only : friction_parameters
+   use contact_friction_law, only : friction_set
    use contact_base_choices, only : motion
    use contact_patch_quantities, only : orientation, total_list
    use contact_patch_result, only : patch_result
@@ -35,7 +35,7 @@ module contact_wheelrail_result
       !> Sum of the local normal tractions of conformal contact [N]
       real(wp) :: tilde_fn = 0.0_wp
       !> Where friction varies over the rail: its parameters in this patch, one set or one per row; otherwise unallocated
-      type(friction_parameters), allocatable :: friction(:)
+      type(friction_set), allocatable :: friction(:)
       !> Does friction vary inside the patch?
       logical :: friction_varies = .false.
       !> Forces on the rail in the axes x, s, n of the reference [N]: those of `contact` for flat patches,

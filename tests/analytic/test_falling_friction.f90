@@ -4,11 +4,12 @@
 !> friction that falls linearly this is a linear equation on either side of the kink; where friction falls
 !> faster than the spring, sticking and sliding are both solutions, and the start decides.
 program test_falling_friction
-   use contact_base_choices, only : friction_model, motion, time_link
+   use contact_base_choices, only : motion, time_link
    use contact_base_kinds, only : wp
    use contact_cases_spec, only : case_spec, friction_set, part_source
    use contact_test_case_builder, only : creep, grid_case, test_case
    use contact_test_harness, only : test_suite
+   use contact_friction_new_law, only : friction_model
    implicit none (type, external)
    !> Step [mm] and velocity [mm/s]
    real(wp), parameter :: step = 0.1_wp, veloc = 1000.0_wp

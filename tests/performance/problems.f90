@@ -1,6 +1,6 @@
 !> The problems of the benchmark: those of the specification of the fast solver, and tables
 module contact_bench_problems
-   use contact_base_choices, only : estimate_choice, friction_model, material_model, motion, normal_control, pressure_model, &
+   use contact_base_choices, only : estimate_choice, material_model, motion, normal_control, pressure_model, &
       & solver_choice, time_link
    use contact_base_constants, only : pi
    use contact_base_error, only : error_type, full_text
@@ -18,6 +18,7 @@ module contact_bench_problems
    use contact_tangential_classical, only : solve_classical
    use contact_tangential_nested, only : nested_workspace, release_nested, solve_newton_krylov
    use contact_tangential_problem, only : prepare_solution, tangential_problem, tangential_solution
+   use contact_friction_new_law, only : friction_model
    implicit none (type, external)
    private
 

@@ -8,7 +8,7 @@ program test_conformal
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
    use contact_elastic_material, only : combine
-   use contact_friction_law, only : friction_parameters
+   use contact_friction_law, only : friction_set
    use contact_grid_potential_contact, only : potential_contact
    use contact_numeric_spline, only : cubic_spline, natural_splines
    use contact_profile_curve, only : new_curve, profile_curve
@@ -429,7 +429,7 @@ contains
       problem%spec%wheelset%vpitch = 1.1_wp*problem%spec%wheelset%vpitch
       problem%variation = variation%by_angle
       problem%control_point = [-0.2_wp, 0.2_wp]
-      problem%control = [friction_parameters(static=0.1_wp, kinetic=0.1_wp), friction_parameters(static=0.5_wp, kinetic=0.5_wp)]
+      problem%control = [friction_set(fstat=0.1_wp, fkin=0.1_wp), friction_set(fstat=0.5_wp, fkin=0.5_wp)]
       call solve(suite, problem, result, "friction by angle")
       if (size(result%patches) /= 1) return
       associate (patch => result%patches(1))

@@ -1,14 +1,14 @@
 !> Properties of friction laws and temperatures in whole cases
 program test_friction
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
-   use contact_base_choices, only : friction_model, motion, solver_choice, time_link
+   use contact_base_choices, only : motion, solver_choice, time_link
    use contact_base_constants, only : pi
    use contact_base_error, only : error_type
    use contact_base_kinds, only : wp
    use contact_base_solve_report, only : ending
    use contact_cases_spec, only : case_spec, friction_set
-   use contact_friction_law, only : friction_law, friction_parameters
-   use contact_friction_new_law, only : new_friction_law
+   use contact_friction_law, only : friction_law, friction_set
+   use contact_friction_new_law, only : friction_model, new_friction_law
    use contact_grid_element_division, only : element
    use contact_test_case_builder, only : creep, forces, grid_case, test_case
    use contact_test_harness, only : test_suite
@@ -162,8 +162,7 @@ contains
                call case%run(suite, "falling friction")
                call suite%check(case%result%friction%succeeded(), "the friction iteration converges")
                associate (set => case%spec%friction%sets(1), r => case%result)
-                  call new_friction_law(laws(k), [friction_parameters(set%fstat, set%fkin, [set%coef1, set%coef2], &
-                     & [set%sabsh1, set%sabsh2])], law, error)
+                  call new_friction_law(laws(k), [set], law, error)
                   speed = hypot(r%sx, r%sy)/r%dt
                   mu = r%mu
                   call law%coefficient(speed, mu)

@@ -230,7 +230,7 @@ contains
       call one%run(suite, "friction by position")
       call suite%check(allocated(one%result%patches(1)%friction), "and told where it varies")
       if (allocated(one%result%patches(1)%friction)) &
-         & call suite%close_to(one%result%patches(1)%friction%static, [0.25_wp], 1.0e-12_wp, "between the points")
+         & call suite%close_to(one%result%patches(1)%friction%fstat, [0.25_wp], 1.0e-12_wp, "between the points")
       call suite%check(any(one%result%patches(1)%contact%division > element%exterior), "with contact")
       call one%release()
    end subroutine friction_in_the_patch

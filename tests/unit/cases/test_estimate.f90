@@ -1,11 +1,12 @@
 !> Estimates of cost: how they grow with elements, and with what makes a case dear
 program test_estimate
-   use contact_base_choices, only : friction_model, motion, normal_control, solver_choice
+   use contact_base_choices, only : motion, normal_control, solver_choice
    use contact_base_kinds, only : long, wp
    use contact_base_memory, only : bytes_per_element
    use contact_cases_estimate, only : case_cost, cost_text, estimate_cost
    use contact_cases_spec, only : case_spec
    use contact_test_harness, only : test_suite
+   use contact_friction_new_law, only : friction_model
    implicit none (type, external)
    type(test_suite) :: suite
 

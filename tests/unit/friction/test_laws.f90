@@ -1,12 +1,11 @@
 !> Friction laws: values at rest, at the half-value velocities and far out; rows; refusals
 program test_laws
    use, intrinsic :: ieee_arithmetic, only : ieee_quiet_nan, ieee_value
-   use contact_base_choices, only : friction_model
    use contact_base_error, only : error_type
    use contact_base_kinds, only : wp
    use contact_friction_heated, only : heated_law
-   use contact_friction_law, only : friction_driver, friction_law, friction_parameters
-   use contact_friction_new_law, only : new_friction_law
+   use contact_friction_law, only : friction_driver, friction_law, friction_set
+   use contact_friction_new_law, only : friction_model, new_friction_law
    use contact_test_harness, only : test_suite
    implicit none (type, external)
    !> A few roundings of closed forms
@@ -41,7 +40,7 @@ contains
    subroutine make(suite, choice, sets, law)
       type(test_suite), intent(inout) :: suite
       integer, intent(in) :: choice
-      type(friction_parameters), intent(in) :: sets(:)
+      type(friction_set), intent(in) :: sets(:)
       class(friction_law), allocatable, intent(out) :: law
       type(error_type), allocatable :: error
 
@@ -49,27 +48,29 @@ contains
       call suite%check(.not. allocated(error), "the law is made")
    end subroutine make
 
-   pure type(friction_parameters) function two_terms() result(set)
-      set%static = 0.34_wp
-      set%kinetic = 0.15_wp
-      set%term = [0.12_wp, 0.07_wp]
-      set%half_speed = [80.0_wp, 900.0_wp]
+   pure type(friction_set) function two_terms() result(set)
+      set%fstat = 0.34_wp
+      set%fkin = 0.15_wp
+      set%coef1 = 0.12_wp
+      set%coef2 = 0.07_wp
+      set%sabsh1 = 80.0_wp
+      set%sabsh2 = 900.0_wp
    end function two_terms
 
    subroutine values(suite)
       type(test_suite), intent(inout) :: suite
       class(friction_law), allocatable :: law
-      type(friction_parameters) :: set
+      type(friction_set) :: set
       integer :: k
 
       set = two_terms()
       do k = 1, size(falling)
          call make(suite, falling(k), [set], law)
-         call suite%equal(law%driver, friction_driver%slip_speed, "falls with slip")
+         call suite%equal(law%driver(), friction_driver%slip_speed, "falls with slip")
          call suite%close_to(mu_at(law, 0.0_wp), 0.34_wp, closed, "all of it at rest")
       end do
-      set%term(2) = 0.0_wp
-      set%half_speed(2) = 0.0_wp
+      set%coef2 = 0.0_wp
+      set%sabsh2 = 0.0_wp
       do k = 1, size(falling)
          call make(suite, falling(k), [set], law)
          call suite%close_to(mu_at(law, 80.0_wp), 0.21_wp, closed, "half of the term at its velocity")
@@ -85,12 +86,12 @@ contains
       call suite%close_to(mu_at(law, 1800.0_wp), 0.15_wp + 0.12_wp/23.5_wp + 0.07_wp/5.0_wp, closed, "rational: both terms")
       call make(suite, friction_model%coulomb, [set], law)
       call suite%close_to(mu_at(law, 55.0_wp), 0.34_wp, 0.0_wp, "Coulomb: the static coefficient")
-      set%static = 0.5_wp
-      set%kinetic = 0.2_wp
-      set%onset = 100.0_wp
-      set%range = 300.0_wp
+      set%fstat = 0.5_wp
+      set%fkin = 0.2_wp
+      set%tref = 100.0_wp
+      set%dtheat = 300.0_wp
       call make(suite, friction_model%temperature, [set], law)
-      call suite%equal(law%driver, friction_driver%temperature, "changes with temperature")
+      call suite%equal(law%driver(), friction_driver%temperature, "changes with temperature")
       call suite%close_to(mu_at(law, -40.0_wp), 0.5_wp, closed, "cold")
       call suite%close_to(mu_at(law, 200.0_wp), 0.4_wp, closed, "on the way")
       call suite%close_to(mu_at(law, 4000.0_wp), 0.2_wp, closed, "hot")
@@ -100,24 +101,24 @@ contains
    subroutine rows(suite)
       type(test_suite), intent(inout) :: suite
       class(friction_law), allocatable :: law
-      type(friction_parameters) :: sets(3)
+      type(friction_set) :: sets(3)
       real(wp) :: mu(4, 3), rest(4, 3)
       integer :: k
 
       sets = two_terms()
-      sets%kinetic = [0.1_wp, 0.2_wp, 0.3_wp]
-      sets%static = sets%kinetic + 0.19_wp
+      sets%fkin = [0.1_wp, 0.2_wp, 0.3_wp]
+      sets%fstat = sets%fkin + 0.19_wp
       do k = 1, size(falling)
          call make(suite, falling(k), sets, law)
          call suite%check(law%varies_by_row(), "friction varies")
          call law%coefficient(reshape(spread(50.0_wp, 1, 12), [4, 3]), mu)
          call law%at_rest(rest)
          call suite%close_to(mu(4, :) - mu(1, 1), [0.0_wp, 0.1_wp, 0.2_wp], closed, "kinetic coefficients by row")
-         call suite%close_to(rest(2, :), sets%static, closed, "at rest by row")
+         call suite%close_to(rest(2, :), sets%fstat, closed, "at rest by row")
       end do
       call make(suite, friction_model%coulomb, sets, law)
       call law%coefficient(mu, rest)
-      call suite%close_to(rest(2, :), sets%static, closed, "Coulomb by row")
+      call suite%close_to(rest(2, :), sets%fstat, closed, "Coulomb by row")
       call make(suite, friction_model%coulomb, sets(1:1), law)
       call suite%check(.not. law%varies_by_row(), "one set does not vary")
    end subroutine rows
@@ -141,11 +142,11 @@ contains
    subroutine no_terms_is_coulomb(suite)
       type(test_suite), intent(inout) :: suite
       class(friction_law), allocatable :: law
-      type(friction_parameters) :: set
+      type(friction_set) :: set
       integer :: k
 
-      set%static = 0.27_wp
-      set%kinetic = 0.27_wp
+      set%fstat = 0.27_wp
+      set%fkin = 0.27_wp
       do k = 1, size(falling)
          call make(suite, falling(k), [set], law)
          call suite%close_to(mu_at(law, 123.0_wp), 0.27_wp, 0.0_wp, "without terms: Coulomb")
@@ -158,15 +159,15 @@ contains
    subroutine own_heat(suite)
       type(test_suite), intent(inout) :: suite
       class(friction_law), allocatable :: law
-      type(friction_parameters) :: set
+      type(friction_set) :: set
       real(wp) :: mu, theta, rise, temperature
       integer :: i, j, k, sign_
 
       do sign_ = -1, 1, 2
-         set%static = 0.4_wp
-         set%kinetic = 0.4_wp + 0.3_wp*sign_
-         set%onset = 100.0_wp
-         set%range = 50.0_wp
+         set%fstat = 0.4_wp
+         set%fkin = 0.4_wp + 0.3_wp*sign_
+         set%tref = 100.0_wp
+         set%dtheat = 50.0_wp
          call make(suite, friction_model%temperature, [set], law)
          select type (law)
          type is (heated_law)
@@ -188,27 +189,27 @@ contains
 
    subroutine refusals(suite)
       type(test_suite), intent(inout) :: suite
-      type(friction_parameters) :: set, none(0)
+      type(friction_set) :: set, none(0)
 
       call refused(suite, friction_model%coulomb, none, "no set at all")
       call refused(suite, 5, [set], "a law that does not exist")
-      set%term(1) = 0.1_wp
-      set%half_speed(1) = 0.0_wp
+      set%coef1 = 0.1_wp
+      set%sabsh1 = 0.0_wp
       call refused(suite, friction_model%linear, [set], "a velocity of zero")
-      set%half_speed(1) = ieee_value(1.0_wp, ieee_quiet_nan)
+      set%sabsh1 = ieee_value(1.0_wp, ieee_quiet_nan)
       call refused(suite, friction_model%rational, [set], "a velocity that is no number")
-      set%half_speed(1) = 1.0_wp
-      set%kinetic = -0.1_wp
+      set%sabsh1 = 1.0_wp
+      set%fkin = -0.1_wp
       call refused(suite, friction_model%exponential, [set], "negative friction")
-      set%kinetic = 0.1_wp
-      set%range = 0.0_wp
+      set%fkin = 0.1_wp
+      set%dtheat = 0.0_wp
       call refused(suite, friction_model%temperature, [set], "a range of zero")
    end subroutine refusals
 
    subroutine refused(suite, choice, sets, what)
       type(test_suite), intent(inout) :: suite
       integer, intent(in) :: choice
-      type(friction_parameters), intent(in) :: sets(:)
+      type(friction_set), intent(in) :: sets(:)
       character(len=*), intent(in) :: what
       class(friction_law), allocatable :: law
       type(error_type), allocatable :: error

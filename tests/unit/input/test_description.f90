@@ -128,7 +128,7 @@ contains
 end module description_archives
 
 program test_description
-   use contact_base_choices, only : friction_model, material_model, solver_choice, variation
+   use contact_base_choices, only : material_model, solver_choice, variation
    use contact_base_kinds, only : wp
    use contact_cases_archive, only : case_archive
    use contact_cases_grid_inputs, only : visit_distance, visit_grid, visit_planform
@@ -148,6 +148,7 @@ program test_description
    use contact_text_lexer, only : input_lexer
    use contact_wheelrail_spec, only : wheel_rail_spec
    use description_archives, only : collector, filler
+   use contact_friction_new_law, only : friction_model
    implicit none (type, external)
    !> Forms of the groups
    integer, parameter :: forms = 71

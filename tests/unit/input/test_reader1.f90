@@ -1,6 +1,6 @@
 !> Reading of cases of module 1: what is stored, what is kept, and faulty input
 program test_reader1
-   use contact_base_choices, only : contact_location, friction_model, normal_control, variation
+   use contact_base_choices, only : contact_location, normal_control, variation
    use contact_base_constants, only : pi
    use contact_base_error, only : error_type, full_text
    use contact_base_kinds, only : wp
@@ -9,6 +9,7 @@ program test_reader1
    use contact_input_reader, only : read_case
    use contact_test_harness, only : test_suite
    use contact_text_lexer, only : input_lexer
+   use contact_friction_new_law, only : friction_model
    implicit none (type, external)
    character, parameter :: nl = achar(10)
    real(wp), parameter :: closed = 100.0_wp*epsilon(1.0_wp)

@@ -1,11 +1,11 @@
 !> Prescribed forces in the simplified theory: there and back, near and beyond what friction can give
 program test_simplified_forces
-   use contact_base_choices, only : friction_model, material_model
+   use contact_base_choices, only : material_model
    use contact_base_error, only : error_type
    use contact_base_kinds, only : wp
    use contact_base_solve_report, only : ending, solve_report
-   use contact_friction_law, only : friction_law, friction_parameters
-   use contact_friction_new_law, only : new_friction_law
+   use contact_friction_law, only : friction_law, friction_set
+   use contact_friction_new_law, only : friction_model, new_friction_law
    use contact_simplified_flexibility, only : slope_reduction
    use contact_simplified_problem, only : simplified_problem, simplified_solution
    use contact_simplified_solve, only : solve_simplified
@@ -138,8 +138,8 @@ contains
       real(wp) :: expected
       integer :: j
 
-      call new_friction_law(friction_model%exponential, [friction_parameters(static=0.3_wp, kinetic=0.1_wp, &
-         & term=[0.2_wp, 0.0_wp], half_speed=[500.0_wp, 1.0_wp])], law, error)
+      call new_friction_law(friction_model%exponential, [friction_set(fstat=0.3_wp, fkin=0.1_wp, &
+         & coef1=0.2_wp, sabsh1=500.0_wp)], law, error)
       call suite%check(.not. allocated(error), "a law of friction")
       problem = elliptic_problem(6.0_wp, 3.0_wp, 41, 31, [0.05_wp, 0.0_wp], 0.0_wp)
       allocate(problem%law, source=law)

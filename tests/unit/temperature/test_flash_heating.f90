@@ -2,12 +2,12 @@
 program test_flash_heating
    use contact_base_constants, only : pi
    use contact_base_error, only : error_type
-   use contact_base_choices, only : friction_model, heat_source
+   use contact_base_choices, only : heat_source
    use contact_base_kinds, only : wp
    use contact_friction_heated, only : heated_law
-   use contact_friction_law, only : friction_law, friction_parameters
+   use contact_friction_law, only : friction_law, friction_set
    use contact_friction_memory, only : friction_memory
-   use contact_friction_new_law, only : new_friction_law
+   use contact_friction_new_law, only : friction_model, new_friction_law
    use contact_temperature_flash_heating, only : body_pair, heat_passage, min_peclet_number, new_body_pair
    use contact_test_harness, only : test_suite
    implicit none (type, external)
@@ -300,7 +300,7 @@ contains
       type(test_suite), intent(inout) :: suite
       type(heat_passage) :: passage
       type(friction_memory) :: memory
-      type(friction_parameters) :: set
+      type(friction_set) :: set
       class(friction_law), allocatable :: law
       type(error_type), allocatable :: error
       real(wp) :: pn(60, 1), speed(60, 1), mu(60, 1), expected(60, 1), t1(60, 1), s1(60, 1), s2(60, 1), nothing(60, 1)
@@ -317,7 +317,7 @@ contains
          memory%lowest_speed = 2.0e3_wp
          do k = 1, 4
             range = 10.0_wp**(4 - k)
-            set = friction_parameters(static=0.4_wp, kinetic=0.1_wp, onset=50.0_wp, range=range)
+            set = friction_set(fstat=0.4_wp, fkin=0.1_wp, tref=50.0_wp, dtheat=range)
             call new_friction_law(friction_model%temperature, [set], law, error)
             select type (law)
             type is (heated_law)

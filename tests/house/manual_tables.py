@@ -1,17 +1,23 @@
 #!/usr/bin/env python3
-"""The keys of the readable format in doc/user/readable.md are those of the sources
+"""The tables of doc/user that say what the sources say are current
 
-Usage: readable_keys.py [--write]. The tables are made from the description of the groups (src/cases), the table of bounds, the
-digits and their words; with --write they are put into the page, without it the page is compared with them.
+Usage: manual_tables.py [--write]. Made from the description of the groups (src/cases), the table of bounds, the digits and their
+words are
+
+    readable.md      the keys of each table of a case
+    input.md         digits and their values, numbers of the friction laws, bounds of all numbers
+    wheel_rail.md    digits and their values
+
+With --write they are put into the pages, without it the pages are compared with them.
 """
+import difflib
 import os
 import pathlib
 import re
 import sys
 
 TOP = pathlib.Path(os.environ.get("CONTACT_SOURCE", pathlib.Path(__file__).resolve().parents[2]))
-PAGE = TOP / "doc/user/readable.md"
-START, END = "<!-- keys: made by tests/house/readable_keys.py --write -->", "<!-- end of keys -->"
+START, END = "<!-- keys: made by tests/house/manual_tables.py --write -->", "<!-- end of keys -->"
 # told by the lists themselves
 LENGTHS = {"NN", "NP", "NVF", "NX", "NY", "NZ", "PRFOPT", "PROFILE", "CZZ"}
 RENAMED = {"Y,ALPHA": "inclinations", "XL,XH,YL,YH": "rectangles"}
@@ -60,6 +66,74 @@ def row_of(name, table):
     return table.get(name)
 
 
+def names_of(body, parts, seen=frozenset(), prefix=""):
+    """Names of the numbers that a piece of a description visits; of NAME // "1" the NAME is handed over by the caller"""
+    out = []
+    for match in re.finditer(r'\bname // "(\d)"|(?<!// )"([A-Z][A-Z0-9_,|]*)"|call (visit_\w+)(?:\(a, "([A-Z]+)")?', body):
+        if match[1]:
+            out.append(prefix + match[1])
+        elif match[2]:
+            out.append(match[2])
+        elif match[3] in parts and match[3] not in seen:
+            # several callers may hand over other names
+            out += names_of(parts[match[3]], parts, seen if match[4] else seen | {match[3]}, match[4] or "")
+    return out
+
+
+def laws():
+    """Rows with the numbers of each friction law"""
+    choices = dict(re.findall(r"(\w+) = (\d+)", re.search(
+        r"type :: friction_model_list(.*?)end type", source("friction/new_law.f90"), re.DOTALL)[1]))
+    parts = procedures("cases/inputs.f90")
+    pieces = re.split(r"case \(friction_model%(\w+)\)", parts["visit_friction_set"])[1:]
+    values = {int(choices[name]): list(dict.fromkeys(names_of(re.sub(r"%(?:refuse|warn|was_given)\(.*", "", body), parts)))
+              for name, body in zip(pieces[::2], pieces[1::2])}
+    rows_of_laws = [f"| L = {law} | {' '.join(values[law])} |" for law in sorted(values)]
+    varying = ", ".join(str(law) for law in sorted(values) if law)
+    return [*rows_of_laws, f"| L = {varying} | {' '.join(names_of(parts['visit_friction_memory'], parts))} |"]
+
+
+def number(text, constants):
+    """A number of the sources as real_text writes it: six figures"""
+    value = float(eval(re.sub(r"_wp\b", "", text), {}, constants))
+    if abs(value) >= 1e6 or (value and abs(value) < 1e-4):
+        return f"{value:.5E}"
+    return f"{value:.6f}".rstrip("0").rstrip(".")
+
+
+def bound_rows():
+    """Rows of the table of bounds"""
+    text = source("text/bounds.f90")
+    constants = {name: float(value) for name, value in re.findall(r"(\w+) = ([-\d.e+]+)_wp", text[:text.index("solver_rows")])}
+    for name, unit, title, lowest, highest, is_open, reason, *_ in rows("text/bounds.f90", "number_bounds"):
+        above = "above " if is_open == ".true." else ""
+        yield f"| {name} | {title} | {unit} | {above}{number(lowest, constants)} | {number(highest, constants)} | {reason} |"
+
+
+def digit_rows(modules):
+    """Rows of each digit, by its letter"""
+    found = {}
+    for name, digit, _, module, built, text, *_ in ([row[0], *row[1:]] for row in rows("control/digits.f90", "digit_row")):
+        if module in modules:
+            found.setdefault(name, []).append(f"| {name} | {digit} | {text}{'' if built == '.true.' else ' (not built)'} |")
+    return found
+
+
+def with_rows(page, start, new):
+    """A page with other rows in place of those that begin with some words and stand together"""
+    lines = page.split("\n")
+    found = [k for k, line in enumerate(lines) if re.match(start, line)]
+    assert found, f"no row {start} in the manual"
+    assert found == list(range(found[0], found[-1] + 1)), f"rows {start} of the manual stand apart"
+    return "\n".join(lines[:found[0]] + list(new) + lines[found[-1] + 1:])
+
+
+def page_of_digits(page, modules):
+    for name, new in digit_rows(modules).items():
+        page = with_rows(page, rf"\| {name} \| \d+ \| ", new)
+    return page
+
+
 def groups():
     """Names of the numbers of each group, in the order of the input files"""
     parts = {}
@@ -67,13 +141,7 @@ def groups():
         parts.update(procedures(file))
 
     def names(body, seen):
-        out = []
-        for match in re.finditer(r'(?<!// )"([A-Z][A-Z0-9_,|]*)"|call (visit_\w+)', body):
-            if match.group(1):
-                out.append(match.group(1))
-            elif match.group(2) in parts and match.group(2) not in seen:
-                out += names(parts[match.group(2)], seen | {match.group(2)})
-        return out
+        return names_of(body, parts, seen)
 
     found = {}
     for body in procedures("cases/whole_case.f90").values():
@@ -140,17 +208,33 @@ def tables():
     return "\n".join(lines)
 
 
-def main():
-    page = PAGE.read_text()
+def readable(page):
     before, rest = page.split(START)
-    after = rest.split(END)[1]
-    current = before + START + "\n" + tables() + END + after
-    if "--write" in sys.argv:
-        PAGE.write_text(current)
-    elif page != current:
-        sys.exit("doc/user/readable.md is not current: python3 tests/house/readable_keys.py --write")
-    print("doc/user/readable.md has the keys of the sources")
+    return before + START + "\n" + tables() + END + rest.split(END)[1]
+
+
+def input_page(page):
+    page = page_of_digits(page, ("both", "module_3"))
+    page = with_rows(page, r"\| L = [\d, ]+ \| [A-Z]+ [A-Z_0-9 ]+ \|$", laws())
+    return with_rows(page, r"\| [^|]+ \| [^|]+ \| [^|]+ \| [^|]+ \| [-\d.E+]+ \| ", bound_rows())
+
+
+def main():
+    bad = 0
+    for name, make in (("readable", readable), ("input", input_page),
+                       ("wheel_rail", lambda page: page_of_digits(page, ("module_1",)))):
+        path = TOP / f"doc/user/{name}.md"
+        page = path.read_text()
+        current = make(page)
+        if "--write" in sys.argv:
+            path.write_text(current)
+        elif page != current:
+            bad += 1
+            print(f"FAILED doc/user/{name}.md is not current: python3 tests/house/manual_tables.py --write")
+            print("\n".join(list(difflib.unified_diff(page.split("\n"), current.split("\n"), lineterm="", n=0))[2:20]))
+    print(f"3 pages, {bad} failures")
+    return 1 if bad else 0
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())

@@ -1,0 +1,89 @@
+!> The archive that collects the names and the values of a group, for tables and to count them
+module contact_cases_collector
+   use contact_base_choices, only : variation
+   use contact_base_kinds, only : wp
+   use contact_cases_archive, only : case_archive
+   use contact_cases_inputs, only : visit_friction_memory, visit_friction_set
+   use contact_friction_law, only : friction_set
+   use contact_cases_spec, only : friction_spec
+   implicit none (type, external)
+   private
+
+   public :: collector, friction_numbers
+
+   !> Length of a name
+   integer, parameter, public :: collected_length = 13
+
+   !> What it has seen so far; texts do not count
+   type, extends(case_archive) :: collector
+      !> Names as in the input files; the numbers of a list share one
+      character(len=collected_length), allocatable :: names(:)
+      !> In internal units
+      real(wp), allocatable :: values(:)
+   contains
+      procedure :: end_line => collect_line
+      procedure :: list => collect_list
+   end type collector
+
+contains
+
+   !> The numbers of one set of friction parameters, and those of the friction memory
+   subroutine friction_numbers(a, law, set, memory)
+      !> Empty on entry
+      type(collector), intent(inout) :: a
+      !> Member of friction_model; other numbers have none
+      integer, intent(in) :: law
+      type(friction_set), intent(in) :: set
+      !> With the memory, where the law has one; absent: without
+      type(friction_spec), intent(in), optional :: memory
+      type(friction_set), target :: here
+      type(friction_spec), target :: copy
+
+      here = set
+      call visit_friction_set(a, law, variation%none, here)
+      if (.not. present(memory)) return
+      copy%memdst = memory%memdst
+      copy%mem_s0 = memory%mem_s0
+      call visit_friction_memory(a, law, copy)
+   end subroutine friction_numbers
+
+   !> Keep the items in hand
+   subroutine collect_line(self)
+      class(collector), intent(inout) :: self
+      integer :: k
+
+      do k = 1, self%count
+         associate (item => self%items(k))
+            if (associated(item%r)) call keep(self, item%name, [item%r])
+            if (associated(item%i)) call keep(self, item%name, [real(item%i, wp)])
+         end associate
+      end do
+      call self%finish_line()
+   end subroutine collect_line
+
+   !> Keep a list
+   subroutine collect_list(self, name, values, n, units, bounds)
+      class(collector), intent(inout) :: self
+      character(len=*), intent(in) :: name
+      real(wp), allocatable, intent(inout) :: values(:)
+      integer, intent(in) :: n
+      character(len=*), intent(in), optional :: units(:)
+      character(len=*), intent(in), optional :: bounds
+
+      associate (unused => n, no_units => present(units), no_bounds => present(bounds))
+      end associate
+      if (allocated(values)) call keep(self, name, values)
+   end subroutine collect_list
+
+   !> Some values of one name behind the others
+   subroutine keep(self, name, values)
+      class(collector), intent(inout) :: self
+      character(len=*), intent(in) :: name
+      real(wp), intent(in) :: values(:)
+      integer :: k
+
+      if (.not. allocated(self%values)) allocate(self%values(0), self%names(0))
+      self%names = [character(len=collected_length) :: self%names, (name, k=1, size(values))]
+      self%values = [self%values, values]
+   end subroutine keep
+end module contact_cases_collector
