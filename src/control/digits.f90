@@ -2,6 +2,8 @@
 !>
 !> The table serves reading, checking, refusing what is not built, writing of input files and
 !> the tables of doc/user. Decoding and encoding of the three control words is here too.
+!>
+!> Long because it is mostly the table, one entry per value of a digit.
 module contact_control_digits
    use contact_base_choices, only : contact_location, estimate_choice, force_control, kernel_model, &
       & material_model, motion, normal_control, pressure_model, slip_source, solver_choice, time_link, variation
