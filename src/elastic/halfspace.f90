@@ -31,6 +31,9 @@ module contact_elastic_halfspace
       real(wp), allocatable :: xn(:, :), yn(:, :)
    end type kernel_table
 
+   !> Ratio of two coordinates at which a term x asinh(y/|x|) no longer counts, and y/|x| might overflow for smaller ones
+   real(wp), parameter :: on_axis = 1.0e-14_wp
+
 contains
 
    !> All coefficients without shift: one quadrant is computed, the rest follows by symmetry
@@ -183,8 +186,8 @@ contains
 
       r = hypot(x, y)
       f = 0.0_wp
-      if (abs(x) > 1.0e-14_wp*abs(y)) f(1) = x*asinh(y/abs(x))
-      if (abs(y) > 1.0e-14_wp*abs(x)) f(2) = y*asinh(x/abs(y))
+      if (abs(x) > on_axis*abs(y)) f(1) = x*asinh(y/abs(x))
+      if (abs(y) > on_axis*abs(x)) f(2) = y*asinh(x/abs(y))
       f(3) = r
       if (.not. coupled .or. r <= 0.0_wp) return
       f(4) = y*log(r)

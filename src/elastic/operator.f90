@@ -58,6 +58,12 @@ module contact_elastic_operator
       procedure :: need_all
    end type elastic_operator
 
+   !> Largest decay per element of sums along rolling: in windows of a few elements `decay` would leave nothing of the sum
+   real(wp), parameter :: largest_decay = 0.9_wp
+   !> Floor of spectra that are divided by, relative to their maximum: a complete period has a positive spectrum, the floor
+   !> guards against rounding where elements are of extreme shapes
+   real(wp), parameter :: spectrum_floor = 1.0e-10_wp
+
 contains
 
    subroutine prepare(self, model, dx, dy, mx, my, direction, y_first)
@@ -109,7 +115,7 @@ contains
          do k = 1, self%plan%kx
             turn = exp(cmplx(0.0_wp, direction*2.0_wp*pi*(k - 1)/self%plan%px, wp))
             self%difference(k) = 1.0_wp - turn
-            self%sum_up(k) = 1.0_wp/(1.0_wp - (1.0_wp - min(0.9_wp, decay/sqrt(real(mx, wp))))*turn)
+            self%sum_up(k) = 1.0_wp/(1.0_wp - (1.0_wp - min(largest_decay, decay/sqrt(real(mx, wp))))*turn)
          end do
       end if
    end subroutine prepare
@@ -175,8 +181,7 @@ contains
          if (any(shape(self%inn) /= shape(self%nn))) deallocate(self%inn)
       end if
       if (.not. allocated(self%inn)) allocate(self%inn, mold=self%nn)
-      ! a complete period has a positive spectrum; the floor guards extreme shapes only
-      smallest = 1.0e-10_wp*maxval(abs(self%nn))/scale
+      smallest = spectrum_floor*maxval(abs(self%nn))/scale
       self%inn = scale/max(self%nn/scale, smallest)
       self%has_normal = .true.
    end subroutine need_normal
@@ -229,7 +234,7 @@ contains
       integer :: k, l
 
       scale = 1.0_wp/elements
-      floor_ = 1.0e-10_wp*maxval(abs(xx))*maxval(abs(yy))
+      floor_ = spectrum_floor*maxval(abs(xx))*maxval(abs(yy))
       do l = 1, size(xx, 2)
          do k = 1, size(xx, 1)
             det = max(xx(k, l)*yy(k, l) - xy(k, l)**2, floor_)

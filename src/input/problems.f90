@@ -49,6 +49,7 @@ contains
    !> Empty the list and remember the name of the file
    subroutine start(self, file)
       class(problem_list), intent(inout) :: self
+      !> Path of the input file, for the places of complaints
       character(len=*), intent(in) :: file
 
       self%count = 0
@@ -62,9 +63,11 @@ contains
       class(problem_list), intent(inout) :: self
       !> Member of severity
       integer, intent(in) :: kind
+      !> One sentence: what is wrong, and what would be accepted
       character(len=*), intent(in) :: message
       !> Position in the file, column 0 when the line as a whole is meant
       integer, intent(in) :: line
+      !> Column in the line, from 1; absent: not known
       integer, intent(in), optional :: column
       type(input_problem), allocatable :: longer(:)
 
@@ -105,6 +108,7 @@ contains
    !> The first problem that is not a warning, as an error
    subroutine first_failure(self, error)
       class(problem_list), intent(in) :: self
+      !> The first problem that refuses the case; unallocated without one
       type(error_type), allocatable, intent(out) :: error
       integer :: k
 
@@ -118,6 +122,7 @@ contains
    !> A number must keep its bounds
    subroutine check_bounds(self, value, name)
       class(problem_list), intent(inout) :: self
+      !> Number with its place in the file
       type(input_value), intent(in) :: value
       !> Name of the bounds in the table; default the name of the value
       character(len=*), intent(in), optional :: name
@@ -142,6 +147,7 @@ contains
 
    !> A problem as it is printed, " Input: ERROR. file:line:column: words"
    pure function problem_text(problem) result(text)
+      !> One problem that was noted
       type(input_problem), intent(in) :: problem
       character(len=len_trim(opening(problem)) + 1 + len(full_text(problem%what))) :: text
 

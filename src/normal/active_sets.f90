@@ -12,7 +12,7 @@ module contact_normal_active_sets
    use contact_base_kinds, only : wp
    use contact_base_solve_report, only : ending, solve_report
    use contact_elastic_compliance, only : compliance
-   use contact_normal_conjugate_gradient, only : approach_scale, normal_problem, pressure_displacement
+   use contact_normal_problem, only : approach_scale, carries_nothing, normal_problem, pressure_displacement
    implicit none (type, external)
    private
 
@@ -134,7 +134,7 @@ contains
       where (.not. now%active) now%p = 0.0_wp
       if (problem%force_prescribed) then
          total = sum(now%p)*problem%dx*problem%dy
-         if (total > 1.0e-3_wp*problem%fn) then
+         if (total > carries_nothing*problem%fn) then
             now%p = now%p*(problem%fn/total)
          else
             now%p = merge(problem%fn/(problem%dx*problem%dy*count(now%active)), 0.0_wp, now%active)

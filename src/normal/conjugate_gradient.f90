@@ -7,7 +7,7 @@
 !> (the approach is the multiplier that belongs to it). Inside nested iteration the number of
 !> transforms does not depend on the grid.
 module contact_normal_conjugate_gradient
-   use contact_base_constants, only : excluded_threshold
+   use contact_base_constants, only : excluded_distance, excluded_threshold
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
    use contact_base_solve_report, only : ending, solve_report
@@ -424,7 +424,7 @@ contains
                   n = n + 1
                end do
             end do
-            coarse%h(ix, iy) = 1.0e30_wp
+            coarse%h(ix, iy) = excluded_distance
             if (n > 0) coarse%h(ix, iy) = h/n
          end do
       end do

@@ -12,6 +12,15 @@ module contact_normal_estimate
    !> Part of the penetration below which a point of the undeformed surfaces is taken for contact [-]
    real(wp), parameter :: contact_level = 0.6_wp
 
+   !> Force of a row of elements as a function of its penetration: G dy/(1 - nu) times `row_factor` times the penetration to the
+   !> power of 1.08, whose inverse is 0.926. A fit to line contacts; an estimate needs no more
+   real(wp), parameter :: row_power = 1.08_wp, inverse_power = 0.926_wp, row_excess = 0.08_wp
+   !> Its factor: level, share at the reference width [mm], loss with the logarithm of the width, power of the radius along x
+   real(wp), parameter :: row_level = 0.6_wp, row_share = 0.35_wp, row_loss = 0.05_wp, row_width = 200.0_wp, radius_power = 0.1_wp
+   !> Peak of a parabola of pressure over a line contact, relative to the force over the area of a semi-axis times the half
+   !> length: 3/8 by integration
+   real(wp), parameter :: parabola_peak = 0.375_wp
+
 contains
 
    !> Hertz's pressure, a semi-ellipsoid, at the centres of the elements.
@@ -53,7 +62,7 @@ contains
 
       call inverted_paraboloid(grid, aa, bb, line_contact, pn)
       if (line_contact) then
-         call scale_pressure(0.375_wp*fn, aa, bb, pn)
+         call scale_pressure(parabola_peak*fn, aa, bb, pn)
       else
          call scale_pressure(2.0_wp*fn/pi, aa, bb, pn)
       end if
@@ -184,7 +193,7 @@ contains
       real(wp), intent(in) :: fn, gg, nu, radius
       real(wp) :: penetration
 
-      penetration = (fn*(1.0_wp - nu)/(gg*dy*row_factor(dy, radius)))**0.926_wp
+      penetration = (fn*(1.0_wp - nu)/(gg*dy*row_factor(dy, radius)))**inverse_power
    end function penetration_of_row
 
    !> Derivative of the force to the penetration [N/mm] for the same law
@@ -192,7 +201,7 @@ contains
       real(wp), intent(in) :: dy, gg, nu, radius, penetration
       real(wp) :: stiffness
 
-      stiffness = 1.08_wp*gg*dy*row_factor(dy, radius)*penetration**0.08_wp/(1.0_wp - nu)
+      stiffness = row_power*gg*dy*row_factor(dy, radius)*penetration**row_excess/(1.0_wp - nu)
    end function row_stiffness
 
    !> Factor of the law for rows: weakly dependent on their width and on the curvature
@@ -202,8 +211,8 @@ contains
       !> Keeps the law positive for rows of any width
       real(wp), parameter :: least = 0.05_wp
 
-      factor = 0.6_wp*max(least, 0.35_wp - 0.05_wp*log(dy/200.0_wp))
-      if (radius > 0.0_wp) factor = factor*radius**0.1_wp
+      factor = row_level*max(least, row_share - row_loss*log(dy/row_width))
+      if (radius > 0.0_wp) factor = factor*radius**radius_power
    end function row_factor
 
    !> Penetration [mm] at which the area that belongs to it carries the force

@@ -41,6 +41,9 @@ module contact_normal_kpec
       real(wp) :: level_x = half_way, level_y = half_way
    end type threshold_ellipse
 
+   !> A contact area of one row reaches at least so many times as far across as the middle of that row is from its centre; chosen
+   real(wp), parameter :: beyond_row = 1.1_wp
+
 contains
 
    !> Pressures up to a factor.
@@ -119,7 +122,7 @@ contains
       b1 = half_way*overlap/(0.5_wp*(end_ - start))**2
       hertz = hertz_by_curvatures(hertz_load(normal_control%approach, pen=overlap), a1, b1)
       ellipse%bb = hertz%bb
-      if (one_row) ellipse%bb = max(ellipse%bb, 1.1_wp*abs(grid%y(maxloc(maxval(weight, dim=1), dim=1)) - ellipse%ym))
+      if (one_row) ellipse%bb = max(ellipse%bb, beyond_row*abs(grid%y(maxloc(maxval(weight, dim=1), dim=1)) - ellipse%ym))
       ellipse%level_x = a1*hertz%aa**2/overlap
       ellipse%level_y = b1*hertz%bb**2/overlap
    end function fit_ellipse

@@ -8,7 +8,7 @@ module contact_normal_problem
    implicit none (type, external)
    private
 
-   public :: approach_scale, load_lowest_element, make_admissible, normal_problem, pressure_displacement
+   public :: approach_scale, carries_nothing, load_lowest_element, make_admissible, normal_problem, pressure_displacement
 
    !> Estimates that carry less than this part of the force are none; chosen
    real(wp), parameter :: carries_nothing = 1.0e-3_wp

@@ -9,6 +9,10 @@ module contact_numeric_b_spline
    public :: basis_values, knot_interval, interpolation_knots, interpolate_sites, not_a_knot_splines
    public :: smooth_b_splines, pieces_from_b_spline
 
+   !> Weight of the conditions of straight sections, relative to the largest of the sums of squares: holds them straight,
+   !> and leaves the system solvable; chosen
+   real(wp), parameter :: straightness = 1.0e6_wp
+
 contains
 
    !> The interval j with t(j) <= s < t(j+1) among those that carry four basis functions
@@ -260,7 +264,7 @@ contains
             c(j - 4 + k, :) = c(j - 4 + k, :) + weights(i)*row(k)*f(i, :)
          end do
       end do
-      stiffness = 1.0e6_wp*maxval(band(4, :))
+      stiffness = straightness*maxval(band(4, :))
       k = 0
       do j = 4, n
          if (t(j + 1) <= t(j)) cycle

@@ -6,6 +6,9 @@ module contact_numeric_polynomial
 
    public :: quadratic_roots, monotone_cubic_root
 
+   !> A quotient whose divisor is smaller than this part might overflow: the root is beyond any interval
+   real(wp), parameter :: overflows = 1.0e-200_wp
+
 contains
 
    !> Real roots of c + b x + a x**2 strictly inside an interval, in rising order
@@ -28,7 +31,7 @@ contains
       ! Without cancellation: the larger root first, the other from the product of both
       q = -0.5_wp*(b + sign(sqrt(discriminant), b))
       candidates = high
-      if (abs(a) > 1.0e-200_wp*abs(q)) candidates(1) = q/a
+      if (abs(a) > overflows*abs(q)) candidates(1) = q/a
       if (q /= 0.0_wp) candidates(2) = c/q
       if (candidates(1) > candidates(2)) candidates = candidates([2, 1])
       do k = 1, 2

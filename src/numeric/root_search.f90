@@ -46,6 +46,9 @@ module contact_numeric_root_search
    real(wp), parameter :: growth = 1.6_wp
    integer, parameter :: max_evaluations = 200
 
+   !> A saturated function that changes by less than this part of the tolerance from step to step does not change; chosen
+   real(wp), parameter :: no_change = 0.1_wp
+
 contains
 
    !> Begin anew
@@ -107,7 +110,7 @@ contains
             return
          end if
          self%step = growth*self%step
-         if (saturated .and. abs(f) > abs(self%fa) - 0.1_wp*self%tolerance) then
+         if (saturated .and. abs(f) > abs(self%fa) - no_change*self%tolerance) then
             if (abs(self%x - self%a) >= 0.5_wp*self%reach) then
                self%finished = .true.
                return

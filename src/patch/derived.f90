@@ -1,6 +1,7 @@
 !> Totals and fields that follow from the tractions of a patch
 module contact_patch_derived
    use contact_base_choices, only : estimate_choice, motion
+   use contact_base_constants, only : nmm_per_joule
    use contact_base_kinds, only : wp
    use contact_base_solve_report, only : solve_report
    use contact_grid_element_division, only : bounding_box, contact_box, element
@@ -13,6 +14,9 @@ module contact_patch_derived
    private
 
    public :: reset_result, derive, remember_friction
+
+   !> Velocities below this value give the time step of this one [mm/s]
+   real(wp), parameter :: min_velocity = 1.0e-10_wp
 
 contains
 
@@ -36,7 +40,7 @@ contains
       result%chi = problem%chi
       result%dq = problem%dq
       result%veloc = problem%veloc
-      result%dt = problem%dq/max(1.0e-10_wp, problem%veloc)
+      result%dt = problem%dq/max(min_velocity, problem%veloc)
       result%mu_scal = problem%mu
       result%fn = problem%fn
       result%pen = problem%pen
@@ -147,7 +151,7 @@ contains
       end if
       if (allocated(problem%simplified)) then
          call spring_displacements(problem, state, workspace, result)
-         result%friction_power = area/(1000.0_wp*result%dt)*(sum(result%px*result%sx) + sum(result%py*result%sy))
+         result%friction_power = area/(nmm_per_joule*result%dt)*(sum(result%px*result%sx) + sum(result%py*result%sy))
       else
          call displacements(problem, state, box, workspace, result)
       end if
@@ -161,12 +165,13 @@ contains
                end do
             end do
          end associate
-         result%friction_power = area/(1000.0_wp*result%dt)*(sum(result%px*result%sx) + sum(result%py*result%sy))
+         result%friction_power = area/(nmm_per_joule*result%dt)*(sum(result%px*result%sx) + sum(result%py*result%sy))
          if (problem%model%coupled()) call coupled_residual(problem, box, result)
       end if
       call derive_yield(problem, state, workspace%solution, result)
       if (.not. allocated(problem%given_pressure)) then
-         result%elastic_energy = area/2000.0_wp*(sum(result%pn*result%un) + sum(result%px*result%ux) + sum(result%py*result%uy))
+         result%elastic_energy = area/(2.0_wp*nmm_per_joule) &
+            & *(sum(result%pn*result%un) + sum(result%px*result%ux) + sum(result%py*result%uy))
       else
          result%un = 0.0_wp
       end if

@@ -11,6 +11,9 @@ module contact_patch_kinematics
 
    public :: rigid_slip, previous_displacement
 
+   !> Parts of a step along one axis below this one are the rounding of sine and cosine of a direction along the other
+   real(wp), parameter :: no_shift = 1.0e-10_wp
+
 contains
 
    !> Rigid slip per step without unknown creepages [mm], Kalker (1990)
@@ -65,8 +68,8 @@ contains
       if (problem%motion == motion%transient_rolling) then
          shift_x = problem%dq*cos(problem%chi)
          shift_y = problem%dq*sin(problem%chi)
-         if (abs(shift_y) < 1.0e-10_wp*problem%dq) shift_y = 0.0_wp
-         if (abs(shift_x) < 1.0e-10_wp*problem%dq) shift_x = 0.0_wp
+         if (abs(shift_y) < no_shift*problem%dq) shift_y = 0.0_wp
+         if (abs(shift_x) < no_shift*problem%dq) shift_x = 0.0_wp
       end if
       if (.not. problem%model%is_flat()) then
          call curved_displacement(problem, state%before, workspace, moved=shift_x /= 0.0_wp)

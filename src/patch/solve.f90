@@ -33,6 +33,9 @@ module contact_patch_solve
    !> Passes that the extrapolation remembers
    integer, parameter :: outer_depth = 10
 
+   !> Steps that differ from the length of an element by less than this part are one element
+   real(wp), parameter :: step_slack = 0.01_wp
+
 contains
 
    !> Solve for the tractions of this step
@@ -173,7 +176,7 @@ contains
       character(len=16) :: text
 
       if (.not. problem%model%is_flat() .and. problem%motion == motion%transient_rolling &
-         & .and. abs(problem%dq - problem%grid%dx) > 0.01_wp*problem%grid%dx) then
+         & .and. abs(problem%dq - problem%grid%dx) > step_slack*problem%grid%dx) then
          call fatal_error(error, "conformal contact and tabulated coefficients (C = 4, 9) need steps of one element in " &
             & // "transient rolling, DQ = DX", &
             & error_kind%input)

@@ -22,6 +22,13 @@ module contact_patch_tangential_step
 
    public :: tangential_step
 
+   !> Relaxation of the Gauss-Seidel methods where the input gives none, all values chosen. Contact areas of few elements need
+   !> none; steps in time and ConvexGS have one for adhesion and slip; steady rolling has two, by the ratio DX/DY of the elements
+   integer, parameter :: few_elements = 25
+   real(wp), parameter :: long_element = 5.0_wp, longer_element = 15.0_wp
+   real(wp), parameter :: relaxed_step = 0.5_wp, relaxed_square(2) = [0.9_wp, 1.0_wp], relaxed_long(2) = [0.8_wp, 0.8_wp], &
+      & relaxed_longer(2) = [0.8_wp, 0.6_wp]
+
 contains
 
    !> Tangential tractions and slip on the given contact area
@@ -255,23 +262,23 @@ contains
       type(patch_problem), intent(in) :: problem
       integer, intent(in) :: ncon
       type(tangential_problem), intent(inout) :: t
-      real(wp) :: ratio
+      real(wp) :: ratio, omega(2)
 
       if (problem%relaxation_given) return
       ratio = problem%grid%dx/problem%grid%dy
-      if (ncon <= 25) then
-         t%settings%omegah = 1.0_wp
-         t%settings%omegas = 1.0_wp
+      if (ncon <= few_elements) then
+         omega = 1.0_wp
       else if (.not. t%steady .or. problem%solver == solver_choice%convex_gs) then
-         t%settings%omegah = 0.5_wp
-         t%settings%omegas = 0.5_wp
-      else if (ratio <= 5.0_wp) then
-         t%settings%omegah = 0.9_wp
-         t%settings%omegas = 1.0_wp
+         omega = relaxed_step
+      else if (ratio <= long_element) then
+         omega = relaxed_square
+      else if (ratio <= longer_element) then
+         omega = relaxed_long
       else
-         t%settings%omegah = 0.8_wp
-         t%settings%omegas = merge(0.8_wp, 0.6_wp, ratio <= 15.0_wp)
+         omega = relaxed_longer
       end if
+      t%settings%omegah = omega(1)
+      t%settings%omegas = omega(2)
    end subroutine set_relaxation
 
    !> Run the solver that the case names; the default one hands over when it makes no progress

@@ -1,6 +1,7 @@
 !> The yield limit of the layer between the bodies, from the material of a patch to its tangential problem
 module contact_patch_yield
    use contact_base_choices, only : motion
+   use contact_base_constants, only : nmm_per_joule
    use contact_base_kinds, only : wp
    use contact_grid_element_division, only : bounding_box, element
    use contact_patch_problem, only : carried, patch_problem, patch_state, rolling_direction, traction_fields
@@ -118,6 +119,6 @@ contains
       result%uply = state%now%memory(carried%uply)%value
       if (problem%motion == motion%none .or. result%ncon == 0) return
       result%friction_power = result%friction_power &
-         & - problem%grid%dx*problem%grid%dy/(1000.0_wp*result%dt)*sum(solution%p*solution%plastic)
+         & - problem%grid%dx*problem%grid%dy/(nmm_per_joule*result%dt)*sum(solution%p*solution%plastic)
    end subroutine derive_yield
 end module contact_patch_yield

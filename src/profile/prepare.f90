@@ -24,6 +24,9 @@ module contact_profile_prepare
    !> Corners of a profile
    integer, parameter :: max_kinks = 99
 
+   !> From this part on nothing of a profile is visible, whatever the request accepts
+   real(wp), parameter :: all_hidden = 0.999_wp
+
 contains
 
    !> Read and prepare a profile; what becomes of warnings is the user's choice
@@ -339,7 +342,7 @@ contains
          return
       end if
       curve = new_curve(request%side, splines(1), splines(2))
-      if (request%doubt > doubt%ignore .and. curve%hidden_part() > min(request%max_hidden, 0.999_wp)) then
+      if (request%doubt > doubt%ignore .and. curve%hidden_part() > min(request%max_hidden, all_hidden)) then
          call fatal_error(error, real_text(100.0_wp*curve%hidden_part()) // " % of the profile are hidden behind the rest; &
             &accepted are at most " // real_text(100.0_wp*request%max_hidden) // " % (is it upside down?)", file=file)
       end if
@@ -360,6 +363,8 @@ contains
       real(wp), parameter :: conditioning = 20.0e-6_wp
       real(wp) :: weights(size(s)), points(size(s), 2), lambda, spacing
       integer :: n
+      !> Smallest distance of knots [mm], finer than any measurement; largest number of intervals between them
+      real(wp), parameter :: min_spacing = 0.001_wp
       integer, parameter :: max_intervals = 4998
 
       n = size(s)
@@ -381,7 +386,7 @@ contains
             return
          end if
          lambda = max(min_sixth, (request%smooth/(2.0_wp*pi))**6)
-         spacing = max(0.001_wp, 0.25_wp*request%smooth, (conditioning*lambda)**(1.0_wp/6.0_wp), &
+         spacing = max(min_spacing, 0.25_wp*request%smooth, (conditioning*lambda)**(1.0_wp/6.0_wp), &
             & (s(n) - s(1))/max_intervals)
          call smooth_b_splines(s, points, weights, lambda, spacing, splines, solved, is_kink)
       else

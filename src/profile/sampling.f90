@@ -22,11 +22,13 @@ contains
 
    !> Arc lengths of points along a curve [mm]
    pure subroutine curve_positions(curve, parts, step, s)
+      !> Curve whose pieces are divided
       type(profile_curve), intent(in) :: curve
       !> Parts of each piece of the spline; 1: even steps instead, 0 and less: the ends of the pieces
       integer, intent(in) :: parts
       !> Even step [mm]
       real(wp), intent(in) :: step
+      !> Rising, from the first end on [mm]
       real(wp), allocatable, intent(out) :: s(:)
       integer :: i, n
 
@@ -49,6 +51,7 @@ contains
 
    !> One point of a line on a surface
    subroutine line_point(surface, kind, place, position, y, z)
+      !> Surface through the slices of a rail or a wheel
       type(profile_surface), intent(in) :: surface
       !> Member of line_kind
       integer, intent(in) :: kind

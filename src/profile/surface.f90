@@ -80,6 +80,9 @@ module contact_profile_surface
    !> Slices that a spline along u needs
    integer, parameter :: fewest_slices = 4
 
+   !> Features at less than this distance before the start of a slice are at its start [mm]; -1 says that there is none
+   real(wp), parameter :: at_start = 1.0e-6_wp
+
 contains
 
    !> Build the surface from prepared slices
@@ -194,8 +197,8 @@ contains
       features = list%features
       do k = 1, size(curves)
          range = curves(k)%s_range()
-         last = findloc(features(:, k) > -1.0e-6_wp, .true., 1, back=.true.)
-         where (features(:, k) > -1.0e-6_wp)
+         last = findloc(features(:, k) > -at_start, .true., 1, back=.true.)
+         where (features(:, k) > -at_start)
             features(:, k) = max(0.0_wp, features(:, k))
          else where
             features(:, k) = -1.0_wp

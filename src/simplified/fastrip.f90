@@ -169,6 +169,8 @@ contains
       real(wp), intent(in) :: q, eta, spin
       !> Spin beyond which nothing sticks [-]
       real(wp), parameter :: excessive = 1.0e8_wp
+      !> Denominators of order 1 below this value stand for a slip zone without end: rounding leaves about 1e-16
+      real(wp), parameter :: no_adhesion = 1.0e-12_wp
       real(wp) :: size_, q1, eta1, discriminant, root
 
       d = huge(d)
@@ -184,10 +186,10 @@ contains
       if (discriminant < 0.0_wp) return
       root = sqrt(discriminant)
       if (eta1*spin > 0.0_wp) then
-         if (1.0_wp - spin**2 < 1.0e-12_wp) return
+         if (1.0_wp - spin**2 < no_adhesion) return
          d = size_*(a/(1.0_wp - nu))*((root + eta1*spin)/(1.0_wp - spin**2))
       else
-         if (root - eta1*spin < 1.0e-12_wp) return
+         if (root - eta1*spin < no_adhesion) return
          d = size_*(a/(1.0_wp - nu))*((eta1**2 + q1**2)/(root - eta1*spin))
       end if
    end function slip_half_length

@@ -25,6 +25,9 @@ module contact_simplified_flexibility
       real(wp) :: k0 = 1.0_wp, alpha = 1.0_wp, beta = 1.0_wp
    end type slope_reduction
 
+   !> Smallest characteristic creepage [-] that creepages are compared with: no friction force gives none
+   real(wp), parameter :: min_characteristic = 1.0e-10_wp
+
 contains
 
    !> Ellipse with the area of a contact area and the proportions of its bounding box
@@ -94,7 +97,7 @@ contains
 
       c = kalker_coefficients(area%aa, area%bb, nu)
       characteristic = load/(area%aa*area%bb*gg)*hypot(1.0_wp/c%c11, 1.0_wp/c%c22)
-      weight = min(1.0_wp, norm2(creep)/(3.0_wp*max(1.0e-10_wp, characteristic)))
+      weight = min(1.0_wp, norm2(creep)/(3.0_wp*max(min_characteristic, characteristic)))
       ! pi a**2/4 over 8 a/3: the factors by which the three flexibilities weigh the creepages
       psi = spin*3.0_wp*pi*area%aa/32.0_wp
       total = hypot(norm2(creep), psi)

@@ -48,6 +48,9 @@ module contact_simplified_kalker
       & 3.51_wp, 4.22_wp, 5.30_wp, 3.51_wp, 3.81_wp, 4.16_wp, 1.44_wp, 1.59_wp, 1.77_wp, &
       & 3.40_wp, 4.12_wp, 5.20_wp, 3.40_wp, 3.67_wp, 3.98_wp, 1.33_wp, 1.47_wp, 1.63_wp], [9, 10])
 
+   !> Smallest ratio of the semi-axes: stands for a line contact, whose limits are logarithms of the ratio
+   real(wp), parameter :: min_ratio = 1.0e-6_wp
+
 contains
 
    !> Coefficients for an ellipse and a Poisson ratio
@@ -66,8 +69,7 @@ contains
       if (aa <= 0.0_wp .and. bb <= 0.0_wp) then
          g = 1.0_wp
       else
-         ! the floor stands for a line contact, whose limits are logarithms of g
-         g = max(min(aa, bb)/max(aa, bb), 1.0e-6_wp)
+         g = max(min(aa, bb)/max(aa, bb), min_ratio)
       end if
       if (g < narrow) then
          if (aa < bb) then

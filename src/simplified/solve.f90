@@ -15,6 +15,12 @@ module contact_simplified_solve
 
    public :: solve_simplified
 
+   !> Part of the tolerance that the inner of two nested searches is held to: the outer one sees its error as noise; chosen
+   real(wp), parameter :: inner_part = 0.1_wp
+   !> Determinants of the sensitivities, in units of the characteristic creepages, that are no better than zero: differences over
+   !> 1e-6 of these creepages leave about ten digits
+   real(wp), parameter :: singular = 1.0e-12_wp
+
 contains
 
    !> Tractions, slip, creepages. The iterations of the report are marches through the area, 0 for
@@ -110,7 +116,7 @@ contains
       call search%start(creep(2), 0.25_wp*unit(2), 0.5_wp*problem%eps)
       do while (.not. search%finished)
          creep(2) = search%x
-         call find_longitudinal(problem, 0.1_wp*problem%eps, creep, solution, report)
+         call find_longitudinal(problem, inner_part*problem%eps, creep, solution, report)
          error = maxval(abs(solution%force - problem%force))
          if (error < best_error) then
             best = creep
@@ -152,7 +158,7 @@ contains
          end do
          determinant = slope(1, 1)*slope(2, 2) - slope(1, 2)*slope(2, 1)
          report%residual = maxval(abs(missing))
-         if (determinant*product(unit) <= 1.0e-12_wp) return
+         if (determinant*product(unit) <= singular) return
          step = -[slope(2, 2)*missing(1) - slope(1, 2)*missing(2), slope(1, 1)*missing(2) - slope(2, 1)*missing(1)]/determinant
          do j = 0, max_halvings
             creep = base + 0.5_wp**j*step

@@ -44,6 +44,8 @@ contains
       integer, parameter :: max_sweeps = 20
       !> Entries whose squares might underflow; the largest entry is 1
       real(wp), parameter :: negligible = 1.0e-100_wp
+      !> Off-diagonal entries end the sweeps at this part of the precision of the machine: they change no digit by then
+      real(wp), parameter :: converged = 0.01_wp
       real(wp) :: a(3, 3), c, s, t, theta, scale, row
       integer :: p, q, r, sweep
 
@@ -52,7 +54,7 @@ contains
       if (.not. scale > 0.0_wp) return
       a = reshape(stress([1, 2, 3, 2, 4, 5, 3, 5, 6])/scale, [3, 3])
       do sweep = 1, max_sweeps
-         if (max(abs(a(1, 2)), abs(a(1, 3)), abs(a(2, 3))) < 0.01_wp*epsilon(1.0_wp)) exit
+         if (max(abs(a(1, 2)), abs(a(1, 3)), abs(a(2, 3))) < converged*epsilon(1.0_wp)) exit
          do p = 1, 2
             do q = p + 1, 3
                if (abs(a(p, q)) < negligible) cycle

@@ -162,6 +162,8 @@ contains
       real(wp) :: sigma, n, target, rise
       integer :: trial
       integer, parameter :: max_trials = 40
+      !> A traction that exceeds the limit by less than this part is on it: some roundings
+      real(wp), parameter :: on_bound = 1.0e-14_wp
 
       found = .false.
       sigma = 0.0_wp
@@ -172,7 +174,7 @@ contains
          p = axes%b/(axes%lambda + sigma)
          n = hypot(p(1), p(2))
          target = 1.0_wp - slope*sigma
-         found = n*target - limit <= 1.0e-14_wp*limit
+         found = n*target - limit <= on_bound*limit
          if (found) exit
          rise = sum((p/n)**2/(axes%lambda + sigma)) + slope*n/limit
          if (.not. rise > 0.0_wp) exit

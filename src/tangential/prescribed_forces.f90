@@ -72,6 +72,32 @@ module contact_tangential_prescribed_forces
    !> Keeps stretched forces finite in full sliding
    real(wp), parameter :: tail = 1.0e-10_wp
 
+   !> Largest first step, in linear creepages: beyond two of them the creep curve is nearly flat
+   real(wp), parameter :: first_reach = 2.0_wp
+   !> Sensitivities of the previous case are used if they are this part of the linear ones at least, so many times these at most,
+   !> and the determinant of two forces is this part of the product at least: orders of magnitude, chosen
+   real(wp), parameter :: min_usable = 1.0e-3_wp, max_usable = 30.0_wp, min_determinant = 1.0e-3_wp
+   !> Trials stay this part of a bracket away from its ends
+   real(wp), parameter :: margin = 2.0e-5_wp
+   !> Every so many evaluations the bracket is halved; a secant from one side alone may close in slowly
+   integer, parameter :: halving = 6
+   !> Without a bracket the largest step grows by this factor per evaluation
+   real(wp), parameter :: growth_of_one = 2.0_wp
+   !> Largest step of two creepages relative to the last one: after a step that more than halved the miss, after another one that
+   !> reduced it, after one that did not. The usual values of trust regions lie around these; chosen
+   real(wp), parameter :: after_good = 3.0_wp, after_fair = 1.5_wp, after_bad = 0.4_wp
+   !> Part of the miss that a good step leaves at most
+   real(wp), parameter :: good_progress = 0.5_wp
+   !> Steps that were not good, after which sensitivities are renewed by differences; an update that makes forces rise with
+   !> creepage counts as many
+   integer, parameter :: too_slow = 2
+   !> Least part of the saturation that is left, where stretched sensitivities begin: sqrt of it divides
+   real(wp), parameter :: min_rest = 1.0e-3_wp
+   !> Margin of the test for forces that fall in every direction, above rounding
+   real(wp), parameter :: definite = 1.0e-6_wp
+   !> Misses above this value say that there is no best point: after differences that had no sense
+   real(wp), parameter :: no_best = 1.0e100_wp
+
 contains
 
    subroutine start(self, problem, operator, sensitivity)
@@ -122,13 +148,13 @@ contains
       end do
       self%sensitivity(1, 1) = self%linear(1)
       self%sensitivity(2, 2) = self%linear(2)
-      self%reach = 2.0_wp/minval(abs(self%linear(:self%n)))
+      self%reach = first_reach/minval(abs(self%linear(:self%n)))
       self%far = far_out*max(1.0_wp/minval(abs(self%linear(:self%n))), maxval(abs(problem%shift))/problem%dq)
       ! what the previous case left is used if it is of the expected sign and order of magnitude
-      usable = all([(sensitivity(k, k)/self%linear(k) > 1.0e-3_wp &
-         & .and. sensitivity(k, k)/self%linear(k) < 30.0_wp, k=1, self%n)])
+      usable = all([(sensitivity(k, k)/self%linear(k) > min_usable &
+         & .and. sensitivity(k, k)/self%linear(k) < max_usable, k=1, self%n)])
       if (self%n == 2) usable = usable .and. sensitivity(1, 1)*sensitivity(2, 2) - sensitivity(1, 2)*sensitivity(2, 1) &
-         & > 1.0e-3_wp*sensitivity(1, 1)*sensitivity(2, 2)
+         & > min_determinant*sensitivity(1, 1)*sensitivity(2, 2)
       if (usable) self%sensitivity(:self%n, :self%n) = sensitivity(:self%n, :self%n)
       self%inherited = usable
    end subroutine start
@@ -168,7 +194,6 @@ contains
       real(wp), intent(in) :: miss
       real(wp), intent(inout) :: creep
       real(wp) :: slope, new
-      real(wp), parameter :: margin = 0.02_wp
 
       if (self%evaluations > 1 .and. creep /= self%best(1)) then
          slope = (self%best_miss(1) - miss)/(creep - self%best(1))
@@ -195,13 +220,13 @@ contains
       new = creep + max(-self%reach, min(self%reach, miss/self%sensitivity(1, 1)))
       if (self%has_low .and. self%has_high .and. self%high > self%low) then
          associate (width => self%high - self%low)
-            if (new <= self%low + 1.0e-3_wp*margin*width .or. new >= self%high - 1.0e-3_wp*margin*width) &
+            if (new <= self%low + margin*width .or. new >= self%high - margin*width) &
                & new = 0.5_wp*(self%low + self%high)
             ! a point beyond the estimate closes the bracket from the other side
-            if (mod(self%evaluations, 6) == 0) new = 0.5_wp*(self%low + self%high)
+            if (mod(self%evaluations, halving) == 0) new = 0.5_wp*(self%low + self%high)
          end associate
       else
-         self%reach = 2.0_wp*self%reach
+         self%reach = growth_of_one*self%reach
       end if
       creep = new
    end subroutine advance_one
@@ -239,7 +264,7 @@ contains
          self%best = creep
          self%best_miss = miss
          call start_slope(self)
-      else if (maxval(self%best_miss) > 1.0e100_wp) then
+      else if (maxval(self%best_miss) > no_best) then
          self%best = creep
          self%best_miss = miss
       else
@@ -247,19 +272,19 @@ contains
          y = self%best_miss - miss
          progress = norm2(miss)/norm2(self%best_miss)
          if (progress < 1.0_wp) then
-            self%reach = max(self%reach, merge(3.0_wp, 1.5_wp, progress < 0.5_wp)*norm2(s))
+            self%reach = max(self%reach, merge(after_good, after_fair, progress < good_progress)*norm2(s))
          else
             self%failures = self%failures + 1
-            self%reach = 0.4_wp*min(norm2(s), self%reach)
+            self%reach = after_bad*min(norm2(s), self%reach)
          end if
-         self%slow = self%slow + merge(1, 0, progress > 0.5_wp)
+         self%slow = self%slow + merge(1, 0, progress > good_progress)
          ! after a failed step, good sensitivities and a shorter step are the better choice
          if (dot_product(s, s) > 0.0_wp .and. .not. (self%fresh .and. progress >= 1.0_wp)) then
             j = self%slope + spread(y - matmul(self%slope, s), 2, 2)*spread(s, 1, 2)/dot_product(s, s)
             if (falls(j)) then
                self%slope = j
             else
-               self%slow = self%slow + 2
+               self%slow = self%slow + too_slow
             end if
          end if
          if (progress < 1.0_wp) then
@@ -271,7 +296,7 @@ contains
       call report_sensitivity(self)
       if (self%ended /= ending%not_started) return
 
-      if (self%slow >= 2 .and. .not. self%fresh) then
+      if (self%slow >= too_slow .and. .not. self%fresh) then
          self%probed = 1
          self%change = probe*max(norm2(self%best), probe/maxval(abs(self%linear)))
          creep = self%best + [self%change, 0.0_wp]
@@ -294,7 +319,7 @@ contains
 
       self%slope = self%sensitivity
       if (.not. self%inherited) return
-      rest = max(1.0e-3_wp, 1.0_wp - dot_product(self%force, self%force))
+      rest = max(min_rest, 1.0_wp - dot_product(self%force, self%force))
       self%slope = (self%sensitivity + spread(self%force, 2, 2)*spread(matmul(self%force, self%sensitivity), 1, 2)/rest) &
          & /sqrt(rest)
    end subroutine start_slope
@@ -328,6 +353,6 @@ contains
    pure logical function falls(j)
       real(wp), intent(in) :: j(2, 2)
       falls = j(1, 1) < 0.0_wp .and. j(2, 2) < 0.0_wp &
-         & .and. 4.0_wp*j(1, 1)*j(2, 2) > (1.0_wp + 1.0e-6_wp)*(j(1, 2) + j(2, 1))**2
+         & .and. 4.0_wp*j(1, 1)*j(2, 2) > (1.0_wp + definite)*(j(1, 2) + j(2, 1))**2
    end function falls
 end module contact_tangential_prescribed_forces

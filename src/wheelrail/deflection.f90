@@ -14,6 +14,11 @@ module contact_wheelrail_deflection
 
    public :: search_deflection, lower_rail
 
+   !> The first step goes a little beyond what the spring alone would do, so that the root lies between the first two points
+   real(wp), parameter :: beyond_spring = 1.05_wp
+   !> Intervals of deflection that count as a point [mm], and the part of the tolerance that a spring may make of one
+   real(wp), parameter :: fine_deflection = 1.0e-8_wp, part_of_tolerance = 0.1_wp
+
 contains
 
    !> Search the lateral deflection of a rail on springs
@@ -42,11 +47,11 @@ contains
          if (allocated(error)) return
          residual = unbalanced()
          step = rail%first_step
-         if (rail%ky > 0.0_wp) step = min(step, 1.05_wp*abs(residual)/rail%ky)
+         if (rail%ky > 0.0_wp) step = min(step, beyond_spring*abs(residual)/rail%ky)
          tolerance = problem%template%settings%eps*max(abs(rail%fy), norm2(total_force(memory)))
          call search%start(first, step, tolerance)
-         search%resolution = 1.0e-8_wp
-         if (rail%ky > 0.0_wp) search%resolution = min(search%resolution, 0.1_wp*tolerance/rail%ky)
+         search%resolution = fine_deflection
+         if (rail%ky > 0.0_wp) search%resolution = min(search%resolution, part_of_tolerance*tolerance/rail%ky)
          do
             call search%answer(residual, abs(search%x - first) > out_of_sight)
             if (search%finished) exit

@@ -220,10 +220,13 @@ contains
       !> Unchanged where there is no surface
       real(wp), intent(inout) :: n
       real(wp) :: point(3), rho, z, trial, correction, slope, facing
+      !> Corrections below this part of the radius are rounding; Newton's method takes three to five steps to it
+      real(wp), parameter :: on_surface = 1.0e-12_wp
+      integer, parameter :: max_steps = 30
       integer :: step
 
       trial = 0.0_wp
-      do step = 1, 30
+      do step = 1, max_steps
          point = plane%to_parent([x, s, trial])
          if (.not. rail%has(point(2))) return
          rho = radius - rail%height(point(2))
@@ -234,7 +237,7 @@ contains
          facing = plane%axes(3, 3) - slope*plane%axes(2, 3)
          correction = (z - point(3))/facing
          trial = trial + correction
-         if (abs(correction) < 1.0e-12_wp*radius) then
+         if (abs(correction) < on_surface*radius) then
             ! a surface that turns its back on the plane is not the one in contact
             if (facing > 0.0_wp) n = trial
             return

@@ -86,6 +86,15 @@ module contact_wheelrail_force_balance
    !> The place of a jump is sought up to this distance [mm], and this part of the penetration
    real(wp), parameter :: place_of_jump = 1.0e-6_wp, part_of_penetration = 1.0e-3_wp
 
+   !> Width of a bracket that counts as a point, relative to the height of first touch or 1 mm: what rounding leaves
+   real(wp), parameter :: point_width = 1.0e-12_wp
+   !> Without a bracket from above the penetration grows at least by this factor per trial
+   real(wp), parameter :: min_growth = 1.02_wp
+   !> Penetration that the first steps away from the first touch are measured by [mm]
+   real(wp), parameter :: shallow = 1.0e-3_wp
+   !> Forces at the ends of a bracket that differ by less than this part of the target are the same but for rounding
+   real(wp), parameter :: same_force = 1.0e-14_wp
+
 contains
 
    !> Begin a search between the first touch and the highest height
@@ -106,7 +115,7 @@ contains
       self%tolerance = eps*target
       self%touch = touch
       self%highest = highest
-      self%resolution = 1.0e-12_wp*max(1.0_wp, abs(touch))
+      self%resolution = point_width*max(1.0_wp, abs(touch))
       self%max_trials = max_trials
       self%trials = 0
       self%z = touch
@@ -141,8 +150,8 @@ contains
          if (self%last%force < 0.0_wp .and. self%last%slope > 0.0_wp) &
             & z = self%last%z + (self%target - self%last%force)/self%last%slope
          ! from below: at least a little further, and not too far
-         z = max(z, self%touch + 1.02_wp*(self%low%z - self%touch) + self%resolution)
-         z = min(z, self%touch + largest_growth*max(self%low%z - self%touch, 1.0e-3_wp), self%highest)
+         z = max(z, self%touch + min_growth*(self%low%z - self%touch) + self%resolution)
+         z = min(z, self%touch + largest_growth*max(self%low%z - self%touch, shallow), self%highest)
          return
       end if
       width = self%high%z - self%low%z
@@ -254,7 +263,7 @@ contains
       below = max(0.0_wp, self%low%force)**(2.0_wp/3.0_wp)
       if (self%has_high) then
          above = max(0.0_wp, self%high%force)**(2.0_wp/3.0_wp)
-         if (above - below > 1.0e-14_wp*wanted) then
+         if (above - below > same_force*wanted) then
             z = self%low%z + (self%high%z - self%low%z)*(wanted - below)/(above - below)
          else
             z = 0.5_wp*(self%low%z + self%high%z)
@@ -262,7 +271,7 @@ contains
       else if (below > 0.0_wp) then
          z = self%touch + (self%low%z - self%touch)*wanted/below
       else
-         z = self%touch + 2.0_wp*(self%low%z - self%touch) + 1.0e-3_wp
+         z = self%touch + 2.0_wp*(self%low%z - self%touch) + shallow
       end if
    end function interpolated
 

@@ -54,6 +54,9 @@ module contact_wheelrail_gap
    !> It is taken at gaps that are larger than the smallest one by less than this [mm]: deeper contacts are not narrow
    real(wp), parameter :: looked_at = 1.0_wp
 
+   !> Heights above the axle of a roller are at least this part of its radius: points beside it would have none
+   real(wp), parameter :: lowest_on_roller = 0.01_wp
+
 contains
 
    !> The rail's profile in track coordinates
@@ -124,10 +127,10 @@ contains
          depth = sqrt(radius**2 - x**2)
       end function depth
 
-      !> Height of a point of the track above the axle of the roller, at least a hundredth of its radius [mm]
+      !> Height of a point of the track above the axle of the roller, at least `lowest_on_roller` of its radius [mm]
       pure real(wp) function axle_depth(point)
          real(wp), intent(in) :: point(3)
-         axle_depth = max(0.01_wp*placement%roller_radius, placement%roller_radius - point(3))
+         axle_depth = max(lowest_on_roller*placement%roller_radius, placement%roller_radius - point(3))
       end function axle_depth
    end function locus_point
 

@@ -28,6 +28,12 @@ module contact_wheelrail_gap_bound
    !> What interpolation between sections and rounding may do to heights [mm]
    real(wp), parameter :: rounding = 1.0e-5_wp
 
+   !> Sine of the angle from the bottom of a wheel up to which its circles are looked at: beyond it they are far above any rail
+   real(wp), parameter :: widest_sine = 0.9_wp
+   !> What roll and yaw may add to such a sine, and the part of the nominal radius that a circle of the profile has at least;
+   !> both with ample room for a railway wheel
+   real(wp), parameter :: added_sine = 0.1_wp, min_radius = 0.9_wp
+
 contains
 
    !> Lower bound of the vertical gap [mm], for each lateral position over each stretch of track
@@ -188,11 +194,11 @@ contains
 
       associate (axes => bodies%placement%wheel%axes, origin => bodies%placement%wheel%origin, r => bodies%placement%wheel_radius)
          s = (x - origin(1) - axes(1, 2)*y - axes(1, 3)*z)/(axes(1, 1)*(r + z))
-         s = max(-0.9_wp, min(0.9_wp, s))
+         s = max(-widest_sine, min(widest_sine, s))
          if (.not. abs(axes(1, 3)) > 0.0_wp) return
          do step = 1, steps
             s = (x - origin(1) - axes(1, 2)*y - axes(1, 3)*((r + z)*sqrt(1.0_wp - s**2) - r))/(axes(1, 1)*(r + z))
-            s = max(-0.9_wp, min(0.9_wp, s))
+            s = max(-widest_sine, min(widest_sine, s))
          end do
       end associate
    end subroutine find_angles
@@ -225,8 +231,8 @@ contains
       real(wp) :: s
 
       associate (r => bodies%placement%wheel_radius, x => bodies%placement%wheel%origin(1))
-         s = min(0.9_wp, maxval(abs(range_x - x))/r + 0.1_wp)
-         sagitta = ((range_x(2) - range_x(1))/(stations - 1))**2/(8.0_wp*0.9_wp*r*sqrt(1.0_wp - s**2)**3)
+         s = min(widest_sine, maxval(abs(range_x - x))/r + added_sine)
+         sagitta = ((range_x(2) - range_x(1))/(stations - 1))**2/(8.0_wp*min_radius*r*sqrt(1.0_wp - s**2)**3)
       end associate
    end function sagitta
 

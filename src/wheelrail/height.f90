@@ -13,7 +13,8 @@ module contact_wheelrail_height
    use contact_text_words, only : integer_text, real_text
    use contact_wheelrail_force_balance, only : balance_ending, force_balance
    use contact_wheelrail_geometry, only : measure
-   use contact_wheelrail_memory, only : wheel_rail_memory, vertical_force, vertical_slope
+   use contact_wheelrail_height_search, only : height_search, mostly_friction, sum_of_normal_forces
+   use contact_wheelrail_memory, only : wheel_rail_memory, vertical_force
    use contact_wheelrail_problem, only : wheel_rail_problem
    use contact_wheelrail_result, only : wheel_rail_result
    use contact_wheelrail_trial, only : evaluate, learn_shares
@@ -31,16 +32,20 @@ module contact_wheelrail_height
    !> The deepest first trial [mm]
    real(wp), parameter :: deepest_guess = 5.0_wp
 
-   !> A trial after one that missed the force by less than so many times EPS solves pressures to that part of EPS
-   real(wp), parameter :: near_by = 20.0_wp, sharper = 0.05_wp
-   !> Least part of the normal forces that pressures are made sharper for
-   real(wp), parameter :: smallest = 1.0e-4_wp
-
    !> Forces below this value ask for a wheel that just touches [N]
    real(wp), parameter :: no_force = 1.0e-9_wp
 
-   !> Where the normal forces are so many times the prescribed force, friction carries nearly all of them
-   real(wp), parameter :: mostly_friction = 20.0_wp
+   !> Least stiffness, relative to force over penetration, and least penetration [mm] for it, by which a missed force moves the
+   !> next guess: a contact of Hertz has 1.5
+   real(wp), parameter :: min_stiffness = 0.1_wp, min_penetration = 1.0e-6_wp
+   !> Part of the missed force that a round of the correction of friction leaves at most; otherwise its ratio does not settle
+   real(wp), parameter :: good_progress = 0.5_wp
+
+   !> Width over which the curvature of the gap across the track is measured, as large as a patch [mm]; gaps that bend more than
+   !> the limit [1/mm] have a kink there
+   real(wp), parameter :: bend_reach = 2.0_wp, max_bend = 10.0_wp
+   !> Least mean curvature [1/mm] of flat bodies, whose penetration by Hertz would be none
+   real(wp), parameter :: min_curvature = 1.0e-8_wp
 
    !> Heights and deflections this far away are out of reach [mm]
    real(wp), parameter :: out_of_sight = 500.0_wp
@@ -132,175 +137,120 @@ contains
       type(log_type), intent(inout) :: log
       type(wheel_rail_result), intent(inout) :: result
       type(error_type), allocatable, intent(out) :: error
-      type(force_balance) :: balance
-      character(len=:), allocatable :: why
-      character(len=8) :: missed
-      real(wp) :: force, first_guess, guess, touch, bottom, slope, miss, last_miss
-      !> What the last trial missed the force by, relative to it; the force relative to the normal forces where friction carries
-      !> nearly all of these, otherwise 1
-      real(wp) :: off, small
-      logical :: separate
-      integer :: round, trials
+      type(height_search) :: search
+      logical :: is_settled
 
-      touch = memory%geometry%touch
-      ! friction decouples from the pressures for bodies that are alike
-      separate = problem%template%motion /= motion%none .and. .not. problem%template%model%coupled()
-      guess = penetration_guess(problem, memory, target)
-      if (spring > 0.0_wp) guess = min(guess, target/spring)
-      call refuse_soft_bodies(memory%geometry%placement%wheel_radius, target, guess, error)
+      call search%begin(memory, target, spring, result%force_evaluations)
+      search%guess = penetration_guess(problem, memory, target)
+      if (spring > 0.0_wp) search%guess = min(search%guess, target/spring)
+      call refuse_soft_bodies(memory%geometry%placement%wheel_radius, target, search%guess, error)
       if (allocated(error)) return
-      guess = touch + min(guess, deepest_guess)
-      if (problem%use_previous .and. memory%started .and. memory%z_ws > touch) guess = memory%z_ws
-      if (memory%geometry%penetration > 0.0_wp) guess = touch + memory%geometry%penetration
+      search%guess = search%touch + min(search%guess, deepest_guess)
+      if (problem%use_previous .and. memory%started .and. memory%z_ws > search%touch) search%guess = memory%z_ws
+      if (memory%geometry%penetration > 0.0_wp) search%guess = search%touch + memory%geometry%penetration
+      z = search%guess
       if (problem%geometry_only) then
          ! there are no forces to tell a better height
-         z = guess
          call evaluate(problem, memory, z, with_friction=.false., log=log, error=error)
          return
       end if
-      first_guess = guess
-      bottom = touch
-      trials = 0
-      last_miss = huge(last_miss)
-      off = huge(off)
-      small = 1.0_wp
-      do round = 1, rounds_apart
-         if (.not. separate) exit
-         call search(with_friction=.false., max_trials=problem%template%settings%maxnr/2 - trials)
-         if (allocated(error)) return
-         if (balance%ended /= balance_ending%reached .and. abs(balance%force - target) > small_step*target) then
-            separate = .false.
-            guess = balance%z
-            if (balance%has_high) guess = balance%next_trial(guess)
-            if (balance%ended == balance_ending%out_of_reach) guess = first_guess
-            exit
-         end if
-         ! the tangential problem at the height found corrects the lateral forces
-         call try_height(z, with_friction=.true.)
-         if (allocated(error)) return
-         call learn_shares(memory)
-         miss = abs(force - target)
-         if (miss <= balance%tolerance) exit
-         guess = z + (target - force)/max(slope, 0.1_wp*target/max(z - touch, 1.0e-6_wp))
-         if (guess <= bottom) guess = z
-         ! on steep flanks friction carries so much of the force that its ratio does not settle by itself
-         separate = round < rounds_apart .and. miss < 0.5_wp*last_miss .and. trials < problem%template%settings%maxnr/2
-         last_miss = miss
-      end do
-      if (.not. separate) then
-         ! one trial is left for a last look at the best height
-         call search(with_friction=.true., max_trials=problem%template%settings%maxnr - trials - 1)
-         if (allocated(error)) return
-         if (abs(balance%force - force) > 0.0_wp) then
-            call try_height(z, with_friction=.true.)
-            if (allocated(error)) return
-         end if
-      end if
+      call search_apart(problem, memory, search, is_settled, log, error)
+      if (.not. allocated(error) .and. .not. is_settled) call search_together(problem, memory, search, log, error)
+      z = search%z
+      if (allocated(error)) return
       call log%speak()
-      memory%geometry%penetration = z - touch
-      result%force_evaluations = result%force_evaluations + trials
-      result%max_trials = max(result%max_trials, trials)
-      result%force_error = vertical_force(memory) + spring*(z - touch) - target
-      ! grids follow the contact in whole elements, which leaves small steps in the force
-      if (abs(result%force_error) > max(balance%tolerance, small_step*target)) then
-         call explain(balance, target, sum_of_normal_forces(memory), why)
-         call result%status%miss_force("vertical force", target, target + result%force_error, why)
-         call log%warning(result%status%reason)
-      else if (abs(result%force_error) > balance%tolerance) then
-         write(missed, "(ES8.1)") abs(result%force_error)/target
-         call log%warning("the vertical force is met within " // trim(adjustl(missed)) // " of what is asked for, not within EPS: &
-            &grids follow the contact in whole elements, and the force has steps of that size")
-      end if
-
-   contains
-
-      !> A search from a bracket of its own, from `guess` on; its best height is z
-      subroutine search(with_friction, max_trials)
-         logical, intent(in) :: with_friction
-         integer, intent(in) :: max_trials
-         integer :: before, k
-
-         before = trials
-         call bracket(with_friction, max_trials)
-         if (allocated(error) .or. balance%ended /= balance_ending%above_touch) return
-         ! Elements overlap before the mesh of the gap does, by less than its width shows: the regions of the first touch stay
-         ! while the wheel is lifted off
-         memory%geometry%lowest_for_regions = touch + 2.0_wp*balance%resolution
-         bottom = touch - 1.0e-6_wp
-         do k = 1, memory%used
-            bottom = min(bottom, touch - 6.0_wp*memory%slot(k)%result%pen)
-         end do
-         guess = touch
-         call bracket(with_friction, max_trials - (trials - before))
-      end subroutine search
-
-      !> A search between two heights
-      subroutine bracket(with_friction, max_trials)
-         logical, intent(in) :: with_friction
-         integer, intent(in) :: max_trials
-         real(wp) :: trial
-
-         call balance%start(target, problem%template%settings%eps, bottom, touch + 1.1_wp*memory%geometry%placement%wheel_radius, &
-            & max(1, max_trials), forces_are_estimates=.not. with_friction)
-         do while (balance%ended == balance_ending%running)
-            trial = balance%next_trial(guess)
-            call try_height(trial, with_friction)
-            if (allocated(error)) return
-            call balance%record(trial, force, slope, memory%used)
-         end do
-         z = balance%z
-      end subroutine bracket
-
-      !> Force and slope at a height; only the warnings of the last trial, or of one that fails, are those of the case
-      subroutine try_height(z, with_friction)
-         real(wp), intent(in) :: z
-         logical, intent(in) :: with_friction
-
-         call log%hold()
-         ! pressures within EPS of the last ones would be taken for those of this height
-         memory%geometry%pressure_eps = 1.0_wp
-         if (off > problem%template%settings%eps .and. off*small < near_by*problem%template%settings%eps) &
-            & memory%geometry%pressure_eps = sharper*small
-         call evaluate(problem, memory, z, with_friction, log, error)
-         trials = trials + 1
-         memory%geometry%pressure_eps = 1.0_wp
-         if (allocated(error)) then
-            call log%speak()
-            return
-         end if
-         force = vertical_force(memory) + spring*(z - touch)
-         off = abs(force - target)/target
-         ! a small difference of large forces needs sharper ones
-         small = 1.0_wp
-         if (sum_of_normal_forces(memory) > mostly_friction*target) &
-            & small = max(smallest, target/sum_of_normal_forces(memory))
-         slope = vertical_slope(memory) + spring
-         call trace_trial(log, result%force_evaluations + trials, z, force, slope)
-      end subroutine try_height
+      memory%geometry%penetration = z - search%touch
+      result%force_evaluations = result%force_evaluations + search%trials
+      result%max_trials = max(result%max_trials, search%trials)
+      result%force_error = vertical_force(memory) + spring*(z - search%touch) - target
+      call tell_missed_force(memory, search, log, result)
    end subroutine balance_forces
 
-   !> Line of the flow trace
-   subroutine trace_trial(log, number, z, force, slope)
+   !> Searches without friction in the trials, each followed by a tangential solution at the height found
+   subroutine search_apart(problem, memory, search, is_settled, log, error)
+      type(wheel_rail_problem), intent(in) :: problem
+      type(wheel_rail_memory), intent(inout) :: memory
+      !> Begun, with a guess; the next guess on exit
+      type(height_search), intent(inout) :: search
+      !> Was the force found? Otherwise friction has to be in every trial
+      logical, intent(out) :: is_settled
       type(log_type), intent(inout) :: log
-      integer, intent(in) :: number
-      real(wp), intent(in) :: z, force, slope
-      character(len=100) :: line
+      type(error_type), allocatable, intent(out) :: error
+      real(wp) :: first_guess, miss, last_miss
+      integer :: round
 
-      if (.not. log%shows(1)) return
-      write(line, "(4X,I6,A,F12.4,ES12.4,A,ES12.3)") number, ", NR,  z_ws, Fz: ", z, force, ", dFz/dz:", slope
-      call log%trace(1, trim(line))
-   end subroutine trace_trial
+      ! friction decouples from the pressures for bodies that are alike
+      is_settled = problem%template%motion /= motion%none .and. .not. problem%template%model%coupled()
+      if (.not. is_settled) return
+      first_guess = search%guess
+      last_miss = huge(last_miss)
+      associate (maxnr => problem%template%settings%maxnr, target => search%target, balance => search%balance)
+         do round = 1, rounds_apart
+            call search%run(problem, memory, .false., maxnr/2 - search%trials, log, error)
+            if (allocated(error)) return
+            if (balance%ended /= balance_ending%reached .and. abs(balance%force - target) > small_step*target) then
+               is_settled = .false.
+               search%guess = balance%z
+               if (balance%has_high) search%guess = balance%next_trial(search%guess)
+               if (balance%ended == balance_ending%out_of_reach) search%guess = first_guess
+               return
+            end if
+            ! the tangential problem at the height found corrects the lateral forces
+            call search%try(problem, memory, search%z, .true., log, error)
+            if (allocated(error)) return
+            call learn_shares(memory)
+            miss = abs(search%force - target)
+            if (miss <= balance%tolerance) return
+            search%guess = search%z + (target - search%force) &
+               & /max(search%slope, min_stiffness*target/max(search%z - search%touch, min_penetration))
+            if (search%guess <= search%bottom) search%guess = search%z
+            ! on steep flanks friction carries so much of the force that its ratio does not settle by itself
+            is_settled = round < rounds_apart .and. miss < good_progress*last_miss .and. search%trials < maxnr/2
+            if (.not. is_settled) return
+            last_miss = miss
+         end do
+      end associate
+   end subroutine search_apart
 
-   !> Normal forces of all patches [N]
-   pure real(wp) function sum_of_normal_forces(memory) result(total)
+   !> A search with friction in every trial
+   subroutine search_together(problem, memory, search, log, error)
+      type(wheel_rail_problem), intent(in) :: problem
+      type(wheel_rail_memory), intent(inout) :: memory
+      !> Begun, with a guess
+      type(height_search), intent(inout) :: search
+      type(log_type), intent(inout) :: log
+      type(error_type), allocatable, intent(out) :: error
+
+      ! one trial is left for a last look at the best height
+      call search%run(problem, memory, .true., problem%template%settings%maxnr - search%trials - 1, log, error)
+      if (allocated(error)) return
+      if (abs(search%balance%force - search%force) > 0.0_wp) call search%try(problem, memory, search%z, .true., log, error)
+   end subroutine search_together
+
+   !> Warn of a force that was not met; a case that misses it by more than grids explain has not succeeded
+   subroutine tell_missed_force(memory, search, log, result)
       type(wheel_rail_memory), intent(in) :: memory
-      integer :: k
+      !> Ended
+      type(height_search), intent(in) :: search
+      type(log_type), intent(inout) :: log
+      !> With `force_error`; gets the status
+      type(wheel_rail_result), intent(inout) :: result
+      character(len=:), allocatable :: why
+      character(len=8) :: missed
 
-      total = 0.0_wp
-      do k = 1, memory%used
-         total = total + memory%slot(k)%result%fn
-      end do
-   end function sum_of_normal_forces
+      associate (target => search%target, tolerance => search%balance%tolerance)
+         ! grids follow the contact in whole elements, which leaves small steps in the force
+         if (abs(result%force_error) > max(tolerance, small_step*target)) then
+            call explain(search%balance, target, sum_of_normal_forces(memory), why)
+            call result%status%miss_force("vertical force", target, target + result%force_error, why)
+            call log%warning(result%status%reason)
+         else if (abs(result%force_error) > tolerance) then
+            write(missed, "(ES8.1)") abs(result%force_error)/target
+            call log%warning("the vertical force is met within " // trim(adjustl(missed)) // " of what is asked for, not within &
+               &EPS: grids follow the contact in whole elements, and the force has steps of that size")
+         end if
+      end associate
+   end subroutine tell_missed_force
 
    !> Say why the force was not reached
    pure subroutine explain(balance, target, normal_forces, why)
@@ -346,17 +296,16 @@ contains
          i = minloc(gap%gap, dim=1)
          a = gap%kappa
          b = a
-         ! the curvature over a width as large as a patch
-         k = max(1, nint(2.0_wp/gap%dy))
+         k = max(1, nint(bend_reach/gap%dy))
          if (i - k >= 1 .and. i + k <= gap%n) then
             bend = (gap%gap(i - k) - 2.0_wp*gap%gap(i) + gap%gap(i + k))/(k*gap%dy)**2
-            if (bend > 0.0_wp .and. bend < 10.0_wp) b = 0.5_wp*bend
+            if (bend > 0.0_wp .and. bend < max_bend) b = 0.5_wp*bend
          end if
       end associate
       modulus = problem%template%model%material%gg/(1.0_wp - problem%template%model%material%nu)
       ! a sphere with the mean of the curvatures
-      pen = (0.75_wp*force*sqrt(2.0_wp*max(sqrt(a*b), 1.0e-8_wp))/modulus)**(2.0_wp/3.0_wp)
-      pen = max(pen, 1.0e-6_wp)
+      pen = (0.75_wp*force*sqrt(2.0_wp*max(sqrt(a*b), min_curvature))/modulus)**(2.0_wp/3.0_wp)
+      pen = max(pen, min_penetration)
    end function penetration_guess
 
    !> Refuse bodies so soft that the search would go on to contacts of the size of the wheel

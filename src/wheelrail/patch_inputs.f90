@@ -26,6 +26,9 @@ module contact_wheelrail_patch_inputs
    !> Parts of a blended patch reach this far beyond their bounds, relative to D_COMB
    real(wp), parameter :: part_margin = 0.4_wp
 
+   !> Steps that are longer than an element by less than this factor are one element
+   real(wp), parameter :: longer_step = 1.01_wp
+
 contains
 
    !> Problem of one patch for its region: everything but where the solution starts
@@ -359,7 +362,7 @@ contains
             end associate
          end if
          ! as in module 3: a layer that yields follows its particles, simplified theory starts anew at each edge
-         patch%corrects_leading_edge = patch%motion == motion%transient_rolling .and. patch%dq > 1.01_wp*patch%grid%dx &
+         patch%corrects_leading_edge = patch%motion == motion%transient_rolling .and. patch%dq > longer_step*patch%grid%dx &
             & .and. .not. allocated(patch%simplified) .and. .not. patch%remembers_yield
       end associate
    end subroutine set_motion

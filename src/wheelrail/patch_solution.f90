@@ -179,6 +179,8 @@ contains
       real(wp) :: share(3)
       !> Weight of the first estimate; what was learned weighs 1 halfway to where it ends
       real(wp), parameter :: first_weight = 0.01_wp
+      !> Smallest relative distance that weights are made of: at the same place only what was learned there counts
+      real(wp), parameter :: same_place = 1.0e-6_wp
       integer :: k
       real(wp) :: mu, weight, total, distance
 
@@ -191,7 +193,7 @@ contains
       do k = 1, geometry%shares
          associate (known => geometry%learned(k))
             distance = known%distance_to(slot%plane%origin(2), slot%plane%roll())
-            weight = (max(0.0_wp, 1.0_wp - distance)/max(distance, 1.0e-6_wp))**2
+            weight = (max(0.0_wp, 1.0_wp - distance)/max(distance, same_place))**2
             share = share + weight*known%share
             total = total + weight
          end associate

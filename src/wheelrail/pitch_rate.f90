@@ -22,6 +22,14 @@ module contact_wheelrail_pitch_rate
    !> A change of the creepage by less than this part of the slip does not tell whether friction can do more [-]
    real(wp), parameter :: part_of_slip = 0.5_wp
 
+   !> The first step goes a little beyond what the slope tells, so that the root lies between the first two points
+   real(wp), parameter :: beyond_slope = 1.1_wp
+   !> Intervals of the pitch rate that count as a point, relative to the rate of rolling
+   real(wp), parameter :: fine_rate = 1.0e-10_wp
+   !> Tangential stiffness of a circular contact of two alike bodies over G times its radius: 4/(2 - nu) by Mindlin (1949), 2.35
+   !> for steel
+   real(wp), parameter :: tangential_stiffness = 2.5_wp
+
 contains
 
    !> Search the pitch rate at which the prescribed longitudinal force acts
@@ -53,9 +61,9 @@ contains
       slope = force_per_pitch_rate(memory)
       tolerance = problem%template%settings%eps*max(abs(problem%spec%wheelset%fx), norm2(total_force(memory)))
       if (memory%used > 0 .and. slope > 0.0_wp) then
-         call search%start(memory%geometry%pitch_rate, 1.1_wp*abs(residual)/slope, tolerance)
+         call search%start(memory%geometry%pitch_rate, beyond_slope*abs(residual)/slope, tolerance)
          moving = maxval(memory%slot(:memory%used)%motion%veloc)/memory%geometry%placement%wheel_radius
-         search%resolution = 1.0e-10_wp*moving
+         search%resolution = fine_rate*moving
          ! where the spin turns the slip another way at each place, the force changes although all slides
          search%reach = part_of_slip*largest_slip(memory)*moving
          do
@@ -140,7 +148,7 @@ contains
             length = 1.0_wp
             if (patch%motion == motion%transient_rolling) length = patch%dq
             if (patch%motion == motion%steady_rolling) length = a
-            slope = slope + 2.5_wp*patch%model%material%gg*a*length*memory%geometry%placement%wheel_radius &
+            slope = slope + tangential_stiffness*patch%model%material%gg*a*length*memory%geometry%placement%wheel_radius &
                & /max(patch%veloc, epsilon(1.0_wp))
          end associate
       end do

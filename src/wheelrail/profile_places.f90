@@ -15,6 +15,7 @@ contains
 
    !> Points of a profile in the track, y on the side of the wheel; all y, then all z [mm]
    function places_in_track(spec, result, is_wheel, y, z) result(list)
+      !> For the side of the track
       type(wheel_rail_spec), intent(in) :: spec
       !> Of the last case
       type(wheel_rail_result), intent(in) :: result
@@ -42,6 +43,7 @@ contains
    !> The innermost point within the gauge height, y, z; offsets of the profile in the track, y, z; the point at gauge
    !> height, y, z [mm]
    function gauge_places(spec, result, curve) result(list)
+      !> Gauge height, cant, and the side of the track
       type(wheel_rail_spec), intent(in) :: spec
       !> Of the last case
       type(wheel_rail_result), intent(in) :: result

@@ -58,6 +58,9 @@ module contact_wheelrail_regions
    !> Near misses that are kept
    integer, parameter :: max_misses = 2
 
+   !> Least gap of a near miss [mm]: interpolation between mesh points does not make a contact of it
+   real(wp), parameter :: open_gap = 1.0e-10_wp
+
 contains
 
    !> Smallest gap, at mesh points and between them [mm]
@@ -521,9 +524,8 @@ contains
       region%y = gap%y(i)
       region%alpha = gap%alpha(i)
       region%weight = min_weight
-      ! a miss does not become a contact by interpolation
       call find_deepest(gap, g, i, i, region%gap, region%deepest)
-      region%gap = max(1.0e-10_wp, region%gap)
+      region%gap = max(open_gap, region%gap)
       allocate(region%seeds(1), source=region%y)
       region%box%x = gap%x(i)
       region%box%y = gap%y(i)

@@ -25,7 +25,6 @@ OPEN = {
     ("src/profile/slices_file.f90", "read_slices_file"),
     ("src/subsurface/layers.f90", "fill_responses"),
     ("src/text/lexer.f90", ""),
-    ("src/wheelrail/height.f90", "balance_forces"),
     ("src/wheelrail/profile_ends.f90", "find_buried_ends"),
     ("src/wheelrail/regions.f90", ""),
 }
