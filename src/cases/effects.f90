@@ -11,6 +11,17 @@ module contact_cases_effects
 
    public :: name_effects
 
+   !> Words so far; a buffer, because joining texts would ask for memory in every case
+   type :: phrase
+      private
+      !> Room for all names that can come together, and how much of it is used
+      character(len=512) :: text = ""
+      integer :: n = 0
+   contains
+      !> The next words
+      procedure :: add
+   end type phrase
+
 contains
 
    !> Names of the effects that acted
@@ -20,99 +31,118 @@ contains
       type(patch_problem), intent(in) :: problem
       !> Its `effects` are set; what acts depends on whether there is contact
       type(patch_result), intent(inout) :: result
-      !> Room for all names that can come together
-      character(len=512) :: text
-      integer :: n
+      type(phrase) :: words
 
-      n = 0
-      text = ""
-      if (allocated(problem%model%tabulated)) then
-         call add("elastic bodies with tabulated influence coefficients")
-      else if (allocated(problem%model%inclination)) then
-         call add("elastic half-spaces with coefficients corrected for inclination")
-      else if (allocated(problem%model%memory)) then
-         call add("viscoelastic half-spaces")
-      else
-         call add("elastic half-spaces")
-      end if
-      if (problem%model%kernel == kernel_model%bilinear) call add(", bilinear tractions")
-      if (allocated(spec%wheel_rail)) then
-         if (spec%wheel_rail%search%location == contact_location%conformal) call add(", curved reference surface")
-      end if
-      if (allocated(problem%parts)) call add(", blended parts")
-      select case (spec%pressure)
-      case (pressure_model%thin_sheet)
-         call add(", elastic thin sheet")
-      case (pressure_model%elliptical, pressure_model%parabolical)
-         call add(", Hertzian pressure")
-      case (pressure_model%sdec)
-         call add(", double-elliptical pressure")
-      case (pressure_model%kpec, pressure_model%analyn)
-         call add(", approximate pressure")
-      end select
+      call add_bodies(spec, problem, words)
       if (result%ncon > 0) then
          if (allocated(problem%simplified)) then
-            call add(", simplified theory (")
-            call add(result%tangential%method(:len_trim(result%tangential%method)))
-            call add(")")
+            call words%add(", simplified theory (")
+            call words%add(result%tangential%method(:len_trim(result%tangential%method)))
+            call words%add(")")
          end if
          if (problem%motion /= motion%none) then
-            call add_friction()
-            if (problem%model%layer > 0.0_wp) call add(", elastic layer between the bodies")
-            if (result%nplast > 0) call add(", plastic shearing")
-            if (problem%model%coupled() .and. .not. allocated(problem%model%tabulated) &
-               & .and. (problem%model%material%coupled() .or. .not. allocated(problem%model%inclination)) &
-               & .and. .not. allocated(problem%simplified)) call add(", dissimilar bodies")
-            if (allocated(problem%extra_slip)) then
-               if (any(abs(problem%extra_slip) > 0.0_wp)) call add(", extra rigid slip")
-            end if
-            if (problem%spin_weight(1) < 1.0_wp) call add(", longitudinal part of the spin cancelled")
-            if (problem%spin_weight(2) < 1.0_wp) call add(", lateral part of the spin cancelled")
+            call add_friction(spec, problem, words)
+            call add_tangential(problem, result%nplast > 0, words)
          end if
          if (allocated(problem%thermal)) then
-            call add(", surface temperatures (")
-            call add(trim(heat_source_name(problem%thermal%source)))
-            call add(")")
+            call words%add(", surface temperatures (")
+            call words%add(trim(heat_source_name(problem%thermal%source)))
+            call words%add(")")
          end if
-         if (spec%has_stress) call add(", subsurface stresses")
+         if (spec%has_stress) call words%add(", subsurface stresses")
       end if
       if (allocated(result%damping)) then
-         if (any(abs(result%damping) > 0.0_wp)) call add(", damping forces")
+         if (any(abs(result%damping) > 0.0_wp)) call words%add(", damping forces")
       end if
-      result%effects = text(:n)
-
-   contains
-
-      !> The next words; a buffer, because joining texts would ask for memory in every case
-      subroutine add(words)
-         character(len=*), intent(in) :: words
-
-         text(n + 1:) = words
-         n = min(len(text), n + len(words))
-      end subroutine add
-
-      !> Friction law and motion
-      subroutine add_friction()
-         call add(", ")
-         if (allocated(problem%friction)) then
-            call add(trim(problem%friction%title()))
-            if (problem%friction%varies_by_row()) call add(" by row")
-            if (problem%friction_memory%acts() .and. problem%remembers_friction) call add(" with memory")
-         else
-            call add("Coulomb friction")
-         end if
-         if (allocated(spec%wheel_rail)) then
-            if (spec%variation == variation%by_angle) call add(" by inclination")
-            if (spec%variation == variation%by_position) call add(" by position")
-         end if
-         select case (problem%motion)
-         case (motion%shift)
-            call add(" in a shift")
-         case (motion%transient_rolling)
-            call add(" in transient rolling")
-         case (motion%steady_rolling)
-            call add(" in steady rolling")
-         end select
-      end subroutine add_friction
+      result%effects = words%text(:words%n)
    end subroutine name_effects
+
+   !> Append
+   pure subroutine add(self, words)
+      class(phrase), intent(inout) :: self
+      character(len=*), intent(in) :: words
+
+      self%text(self%n + 1:) = words
+      self%n = min(len(self%text), self%n + len(words))
+   end subroutine add
+
+   !> What the bodies are made of, and how their pressures were found
+   subroutine add_bodies(spec, problem, words)
+      type(case_spec), intent(in) :: spec
+      type(patch_problem), intent(in) :: problem
+      type(phrase), intent(inout) :: words
+
+      if (allocated(problem%model%tabulated)) then
+         call words%add("elastic bodies with tabulated influence coefficients")
+      else if (allocated(problem%model%inclination)) then
+         call words%add("elastic half-spaces with coefficients corrected for inclination")
+      else if (allocated(problem%model%memory)) then
+         call words%add("viscoelastic half-spaces")
+      else
+         call words%add("elastic half-spaces")
+      end if
+      if (problem%model%kernel == kernel_model%bilinear) call words%add(", bilinear tractions")
+      if (allocated(spec%wheel_rail)) then
+         if (spec%wheel_rail%search%location == contact_location%conformal) call words%add(", curved reference surface")
+      end if
+      if (allocated(problem%parts)) call words%add(", blended parts")
+      select case (spec%pressure)
+      case (pressure_model%thin_sheet)
+         call words%add(", elastic thin sheet")
+      case (pressure_model%elliptical, pressure_model%parabolical)
+         call words%add(", Hertzian pressure")
+      case (pressure_model%sdec)
+         call words%add(", double-elliptical pressure")
+      case (pressure_model%kpec, pressure_model%analyn)
+         call words%add(", approximate pressure")
+      end select
+   end subroutine add_bodies
+
+   !> Friction law and motion
+   subroutine add_friction(spec, problem, words)
+      type(case_spec), intent(in) :: spec
+      type(patch_problem), intent(in) :: problem
+      type(phrase), intent(inout) :: words
+
+      call words%add(", ")
+      if (allocated(problem%friction)) then
+         call words%add(trim(problem%friction%title()))
+         if (problem%friction%varies_by_row()) call words%add(" by row")
+         if (problem%friction_memory%acts() .and. problem%remembers_friction) call words%add(" with memory")
+      else
+         call words%add("Coulomb friction")
+      end if
+      if (allocated(spec%wheel_rail)) then
+         if (spec%variation == variation%by_angle) call words%add(" by inclination")
+         if (spec%variation == variation%by_position) call words%add(" by position")
+      end if
+      select case (problem%motion)
+      case (motion%shift)
+         call words%add(" in a shift")
+      case (motion%transient_rolling)
+         call words%add(" in transient rolling")
+      case (motion%steady_rolling)
+         call words%add(" in steady rolling")
+      end select
+   end subroutine add_friction
+
+   !> What else acts on tangential tractions
+   subroutine add_tangential(problem, yields, words)
+      type(patch_problem), intent(in) :: problem
+      !> Did the layer between the bodies yield somewhere?
+      logical, intent(in) :: yields
+      type(phrase), intent(inout) :: words
+
+      associate (model => problem%model)
+         if (model%layer > 0.0_wp) call words%add(", elastic layer between the bodies")
+         if (yields) call words%add(", plastic shearing")
+         if (model%coupled() .and. .not. allocated(model%tabulated) .and. (model%material%coupled() .or. &
+            & .not. allocated(model%inclination)) .and. .not. allocated(problem%simplified)) call words%add(", dissimilar bodies")
+      end associate
+      if (allocated(problem%extra_slip)) then
+         if (any(abs(problem%extra_slip) > 0.0_wp)) call words%add(", extra rigid slip")
+      end if
+      if (problem%spin_weight(1) < 1.0_wp) call words%add(", longitudinal part of the spin cancelled")
+      if (problem%spin_weight(2) < 1.0_wp) call words%add(", lateral part of the spin cancelled")
+   end subroutine add_tangential
 end module contact_cases_effects

@@ -118,8 +118,8 @@ contains
          block%selection = point_selection%all_elements
       case (option%ranges_by_step, option%ranges)
          block%selection = point_selection%ranges
-         call visit_range("IX", block%ixl, block%ixinc, block%ixh)
-         call visit_range("IY", block%iyl, block%iyinc, block%iyh)
+         call visit_range(a, "IX", block%ixl, block%ixinc, block%ixh)
+         call visit_range(a, "IY", block%iyl, block%iyinc, block%iyh)
       case (option%lists_by_step, option%lists)
          block%selection = point_selection%lists
          nx = 0
@@ -129,8 +129,8 @@ contains
          call a%integer("NX", nx, unchecked=.true.)
          call a%integer("NY", ny, unchecked=.true.)
          call a%end_line()
-         call require_length("NX", nx)
-         call require_length("NY", ny)
+         call require_length(a, "NX", nx)
+         call require_length(a, "NY", ny)
          call visit_indices(a, nx, "IX", block%ix)
          call visit_indices(a, ny, "IY", block%iy)
       case (option%free)
@@ -143,9 +143,9 @@ contains
          call a%integer("NY", ny, unchecked=.true.)
          call a%integer("NZ", nz, unchecked=.true.)
          call a%end_line()
-         call require_length("NX", nx)
-         call require_length("NY", ny)
-         call require_length("NZ", nz)
+         call require_length(a, "NX", nx)
+         call require_length(a, "NY", ny)
+         call require_length(a, "NZ", nz)
          call visit_sorted(a, nx, "X", block%x)
          call visit_sorted(a, ny, "Y", block%y)
          call visit_sorted(a, nz, "Z", block%z)
@@ -161,48 +161,48 @@ contains
          call a%real("DZ", step)
       end if
       call a%end_line()
-      call require_length("NZ", nz)
+      call require_length(a, "NZ", nz)
       if (.not. a%is_good) return
       if (kind_of_block <= option%lists_by_step) then
          block%z = [(first_depth + (k - 1)*step, k = 1, nz)]
       else
          call visit_sorted(a, nz, "Z", block%z)
       end if
-
-   contains
-
-      !> First, step and last column or row
-      subroutine visit_range(name, low, step, high)
-         !> IX or IY
-         character(len=2), intent(in) :: name
-         integer, intent(inout), target :: low, step, high
-         integer :: first
-
-         if (a%is_reading) then
-            low = 1
-            step = 1
-            high = 0
-         end if
-         call a%integer(name // "L", low)
-         call a%integer(name // "INC", step)
-         call a%integer(name // "H", high)
-         call a%end_line()
-         if (.not. a%is_reading) return
-         first = max(1, min(low, largest_index))
-         if (high >= 1 .and. high < first) call a%refuse(name // "H", " is outside its range " // integer_text(first) // &
-            & " to " // integer_text(largest_index))
-         step = max(1, step)
-      end subroutine visit_range
-
-      !> Without a proper length the list cannot be read
-      subroutine require_length(name, length)
-         character(len=*), intent(in) :: name
-         integer, intent(in) :: length
-
-         if (.not. a%is_good) return
-         if (length < 1 .or. length > longest_list) call a%fail(name, " is outside its range 1 to " // integer_text(longest_list))
-      end subroutine require_length
    end subroutine visit_block
+
+   !> First, step and last column or row
+   subroutine visit_range(a, name, low, step, high)
+      class(case_archive), intent(inout) :: a
+      !> IX or IY
+      character(len=2), intent(in) :: name
+      integer, intent(inout), target :: low, step, high
+      integer :: first
+
+      if (a%is_reading) then
+         low = 1
+         step = 1
+         high = 0
+      end if
+      call a%integer(name // "L", low)
+      call a%integer(name // "INC", step)
+      call a%integer(name // "H", high)
+      call a%end_line()
+      if (.not. a%is_reading) return
+      first = max(1, min(low, largest_index))
+      if (high >= 1 .and. high < first) call a%refuse(name // "H", " is outside its range " // integer_text(first) // &
+         & " to " // integer_text(largest_index))
+      step = max(1, step)
+   end subroutine visit_range
+
+   !> Without a proper length the list cannot be read
+   subroutine require_length(a, name, length)
+      class(case_archive), intent(inout) :: a
+      character(len=*), intent(in) :: name
+      integer, intent(in) :: length
+
+      if (.not. a%is_good) return
+      if (length < 1 .or. length > longest_list) call a%fail(name, " is outside its range 1 to " // integer_text(longest_list))
+   end subroutine require_length
 
    !> A list of columns or rows; those that come in are rounded, sorted, and counted once
    subroutine visit_indices(a, n, name, list)

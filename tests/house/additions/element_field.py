@@ -35,7 +35,8 @@ def prove(program, folder):
     """Complaints when an output has not the field"""
     text = EXAMPLE.read_text(encoding="utf-8").replace("\n0001541 ", "\n0002551 ")
     (folder / "field.inp").write_text(text)
-    run = subprocess.run([program, "--json", "--hdf5", "--vtk", "2", "field"], cwd=folder, check=False, capture_output=True, text=True)
+    run = subprocess.run([program, "--json", "--hdf5", "--vtk", "2", "field"], cwd=folder, check=False, capture_output=True,
+                         text=True)
     if run.returncode:
         yield "a case does not run: " + run.stdout + run.stderr
         return
