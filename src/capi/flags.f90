@@ -189,19 +189,17 @@ contains
       integer, intent(in) :: code
       integer, pointer :: place
 
-      associate (spec => problem%spec)
-         select case (code)
-         case (flag%sens); place => spec%iteration%sensitivity
-         case (flag%ifmeth); place => spec%material%if_meth
-         case (flag%ifvari); place => spec%material%variant
-         case (flag%sbsout); place => spec%subsurface%output
-         case (flag%sbsfil); place => spec%subsurface%matfil
-         case (flag%npomax); place => spec%iteration%npot_max
-         case (flag%wrtinp); place => problem%write_input
-         case (flag%own_heat); place => spec%heat%source
-         case default; nullify(place)
-         end select
-      end associate
+      select case (code)
+      case (flag%sens); place => problem%spec%iteration%sensitivity
+      case (flag%ifmeth); place => problem%spec%material%if_meth
+      case (flag%ifvari); place => problem%spec%material%variant
+      case (flag%sbsout); place => problem%spec%subsurface%output
+      case (flag%sbsfil); place => problem%spec%subsurface%matfil
+      case (flag%npomax); place => problem%spec%iteration%npot_max
+      case (flag%wrtinp); place => problem%write_input
+      case (flag%own_heat); place => problem%spec%heat%source
+      case default; nullify(place)
+      end select
    end function place_of
 
    !> Control digits as they were given; other entries keep their content
