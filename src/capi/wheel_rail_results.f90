@@ -10,24 +10,12 @@ module contact_capi_wheel_rail_results
    use contact_capi_problem, only : library_problem
    use contact_capi_registry, only : enter, leave, scope
    use contact_control_units, only : orientation, outward, quantity, quantity_type
-   use contact_wheelrail_frame, only : frame, new_frame, roll_axes
-   use contact_wheelrail_result, only : wheel_rail_patch, wheel_rail_result
-   use contact_wheelrail_spec, only : wheel_rail_spec
+   use contact_wheelrail_body_frames, only : body_frames, forces_in_bodies, frames_of, pressure_centre
    implicit none (type, external)
    private
 
    public :: cntc_getwheelsetposition, cntc_getwheelsetvelocity, cntc_getnumcontactpatches, cntc_getcontactlocation
    public :: cntc_getglobalforces
-
-   !> Frames of rail, wheelset and wheel in the track
-   type :: body_frames
-      type(frame) :: rail, wheelset, wheel
-      !> The wheel in the wheelset
-      type(frame) :: wheel_in_set
-   end type body_frames
-
-   !> The centre of pressure divides by a sum of pressures that this keeps from zero [N/mm2]
-   real(wp), parameter :: min_pressure = 1.0e-10_wp
 
 contains
 
@@ -73,22 +61,6 @@ contains
       call give(size(problem%wheel_rail_result%patches), npatch)
       call leave(problem)
    end subroutine cntc_getnumcontactpatches
-
-   !> Frames of the last calculation
-   pure function frames_of(pair, result) result(frames)
-      type(wheel_rail_spec), intent(in) :: pair
-      type(wheel_rail_result), intent(in) :: result
-      type(body_frames) :: frames
-      real(wp) :: s
-
-      s = merge(-1.0_wp, 1.0_wp, pair%left)
-      associate (w => pair%wheelset)
-         frames%rail = new_frame([0.0_wp, result%rail_y, result%rail_z], result%rail_roll, 0.0_wp)
-         frames%wheelset = new_frame([w%x, s*w%y, result%z_ws - w%nomradw], s*w%roll, s*w%yaw)
-         frames%wheel = new_frame([result%wheel_x, result%wheel_y, result%wheel_z], result%wheel_roll, result%wheel_yaw)
-         frames%wheel_in_set = frames%wheelset%seen_from_here(frames%wheel)
-      end associate
-   end function frames_of
 
    !> Where a patch is, in track, rail, wheel and wheelset, and where these are
    subroutine cntc_getcontactlocation(ire, icp, lenarr, rvalues) bind(c, name="inside_cntc_getcontactlocation")
@@ -147,31 +119,6 @@ contains
       end associate
    end subroutine locate
 
-   !> x and y in the track of the mean of the elements, weighted by their pressures; rows of a curved patch have places
-   !> of their own
-   pure function pressure_centre(patch) result(centre)
-      type(wheel_rail_patch), intent(in) :: patch
-      real(wp) :: centre(2)
-      real(wp) :: weight, x, y, row_y
-      integer :: ix, iy
-
-      weight = min_pressure
-      x = 0.0_wp
-      y = 0.0_wp
-      associate (grid => patch%contact%grid, pn => patch%contact%pn)
-         do iy = 1, grid%my
-            row_y = grid%y(iy)*cos(patch%delta)
-            if (allocated(patch%curve)) row_y = patch%curve(1, iy) - patch%y
-            do ix = 1, grid%mx
-               weight = weight + pn(ix, iy)
-               x = x + pn(ix, iy)*grid%x(ix)
-               y = y + pn(ix, iy)*row_y
-            end do
-         end do
-      end associate
-      centre = [patch%x + x/weight, patch%y + y/weight]
-   end function pressure_centre
-
    !> Forces and moments of one patch, or of all of them with -1, in four systems of axes
    subroutine cntc_getglobalforces(ire, icp, lenarr, rvalues) bind(c, name="inside_cntc_getglobalforces")
       integer(c_int), intent(in), optional :: ire, icp, lenarr
@@ -207,31 +154,4 @@ contains
       call give_zeros(25, lenarr, rvalues)
       call leave(problem)
    end subroutine cntc_getglobalforces
-
-   !> Force on the rail and its moment, about the rail marker in track and rail axes, about the wheel marker in
-   !> wheelset and wheel axes; damping included
-   pure function forces_in_bodies(patch, frames) result(list)
-      type(wheel_rail_patch), intent(in) :: patch
-      type(body_frames), intent(in) :: frames
-      real(wp) :: list(24)
-      real(wp) :: axes(3, 3), force(3), moment(3), about_rail(3), about_wheel(3)
-
-      axes = roll_axes(patch%delta)
-      force = patch%force
-      if (allocated(patch%contact%damping)) force = force + patch%contact%damping([2, 3, 1])
-      force = matmul(axes, force)
-      moment = matmul(axes, patch%moment)
-      about_rail = moment + cross([patch%x, patch%y, patch%z] - frames%rail%origin, force)
-      about_wheel = moment + cross([patch%x, patch%y, patch%z] - frames%wheel%origin, force)
-      list(1:6) = [force, about_rail]
-      list(7:12) = [matmul(force, frames%wheelset%axes), matmul(about_wheel, frames%wheelset%axes)]
-      list(13:18) = [matmul(force, frames%rail%axes), matmul(about_rail, frames%rail%axes)]
-      list(19:24) = [matmul(force, frames%wheel%axes), matmul(about_wheel, frames%wheel%axes)]
-   end function forces_in_bodies
-
-   pure function cross(a, b) result(c)
-      real(wp), intent(in) :: a(3), b(3)
-      real(wp) :: c(3)
-      c = [a(2)*b(3) - a(3)*b(2), a(3)*b(1) - a(1)*b(3), a(1)*b(2) - a(2)*b(1)]
-   end function cross
 end module contact_capi_wheel_rail_results

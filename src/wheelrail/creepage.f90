@@ -6,6 +6,7 @@
 module contact_wheelrail_creepage
    use contact_base_constants, only : pi
    use contact_base_kinds, only : wp
+   use contact_wheelrail_frame, only : cross
    implicit none (type, external)
    private
 
@@ -115,10 +116,4 @@ contains
       real(wp), intent(in) :: v(3), delta
       normal_part = cos(delta)*v(3) - sin(delta)*v(2)
    end function normal_part
-
-   pure function cross(a, b) result(c)
-      real(wp), intent(in) :: a(3), b(3)
-      real(wp) :: c(3)
-      c = [a(2)*b(3) - a(3)*b(2), a(3)*b(1) - a(1)*b(3), a(1)*b(2) - a(2)*b(1)]
-   end function cross
 end module contact_wheelrail_creepage

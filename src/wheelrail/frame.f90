@@ -7,7 +7,7 @@ module contact_wheelrail_frame
    implicit none (type, external)
    private
 
-   public :: frame, new_frame, roll_axes, yaw_axes
+   public :: cross, frame, new_frame, roll_axes, yaw_axes
 
    !> A system of axes, seen from its parent
    type :: frame
@@ -112,4 +112,13 @@ contains
       class(frame), intent(in) :: self
       yaw = asin(max(-1.0_wp, min(1.0_wp, -self%axes(1, 2))))
    end function yaw
+
+   !> The vector product a x b
+   pure function cross(a, b) result(c)
+      !> Components in the same axes
+      real(wp), intent(in) :: a(3), b(3)
+      real(wp) :: c(3)
+
+      c = [a(2)*b(3) - a(3)*b(2), a(3)*b(1) - a(1)*b(3), a(1)*b(2) - a(2)*b(1)]
+   end function cross
 end module contact_wheelrail_frame

@@ -3,7 +3,7 @@ module contact_wheelrail_gather
    use contact_base_choices, only : contact_location, motion
    use contact_base_kinds, only : wp
    use contact_patch_border, only : find_border
-   use contact_wheelrail_frame, only : frame
+   use contact_wheelrail_frame, only : cross, frame
    use contact_wheelrail_geometry, only : wheel_rail_geometry
    use contact_wheelrail_memory, only : wheel_rail_memory, patch_slot
    use contact_wheelrail_problem, only : friction_by_row, wheel_rail_problem
@@ -80,12 +80,6 @@ contains
          result%moment_wheel = matmul(result%moment_wheel, p%wheelset%axes)
       end associate
    end subroutine gather
-
-   pure function cross(a, b) result(c)
-      real(wp), intent(in) :: a(3), b(3)
-      real(wp) :: c(3)
-      c = [a(2)*b(3) - a(3)*b(2), a(3)*b(1) - a(1)*b(3), a(1)*b(2) - a(2)*b(1)]
-   end function cross
 
    !> Place and forces of one patch
    subroutine describe_patch(geometry, slot, patch)
