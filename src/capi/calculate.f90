@@ -1,7 +1,6 @@
 !> Entries that calculate
 module contact_capi_calculate
    use, intrinsic :: iso_c_binding, only : c_int
-   use omp_lib, only : omp_get_max_threads, omp_set_num_threads
    use contact_base_case_status, only : case_status
    use contact_base_error, only : error_type, fatal_error, full_text
    use contact_base_kinds, only : wp
@@ -10,9 +9,9 @@ module contact_capi_calculate
    use contact_capi_calculate1, only : check_data, finish_wheel_rail, solve_wheel_rail
    use contact_capi_calculate3, only : finish_contact, solve_contact
    use contact_capi_library, only : entry_type
-   use contact_capi_messages, only : complain, first_refusal, forget_complaint, keep_status, library_log, say
+   use contact_capi_messages, only : complain, first_refusal, keep_status, library_log, say
    use contact_capi_problem, only : library_problem, max_patches
-   use contact_capi_registry, only : enter_calculation, leave_calculation, scope, scope_type, threads_inside
+   use contact_capi_registry, only : enter_calculation, leave_calculation, scope, scope_type
    use contact_control_digits, only : case_digits
    use contact_control_library_codes, only : code_text
    use contact_control_translation, only : take_digits
@@ -54,14 +53,11 @@ contains
       integer(c_int), intent(inout), optional :: ierror
       type(library_problem), pointer :: problem
       real(wp) :: cpu, wall
-      integer :: code, threads
+      integer :: code
 
       call enter_calculation(this, allowed, problem, code)
       if (associated(problem)) then
-         call forget_complaint(problem)
          call say(1, this, "calculating...")
-         threads = omp_get_max_threads()
-         call omp_set_num_threads(threads_inside())
          cpu = problem%watch%cpu
          wall = problem%watch%wall
          call problem%watch%start()
@@ -70,7 +66,6 @@ contains
          call problem%total%halt()
          call problem%watch%halt()
          if (problem%module_number == 1) call book_patches(problem, problem%watch%cpu - cpu, problem%watch%wall - wall)
-         call omp_set_num_threads(threads)
          if (code > 0) call say(1, this, trim(code_text(code)))
          call say(1, this, "done...")
          call leave_calculation(problem)

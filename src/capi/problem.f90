@@ -114,6 +114,8 @@ module contact_capi_problem
       logical :: was_calculated = .false.
       !> Owner of the memory that calculations allocate
       integer :: owner = 0
+      !> Number of threads of whoever calculates, outside
+      integer :: threads_of_caller = 1
       !> One thread at a time. It and what follows stay where they are when all else is replaced
       integer(omp_lock_kind) :: lock
       !> Threads that are inside or wait, guarded by the registry

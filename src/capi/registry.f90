@@ -4,14 +4,15 @@
 module contact_capi_registry
    use, intrinsic :: iso_c_binding, only : c_int, c_loc, c_null_ptr
    use, intrinsic :: iso_fortran_env, only : output_unit
-   use omp_lib, only : omp_get_max_threads, omp_get_num_threads, omp_set_lock, omp_test_lock, omp_unset_lock
+   use omp_lib, only : omp_get_max_threads, omp_get_num_threads, omp_set_lock, omp_set_num_threads, &
+      & omp_test_lock, omp_unset_lock
    use contact_base_guard, only : set_owner
    use contact_base_log, only : log_type
    use contact_base_output_file, only : output_file
    use contact_capi_files, only : place_result, set_folders
    use contact_capi_host, only : begin_turn, call_stage, end_turn, give_floats_back, hold_floats, is_forked, note_call
    use contact_capi_library, only : element_slot, entry_type, finalised, library, max_elements, running, units_given, virgin
-   use contact_capi_messages, only : begin_setting, complain, end_setting, set_last_error
+   use contact_capi_messages, only : begin_setting, complain, end_setting, forget_complaint, set_last_error
    use contact_capi_problem, only : library_problem, max_patches, new_problem, release_problem
    use contact_capi_timers, only : book_times, write_timers
    use contact_control_library_codes, only : code_text, library_code
@@ -23,7 +24,7 @@ module contact_capi_registry
    public :: scope_type, scope, enter, enter_calculation, leave, leave_calculation
    public :: forget_call, is_setting
    public :: start_library, stop_library, is_running, register_element, remove_element, record_units
-   public :: set_threads, threads_inside, max_threads
+   public :: set_threads, max_threads
 
    !> Result elements at a time
    integer, parameter :: max_active = 100
@@ -183,7 +184,7 @@ contains
    end function is_setting
 
    !> The same for a calculation: it does not wait for another thread in the same problem, but for its turn when as many
-   !> calculations run as there may be
+   !> calculations run as there may be; it has the threads that are allowed inside
    subroutine enter_calculation(call_of, allowed, problem, code)
       type(entry_type), intent(in) :: call_of
       type(scope_type), intent(in) :: allowed
@@ -206,6 +207,9 @@ contains
             call begin_turn(int(max_threads(), c_int))
             call note_call(c_loc(problem), call_stage%calculation)
             call set_owner(problem%owner)
+            call forget_complaint(problem)
+            problem%threads_of_caller = omp_get_max_threads()
+            call omp_set_num_threads(threads_inside())
          end if
          if (code /= library_code%success) call leave(problem)
       end if
@@ -323,6 +327,7 @@ contains
    subroutine leave_calculation(problem)
       type(library_problem), pointer, intent(inout) :: problem
 
+      call omp_set_num_threads(problem%threads_of_caller)
       call end_turn()
       call note_call(c_loc(problem), call_stage%inside)
       call set_owner(0)

@@ -1,16 +1,15 @@
 !> Entries for stresses below the surface
 module contact_capi_subsurface
    use, intrinsic :: iso_c_binding, only : c_double, c_int
-   use omp_lib, only : omp_get_max_threads, omp_set_num_threads
    use contact_base_error, only : add_context, error_type, full_text
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
    use contact_capi_arguments, only : give, integer_of, integers_of, raised
    use contact_capi_files, only : find_result_file
    use contact_capi_library, only : entry_type
-   use contact_capi_messages, only : complain, count_fits, first_refusal, fits, forget_complaint, library_log
+   use contact_capi_messages, only : complain, count_fits, first_refusal, fits, library_log
    use contact_capi_problem, only : library_problem
-   use contact_capi_registry, only : enter, enter_calculation, leave, leave_calculation, scope, threads_inside
+   use contact_capi_registry, only : enter, enter_calculation, leave, leave_calculation, scope
    use contact_capi_setter, only : setter
    use contact_capi_view, only : look_at, result_view
    use contact_cases_spec, only : case_spec
@@ -169,14 +168,11 @@ contains
       integer(c_int), intent(inout), optional :: ierror
       type(library_problem), pointer :: problem
       type(entry_type) :: this
-      integer :: code, k, threads
+      integer :: code, k
 
       this = entry_type("subs_calculate", integer_of(ire), integer_of(icp))
       call enter_calculation(this, scope%any, problem, code)
       if (associated(problem)) then
-         call forget_complaint(problem)
-         threads = omp_get_max_threads()
-         call omp_set_num_threads(threads_inside())
          call problem%stresses%start()
          k = first_refusal(problem, "subs_addBlock")
          if (k > 0) then
@@ -196,7 +192,6 @@ contains
             end do
          end if
          call problem%stresses%halt()
-         call omp_set_num_threads(threads)
          call leave_calculation(problem)
       end if
       call give(code, ierror)
