@@ -52,12 +52,13 @@ class Routine:
         """The name of a setting as messages have it, "" for other routines"""
         return next((word for word in self.words if word.lower() == self.name), "")
 
-    def kinds(self):
-        """A letter for each argument of a setting: e, p result element and patch, i, r integer and number, n length of an array;
+    def kinds(self, title):
+        """What a setting in a section is for, c basic contact, w wheel and rail, s both, a also patches of wheel and rail, then a
+        letter for each argument: e, p result element and patch, i, r integer and number, n length of an array;
         I, R, P, T and the place of their length: arrays of integers, numbers and pairs, a text"""
         names = [item.name for item in self.arguments]
         lengths = {name for item in self.arguments for name in item.lengths}
-        kinds = ""
+        kinds = "a" if "any" in self.words else {"basic contact": "c", "wheel and rail": "w"}.get(title.split(" of ")[-1], "s")
         for item in self.arguments:
             if item.is_array:
                 letter = "P" if len(item.lengths) == 2 else {"int": "I", "real": "R", "text": "T"}[item.kind]
@@ -261,11 +262,11 @@ def c_doors(routines, undocumented):
     """Text of doors.c: names, numbers of arguments, and what they are"""
     lines = ["/* The routines that the library exports, see door.h: their number of arguments, places of ire, icp and ierror,",
              f" * and kinds of arguments. {ORIGIN} */", '#include "door.h"', ""]
-    for routine in [item for _, items in routines for item in items] + undocumented:
+    for title, routine in [(title, item) for title, items in routines + [("", undocumented)] for item in items]:
         names = [argument.name for argument in routine.arguments]
         places = ", ".join(str(names.index(name) if name in names else -1) for name in ("ire", "icp", "ierror"))
         if routine.setting:
-            lines.append(f'SETTING({routine.name}, {len(names)}, {places}, "{routine.setting}", "{routine.kinds()}")')
+            lines.append(f'SETTING({routine.name}, {len(names)}, {places}, "{routine.setting}", "{routine.kinds(title)}")')
         else:
             lines.append(f"DOOR({routine.name}, {len(names)}, {places})")
     return lines

@@ -29,7 +29,8 @@ contains
 
    !> Make a setting
    subroutine make_setting(name, kinds, arguments) bind(c, name="contact_make_setting")
-      !> The routine as messages have it, and a letter for each of its arguments, see make_interface.py; null-terminated
+      !> The routine as messages have it; letters for what it is for and for each of its arguments, see make_interface.py.
+      !> Null-terminated
       character(kind=c_char), intent(in) :: name(*), kinds(*)
       !> Addresses of the arguments
       type(c_ptr), intent(in) :: arguments(*)
@@ -44,7 +45,7 @@ contains
       a%is_reading = .true.
       a%of_library = .true.
       call unpack_arguments(kinds, arguments, a)
-      call enter(a%call_of, scope_of(a%call_of%name), problem)
+      call enter(a%call_of, scope_of(kinds(1)), problem)
       if (.not. associated(problem)) return
       a%units = problem%units
       select case (a%call_of%name)
@@ -79,20 +80,15 @@ contains
    end subroutine make_setting
 
    !> Which problems a setting is for
-   pure type(scope_type) function scope_of(name) result(allowed)
-      character(len=*), intent(in) :: name
+   pure type(scope_type) function scope_of(letter) result(allowed)
+      !> The first of its kinds
+      character(kind=c_char), intent(in) :: letter
 
-      select case (name)
-      case ("cntc_setTemperatureData", "subs_addBlock")
-         allowed = scope%any
-      case ("cntc_setHertzContact", "cntc_setUndeformedDistc", "cntc_setPenetration", "cntc_setNormalForce", &
-         & "cntc_setCreepages", "cntc_setExtraRigidSlip", "cntc_setReferenceVelocity")
-         allowed = scope%contact
-      case ("cntc_setVerticalForce", "cntc_setTrackDimensions", "cntc_setWheelsetDimensions", "cntc_setWheelsetPosition", &
-         & "cntc_setWheelsetVelocity", "cntc_setWheelsetFlexibility", "cntc_setProfileInputFname", "cntc_setProfileInputValues")
-         allowed = scope%wheel_rail
-      case default
-         allowed = scope%settings
+      select case (letter)
+      case ("a"); allowed = scope%any
+      case ("c"); allowed = scope%contact
+      case ("w"); allowed = scope%wheel_rail
+      case default; allowed = scope%settings
       end select
    end function scope_of
 
@@ -110,7 +106,7 @@ contains
       integer_lists = 0
       real_lists = 0
       allocate(a%numbers(1)%v(0))
-      k = 1
+      k = 2
       place = 1
       do while (kinds(k) /= c_null_char)
          select case (kinds(k))

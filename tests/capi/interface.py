@@ -80,6 +80,32 @@ def matlab(table):
         check(not ("by hand" in words and name not in here), f"matlab/{name}.m is said to be written by hand and is not there")
 
 
+def members(file, kind):
+    """Names and numbers of a list of codes in the sources"""
+    with open(os.path.join(SOURCE, "src", file), encoding="utf-8") as text:
+        block = text.read().split(f"type :: {kind}\n")[1].split("end type")[0]
+    return {name: int(value) for name, value in re.findall(r"(\w+) = (-?\d+)", re.sub(r"!.*", "", block))}
+
+
+def numbers():
+    """Named numbers of the table are those of the sources"""
+    constants, _, _ = make_interface.read_table()
+    values = {item.name[5:]: item.value for _, items in constants for item in items}
+
+    def of(*prefixes):
+        return {value for name, value in values.items() if name.startswith(prefixes)}
+
+    flags = {re.sub("^i[cf]_", "", name): value for name, value in values.items()
+             if name.startswith(("ic_", "if_", "own_")) and name != "if_debug"}
+    check(members("control/flags.f90", "flag_list") == flags, "flags of control/flags.f90")
+    check(set(members("capi/flags.f90", "metadata_code_list").values()) == of("mt_"), "metadata of capi/flags.f90")
+    check(set(members("control/units.f90", "convention_code_list").values()) == of("un_"), "conventions of control/units.f90")
+    codes = members("control/library_codes.f90", "library_code_list").values()
+    check({code for code in codes if -100 < code < 0} == of("err_"), "errors of control/library_codes.f90")
+    kinds = set(members("control/library_codes.f90", "input_type_list").values())
+    check(kinds <= of("inp_"), "kinds of input files of control/library_codes.f90")
+
+
 def main():
     """Compare all"""
     compiler, *libraries = sys.argv[1:]
@@ -107,6 +133,7 @@ def main():
         arguments = [(item.name, item.kind, item.is_array, item.direction != "in") for item in routine.arguments]
         check(sources[name] == arguments, f"{name}: table {arguments}, source {sources[name]}")
     matlab(table)
+    numbers()
     print(f"{len(table)} routines, {len(failures)} failures")
     return 1 if failures else 0
 
