@@ -10,7 +10,7 @@ module contact_base_choices
    public :: kernel_model, material_model, solver_choice, estimate_choice, slip_source, heat_source, heat_source_name
    public :: variation, contact_location
    public :: sensitivity_choice
-   public :: grid_form, distance_form, planform_choice
+   public :: grid_form, planform_choice
    public :: has_slope_reduction, is_fastrip, is_rolling, is_simplified
 
    !> How a case is linked to the previous one (P)
@@ -123,12 +123,6 @@ module contact_base_choices
       integer :: hertz_line_curvature = -4, hertz_line = -5, half_ellipses = -6
    end type grid_form_list
    type(grid_form_list), parameter :: grid_form = grid_form_list()
-
-   !> How the undeformed distance is given (IBASE)
-   type :: distance_form_list
-      integer :: quadratic = 1, profile = 2, quadratic_and_sines = 3, elementwise = 9
-   end type distance_form_list
-   type(distance_form_list), parameter :: distance_form = distance_form_list()
 
    !> Where contact is possible (IPLAN)
    type :: planform_list

@@ -1,17 +1,18 @@
 !> Settings of the geometry and the motion of contact problems (module 3)
 module contact_capi_contact
-   use contact_base_choices, only : distance_form, grid_form, motion, slip_source
+   use contact_base_choices, only : grid_form, motion, slip_source
    use contact_base_kinds, only : wp
    use contact_capi_arguments, only : raised
    use contact_capi_messages, only : fits, is_heard, say
    use contact_capi_problem, only : library_problem
    use contact_capi_setter, only : setter
-   use contact_cases_grid_inputs, only : largest_grid, visit_distance, visit_grid
+   use contact_cases_grid_inputs, only : largest_grid, visit_grid
    use contact_cases_rail_inputs, only : visit_search
    use contact_cases_spec, only : geometry_spec, grid_spec
    use contact_control_units, only : inward, quantity
    use contact_text_words, only : integer_text
    use contact_wheelrail_spec, only : search_spec
+   use contact_cases_distance, only : distance_form, is_distance_form, list_forms, visit_distance
    implicit none (type, external)
    private
 
@@ -101,16 +102,15 @@ contains
       type(setter), intent(inout) :: a
       type(library_problem), intent(inout) :: problem
       type(geometry_spec) :: geometry
+      character(len=:), allocatable :: forms
 
       geometry%form = a%single(1)
-      select case (geometry%form)
-      case (distance_form%quadratic, distance_form%quadratic_and_sines, distance_form%elementwise)
-         continue
-      case (distance_form%profile)
-         allocate(geometry%profile(number_of_heights(a)))
-      case default
-         call a%refuse_call("there is no form " // integer_text(geometry%form) // " of the undeformed distance; 1, 2, 3, 9 are")
-      end select
+      if (geometry%form == distance_form%profile) allocate(geometry%profile(number_of_heights(a)))
+      if (.not. is_distance_form(geometry%form)) then
+         call list_forms(", ", forms)
+         call a%refuse_call("there is no form " // integer_text(geometry%form) // " of the undeformed distance; " // &
+            & forms // " are")
+      end if
       do while (a%next_pass())
          call visit_distance(a, geometry, problem%spec%grid%mx*problem%spec%grid%my)
       end do

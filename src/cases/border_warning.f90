@@ -1,6 +1,6 @@
 !> Contact at the border of the potential contact or at the end of a profile, in words; what grid would be enough
 module contact_cases_border_warning
-   use contact_base_choices, only : distance_form, motion, pressure_model, time_link
+   use contact_base_choices, only : motion, pressure_model, time_link
    use contact_base_error, only : error_type
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
@@ -16,6 +16,7 @@ module contact_cases_border_warning
    use contact_patch_workspace, only : patch_workspace, release_workspace
    use contact_text_words, only : integer_text, real_text
    use contact_wheelrail_result, only : buried_end, wheel_rail_result
+   use contact_cases_distance, only : distance_form
    implicit none (type, external)
    private
 

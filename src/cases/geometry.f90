@@ -1,11 +1,13 @@
 !> From the numbers of a case to Hertz data, grid and undeformed distance
 module contact_cases_geometry
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite, ieee_is_nan
-   use contact_base_choices, only : distance_form, grid_form, normal_control, planform_choice
+   use contact_base_choices, only : grid_form, normal_control, planform_choice
    use contact_base_constants, only : excluded_distance, excluded_threshold
    use contact_base_error, only : error_kind, error_type, fatal_error
    use contact_base_guard, only : expect_refusals
    use contact_base_kinds, only : long, wp
+   use contact_cases_distance, only : curve_along_x, fill_distance, fill_quadratic, quadratic
+   use contact_cases_numbers, only : min_value, require_finite, require_positive
    use contact_cases_spec, only : geometry_spec, grid_spec
    use contact_grid_potential_contact, only : potential_contact
    use contact_normal_hertz, only : hertz_by_axes, hertz_by_curvatures, hertz_by_ratio, hertz_contact, &
@@ -16,10 +18,8 @@ module contact_cases_geometry
    private
 
    public :: solve_hertz, build_grid, undeformed_distance, curvature_radius, part_labels
-   public :: require_finite, require_positive, strip_rows
+   public :: strip_rows
 
-   !> Curvatures [1/mm], lengths [mm] and ratios [-] below this value are taken for missing
-   real(wp), parameter :: min_value = 1.0e-20_wp
    !> Semi-axis that takes the place of zero when a grid is laid out [mm]
    real(wp), parameter :: min_axis = 1.0e-9_wp
 
@@ -255,23 +255,7 @@ contains
          call fill_quadratic(grid, [hertz%a1, 0.0_wp, hertz%b1, 0.0_wp, 0.0_wp, 0.0_wp], h)
          return
       end if
-      if (.not. all(ieee_is_finite([spec%b, spec%xm, spec%rm, spec%y1, spec%dy1]))) then
-         call fatal_error(error, "the numbers of the undeformed distance must be finite")
-         return
-      end if
-      select case (spec%form)
-      case (distance_form%quadratic)
-         call fill_quadratic(grid, spec%b(1:6), h)
-      case (distance_form%profile)
-         call fill_profile(spec, grid, h, error)
-      case (distance_form%quadratic_and_sines)
-         call fill_sines(spec, grid, h, error)
-      case (distance_form%elementwise)
-         call fill_given(spec, grid, h, error)
-      case default
-         call fatal_error(error, "IBASE = " // integer_text(spec%form) &
-            & // " is not a form of the undeformed distance; 1, 2, 3 and 9 are")
-      end select
+      call fill_distance(spec, grid, h, error)
       if (allocated(error)) return
       if (any(ieee_is_nan(h))) then
          call fatal_error(error, "the undeformed distance is not a number in some elements")
@@ -287,124 +271,6 @@ contains
       if (all(h > excluded_threshold)) call fatal_error(error, &
          & "the planform excludes all elements of the potential contact from contact")
    end subroutine undeformed_distance
-
-   !> IBASE = 1: c1 x**2 + c2 x y + c3 y**2 + c4 x + c5 y + c6
-   pure subroutine fill_quadratic(grid, c, h)
-      type(potential_contact), intent(in) :: grid
-      real(wp), intent(in) :: c(6)
-      real(wp), intent(out) :: h(:, :)
-      integer :: ix, iy
-
-      do iy = 1, grid%my
-         do ix = 1, grid%mx
-            h(ix, iy) = quadratic(c, grid%x(ix), grid%y(iy))
-         end do
-      end do
-   end subroutine fill_quadratic
-
-   pure real(wp) function quadratic(c, x, y) result(value)
-      real(wp), intent(in) :: c(6), x, y
-      value = (c(1)*x + c(2)*y + c(4))*x + (c(3)*y + c(5))*y + c(6)
-   end function quadratic
-
-   !> IBASE = 2: body of revolution, profile over y by linear inter- and extrapolation
-   subroutine fill_profile(spec, grid, h, error)
-      type(geometry_spec), intent(in) :: spec
-      type(potential_contact), intent(in) :: grid
-      real(wp), intent(out) :: h(:, :)
-      type(error_type), allocatable, intent(out) :: error
-      real(wp) :: height
-      integer :: ix, iy
-
-      h = 0.0_wp
-      call require_positive("profile step DY1", spec%dy1, error)
-      call require_nonzero("radius RM", spec%rm, error)
-      if (allocated(error)) return
-      if (.not. allocated(spec%profile)) then
-         call fatal_error(error, "the profile of IBASE = 2 has not been given")
-         return
-      end if
-      if (size(spec%profile) < 2) then
-         call fatal_error(error, "the profile of IBASE = 2 needs 2 points at least, it has " &
-            & // integer_text(size(spec%profile)))
-         return
-      end if
-      if (.not. all(ieee_is_finite(spec%profile))) then
-         call fatal_error(error, "the heights of the profile of IBASE = 2 must be finite")
-         return
-      end if
-      do iy = 1, grid%my
-         height = profile_height(spec, grid%y(iy))
-         do ix = 1, grid%mx
-            h(ix, iy) = height + 0.5_wp*(grid%x(ix) - spec%xm)**2/spec%rm
-         end do
-      end do
-   end subroutine fill_profile
-
-   !> Height of the profile [mm]; the first and last interval are continued to the outside
-   pure real(wp) function profile_height(spec, y) result(height)
-      type(geometry_spec), intent(in) :: spec
-      real(wp), intent(in) :: y
-      real(wp) :: position
-      integer :: k
-
-      associate (p => spec%profile)
-         position = (y - spec%y1)/spec%dy1
-         ! Limited as a real number first: far outside the profile it is no integer
-         k = 1 + int(min(max(position, 0.0_wp), real(size(p) - 2, wp)))
-         height = p(k) + (position - real(k - 1, wp))*(p(k + 1) - p(k))
-      end associate
-   end function profile_height
-
-   !> IBASE = 3: difference of two sines over x, plus parabolas of radii b7/2 and b8/2
-   subroutine fill_sines(spec, grid, h, error)
-      type(geometry_spec), intent(in) :: spec
-      type(potential_contact), intent(in) :: grid
-      real(wp), intent(out) :: h(:, :)
-      type(error_type), allocatable, intent(out) :: error
-      real(wp) :: x
-      integer :: ix
-
-      h = 0.0_wp
-      call require_nonzero("parameter B7", spec%b(7), error)
-      call require_nonzero("parameter B8", spec%b(8), error)
-      if (allocated(error)) return
-      associate (b => spec%b)
-         do ix = 1, grid%mx
-            x = grid%x(ix)
-            h(ix, :) = b(1)*sin(b(2)*(x - b(3))) - b(4)*sin(b(5)*(x - b(6))) + x**2/b(7) &
-               & + grid%y(row_numbers(grid%my))**2/b(8)
-         end do
-      end associate
-   end subroutine fill_sines
-
-   !> 1...my
-   pure function row_numbers(my) result(rows)
-      integer, intent(in) :: my
-      integer :: rows(my)
-      integer :: iy
-      rows = [(iy, iy = 1, my)]
-   end function row_numbers
-
-   !> IBASE = 9: one value per element
-   subroutine fill_given(spec, grid, h, error)
-      type(geometry_spec), intent(in) :: spec
-      type(potential_contact), intent(in) :: grid
-      real(wp), intent(out) :: h(:, :)
-      type(error_type), allocatable, intent(out) :: error
-      integer :: given
-
-      given = 0
-      if (allocated(spec%h)) given = size(spec%h)
-      if (given == grid%npot()) then
-         h = reshape(spec%h, [grid%mx, grid%my])
-         return
-      end if
-      h = 0.0_wp
-      call fatal_error(error, "the undeformed distance is given for " // integer_text(given) &
-         & // " elements (IBASE = 9), the potential contact has " // integer_text(grid%mx) // " x " &
-         & // integer_text(grid%my) // " = " // integer_text(grid%npot()))
-   end subroutine fill_given
 
    !> Exclude the elements whose centre lies outside the planform
    subroutine apply_planform(spec, grid, h, error)
@@ -501,47 +367,10 @@ contains
       radius = 0.0_wp
       if (present(hertz)) then
          curvature = hertz%a1
-      else if (spec%form == distance_form%quadratic) then
-         curvature = spec%b(1)
-      else if (spec%form == distance_form%profile) then
-         radius = max(0.0_wp, spec%rm)
-      else if (spec%form == distance_form%quadratic_and_sines) then
-         radius = max(0.0_wp, 0.5_wp*spec%b(7))
+      else
+         call curve_along_x(spec, curvature, radius)
       end if
       if (curvature > min_value) radius = 0.5_wp/curvature
    end function curvature_radius
 
-   !> Complain about a value that is infinite or not a number; an earlier complaint stays
-   subroutine require_finite(name, value, error)
-      character(len=*), intent(in) :: name
-      real(wp), intent(in) :: value
-      type(error_type), allocatable, intent(inout) :: error
-
-      if (allocated(error) .or. ieee_is_finite(value)) return
-      call fatal_error(error, "the " // name // " must be a finite number")
-   end subroutine require_finite
-
-   !> Complain about a value that is zero or close to it, infinite or not a number
-   subroutine require_nonzero(name, value, error)
-      character(len=*), intent(in) :: name
-      real(wp), intent(in) :: value
-      type(error_type), allocatable, intent(inout) :: error
-
-      call require_finite(name, value, error)
-      if (allocated(error)) return
-      if (abs(value) > min_value) return
-      call fatal_error(error, "the " // name // " must not be zero")
-   end subroutine require_nonzero
-
-   !> Complain about a value that is not clearly above zero, infinite or not a number
-   subroutine require_positive(name, value, error)
-      character(len=*), intent(in) :: name
-      real(wp), intent(in) :: value
-      type(error_type), allocatable, intent(inout) :: error
-
-      call require_finite(name, value, error)
-      if (allocated(error)) return
-      if (value > min_value) return
-      call fatal_error(error, "the " // name // " must be positive, it is " // real_text(value))
-   end subroutine require_positive
 end module contact_cases_geometry

@@ -1,8 +1,8 @@
-!> The numbers of grid, undeformed distance and planform, once for all formats
+!> The numbers of grid and planform, once for all formats
 !>
-!> As in contact_cases_inputs.
+!> As in contact_cases_inputs; the undeformed distance stands in contact_cases_distance.
 module contact_cases_grid_inputs
-   use contact_base_choices, only : distance_form, grid_form, planform_choice
+   use contact_base_choices, only : grid_form, planform_choice
    use contact_base_kinds, only : long, wp
    use contact_cases_archive, only : case_archive
    use contact_cases_spec, only : geometry_spec, grid_spec
@@ -10,7 +10,7 @@ module contact_cases_grid_inputs
    implicit none (type, external)
    private
 
-   public :: visit_grid, visit_distance, visit_planform, largest_grid
+   public :: visit_grid, visit_planform, largest_grid
 
    !> Largest number of elements of a potential contact area
    integer, parameter :: largest_grid = 2000000
@@ -99,43 +99,6 @@ contains
          if (.not. high > low) call a%refuse(high_name, " must be larger than " // trim(a%shown(low_name)))
       end subroutine check_order
    end subroutine visit_grid
-
-   !> The values that belong to a form of the undeformed distance (IBASE)
-   subroutine visit_distance(a, geometry, elements)
-      class(case_archive), intent(inout) :: a
-      !> Its form is known
-      type(geometry_spec), intent(inout), target :: geometry
-      !> Number of elements of the grid, 0 when there is none that can be used
-      integer, intent(in) :: elements
-      real(wp), allocatable :: list(:)
-      integer, target :: n
-
-      select case (geometry%form)
-      case (distance_form%quadratic)
-         list = geometry%b(:6)
-         call a%list("B", list, 6, units=[character(len=4) :: "1/mm", "1/mm", "1/mm", "-", "-", "mm"])
-         if (a%is_reading .and. a%is_good) geometry%b(:6) = list
-      case (distance_form%profile)
-         n = 0
-         if (allocated(geometry%profile)) n = size(geometry%profile)
-         call a%integer("NN", n)
-         call a%real("XM", geometry%xm)
-         call a%real("RM", geometry%rm)
-         call a%real("Y1", geometry%y1)
-         call a%real("DY1", geometry%dy1)
-         call a%end_line()
-         if (n == 1) call a%refuse("NN", " is below its lower bound 2")
-         call a%list("B", geometry%profile, n)
-      case (distance_form%quadratic_and_sines)
-         list = geometry%b
-         call a%list("B", list, 8, units=[character(len=4) :: "mm", "1/mm", "mm", "mm", "1/mm", "mm", "mm", "mm"], &
-            & bounds="B(IBASE3)")
-         if (a%is_reading .and. a%is_good) geometry%b = list
-      case (distance_form%elementwise)
-         if (elements == 0) call a%fail("", "the list H has one entry for each element, but there is no grid that can be used")
-         call a%list("H", geometry%h, elements)
-      end select
-   end subroutine visit_distance
 
    !> The values that belong to a form of the planform (IPLAN)
    subroutine visit_planform(a, geometry)

@@ -6,12 +6,17 @@ module contact_cases_numbers
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
    use contact_base_choices, only : force_control, motion, normal_control, pressure_model, slip_source
    use contact_base_error, only : error_type, fatal_error
+   use contact_base_kinds, only : wp
    use contact_text_bounds, only : check_number
    use contact_cases_spec, only : case_spec
+   use contact_text_words, only : real_text
    implicit none (type, external)
    private
 
-   public :: check_numbers
+   public :: min_value, check_numbers, require_finite, require_nonzero, require_positive
+
+   !> Curvatures [1/mm], lengths [mm] and ratios [-] below this value are taken for missing
+   real(wp), parameter :: min_value = 1.0e-20_wp
 
 contains
 
@@ -74,4 +79,47 @@ contains
       if (.not. all(ieee_is_finite(spec%extra_slip))) &
          & call fatal_error(error, "the extra rigid slip must be finite in all elements")
    end subroutine check_friction
+
+   !> Complain about a value that is infinite or not a number; an earlier complaint stays
+   subroutine require_finite(name, value, error)
+      !> What it is, for the complaint
+      character(len=*), intent(in) :: name
+      !> In its own unit
+      real(wp), intent(in) :: value
+      !> Allocated when there is a complaint
+      type(error_type), allocatable, intent(inout) :: error
+
+      if (allocated(error) .or. ieee_is_finite(value)) return
+      call fatal_error(error, "the " // name // " must be a finite number")
+   end subroutine require_finite
+
+   !> Complain about a value that is zero or close to it, infinite or not a number
+   subroutine require_nonzero(name, value, error)
+      !> What it is, for the complaint
+      character(len=*), intent(in) :: name
+      !> In its own unit
+      real(wp), intent(in) :: value
+      !> Allocated when there is a complaint
+      type(error_type), allocatable, intent(inout) :: error
+
+      call require_finite(name, value, error)
+      if (allocated(error)) return
+      if (abs(value) > min_value) return
+      call fatal_error(error, "the " // name // " must not be zero")
+   end subroutine require_nonzero
+
+   !> Complain about a value that is not clearly above zero, infinite or not a number
+   subroutine require_positive(name, value, error)
+      !> What it is, for the complaint
+      character(len=*), intent(in) :: name
+      !> In its own unit
+      real(wp), intent(in) :: value
+      !> Allocated when there is a complaint
+      type(error_type), allocatable, intent(inout) :: error
+
+      call require_finite(name, value, error)
+      if (allocated(error)) return
+      if (value > min_value) return
+      call fatal_error(error, "the " // name // " must be positive, it is " // real_text(value))
+   end subroutine require_positive
 end module contact_cases_numbers

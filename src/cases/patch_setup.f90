@@ -8,7 +8,7 @@ module contact_cases_patch_setup
    use contact_base_memory, only : bytes_per_element, require_memory
    use contact_cases_elastic_setup, only : set_coefficients, set_inclination, set_model
    use contact_cases_friction_setup, only : set_friction, set_thermal
-   use contact_cases_geometry, only : build_grid, part_labels, require_positive, solve_hertz, undeformed_distance
+   use contact_cases_geometry, only : build_grid, part_labels, solve_hertz, undeformed_distance
    use contact_cases_numbers, only : check_numbers
    use contact_cases_rules, only : refuse_broken_rules
    use contact_cases_spec, only : case_spec
@@ -19,6 +19,7 @@ module contact_cases_patch_setup
    use contact_patch_damping, only : damping_law
    use contact_patch_problem, only : patch_problem
    use contact_simplified_flexibility, only : ellipse, slope_reduction
+   use contact_cases_numbers, only : require_positive
    implicit none (type, external)
    private
 

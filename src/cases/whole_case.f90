@@ -1,10 +1,10 @@
 !> All groups of the input that a case gives, in the order of the input files, once for all formats
 module contact_cases_whole_case
-   use contact_base_choices, only : distance_form, force_control, grid_form, heat_source, kernel_model, material_model, &
+   use contact_base_choices, only : force_control, grid_form, heat_source, kernel_model, material_model, &
       & motion, normal_control, planform_choice, pressure_model, slip_source, variation
    use contact_base_kinds, only : long, wp
    use contact_cases_archive, only : case_archive
-   use contact_cases_grid_inputs, only : largest_grid, visit_distance, visit_grid, visit_planform
+   use contact_cases_grid_inputs, only : largest_grid, visit_grid, visit_planform
    use contact_cases_inputs, only : visit_coefficient_file, visit_conformal, visit_damping, visit_elastic, visit_friction, &
       & visit_friction_rows, visit_heat, visit_inclinations, visit_iteration, visit_kinematics, visit_material_model, &
       & visit_rolling, visit_sheet
@@ -14,6 +14,7 @@ module contact_cases_whole_case
    use contact_cases_subsurface_inputs, only : visit_blocks, visit_stress_output
    use contact_text_words, only : integer_text, real_text
    use contact_wheelrail_spec, only : profile_spec, wheel_rail_spec
+   use contact_cases_distance, only : is_distance_form, list_forms, visit_distance
    implicit none (type, external)
    private
 
@@ -254,14 +255,17 @@ contains
       class(case_archive), intent(inout) :: a
       type(case_spec), intent(inout) :: spec
       type(geometry_spec), target :: geometry
+      character(len=:), allocatable :: forms
 
       call a%open_group("geometry")
       if (.not. a%is_reading) geometry = spec%geometry
       call a%integer("IBASE", geometry%form, unchecked=.true.)
       call a%integer("IPLAN", geometry%planform, unchecked=.true.)
       call a%end_line()
-      if (all(geometry%form /= [distance_form%quadratic, distance_form%profile, distance_form%quadratic_and_sines, &
-         & distance_form%elementwise])) call a%refuse("IBASE", " is not a known option; allowed are 1, 2, 3 and 9")
+      if (.not. is_distance_form(geometry%form)) then
+         call list_forms(" and ", forms)
+         call a%refuse("IBASE", " is not a known option; allowed are " // forms)
+      end if
       if (all(geometry%planform /= [planform_choice%unrestricted, planform_choice%quadratic, planform_choice%two_rectangles, &
          & planform_choice%weighted_rectangles])) call a%refuse("IPLAN", " is not a known option; allowed are 1 to 4")
       call visit_distance(a, geometry, element_count(spec%grid))

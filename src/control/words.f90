@@ -1,11 +1,12 @@
 !> The words of the readable format: keys of the choices of a case, and messages about digits in these words
 module contact_control_words
-   use contact_base_choices, only : distance_form, grid_form, planform_choice
+   use contact_base_choices, only : grid_form, planform_choice
    use contact_base_kinds, only : wp
    use contact_cases_archive, only : archive_item
    use contact_control_digits, only : digit_names, digit_table, digit_text, is_known, word_length
    use contact_text_bounds, only : bounds_of
    use contact_text_words, only : small
+   use contact_cases_distance, only : distance_form
    implicit none (type, external)
    private
 

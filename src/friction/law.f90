@@ -95,6 +95,7 @@ contains
 
    !> Parameters between two sets, by linear interpolation
    pure function mixed(a, b, t) result(set)
+      !> Parameters at the two ends
       type(friction_set), intent(in) :: a, b
       !> Share of b, 0...1
       real(wp), intent(in) :: t
@@ -110,6 +111,7 @@ contains
 
    !> Laws without limits of their own
    pure function no_fault(set) result(text)
+      !> Parameters, which any law could have
       type(friction_set), intent(in) :: set
       character(len=100) :: text
 

@@ -1,6 +1,5 @@
 !> Checks of a case of module 3 that need the digits, the numbers and the previous case together
 module contact_input_checks3
-   use contact_base_choices, only : distance_form
    use contact_base_kinds, only : wp
    use contact_cases_spec, only : case_spec, part_source
    use contact_input_control, only : add_for_digit, control_words
@@ -8,6 +7,7 @@ module contact_input_checks3
    use contact_input_grid_frame, only : frame_of, grid_frame
    use contact_input_problems, only : problem_list, severity
    use contact_text_words, only : integer_text, real_text
+   use contact_cases_distance, only : distance_form
    implicit none (type, external)
    private
 

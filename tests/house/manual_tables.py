@@ -137,8 +137,8 @@ def page_of_digits(page, modules):
 def groups():
     """Names of the numbers of each group, in the order of the input files"""
     parts = {}
-    for file in ("cases/inputs.f90", "cases/grid_inputs.f90", "cases/rail_inputs.f90", "cases/subsurface_inputs.f90"):
-        parts.update(procedures(file))
+    for file in ("inputs", "grid_inputs", "distance", "rail_inputs", "subsurface_inputs"):
+        parts.update(procedures(f"cases/{file}.f90"))
 
     def names(body, seen):
         return names_of(body, parts, seen)

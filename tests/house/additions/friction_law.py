@@ -105,9 +105,9 @@ def prove(program, folder):
 def prove_library(program, folder):
     """The routine of the library takes the values of the description, and tells how many they are"""
     library = program.parents[1] / "lib/libcontact.so"
-    script = ("from contact import cntc\ncntc.initialize(1, 3)\ncntc.setfrictionmethod(1, 1, 7, [0.15, 0.21, 8000, 0, 5])\n"
-              "print(next(iter(cntc.getparameters(1, 1, 3).values())))\n"
-              "try:\n    cntc.setfrictionmethod(1, 1, 7, [0.15])\nexcept Exception as error:\n    print(error)\n")
+    script = ("from contact import _library, cntc\ncntc.initialize(1, 3)\n"
+              "cntc.setfrictionmethod(1, 1, 7, [0.15, 0.21, 8000, 0, 5])\nprint(next(iter(cntc.getparameters(1, 1, 3).values())))\n"
+              "cntc.setfrictionmethod(1, 1, 7, [0.15])\nprint(_library.last_error(1, 1)[1])\n")
     run = subprocess.run([sys.executable, "-c", script], cwd=folder, check=False, capture_output=True, text=True,
                          env=os.environ | {"CONTACT_LIBRARY": str(library), "PYTHONPATH": str(TOP / "python")})
     (folder / "library.txt").write_text(run.stdout + run.stderr)

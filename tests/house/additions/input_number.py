@@ -45,7 +45,7 @@ def prove(program, folder):
         if "fnoise = 0.125" not in text:
             yield "it is not written to .toml"
         (folder / "again.toml").write_text(text.replace("0.125", "0.375"))
-        if answer("convert", "again.toml").returncode or "0.375" not in (folder / "again.inp").read_text():
+        if answer("convert", "again.toml").returncode or " 1 1.0 3.75" not in (folder / "again.inp").read_text():
             yield "it is not read from .toml, or not written to .inp"
     given("0.75")
     said = answer("3", "noisy")

@@ -131,7 +131,8 @@ program test_description
    use contact_base_choices, only : material_model, solver_choice, variation
    use contact_base_kinds, only : wp
    use contact_cases_archive, only : case_archive
-   use contact_cases_grid_inputs, only : visit_distance, visit_grid, visit_planform
+   use contact_cases_distance, only : visit_distance
+   use contact_cases_grid_inputs, only : visit_grid, visit_planform
    use contact_cases_inputs, only : visit_coefficient_file, visit_conformal, visit_damping, visit_elastic, visit_friction, &
       & visit_friction_rows, visit_heat, visit_inclinations, visit_iteration, visit_kinematics, visit_material_model, &
       & visit_rolling, visit_sheet
