@@ -17,8 +17,9 @@ module contact_elastic_operator
    use contact_elastic_coefficients, only : fill_coefficients
    use contact_elastic_compliance, only : compliance
    use contact_elastic_model, only : elastic_model
+   use contact_elastic_spectra, only : invert_block, make_spectrum, multiply_paired, scale_spectrum, spectrum_floor, take_mean
    use contact_fft_paired, only : paired_plan
-   use contact_fft_plan, only : fast_size, fft_plan, kernel_spectrum, largest_fast_size
+   use contact_fft_plan, only : fast_size, fft_plan, largest_fast_size
    implicit none (type, external)
    private
 
@@ -60,9 +61,6 @@ module contact_elastic_operator
 
    !> Largest decay per element of sums along rolling: in windows of a few elements `decay` would leave nothing of the sum
    real(wp), parameter :: largest_decay = 0.9_wp
-   !> Floor of spectra that are divided by, relative to their maximum: a complete period has a positive spectrum, the floor
-   !> guards against rounding where elements are of extreme shapes
-   real(wp), parameter :: spectrum_floor = 1.0e-10_wp
 
 contains
 
@@ -119,53 +117,6 @@ contains
          end do
       end if
    end subroutine prepare
-
-   !> Spectrum of one kernel on a period, scaled for the back transform
-   !>
-   !> Real if the kernel is even or odd in both coordinates, else the imaginary part.
-   subroutine make_spectrum(nx, ny, kernel, odd_x, odd_y, px, py, spectrum)
-      !> Coefficients, offsets -nx:nx, -ny:ny
-      integer, intent(in) :: nx, ny
-      real(wp), intent(in) :: kernel(-nx:, -ny:)
-      !> Coordinates in which the kernel is odd, else even
-      logical, intent(in) :: odd_x, odd_y
-      !> Size of the period, even or 1
-      integer, intent(in) :: px, py
-      !> Shape (py, px/2 + 1)
-      real(wp), allocatable, intent(inout) :: spectrum(:, :)
-      real(wp), allocatable :: period(:, :)
-      complex(wp), allocatable :: transform(:, :)
-      integer :: k, l
-      real(wp) :: scale
-
-      allocate(period(px, py), transform(py, px/2 + 1))
-      do l = 1, py
-         do k = 1, px
-            period(k, l) = kernel(wrapped(k, px), wrapped(l, py))
-         end do
-      end do
-      ! an odd kernel vanishes at half the period, where offsets +n and -n coincide
-      if (odd_x .and. px > 1) period(px/2 + 1, :) = 0.0_wp
-      if (odd_y .and. py > 1) period(:, py/2 + 1) = 0.0_wp
-      call kernel_spectrum(period, transform)
-      scale = 1.0_wp/(real(px, wp)*real(py, wp))
-      if (allocated(spectrum)) then
-         if (any(shape(spectrum) /= shape(transform))) deallocate(spectrum)
-      end if
-      if (.not. allocated(spectrum)) allocate(spectrum(py, px/2 + 1))
-      if (odd_x .eqv. odd_y) then
-         spectrum = scale*real(transform)
-      else
-         spectrum = scale*aimag(transform)
-      end if
-   end subroutine make_spectrum
-
-   !> Offset that belongs to position k of a period of length n
-   pure integer function wrapped(k, n) result(offset)
-      integer, intent(in) :: k, n
-      offset = k - 1
-      if (offset > n/2) offset = offset - n
-   end function wrapped
 
    !> Spectra for the normal problem, on first use
    subroutine need_normal(self)
@@ -224,43 +175,6 @@ contains
          call make_spectrum(t%nx, t%ny, t%xy, .true., .true., px, py, xy)
       end associate
    end subroutine tangential_spectra
-
-   !> Spectra of the inverse block
-   pure subroutine invert_block(elements, xx, yy, xy)
-      !> Elements in a period, by which spectra are divided for the back transform
-      real(wp), intent(in) :: elements
-      real(wp), contiguous, intent(inout) :: xx(:, :), yy(:, :), xy(:, :)
-      real(wp) :: det, floor_, keep, scale
-      integer :: k, l
-
-      scale = 1.0_wp/elements
-      floor_ = spectrum_floor*maxval(abs(xx))*maxval(abs(yy))
-      do l = 1, size(xx, 2)
-         do k = 1, size(xx, 1)
-            det = max(xx(k, l)*yy(k, l) - xy(k, l)**2, floor_)
-            keep = xx(k, l)
-            xx(k, l) = scale**2*yy(k, l)/det
-            yy(k, l) = scale**2*keep/det
-            xy(k, l) = -scale**2*xy(k, l)/det
-         end do
-      end do
-   end subroutine invert_block
-
-   !> Half the sum and half the difference in place of two spectra
-   elemental subroutine take_mean(xx, yy)
-      real(wp), intent(inout) :: xx, yy
-      real(wp) :: difference
-
-      difference = 0.5_wp*(xx - yy)
-      xx = 0.5_wp*(xx + yy)
-      yy = difference
-   end subroutine take_mean
-
-   !> Position of frequency -k in a period of length n
-   elemental integer function opposite(k, n)
-      integer, intent(in) :: k, n
-      opposite = merge(1, n + 2 - k, k == 1)
-   end function opposite
 
    !> Spectra of the coupling between pressures and tangential displacements, on first use
    subroutine need_coupling(self)
@@ -382,91 +296,6 @@ contains
       self%transforms = self%transforms + 4
    end subroutine inverse_of_pair
 
-   !> Product of a spectrum of two fields with a symmetric 2 by 2 block, times a factor per column
-   !>
-   !> A spectrum of two real fields mixes frequencies with their opposites: these are done together.
-   pure subroutine multiply_paired(mean, half, mixed, spectrum, factor)
-      !> Half the sum and half the difference of the spectra xx and yy, and xy, shape (py, px/2 + 1)
-      real(wp), contiguous, intent(in) :: mean(:, :), half(:, :), mixed(:, :)
-      !> Shape (py, px)
-      complex(wp), contiguous, intent(inout) :: spectrum(:, :)
-      complex(wp), contiguous, intent(in), optional :: factor(:)
-      complex(wp) :: turn
-      integer :: l, j, n, px, py
-
-      py = size(spectrum, 1)
-      px = size(spectrum, 2)
-      do l = 1, px/2 + 1
-         j = opposite(l, px)
-         if (j == l) then
-            ! one or two rows are their own opposites
-            n = py/2 + 1
-            call multiply_own(mean(1, l), half(1, l), mixed(1, l), spectrum(1, l))
-            if (mod(py, 2) == 0) call multiply_own(mean(n, l), half(n, l), mixed(n, l), spectrum(n, l))
-            n = (py - 1)/2
-         else
-            n = py - 1
-            call multiply_opposites(1, mean(:1, l), half(:1, l), mixed(:1, l), spectrum(:1, l), spectrum(:1, j))
-         end if
-         call multiply_opposites(n, mean(2:n + 1, l), half(2:n + 1, l), mixed(2:n + 1, l), spectrum(2:n + 1, l), &
-            & spectrum(py - n + 1:, j))
-      end do
-      if (.not. present(factor)) return
-      do l = 1, px
-         turn = factor(min(l, opposite(l, px)))
-         if (l > px/2 + 1) turn = conjg(turn)
-         call turn_column(py, turn, spectrum(:, l))
-      end do
-   end subroutine multiply_paired
-
-   !> Product for one frequency that is its own opposite
-   pure subroutine multiply_own(mean, half, mixed, x)
-      real(wp), intent(in) :: mean, half, mixed
-      complex(wp), intent(inout) :: x
-
-      x = mean*x + cmplx(half, mixed, wp)*conjg(x)
-   end subroutine multiply_own
-
-   !> Product for n frequencies and their opposites, these in reversed order
-   !>
-   !> Real and imaginary parts go through the same operations, so that the compiler takes both in one instruction.
-   pure subroutine multiply_opposites(n, mean, half, mixed, x, y)
-      integer, intent(in) :: n
-      real(wp), intent(in) :: mean(n), half(n), mixed(n)
-      complex(wp), intent(inout) :: x(n), y(n)
-      real(wp) :: xr, xi, yr, yi, minus
-      integer :: k
-
-      do k = 1, n
-         xr = x(k)%re
-         xi = x(k)%im
-         yr = y(n + 1 - k)%re
-         yi = y(n + 1 - k)%im
-         minus = -half(k)
-         x(k)%re = mean(k)*xr + half(k)*yr + mixed(k)*yi
-         x(k)%im = mean(k)*xi + minus*yi + mixed(k)*yr
-         y(n + 1 - k)%re = mean(k)*yr + half(k)*xr + mixed(k)*xi
-         y(n + 1 - k)%im = mean(k)*yi + minus*xi + mixed(k)*xr
-      end do
-   end subroutine multiply_opposites
-
-   !> A column times one factor, written for the same reason as above
-   pure subroutine turn_column(n, turn, x)
-      integer, intent(in) :: n
-      complex(wp), intent(in) :: turn
-      complex(wp), intent(inout) :: x(n)
-      real(wp) :: xr, xi, minus
-      integer :: k
-
-      minus = -turn%im
-      do k = 1, n
-         xr = x(k)%re
-         xi = x(k)%im
-         x(k)%re = turn%re*xr + minus*xi
-         x(k)%im = turn%re*xi + turn%im*xr
-      end do
-   end subroutine turn_column
-
    !> Product with a symmetric 2 by 2 block of real spectra, times a factor per column
    subroutine single_product(self, axx, ayy, axy, p, u, factor)
       class(elastic_operator), intent(inout) :: self
@@ -577,13 +406,4 @@ contains
       self%mx = 0
    end subroutine release
 
-   subroutine scale_spectrum(factor, spectrum)
-      real(wp), contiguous, intent(in) :: factor(:, :)
-      complex(wp), contiguous, intent(inout) :: spectrum(:, :)
-      integer :: l
-
-      do l = 1, size(factor, 2)
-         spectrum(:, l) = factor(:, l)*spectrum(:, l)
-      end do
-   end subroutine scale_spectrum
 end module contact_elastic_operator

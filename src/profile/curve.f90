@@ -4,23 +4,15 @@
 !> wheels from below: of several places with the same y only the one that is seen counts.
 module contact_profile_curve
    use contact_base_kinds, only : wp
-   use contact_numeric_polynomial, only : monotone_cubic_root, quadratic_roots
+   use contact_numeric_polynomial, only : quadratic_roots
    use contact_numeric_spline, only : cubic_spline, piece_of
    use contact_profile_request, only : profile_side
+   use contact_profile_stretches, only : find_turns, piece_in_stretch, place_in_piece, place_in_stretch, sorted, stretch, &
+      & stretch_between
    implicit none (type, external)
    private
 
    public :: profile_curve, new_curve, find_visible
-
-   !> A range of s in which y rises or falls throughout
-   type :: stretch
-      !> Its ends
-      real(wp) :: s_low, s_high
-      !> The pieces that hold them
-      integer :: first, last
-      !> Does y rise with s?
-      logical :: rises
-   end type stretch
 
    !> A visible part between two values of y on which y rises or falls with s
    type :: visible_part
@@ -173,96 +165,6 @@ contains
       if (n < 2) return
       if (parts(n)%low - parts(n - 1)%high <= 100.0_wp*vertical) parts(n)%low = parts(n - 1)%high
    end subroutine close_gap
-
-   !> Ends of the stretches of s in which y rises or falls throughout
-   subroutine find_turns(y, turns)
-      type(cubic_spline), intent(in) :: y
-      real(wp), allocatable, intent(out) :: turns(:)
-      real(wp) :: roots(2), h, before, between, behind
-      integer :: i, k, n, pieces, count
-      real(wp), allocatable :: found(:)
-
-      pieces = size(y%s) - 1
-      allocate(found(3*pieces + 1))
-      found(1) = y%s(1)
-      count = 1
-      do i = 1, pieces
-         h = y%s(i + 1) - y%s(i)
-         before = y%c(1, i) + h*(2.0_wp*y%c(2, i) + 3.0_wp*h*y%c(3, i))
-         ! A parabola has no zero when its two values at the ends and the crossing of its tangents there have one sign
-         between = y%c(1, i) + h*y%c(2, i)
-         if (.not. (before*between > 0.0_wp .and. y%c(1, i)*between > 0.0_wp)) then
-            call quadratic_roots(3.0_wp*y%c(3, i), 2.0_wp*y%c(2, i), y%c(1, i), 0.0_wp, h, roots, n)
-            do k = 1, n
-               count = count + 1
-               found(count) = y%s(i) + roots(k)
-            end do
-         end if
-         if (i == pieces) exit
-         ! At an end of pieces y turns round in a corner, or where the slope is exactly zero
-         behind = y%c(1, i + 1)
-         if (before*behind > 0.0_wp) cycle
-         count = count + 1
-         found(count) = y%s(i + 1)
-      end do
-      turns = [found(:count), y%s(pieces + 1)]
-   end subroutine find_turns
-
-   !> The stretch between two places
-   pure function stretch_between(y, s_low, s_high) result(along)
-      type(cubic_spline), intent(in) :: y
-      real(wp), intent(in) :: s_low, s_high
-      type(stretch) :: along
-
-      along%s_low = s_low
-      along%s_high = s_high
-      along%first = piece_of(y%s, s_low)
-      along%last = piece_of(y%s, s_high)
-      along%rises = y%value(s_high) > y%value(s_low)
-   end function stretch_between
-
-   !> Place with a given y in a stretch where y is monotone; the nearer end when there is none
-   pure real(wp) function place_in_stretch(y, along, target) result(s)
-      type(cubic_spline), intent(in) :: y
-      type(stretch), intent(in) :: along
-      real(wp), intent(in) :: target
-      integer :: piece
-
-      piece = piece_in_stretch(y, along, target)
-      s = y%s(piece) + place_in_piece(y, along, piece, target)
-   end function place_in_stretch
-
-   !> Number of the piece of a stretch that holds a value of y
-   pure integer function piece_in_stretch(y, along, target) result(first)
-      type(cubic_spline), intent(in) :: y
-      type(stretch), intent(in) :: along
-      real(wp), intent(in) :: target
-      integer :: last, middle
-
-      first = along%first
-      last = along%last
-      do while (last > first)
-         middle = (first + last + 1)/2
-         if (y%c(0, middle) < target .eqv. along%rises) then
-            first = middle
-         else
-            last = middle - 1
-         end if
-      end do
-   end function piece_in_stretch
-
-   !> Place with a given y in a piece of a stretch, from the beginning of the piece
-   pure real(wp) function place_in_piece(y, along, piece, target) result(place)
-      type(cubic_spline), intent(in) :: y
-      type(stretch), intent(in) :: along
-      integer, intent(in) :: piece
-      real(wp), intent(in) :: target
-
-      associate (start => y%s(piece))
-         place = monotone_cubic_root(y%c(:, piece), max(along%s_low, start) - start, &
-            & min(along%s_high, y%s(piece + 1)) - start, target)
-      end associate
-   end function place_in_piece
 
    pure function s_range(self) result(range)
       class(profile_curve), intent(in) :: self
@@ -527,37 +429,4 @@ contains
       end do
    end subroutine top
 
-   !> Numbers in rising order (heap sort)
-   pure function sorted(values) result(order)
-      real(wp), intent(in) :: values(:)
-      real(wp) :: order(size(values))
-      integer :: n, i
-
-      order = values
-      n = size(order)
-      do i = n/2, 1, -1
-         call sift(order, i, n)
-      end do
-      do i = n, 2, -1
-         order([1, i]) = order([i, 1])
-         call sift(order, 1, i - 1)
-      end do
-   end function sorted
-
-   pure subroutine sift(heap, top, n)
-      real(wp), intent(inout) :: heap(:)
-      integer, intent(in) :: top, n
-      integer :: parent, child
-
-      parent = top
-      do while (2*parent <= n)
-         child = 2*parent
-         if (child < n) then
-            if (heap(child + 1) > heap(child)) child = child + 1
-         end if
-         if (heap(parent) >= heap(child)) exit
-         heap([parent, child]) = heap([child, parent])
-         parent = child
-      end do
-   end subroutine sift
 end module contact_profile_curve

@@ -9,6 +9,7 @@
 module contact_subsurface_layers
    use contact_base_kinds, only : wp
    use contact_fft_plan, only : fft_plan, good_size
+   use contact_grid_potential_contact, only : potential_contact
    use contact_subsurface_element_field, only : body_responses, corner_derivatives, edge_ratio, far_distance, &
       & farthest_point, load_quadrature, n_derivatives, n_fields, new_quadrature, node_derivatives, odd_in_x, &
       & odd_in_y, source_derivatives
@@ -323,7 +324,7 @@ contains
                      d = line(:, k, mod(l + 1, 3)) - line(:, k, mod(l, 3))
                   end if
                else
-                  call integrate(k*dx, l*dy, d)
+                  call integrate(load%grid, rule, k*dx, l*dy, abs(z), d)
                end if
                call body_responses(d, abs(z), load%gg(body), load%nu(body), mirror, unit)
                response(k, l, :, :) = unit
@@ -366,26 +367,28 @@ contains
             end if
          end associate
       end subroutine fill_line
-
-      !> Quadrature over one element
-      pure subroutine integrate(x, y, sum)
-         !> Point relative to the centre of the element [mm]
-         real(wp), intent(in) :: x, y
-         real(wp), intent(out) :: sum(n_derivatives)
-         real(wp) :: part(n_derivatives)
-         integer :: i, j
-
-         sum = 0.0_wp
-         associate (dx => load%grid%dx, dy => load%grid%dy)
-            do j = 1, size(rule%point)
-               do i = 1, size(rule%point)
-                  call source_derivatives(x - rule%point(i)*dx, y - rule%point(j)*dy, abs(z), part)
-                  sum = sum + rule%weight(i)*rule%weight(j)*dx*dy*part
-               end do
-            end do
-         end associate
-      end subroutine integrate
    end subroutine fill_responses
+
+   !> Quadrature over one element
+   pure subroutine integrate(grid, rule, x, y, depth, sum)
+      type(potential_contact), intent(in) :: grid
+      type(load_quadrature), intent(in) :: rule
+      !> Point relative to the centre of the element, and its distance from the surface [mm]
+      real(wp), intent(in) :: x, y, depth
+      real(wp), intent(out) :: sum(n_derivatives)
+      real(wp) :: part(n_derivatives)
+      integer :: i, j
+
+      sum = 0.0_wp
+      associate (dx => grid%dx, dy => grid%dy)
+         do j = 1, size(rule%point)
+            do i = 1, size(rule%point)
+               call source_derivatives(x - rule%point(i)*dx, y - rule%point(j)*dy, depth, part)
+               sum = sum + rule%weight(i)*rule%weight(j)*dx*dy*part
+            end do
+         end do
+      end associate
+   end subroutine integrate
 
    !> From the frame of body 2, whose y-axis is turned
    pure subroutine turn_y(response)

@@ -14,7 +14,7 @@ module contact_wheelrail_curved_patch
    use contact_wheelrail_creepage, only : contact_motion, rigid_motion, velocity_of
    use contact_wheelrail_flat_patch, only : nothing_there
    use contact_wheelrail_frame, only : frame, new_frame
-   use contact_wheelrail_regions, only : contact_region
+   use contact_wheelrail_region, only : contact_region
    implicit none (type, external)
    private
 

@@ -11,7 +11,7 @@ module contact_wheelrail_flat_patch
    use contact_profile_curve, only : profile_curve
    use contact_wheelrail_frame, only : frame, new_frame
    use contact_wheelrail_placement, only : wheel_rail_placement
-   use contact_wheelrail_regions, only : contact_region
+   use contact_wheelrail_region, only : contact_region
    use contact_wheelrail_spec, only : search_spec
    implicit none (type, external)
    private

@@ -9,7 +9,8 @@ module contact_wheelrail_geometry
    use contact_wheelrail_gap, only : gap_curve, measure_gap, rail_in_track
    use contact_wheelrail_placement, only : wheel_rail_placement, place_wheel_rail
    use contact_wheelrail_problem, only : follows_surface, wheel_rail_problem
-   use contact_wheelrail_regions, only : contact_region, smallest_gap
+   use contact_wheelrail_region, only : contact_region
+   use contact_wheelrail_regions, only : smallest_gap
    use contact_wheelrail_variable, only : measure_variable_gap
    implicit none (type, external)
    private

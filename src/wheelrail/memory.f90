@@ -11,7 +11,7 @@ module contact_wheelrail_memory
    use contact_wheelrail_curved_patch, only : curved_reference
    use contact_wheelrail_frame, only : frame
    use contact_wheelrail_geometry, only : wheel_rail_geometry
-   use contact_wheelrail_regions, only : contact_region
+   use contact_wheelrail_region, only : contact_region
    implicit none (type, external)
    private
 

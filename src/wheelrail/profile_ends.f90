@@ -143,22 +143,11 @@ contains
          integer :: m
 
          do m = -1, 1
-            place = on_circle(middle + m*half)
+            call find_on_circle(problem, memory%geometry, k, middle + m*half, end, place)
             y(m + 2) = place(2)
          end do
          passes = maxval(y) > y_range(1) .and. minval(y) < y_range(2)
       end function passes
-
-      function on_circle(angle) result(place)
-         !> From the lowest point of the wheel [rad]
-         real(wp), intent(in) :: angle
-         real(wp) :: place(3), radius
-
-         if (allocated(problem%wheel_surface)) end = wheel_end(problem, memory%geometry, k, angle)
-         radius = memory%geometry%placement%wheel_radius + end(2)
-         place = memory%geometry%placement%wheel%to_parent([radius*sin(angle), end(1), &
-            & radius*cos(angle) - memory%geometry%placement%wheel_radius])
-      end function on_circle
 
       !> Remember the deepest of some points to both sides of the middle
       subroutine look_around(step, count)
@@ -169,7 +158,7 @@ contains
          integer :: m
 
          do m = -count, count
-            place = on_circle(middle + m*step)
+            call find_on_circle(problem, memory%geometry, k, middle + m*step, end, place)
             if (allocated(problem%rail_surface)) rail = section_at(problem, memory%geometry, place(1))
             depth = depth_within(rail, in_rail_section(memory%geometry, place))
             if (depth <= buried(k)%depth) cycle
@@ -183,6 +172,24 @@ contains
          end do
       end subroutine look_around
    end subroutine find_buried_ends
+
+   !> Point on the circle of an end of the wheel's profile, in track coordinates [mm]
+   subroutine find_on_circle(problem, geometry, k, angle, end, place)
+      type(wheel_rail_problem), intent(in) :: problem
+      type(wheel_rail_geometry), intent(in) :: geometry
+      !> End of the profile, 1 or 2
+      integer, intent(in) :: k
+      !> From the lowest point of the wheel [rad]
+      real(wp), intent(in) :: angle
+      !> The end in coordinates of the profile [mm]; found anew where the wheel varies
+      real(wp), intent(inout) :: end(2)
+      real(wp), intent(out) :: place(3)
+      real(wp) :: radius
+
+      if (allocated(problem%wheel_surface)) end = wheel_end(problem, geometry, k, angle)
+      radius = geometry%placement%wheel_radius + end(2)
+      place = geometry%placement%wheel%to_parent([radius*sin(angle), end(1), radius*cos(angle) - geometry%placement%wheel_radius])
+   end subroutine find_on_circle
 
    !> Overlap outside of all patches: where the gap has a smallest value of its own along the track, the search keeps the smallest
    !> of them at each lateral position

@@ -9,7 +9,8 @@ module contact_wheelrail_trial
    use contact_wheelrail_memory, only : wheel_rail_memory, patch_slot
    use contact_wheelrail_patch_solution, only : solve_slot
    use contact_wheelrail_problem, only : wheel_rail_problem
-   use contact_wheelrail_regions, only : contact_region, find_regions
+   use contact_wheelrail_region, only : contact_region
+   use contact_wheelrail_regions, only : find_regions
    use contact_wheelrail_variable, only : turn_of_rail
    implicit none (type, external)
    private

@@ -13,17 +13,12 @@ import sys
 MOST_OF_FILE, MOST_OF_PROCEDURE = 500, 100
 #: File, procedure ("" for the whole file): to be split, or to be given a reason
 OPEN = {
-    ("src/elastic/operator.f90", ""),
     ("src/experiment/run.f90", ""),
     ("src/output/report_wheel_rail.f90", ""),
-    ("src/profile/curve.f90", ""),
     ("src/profile/miniprof.f90", "read_miniprof"),
     ("src/profile/simpack.f90", "read_simpack"),
     ("src/profile/slices_file.f90", "read_slices_file"),
-    ("src/subsurface/layers.f90", "fill_responses"),
     ("src/text/lexer.f90", ""),
-    ("src/wheelrail/profile_ends.f90", "find_buried_ends"),
-    ("src/wheelrail/regions.f90", ""),
 }
 #: Head of a procedure: attributes, type of the result, name
 HEAD = re.compile(r"^\s*(?!end\b)(?:[a-z][^'\"]*\s)?(subroutine|function)\s+(\w+)")

@@ -13,7 +13,8 @@ program performance_rail
    use contact_cases_spec, only : case_spec, friction_set
    use contact_wheelrail_gap, only : gap_curve
    use contact_wheelrail_geometry, only : measure
-   use contact_wheelrail_regions, only : contact_region, find_regions
+   use contact_wheelrail_region, only : contact_region
+   use contact_wheelrail_regions, only : find_regions
    use contact_wheelrail_result, only : wheel_rail_result
    use contact_wheelrail_spec, only : search_spec, wheel_rail_spec
    use omp_lib, only : omp_set_num_threads

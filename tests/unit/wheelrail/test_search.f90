@@ -17,7 +17,8 @@ program test_search
    use contact_wheelrail_gap, only : gap_curve, measure_gap, no_surface, rail_in_track, smallest_in_row
    use contact_wheelrail_placement, only : gauge_point, wheel_rail_placement, place_wheel_rail
    use contact_wheelrail_profile_ends, only : depth_within
-   use contact_wheelrail_regions, only : contact_region, find_regions, smallest_gap
+   use contact_wheelrail_region, only : contact_region
+   use contact_wheelrail_regions, only : find_regions, smallest_gap
    use contact_wheelrail_spec, only : wheel_rail_spec
    implicit none (type, external)
    !> A conical wheel: height at y = 0 and slope of the profile

@@ -17,7 +17,8 @@ program test_variable
    use contact_wheelrail_frame, only : frame
    use contact_wheelrail_gap, only : gap_curve, measure_gap, no_surface, rail_in_track
    use contact_wheelrail_placement, only : place_wheel_rail
-   use contact_wheelrail_regions, only : contact_region, find_regions, smallest_gap
+   use contact_wheelrail_region, only : contact_region
+   use contact_wheelrail_regions, only : find_regions, smallest_gap
    use contact_wheelrail_spec, only : wheel_rail_spec
    use contact_wheelrail_variable, only : measure_variable_gap, variable_distance
    implicit none (type, external)

@@ -1,0 +1,336 @@
+!> One region of contact between wheel and rail: reference, weight and bounds of a stretch of interpenetration
+!>
+!> The reference is the mean of position and surface angle, weighted by a power of the interpenetration.
+module contact_wheelrail_region
+   use contact_base_constants, only : pi
+   use contact_base_kinds, only : wp
+   use contact_wheelrail_gap, only : gap_curve
+   implicit none (type, external)
+   private
+
+   public :: contact_region, region_box, far_away
+   public :: describe, describe_miss, describe_small, find_deepest
+
+   !> Bounds in track coordinates [mm]
+   type :: region_box
+      real(wp) :: x(2) = 0.0_wp, y(2) = 0.0_wp, z(2) = 0.0_wp
+   end type region_box
+
+   !> One contact problem, or a near miss
+   type :: contact_region
+      type(region_box) :: box
+      !> Reference: position [mm] in track coordinates and surface angle [rad]
+      real(wp) :: x = 0.0_wp, y = 0.0_wp, alpha = 0.0_wp
+      !> The same at the deepest point
+      real(wp) :: deepest(3) = 0.0_wp
+      !> Sum of weights
+      real(wp) :: weight = 0.0_wp
+      !> Smallest gap [mm], negative for interpenetration
+      real(wp) :: gap = 0.0_wp
+      !> Lateral positions of the deepest points of the stretches of interpenetration that it was joined of [mm]
+      real(wp), allocatable :: seeds(:)
+      !> Where the overlap of other regions begins, x and y in track coordinates [mm]: a grid does not grow beyond it
+      real(wp) :: others_x(2) = [-huge(1.0_wp), huge(1.0_wp)], others_y(2) = [-huge(1.0_wp), huge(1.0_wp)]
+      !> Do the bodies interpenetrate?
+      logical :: touches = .false.
+      !> Parts of a blended patch with their bounds; of size 1 otherwise
+      type(region_box), allocatable :: part(:)
+      !> How much pressures of one part act on another, 0...1, shape (parts, parts)
+      real(wp), allocatable :: interaction(:, :)
+   end type contact_region
+
+   !> Gaps beyond this value do not take part in the search [mm]
+   real(wp), parameter :: far_away = 777.0_wp
+   !> Least weight of a mesh point; below that of the lightest contact, as points that weigh alike move its reference
+   real(wp), parameter :: min_weight = 1.0e-60_wp
+   !> Least gap of a near miss [mm]: interpolation between mesh points does not make a contact of it
+   real(wp), parameter :: open_gap = 1.0e-10_wp
+
+contains
+
+   !> Reference, weight and bounds of a stretch of interpenetration
+   pure subroutine describe(gap, g, first, last, weight_power, region)
+      !> Mesh, and the table of bodies that vary
+      type(gap_curve), intent(in) :: gap
+      !> Gap at the present height [mm], shape (n)
+      real(wp), intent(in) :: g(:)
+      !> The points with g < 0
+      integer, intent(in) :: first, last
+      !> Power of the interpenetration in the weights, 1 or 2
+      integer, intent(in) :: weight_power
+      !> Gets bounds, reference, weight, and the deepest point
+      type(contact_region), intent(out) :: region
+      real(wp) :: w, x, total, extent(2), x_low, x_high
+      integer :: i
+
+      region%touches = .true.
+      total = 0.0_wp
+      x_low = huge(x_low)
+      x_high = -huge(x_high)
+      do i = first, last
+         if (allocated(gap%table)) then
+            call weigh_table(gap%x_table, gap%table(:, i) + (g(i) - gap%gap(i)), gap%x(i), weight_power, w, x, extent)
+         else
+            call weigh_parabola(gap, i, -g(i), weight_power, w, x, extent)
+         end if
+         w = max(min_weight, w)
+         total = total + w
+         region%x = region%x + w*x
+         region%y = region%y + w*gap%y(i)
+         region%alpha = region%alpha + w*gap%alpha(i)
+         x_low = min(x_low, extent(1))
+         x_high = max(x_high, extent(2))
+      end do
+      region%x = region%x/total
+      region%y = region%y/total
+      region%alpha = region%alpha/total
+      region%weight = total*gap%dy
+      region%box%x = [x_low, x_high]
+      region%box%y(1) = zero_crossing(gap, g, first, first - 1)
+      region%box%y(2) = zero_crossing(gap, g, last, last + 1)
+      region%box%z(1) = height_at(gap, region%box%y(1), first)
+      region%box%z(2) = height_at(gap, region%box%y(2), last)
+      ! a patch that reaches the end of the profile: as long on that side as on the other one
+      if (first == 1) region%box%y(1) = 2.0_wp*region%y - region%box%y(2)
+      if (last == gap%n) region%box%y(2) = 2.0_wp*region%y - region%box%y(1)
+      call find_deepest(gap, g, first, last, region%gap, region%deepest)
+      allocate(region%seeds(1), source=region%deepest(2))
+      allocate(region%part(1), source=region%box)
+      allocate(region%interaction(1, 1), source=1.0_wp)
+   end subroutine describe
+
+   !> Reference, weight and bounds of a contact that is small compared with the mesh, from the parabola through three points
+   !>
+   !> A region stays as it is where there is no such parabola, or where it does not reach below zero.
+   pure subroutine describe_small(gap, g, first, last, weight_power, region)
+      !> Mesh and curvature along the track
+      type(gap_curve), intent(in) :: gap
+      !> Gap at the present height [mm], shape (n)
+      real(wp), intent(in) :: g(:)
+      !> The points with g < 0, or a point with a lower gap than its neighbours
+      integer, intent(in) :: first, last
+      !> Power of the interpenetration in the weights, 1 or 2
+      integer, intent(in) :: weight_power
+      !> With the description by mesh points
+      type(contact_region), intent(inout) :: region
+      real(wp) :: lowest, place(3), bend, half, w, x, extent(2)
+      integer :: i
+
+      i = first - 1 + minloc(g(first:last), dim=1)
+      if (i <= 1 .or. i >= gap%n) return
+      if (max(g(i - 1), g(i + 1)) > far_away) return
+      call find_deepest(gap, g, first, last, lowest, place)
+      bend = 0.5_wp*(g(i - 1) - 2.0_wp*g(i) + g(i + 1))/gap%dy**2
+      if (.not. (lowest < 0.0_wp .and. bend > 0.0_wp)) return
+      half = sqrt(-lowest/bend)
+      if (allocated(gap%table)) then
+         call weigh_table(gap%x_table, gap%table(:, i) + (lowest - gap%gap(i)), place(1), weight_power, w, x, extent)
+      else
+         call weigh_parabola(gap, i, -lowest, weight_power, w, x, extent)
+         extent = extent + (place(1) - x)
+         x = place(1)
+      end if
+      region%touches = .true.
+      region%x = x
+      region%y = place(2)
+      region%alpha = place(3)
+      region%gap = lowest
+      region%deepest = place
+      region%seeds = [place(2)]
+      ! the weights of all lateral positions, integrated: (1 - u**2)**2.5 and (1 - u**2)**1.5 from -1 to 1
+      region%weight = max(min_weight, w)*half*merge(5.0_wp/16.0_wp, 3.0_wp/8.0_wp, weight_power == 2)*pi
+      region%box%x = extent
+      region%box%y = place(2) + [-half, half]
+      region%box%z = gap%z(i) + (region%box%y - gap%y(i))*(gap%z(i + 1) - gap%z(i - 1))/(2.0_wp*gap%dy)
+      region%part = [region%box]
+   end subroutine describe_small
+
+   !> Weight of the interpenetration along the track at one lateral position, round wheel: c - kappa (x - x_locus)**2
+   pure subroutine weigh_parabola(gap, i, c, power, weight, x, extent)
+      type(gap_curve), intent(in) :: gap
+      integer, intent(in) :: i
+      !> Largest interpenetration [mm]
+      real(wp), intent(in) :: c
+      !> Power of the interpenetration that is integrated, 1 or 2
+      integer, intent(in) :: power
+      real(wp), intent(out) :: weight
+      !> Its centre, and where it begins and ends [mm]
+      real(wp), intent(out) :: x, extent(2)
+      real(wp) :: t
+
+      t = sqrt(c/gap%kappa)
+      if (power == 1) then
+         weight = 4.0_wp/3.0_wp*c*t
+      else
+         weight = 16.0_wp/15.0_wp*c**2*t
+      end if
+      x = gap%x(i)
+      extent = x + [-t, t]
+   end subroutine weigh_parabola
+
+   !> The same from a table of gaps along the track, by its sum; ends on straight lines between places
+   !>
+   !> A stretch with few points of the table is summed up at places between them, too, on curves through four points:
+   !> else the centre of a contact that is as short as the steps of the table would be that of one or two points.
+   pure subroutine weigh_table(places, g, locus, power, weight, x, extent)
+      real(wp), intent(in) :: places(:), g(:)
+      !> Place of the smallest gap [mm], for a stretch too short for the table
+      real(wp), intent(in) :: locus
+      integer, intent(in) :: power
+      real(wp), intent(out) :: weight, x, extent(2)
+      !> Stretches with fewer points of the table are refined, and how much
+      integer, parameter :: few = 16, parts = 16
+      real(wp) :: moment, step, before, now, depth, place
+      integer :: i, k, n, first, last
+
+      weight = 0.0_wp
+      moment = 0.0_wp
+      x = locus
+      extent = locus
+      n = 1
+      if (count(g < 0.0_wp) < few) n = parts
+      step = (places(2) - places(1))/n
+      ! the smallest value may be positive although the curve dips below zero beside it
+      first = minloc(g, 1)
+      last = first
+      do i = 1, size(g)
+         if (.not. g(i) < 0.0_wp) cycle
+         first = min(first, i)
+         last = max(last, i)
+      end do
+      first = max(1, first - 1)
+      last = min(size(g), last + 1)
+      before = g(first)
+      do i = first, last
+         do k = 1, n
+            if (i == last .and. k > 1) exit
+            place = places(i) + (k - 1)*step
+            now = g(i)
+            if (k > 1) now = between(i, real(k - 1, wp)/n)
+            if (now < 0.0_wp) then
+               depth = abs(now)**power
+               weight = weight + depth*step
+               moment = moment + depth*(place - locus)*step
+               extent = [min(extent(1), place), max(extent(2), place)]
+            end if
+            ! where the gap vanishes between the place before and this one
+            if (min(before, now) < 0.0_wp .and. max(before, now) >= 0.0_wp .and. max(before, now) <= far_away) then
+               place = place - step*now/(now - before)
+               extent = [min(extent(1), place), max(extent(2), place)]
+            end if
+            before = now
+         end do
+      end do
+      if (weight > 0.0_wp) x = locus + moment/weight
+
+   contains
+
+      !> Gap between two points of the table, by the cubic with the slopes of parabolas; straight beside missing surfaces
+      pure real(wp) function between(i, t)
+         integer, intent(in) :: i
+         !> Share of the way to the next point
+         real(wp), intent(in) :: t
+         real(wp) :: rise, bend(2)
+
+         if (max(g(i), g(i + 1)) > far_away) then
+            between = merge(g(i), g(i + 1), t < 0.5_wp)
+            return
+         end if
+         rise = g(i + 1) - g(i)
+         bend = 0.0_wp
+         if (i > 1) then
+            if (g(i - 1) < far_away) bend(1) = g(i - 1) - 2.0_wp*g(i) + g(i + 1)
+         end if
+         if (i + 2 <= size(g)) then
+            if (g(i + 2) < far_away) bend(2) = g(i) - 2.0_wp*g(i + 1) + g(i + 2)
+         end if
+         if (i == 1) bend(1) = bend(2)
+         if (i + 2 > size(g)) bend(2) = bend(1)
+         between = g(i) + t*rise - 0.5_wp*t*(1.0_wp - t)*((1.0_wp - t)*bend(1) + t*bend(2))
+      end function between
+   end subroutine weigh_table
+
+   !> Lateral position where the gap vanishes between a point inside and its neighbour outside
+   pure real(wp) function zero_crossing(gap, g, inside, outside) result(y)
+      type(gap_curve), intent(in) :: gap
+      real(wp), intent(in) :: g(:)
+      integer, intent(in) :: inside, outside
+
+      if (outside < 1 .or. outside > gap%n) then
+         y = gap%y(inside)
+      else if (g(outside) > far_away) then
+         y = gap%y(outside)
+      else
+         y = gap%y(inside) + (gap%y(outside) - gap%y(inside))*g(inside)/(g(inside) - g(outside))
+      end if
+   end function zero_crossing
+
+   !> Height of the rail at a lateral position next to a mesh point
+   pure real(wp) function height_at(gap, y, i) result(z)
+      type(gap_curve), intent(in) :: gap
+      real(wp), intent(in) :: y
+      integer, intent(in) :: i
+      integer :: j
+
+      j = i
+      if (y > gap%y(i)) j = i + 1
+      if (y < gap%y(i)) j = i - 1
+      z = gap%z(i)
+      if (j < 1 .or. j > gap%n .or. j == i) return
+      if (gap%gap(j) > far_away) return
+      z = gap%z(i) + (gap%z(j) - gap%z(i))*(y - gap%y(i))/(gap%y(j) - gap%y(i))
+   end function height_at
+
+   !> Smallest gap of a stretch, between mesh points by a parabola, and its place
+   pure subroutine find_deepest(gap, g, first, last, lowest, place)
+      !> Mesh and curvature along the track
+      type(gap_curve), intent(in) :: gap
+      !> Gap at the present height [mm], shape (n)
+      real(wp), intent(in) :: g(:)
+      !> Mesh points between which the smallest gap is looked for
+      integer, intent(in) :: first, last
+      !> The smallest gap, between mesh points by a parabola [mm]
+      real(wp), intent(out) :: lowest
+      !> Position x, y [mm] and surface angle [rad]
+      real(wp), intent(out) :: place(3)
+      integer :: i, next
+      real(wp) :: bend, shift
+
+      i = first - 1 + minloc(g(first:last), dim=1)
+      lowest = g(i)
+      place = [gap%x(i), gap%y(i), gap%alpha(i)]
+      if (i <= 1 .or. i >= size(g)) return
+      if (abs(g(i - 1) - g(i)) > 1.0_wp .or. abs(g(i + 1) - g(i)) > 1.0_wp) return
+      bend = g(i - 1) - 2.0_wp*g(i) + g(i + 1)
+      if (.not. bend > 0.0_wp) return
+      shift = 0.5_wp*(g(i - 1) - g(i + 1))/bend
+      lowest = g(i) - 0.5_wp*bend*shift**2
+      next = i + merge(1, -1, shift > 0.0_wp)
+      place = place + abs(shift)*([gap%x(next), gap%y(next), gap%alpha(next)] - place)
+   end subroutine find_deepest
+
+   !> A place where the bodies nearly touch
+   pure subroutine describe_miss(gap, g, i, region)
+      !> Mesh, with heights and inclinations of the rail
+      type(gap_curve), intent(in) :: gap
+      !> Gap at the present height [mm], shape (n)
+      real(wp), intent(in) :: g(:)
+      !> Mesh point with a lower gap than its neighbours
+      integer, intent(in) :: i
+      !> Gets its reference at this point, and the least weight
+      type(contact_region), intent(out) :: region
+
+      region%x = gap%x(i)
+      region%y = gap%y(i)
+      region%alpha = gap%alpha(i)
+      region%weight = min_weight
+      call find_deepest(gap, g, i, i, region%gap, region%deepest)
+      region%gap = max(open_gap, region%gap)
+      allocate(region%seeds(1), source=region%y)
+      region%box%x = gap%x(i)
+      region%box%y = gap%y(i)
+      region%box%z = gap%z(i)
+      allocate(region%part(1), source=region%box)
+      allocate(region%interaction(1, 1), source=1.0_wp)
+   end subroutine describe_miss
+end module contact_wheelrail_region

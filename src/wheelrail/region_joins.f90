@@ -1,0 +1,224 @@
+!> Regions of contact that are close to each other: combined to one patch, blended to one patch with several parts, or turned
+!> towards a common angle
+module contact_wheelrail_region_joins
+   use contact_base_constants, only : pi
+   use contact_base_kinds, only : wp
+   use contact_wheelrail_region, only : contact_region, region_box
+   use contact_wheelrail_spec, only : search_spec
+   implicit none (type, external)
+   private
+
+   public :: avoid_vertical, join_regions, refer_to_deepest, shift_near_misses, side_by_side, sort_regions, turn_regions
+
+   !> Exponent of the decrease of interaction with the distance of blended parts
+   real(wp), parameter :: blend_exponent = 0.8_wp
+   !> Angles nearer than this to a vertical plane are moved away from it [rad]
+   real(wp), parameter :: upright = 1.0e-3_wp
+
+contains
+
+   !> Field side (large y) first
+   subroutine sort_regions(regions)
+      !> Brought into the order of falling y of their references, field side first
+      type(contact_region), allocatable, intent(inout) :: regions(:)
+      type(contact_region) :: moved
+      integer :: i, j
+
+      do i = 2, size(regions)
+         moved = regions(i)
+         j = i - 1
+         do while (j >= 1)
+            if (regions(j)%y >= moved%y) exit
+            regions(j + 1) = regions(j)
+            j = j - 1
+         end do
+         regions(j + 1) = moved
+      end do
+   end subroutine sort_regions
+
+   !> Distance of two regions, the first one on the field side [mm]; where they are beside each other along the track, along it
+   pure real(wp) function distance(field, gauge, along_track)
+      type(region_box), intent(in) :: field, gauge
+      !> Count the distance along the track, too?
+      logical, intent(in) :: along_track
+      real(wp) :: d(3)
+
+      d = 0.0_wp
+      if (along_track) d(1) = max(0.0_wp, field%x(1) - gauge%x(2), gauge%x(1) - field%x(2))
+      if (.not. side_by_side(field, gauge)) then
+         d(2) = field%y(1) - gauge%y(2)
+         d(3) = field%z(1) - gauge%z(2)
+      end if
+      distance = norm2(d)
+   end function distance
+
+   !> Have two regions lateral positions in common?
+   pure logical function side_by_side(a, b)
+      !> Bounds of two regions, of which those across the track are compared [mm]
+      type(region_box), intent(in) :: a, b
+      side_by_side = a%y(1) < b%y(2) .and. b%y(1) < a%y(2)
+   end function side_by_side
+
+   !> First combine what is near, then blend what is not far
+   subroutine join_regions(search, regions)
+      !> Distances and angles at which regions are joined
+      type(search_spec), intent(in) :: search
+      !> Those that are close enough become one
+      type(contact_region), allocatable, intent(inout) :: regions(:)
+
+      call join_within(search%d_comb, .false.)
+      call join_within(search%d_sep, .true.)
+
+   contains
+
+      !> Join neighbours until none are near each other: across the track those that follow each other, and along it
+      subroutine join_within(furthest, blend)
+         !> Distance [mm]
+         real(wp), intent(in) :: furthest
+         !> Do the parts stay known?
+         logical, intent(in) :: blend
+         integer :: i, j
+
+         i = 1
+         do while (i < size(regions))
+            do j = i + 1, size(regions)
+               if (j > i + 1 .and. .not. side_by_side(regions(i)%box, regions(j)%box)) cycle
+               if (distance(regions(i)%box, regions(j)%box, .true.) > furthest) cycle
+               if (abs(regions(i)%alpha - regions(j)%alpha) > search%a_sep) cycle
+               exit
+            end do
+            if (j > size(regions)) then
+               i = i + 1
+            else
+               call join(i, j, blend)
+               call sort_regions(regions)
+               i = 1
+            end if
+         end do
+      end subroutine join_within
+
+      !> Make one region of two
+      subroutine join(i, j, blend)
+         !> Their numbers, i < j
+         integer, intent(in) :: i, j
+         !> Do the parts stay known?
+         logical, intent(in) :: blend
+         type(contact_region) :: both
+         real(wp) :: w(2)
+
+         associate (a => regions(i), b => regions(j))
+            w = [a%weight, b%weight]/(a%weight + b%weight)
+            both = a
+            both%x = w(1)*a%x + w(2)*b%x
+            both%y = w(1)*a%y + w(2)*b%y
+            both%alpha = w(1)*a%alpha + w(2)*b%alpha
+            both%weight = a%weight + b%weight
+            both%gap = min(a%gap, b%gap)
+            if (b%gap < a%gap) both%deepest = b%deepest
+            both%seeds = [a%seeds, b%seeds]
+            both%box%x = [min(a%box%x(1), b%box%x(1)), max(a%box%x(2), b%box%x(2))]
+            both%box%y = [min(a%box%y(1), b%box%y(1)), max(a%box%y(2), b%box%y(2))]
+            both%box%z = [merge(a%box%z(1), b%box%z(1), a%box%y(1) < b%box%y(1)), &
+               & merge(b%box%z(2), a%box%z(2), b%box%y(2) > a%box%y(2))]
+            deallocate(both%part, both%interaction)
+            if (blend) then
+               both%part = [a%part, b%part]
+               both%interaction = interactions(both%part, search)
+            else
+               allocate(both%part(1), source=both%box)
+               allocate(both%interaction(1, 1), source=1.0_wp)
+            end if
+         end associate
+         regions = [regions(:i - 1), both, regions(i + 1:j - 1), regions(j + 1:)]
+      end subroutine join
+   end subroutine join_regions
+
+   !> How much pressures of one part act on the others: fully when near, not at all when far
+   pure function interactions(part, search) result(factor)
+      type(region_box), intent(in) :: part(:)
+      type(search_spec), intent(in) :: search
+      real(wp) :: factor(size(part), size(part))
+      real(wp) :: d
+      integer :: i, j
+
+      factor = 1.0_wp
+      do i = 1, size(part)
+         do j = i + 1, size(part)
+            d = distance(part(i), part(j), .true.)
+            if (search%d_sep > search%d_comb) factor(i, j) = &
+               & min(1.0_wp, max(0.0_wp, (search%d_sep - d)/(search%d_sep - search%d_comb)))**blend_exponent
+            factor(j, i) = factor(i, j)
+         end do
+      end do
+   end function interactions
+
+   !> A patch grows towards a place that is about to touch, so that a second contact opens smoothly
+   subroutine shift_near_misses(search, misses, regions)
+      !> Distances at which a miss moves the reference of a region
+      type(search_spec), intent(in) :: search
+      !> Near misses by rising gap
+      type(contact_region), intent(in) :: misses(:)
+      !> Their references move towards misses that are near
+      type(contact_region), intent(inout) :: regions(:)
+      real(wp) :: share
+      integer :: i, k
+
+      if (.not. search%g_miss > 0.0_wp) return
+      do k = 1, size(misses)
+         if (misses(k)%gap >= search%g_miss) cycle
+         share = 1.0_wp - misses(k)%gap/search%g_miss
+         do i = 1, size(regions)
+            associate (box => regions(i)%box, y => misses(k)%y)
+               if (y < box%y(1) .and. box%y(1) - y <= search%d_comb) box%y(1) = box%y(1) + share*(y - box%y(1))
+               if (y > box%y(2) .and. y - box%y(2) <= search%d_comb) box%y(2) = box%y(2) + share*(y - box%y(2))
+            end associate
+         end do
+      end do
+   end subroutine shift_near_misses
+
+   !> Planes of neighbouring patches turn towards a common one as they come closer
+   subroutine turn_regions(search, regions)
+      !> Angles at which regions keep their own, and the distance at which they turn
+      type(search_spec), intent(in) :: search
+      !> Their angles move towards each other
+      type(contact_region), intent(inout) :: regions(:)
+      real(wp) :: d, common, share
+      integer :: i
+
+      do i = 1, size(regions) - 1
+         associate (a => regions(i), b => regions(i + 1))
+            d = distance(a%box, b%box, .false.)
+            if (d < search%d_sep .or. d > search%d_turn .or. abs(a%alpha - b%alpha) > search%a_sep) cycle
+            common = (a%weight*a%alpha + b%weight*b%alpha)/(a%weight + b%weight)
+            share = (search%d_turn - d)/max(search%d_turn - search%d_sep, tiny(d))
+            a%alpha = a%alpha + share*(common - a%alpha)
+            b%alpha = b%alpha + share*(common - b%alpha)
+         end associate
+      end do
+   end subroutine turn_regions
+
+   !> The deepest point of each region becomes its reference
+   pure subroutine refer_to_deepest(regions)
+      !> Reference and angle become those of the deepest point
+      type(contact_region), intent(inout) :: regions(:)
+      integer :: i
+
+      do i = 1, size(regions)
+         regions(i)%x = regions(i)%deepest(1)
+         regions(i)%y = regions(i)%deepest(2)
+         regions(i)%alpha = regions(i)%deepest(3)
+      end do
+   end subroutine refer_to_deepest
+
+   !> Planes that are nearly vertical are turned away from it
+   subroutine avoid_vertical(regions)
+      !> Angles too near to a vertical plane are moved away from it
+      type(contact_region), intent(inout) :: regions(:)
+      integer :: i
+
+      do i = 1, size(regions)
+         if (abs(abs(regions(i)%alpha) - 0.5_wp*pi) < upright) &
+            & regions(i)%alpha = sign(0.5_wp*pi - upright, regions(i)%alpha)
+      end do
+   end subroutine avoid_vertical
+end module contact_wheelrail_region_joins
