@@ -4,11 +4,20 @@
 !> who did not ask for messages. Lines that solvers write carry the flow-trace level (W digit)
 !> from which on they appear.
 module contact_base_log
+   use contact_base_error, only : error_type
    use contact_base_output_file, only : output_file
    implicit none (type, external)
    private
 
-   public :: log_type
+   public :: choice_terms, log_type
+
+   abstract interface
+      !> A message, which names choices as the readable format does, in the terms of those who read it
+      pure subroutine choice_terms(message, text)
+         character(len=*), intent(in) :: message
+         character(len=:), allocatable, intent(out) :: text
+      end subroutine choice_terms
+   end interface
 
    !> Different warnings of a case that are told apart, and what is compared of them
    integer, parameter :: max_told = 16, told_length = 160
@@ -27,6 +36,8 @@ module contact_base_log
       type(output_file) :: out
       !> Flow-trace level W of the case, 0...9
       integer :: level = 0
+      !> How choices are told; not associated: in the words of the readable format
+      procedure(choice_terms), pointer, nopass :: terms => null()
       !> Number of warnings since the log was made; those that a case repeats count once
       integer :: warnings = 0
       !> The same with those that were repeated
@@ -45,6 +56,8 @@ module contact_base_log
       procedure :: trace => log_trace
       !> Write a warning to both sinks and count it; one that was written in this case is only counted
       procedure :: warning => log_warning
+      !> Put the choices that an error names into the terms of the log; nothing on success
+      procedure :: tell_choices
       !> A case begins: nothing was said yet
       procedure :: begin_case
       !> A case ends: tell how often its warnings came
@@ -87,12 +100,24 @@ contains
       class(log_type), intent(inout) :: self
       !> The sentence, without the leading word
       character(len=*), intent(in) :: text
-      integer :: k
+      character(len=:), allocatable :: told
 
       if (allocated(self%held)) then
          self%held = self%held // text // new_line(text)
-         return
+      else if (associated(self%terms)) then
+         call self%terms(text, told)
+         call write_warning(self, told)
+      else
+         call write_warning(self, text)
       end if
+   end subroutine log_warning
+
+   !> Write a warning once in a case
+   subroutine write_warning(self, text)
+      class(log_type), intent(inout) :: self
+      character(len=*), intent(in) :: text
+      integer :: k
+
       self%heard = self%heard + 1
       do k = 1, self%told
          if (.not. says_the_same(self%said(k)%text, text)) cycle
@@ -106,7 +131,17 @@ contains
       end if
       self%warnings = self%warnings + 1
       call self%line(" Warning: " // text)
-   end subroutine log_warning
+   end subroutine write_warning
+
+   subroutine tell_choices(self, error)
+      class(log_type), intent(in) :: self
+      type(error_type), allocatable, intent(inout) :: error
+      character(len=:), allocatable :: text
+
+      if (.not. (allocated(error) .and. associated(self%terms))) return
+      call self%terms(error%message, text)
+      call move_alloc(text, error%message)
+   end subroutine tell_choices
 
    subroutine begin_case(self)
       class(log_type), intent(inout) :: self

@@ -10,11 +10,15 @@ module contact_capi_calculate1
    use contact_capi_library, only : entry_type
    use contact_capi_messages, only : complain, say
    use contact_capi_problem, only : library_problem, max_patches
+   use contact_cases_continuation, only : describe_search
    use contact_cases_wheel_rail_session, only : solve_wheel_rail_case
    use contact_cases_spec, only : case_spec
    use contact_control_digits, only : case_digits, digit_names, digit_value, is_known
    use contact_control_library_codes, only : code_of_wheel_rail, library_code
+   use contact_grid_potential_contact, only : potential_contact
+   use contact_input_checks, only : check_case
    use contact_input_control, only : check_physics, control_words, refuse_unbuilt_digits
+   use contact_input_file_reader, only : file_reader
    use contact_input_problems, only : problem_list
    use contact_output_wheel_rail_files, only : write_wheel_rail_files
    use contact_output_report_wheel_rail, only : write_wheel_rail
@@ -92,6 +96,7 @@ contains
       type(library_problem), intent(in) :: problem
       integer, intent(out) :: code
       type(error_type), allocatable, intent(out) :: error
+      character(len=:), allocatable :: text
 
       code = library_code%profile
       if (problem%rail%detail /= 0) then
@@ -106,10 +111,8 @@ contains
          call fatal_error(error, "there are no friction data")
       else if (is_transient(problem) .and. problem%has_result) then
          code = library_code%discretisation
-         associate (new => problem%spec%wheel_rail%search, old => problem%wheel_rail%problem%spec%search)
-            if (abs(new%dx - old%dx) > 1.0e-4_wp*old%dx .or. abs(new%ds - old%ds) > 1.0e-4_wp*old%ds) &
-               & call fatal_error(error, "the elements changed in size, but the previous case is continued")
-         end associate
+         call describe_search(problem%digits%t, problem%spec%wheel_rail%search, problem%wheel_rail%problem%spec%search, text)
+         if (allocated(text)) call fatal_error(error, text)
       end if
    end subroutine check_data
 
@@ -149,6 +152,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(problem_list) :: problems
       type(control_words) :: words
+      type(file_reader) :: nowhere
       character(len=:), allocatable :: name
       integer :: k, digit
 
@@ -170,6 +174,7 @@ contains
       words%digits = digits
       call refuse_unbuilt_digits(words, 1, spec, problems)
       call check_physics(words, spec, problems)
+      call check_case(words, nowhere, spec, .false., potential_contact(), spec, problems)
       call problems%first_failure(error)
    end subroutine check_settings
 

@@ -10,14 +10,14 @@ module contact_capi_calculate3
    use contact_capi_library, only : entry_type
    use contact_capi_messages, only : complain
    use contact_capi_problem, only : library_problem
+   use contact_cases_continuation, only : describe_coefficients, frame_of
    use contact_cases_session, only : solve_case
    use contact_cases_spec, only : case_spec
    use contact_control_digits, only : case_digits
    use contact_control_library_codes, only : code_of_contact, library_code
    use contact_grid_potential_contact, only : potential_contact
-   use contact_input_checks3, only : check_case
+   use contact_input_checks, only : check_case
    use contact_input_control, only : check_physics, control_words, refuse_unbuilt_digits
-   use contact_input_grid_frame, only : frame_of, grid_frame
    use contact_input_file_reader, only : file_reader
    use contact_input_problems, only : problem_list
    use contact_output_mat_file, only : mat_place, write_mat_file
@@ -112,7 +112,7 @@ contains
       call problems%start("")
       words%digits = digits
       call check_physics(words, spec, problems)
-      call check_case(words, nowhere, spec, .false., grid_frame(), spec, problems)
+      call check_case(words, nowhere, spec, .false., potential_contact(), spec, problems)
       call refuse_unbuilt_digits(words, 3, spec, problems)
       call problems%first_failure(error)
    end subroutine check_settings
@@ -123,27 +123,22 @@ contains
       logical, intent(in) :: is_kept
       type(case_spec), intent(in) :: spec
       !> Grid of the coefficients
-      type(grid_frame), intent(inout) :: kept
+      type(potential_contact), intent(inout) :: kept
       type(error_type), allocatable, intent(out) :: error
-      real(wp), parameter :: same_side = 1.0e-4_wp
-      type(grid_frame) :: new
+      character(len=:), allocatable :: text
 
-      new = frame_of(spec%grid)
-      if (.not. is_kept .or. kept%mx == 0) then
-         kept = new
-      else if (new%mx > kept%mx .or. new%my > kept%my) then
-         call fatal_error(error, "the grid has more elements than the influence coefficients that are kept (C = 0)")
-      else if (new%is_known .and. kept%is_known) then
-         if (abs(new%dx - kept%dx) > same_side*kept%dx .or. abs(new%dy - kept%dy) > same_side*kept%dy) &
-            & call fatal_error(error, "the elements differ in size from those of the influence coefficients that are kept (C = 0)")
+      if (is_kept .and. kept%mx > 0) then
+         call describe_coefficients(frame_of(spec%grid), kept, text)
+         if (allocated(text)) call fatal_error(error, text // " (C = 0)")
+      else
+         kept = frame_of(spec%grid)
       end if
    end subroutine check_coefficients
 
    !> Does the grid of a case that was refused go with the one of the previous case?
    pure logical function continues(problem)
       type(library_problem), intent(in) :: problem
-      real(wp), parameter :: same_side = 1.0e-4_wp, same_place = 1.0e-3_wp
-      real(wp) :: shift(2), box(4)
+      real(wp) :: box(4)
       integer :: lost
 
       continues = .true.
@@ -151,9 +146,7 @@ contains
       if (problem%spec%link == time_link%initiate .and. problem%spec%estimate == estimate_choice%fresh) return
       associate (new => problem%session%problem%grid, old => problem%result%grid)
          if (.not. problem%session%problem%has_geometry) return
-         shift = [(new%xl - old%xl)/new%dx, (new%yl - old%yl)/new%dy]
-         continues = abs(new%dx - old%dx) <= same_side*old%dx .and. abs(new%dy - old%dy) <= same_side*old%dy .and. &
-            & all(abs(shift - anint(shift)) <= same_place)
+         continues = new%continues(old)
          if (.not. continues) return
          call elements_left_out(problem%result%division, old, new, lost, box)
          continues = lost == 0

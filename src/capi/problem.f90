@@ -16,7 +16,7 @@ module contact_capi_problem
    use contact_control_digits, only : case_digits
    use contact_control_units, only : unit_convention
    use contact_experiment_stopwatch, only : stopwatch
-   use contact_input_grid_frame, only : grid_frame
+   use contact_grid_potential_contact, only : potential_contact
    use contact_profile_curve, only : profile_curve
    use contact_profile_surface, only : profile_surface
    use contact_subsurface_points, only : point_block
@@ -89,7 +89,7 @@ module contact_capi_problem
       !> Profiles of module 1
       type(given_profile) :: rail, wheel
       !> Grid for which influence coefficients were last asked for (C of 1 and above); mx = 0 before
-      type(grid_frame) :: coefficients
+      type(potential_contact) :: coefficients
       !> Number of cases so far, and whether results are there
       integer :: cases = 0
       logical :: has_result = .false.
@@ -176,7 +176,7 @@ contains
       problem%problem_slot = problem_slot()
       call free_left_blocks(problem%owner)
       problem%owner = new_owner()
-      problem%coefficients = grid_frame()
+      problem%coefficients = potential_contact()
       problem%has_result = .false.
       if (problem%module_number == 1) then
          call open_wheel_rail(problem%problem_slot)

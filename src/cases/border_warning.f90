@@ -97,7 +97,7 @@ contains
             &touch there, and carries no load here")
       else
          call log%warning(trim(beside_words(spec, wheel_rail%beside)) // ". The search along the contact locus keeps one place for &
-            &each lateral position; the search over a grid (D = 5) keeps all")
+            &each lateral position; the search over a grid (search.location = ""grid"") keeps all")
       end if
    end subroutine warn_of_buried_ends
 

@@ -133,7 +133,8 @@ contains
       if (matrices /= 1 .and. rows > 0) call accept(v(1), [rows], "1, or MY = ")
       if (matrices /= 1 .and. rows == 0) call fatal_error(error, "NMATRIX = " // integer_text(matrices) // " cannot be used: " // &
          & "the rows of patches of wheel on rail are found and have no fixed place among matrices by row; accepted is 1, a " // &
-         & "file with one matrix, or C = 4 with D = 4", file=text%file, line=v(1)%line, column=v(1)%column)
+         & "file with one matrix, or material.influence = ""conformal"" with search.location = ""conformal""", file=text%file, &
+         & line=v(1)%line, column=v(1)%column)
       if (.not. allocated(error)) call accept(v(2), [1, 2])
       if (allocated(error)) return
       call log%line(" Influence coefficients from " // text%file // ", body " // integer_text(v(2)%i) // " (" &

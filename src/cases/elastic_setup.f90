@@ -1,6 +1,6 @@
 !> From the specification of a case to its elastic model
 module contact_cases_elastic_setup
-   use contact_base_choices, only : kernel_model, material_model, motion, pressure_model
+   use contact_base_choices, only : kernel_model, material_model, pressure_model
    use contact_base_error, only : error_kind, error_type, fatal_error
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
@@ -58,13 +58,11 @@ contains
       n = 0
       if (allocated(spec%material%table_y)) n = size(spec%material%table_y)
       if (n < 2) then
-         call fatal_error(error, "conformal contact (C = 4) needs the surface inclination at two lateral positions or more", &
-            & error_kind%input)
+         call fatal_error(error, "conformal contact (material.influence = ""conformal"") needs the surface inclination at &
+            &two lateral positions or more", error_kind%input)
       else if (any(spec%material%table_y(2:) <= spec%material%table_y(:n - 1))) then
-         call fatal_error(error, "the lateral positions of the surface inclinations (C = 4) must increase", error_kind%input)
-      else if (is_oblique(spec)) then
-         call fatal_error(error, "conformal contact (C = 4) allows for rolling along x only, CHI = 0 or 180 degrees", &
-            & error_kind%input)
+         call fatal_error(error, "the lateral positions of the surface inclinations (material.influence = &
+            &""conformal"") must increase", error_kind%input)
       end if
       if (allocated(error)) return
       allocate(model%inclination)
@@ -75,13 +73,6 @@ contains
          inclination%alpha = material%table_alpha
       end associate
    end subroutine set_inclination
-
-   !> Does it roll in another direction than along x?
-   pure logical function is_oblique(spec)
-      type(case_spec), intent(in) :: spec
-      is_oblique = (spec%motion == motion%transient_rolling .or. spec%motion == motion%steady_rolling) &
-         & .and. abs(sin(spec%rolling%chi)) > 0.01_wp
-   end function is_oblique
 
    !> Influence coefficients from a file, when the case wants them; the grid is known
    subroutine set_coefficients(spec, grid, folder, model, log, error)
@@ -140,10 +131,8 @@ contains
       file = ""
       if (allocated(spec%material%cfname)) file = trim(spec%material%cfname)
       if (len(file) == 0) then
-         call fatal_error(error, "numerical influence coefficients (C = 9) need the name of a file, CFNAME", error_kind%input)
-      else if (is_oblique(spec)) then
-         call fatal_error(error, "numerical influence coefficients (C = 9) allow for rolling along x only, CHI = 0 or 180 " &
-            & // "degrees", error_kind%input)
+         call fatal_error(error, "numerical influence coefficients (material.influence = ""tabulated"") need the &
+            &name of a file, CFNAME", error_kind%input)
       end if
       if (allocated(error)) return
       if (file(:1) /= "/" .and. len(folder) > 0) then

@@ -106,10 +106,6 @@ contains
          call require_positive("curvature A1", spec%a1, error)
          call require_positive("half length BB", spec%bb, error)
       end select
-      if (allocated(error)) return
-      if (spec%is_line_contact() .and. control /= normal_control%force) &
-         & call fatal_error(error, "a Hertzian line contact (IPOTCN = " // integer_text(spec%form) &
-         & // ") needs a prescribed normal force, N = 1")
    end subroutine check_hertz
 
    !> Complete the potential contact from what its option gives (IPOTCN -1...-6 and 1...4)

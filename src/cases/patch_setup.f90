@@ -1,6 +1,6 @@
 !> From the specification of a case to the problem of its patch
 module contact_cases_patch_setup
-   use contact_base_choices, only : grid_form, has_slope_reduction, is_simplified, material_model, motion, &
+   use contact_base_choices, only : has_slope_reduction, is_simplified, material_model, motion, &
       & normal_control, pressure_model, sensitivity_choice, slip_source, solver_choice
    use contact_base_error, only : error_kind, error_type, fatal_error
    use contact_base_kinds, only : long, wp
@@ -85,8 +85,7 @@ contains
       if (allocated(error)) return
       call set_simplified_theory(spec, problem, log, error)
       if (allocated(error)) return
-      call set_yield_limit(spec, problem, error)
-      if (allocated(error)) return
+      call set_yield_limit(spec, problem)
       problem%want_exterior = spec%mat_file >= 2 .or. spec%output_level >= 6
       call set_rolling(spec, problem, log, error)
       if (allocated(error)) return
@@ -108,19 +107,13 @@ contains
    end subroutine set_problem
 
    !> Near-surface plasticity: a yield limit that is neither nothing nor out of reach
-   subroutine set_yield_limit(spec, problem, error)
+   subroutine set_yield_limit(spec, problem)
       type(case_spec), intent(in) :: spec
       type(patch_problem), intent(inout) :: problem
-      type(error_type), allocatable, intent(out) :: error
 
       problem%remembers_yield = spec%has_plasticity()
       problem%initial_yield_limit = merge(spec%material%tau_c0, 0.0_wp, problem%remembers_yield)
       problem%yield_slope = merge(spec%material%k_tau, 0.0_wp, problem%remembers_yield)
-      if (problem%remembers_yield .and. spec%friction_law == friction_model%temperature) then
-         call fatal_error(error, "friction that depends on temperature (L=6) cannot be combined with plasticity (M=4, " // &
-            & "TAU_C0 > 0): the heat of plastic work is not part of its iteration; TAU_C0 = 0, or another friction law", &
-            & error_kind%unsupported)
-      end if
    end subroutine set_yield_limit
 
    !> Motion, solvers and their tolerances
@@ -169,8 +162,6 @@ contains
       problem%pressure = spec%pressure
       ! a sheet belongs to the bodies: the normal problem is the same
       if (spec%pressure == pressure_model%thin_sheet) problem%pressure = pressure_model%full
-      call check_pressure_model(spec, allocated(problem%hertz), error)
-      if (allocated(error)) return
       select case (spec%pressure)
       case (pressure_model%sdec)
          call fit_field(problem%grid, problem%given_pressure)
@@ -215,8 +206,9 @@ contains
       if (.not. fn > 0.0_wp) return
       total = sum(pn)*grid%dx*grid%dy
       if (.not. total > nothing*fn) then
-         call fatal_error(error, "the pressures by formula (B = 2, 3, 4) are zero at the centres of all elements: the grid " // &
-            & "is too coarse, or SCALE too large, for a contact that carries FN", error_kind%input)
+         call fatal_error(error, "the pressures by formula (pressure = ""elliptical"", ""parabolical"" or ""sdec"") are zero at &
+            &the centres of all elements: the grid is too coarse, or SCALE too large, for a contact that &
+            &carries FN", error_kind%input)
          return
       end if
       pn = pn*(fn/total)
@@ -235,11 +227,6 @@ contains
 
       if (allocated(problem%simplified)) deallocate(problem%simplified)
       if (spec%motion == motion%none .or. .not. is_simplified(spec%material_model)) return
-      if (spec%motion == motion%shift .and. spec%material%alfamf < 1.0_wp .and. spec%material%betamf > 0.0_wp) then
-         call fatal_error(error, "slope reduction depends on creepages of rolling, a shift has none: ALFAMF must be 1 or " // &
-            & "BETAMF 0 with T = 1")
-         return
-      end if
       if (allocated(problem%friction)) then
          ! friction follows from the rigid slip velocity, particles carry nothing along
          problem%remembers_friction = .false.
@@ -257,26 +244,6 @@ contains
       if (problem%model%coupled()) call log%warning("simplified theory leaves out how pressures and shear tractions of " // &
          & "dissimilar bodies act on each other")
    end subroutine set_simplified_theory
-
-   !> Refuse a method for the pressures that does not go with grid and load
-   subroutine check_pressure_model(spec, is_hertzian, error)
-      type(case_spec), intent(in) :: spec
-      !> Is there a Hertz solution?
-      logical, intent(in) :: is_hertzian
-      type(error_type), allocatable, intent(out) :: error
-
-      select case (spec%pressure)
-      case (pressure_model%full, pressure_model%thin_sheet)
-         if (spec%grid%form == grid_form%half_ellipses) call fatal_error(error, "a window around two half ellipses has no " &
-            & // "undeformed distance to solve the normal problem for; it needs the pressures of SDEC")
-      case (pressure_model%elliptical, pressure_model%parabolical)
-         if (.not. is_hertzian) call fatal_error(error, "an elliptical or parabolical pressure needs a Hertzian geometry, " &
-            & // "IPOTCN = -5 to -1; B = 0 solves the normal problem for any geometry")
-      case (pressure_model%sdec)
-         if (spec%grid%form /= grid_form%half_ellipses) call fatal_error(error, "SDEC needs a window around two half " &
-            & // "ellipses")
-      end select
-   end subroutine check_pressure_model
 
    !> Rolling direction and step; steady solvers but ConvexGS work with steps of one element along x
    subroutine set_rolling(spec, problem, log, error)
@@ -313,14 +280,15 @@ contains
       end if
       if (oblique) then
          call fatal_error(error, trim(kind_of_rolling(spec)) // " goes along x, CHI = 0 or 180 degrees. In other directions: " // &
-            & "a grid with its x-axis along the rolling direction, T = 2, or T = 3 with ConvexGS (G = 2), flat elastic bodies " // &
-            & "and Coulomb friction", error_kind%unsupported)
+            & "a grid with its x-axis along the rolling direction, motion = ""transient_rolling"", or motion = &
+            &""steady_rolling"" with ConvexGS (iteration.solver = ""convex_gs""), flat elastic bodies and &
+            &Coulomb friction", error_kind%unsupported)
          return
       end if
       ! DX of a Hertzian option is not known beforehand
       if (other_step .and. .not. allocated(problem%simplified) .and. spec%grid%needs_geometry()) &
          & call log%warning(trim(kind_of_rolling(spec)) // " advances by one element per step: DQ is set to DX; " // &
-         & "ConvexGS (G=2) takes other steps")
+         & "ConvexGS (iteration.solver = ""convex_gs"") takes other steps")
       problem%dq = problem%grid%dx
 
    contains

@@ -1,27 +1,32 @@
-!> Which choices of a case go together: each rule once, with its reason
+!> Which choices of a case go together, and what they ask of its numbers: each rule once, with its reason
 !>
-!> Readers of input and the library tell the digits or words of the choices that break a rule, `refuse_broken_rules` tells callers
-!> that have neither, and the manual has a table of all rules.
+!> Readers of input and the library tell the digits or words of the choices that break a rule, and where they stand;
+!> `refuse_broken_rules` tells callers that have neither, and the manual has tables of all rules.
 module contact_cases_rules
-   use contact_base_choices, only : force_control, kernel_model, material_model, motion, normal_control, &
-      & pressure_model, slip_source
+   use contact_base_choices, only : force_control, grid_form, kernel_model, material_model, motion, &
+      & normal_control, pressure_model, slip_source
    use contact_base_error, only : error_kind, error_type, fatal_error
+   use contact_base_kinds, only : wp
    use contact_cases_spec, only : case_spec
    use contact_friction_new_law, only : friction_model
+   use contact_text_words, only : real_text
    implicit none (type, external)
    private
 
    public :: choice_kind, choice_rule, choice_rules, is_broken, refuse_broken_rules, value_of
+   public :: number_rule, number_rules, demand_text, describe_number, is_missed
 
    type :: choice_kind_list
       integer :: pressure = 1, motion = 2, normal = 3, force = 4, friction_law = 5, kernel = 6, material_model = 7
-      integer :: slip_source = 8, heat = 9
+      integer :: slip_source = 8, heat = 9, grid_form = 10
    end type choice_kind_list
    !> The choices of a case that rules speak of
    type(choice_kind_list), parameter :: choice_kind = choice_kind_list()
 
    !> Most values of a list; shorter ones are filled with this number, which is no choice
    integer, parameter :: list_length = 6, nothing = -99
+   !> Value of a choice that no case has made yet
+   integer, parameter :: not_made = -98
 
    !> One rule: a choice with one of some values goes with some values of another choice only
    type :: choice_rule
@@ -31,16 +36,47 @@ module contact_cases_rules
       integer :: values(list_length), allowed(list_length)
       !> 1 or 3 for the cases of one module, 0 for all
       integer :: module_number
-      !> What is chosen, "needs ..." or "cannot be used with ...", and the reason or what to use instead
+      !> What is chosen, "needs ...", "is meant for ..." or "cannot be used with ...", and the reason or what to use instead
       character(len=44) :: subject
       character(len=56) :: claim
       character(len=96) :: reason
+      !> Does who breaks it get a warning only, from the readers of input?
+      logical :: only_warns = .false.
    end type choice_rule
+
+   type :: demand_list
+      integer :: above_zero = 1, not_negative = 2, zero = 3, along_x = 4
+   end type demand_list
+   !> What is asked of a number
+   type(demand_list), parameter :: demand = demand_list()
+   character(len=48), parameter :: demand_text(*) = [character(len=48) :: "larger than 0", "0 or more", "0", &
+      & "along x, 0 or 180 degrees within 0.01 rad,"]
+   !> What counts as along x: sine of the angle with it [-]
+   real(wp), parameter :: along_x = 0.01_wp
+
+   !> One rule: what two choices together ask of a number
+   type :: number_rule
+      !> Members of choice_kind, and the values for which the rule holds
+      integer :: choice, other
+      integer :: values(list_length), others(list_length)
+      !> Name of the number in the input, and group that has it
+      character(len=8) :: number
+      character(len=12) :: group
+      !> Member of demand
+      integer :: demand
+      !> Member of error_kind
+      integer :: kind
+      !> What asks for it, and why
+      character(len=112) :: subject
+      character(len=96) :: reason
+   end type number_rule
 
    ! lists of values, and what fills them
    integer, parameter :: e(list_length) = nothing
    integer, parameter :: fastrip(3) = [material_model%fastrip, material_model%fastrip_plain, material_model%fastrip_sliding]
    integer, parameter :: full_theory(3) = [material_model%elastic, material_model%viscoelastic, material_model%interfacial_layer]
+   integer, parameter :: hertzian(5) = [grid_form%hertz_curvatures, grid_form%hertz_curvature_ratio, grid_form%hertz_axes, &
+      & grid_form%hertz_line_curvature, grid_form%hertz_line]
    integer, parameter :: still_or_steady(2) = [motion%none, motion%steady_rolling]
    integer, parameter :: no = 0, yes = 1
 
@@ -75,7 +111,48 @@ module contact_cases_rules
       & "SDEC", "needs the normal force", "its pressures do not follow from an approach"), &
       & choice_rule(choice_kind%pressure, choice_kind%normal, [pressure_model%kpec, pressure_model%analyn, e(3:)], &
       & [normal_control%approach, e(2:)], 3, "KPEC or ANALYN", "needs the approach", &
-      & "the full solution and Hertzian pressures take a force")]
+      & "the full solution and Hertzian pressures take a force"), &
+      & choice_rule(choice_kind%pressure, choice_kind%grid_form, [pressure_model%elliptical, pressure_model%parabolical, e(3:)], &
+      & [hertzian, e(6:)], 3, "pressure on a Hertzian ellipse", "needs a Hertzian option", &
+      & "the full solution does with any geometry"), &
+      & choice_rule(choice_kind%pressure, choice_kind%grid_form, [pressure_model%sdec, e(2:)], [grid_form%half_ellipses, e(2:)], &
+      & 3, "SDEC", "needs a grid around two half ellipses", "its pressures are those of these ellipses"), &
+      & choice_rule(choice_kind%grid_form, choice_kind%pressure, [grid_form%half_ellipses, e(2:)], [pressure_model%sdec, e(2:)], &
+      & 3, "a grid around two half ellipses", "needs the pressures of SDEC", &
+      & "it has no undeformed distance to solve the normal problem for"), &
+      & choice_rule(choice_kind%grid_form, choice_kind%normal, [grid_form%hertz_line_curvature, grid_form%hertz_line, e(3:)], &
+      & [normal_control%force, e(2:)], 3, "a Hertzian line contact", "needs the normal force", &
+      & "the approach of two-dimensional bodies depends on how far they reach"), &
+      & choice_rule(choice_kind%grid_form, choice_kind%pressure, [grid_form%hertz_line_curvature, grid_form%hertz_line, e(3:)], &
+      & [pressure_model%full, pressure_model%thin_sheet, pressure_model%kpec, pressure_model%analyn, e(5:)], 3, &
+      & "a Hertzian line contact", "is meant for pressures that are solved for", &
+      & "with those by formula the approach is not computed", only_warns=.true.), &
+      & choice_rule(choice_kind%pressure, choice_kind%material_model, [pressure_model%parabolical, e(2:)], &
+      & [material_model%fastsim_single, material_model%fastsim, material_model%interfacial_layer, fastrip], 3, &
+      & "a parabolic traction bound", "is meant for simplified theory", "the full theory has the elliptical one", &
+      & only_warns=.true.)]
+
+   !> What choices ask of numbers; wherever both hold
+   type(number_rule), parameter :: number_rules(*) = [ &
+      & number_rule(choice_kind%grid_form, choice_kind%normal, [hertzian, e(6:)], [normal_control%approach, e(2:)], &
+      & "PEN", "kinematics", demand%not_negative, error_kind%input, "a Hertzian option with a prescribed approach", &
+      & "bodies apart have no contact ellipse"), &
+      & number_rule(choice_kind%force, choice_kind%normal, [force_control%massless_rail, e(2:)], [normal_control%approach, e(2:)], &
+      & "KZRAIL", "springs", demand%above_zero, error_kind%input, &
+      & "a rail on springs with a prescribed height, tangential = ""massless_rail"" and normal = ""approach""", &
+      & "nothing else carries the vertical force"), &
+      & number_rule(choice_kind%kernel, choice_kind%motion, [kernel_model%conformal, kernel_model%tabulated, e(3:)], &
+      & [motion%transient_rolling, motion%steady_rolling, e(3:)], "CHI", "rolling", demand%along_x, error_kind%input, &
+      & "conformal contact and coefficients from a file, material.influence = ""conformal"" or ""tabulated""", &
+      & "they know rolling along x only"), &
+      & number_rule(choice_kind%material_model, choice_kind%motion, [material_model%fastsim_single, material_model%fastsim, &
+      & material_model%fastrip, e(4:)], [motion%shift, e(2:)], "BETAMF", "material", demand%zero, error_kind%input, &
+      & "slope reduction in a shift, motion = ""shift""", &
+      & "it depends on creepages of rolling; ALFAMF = 1 does without it as well"), &
+      & number_rule(choice_kind%friction_law, choice_kind%material_model, [friction_model%temperature, e(2:)], &
+      & [material_model%interfacial_layer, e(2:)], "TAU_C0", "material", demand%zero, error_kind%unsupported, &
+      & "friction that changes with temperature, friction.law = ""temperature""", &
+      & "the heat of plastic work is not part of its iteration")]
 
 contains
 
@@ -95,6 +172,7 @@ contains
       case (choice_kind%material_model); value_of = spec%material_model
       case (choice_kind%slip_source); value_of = merge(slip_source%none, spec%slip_source, spec%motion == motion%none)
       case (choice_kind%heat); value_of = merge(yes, no, spec%has_heat)
+      case (choice_kind%grid_form); value_of = merge(not_made, spec%grid%form, spec%grid%form == 0)
       case default; value_of = nothing
       end select
    end function value_of
@@ -105,22 +183,74 @@ contains
       type(case_spec), intent(in) :: spec
       integer :: module_number
 
+      is_broken = .false.
+      if (any([value_of(spec, rule%choice), value_of(spec, rule%other)] == not_made)) return
       module_number = merge(1, 3, allocated(spec%wheel_rail))
       is_broken = (rule%module_number == 0 .or. rule%module_number == module_number) .and. &
          & any(rule%values == value_of(spec, rule%choice)) .and. all(rule%allowed /= value_of(spec, rule%other))
    end function is_broken
 
+   !> The number that a rule speaks of; 0 where it has no effect
+   pure real(wp) function number_of(spec, name) result(number)
+      type(case_spec), intent(in) :: spec
+      !> As in the input
+      character(len=*), intent(in) :: name
+
+      number = 0.0_wp
+      select case (name)
+      case ("PEN"); number = spec%kinematics%pen
+      case ("KZRAIL"); if (allocated(spec%wheel_rail)) number = spec%wheel_rail%rail%kz
+      case ("CHI"); number = spec%rolling%chi
+      case ("BETAMF"); if (spec%material%alfamf < 1.0_wp) number = spec%material%betamf
+      case ("TAU_C0"); if (spec%has_plasticity()) number = spec%material%tau_c0
+      end select
+   end function number_of
+
+   !> Does a number miss what choices ask of it?
+   pure logical function is_missed(rule, spec)
+      type(number_rule), intent(in) :: rule
+      type(case_spec), intent(in) :: spec
+
+      is_missed = .false.
+      if (.not. (any(rule%values == value_of(spec, rule%choice)) .and. any(rule%others == value_of(spec, rule%other)))) return
+      associate (number => number_of(spec, rule%number))
+         select case (rule%demand)
+         case (demand%above_zero); is_missed = .not. number > 0.0_wp
+         case (demand%not_negative); is_missed = number < 0.0_wp
+         case (demand%zero); is_missed = abs(number) > 0.0_wp
+         case (demand%along_x); is_missed = abs(sin(number)) > along_x
+         end select
+      end associate
+   end function is_missed
+
+   !> "PEN = -0.1 must be 0 or more for a Hertzian option with a prescribed approach: ..."
+   pure subroutine describe_number(rule, spec, text)
+      type(number_rule), intent(in) :: rule
+      type(case_spec), intent(in) :: spec
+      character(len=:), allocatable, intent(out) :: text
+
+      text = trim(rule%number) // " = " // real_text(number_of(spec, rule%number)) // " must be " // &
+         & trim(demand_text(rule%demand)) // " for " // trim(rule%subject) // ": " // trim(rule%reason)
+   end subroutine describe_number
+
    !> Refuse a case that breaks a rule, in words
    subroutine refuse_broken_rules(spec, error)
       type(case_spec), intent(in) :: spec
       type(error_type), allocatable, intent(out) :: error
+      character(len=:), allocatable :: text
       type(choice_rule) :: rule
       integer :: k
 
       do k = 1, size(choice_rules)
          rule = choice_rules(k)
-         if (.not. is_broken(rule, spec)) cycle
+         if (rule%only_warns .or. .not. is_broken(rule, spec)) cycle
          call fatal_error(error, trim(rule%subject) // " " // trim(rule%claim) // ": " // trim(rule%reason), error_kind%input)
+         return
+      end do
+      do k = 1, size(number_rules)
+         if (.not. is_missed(number_rules(k), spec)) cycle
+         call describe_number(number_rules(k), spec, text)
+         call fatal_error(error, text, number_rules(k)%kind)
          return
       end do
    end subroutine refuse_broken_rules

@@ -60,6 +60,7 @@ contains
       log%level = spec%flow_level
       call log%begin_case()
       call solve_and_describe(session, spec, folder, log, result, error)
+      call log%tell_choices(error)
       call log%end_case()
    end subroutine solve_wheel_rail_case
 
@@ -75,7 +76,6 @@ contains
       integer :: k
 
       call refuse_broken_rules(spec, error)
-      if (.not. allocated(error)) call check_combinations(spec, error)
       if (allocated(error)) return
       call set_wheel_rail(session, spec, folder, log, error)
       if (allocated(error)) return
@@ -156,18 +156,6 @@ contains
       call release_wheel_rail(session%memory)
       call session%profiles%release()
    end subroutine release_wheel_rail_session
-
-   !> What no digit alone forbids
-   subroutine check_combinations(spec, error)
-      type(case_spec), intent(in) :: spec
-      type(error_type), allocatable, intent(out) :: error
-
-      if (spec%force == force_control%massless_rail .and. spec%normal == normal_control%approach &
-         & .and. .not. spec%wheel_rail%rail%kz > 0.0_wp) then
-         call fatal_error(error, "a rail on springs with a prescribed height needs a " &
-            & // "vertical stiffness above 0", error_kind%input)
-      end if
-   end subroutine check_combinations
 
    !> Read and prepare the files of a case without solving it: profiles, which must fit the nominal radii, and influence
    !> coefficients
@@ -262,7 +250,7 @@ contains
          end if
          if (.not. allocated(error)) call set_thermal(spec, template, error)
          if (.not. allocated(error)) call set_simplified_theory(spec, template, log, error)
-         if (.not. allocated(error)) call set_yield_limit(spec, template, error)
+         if (.not. allocated(error)) call set_yield_limit(spec, template)
          if (allocated(error)) return
          ! as in module 3: particles of a layer are followed from element to element
          if (template%remembers_yield .and. spec%motion == motion%transient_rolling &

@@ -321,10 +321,6 @@ contains
             call a%close_group()
          end if
       end if
-      if (.not. (a%is_reading .and. a%is_good) .or. spec%force /= force_control%massless_rail) return
-      if (spec%normal == normal_control%approach .and. .not. wheel_rail%rail%kz > 0.0_wp) call a%refuse_group("KZRAIL = " // &
-         & real_text(wheel_rail%rail%kz) // ": a rail on springs with a prescribed height, F = 3 and N = 0, needs a vertical " // &
-         & "stiffness above 0")
    end subroutine visit_rail_and_track
 
    !> Wheelset dimensions, wheel profile, position, velocity, flexible deviations

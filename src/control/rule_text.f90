@@ -11,8 +11,8 @@ module contact_control_rule_text
 
 contains
 
-   !> Letter of the digit of a choice
-   pure character(len=1) function letter_of(choice)
+   !> Letter of the digit of a choice, or name of the number that stands for it
+   pure character(len=6) function letter_of(choice)
       !> Member of choice_kind
       integer, intent(in) :: choice
 
@@ -26,6 +26,7 @@ contains
       case (choice_kind%material_model); letter_of = "M"
       case (choice_kind%slip_source); letter_of = "E"
       case (choice_kind%heat); letter_of = "H"
+      case (choice_kind%grid_form); letter_of = "IPOTCN"
       case default; letter_of = "?"
       end select
    end function letter_of
@@ -41,14 +42,14 @@ contains
       integer :: module_number
 
       module_number = merge(1, 3, allocated(spec%wheel_rail))
-      found = letter_of(rule%other) // " = " // integer_text(digit_in(rule%other))
-      text = letter_of(rule%choice) // " = " // integer_text(digit_in(rule%choice)) // ", " // trim(rule%subject) // ", " // &
+      found = trim(letter_of(rule%other)) // " = " // integer_text(digit_in(rule%other))
+      text = trim(letter_of(rule%choice)) // " = " // integer_text(digit_in(rule%choice)) // ", " // trim(rule%subject) // ", " // &
          & trim(rule%claim) // ", "
-      if (rule%claim(:4) == "need") then
-         text = text // letter_of(rule%other) // " = " // trim(allowed_digits(rule%other, rule%allowed, module_number)) // &
-            & ", not " // found
-      else
+      if (rule%claim(:6) == "cannot") then
          text = text // found
+      else
+         text = text // trim(letter_of(rule%other)) // " = " // trim(allowed_digits(rule%other, rule%allowed, module_number)) // &
+            & ", not " // found
       end if
       text = text // ": " // trim(rule%reason)
 
@@ -58,8 +59,11 @@ contains
       integer function digit_in(choice)
          integer, intent(in) :: choice
 
-         digit_in = digits%h
-         if (choice /= choice_kind%heat) digit_in = digit_of(letter_of(choice), value_of(spec, choice), module_number)
+         select case (choice)
+         case (choice_kind%heat); digit_in = digits%h
+         case (choice_kind%grid_form); digit_in = value_of(spec, choice)
+         case default; digit_in = digit_of(trim(letter_of(choice)), value_of(spec, choice), module_number)
+         end select
       end function digit_in
    end subroutine describe_broken_rule
 
@@ -73,18 +77,22 @@ contains
       integer, intent(in) :: module_number
       character(len=28) :: text
       integer :: digit, left, k
-      logical :: named(0:9)
+      logical :: named(-9:9)
 
-      do digit = 0, 9
-         named(digit) = is_known(letter_of(choice), digit, module_number) .and. &
-            & any(values == choice_of(letter_of(choice), digit, module_number))
+      do digit = -9, 9
+         if (choice == choice_kind%grid_form) then
+            named(digit) = any(values == digit)
+         else
+            named(digit) = is_known(trim(letter_of(choice)), digit, module_number) .and. &
+               & any(values == choice_of(trim(letter_of(choice)), digit, module_number))
+         end if
       end do
       text = ""
       left = count(named)
-      do k = 0, 9
+      do k = -9, 9
          if (.not. named(k)) cycle
          left = left - 1
-         text = trim(text) // " " // achar(iachar("0") + k)
+         text = trim(text) // " " // integer_text(k)
          if (left > 1) text = trim(text) // ","
          if (left == 1) text = trim(text) // " or"
       end do

@@ -325,7 +325,7 @@ contains
       integer, intent(inout) :: last
       integer, intent(in) :: module_number
       character(len=:), allocatable, intent(inout) :: text
-      integer :: digit, next
+      integer :: digit, gap, next
       logical :: is_digit
 
       is_digit = any(digit_names == message(first:last)) .and. last - first < 2 .and. last + 4 <= len(message)
@@ -346,20 +346,23 @@ contains
       last = next
       ! "3", "2 or 3", "1, 2 or 3"
       do
-         if (last + 3 > len(message)) return
-         if (message(last + 1:last + 2) == ", " .and. is_figure(message, last + 3)) then
-            text = text // ", "
-            last = last + 3
-         else if (last + 5 <= len(message) .and. message(last + 1:min(len(message), last + 4)) == " or " &
-            & .and. is_figure(message, last + 5)) then
-            text = text // " or "
-            last = last + 5
-         else
-            return
-         end if
+         gap = gap_behind(message, last)
+         if (gap == 0 .or. .not. is_figure(message, last + gap + 1)) return
+         text = text // message(last + 1:last + gap)
+         last = last + gap + 1
          call tell_digit(message(first:next - 4), iachar(message(last:last)) - iachar("0"), module_number, .false., text)
       end do
    end subroutine tell_name
+
+   !> Length of the ", " or " or " behind a place, 0 for neither
+   pure integer function gap_behind(message, last) result(gap)
+      character(len=*), intent(in) :: message
+      integer, intent(in) :: last
+
+      gap = 0
+      if (index(message(last + 1:), ", ") == 1) gap = 2
+      if (index(message(last + 1:), " or ") == 1) gap = 4
+   end function gap_behind
 
    !> Is there one figure, and no other behind it?
    pure logical function is_figure(message, at)
@@ -372,27 +375,30 @@ contains
       if (at < len(message)) is_figure = is_figure .and. verify(message(at + 1:at + 1), "0123456789.") > 0
    end function is_figure
 
-   !> IPOTCN = -3 and its like
+   !> IPOTCN = -3 and its like, "-5, -4 or -1"
    subroutine tell_form(message, first, last, text)
       character(len=*), intent(in) :: message
       integer, intent(in) :: first
       !> On entry of the name, on return of what was told
       integer, intent(inout) :: last
       character(len=:), allocatable, intent(inout) :: text
-      integer :: length, status, value
+      integer :: end_of_name, gap, length, status, value
 
-      if (last + 4 > len(message)) then
-         text = text // trim(form_key(message(first:last)))
-         return
-      end if
-      length = verify(message(last + 4:) // " ", "-0123456789") - 1
+      end_of_name = last
       text = text // trim(form_key(message(first:last)))
-      if (message(last + 1:last + 3) /= " = " .or. length < 1) return
-      read(message(last + 4:last + 3 + length), *, iostat=status) value
-      if (status /= 0) return
-      if (form_word(message(first:last), value) == "") return
-      text = text // ' = "' // trim(form_word(message(first:last), value)) // '"'
-      last = last + 3 + length
+      gap = 3
+      if (index(message(last + 1:), " = ") /= 1) return
+      do
+         length = verify(message(last + gap + 1:) // " ", "-0123456789") - 1
+         if (length < 1) return
+         read(message(last + gap + 1:last + gap + length), *, iostat=status) value
+         if (status /= 0) return
+         if (form_word(message(first:end_of_name), value) == "") return
+         text = text // message(last + 1:last + gap) // '"' // trim(form_word(message(first:end_of_name), value)) // '"'
+         last = last + gap + length
+         gap = gap_behind(message, last)
+         if (gap == 0) return
+      end do
    end subroutine tell_form
 
    !> A digit as a key and a word, or as what a case gives or not

@@ -156,6 +156,7 @@ contains
       character(len=1) :: letter
       logical :: was_advised
 
+      quiet%terms => state%log%terms
       call first_to_solve(state, point, first, error)
       if (allocated(error)) return
       state%silent = .not. asked%exports%any()

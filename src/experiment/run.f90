@@ -21,6 +21,7 @@ module contact_experiment_run
    use contact_cases_session, only : check_case
    use contact_cases_slot, only : open_contact, open_wheel_rail, problem_slot, release_slot
    use contact_cases_spec, only : case_spec
+   use contact_control_digit_terms, only : tell_in_digits
    use contact_experiment_exports, only : number_of_exports
    use contact_experiment_journal, only : journal_name
    use contact_experiment_place, only : choose_input, input_suffix, locate_experiment, readable_suffix
@@ -79,6 +80,7 @@ contains
          state%place = locate_experiment(settings%experiment, "")
       end if
       call choose_input(state%place, has_both)
+      if (.not. is_readable_format(state%place%input)) state%log%terms => tell_in_digits
       associate (input => state%place%input)
          if (state%place%shortened) call state%log%line(" The suffix " // input(index(input, ".", back=.true.):) // &
             & " is taken off, the experiment is '" // state%place%name // "'")
@@ -302,6 +304,7 @@ contains
             & .or. given%kernel == kernel_model%tabulated)) return
          call open_wheel_rail(slot)
          call check_files(slot%wheel_rail, given, state%place%folder, state%log, error)
+         call state%log%tell_choices(error)
       else
          call open_contact(slot)
          call check_case(slot%session, given, state%log, slot%result, error, state%place%folder)

@@ -4,7 +4,11 @@ module contact_grid_potential_contact
    implicit none (type, external)
    private
 
-   public :: fit_field, potential_contact
+   public :: fit_field, is_same_side, potential_contact
+
+   !> Sides of elements that differ by less, relative, are equal, and shifts that differ by less from a whole number of elements,
+   !> in elements, are whole ones: looser than the established program, as the user guide says
+   real(wp), parameter :: same_side = 1.0e-4_wp, same_place = 1.0e-3_wp
 
    !> A grid of mx by my rectangular elements; element (ix, iy) has number ix + mx (iy - 1)
    type :: potential_contact
@@ -21,6 +25,10 @@ module contact_grid_potential_contact
       procedure :: y => centre_y
       !> Number of elements
       procedure :: npot => number_of_elements
+      !> Distance of the lower corner from that of another grid, in elements [-]
+      procedure :: offset
+      !> Are there the same elements as in another grid, as far as both reach?
+      procedure :: continues
    end type potential_contact
 
 contains
@@ -38,6 +46,30 @@ contains
       integer, intent(in) :: iy
       y = self%yl + (real(iy, wp) - 0.5_wp)*self%dy
    end function centre_y
+
+   !> Are the sides of elements equal, so that solutions go over from one to the other?
+   elemental logical function is_same_side(side, other)
+      !> [mm]
+      real(wp), intent(in) :: side, other
+
+      is_same_side = abs(side - other) <= same_side*other
+   end function is_same_side
+
+   pure function offset(self, other)
+      class(potential_contact), intent(in) :: self
+      class(potential_contact), intent(in) :: other
+      real(wp) :: offset(2)
+
+      offset = [(self%xl - other%xl)/self%dx, (self%yl - other%yl)/self%dy]
+   end function offset
+
+   pure logical function continues(self, other)
+      class(potential_contact), intent(in) :: self
+      class(potential_contact), intent(in) :: other
+
+      continues = is_same_side(self%dx, other%dx) .and. is_same_side(self%dy, other%dy)
+      if (continues) continues = all(abs(self%offset(other) - anint(self%offset(other))) <= same_place)
+   end function continues
 
    !> Room for one value per element; kept with its values when the shape is right
    pure subroutine fit_field(grid, field)

@@ -2,7 +2,7 @@
 module contact_input_control
    use contact_base_choices, only : contact_location, is_fastrip, is_simplified, slip_source
    use contact_base_error, only : error_type
-   use contact_cases_rules, only : choice_rules, is_broken
+   use contact_cases_rules, only : choice_kind, choice_rules, is_broken
    use contact_cases_spec, only : case_spec
    use contact_control_digits, only : allowed_text, case_digits, choice_of, decode_words, digit_names, digit_text, digit_value, &
       & is_built, is_known
@@ -264,17 +264,27 @@ contains
    end subroutine start_sequence
 
    !> What choices demand of each other, see contact_cases_rules
-   subroutine check_physics(words, spec, problems)
+   subroutine check_physics(words, spec, problems, line_of_grid)
       type(control_words), intent(in) :: words
       type(case_spec), intent(in) :: spec
       type(problem_list), intent(inout) :: problems
+      !> When it is known, the rules about the form of the grid; otherwise all others, which hold for digits alone
+      integer, intent(in), optional :: line_of_grid
       character(len=:), allocatable :: text
-      integer :: k
+      integer :: k, kind
 
       do k = 1, size(choice_rules)
-         if (.not. is_broken(choice_rules(k), spec)) cycle
-         call describe_broken_rule(choice_rules(k), spec, words%digits, text)
-         call add_for_digit(problems, words, severity%error, letter_of(choice_rules(k)%choice), text)
+         associate (rule => choice_rules(k))
+            if (any([rule%choice, rule%other] == choice_kind%grid_form) .neqv. present(line_of_grid)) cycle
+            if (.not. is_broken(rule, spec)) cycle
+            call describe_broken_rule(rule, spec, words%digits, text)
+            kind = merge(severity%warning, severity%error, rule%only_warns)
+            if (present(line_of_grid)) then
+               call problems%add(kind, text, line_of_grid)
+            else
+               call add_for_digit(problems, words, kind, letter_of(rule%choice), text)
+            end if
+         end associate
       end do
    end subroutine check_physics
 

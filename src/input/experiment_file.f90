@@ -3,7 +3,7 @@ module contact_input_experiment_file
    use contact_base_error, only : add_context, error_kind, error_type, fatal_error
    use contact_cases_spec, only : case_spec
    use contact_control_digits, only : case_digits
-   use contact_input_grid_frame, only : grid_frame
+   use contact_grid_potential_contact, only : potential_contact
    use contact_input_problems, only : problem_list, severity
    use contact_input_reader, only : read_case
    use contact_input_toml_cases, only : case_address, toml_cases
@@ -43,7 +43,7 @@ module contact_input_experiment_file
       !> The last case
       type(case_spec) :: spec
       !> Grid for which influence coefficients were last formed
-      type(grid_frame) :: coefficients
+      type(potential_contact) :: coefficients
       !> What its cases gave, in the readable format
       type(toml_memory) :: memory
    end type element_store

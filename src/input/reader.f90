@@ -1,22 +1,22 @@
 !> One case of an input file: control words, the groups that they ask for, then all checks
 module contact_input_reader
-   use contact_base_choices, only : motion
    use contact_base_error, only : add_context, error_type
-   use contact_base_kinds, only : wp
+   use contact_cases_continuation, only : frame_of
    use contact_cases_spec, only : case_spec
    use contact_cases_whole_case, only : visit_case
    use contact_control_digits, only : case_digits
-   use contact_input_checks3, only : check_case
-   use contact_input_control, only : add_for_digit, check_digits, control_words, read_control_words, refuse_unbuilt_digits
+   use contact_control_digit_terms, only : tell_error_in_digits, tell_in_digits
+   use contact_grid_potential_contact, only : potential_contact
+   use contact_input_checks, only : check_case
+   use contact_input_control, only : check_digits, control_words, read_control_words, refuse_unbuilt_digits
    use contact_input_file_reader, only : file_reader, new_file_reader
-   use contact_input_grid_frame, only : frame_of, grid_frame
-   use contact_input_problems, only : problem_list, severity
+   use contact_input_problems, only : problem_list
    use contact_text_lexer, only : input_lexer
    use contact_text_words, only : integer_text
    implicit none (type, external)
    private
 
-   public :: read_case, check_elements_are_kept
+   public :: read_case
 
 contains
 
@@ -41,14 +41,16 @@ contains
       type(error_type), allocatable, intent(out) :: error
       !> Grid for which influence coefficients of module 3 were last formed, kept from case to case by the
       !> caller; when absent, the grid of the previous case counts
-      type(grid_frame), intent(inout), optional :: coefficients
+      type(potential_contact), intent(inout), optional :: coefficients
       !> Line of the first control word, 0 when there is none
       integer, intent(out), optional :: first_line
       !> Digits as the case gave them
       type(case_digits), intent(out), optional :: digits
       type(control_words) :: words
       type(file_reader) :: a
-      type(grid_frame) :: stored
+      type(potential_contact) :: stored
+      character(len=:), allocatable :: text
+      integer :: k
 
       spec = previous
       call problems%start(lexer%file)
@@ -64,36 +66,16 @@ contains
          call visit_case(a, spec)
          if (allocated(a%error)) call move_alloc(a%error, error)
       end if
-      if (allocated(error)) then
-         call add_context(error, "case " // integer_text(case_number))
-         return
-      end if
-
-      if (module_number == 1) then
-         call check_elements_are_kept(words, previous, has_previous, spec, problems)
-      else
+      if (.not. allocated(error)) then
          call check_case(words, a, previous, has_previous, stored, spec, problems)
-         if (present(coefficients) .and. words%digits%c /= 0) coefficients = frame_of(spec%grid)
+         if (present(coefficients) .and. module_number == 3 .and. words%digits%c /= 0) coefficients = frame_of(spec%grid)
+         call refuse_unbuilt_digits(words, module_number, spec, problems)
       end if
-      call refuse_unbuilt_digits(words, module_number, spec, problems)
+      do k = 1, problems%count
+         call tell_in_digits(problems%items(k)%what%message, text)
+         problems%items(k)%what%message = text
+      end do
+      call tell_error_in_digits(error)
+      call add_context(error, "case " // integer_text(case_number))
    end subroutine read_case
-
-   !> A transient case of wheel on rail continues on the elements of the previous one
-   subroutine check_elements_are_kept(words, previous, has_previous, spec, problems)
-      type(control_words), intent(in) :: words
-      type(case_spec), intent(in) :: previous
-      logical, intent(in) :: has_previous
-      type(case_spec), intent(in) :: spec
-      type(problem_list), intent(inout) :: problems
-      real(wp), parameter :: same_side = 1.0e-4_wp
-
-      if (.not. has_previous .or. words%digits%p == 2) return
-      if (spec%motion /= motion%shift .and. spec%motion /= motion%transient_rolling) return
-      if (.not. allocated(previous%wheel_rail)) return
-      associate (old => previous%wheel_rail%search, new => spec%wheel_rail%search)
-         if (abs(new%dx - old%dx) <= same_side*new%dx .and. abs(new%ds - old%ds) <= same_side*new%ds) return
-      end associate
-      call add_for_digit(problems, words, severity%error, "D", "DX or DS differ from those of the previous case, which this " // &
-         & "transient case continues; the same values, or a new sequence, P = 2")
-   end subroutine check_elements_are_kept
 end module contact_input_reader

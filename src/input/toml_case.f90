@@ -4,16 +4,16 @@
 !> kept group is formed anew where the rest of the case demands it, or as the key `renew` says.
 module contact_input_toml_case
    use contact_base_choices, only : heat_source, motion, slip_source
+   use contact_cases_continuation, only : frame_of
    use contact_cases_spec, only : case_spec, grid_spec
    use contact_cases_whole_case, only : visit_case
    use contact_control_digits, only : case_digits, digit_names, digit_of, digit_table, put_digit, word_length
    use contact_control_translation, only : digits_of, take_digits
    use contact_control_words, only : choice_words, digit_of_word, form_value, is_choice, key_of, key_table, tell_in_words, words_of
    use contact_input_control, only : check_digits, control_words, refuse_unbuilt_digits
-   use contact_input_checks3, only : check_case
-   use contact_input_grid_frame, only : frame_of, grid_frame
+   use contact_grid_potential_contact, only : potential_contact
+   use contact_input_checks, only : check_case
    use contact_input_problems, only : problem_list, severity
-   use contact_input_reader, only : check_elements_are_kept
    use contact_input_toml_reader, only : new_toml_reader, toml_reader
    use contact_input_toml_tables, only : toml_memory
    use contact_text_lexer, only : printable
@@ -61,7 +61,7 @@ contains
       !> Has been started
       type(problem_list), intent(inout), target :: problems
       !> Grid for which influence coefficients of module 3 were last formed
-      type(grid_frame), intent(inout) :: coefficients
+      type(potential_contact), intent(inout) :: coefficients
       !> Digits that stand for the case
       type(case_digits), intent(out) :: digits
       type(control_words) :: words
@@ -86,12 +86,8 @@ contains
          if (spec%motion == motion%none .and. .not. has_previous) a%lenient_group = "friction"
          call visit_case(a, spec)
          if (a%is_good) then
-            if (module_number == 1) then
-               call check_elements_are_kept(words, previous, has_previous, spec, problems)
-            else
-               call check_case(words, a, previous, has_previous, coefficients, spec, problems)
-               if (words%digits%c /= 0) coefficients = frame_of(spec%grid)
-            end if
+            call check_case(words, a, previous, has_previous, coefficients, spec, problems)
+            if (module_number == 3 .and. words%digits%c /= 0) coefficients = frame_of(spec%grid)
             call a%refuse_unused(group_names)
          end if
          call refuse_unbuilt_digits(words, module_number, spec, problems)

@@ -4,7 +4,7 @@ module contact_input_toml_cases
    use contact_base_kinds, only : long
    use contact_cases_spec, only : case_spec
    use contact_control_digits, only : case_digits
-   use contact_input_grid_frame, only : grid_frame
+   use contact_grid_potential_contact, only : potential_contact
    use contact_input_problems, only : problem_list
    use contact_input_toml_case, only : read_toml_case
    use contact_input_toml_tables, only : toml_memory
@@ -210,7 +210,7 @@ contains
       logical, intent(in) :: has_previous
       type(case_spec), intent(out) :: spec
       type(problem_list), intent(inout) :: problems
-      type(grid_frame), intent(inout) :: coefficients
+      type(potential_contact), intent(inout) :: coefficients
       !> Digits that stand for the case
       type(case_digits), intent(out) :: digits
 

@@ -177,9 +177,8 @@ contains
 
       if (.not. problem%model%is_flat() .and. problem%motion == motion%transient_rolling &
          & .and. abs(problem%dq - problem%grid%dx) > step_slack*problem%grid%dx) then
-         call fatal_error(error, "conformal contact and tabulated coefficients (C = 4, 9) need steps of one element in " &
-            & // "transient rolling, DQ = DX", &
-            & error_kind%input)
+         call fatal_error(error, "conformal contact and tabulated coefficients (material.influence = ""conformal"" &
+            &or ""tabulated"") need steps of one element in transient rolling, DQ = DX", error_kind%input)
          return
       end if
       if (problem%motion == motion%none .or. problem%n_forces == 0) return

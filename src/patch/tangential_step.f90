@@ -306,7 +306,9 @@ contains
          method = classical_method%tang_cg
          if (choice == solver_choice%convex_gs .or. choice == solver_choice%gauss_seidel &
             & .or. choice == solver_choice%gd_steady) then
-            call log%warning("no half-space coefficients (C = 4, 9): solver Newton-Krylov instead of that of the G-digit")
+            call log%warning("no half-space coefficients (material.influence = ""conformal"" or ""tabulated""): solver &
+               &Newton-Krylov instead of the one that was asked for (iteration.solver = ""convex_gs"", ""gauss_seidel"" or &
+               &""gd_steady"")")
             choice = solver_choice%default
          end if
       end if

@@ -4,7 +4,7 @@ module contact_patch_time_steps
    use contact_base_error, only : error_type, fatal_error
    use contact_base_kinds, only : wp
    use contact_grid_element_division, only : element
-   use contact_grid_potential_contact, only : potential_contact
+   use contact_grid_potential_contact, only : is_same_side, potential_contact
    use contact_patch_problem, only : carried, memory_field, patch_problem, patch_state, traction_fields
    implicit none (type, external)
    private
@@ -182,24 +182,21 @@ contains
       type(potential_contact), intent(in) :: old, new
       integer, intent(out) :: kx, ky
       type(error_type), allocatable, intent(out) :: error
-      real(wp) :: x, y
-      !> Tolerances of the guide: 0.01 % of the step, 0.1 % of an element
-      real(wp), parameter :: step_tolerance = 1.0e-4_wp, place_tolerance = 1.0e-3_wp
 
       kx = 0
       ky = 0
-      if (abs(new%dx - old%dx) > step_tolerance*new%dx .or. abs(new%dy - old%dy) > step_tolerance*new%dy) then
+      if (.not. (is_same_side(new%dx, old%dx) .and. is_same_side(new%dy, old%dy))) then
          call fatal_error(error, "the element sizes differ from those of the previous case, to which this one is linked; " // &
-            & "the same DX and DY, or P=2 with I=0")
+            & "the same DX and DY, or sequence = ""initiate"" with estimate = ""fresh""")
          return
       end if
-      x = (new%xl - old%xl)/new%dx
-      y = (new%yl - old%yl)/new%dy
-      kx = nint(x)
-      ky = nint(y)
-      if (abs(x - kx) > place_tolerance .or. abs(y - ky) > place_tolerance) then
+      associate (shift => nint(new%offset(old)))
+         kx = shift(1)
+         ky = shift(2)
+      end associate
+      if (.not. new%continues(old)) then
          call fatal_error(error, "the potential contact is not shifted by whole elements with respect to the previous case, " // &
-            & "to which this one is linked; a shift by whole elements, or P=2 with I=0")
+            & "to which this one is linked; a shift by whole elements, or sequence = ""initiate"" with estimate = ""fresh""")
       end if
    end subroutine offset_of
 
@@ -227,7 +224,7 @@ contains
       write(window, '("x = ", G0.6, " to ", G0.6, ", y = ", G0.6, " to ", G0.6)') box
       call fatal_error(error, "the potential contact leaves out " // trim(number) // " of the elements that were in contact in &
          &the previous case, whose tractions this case continues; a window that contains " // trim(window) // &
-         & " mm, or P=2 with I=0")
+         & " mm, or sequence = ""initiate"" with estimate = ""fresh""")
    end subroutine refuse_loss
 
    !> Elements in contact that lie outside another window of the same elements

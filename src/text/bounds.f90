@@ -22,7 +22,7 @@ module contact_text_bounds
       !> Unit; "integer" for numbers that are counted
       character(len=11) :: unit
       !> What it is
-      character(len=72) :: title
+      character(len=80) :: title
       !> Smallest and largest value
       real(wp) :: lowest, highest
       !> Is the smallest value itself refused?
@@ -93,13 +93,13 @@ module contact_text_bounds
       & -1.0e4_wp, 1.0e4_wp, .false., "an exponent; 0.01 to 10 act", .true.)]
 
    type(number_bounds), parameter :: motion_rows(*) = [ &
-      & number_bounds("PEN", "mm", "approach, prescribed with N = 0", &
+      & number_bounds("PEN", "mm", "approach, prescribed with normal = ""approach""", &
       & -far, far, .false., "an approach of a kilometre"), &
-      & number_bounds("FN", "N", "normal force, prescribed with N = 1", &
+      & number_bounds("FN", "N", "normal force, prescribed with normal = ""force""", &
       & 0.0_wp, heavy, .false., "bodies do not pull at each other; the weight of a mountain"), &
-      & number_bounds("FX", "-", "relative force FX, prescribed with F = 1, 2", &
+      & number_bounds("FX", "-", "relative force FX, prescribed with tangential = ""fx_and_ceta"", ""fx_and_fy""", &
       & -1.0_wp, 1.0_wp, .false., "relative to the friction bound FSTAT FN"), &
-      & number_bounds("FY", "-", "relative force FY, prescribed with F = 2", &
+      & number_bounds("FY", "-", "relative force FY, prescribed with tangential = ""fx_and_fy""", &
       & -1.0_wp, 1.0_wp, .false., "relative to the friction bound FSTAT FN"), &
       & number_bounds("CKSI", "- or mm", "longitudinal creepage or shift", &
       & -endless, endless, .false., "a creepage of 2 is a wheel turning backwards; shifts in mm", .true.), &
@@ -124,7 +124,7 @@ module contact_text_bounds
 
    type(number_bounds), parameter :: friction_rows(*) = [ &
       & number_bounds("FSTAT", "-", "static coefficient of friction", &
-      & 1.0e-6_wp, 1.0e6_wp, .false., "frictionless is T = 0; from 100 on nothing slips"), &
+      & 1.0e-6_wp, 1.0e6_wp, .false., "frictionless is motion = ""none""; from 100 on nothing slips"), &
       & number_bounds("FKIN", "-", "kinetic coefficient of friction", &
       & 0.0_wp, 1.0e6_wp, .false., "friction does not push; from 100 on nothing slips"), &
       & number_bounds("FLIN", "-", "coefficient of a term of the linear law", &

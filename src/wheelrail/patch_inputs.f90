@@ -124,7 +124,7 @@ contains
       end associate
       write(text, "(A, F0.4, A, F0.4, A, I0, A)") "a contact patch needs larger elements than DX x DS, ", grid%dx, " x ", &
          & grid%dy, " mm, because of NPOT_MAX = ", problem%max_elements, ", but influence coefficients from a file " // &
-         & "(C = 9) hold for DX x DS only; a larger NPOT_MAX, or a file for larger elements"
+         & "(material.influence = ""tabulated"") hold for DX x DS only; a larger NPOT_MAX, or a file for larger elements"
       call fatal_error(error, trim(text), error_kind%input)
    end subroutine check_sides
 

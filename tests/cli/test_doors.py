@@ -297,7 +297,7 @@ class Refusals(Doors):
         # the right half of the first window
         moved = moved.replace("10 20 -1 -1", "10 20 0 -1")
         for p in "01":
-            self.refused(text + "3\n" + moved.format(p=p) + "0\n", "leaves out", "elements that were in contact", "P=2",
+            self.refused(text + "3\n" + moved.format(p=p) + "0\n", "leaves out", "elements that were in contact", "P = 2",
                          modes=("2",))
         run, _, _ = self.run_text(text + "3\n" + moved.format(p="2") + "0\n")
         self.assertEqual(run.returncode, 0, run.stderr)

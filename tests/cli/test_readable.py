@@ -123,6 +123,17 @@ class Readable(unittest.TestCase):
         self.assertIn('a.toml:3:18: material_model = "viscoelastic", ', errors)
         self.assertIn('motion = "steady_rolling", not motion = "shift"', errors)
 
+    def test_choices_in_messages_of_a_computation(self):
+        """Words for those who write words, digits for those who write digits"""
+        oblique = HEAD.replace("shift", "steady_rolling") + REST + '[case.rolling]\nchi = "90 deg"\ndq = 0.1\nveloc = 1000\n'
+        self.assertIn('motion = "steady_rolling" with ConvexGS (iteration.solver = "convex_gs")', self.complaints(oblique))
+        status, _, errors = self.run_program("convert", "a.toml")
+        self.assertEqual(status, 0, errors)
+        for mode in "3", "2":
+            status, _, errors = self.run_program(mode, "a.inp")
+            self.assertEqual(status, 1)
+            self.assertIn("T = 2, or T = 3 with ConvexGS (G = 2)", errors)
+
     def test_which_file(self):
         (self.folder / "a.toml").write_text(HEAD + REST)
         status, out, errors = self.run_program("3", "a")

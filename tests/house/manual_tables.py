@@ -32,7 +32,8 @@ def source(name):
 def rows(name, what):
     """Constructors of a table: lists of their arguments"""
     found = re.findall(what + r'\(((?:[^()"]|"[^"]*")*)\)', source(name))
-    return [[part.strip().strip('"') for part in re.findall(r'"[^"]*"|[^",\s][^",]*', row)] for row in found]
+    return [[part.strip().removeprefix('"').removesuffix('"').replace('""', '"')
+             for part in re.findall(r'"(?:[^"]|"")*"|[^",\s][^",]*', row)] for row in found]
 
 
 def procedures(name):
@@ -41,18 +42,21 @@ def procedures(name):
 
 
 def words_of(text):
-    """Messages of the sources speak of digits; here the words count"""
-    letters = {"N": "normal", "F": "tangential", "T": "motion", "IPOTCN": "form"}
-    digits = {(row[0], row[1], row[3]): row[6] for row in rows("control/digits.f90", "digit_row") if len(row) > 6}
-    text = text.replace("with F = 1, 2", "with F = 1 or 2").replace("IPOTCN = -4", 'form = "hertz_line_curvature"')
-    for name in "NFT":
-        def word(match, name=name):
-            found = digits.get((name, match.group(1), "both")) or digits.get((name, match.group(1), "module_3"), "")
-            other = digits.get((name, match.group(2), "module_3"), "") if match.group(2) else ""
-            return f'{letters[name]} = "{found}"' + (f' or "{other}"' if other else "")
-        text = re.sub(rf"\b{name} = (\d)(?: or (\d))?", word, text)
+    """Sources have names in capitals, and IPOTCN; here keys count"""
+    text = text.replace("IPOTCN = -4", 'form = "hertz_line_curvature"')
     table = bounds()
     return re.sub(r"\b[A-Z][A-Z0-9_]+\b", lambda m: m.group(0).lower() if row_of(m.group(0), table) else m.group(0), text)
+
+
+def in_digits(text):
+    """Sources name choices, motion = "none"; input.md has digits, T = 0"""
+    keys = {".".join(part for part in row[2:4] if part): row[0] for row in rows("control/words.f90", "key_row")}
+    digits = {(row[0], row[6]): row[1] for row in rows("control/digits.f90", "digit_row") if len(row) > 6}
+
+    def told(match):
+        name = keys.get(match[1])
+        return f"{name} = " + re.sub(r'"(\w+)"', lambda word: digits[name, word[1]], match[2])
+    return re.sub(r'([a-z_.]+) = ("\w+"(?:(?:, | or )"\w+")*)', told, text)
 
 
 def bounds():
@@ -107,7 +111,8 @@ def bound_rows():
     constants = {name: float(value) for name, value in re.findall(r"(\w+) = ([-\d.e+]+)_wp", text[:text.index("solver_rows")])}
     for name, unit, title, lowest, highest, is_open, reason, *_ in rows("text/bounds.f90", "number_bounds"):
         above = "above " if is_open == ".true." else ""
-        yield f"| {name} | {title} | {unit} | {above}{number(lowest, constants)} | {number(highest, constants)} | {reason} |"
+        yield in_digits(f"| {name} | {title} | {unit} | {above}{number(lowest, constants)} | {number(highest, constants)} "
+                        f"| {reason} |")
 
 
 def digit_rows(modules):

@@ -15,6 +15,10 @@ FORMAT = re.compile(r"""(?:\b(?:write|read)\s*\(\s*[\w%*]+\s*,\s*|\bform\w*(?:\(
 # Rooms that know control digits; all others know named choices
 DOORS = {"control", "input", "output", "capi"}
 DIGIT = re.compile(r"\bcase_digits\b|\bdigits\s*%|\bcontact_control_(?:digits|translation)\b")
+# A message that names a digit: a capital letter with a figure behind an equals sign; names in the code are small
+TOLD_DIGIT = re.compile(r"""\b(?:[A-Z]|C1|M2) ?= ?\d|\b[A-Z]-digit""")
+# A message that names choices: motion = ""none"" or ""shift""
+TOLD_CHOICE = re.compile(r"""([a-z_.]+) = (""\w+""(?:(?:, | or )""\w+"")*)""")
 # A choice means what is done, never "what the previous case did"
 KEEP = re.compile(r"::.*\bkeep\s*=\s*\d")
 
@@ -26,11 +30,22 @@ def offences(lines, room="base"):
             yield number, line.strip(), "digits end at the reader; a case has choices and parts"
         if room == "base" and KEEP.search(line):
             yield number, line.strip(), "what a case keeps is the source of its parts, not a choice"
+        if room not in DOORS and not line.lstrip().startswith("!") and TOLD_DIGIT.search(line):
+            yield number, line.strip(), 'messages below the readers name choices, sequence = "initiate", not digits'
         for match in FORMAT.finditer(line):
             descriptors = re.sub(r"""(['"]).*?\1""", "", match[2])
             if re.search("[a-z]", descriptors):
                 yield (number, line.strip(), ("an edit descriptor in small letters: the run-time library makes capitals of them "
                        "by the host's locale, and a Turkish i has none"))
+
+
+def unknown_choices(text, keys, words):
+    """Choices that messages name, and that nobody could turn into digits"""
+    joined = re.sub(r"&\n\s*&", "", text)
+    for key, named in TOLD_CHOICE.findall(joined):
+        for word in re.findall(r'""(\w+)""', named):
+            if (keys.get(key), word) not in words:
+                yield f'{key} = "{word}"'
 
 
 def main():
@@ -42,12 +57,28 @@ def main():
     digits = ["   if (spec%digits%c >= 2) return", "      integer :: none = 0, keep = 1", "   keep = 1"]
     assert [line[0] for line in offences(digits, "base")] == [1, 2], "digits and kept values in choices"
     assert [line[0] for line in offences(digits, "input")] == [], "digits of the reader"
+    told = ['   call fatal_error(error, "conformal contact (C = 4) needs")', '   text = "the solver of the G-digit"',
+            '   ! C = 4', '   text = "GG = 4, DX = 1 and motion = ""shift"""', '   call say("P=2 with I=0")']
+    assert [line[0] for line in offences(told, "patch")] == [1, 2, 5], "digits in messages"
+    assert not list(offences(told, "input")), "digits in messages of the reader"
     top = pathlib.Path(os.environ["CONTACT_SOURCE"])
+    keys = pathlib.Path(top, "src/control/words.f90").read_text(encoding="utf-8")
+    keys = {f"{group}.{key}" if group else key: name
+            for name, group, key in re.findall(r'key_row\("(\w+)", \w+, "(\w*)", "(\w+)"', keys)}
+    digits = pathlib.Path(top, "src/control/digits.f90").read_text(encoding="utf-8").replace("&\n", "")
+    words = set(re.findall(r'digit_row\("(\w+)",[^"]*"[^"]*",[ &]*"(\w+)"\)', digits))
+    assert list(unknown_choices('"motion = ""none"", ""shift"" &\n   &or ""rest"""', keys, words)) == ['motion = "rest"']
     files = sorted(pathlib.Path(top, "src").rglob("*.f90"))
     strangers = sorted(name for name in os.listdir(top) if name not in TOP and not name.startswith("."))
     bad = len(strangers)
     if strangers:
         print(f"FAILED {top} holds {strangers[:10]}: left by a test that ran there, or in the wrong place")
+    for file in files:
+        if file.parent.name in DOORS:
+            continue
+        for choice in unknown_choices(file.read_text(encoding="utf-8"), keys, words):
+            bad += 1
+            print(f"FAILED {file}: no reader knows the choice {choice}")
     for file in files:
         for number, line, reason in offences(file.read_text(encoding="utf-8").splitlines(), file.parent.name):
             bad += 1

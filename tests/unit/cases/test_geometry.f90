@@ -88,9 +88,6 @@ contains
       call solve_hertz(good, normal_control%force, bad%b1, 0.0_wp, gg, nu, hertz, error)
       call expect_error(suite, error, "FN", "force not a number")
       bad = good
-      bad%form = -4
-      call solve_hertz(bad, normal_control%approach, 1.0_wp, 0.1_wp, gg, nu, hertz, error)
-      call expect_error(suite, error, "N = 1", "line contact by approach")
       bad%form = -3
       bad%bb = -1.0_wp
       call solve_hertz(bad, normal_control%force, 1.0_wp, 0.0_wp, gg, nu, hertz, error)

@@ -610,15 +610,20 @@ contains
       character(len=*), parameter :: ellipse = "|9=-3|10=10 8 1 1 1|11=|12=", strip = "|9=-5|10=10 8 1 1 1|11=|12="
 
       call right(suite, "1=223100" // ellipse)
-      call wrong(suite, "1=223100", "needs a Hertzian option")
+      call wrong(suite, "1=223100", &
+         & "needs a Hertzian option, IPOTCN = -5, -4, -3, -2 or -1, not IPOTCN = 1")
       call wrong(suite, "1=233100|2=0022320|8=.3 .3 1 1;1 1 1", "needs a Hertzian option")
-      call wrong(suite, "1=203100|9=-6|10=10 8 1 1 1 1|11=|12=", "IPOTCN = -6 and B = 4 need each other")
-      call wrong(suite, "1=243100" // ellipse, "IPOTCN = -6 and B = 4 need each other")
+      call wrong(suite, "1=203100|9=-6|10=10 8 1 1 1 1|11=|12=", &
+         & "IPOTCN = -6, a grid around two half ellipses, needs the pressures of SDEC, B = 4, not B = 0")
+      call wrong(suite, "1=243100" // ellipse, &
+         & "B = 4, SDEC, needs a grid around two half ellipses, IPOTCN = -6, not IPOTCN = -3")
       call right(suite, "1=243100|9=-6|10=10 8 1 1 1 1|11=|12=")
       call right(suite, "1=203100" // strip)
-      call wrong(suite, "1=203000|5=.01 0 0 0" // strip, "needs the normal force: N = 1, not N = 0")
+      call wrong(suite, "1=203000|5=.01 0 0 0" // strip, &
+         & "IPOTCN = -5, a Hertzian line contact, needs the normal force, N = 1, not N = 0")
       call dubious(suite, "1=223100" // strip, "the approach is not computed")
-      call wrong(suite, "1=203000|5=-.01 0 0 0" // ellipse, "PEN = -0.01 is below its lower bound 0")
+      call wrong(suite, "1=203000|5=-.01 0 0 0" // ellipse, &
+         & "PEN = -0.01 must be 0 or more for a Hertzian option with a prescribed approach")
       call dubious(suite, "1=233100" // ellipse, "B = 3, a parabolic traction bound")
       call wrong(suite, "1=243000|9=-6|10=10 8 1 1 1 1|11=|12=", "B = 4, SDEC, needs the normal force, N = 1, not N = 0")
       call wrong(suite, "1=253100", "B = 5, KPEC or ANALYN, needs the approach")

@@ -2,6 +2,7 @@
 program test_bounds
    use, intrinsic :: ieee_arithmetic, only : ieee_positive_inf, ieee_quiet_nan, ieee_value
    use contact_base_kinds, only : wp
+   use contact_control_digit_terms, only : tell_in_digits
    use contact_text_bounds, only : bounds_of, bounds_table, describe_breach, number_bounds
    use contact_test_harness, only : test_suite
    use contact_text_words, only : real_text
@@ -123,15 +124,16 @@ contains
       end do
    end subroutine manual
 
-   !> A row of the manual
+   !> A row of the manual, which speaks of digits
    pure function manual_row(bounds) result(row)
       type(number_bounds), intent(in) :: bounds
       character(len=280) :: row
-      character(len=:), allocatable :: lowest
+      character(len=:), allocatable :: lowest, text
 
       lowest = real_text(bounds%lowest)
       if (bounds%is_open) lowest = "above " // lowest
-      row = "| " // trim(bounds%name) // " | " // trim(bounds%title) // " | " // trim(bounds%unit) // " | " // lowest // " | " // &
-         & real_text(bounds%highest) // " | " // trim(bounds%reason) // " |"
+      call tell_in_digits("| " // trim(bounds%name) // " | " // trim(bounds%title) // " | " // trim(bounds%unit) // " | " // &
+         & lowest // " | " // real_text(bounds%highest) // " | " // trim(bounds%reason) // " |", text)
+      row = text
    end function manual_row
 end program test_bounds
