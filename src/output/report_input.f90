@@ -1,22 +1,24 @@
 !> Echo of the input of a case in the .out file (output level 2 and higher)
 module contact_output_report_input
-   use contact_base_choices, only : force_control, grid_form, has_slope_reduction, is_fastrip, material_model, &
-      & motion, normal_control, pressure_model, solver_choice, variation
+   use contact_base_choices, only : force_control, grid_form, is_fastrip, material_model, motion, normal_control, pressure_model, &
+      & solver_choice, variation
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
-   use contact_cases_collector, only : collector, friction_numbers
-   use contact_cases_spec, only : case_spec, friction_set, kinematics_spec, material_spec, part_source
-   use contact_control_digits, only : case_digits
+   use contact_cases_spec, only : case_spec, kinematics_spec, part_source
+   use contact_control_digits, only : case_digits, digit_names, digit_value
    use contact_control_translation, only : digits_of
-   use contact_output_formats, only : fixed, general, generals, heading, smart, smarts, whole
+   use contact_output_formats, only : fixed, generals, heading, smart, smarts, whole
+   use contact_output_report_materials, only : write_between, write_friction, write_material_model
    use contact_patch_result, only : hertz_result, patch_result
    implicit none (type, external)
    private
 
-   public :: write_input, write_friction, write_sheet
+   public :: digit_titles, digit_words, write_input, write_last_digits, write_outer_iteration
 
-   !> Below this output level the middle of a friction table per row is left out
-   integer, parameter :: full_friction_table = 4
+   !> What the established program calls the digits, in the order of digit_names
+   character(len=6), parameter :: digit_titles(*) = [character(len=6) :: "CONFIG", "PVTIME", "BOUND", "TANG", "NORM", &
+      & "FORCE", "STRESS", "VARFRC", "FRCLAW", "DISCNS", "INFLCF", "MATER", "RZNORM", "RZTANG", "M2", "X", "HEAT", "GAUSEI", &
+      & "IESTIM", "MATFIL", "OUTPUT", "FLOW", "RETURN"]
 
 contains
 
@@ -26,8 +28,17 @@ contains
       type(case_spec), intent(in) :: spec
       !> For derived constants: combined material, Hertz solution, time step
       type(patch_result), intent(in) :: result
+      type(case_digits) :: digits
 
-      call write_digits(log, digits_of(spec))
+      digits = digits_of(spec)
+      call log%result(" ")
+      call log%result("  PBTNFS.            " // trim(digit_words(digits, 2, 7, .false.)))
+      if (digits%v /= 0) then
+         call log%result(" VLDCMZE.  " // trim(digit_words(digits, 8, 14, .false.)))
+      else
+         call log%result("  LDCMZE.            " // trim(digit_words(digits, 9, 14, .false.)))
+      end if
+      call write_last_digits(log, digits)
       call write_problem(log, spec)
       if (spec%parts%geometry /= part_source%kept .and. spec%grid%brings_geometry()) call write_hertz(log, spec, result)
       if (spec%solver == solver_choice%gd_steady) call write_gd_steady(log, spec)
@@ -37,25 +48,51 @@ contains
       call write_kinematics(log, spec, result)
    end subroutine write_input
 
-   !> Control digits as given
-   subroutine write_digits(log, digits)
+   !> Digits with their names in the established program, PVTIME and so on, one after the other
+   pure function digit_words(digits, first, last, is_wheel_rail) result(text)
+      type(case_digits), intent(in) :: digits
+      !> Places in digit_names
+      integer, intent(in) :: first, last
+      !> Do Z and E stand for track and wheelset?
+      logical, intent(in) :: is_wheel_rail
+      character(len=10*(last - first + 1)) :: text
+      character(len=6) :: name
+      integer :: k, value
+
+      text = ""
+      do k = first, last
+         value = digit_value(digits, trim(digit_names(k)))
+         name = digit_titles(k)
+         if (is_wheel_rail) then
+            if (digit_names(k) == "Z") name = "ZTRACK"
+            if (digit_names(k) == "E") name = "EWHEEL"
+            if (digit_names(k) == "D") value = value + 10*digits%gapwgt
+         end if
+         text(10*(k - first) + 1:) = name // whole(value, 2) // ", "
+      end do
+      text(len(text) - 1:) = ""
+   end function digit_words
+
+   !> The line of the third control word, and of the iteration of both problems
+   subroutine write_last_digits(log, digits)
       type(log_type), intent(inout) :: log
       type(case_digits), intent(in) :: digits
-      character(len=:), allocatable :: start
 
-      call log%result(" ")
-      call log%result("  PBTNFS.            PVTIME" // whole(digits%p, 2) // ", BOUND " // whole(digits%b, 2) &
-         & // ", TANG  " // whole(digits%t, 2) // ", NORM  " // whole(digits%n, 2) // ", FORCE " // whole(digits%f, 2) &
-         & // ", STRESS" // whole(digits%s, 2))
-      start = "  LDCMZE.            "
-      if (digits%v /= 0) start = " VLDCMZE.  VARFRC" // whole(digits%v, 2) // ", "
-      call log%result(start // "FRCLAW" // whole(digits%l, 2) // ", DISCNS" // whole(digits%d, 2) // ", INFLCF" &
-         & // whole(digits%c, 2) // ", MATER " // whole(digits%m, 2) // ", RZNORM" // whole(digits%z, 2) // ", RZTANG" &
-         & // whole(digits%e, 2))
-      call log%result(" HGIAOWR.  HEAT  " // whole(digits%h, 2) // ", GAUSEI" // whole(digits%g, 2) // ", IESTIM" &
-         & // whole(digits%i, 2) // ", MATFIL" // whole(digits%a, 2) // ", OUTPUT" // whole(digits%o, 2) // ", FLOW  " &
-         & // whole(digits%w, 2) // ", RETURN" // whole(digits%r, 2))
-   end subroutine write_digits
+      call log%result(" HGIAOWR.  " // trim(digit_words(digits, 17, 23, .false.)))
+   end subroutine write_last_digits
+
+   !> Is the normal problem solved once, or in turn with the tangential one?
+   subroutine write_outer_iteration(log, maxout)
+      type(log_type), intent(inout) :: log
+      !> Largest number of turns
+      integer, intent(in) :: maxout
+
+      if (maxout <= 1) then
+         call log%result(" JOHNSON'S METHOD: NORMAL AND TANGENTIAL PROBLEM ARE SOLVED ONCE")
+      else
+         call log%result(" PANAGIOTOPOULOS' METHOD: NORMAL AND TANGENTIAL PROBLEM ALTERNATE. MAXOUT=" // whole(maxout, 3))
+      end if
+   end subroutine write_outer_iteration
 
    !> What problem is solved, in words
    subroutine write_problem(log, spec)
@@ -95,12 +132,7 @@ contains
       else
          call log%result(" TANGENTIAL FORCE PRESCRIBED")
       end if
-      if (spec%iteration%maxout <= 1) then
-         call log%result(" JOHNSON'S METHOD: NORMAL AND TANGENTIAL PROBLEM ARE SOLVED ONCE")
-      else
-         call log%result(" PANAGIOTOPOULOS' METHOD: NORMAL AND TANGENTIAL PROBLEM ALTERNATE. MAXOUT=" &
-            & // whole(spec%iteration%maxout, 3))
-      end if
+      call write_outer_iteration(log, spec%iteration%maxout)
    end subroutine write_problem
 
    !> Prescribed quantity of the normal problem
@@ -192,7 +224,6 @@ contains
       type(log_type), intent(inout) :: log
       type(case_spec), intent(in) :: spec
       type(patch_result), intent(in) :: result
-      integer :: body
 
       call log%result("")
       call log%result(" MATERIAL CONSTANTS")
@@ -201,143 +232,14 @@ contains
       call log%result("")
       call log%result("    POISS(1)    POISS(2)     GG(1)       GG(2)")
       call log%result("  " // generals([spec%material%poiss, spec%material%gg]))
-      if (spec%pressure == pressure_model%thin_sheet) call write_sheet(log, spec%material)
-      if (spec%has_damping .and. spec%parts%damping == part_source%given) then
-         call log%result("")
-         call log%result(heading([character(len=9) :: "CDAMPN", "CDAMPT", "DFNMAX", "DFTMAX"]))
-         call log%result("  " // smarts([spec%damping%cdampn, spec%damping%cdampt, spec%damping%dfnmax, &
-            & spec%damping%dftmax]))
-      end if
-      if (spec%has_heat) then
-         call log%result("")
-         call log%result(heading([character(len=9) :: "BKTEMP", "HEATCP", "LAMBDA", "DENSITY"]))
-         do body = 1, 2
-            call log%result("  " // generals([spec%heat%bktemp(body), spec%heat%heatcp(body), spec%heat%lambda(body), &
-               & spec%heat%dens(body)]))
-         end do
-      end if
-      call write_material_model(log, spec, result)
-   end subroutine write_materials
-
-   !> Flexibility of an elastic thin sheet between the bodies
-   subroutine write_sheet(log, material)
-      type(log_type), intent(inout) :: log
-      type(material_spec), intent(in) :: material
-
-      call log%result("")
-      call log%result(" ELASTIC THIN SHEET PARAMETERS")
-      call log%result(heading([character(len=9) :: "FLXZ"]))
-      call log%result("  " // generals([material%flxz]))
-   end subroutine write_sheet
-
-   !> Constants of other than elastic behaviour
-   subroutine write_material_model(log, spec, result)
-      type(log_type), intent(inout) :: log
-      type(case_spec), intent(in) :: spec
-      !> For the flexibilities of simplified theory
-      type(patch_result), intent(in) :: result
-
+      call write_between(log, spec, with_plastic_work=.false.)
       if (spec%material_model == material_model%elastic) return
-      call log%result("")
-      associate (material => spec%material)
-         select case (spec%material_model)
-         case (material_model%viscoelastic)
-            call log%result(" VISCOELASTIC MATERIAL CONSTANTS")
-            call log%result(heading([character(len=9) :: "FG(1)", "FG(2)", "TC(1)", "TC(2)", "VT(1)", "VT(2)"]))
-            call log%result("  " // generals(material%fg) // smarts([material%tc, spec%rolling%veloc*material%tc]))
-         case (material_model%interfacial_layer)
-            call log%result(" INTERFACIAL LAYER PARAMETERS")
-            call log%result(heading([character(len=9) :: "GG3", "LAYTHK", "TAU_C0", "K_TAU"]))
-            call log%result("  " // generals([material%gg3, material%laythk, material%tau_c0, material%k_tau]))
-         case default
-            call write_simplified_theory(log, spec, result)
-         end select
-      end associate
-   end subroutine write_material_model
-
-   !> Flexibilities, and slope reduction with the factor that it came to
-   subroutine write_simplified_theory(log, spec, result)
-      type(log_type), intent(inout) :: log
-      type(case_spec), intent(in) :: spec
-      type(patch_result), intent(in) :: result
-      character(len=7) :: method
-
-      if (spec%material_model == material_model%fastsim_single) then
-         call log%result(" SIMPLIFIED THEORY MATERIAL CONSTANTS")
-         call log%result(heading([character(len=9) :: "FLX"]))
-         call log%result("  " // generals([spec%material%flx]))
-         call log%result("")
-      else if (spec%motion /= motion%none) then
-         call log%result(" SIMPLIFIED THEORY MATERIAL CONSTANTS")
-         call log%result(heading([character(len=9) :: "FLX1", "FLX2", "FLX3"]))
-         call log%result("  " // generals(result%flx))
-         call log%result("")
+      if (spec%motion == motion%none) then
+         call write_material_model(log, spec%material_model, spec%material, spec%rolling%veloc)
+      else
+         call write_material_model(log, spec%material_model, spec%material, spec%rolling%veloc, result%flx, result%k_eff)
       end if
-      if (.not. has_slope_reduction(spec%material_model)) return
-      method = "FASTSIM"
-      if (is_fastrip(spec%material_model)) method = "FASTRIP"
-      call log%result(" MODIFIED " // method // " SLOPE REDUCTION PARAMETERS")
-      associate (material => spec%material)
-         if (spec%motion == motion%none) then
-            call log%result(heading([character(len=9) :: "K0_MF", "ALFAMF", "BETAMF"]))
-            call log%result("  " // generals([material%k0_mf, material%alfamf, material%betamf]))
-         else
-            call log%result(heading([character(len=9) :: "K0_MF", "ALFAMF", "BETAMF", "K_EFF"]))
-            call log%result("  " // generals([material%k0_mf, material%alfamf, material%betamf, result%k_eff]))
-         end if
-      end associate
-   end subroutine write_simplified_theory
-
-   !> Friction law: one line, or one per control point or grid row
-   subroutine write_friction(log, law, varies, sets, level)
-      type(log_type), intent(inout) :: log
-      !> Members of friction_model and variation
-      integer, intent(in) :: law, varies
-      type(friction_set), intent(in) :: sets(:)
-      !> Output level
-      integer, intent(in) :: level
-      type(collector) :: line
-      character(len=:), allocatable :: names
-      integer :: i, count
-      logical :: shorten
-
-      call friction_numbers(line, law, friction_set())
-      names = heading(line%names)
-      call log%result("")
-      call log%result(" FRICTION LAW PARAMETERS")
-      count = size(sets)
-      select case (varies)
-      case (variation%none)
-         call log%result(names)
-         if (count > 0) call log%result("  " // numbers_of(sets(1)))
-      case (variation%by_row)
-         call log%result("     IY     " // names)
-         shorten = level < full_friction_table .and. count > 4
-         do i = 1, count
-            if (shorten .and. i == 3) call log%result(repeat(" ", 22) // "...")
-            if (shorten .and. i > 2 .and. i < count - 1) cycle
-            call log%result("  " // whole(i, 8) // "    " // numbers_of(sets(i)))
-         end do
-      case default
-         call log%result(merge("     ALPHA  ", "     SVF    ", varies == variation%by_angle) // names)
-         do i = 1, count
-            call log%result("  " // general(sets(i)%position, 12, 4) &
-               & // numbers_of(sets(i)))
-         end do
-      end select
-
-   contains
-
-      !> The values of a set, below their names
-      function numbers_of(set) result(text)
-         type(friction_set), intent(in) :: set
-         character(len=12*size(line%names)) :: text
-         type(collector) :: a
-
-         call friction_numbers(a, law, set)
-         text = generals(a%values)
-      end function numbers_of
-   end subroutine write_friction
+   end subroutine write_materials
 
    !> Prescribed creepages or forces; what was found follows with the results
    subroutine write_kinematics(log, spec, result)
