@@ -191,10 +191,9 @@ contains
       real(wp) :: sum_g
       integer :: k
 
-      residual = contact_residual(problem, p, slip, r)
-      if (problem%n_forces == 0) return
-      residual = residual**2
-      sum_g = sum(problem%bound, mask=problem%contact)
+      residual = squared_residual(problem, p, slip, r)
+      sum_g = 0.0_wp
+      if (problem%n_forces > 0) sum_g = sum(problem%bound, mask=problem%contact)
       do k = 1, problem%n_forces
          if (sum_g > 0.0_wp) residual = residual + ((sum(p(:, :, k)) - problem%target(k))/sum_g)**2
       end do
@@ -209,6 +208,15 @@ contains
       real(wp), intent(in) :: p(:, :, :), slip(:, :, :)
       !> Scale of the slip, see residual_scale [(N/mm2)/mm]
       real(wp), intent(in) :: r
+
+      residual = sqrt(squared_residual(problem, p, slip, r))
+   end function contact_residual
+
+   !> Its square
+   pure real(wp) function squared_residual(problem, p, slip, r) result(square)
+      !> As in contact_residual
+      type(tangential_problem), intent(in) :: problem
+      real(wp), intent(in) :: p(:, :, :), slip(:, :, :), r
       real(wp), allocatable :: before(:, :)
       type(yield_point) :: point
       integer :: ix, iy
@@ -236,9 +244,9 @@ contains
             scale = scale + acts**2
          end do
       end do
-      residual = 0.0_wp
-      if (scale > 0.0_wp) residual = sqrt(total/scale)
-   end function contact_residual
+      square = 0.0_wp
+      if (scale > 0.0_wp) square = total/scale
+   end function squared_residual
 
    !> Return map of an element
    pure type(yield_point) function returned(problem, length, ix, iy, before, r) result(point)
