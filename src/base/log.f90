@@ -14,7 +14,9 @@ module contact_base_log
    abstract interface
       !> A message, which names choices as the readable format does, in the terms of those who read it
       pure subroutine choice_terms(message, text)
+         !> As the rooms below the readers write it
          character(len=*), intent(in) :: message
+         !> The same with the names that its readers know
          character(len=:), allocatable, intent(out) :: text
       end subroutine choice_terms
    end interface
@@ -135,6 +137,7 @@ contains
 
    subroutine tell_choices(self, error)
       class(log_type), intent(in) :: self
+      !> Its message is put in the terms of the readers; unallocated: nothing is done
       type(error_type), allocatable, intent(inout) :: error
       character(len=:), allocatable :: text
 

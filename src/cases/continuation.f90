@@ -21,6 +21,7 @@ contains
    !> Where the elements are, as far as the input tells: without sides where the Hertz solution is needed first, or where the values
    !> make no grid
    function frame_of(grid) result(frame)
+      !> Form, sides and numbers of elements as the case gives them
       type(grid_spec), intent(in) :: grid
       type(potential_contact) :: frame
       type(hertz_result) :: hertz
@@ -36,6 +37,7 @@ contains
 
    !> Does the input tell where the elements are?
    pure logical function is_known(frame)
+      !> Grid of frame_of
       type(potential_contact), intent(in) :: frame
 
       is_known = frame%dx > 0.0_wp .and. frame%dy > 0.0_wp
@@ -45,6 +47,7 @@ contains
    pure subroutine describe_coefficients(frame, kept, text)
       !> The grid, and the one of the coefficients; without elements when there are none
       type(potential_contact), intent(in) :: frame, kept
+      !> What does not fit, unallocated when all is well
       character(len=:), allocatable, intent(out) :: text
       character(len=*), parameter :: whose = " of the influence coefficients that are kept"
 
@@ -68,6 +71,7 @@ contains
    pure subroutine describe_grid(frame, old, text)
       !> The grid, and the one of the previous case
       type(potential_contact), intent(in) :: frame, old
+      !> What does not fit, unallocated when all is well
       character(len=:), allocatable, intent(out) :: text
       real(wp) :: shift(2)
 
@@ -92,6 +96,7 @@ contains
 
    !> Do both grids consist of the same elements, as far as the input tells?
    pure logical function keeps_elements(frame, old)
+      !> Grids of frame_of, of this case and of the previous one
       type(potential_contact), intent(in) :: frame, old
 
       keeps_elements = frame%mx == old%mx .and. frame%my == old%my
@@ -105,6 +110,7 @@ contains
       integer, intent(in) :: relative_motion
       !> Of this case and of the previous one
       type(search_spec), intent(in) :: new, old
+      !> What does not fit, unallocated when all is well
       character(len=:), allocatable, intent(out) :: text
 
       if (relative_motion /= motion%shift .and. relative_motion /= motion%transient_rolling) return

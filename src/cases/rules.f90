@@ -158,6 +158,7 @@ contains
 
    !> Value of a choice of a case, member of its list in contact_base_choices; 0 or 1 for heat
    pure integer function value_of(spec, choice)
+      !> The case whose choice is asked for
       type(case_spec), intent(in) :: spec
       !> Member of choice_kind
       integer, intent(in) :: choice
@@ -179,7 +180,9 @@ contains
 
    !> Does a case break a rule?
    pure logical function is_broken(rule, spec)
+      !> A rule of choices
       type(choice_rule), intent(in) :: rule
+      !> The case that is judged
       type(case_spec), intent(in) :: spec
       integer :: module_number
 
@@ -208,7 +211,9 @@ contains
 
    !> Does a number miss what choices ask of it?
    pure logical function is_missed(rule, spec)
+      !> A rule about numbers
       type(number_rule), intent(in) :: rule
+      !> The case that is judged
       type(case_spec), intent(in) :: spec
 
       is_missed = .false.
@@ -225,8 +230,11 @@ contains
 
    !> "PEN = -0.1 must be 0 or more for a Hertzian option with a prescribed approach: ..."
    pure subroutine describe_number(rule, spec, text)
+      !> A rule about numbers
       type(number_rule), intent(in) :: rule
+      !> The case that breaks it
       type(case_spec), intent(in) :: spec
+      !> The number, its value and what would be accepted
       character(len=:), allocatable, intent(out) :: text
 
       text = trim(rule%number) // " = " // real_text(number_of(spec, rule%number)) // " must be " // &
@@ -235,7 +243,9 @@ contains
 
    !> Refuse a case that breaks a rule, in words
    subroutine refuse_broken_rules(spec, error)
+      !> The case that is judged
       type(case_spec), intent(in) :: spec
+      !> Allocated when a rule is broken, with its reason
       type(error_type), allocatable, intent(out) :: error
       character(len=:), allocatable :: text
       type(choice_rule) :: rule

@@ -14,7 +14,9 @@ contains
 
    !> A message with digits in the place of choices
    pure subroutine tell_in_digits(message, text)
+      !> A sentence with choices such as `sequence = "initiate"`
       character(len=*), intent(in) :: message
+      !> The sentence with P = 2 in their place
       character(len=:), allocatable, intent(out) :: text
       character(len=*), parameter :: key_letters = "abcdefghijklmnopqrstuvwxyz_.", before = ' = "'
       character(len=:), allocatable :: figures
@@ -98,6 +100,7 @@ contains
 
    !> An error with digits in the place of choices; nothing on success
    pure subroutine tell_error_in_digits(error)
+      !> Unallocated: nothing is done
       type(error_type), allocatable, intent(inout) :: error
       character(len=:), allocatable :: text
 

@@ -33,10 +33,14 @@ contains
 
    !> "M = 1, viscoelastic material, needs steady rolling, T = 3, not T = 2: ..."
    subroutine describe_broken_rule(rule, spec, digits, text)
+      !> The rule that is broken
       type(choice_rule), intent(in) :: rule
+      !> The case that breaks it
       type(case_spec), intent(in) :: spec
       !> Of the case
+      !> Control digits of the case, for the names of choices
       type(case_digits), intent(in) :: digits
+      !> What is wrong, why, and what would be accepted
       character(len=:), allocatable, intent(out) :: text
       character(len=:), allocatable :: found
       integer :: module_number

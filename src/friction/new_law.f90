@@ -19,40 +19,53 @@ module contact_friction_new_law
 
 contains
 
-   !> A law without parameters; unallocated when there is none of this number
-   subroutine make_law(choice, law)
-      !> Member of friction_model
+   !> The law of a number: whether there is one, whether its coefficient changes, and the law without parameters on request
+   subroutine find_law(choice, is_law, varies, law)
+      !> Member of friction_model, or any other number
       integer, intent(in) :: choice
-      class(friction_law), allocatable, intent(out) :: law
+      !> Is there such a law, and does its coefficient change with slip or temperature?
+      logical, intent(out) :: is_law, varies
+      !> Unallocated where there is none
+      class(friction_law), allocatable, intent(out), optional :: law
 
+      is_law = .true.
+      varies = .false.
       select case (choice)
-      case (friction_model%coulomb); allocate(coulomb_law :: law)
-      case (friction_model%linear); allocate(linear_law :: law)
-      case (friction_model%rational); allocate(rational_law :: law)
-      case (friction_model%exponential); allocate(exponential_law :: law)
-      case (friction_model%temperature); allocate(heated_law :: law)
+      case (friction_model%coulomb); call take(coulomb_law())
+      case (friction_model%linear); call take(linear_law())
+      case (friction_model%rational); call take(rational_law())
+      case (friction_model%exponential); call take(exponential_law())
+      case (friction_model%temperature); call take(heated_law())
+      case default; is_law = .false.
       end select
-   end subroutine make_law
+
+   contains
+
+      !> Answer for a law; nothing is taken from the heap but the law itself
+      subroutine take(kind)
+         class(friction_law), intent(in) :: kind
+
+         varies = kind%driver() /= friction_driver%none
+         if (present(law)) allocate(law, source=kind)
+      end subroutine take
+   end subroutine find_law
 
    !> Is there a law of this number?
    logical function is_friction_law(choice) result(is_law)
       !> Member of friction_model, or any other number
       integer, intent(in) :: choice
-      class(friction_law), allocatable :: law
+      logical :: varies
 
-      call make_law(choice, law)
-      is_law = allocated(law)
+      call find_law(choice, is_law, varies)
    end function is_friction_law
 
    !> Does the coefficient of a law change with slip or temperature? Not where there is no such law
    logical function is_varying_law(choice) result(varies)
       !> Member of friction_model, or any other number
       integer, intent(in) :: choice
-      class(friction_law), allocatable :: law
+      logical :: is_law
 
-      call make_law(choice, law)
-      varies = .false.
-      if (allocated(law)) varies = law%driver() /= friction_driver%none
+      call find_law(choice, is_law, varies)
    end function is_varying_law
 
    !> Law with one set of parameters, or one per row of the grid
@@ -65,10 +78,11 @@ contains
       class(friction_law), allocatable, intent(out) :: law
       !> Allocated when no law has this number
       type(error_type), allocatable, intent(out) :: error
+      logical :: is_law, varies
       integer :: k
 
-      call make_law(choice, law)
-      if (.not. allocated(law)) then
+      call find_law(choice, is_law, varies, law)
+      if (.not. is_law) then
          call fatal_error(error, "there is no friction law of this number", error_kind%input)
          return
       end if

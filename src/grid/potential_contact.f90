@@ -57,6 +57,7 @@ contains
 
    pure function offset(self, other)
       class(potential_contact), intent(in) :: self
+      !> Grid whose first corner the distance is counted from, in elements of `self`
       class(potential_contact), intent(in) :: other
       real(wp) :: offset(2)
 
@@ -65,6 +66,7 @@ contains
 
    pure logical function continues(self, other)
       class(potential_contact), intent(in) :: self
+      !> Grid with elements that may be the same ones
       class(potential_contact), intent(in) :: other
 
       continues = is_same_side(self%dx, other%dx) .and. is_same_side(self%dy, other%dy)

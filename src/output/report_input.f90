@@ -24,7 +24,9 @@ contains
 
    !> Write digits, problem description and all groups of the input that the case gave
    subroutine write_input(log, spec, result)
+      !> Gets the lines of the .out file
       type(log_type), intent(inout) :: log
+      !> The case as it was given
       type(case_spec), intent(in) :: spec
       !> For derived constants: combined material, Hertz solution, time step
       type(patch_result), intent(in) :: result
@@ -50,6 +52,7 @@ contains
 
    !> Digits with their names in the established program, PVTIME and so on, one after the other
    pure function digit_words(digits, first, last, is_wheel_rail) result(text)
+      !> Control digits of the case
       type(case_digits), intent(in) :: digits
       !> Places in digit_names
       integer, intent(in) :: first, last
@@ -75,7 +78,9 @@ contains
 
    !> The line of the third control word, and of the iteration of both problems
    subroutine write_last_digits(log, digits)
+      !> Gets a line of digits
       type(log_type), intent(inout) :: log
+      !> Control digits of the case
       type(case_digits), intent(in) :: digits
 
       call log%result(" HGIAOWR.  " // trim(digit_words(digits, 17, 23, .false.)))
@@ -83,6 +88,7 @@ contains
 
    !> Is the normal problem solved once, or in turn with the tangential one?
    subroutine write_outer_iteration(log, maxout)
+      !> Gets the line
       type(log_type), intent(inout) :: log
       !> Largest number of turns
       integer, intent(in) :: maxout

@@ -19,7 +19,9 @@ contains
 
    !> What lies between the bodies, damping, heat
    subroutine write_between(log, spec, with_plastic_work)
+      !> Gets the lines of the .out file
       type(log_type), intent(inout) :: log
+      !> Material constants of both bodies and what lies between them
       type(case_spec), intent(in) :: spec
       !> With the part of plastic work that becomes heat?
       logical, intent(in) :: with_plastic_work
@@ -55,9 +57,11 @@ contains
 
    !> Constants of other than elastic behaviour
    subroutine write_material_model(log, model, material, velocity, flexibilities, factor)
+      !> Gets the lines of the .out file
       type(log_type), intent(inout) :: log
       !> Member of material_model
       integer, intent(in) :: model
+      !> Constants of both bodies
       type(material_spec), intent(in) :: material
       !> Rolling velocity [mm/s], for the relaxation lengths of viscoelastic bodies
       real(wp), intent(in), optional :: velocity
@@ -100,6 +104,7 @@ contains
 
    !> Flexibilities of simplified theory that were found
    subroutine write_flexibilities(log, values)
+      !> Gets the lines of the .out file
       type(log_type), intent(inout) :: log
       !> [mm3/N]
       real(wp), intent(in) :: values(:)
@@ -111,9 +116,11 @@ contains
 
    !> Friction law: one line, or one per control point or grid row
    subroutine write_friction(log, law, varies, sets, level)
+      !> Gets the lines of the .out file
       type(log_type), intent(inout) :: log
       !> Members of friction_model and variation
       integer, intent(in) :: law, varies
+      !> Parameters: one set, or one per control point or row
       type(friction_set), intent(in) :: sets(:)
       !> Output level
       integer, intent(in) :: level
@@ -162,7 +169,9 @@ contains
 
    !> Names of numbers of the input, and their values below
    subroutine show(log, numbers, forms, first)
+      !> Gets two lines
       type(log_type), intent(inout) :: log
+      !> Names and values in the order of the input
       type(collector), intent(in) :: numbers
       !> One letter for each number that is shown, G: general, S: smart, F: fixed with four decimals
       character(len=*), intent(in) :: forms

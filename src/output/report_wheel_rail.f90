@@ -31,8 +31,11 @@ contains
 
    !> Everything of a case of module 1 behind its flow trace
    subroutine write_wheel_rail(log, spec, result)
+      !> Gets the lines of the .out file
       type(log_type), intent(inout) :: log
+      !> The case as it was given
       type(case_spec), intent(in) :: spec
+      !> Forces of the pair and its patches
       type(wheel_rail_result), intent(in) :: result
       integer :: k, patches
 

@@ -26,8 +26,11 @@ contains
 
    !> Digits, problem, and all groups of the input that the case gave
    subroutine write_wheel_rail_input(log, spec, result, patches)
+      !> Gets the lines of the .out file
       type(log_type), intent(inout) :: log
+      !> The case as it was given
       type(case_spec), intent(in) :: spec
+      !> Positions and velocities that were found, for those that the input leaves open
       type(wheel_rail_result), intent(in) :: result
       !> Number of contact patches
       integer, intent(in) :: patches

@@ -108,7 +108,7 @@ module contact_patch_problem
       procedure :: couples
       !> Do particles carry a quantity along, and which value have those without history?
       procedure :: carries
-      procedure :: fresh
+      procedure :: fill_fresh
    end type patch_problem
 
    type :: carried_list
@@ -181,14 +181,15 @@ contains
    end function carries
 
    !> Per row of elements
-   pure function fresh(self, kind) result(value)
+   pure subroutine fill_fresh(self, kind, value)
       class(patch_problem), intent(in) :: self
       !> Member of carried
       integer, intent(in) :: kind
-      real(wp) :: value(self%grid%my)
+      !> Value of particles without history, shape (my)
+      real(wp), intent(out) :: value(:)
 
       value = 0.0_wp
       if (kind == carried%mu) value = self%static_mu
       if (kind == carried%tau_c) value = self%initial_yield_limit
-   end function fresh
+   end subroutine fill_fresh
 end module contact_patch_problem

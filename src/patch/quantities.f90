@@ -41,10 +41,13 @@ module contact_patch_quantities
       logical :: in_files = .true.
    end type total
 
+   !> Room of a list; lists are made in every case, and need no memory from the heap
+   integer, parameter :: max_totals = 64
+
    !> Totals in the order in which they are written
    type :: total_list
       !> The first `length` of them count
-      type(total), allocatable :: rows(:)
+      type(total) :: rows(max_totals)
       integer :: length = 0
       !> Are values those of the left side of the track?
       logical, private :: left = .false.
@@ -87,9 +90,6 @@ module contact_patch_quantities
       procedure :: is_written
    end type element_field
 
-   !> Rows for which there is room at first
-   integer, parameter :: usual_rows = 40
-
 contains
 
    !> Does the sign change with the side of the track?
@@ -112,7 +112,6 @@ contains
       !> Shall values be those of the left side of the track? Otherwise, and by default, those of its mirror image
       logical, intent(in), optional :: left
 
-      if (.not. allocated(self%rows)) allocate(self%rows(usual_rows))
       self%length = 0
       self%left = .false.
       if (present(left)) self%left = left
@@ -131,13 +130,8 @@ contains
       character(len=*), intent(in), optional :: heading
       !> Does it go to files? Default yes
       logical, intent(in), optional :: in_files
-      type(total), allocatable :: longer(:)
 
-      if (self%length == size(self%rows)) then
-         allocate(longer(2*self%length))
-         longer(:self%length) = self%rows
-         call move_alloc(longer, self%rows)
-      end if
+      if (self%length == max_totals) error stop "there are more totals than max_totals"
       self%length = self%length + 1
       self%rows(self%length) = total(name, unit, meaning, value)
       associate (row => self%rows(self%length))

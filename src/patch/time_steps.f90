@@ -23,6 +23,8 @@ contains
       type(patch_state), intent(inout) :: state
       !> Allocated when the windows do not fit each other, or the new one leaves out contact that matters
       type(error_type), allocatable, intent(out) :: error
+      ! of particles without history, one list for all that is remembered
+      real(wp), allocatable :: fresh(:)
       integer :: kind, kx, ky
       logical :: linked
 
@@ -54,7 +56,9 @@ contains
       end select
       do kind = 1, carried%count
          if (problem%carries(kind)) then
-            call hand_over(problem, link, linked, kx, ky, problem%fresh(kind), state%now%memory(kind), state%before%memory(kind))
+            if (.not. allocated(fresh)) allocate(fresh(problem%grid%my))
+            call problem%fill_fresh(kind, fresh)
+            call hand_over(problem, link, linked, kx, ky, fresh, state%now%memory(kind), state%before%memory(kind))
          else
             state%now%memory(kind) = memory_field()
             state%before%memory(kind) = memory_field()

@@ -293,14 +293,15 @@ contains
       type(lattice_window), intent(in) :: window
       !> Gets the tractions, and what particles carry along; zero where no patch was
       type(traction_fields), intent(inout) :: fields
+      real(wp) :: fresh(problem%grid%my)
       integer :: j, ix, iy, jx, jy, kind
 
       call clear_time_step(fields, problem%grid)
       do kind = 1, carried%count
          if (.not. problem%carries(kind)) cycle
          if (allocated(fields%memory(kind)%value)) deallocate(fields%memory(kind)%value)
-         allocate(fields%memory(kind)%value(problem%grid%mx, problem%grid%my), &
-            & source=spread(problem%fresh(kind), 1, problem%grid%mx))
+         call problem%fill_fresh(kind, fresh)
+         allocate(fields%memory(kind)%value(problem%grid%mx, problem%grid%my), source=spread(fresh, 1, problem%grid%mx))
       end do
       if (.not. allocated(self%patch)) return
       do j = 1, size(self%patch)

@@ -42,8 +42,8 @@ EDITS = [
     ("src/friction/new_law.f90", "behind", "integer :: coulomb = 0, linear = 2", """
       integer :: stribeck = 7
 """),
-    ("src/friction/new_law.f90", "behind", "case (friction_model%temperature); allocate", """
-      case (friction_model%stribeck); allocate(stribeck_law :: law)
+    ("src/friction/new_law.f90", "behind", "case (friction_model%temperature); call take", """
+      case (friction_model%stribeck); call take(stribeck_law())
 """),
     ("src/control/digits.f90", "behind", 'digit_row("L", 6, friction_model%temperature', """
       & digit_row("L", 7, friction_model%stribeck, both, .true., "friction falling with slip velocity, Stribeck", "stribeck"), &
