@@ -73,7 +73,7 @@ class Linked(Runs):
                 for corner in (f"{-11*dx} {-12*dy}", "-2.2 -3.6", "-2.0 -3.3"):
                     case, told = self.second(f"22 24 {corner} {dx} {dy}")
                     self.assertIsNone(case)
-                    self.assertIn("of the previous case, whose solution is used", told)
+                    self.assertIn("of the previous case; the solution of the previous case cannot be used", told)
                 self.assertIsNotNone(self.second(f"22 24 {-11*dx} {-12*dy} {dx} {dy}", p=2, i=0)[0])
 
     def test_windows_that_are_moved(self):
