@@ -1,7 +1,6 @@
 !> Wheel on rail of a caller from its settings to its results and files (module 1)
 module contact_capi_calculate1
    use contact_base_case_status, only : case_status
-   use contact_base_choices, only : motion
    use contact_base_error, only : error_kind, error_type, fatal_error, full_text
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
@@ -17,7 +16,7 @@ module contact_capi_calculate1
    use contact_control_library_codes, only : code_of_wheel_rail, library_code
    use contact_grid_potential_contact, only : potential_contact
    use contact_input_checks, only : check_case
-   use contact_input_control, only : check_physics, control_words, refuse_unbuilt_digits
+   use contact_input_control, only : control_words, refuse_unbuilt_digits
    use contact_input_file_reader, only : file_reader
    use contact_input_problems, only : problem_list
    use contact_output_wheel_rail_files, only : write_wheel_rail_files
@@ -109,21 +108,14 @@ contains
       else if (size(problem%spec%friction%sets) < 1) then
          code = library_code%friction
          call fatal_error(error, "there are no friction data")
-      else if (is_transient(problem) .and. problem%has_result) then
+      else if (problem%has_result) then
          code = library_code%discretisation
-         call describe_search(problem%digits%t, problem%spec%wheel_rail%search, problem%wheel_rail%problem%spec%search, text)
+         ! without patches there is nothing to go on from
+         if (size(problem%wheel_rail_result%patches) == 0) return
+         call describe_search(problem%motion(), problem%spec%wheel_rail%search, problem%wheel_rail%problem%spec%search, text)
          if (allocated(text)) call fatal_error(error, text)
       end if
    end subroutine check_data
-
-   !> Does the case depend on the previous one, and were there patches then?
-   pure logical function is_transient(problem)
-      type(library_problem), intent(in) :: problem
-
-      is_transient = .false.
-      if (problem%digits%t /= motion%shift .and. problem%digits%t /= motion%transient_rolling) return
-      is_transient = size(problem%wheel_rail_result%patches) > 0
-   end function is_transient
 
    !> Line that opens a case
    subroutine write_case_line(log, problem)
@@ -173,7 +165,6 @@ contains
       call problems%start("")
       words%digits = digits
       call refuse_unbuilt_digits(words, 1, spec, problems)
-      call check_physics(words, spec, problems)
       call check_case(words, nowhere, spec, .false., potential_contact(), spec, problems)
       call problems%first_failure(error)
    end subroutine check_settings

@@ -17,7 +17,7 @@ module contact_capi_calculate3
    use contact_control_library_codes, only : code_of_contact, library_code
    use contact_grid_potential_contact, only : potential_contact
    use contact_input_checks, only : check_case
-   use contact_input_control, only : check_physics, control_words, refuse_unbuilt_digits
+   use contact_input_control, only : control_words, refuse_unbuilt_digits
    use contact_input_file_reader, only : file_reader
    use contact_input_problems, only : problem_list
    use contact_output_mat_file, only : mat_place, write_mat_file
@@ -111,7 +111,6 @@ contains
 
       call problems%start("")
       words%digits = digits
-      call check_physics(words, spec, problems)
       call check_case(words, nowhere, spec, .false., potential_contact(), spec, problems)
       call refuse_unbuilt_digits(words, 3, spec, problems)
       call problems%first_failure(error)

@@ -156,7 +156,7 @@ contains
 
       creep = 1.0_wp
       spin = inward(problem%units, quantity%spin)
-      if (problem%digits%t == motion%shift) then
+      if (problem%motion() == motion%shift) then
          creep = inward(problem%units, quantity%length)
          spin = inward(problem%units, quantity%angle)
       end if

@@ -8,9 +8,8 @@ module contact_capi_physics
    use contact_cases_inputs, only : visit_damping, visit_elastic, visit_friction_memory, visit_friction_set, visit_heat, &
       & visit_iteration, visit_material_model, visit_sheet
    use contact_cases_spec, only : damping_spec, friction_set, friction_spec, heat_spec, iteration_spec, material_spec
-   use contact_cases_whole_case, only : quasi_identical
+   use contact_cases_whole_case, only : difference_parameter, quasi_identical
    use contact_control_digits, only : choice_of, digit_of
-   use contact_elastic_material, only : combine, combined_material
    use contact_friction_new_law, only : friction_model, is_friction_law
    use contact_text_words, only : integer_text
    implicit none (type, external)
@@ -104,11 +103,9 @@ contains
       integer, intent(in) :: model
       type(material_spec), intent(in) :: material
       type(iteration_spec), intent(inout) :: iteration
-      type(combined_material) :: both
       logical :: unlike
 
-      both = combine(material%poiss, material%gg)
-      unlike = abs(both%ak) >= quasi_identical
+      unlike = abs(difference_parameter(material)) >= quasi_identical
       if (model == material_model%viscoelastic) unlike = unlike .or. material%relaxes_apart()
       if (iteration%maxout >= 2 .and. .not. unlike) iteration%maxout = 1
       if (iteration%maxout <= 1 .and. unlike) iteration%maxout = 10
@@ -155,7 +152,7 @@ contains
          associate (search => problem%spec%wheel_rail%search)
             call a%real("DQREL", search%dqrel)
             call a%end_line()
-            if (a%is_good .and. problem%digits%d == 1) problem%digits%d = search%location
+            if (a%is_good .and. problem%digits%d == 1) problem%digits%d = digit_of("D", search%location, 1)
          end associate
       else
          call a%real("CHI", problem%stored%rolling%chi)

@@ -13,7 +13,7 @@ module contact_capi_problem
    use contact_base_kinds, only : wp
    use contact_cases_slot, only : open_contact, open_wheel_rail, problem_slot, release_slot
    use contact_cases_spec, only : case_spec, friction_set, kinematics_spec, rolling_spec
-   use contact_control_digits, only : case_digits
+   use contact_control_digits, only : case_digits, choice_of
    use contact_control_units, only : unit_convention
    use contact_experiment_stopwatch, only : stopwatch
    use contact_grid_potential_contact, only : potential_contact
@@ -120,6 +120,9 @@ module contact_capi_problem
       integer(omp_lock_kind) :: lock
       !> Threads that are inside or wait, guarded by the registry
       integer :: users = 0
+   contains
+      !> Relative motion of the bodies that the digits tell now, member of motion
+      procedure :: motion
    end type library_problem
 
    interface
@@ -130,6 +133,12 @@ module contact_capi_problem
    end interface
 
 contains
+
+   pure integer function motion(self)
+      class(library_problem), intent(in) :: self
+
+      motion = choice_of("T", self%digits%t, self%module_number)
+   end function motion
 
    !> A problem with the defaults of the interface
    function new_problem(ire, icp, module_number) result(problem)

@@ -274,7 +274,7 @@ contains
       end if
       of_creep = quantity%number
       of_spin = quantity%spin
-      if (problem%digits%t == motion%shift) then
+      if (problem%motion() == motion%shift) then
          of_creep = quantity%length
          of_spin = quantity%angle
       end if
@@ -337,7 +337,7 @@ contains
          associate (units => problem%units)
             side = merge(-1.0_wp, 1.0_wp, view%left)
             per_input = [inward(units, quantity%length), 1.0_wp, side, side*inward(units, quantity%spin)]
-            if (problem%digits%t == motion%shift) per_input(2:4) = [1.0_wp, side, 0.0_wp]*inward(units, quantity%length) &
+            if (problem%motion() == motion%shift) per_input(2:4) = [1.0_wp, side, 0.0_wp]*inward(units, quantity%length) &
                & + [0.0_wp, 0.0_wp, side*inward(units, quantity%angle)]
             per_output = [inward(units, quantity%force), 1.0_wp, side, side*inward(units, quantity%moment)]
          end associate

@@ -70,7 +70,7 @@ contains
 
       call self%patch%totals(list)
       do k = 1, size(names)
-         associate (row => list%row(names(k)))
+         associate (row => list%rows(list%place_of(names(k))))
             values(k) = row%value*outward(self%units, quantity_of(row%unit), row%along, self%left)
          end associate
       end do

@@ -50,14 +50,21 @@ contains
    !> Keep the items in hand
    subroutine collect_line(self)
       class(collector), intent(inout) :: self
-      integer :: k
+      character(len=collected_length) :: names(self%count)
+      real(wp) :: values(self%count)
+      integer :: k, n
 
+      n = 0
       do k = 1, self%count
          associate (item => self%items(k))
-            if (associated(item%r)) call keep(self, item%name, [item%r])
-            if (associated(item%i)) call keep(self, item%name, [real(item%i, wp)])
+            if (.not. (associated(item%r) .or. associated(item%i))) cycle
+            n = n + 1
+            names(n) = item%name
+            if (associated(item%r)) values(n) = item%r
+            if (associated(item%i)) values(n) = real(item%i, wp)
          end associate
       end do
+      call keep(self, names(:n), values(:n))
       call self%finish_line()
    end subroutine collect_line
 
@@ -72,18 +79,17 @@ contains
 
       associate (unused => n, no_units => present(units), no_bounds => present(bounds))
       end associate
-      if (allocated(values)) call keep(self, name, values)
+      if (allocated(values)) call keep(self, spread(name, 1, size(values)), values)
    end subroutine collect_list
 
-   !> Some values of one name behind the others
-   subroutine keep(self, name, values)
+   !> Some numbers behind the others
+   subroutine keep(self, names, values)
       class(collector), intent(inout) :: self
-      character(len=*), intent(in) :: name
+      character(len=*), intent(in) :: names(:)
       real(wp), intent(in) :: values(:)
-      integer :: k
 
       if (.not. allocated(self%values)) allocate(self%values(0), self%names(0))
-      self%names = [character(len=collected_length) :: self%names, (name, k=1, size(values))]
+      self%names = [character(len=collected_length) :: self%names, names]
       self%values = [self%values, values]
    end subroutine keep
 end module contact_cases_collector

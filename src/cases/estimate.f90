@@ -4,7 +4,7 @@
 !> area in contact, EPS 1e-5, grids of 20 x 20 to 400 x 400 elements, at commit f1ba010 on one core of a server of 2022.
 !> Stresses below the surface count for memory only.
 module contact_cases_estimate
-   use contact_base_choices, only : motion, normal_control, solver_choice
+   use contact_base_choices, only : force_control, motion, normal_control, solver_choice
    use contact_base_kinds, only : long, wp
    use contact_base_memory, only : bytes_per_element
    use contact_cases_spec, only : case_spec
@@ -88,7 +88,7 @@ contains
       cost%seconds = cost%seconds + pressures*n + tangential
       if (.not. allocated(spec%wheel_rail)) return
       cost%seconds = cost%seconds + every_search
-      if (.not. (spec%normal == normal_control%force .or. spec%force > 0)) return
+      if (.not. (spec%normal == normal_control%force .or. spec%force /= force_control%creepages)) return
       cost%seconds = cost%seconds + trials*pressures*n
       ! tractions change the pressures of unlike bodies: every trial needs them
       material = combine(spec%material%poiss, spec%material%gg)

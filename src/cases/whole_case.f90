@@ -12,18 +12,17 @@ module contact_cases_whole_case
       & visit_search, visit_springs, visit_track, visit_velocity
    use contact_cases_spec, only : case_spec, damping_spec, geometry_spec, grid_spec, material_spec, part_source
    use contact_cases_subsurface_inputs, only : visit_blocks, visit_stress_output
+   use contact_elastic_material, only : combine, combined_material, coupling_threshold
    use contact_text_words, only : integer_text, real_text
    use contact_wheelrail_spec, only : profile_spec, wheel_rail_spec
    use contact_cases_distance, only : is_distance_form, list_forms, visit_distance
    implicit none (type, external)
    private
 
-   public :: visit_case
+   public :: difference_parameter, visit_case
 
    !> Difference parameters below this value count as zero [-]
    real(wp), parameter, public :: quasi_identical = 1.0e-4_wp
-   !> Below this there is no difference in the equations, see contact_elastic_material
-   real(wp), parameter :: no_difference = 1.0e-6_wp
 
 contains
 
@@ -144,8 +143,8 @@ contains
       if (spec%iteration%maxout >= 2) then
          if (is_dissimilar_shape .or. relaxes_apart .or. abs(ak) >= quasi_identical) return
          ! where pressures and tractions do not act on each other at all, one pass is all that can be done
-         if (abs(ak) >= no_difference) call a%warn_of_group(given // " is replaced by 1: the bodies are quasi-identical, AK = " &
-            & // real_text(ak))
+         if (abs(ak) >= coupling_threshold) call a%warn_of_group(given // " is replaced by 1: the bodies are " &
+            & // "quasi-identical, AK = " // real_text(ak))
          spec%iteration%maxout = 1
       else if (abs(ak) >= quasi_identical) then
          call a%warn_of_group(given // " means no outer iteration, but the bodies have dissimilar materials, AK = " // &
@@ -160,12 +159,13 @@ contains
    end subroutine settle_outer_iteration
 
    !> Kalker's difference parameter K of two bodies [-]
-   pure real(wp) function difference_parameter(material) result(ak)
+   pure real(wp) function difference_parameter(material)
+      !> With both bodies
       type(material_spec), intent(in) :: material
+      type(combined_material) :: both
 
-      associate (nu => material%poiss, g => material%gg)
-         ak = 0.5_wp*((1.0_wp - 2.0_wp*nu(1))*(g(2)/(g(1) + g(2))) - (1.0_wp - 2.0_wp*nu(2))*(g(1)/(g(1) + g(2))))
-      end associate
+      both = combine(material%poiss, material%gg)
+      difference_parameter = both%ak
    end function difference_parameter
 
    !> Damping, or that there is none

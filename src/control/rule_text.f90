@@ -37,7 +37,6 @@ contains
       type(choice_rule), intent(in) :: rule
       !> The case that breaks it
       type(case_spec), intent(in) :: spec
-      !> Of the case
       !> Control digits of the case, for the names of choices
       type(case_digits), intent(in) :: digits
       !> What is wrong, why, and what would be accepted

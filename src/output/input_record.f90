@@ -1,6 +1,6 @@
 !> The input of a case for programs: what was asked, kept groups included
 module contact_output_input_record
-   use contact_base_choices, only : has_slope_reduction, heat_source_name, material_model, pressure_model
+   use contact_base_choices, only : has_slope_reduction, heat_source_name, material_model, pressure_model, variation
    use contact_base_kinds, only : wp
    use contact_cases_spec, only : case_spec, friction_set
    use contact_cases_collector, only : collected_length, collector, friction_numbers
@@ -147,7 +147,8 @@ contains
       call record%count("variation", "0 none, 1 by angle, 2 by position, 3 by row", spec%variation)
       allocate(sets(0))
       if (allocated(spec%friction%sets)) sets = spec%friction%sets
-      if (spec%variation > 0) call record%numbers("position", "rad or mm", "angles or positions of the sets", sets%position)
+      if (spec%variation /= variation%none) call record%numbers("position", "rad or mm", "angles or positions of the sets", &
+         & sets%position)
       allocate(numbers(0:size(sets)))
       ! the first one tells the names, also where there is no set
       call friction_numbers(numbers(0), spec%friction_law, friction_set())

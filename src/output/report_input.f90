@@ -64,7 +64,7 @@ contains
 
       text = ""
       do k = first, last
-         value = digit_value(digits, trim(digit_names(k)))
+         value = digit_value(digits, digit_names(k))
          name = digit_titles(k)
          if (is_wheel_rail) then
             if (digit_names(k) == "Z") name = "ZTRACK"

@@ -129,15 +129,16 @@ contains
       integer :: i, count
       logical :: shorten
 
-      call friction_numbers(line, law, friction_set())
+      count = size(sets)
+      if (count > 0) call friction_numbers(line, law, sets(1))
+      if (count == 0) call friction_numbers(line, law, friction_set())
       names = heading(line%names)
       call log%result("")
       call log%result(" FRICTION LAW PARAMETERS")
-      count = size(sets)
       select case (varies)
       case (variation%none)
          call log%result(names)
-         if (count > 0) call log%result("  " // numbers_of(sets(1)))
+         if (count > 0) call log%result("  " // generals(line%values))
       case (variation%by_row)
          call log%result("     IY     " // names)
          shorten = level < full_friction_table .and. count > 4

@@ -20,22 +20,24 @@ contains
    pure subroutine remove_noise(spec, totals)
       type(case_spec), intent(in) :: spec
       type(total_list), intent(inout) :: totals
+      character(len=6), parameter :: forces(*) = [character(len=6) :: "fx", "fy", "mz"], relative(*) = ["fx_rel", "fy_rel"]
       real(wp) :: small, scale(2)
       integer :: k
 
       small = 0.5_wp*spec%iteration%eps
       scale = totals%of([character(len=7) :: "fn", "mu_scal"])
-      do k = 1, totals%length
-         associate (row => totals%rows(k))
-            select case (row%name)
-            case ("fx", "fy", "mz"); row%value = clean(row%value, small*abs(scale(1))*scale(2))
-            case ("fx_rel", "fy_rel"); row%value = clean(row%value, small)
-            case ("elastic_energy")
-               if (any(spec%pressure == [pressure_model%elliptical, pressure_model%parabolical, pressure_model%sdec])) &
-                  & row%value = 0.0_wp
-            end select
+      do k = 1, size(forces)
+         associate (value => totals%rows(totals%place_of(forces(k)))%value)
+            value = clean(value, small*abs(scale(1))*scale(2))
          end associate
       end do
+      do k = 1, size(relative)
+         associate (value => totals%rows(totals%place_of(relative(k)))%value)
+            value = clean(value, small)
+         end associate
+      end do
+      if (any(spec%pressure == [pressure_model%elliptical, pressure_model%parabolical, pressure_model%sdec])) &
+         & totals%rows(totals%place_of("elastic_energy"))%value = 0.0_wp
    end subroutine remove_noise
 
    !> Zero if the magnitude is below the limit

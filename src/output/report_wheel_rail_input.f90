@@ -1,7 +1,7 @@
 !> Echo of the input of wheel on rail in the .out file (output level 2 and higher)
 module contact_output_report_wheel_rail_input
-   use contact_base_choices, only : has_slope_reduction, is_fastrip, is_simplified, kernel_model, material_model, motion, &
-      & normal_control, pressure_model
+   use contact_base_choices, only : force_control, has_slope_reduction, is_fastrip, is_simplified, kernel_model, &
+      & material_model, motion, normal_control, pressure_model
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
    use contact_cases_collector, only : collector
@@ -89,7 +89,7 @@ contains
          if (any(spec%material_model == [material_model%fastsim_single, material_model%fastsim])) &
             & text = text // ', "FASTSIM APPROACH"'
          if (is_fastrip(spec%material_model)) text = text // ', "FASTRIP APPROACH"'
-         if (spec%force == 1) then
+         if (spec%force == force_control%longitudinal_force) then
             text = text // ", X-FORCE PRESCRIBED"
          else if (spec%motion == motion%shift) then
             text = text // ", SHIFT PRESCRIBED"
@@ -202,7 +202,7 @@ contains
             call log%result(" RAIL IRREGULARITY")
             call show(log, shown, "FFFSSS")
          end if
-         if (spec%force /= 3) return
+         if (spec%force /= force_control%massless_rail) return
          call log%result(" ")
          call log%result(" MASSLESS RAIL DEFLECTION")
          call log%result(heading([character(len=9) :: "KY_RAIL", "DY_DEFL", "FY_RAIL", "KZ_RAIL", "DZ_DEFL", "FZ_RAIL"]))

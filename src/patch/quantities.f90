@@ -3,6 +3,7 @@
 !> Each list is written once, beside the values: totals of a patch and fields in contact_patch_result, totals of wheel and rail in
 !> contact_wheelrail_result.
 module contact_patch_quantities
+   use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
    use contact_base_kinds, only : wp
    implicit none (type, external)
    private
@@ -41,14 +42,15 @@ module contact_patch_quantities
       logical :: in_files = .true.
    end type total
 
-   !> Room of a list; lists are made in every case, and need no memory from the heap
-   integer, parameter :: max_totals = 64
-
    !> Totals in the order in which they are written
    type :: total_list
       !> The first `length` of them count
-      type(total) :: rows(max_totals)
+      type(total), allocatable :: rows(:)
       integer :: length = 0
+      !> Shall nothing be kept but whether all are finite numbers? It costs no memory then
+      logical :: only_judges = .false.
+      !> Are all of them finite numbers?
+      logical :: is_finite = .true.
       !> Are values those of the left side of the track?
       logical, private :: left = .false.
    contains
@@ -57,8 +59,8 @@ module contact_patch_quantities
       !> Add a real number, an integer
       procedure :: add
       procedure :: count
-      !> The row with a name, and values by their names
-      procedure :: row
+      !> Number of the row with a name, and values by their names
+      procedure :: place_of
       procedure :: of
    end type total_list
 
@@ -90,6 +92,9 @@ module contact_patch_quantities
       procedure :: is_written
    end type element_field
 
+   !> Rows for which there is room at first
+   integer, parameter :: usual_rows = 40
+
 contains
 
    !> Does the sign change with the side of the track?
@@ -112,7 +117,9 @@ contains
       !> Shall values be those of the left side of the track? Otherwise, and by default, those of its mirror image
       logical, intent(in), optional :: left
 
+      if (.not. (allocated(self%rows) .or. self%only_judges)) allocate(self%rows(usual_rows))
       self%length = 0
+      self%is_finite = .true.
       self%left = .false.
       if (present(left)) self%left = left
    end subroutine start
@@ -130,8 +137,15 @@ contains
       character(len=*), intent(in), optional :: heading
       !> Does it go to files? Default yes
       logical, intent(in), optional :: in_files
+      type(total), allocatable :: longer(:)
 
-      if (self%length == max_totals) error stop "there are more totals than max_totals"
+      self%is_finite = self%is_finite .and. ieee_is_finite(value)
+      if (self%only_judges) return
+      if (self%length == size(self%rows)) then
+         allocate(longer(2*self%length))
+         longer(:self%length) = self%rows
+         call move_alloc(longer, self%rows)
+      end if
       self%length = self%length + 1
       self%rows(self%length) = total(name, unit, meaning, value)
       associate (row => self%rows(self%length))
@@ -151,21 +165,19 @@ contains
       integer, intent(in) :: value
 
       call self%add(name, "", meaning, real(value, wp))
-      self%rows(self%length)%is_count = .true.
+      if (.not. self%only_judges) self%rows(self%length)%is_count = .true.
    end subroutine count
 
-   !> The row with a name, which must be there
-   pure type(total) function row(self, name)
+   !> Number of the row with a name, which must be there
+   pure integer function place_of(self, name) result(k)
       class(total_list), intent(in) :: self
       !> Name of a row, as in total
       character(len=*), intent(in) :: name
-      integer :: k
 
       do k = 1, self%length - 1
-         if (self%rows(k)%name == name) exit
+         if (self%rows(k)%name == name) return
       end do
-      row = self%rows(k)
-   end function row
+   end function place_of
 
    !> Values by their names
    pure function of(self, names) result(values)
@@ -173,12 +185,10 @@ contains
       !> Names of rows, as in total; they may come in any order
       character(len=*), intent(in) :: names(:)
       real(wp) :: values(size(names))
-      type(total) :: found
       integer :: k
 
       do k = 1, size(names)
-         found = self%row(names(k))
-         values(k) = found%value
+         values(k) = self%rows(self%place_of(names(k)))%value
       end do
    end function of
 end module contact_patch_quantities

@@ -294,9 +294,9 @@ contains
       class(patch_result), intent(in) :: self
       type(total_list) :: list
 
+      list%only_judges = .true.
       call self%totals(list)
-      finite = all(ieee_is_finite(list%rows(:list%length)%value)) .and. all(ieee_is_finite([self%mx, self%my, self%cksi, &
-         & self%ceta, self%cphi, self%friction_power]))
+      finite = list%is_finite .and. all(ieee_is_finite([self%mx, self%my, self%cksi, self%ceta, self%cphi, self%friction_power]))
       ! the highest temperature passes over what is no number
       if (finite .and. allocated(self%temp1)) finite = ieee_is_finite(sum(self%temp1) + sum(self%temp2))
    end function has_finite_totals

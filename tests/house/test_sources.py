@@ -21,6 +21,10 @@ TOLD_DIGIT = re.compile(r"""\b(?:[A-Z]|C1|M2) ?= ?\d|\b[A-Z]-digit""")
 TOLD_CHOICE = re.compile(r"""([a-z_.]+) = (""\w+""(?:(?:, | or )""\w+"")*)""")
 # A choice means what is done, never "what the previous case did"
 KEEP = re.compile(r"::.*\bkeep\s*=\s*\d")
+# A named choice compared with its number, and a digit compared with the choice of the same name
+CHOICE = re.compile(r"\bspec%(force|motion|normal|pressure|kernel|material_model|solver|variation|link|estimate) ?"
+                    r"(==|/=|[<>]=?) ?\d")
+MIXED = re.compile(r"\bdigits%\w+ ?(==|/=) ?(motion|normal_control|force_control|variation|kernel_model|material_model)%")
 
 
 def offences(lines, room="base"):
@@ -32,6 +36,10 @@ def offences(lines, room="base"):
             yield number, line.strip(), "what a case keeps is the source of its parts, not a choice"
         if room not in DOORS and not line.lstrip().startswith("!") and TOLD_DIGIT.search(line):
             yield number, line.strip(), 'messages below the readers name choices, sequence = "initiate", not digits'
+        if CHOICE.search(line):
+            yield number, line.strip(), "choices have names: spec%motion /= motion%none"
+        if MIXED.search(line):
+            yield number, line.strip(), "a digit is not a choice: problem%motion() tells which one it asks for"
         for match in FORMAT.finditer(line):
             descriptors = re.sub(r"""(['"]).*?\1""", "", match[2])
             if re.search("[a-z]", descriptors):
@@ -61,6 +69,8 @@ def main():
             '   ! C = 4', '   text = "GG = 4, DX = 1 and motion = ""shift"""', '   call say("P=2 with I=0")']
     assert [line[0] for line in offences(told, "patch")] == [1, 2, 5], "digits in messages"
     assert not list(offences(told, "input")), "digits in messages of the reader"
+    mixed = ["   if (spec%motion > 0) return", "   if (digits%t == motion%shift) return", "   if (spec%force /= force_control%a)"]
+    assert [line[0] for line in offences(mixed, "capi")] == [1, 2], "numbers of choices"
     top = pathlib.Path(os.environ["CONTACT_SOURCE"])
     keys = pathlib.Path(top, "src/control/words.f90").read_text(encoding="utf-8")
     keys = {f"{group}.{key}" if group else key: name
