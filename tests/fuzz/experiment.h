@@ -2,7 +2,8 @@
 #ifndef EXPERIMENT_H
 #define EXPERIMENT_H
 
-/* Read fuzz.inp with a mode of contact.h, under limits that keep a case within milliseconds, and judge message and report */
-void run_experiment(int mode);
+/* Read fuzz.inp or fuzz.toml with a mode of contact.h, under limits that keep a case within milliseconds, and judge message and
+ * report. Returns the status of the call. */
+int run_experiment(int mode);
 
 #endif
