@@ -1,8 +1,8 @@
 """Rolling and sliding contact with friction, by the CONTACT library.
 
 :class:`Problem` is two bodies in contact, :class:`WheelRail` a wheel on a rail; :mod:`contact.cntc` has the
-routines of the library one by one. :func:`read`, :func:`explain` and :func:`convert` are for experiments in files. The library is
-loaded when it is first needed.
+routines of the library one by one. :func:`read`, :func:`explain` and :func:`convert` are for experiments in files, :func:`load`
+for their results. The library is loaded when it is first needed.
 """
 from typing import TYPE_CHECKING, Any
 
@@ -13,16 +13,19 @@ if TYPE_CHECKING:
     from . import cntc
     from ._element import Patch, Stresses, output_to
     from ._experiment import convert, explain, read
+    from ._load import Case, Experiment, StoredPatch, load
     from .problem import Problem, Result
     from .wheel_rail import Forces, WheelRail, WheelRailPatch, WheelRailResult, Wrench
 
-__all__ = ["ContactError", "ContactWarning", "Forces", "NotConvergedWarning", "Patch", "Problem", "Result", "Stresses",
-           "WheelRail", "WheelRailPatch", "WheelRailResult", "Wrench", "cntc", "convert", "explain", "output_to", "read"]
+__all__ = ["Case", "ContactError", "ContactWarning", "Experiment", "Forces", "NotConvergedWarning", "Patch", "Problem", "Result",
+           "StoredPatch", "Stresses", "WheelRail", "WheelRailPatch", "WheelRailResult", "Wrench", "cntc", "convert", "explain",
+           "load", "output_to", "read"]
 
 _HOMES = {"Patch": "_element", "Stresses": "_element", "output_to": "_element", "Problem": "problem",
           "Result": "problem", "WheelRail": "wheel_rail", "WheelRailPatch": "wheel_rail",
           "WheelRailResult": "wheel_rail", "Forces": "wheel_rail", "Wrench": "wheel_rail",
-          "convert": "_experiment", "explain": "_experiment", "read": "_experiment"}
+          "convert": "_experiment", "explain": "_experiment", "read": "_experiment",
+          "Case": "_load", "Experiment": "_load", "StoredPatch": "_load", "load": "_load"}
 
 
 def __getattr__(name: str) -> Any:

@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import cntc
 from ._library import case_status, last_error
+from ._view import View, meaning_of, optional, stress_meaning
 from .cntc import CNTC
 from .errors import ContactError, ContactWarning, NotConvergedWarning
 
@@ -94,9 +95,11 @@ def fail_if(condition: bool, code: int, what: str, ire: int = 0, icp: int = -1) 
         raise ContactError(f"{what}: {last_error(ire, icp)[1] or cntc.meaning(code)}", code)
 
 
-@dataclass(frozen=True)
-class Patch:
+@dataclass(frozen=True, eq=False, repr=False)
+class Patch(View):
     """Results of one contact patch. Units as chosen for the problem; fields have shape (my, mx).
+
+    ``print`` shows the totals, :meth:`plot` draws a field, :meth:`to_xarray` gives all as a data set.
 
     Attributes
     ----------
@@ -130,6 +133,8 @@ class Patch:
     border
         Where contact is cut off: "x low", "x high", "y low", "y high" for sides of the grid, and ends of profiles.
         Not empty means that pressures and forces are wrong: the grid is too small, or the profile too short.
+    units, motion
+        As of the problem: ``"mm"``, ``"si"`` or ``"simpack"``; ``"steady"``, ``"transient"``, ``"shift"`` or ``"frictionless"``.
     """
 
     x: Field
@@ -160,6 +165,31 @@ class Patch:
     friction: Field
     temperatures: Field | None
     border: tuple[str, ...]
+    units: str
+    motion: str
+
+    def fields(self) -> dict[str, Any]:
+        """Element fields of shape (my, mx) by names in files: ``eldiv`` is the state, ``h`` the distance, ``mu`` the friction."""
+        found = {"eldiv": self.state, "h": self.distance, "mu": self.friction, "pn": self.pn, "un": self.un}
+        if self.motion != "frictionless":
+            found.update(px=self.px, py=self.py, ux=self.ux, uy=self.uy, sx=self.sx, sy=self.sy)
+        if self.temperatures is not None:
+            found.update(temp1=self.temperatures[0], temp2=self.temperatures[1])
+        return found
+
+    def totals(self) -> dict[str, float]:
+        """Totals by names in files: ``pen`` is the approach, ``pmax`` the largest pressure; shifts are ``shift_x``, ``shift_y``."""
+        found = {"fn": self.fn, "fx": self.fx, "fy": self.fy, "mz": self.mz, "pen": self.approach, "pmax": self.max_pressure}
+        motion = {"shift": ("shift_x", "shift_y", "rotation"), "frictionless": ()}.get(self.motion, ("cksi", "ceta", "cphi"))
+        found.update(zip(motion, (self.cksi, self.ceta, self.cphi)))
+        found["contact_area"] = self.contact_area
+        counts = {"ncon": self.state > 0, "nadh": self.state == 1, "nslip": self.state == 2, "nplast": self.state == 3}
+        found.update({name: int(np.count_nonzero(where)) for name, where in counts.items() if name != "nplast" or where.any()})
+        return found
+
+    def meaning(self, name: str) -> tuple[str, str]:
+        """Unit and description of a field or a total by its name in files."""
+        return meaning_of(name, self.units, self.motion == "shift")
 
     @property
     def elements_across(self) -> int:
@@ -179,8 +209,8 @@ class Patch:
         return float(np.hypot(self.px, self.py).max(initial=0.0))
 
 
-def read_patch(ire: int, icp: int) -> Patch:
-    """All results of a patch, copied from the library"""
+def read_patch(ire: int, icp: int, units: str = "mm", motion: str = "steady") -> Patch:
+    """All results of a patch, copied from the library; units and motion as of the problem"""
     mx, my, x, y, dx, dy = cntc.getpotcontact(ire, icp)
     fn, fx, fy, mz = cntc.getcontactforces(ire, icp)
     areas = cntc.getcontactpatchareas(ire, icp)
@@ -195,7 +225,7 @@ def read_patch(ire: int, icp: int) -> Patch:
                  cntc.getpenetration(ire, icp), *cntc.getcreepages(ire, icp), *areas[:3],
                  cntc.getelementdivision(ire, icp), pn, px, py, un, ux, uy, sx, sy,
                  cntc.getfielddata(ire, icp, CNTC["fld_h"]), cntc.getfielddata(ire, icp, CNTC["fld_mu"]), temperatures,
-                 tuple(name for bit, name in enumerate(_SIDES) if border >> bit & 1))
+                 tuple(name for bit, name in enumerate(_SIDES) if border >> bit & 1), units, motion)
 
 
 def buried_ends(ire: int) -> tuple[str, ...]:
@@ -218,7 +248,7 @@ def warn_of_few_elements(patch: Patch, what: str) -> None:
                       "smaller elements", ContactWarning, stacklevel=3)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class Stresses:
     """Displacements and stresses in a block of points; arrays have shape (nz, ny, nx).
 
@@ -234,6 +264,8 @@ class Stresses:
         Principal stresses, shape (3, nz, ny, nx) [F/L2].
     tensor
         Stress tensor, shape (3, 3, nz, ny, nx) [F/L2].
+    units
+        As of the problem.
     """
 
     x: Field
@@ -247,17 +279,89 @@ class Stresses:
     tresca: Field
     principal: Field
     tensor: Field
+    units: str = "mm"
+
+    def __repr__(self) -> str:
+        nz, ny, nx = self.von_mises.shape
+        k, j, i = np.unravel_index(int(np.nanargmax(self.von_mises)), self.von_mises.shape)
+        return (f"<Stresses: {nx} x {ny} x {nz} points, largest von Mises stress {self.von_mises[k, j, i]:.5g} at "
+                f"x={self.x[i]:.5g}, y={self.y[j]:.5g}, z={self.z[k]:.5g}>")
+
+    def fields(self) -> dict[str, Field]:
+        """All values of shape (nz, ny, nx) by their names in files: ``sigvm`` for von Mises, ``sigxx``, ``sigma1``, ..."""
+        found = {"ux": self.ux, "uy": self.uy, "uz": self.uz, "sighyd": self.hydrostatic, "sigvm": self.von_mises,
+                 "sigtr": self.tresca, **{f"sigma{k + 1}": self.principal[k] for k in range(3)}}
+        found.update({f"sig{first}{second}": self.tensor[i, j] for i, first in enumerate("xyz")
+                      for j, second in enumerate("xyz") if i <= j})
+        return found
+
+    def to_xarray(self) -> Any:
+        """All values over x, y and z as an ``xarray.Dataset`` with units and descriptions; ImportError where xarray is absent."""
+        xarray = optional("xarray", "to_xarray")
+        length, stress = meaning_of("pen", self.units)[0], meaning_of("pn", self.units)[0]
+        values = {name: (("z", "y", "x"), field, {"long_name": stress_meaning(name), "units": length if name[0] == "u" else stress})
+                  for name, field in self.fields().items()}
+        depth = {"z": "depth", "x": "longitudinal place", "y": "lateral place"}
+        return xarray.Dataset(values, {name: (name, getattr(self, name), {"long_name": text, "units": length})
+                                       for name, text in depth.items()})
+
+    def plot(self, field: str = "sigvm", y: float | None = None, ax: Any = None, **options: Any) -> Any:
+        """Draw a field in the plane of one y, with matplotlib; a block with one x gives a curve over the depth.
+
+        Parameters
+        ----------
+        field
+            Name in files: ``"sigvm"``, ``"sigxx"``, ``"ux"``, ...
+        y
+            The plane of points nearest to this y [L]; default: that of the largest von Mises stress.
+        ax
+            Axes to draw into; new ones by default.
+        options
+            For matplotlib's ``pcolormesh``, or for ``plot``.
+
+        Returns
+        -------
+        The axes; depth points downwards.
+
+        Raises
+        ------
+        ImportError
+            If matplotlib is not installed.
+        ValueError
+            If there is no such field.
+        """
+        fields = self.fields()
+        if field not in fields:
+            raise ValueError(f"there is no field {field!r}; there are {', '.join(fields)}")
+        pyplot = optional("matplotlib.pyplot", "plot")
+        if ax is None:
+            ax = pyplot.subplots()[1]
+        row = int(np.abs(self.y - y).argmin()) if y is not None else int(np.nanmax(self.von_mises, axis=(0, 2)).argmax())
+        length = meaning_of("pen", self.units)[0]
+        unit = length if field[0] == "u" else meaning_of("pn", self.units)[0]
+        label = f"{stress_meaning(field)} [{unit}]"
+        if len(self.x) == 1 or len(self.z) == 1:
+            over_depth = len(self.x) == 1
+            ax.plot(self.z if over_depth else self.x, fields[field][:, row, :].reshape(-1), **options)
+            ax.set(xlabel=f"{'z' if over_depth else 'x'} [{length}]", ylabel=label)
+            return ax
+        options.setdefault("shading", "nearest")
+        ax.figure.colorbar(ax.pcolormesh(self.x, self.z, fields[field][:, row, :], **options), ax=ax, label=label)
+        ax.set(xlabel=f"x [{length}]", ylabel=f"z [{length}]", aspect="equal", title=f"y = {self.y[row]:.4g} {length}")
+        if not ax.yaxis_inverted():
+            ax.invert_yaxis()
+        return ax
 
 
-def read_stresses(ire: int, icp: int, block: int) -> Stresses:
-    """Results of a block, copied from the library"""
+def read_stresses(ire: int, icp: int, block: int, units: str = "mm") -> Stresses:
+    """Results of a block, copied from the library; units as of the problem"""
     nx, ny, nz = cntc.subs_getblocksize(ire, icp, block)
     fail_if(min(nx, ny, nz) < 0, CNTC["err_other"], f"There are no stresses of block {block}")
     values = cntc.subs_getresults(ire, icp, block, range(1, 22)).reshape(21, nz, ny, nx)
     # The tensor comes by columns: xx, yx, zx, xy, ...
     tensor = values[12:21].reshape(3, 3, nz, ny, nx).swapaxes(0, 1)
     x, y, z, ux, uy, uz, hydrostatic, von_mises, tresca = values[:9]
-    return Stresses(x[0, 0, :], y[0, :, 0], z[:, 0, 0], ux, uy, uz, hydrostatic, von_mises, tresca, values[9:12], tensor)
+    return Stresses(x[0, 0, :], y[0, :, 0], z[:, 0, 0], ux, uy, uz, hydrostatic, von_mises, tresca, values[9:12], tensor, units)
 
 
 class Element:

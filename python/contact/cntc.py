@@ -131,11 +131,14 @@ def getmaxnumthreads() -> int:
 
 def finalize(ire: Number = 1) -> None:
     """Free a result element; after the last one the run ends and files are closed."""
+    for key in [key for key in _elastic if key[0] == _element(ire)]:
+        del _elastic[key]
     call("cntc_finalize", _element(ire))
 
 
 def finalizelast() -> None:
     """Free all result elements and end the run."""
+    _elastic.clear()
     call("cntc_finalizelast")
 
 
@@ -192,16 +195,54 @@ def setsolverflags(ire: Number, icp: Number, imeth: int, iparam: ArrayLike | Non
     call("cntc_setsolverflags", _element(ire), _problem(icp), imeth, ints.size, ints, reals.size, reals)
 
 
+# Elastic constants that were set last, for setinterfaciallayer
+_elastic: dict[tuple[int, int], list[float]] = {}
+
+
 def setmaterialparameters(ire: Number, icp: Number, m_digit: Number, rparam: ArrayLike) -> None:
     """Material by the M digit (default 0): nu1, nu2 [-], G1, G2 [F/L2] and what the digit asks for; 10, 11,
     12 for damping."""
     reals = _reals(rparam)
+    if _number(m_digit, 0) < 10 and reals.size >= 4:
+        _elastic[_element(ire), _problem(icp)] = reals[:4].tolist()
     call("cntc_setmaterialparameters", _element(ire), _problem(icp), _number(m_digit, 0), reals.size, reals)
 
 
 def setmaterialproperties(ire: Number, icp: Number, g1: float, nu1: float, g2: float, nu2: float) -> None:
     """Elastic bodies: moduli of rigidity [F/L2] and Poisson ratios [-]."""
     setmaterialparameters(ire, icp, 0, [nu1, nu2, g1, g2])
+
+
+def setinterfaciallayer(ire: Number, icp: Number, imeth: int, params: ArrayLike | None = None,
+                        more: ArrayLike | None = None) -> None:
+    """Layer between the bodies, by an older name; setmaterialparameters does the same. The elastic constants are those that
+    were set before.
+
+    Parameters
+    ----------
+    imeth
+        0 none, 2 and 3 Fastsim with one flexibility and with three, 4 a layer that may yield.
+    params
+        For 2 flx [L3/F], k0_mf, alfamf, betamf [-]; for 3 the last three of these; for 4 G3 [F/L2], laythk [L], tau_c0
+        [F/L2], k_tau [F/L3].
+    more
+        The values, where their number stands before them.
+
+    Raises
+    ------
+    ValueError
+        If the number of values is wrong, or the elastic constants were not set.
+    """
+    reals = _reals(params if more is None else more)
+    count = {0: 0, 2: 4, 3: 3, 4: 4}.get(imeth)
+    if count is None or reals.size != count:
+        raise ValueError(f"an interfacial layer {imeth} with {reals.size} values; known are 0 with none, 2 with 4, 3 with 3, "
+                         "4 with 4")
+    elastic = _elastic.get((_element(ire), _problem(icp)))
+    if elastic is None:
+        raise ValueError("an interfacial layer needs the elastic constants first, by setmaterialproperties or "
+                         "setmaterialparameters")
+    setmaterialparameters(ire, icp, imeth, [*elastic, *reals])
 
 
 def settemperaturedata(ire: Number, icp: Number, imeth: int, params: ArrayLike | None = None) -> None:

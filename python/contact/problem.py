@@ -11,7 +11,7 @@ from . import cntc
 from ._element import Element, Field, Patch, Stresses, fail_if, read_patch, read_stresses, warn_of_border, warn_of_few_elements
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class Result(Patch):
     """Results of a problem of basic contact: those of :class:`Patch` and
 
@@ -21,12 +21,20 @@ class Result(Patch):
         Number of elements in contact in the first and last rows and columns. Not zero means that the grid
         may be too small.
     status, reason
-        ``"solved"`` and an empty text: what did not converge raises an error.
+        How the case ended: ``"solved"``, or ``"not converged"`` and what was missed, of which a
+        :class:`NotConvergedWarning` tells as well.
     """
 
     border_elements: int
     status: str = "solved"
     reason: str = ""
+
+    def _title(self) -> str:
+        return f"Result, {self.status}" + (f": {self.reason}" if self.reason else "")
+
+    def totals(self) -> dict[str, float]:
+        """Totals by their names in files, with ``border_elements``."""
+        return {**super().totals(), "border_elements": self.border_elements}
 
 
 class Problem(Element):
@@ -167,7 +175,7 @@ class Problem(Element):
             If there is no solution; with the code and the text of the library.
         """
         border = self._calculate(initiation)
-        patch = read_patch(self.number, 1)
+        patch = read_patch(self.number, 1, self.units, self.motion)
         warn_of_border(patch, "contact")
         warn_of_few_elements(patch, "contact")
         return Result(**patch.__dict__, border_elements=border, status=self._status, reason=self._reason)
@@ -176,4 +184,4 @@ class Problem(Element):
         """Stresses in the points of :meth:`add_block`, below the tractions of the last solution."""
         fail_if(block < 1, -99, f"There is no block {block}")
         self._calculate_stresses()
-        return read_stresses(self.number, 1, block)
+        return read_stresses(self.number, 1, block, self.units)

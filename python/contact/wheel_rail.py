@@ -5,6 +5,7 @@ import os
 import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -12,6 +13,7 @@ from numpy.typing import ArrayLike
 from . import cntc
 from ._element import (Element, Field, Patch, Stresses, buried_ends, fail_if, read_patch, read_stresses, warn_of_border,
                        warn_of_few_elements)
+from ._view import CONVENTIONS, meaning_of, optional, plot_patches, tree
 from .errors import ContactWarning
 
 # Values of the flag own_angle
@@ -45,7 +47,7 @@ class Forces:
     wheel: Wrench
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class WheelRailPatch(Patch):
     """Results of one patch: those of :class:`Patch` and
 
@@ -66,8 +68,12 @@ class WheelRailPatch(Patch):
     location: Field
     velocity: float
 
+    def totals(self) -> dict[str, float]:
+        """Totals by their names in files, with the place of the patch in track coordinates."""
+        return {**super().totals(), **dict(zip(("xcp_tr", "ycp_tr", "zcp_tr"), self.position.tolist())), "deltcp_tr": self.angle}
 
-@dataclass(frozen=True)
+
+@dataclass(frozen=True, eq=False, repr=False)
 class WheelRailResult:
     """Results of a wheel on a rail.
 
@@ -88,6 +94,10 @@ class WheelRailResult:
         Where wheel and rail overlap and no patch is: ``"inner"`` or ``"outer"`` for ends of the wheel's profile that stand within
         the rail, ``"beside"`` for another place along the track. Contact there carries no load in this result, and a
         :class:`ContactWarning` tells of it.
+    border_elements
+        Elements in contact in the first and last rows and columns of the grids, of all patches together.
+    units
+        As of the problem.
     """
 
     patches: tuple[WheelRailPatch, ...]
@@ -97,6 +107,56 @@ class WheelRailResult:
     status: str = "solved"
     reason: str = ""
     buried: tuple[str, ...] = ()
+    border_elements: int = 0
+    units: str = "mm"
+
+    def totals(self) -> dict[str, float]:
+        """Total forces and the position of the wheelset by their names in files, see doc/user/results.md."""
+        names = [f"f{axis}_tr" for axis in "xyz"] + [f"f{axis}_ws" for axis in "xyz"]
+        found = dict(zip(names, [*self.forces.track.force.tolist(), *self.forces.wheelset.force.tolist()]))
+        found.update(zip(("s_ws", "y_ws", "z_ws", "roll_ws", "yaw_ws"), self.wheelset_position.tolist()))
+        return {**found, "vpitch_ws": float(self.wheelset_velocity[5])}
+
+    def _title(self) -> str:
+        count = len(self.patches)
+        return (f"WheelRailResult, {self.status}" + (f": {self.reason}" if self.reason else "")
+                + f", {count} contact patch{'' if count == 1 else 'es'}")
+
+    def __repr__(self) -> str:
+        force = ", ".join(f"f{axis}={value:.5g}" for axis, value in zip("xyz", self.forces.track.force))
+        return f"<{self._title()}: {force}, z={self.wheelset_position[2]:.5g}>"
+
+    def __str__(self) -> str:
+        lines = [self._title()]
+        for name, value in self.totals().items():
+            unit, text = meaning_of(name, self.units)
+            lines.append(f"  {name:16s}{value:12.5g} {unit:8s} {text}")
+        return "\n".join(lines + [f"  {number}: {patch!r}" for number, patch in enumerate(self.patches, 1)])
+
+    def plot(self, field: str = "pn", **options: Any) -> Any:
+        """Draw a field of all patches side by side, with matplotlib; see :meth:`Patch.plot`.
+
+        Returns
+        -------
+        An array of axes, one for each patch.
+        """
+        return plot_patches(self.patches, field, options)
+
+    def to_xarray(self) -> Any:
+        """Total forces and, below them, the patches as an ``xarray.DataTree`` with ``/patch_1``, ...
+
+        Raises
+        ------
+        ImportError
+            If xarray is not installed, or older than 2024.10.
+        """
+        xarray = optional("xarray", "to_xarray")
+        values = {}
+        for name, value in self.totals().items():
+            unit, text = meaning_of(name, self.units)
+            values[name] = ((), value, {"long_name": text, "units": unit})
+        return tree(xarray.Dataset(values, attrs={"Conventions": CONVENTIONS, "title": self._title()}),
+                    [patch.to_xarray() for patch in self.patches])
 
 
 class WheelRail(Element):
@@ -233,7 +293,7 @@ class WheelRail(Element):
         ContactError
             If there is no solution; with the code and the text of the library.
         """
-        self._calculate(initiation)
+        border = self._calculate(initiation)
         number = self.number
         patches = tuple(self._patch(icp) for icp in range(1, cntc.getnumcontactpatches(number) + 1))
         for icp, patch in enumerate(patches, 1):
@@ -248,16 +308,17 @@ class WheelRail(Element):
             warnings.warn(f"{where}: wheel and rail overlap where no contact patch is, and carry no load there", ContactWarning,
                           stacklevel=2)
         return WheelRailResult(patches, forces, cntc.getwheelsetposition(number), cntc.getwheelsetvelocity(number),
-                               self._status, self._reason, buried)
+                               self._status, self._reason, buried, border, self.units)
 
     def _patch(self, icp: int) -> WheelRailPatch:
         """Results of one patch, copied"""
         location = cntc.getcontactlocation(self.number, icp)
-        return WheelRailPatch(**read_patch(self.number, icp).__dict__, position=location[:3], angle=location[3],
+        patch = read_patch(self.number, icp, self.units, self.motion)
+        return WheelRailPatch(**patch.__dict__, position=location[:3], angle=location[3],
                               location=location, velocity=cntc.getreferencevelocity(self.number, icp))
 
     def stresses(self, block: int = 1) -> tuple[Stresses, ...]:
         """Stresses in the points of :meth:`add_block`, one entry per contact patch."""
         self._calculate_stresses()
         count = cntc.getnumcontactpatches(self.number)
-        return tuple(read_stresses(self.number, icp, block) for icp in range(1, count + 1))
+        return tuple(read_stresses(self.number, icp, block, self.units) for icp in range(1, count + 1))

@@ -99,6 +99,21 @@ def element_fields():
     return [Constant("CNTC_fld_" + name, code, "; ".join(texts)) for code, (name, texts) in sorted(fields.items())]
 
 
+def quantities():
+    """Unit and meaning of element fields and of totals, from the lists of them in the sources: one pair for each kind of motion"""
+    fields, totals = {}, {}
+    for name in ("src/patch/result.f90", "src/wheelrail/result.f90"):
+        with open(os.path.join(TOP, name), encoding="utf-8") as file:
+            text = re.sub(r"&\s*\n\s*&?", "", file.read())
+        for field, unit, meaning in re.findall(r'call add\(\d+, "(\w+)", "([^"]*)", "([^"]*)"', text):
+            fields.setdefault(field, []).append((unit, meaning))
+        for total, unit, meaning in re.findall(r'call list%add\("(\w+)", "([^"]*)", "([^"]*)"', text):
+            totals[total] = (unit, meaning)
+        for total, meaning in re.findall(r'call list%count\("(\w+)", "([^"]*)"', text):
+            totals[total] = ("", meaning)
+    return fields, totals
+
+
 def read_table():
     """Sections of the table as (title, list of constants or routines); undocumented routines apart"""
     constants, routines, undocumented = [], [], []
@@ -240,7 +255,7 @@ def version():
 def python_tables(constants, routines, undocumented):
     """Text of _signatures.py: what ctypes has to know"""
     codes = {("int", False): "i", ("int", True): "I", ("real", False): "d", ("real", True): "D", ("text", True): "s"}
-    lines = ['"""Arguments of the routines of the library, and its named numbers.', "", ORIGIN, '"""', "",
+    lines = ['"""Arguments of the routines of the library, its named numbers, and what its results are.', "", ORIGIN, '"""', "",
              f'VERSION = "{version()}"', "",
              "#: Per routine its arguments: name, then > for a result, then i int, I ints, d double, D doubles, s text",
              "SIGNATURES = {"]
@@ -255,6 +270,13 @@ def python_tables(constants, routines, undocumented):
     for title, items in constants:
         lines += [f"    # {title}"]
         lines += [f'    "{item.name[5:]}": {item.value},  # {item.text}' for item in items]
+    fields, totals = quantities()
+    lines += ["}", "", "#: Unit and meaning of element fields: in rolling, and in shifts where these differ",
+              "FIELDS = {"]
+    lines += [f'    "{name}": (' + " ".join(f'("{unit}", "{meaning}"),' for unit, meaning in rows) + "),"
+              for name, rows in sorted(fields.items())]
+    lines += ["}", "", "#: Unit and meaning of totals", "TOTALS = {"]
+    lines += [f'    "{name}": ("{unit}", "{meaning}"),' for name, (unit, meaning) in sorted(totals.items())]
     return lines + ["}"]
 
 

@@ -26,7 +26,8 @@ KNOWING = {"matlab/private/field_values.m": WORDS, "matlab/private/read_mat_file
            "matlab/private/add_bound.m": "makes the traction bound of it",
            "matlab/diffcase.m": "subtracts the fields that it knows",
            "matlab/cntc_getcpresults.m": "hands over what the published function does",
-           "python/contact/cntc.py": "the same in Python"}
+           "python/contact/cntc.py": "the same in Python",
+           "python/contact/_signatures.py": "made by make_interface.py"}
 
 EXAMPLE = pathlib.Path(__file__).resolve().parents[3] / "examples/carter2d.inp"
 

@@ -20,7 +20,8 @@ MOST_FILES, MOST_PLACES = 2, 3
 SIBLING = r"\bborder_elements\b"
 KNOWING = {"src/patch/border.f90": "counts them",
            "src/capi/calculate3.f90": "hands the number to callers as an error code",
-           "python/contact/problem.py": "warns of them"}
+           "python/contact/problem.py": "hands it over", "python/contact/wheel_rail.py": "adds it up",
+           "python/contact/_signatures.py": "made by make_interface.py"}
 
 EXAMPLE = pathlib.Path(__file__).resolve().parents[3] / "examples/carter2d.inp"
 

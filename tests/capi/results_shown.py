@@ -1,0 +1,229 @@
+#!/usr/bin/env python3
+"""Results of the Python package as people look at them: printed, drawn, as data sets of xarray, loaded from three kinds of files.
+
+Usage: results_shown.py PROGRAM
+"""
+import importlib
+import os
+import shutil
+import subprocess
+import sys
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "conformance"))
+from checks import SOURCE, check, close, finish, same
+import contact
+import numpy as np
+from contact import _signatures, cntc
+from contact._view import meaning_of
+
+
+def has(module):
+    """Is an optional module there?"""
+    try:
+        importlib.import_module(module)
+    except ImportError:
+        print(f"{module} is not installed; what needs it is not tried")
+        return False
+    return True
+
+
+def raises(kind, call, word):
+    """Claim that a call raises an error whose text has a word"""
+    try:
+        call()
+    except kind as error:
+        check(word in str(error), f"'{word}' is in '{error}'")
+    else:
+        check(False, f"no {kind.__name__} with '{word}'")
+
+
+def solved(units="mm", motion="steady"):
+    """A ball on a plane, and stresses below it"""
+    metre, newton = (1.0, 1.0) if units == "mm" else (1e-3, 1e6)
+    with contact.Problem(motion=motion, units=units) as problem:
+        problem.set_material(g=82000.0 * newton, nu=0.28)
+        problem.set_friction(0.3)
+        problem.set_hertz(21, 15, aa=5.0 * metre, bb=4.0 * metre)
+        problem.set_normal_force(50e3)
+        if motion != "frictionless":
+            problem.set_creepages(0.001 if motion != "shift" else 0.005 * metre, 0.0005 if motion != "shift" else 0.0)
+        problem.add_block([0.0, metre], [0.0], np.array([1.0, 2.0, 3.0]) * metre)
+        return problem.solve(), problem.stresses()
+
+
+def wheel():
+    """A wheel on a rail"""
+    with contact.WheelRail() as pair:
+        pair.set_material(g=82000.0, nu=0.28)
+        pair.set_friction(0.3)
+        pair.set_grid(dx=0.4, ds=0.4)
+        pair.set_track(gauge_height=14.0, gauge_width=1435.0, cant=0.025)
+        pair.set_wheelset(flange_back=1360.0, flange_back_position=-70.0, radius=460.0)
+        pair.set_rail(os.path.join(SOURCE, "examples/profiles/60E1.prr"))
+        pair.set_wheel(os.path.join(SOURCE, "examples/profiles/S1002.prw"))
+        pair.set_position(y=2.0, yaw=0.0048)
+        pair.set_velocity(2000.0, pitch=-2000.0 / 460.0)
+        pair.set_vertical_force(10e3)
+        return pair.solve()
+
+
+def printed(result, stresses, pair):
+    """A summary, not arrays"""
+    for item in (result, stresses, pair, pair.patches[0]):
+        text = repr(item)
+        check(len(text) < 300 and "array" not in text and "\n" not in text, f"one line: {text}")
+    text = str(result)
+    check("21 x 15 elements" in text and "solved" in text.split("\n")[0], f"the first line of {text}")
+    row = next(line.split() for line in text.split("\n") if line.split()[0] == "fx")
+    close(float(row[1]), result.fx, 1e-4 * result.fn, "the printed force")
+    same(row[2], "N", "and its unit")
+    same(len(str(pair).split("\n")), 1 + len(pair.totals()) + len(pair.patches), "lines of a wheel on a rail")
+    same(pair.border_elements, 0, "elements at the border")
+    close(pair.totals()["fz_tr"], 10e3, 1.0, "vertical force")
+
+
+def told():
+    """Units and descriptions of all names, in the units of the problem"""
+    for name in [*_signatures.FIELDS, *_signatures.TOTALS, "eldiv", "pt"]:
+        check(meaning_of(name)[1] not in ("", name) or name == "rotation", f"{name} has a description")
+    same(meaning_of("pn", "si")[0], "N/m2", "pressure in SI units")
+    same(meaning_of("sx", "si", True)[0], "mm", "slip distances are in mm in all units")
+    check("body 2" in meaning_of("fx", "simpack")[1], "Simpack's sign")
+    shift = solved(motion="shift")[0]
+    check("shift_x" in shift.totals() and "cksi" not in shift.totals(), "a shift is no creepage")
+    same(shift.meaning("sx"), ("mm", "longitudinal slip distance"), "slip of a shift")
+    plain = solved(motion="frictionless")[0]
+    check("px" not in plain.fields() and "pn" in plain.fields(), "fields without friction")
+
+
+def drawn(result, stresses, pair):
+    """Pictures show the values at their places"""
+    raises(ValueError, lambda: result.plot("nothing"), "there are eldiv, h")
+    if not has("matplotlib"):
+        raises(ImportError, result.plot, "pip install matplotlib")
+        return
+    import matplotlib
+    matplotlib.use("Agg")
+    from matplotlib import pyplot
+    axes = result.plot()
+    mesh = axes.collections[0]
+    shown = np.ma.asarray(mesh.get_array()).reshape(15, 21)
+    close(shown.filled(0.0), result.pn, 0.0, "the drawn pressure")
+    same(bool(np.array_equal(shown.mask, result.state == 0)), True, "what is outside is not drawn")
+    close(mesh.get_coordinates()[0, 0], [result.x[0] - result.dx / 2, result.y[0] - result.dy / 2], 1e-12, "the corner")
+    same(axes.get_aspect(), 1.0, "to scale")
+    check("[mm]" in axes.get_xlabel(), "unit of the axis")
+    check(any("N/mm2" in other.get_ylabel() for other in axes.figure.axes), "unit of the colours")
+    for field in ("pt", "eldiv", "h", "sx"):
+        result.plot(field).figure.savefig(f"{field}.png")
+        check(os.path.getsize(f"{field}.png") > 3000, f"a picture of {field}")
+    same(len(pair.plot("pt")), len(pair.patches), "a picture for each patch")
+    axes = stresses.plot("sigzz", shading="nearest")
+    close(np.asarray(axes.collections[0].get_array()).reshape(3, 2), stresses.tensor[2, 2, :, 0, :], 0.0, "drawn stresses")
+    check(axes.yaxis_inverted(), "depth points downwards")
+    pyplot.close("all")
+    # a missing package is told in a sentence
+    hidden = {name: sys.modules.pop(name) for name in list(sys.modules) if name.partition(".")[0] == "matplotlib"}
+    sys.modules["matplotlib"] = None
+    try:
+        raises(ImportError, result.plot, "pip install matplotlib")
+    finally:
+        del sys.modules["matplotlib"]
+        sys.modules.update(hidden)
+
+
+def data_sets(result, stresses, pair):
+    """xarray has the fields with their places, units and flags"""
+    if not has("xarray"):
+        raises(ImportError, result.to_xarray, "pip install xarray")
+        return
+    import xarray
+    data = result.to_xarray()
+    same(dict(data.sizes), {"x": 21, "y": 15}, "sizes")
+    close(data.pn.values, result.pn, 0.0, "pressure")
+    close(float(data.pn.sum() * result.dx * result.dy), result.fn, 1e-6 * result.fn, "its sum")
+    close(float(data.fx), result.fx, 0.0, "a total")
+    same(data.eldiv.attrs["flag_meanings"], "exterior adhesion slip plastic", "states")
+    same(data.eldiv.attrs["flag_values"].tolist(), [0, 1, 2, 3], "their numbers")
+    for name, item in data.variables.items():
+        check("long_name" in item.attrs and ("units" in item.attrs) != ("flag_values" in item.attrs), f"attributes of {name}")
+    below = stresses.to_xarray()
+    close(below.sigxy.values, stresses.tensor[0, 1], 0.0, "shear stress")
+    same(below.sigvm.dims, ("z", "y", "x"), "its dimensions")
+    if hasattr(xarray, "DataTree"):
+        tree = pair.to_xarray()
+        close(float(tree["patch_1/fn"]), pair.patches[0].fn, 0.0, "a patch in the tree")
+        close(float(tree["fz_tr"]), 10e3, 1.0, "total force in the tree")
+
+
+def loaded(program):
+    """The three kinds of files tell the same, up to their figures"""
+    for name in ("cattaneo", "manchester"):
+        with open(os.path.join(SOURCE, "examples", name + ".inp"), encoding="utf-8") as file:
+            text = file.read()
+        with open(name + ".inp", "w", encoding="utf-8") as file:
+            file.write(text)
+        shutil.copytree(os.path.join(SOURCE, "examples/profiles"), "profiles", dirs_exist_ok=True)
+        subprocess.run([program, "--hdf5", "2", name], check=True, stdout=subprocess.DEVNULL)
+        table, matrix = contact.load(name + ".out"), contact.load(name + ".mat")
+        for other in (matrix, table):
+            check("solved" in repr(other), f"the status of {other!r}")
+        same((len(table), table.complete), (2, True), "cases of the .out file")
+        close(table[1].patch.pmax, float(matrix.case(2).patch.pn.max()), 1e-3 * table[1].patch.pmax, ".out and .mat")
+        close(table.case(2).patch.fn, matrix.case(2).patch.fn, 1e-3 * table[1].patch.fn, "forces of .out and .mat")
+        if has("h5py"):
+            whole = contact.load(name + ".h5")
+            same((len(whole), whole.complete), (2, True), "cases of the HDF5 file")
+            for field in ("pn", "px", "un", "h"):
+                inside = whole.case(2).patch.eldiv > 0
+                close(matrix.case(2).patch.fields()[field][inside], whole[1].patch.fields()[field][inside],
+                      1e-5 * abs(whole[1].patch.fields()[field]).max(), f"{field} of both")
+            for total, value in table[0].patch.totals().items():
+                close(whole[0].patch.totals().get(total, value), value, 1e-3 * max(abs(value), 0.05), f"{total} in .out and HDF5")
+            for total, value in table[0].totals.items():
+                close(whole[0].totals[total], value, 1e-3 * max(abs(value), 0.1), f"{total} of the case in .out and HDF5")
+            same(whole[0].patch.state.shape, whole[0].patch.pn.shape, "names of solved patches")
+            close(whole.table()["fn"], [case.patch.fn for case in whole], 0.0, "a column")
+            same(contact.load(name + ".h5")[0].inputs["digits"]["t"], whole[0].inputs["digits"]["t"], "what was asked")
+            if has("xarray"):
+                same(whole.to_xarray().fn.attrs["units"], "N", "columns as a data set")
+    same(matrix[0].patch.number, 1, "the patch of a wheel")
+    raises(AttributeError, lambda: matrix[0].patch.nothing, "it has fn")
+    raises(FileNotFoundError, lambda: contact.load("absent.h5"), "absent")
+    raises(FileNotFoundError, lambda: contact.load("absent.mat"), "absent.0001.mat")
+    raises(contact.ContactError, lambda: contact.load("cattaneo.inp"), "none of")
+    with open("manchester.0001a.mat", encoding="utf-8") as file:
+        text = file.read()
+    for place, piece in (("cut.0001a.mat", text[:2000]), ("no.out", "nothing\n\n"), ("no.h5", "nothing")):
+        with open(place, "w", encoding="utf-8") as file:
+            file.write(piece)
+        raises((contact.ContactError, ImportError), lambda: contact.load(place), "")  # noqa: B023
+    raises(KeyError, lambda: matrix.case(77), "77")
+
+
+def layer():
+    """The older name for layers keeps the elastic constants"""
+    with contact.Problem(motion="shift") as problem:
+        number = problem.number
+        raises(ValueError, lambda: cntc.setinterfaciallayer(number, 1, 4, [8200.0, 0.02, 50.0, 10.0]), "elastic constants first")
+        cntc.setmaterialproperties(number, 1, 82000.0, 0.28, 81000.0, 0.27)
+        for more in ((), (4,)):
+            cntc.setinterfaciallayer(number, 1, 4, *more, [8200.0, 0.02, 50.0, 10.0])
+            same(cntc.getflags(number, 1, cntc.CNTC["ic_mater"]).tolist(), [4], "material with a layer")
+        found = cntc.getparameters(number, 1, 2)
+        same([found[name] for name in ("gg1", "gg2", "poiss1", "poiss2", "gg3", "laythk", "tau_c0", "k_tau")],
+             [82000.0, 81000.0, 0.28, 0.27, 8200.0, 0.02, 50.0, 10.0], "all constants")
+        cntc.setinterfaciallayer(number, 1, 0)
+        same(cntc.getflags(number, 1, cntc.CNTC["ic_mater"]).tolist(), [0], "material without it")
+        raises(ValueError, lambda: cntc.setinterfaciallayer(number, 1, 4, [1.0]), "4 with 4")
+
+
+if __name__ == "__main__":
+    everything = (*solved(), wheel())
+    printed(*everything)
+    told()
+    drawn(*everything)
+    data_sets(*everything)
+    loaded(sys.argv[1])
+    layer()
+    finish()
