@@ -28,6 +28,7 @@ done
 install_missing
 install_octave
 install_python_packages
+install_axe
 install_valgrind
 install_linters
 if [ -n "$sanitize" ]; then

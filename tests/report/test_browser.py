@@ -1,108 +1,13 @@
 #!/usr/bin/env python3
-"""The page in a real browser: no errors, drawn maps, stepping, values under the pointer, pan and zoom.
-
-Skipped (exit status 77) without h5py, Playwright for Python or Debian's chromium.
-The environment tells CONTACT_PROGRAM and CONTACT_SOURCE.
-"""
+"""The page in a real browser: no errors, drawn maps, stepping, values under the pointer, pan and zoom."""
 import os
-import shutil
-import subprocess
-import sys
-import tempfile
 import unittest
 
-BROWSER = shutil.which("chromium") or shutil.which("chromium-browser")
-try:
-    import h5py
-    from playwright.sync_api import sync_playwright
-    if not BROWSER:
-        raise ImportError("there is no chromium")
-except ImportError as reason:
-    print("SKIPPED: %s" % reason)
-    sys.exit(77)
-
-PROGRAM = os.environ["CONTACT_PROGRAM"]
-SOURCE = os.environ["CONTACT_SOURCE"]
-sys.path.insert(0, os.path.join(SOURCE, "python"))
-from contact.report import write_page
-
-# Number of different colours on a canvas: a canvas that was not drawn has one
-COLOURS = """id => { const c = document.getElementById(id), p = c.getContext('2d')
-  .getImageData(0, 0, c.width, c.height).data;
-const seen = new Set(); for (let i = 0; i < p.length; i += 4) seen.add(p[i] * 65536 + p[i + 1] * 256 + p[i + 2]);
-return seen.size; }"""
-# [ms]; how long a step takes on a busy machine says nothing of the page
-PATIENCE = 200_000
-SETTLED = "index => window.contactReport && contactReport.state.ready && contactReport.state.index === index"
-
-MANY = """3
-203100
-022020
-0000001
-999 100 30 1 1e-5
-2000 {creep:.9f} 0 0
-0.3 0.3
-0 0.2 1000
-0.28 0.28 82000 82000
-1
-25 25 -2.5 -2.5 0.2 0.2
-1 1
-0.01 0 0.01 0 0 0
-"""
-NEXT = """3
-203100
-100000
-0110001
-2000 {creep:.9f} 0 0
-"""
+import h5py
+from browser import COLOURS, SETTLED, Page, many_cases
 
 
-class Browser(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.scratch = tempfile.TemporaryDirectory()
-        cls.playwright = sync_playwright().start()
-        cls.browser = cls.playwright.chromium.launch(executable_path=BROWSER, args=["--no-sandbox", "--disable-gpu"],
-                                                     timeout=PATIENCE)
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.browser.close()
-        cls.playwright.stop()
-        cls.scratch.cleanup()
-
-    def page_of(self, name, path=None):
-        folder = self.scratch.name
-        subprocess.run([PROGRAM, "--quiet", "--hdf5", "--output-dir", folder, "2", path or os.path.join(SOURCE, "examples", name)],
-                       check=True, stdin=subprocess.DEVNULL, timeout=300)
-        return "file://" + write_page(os.path.join(folder, name + ".h5"))
-
-    def new_page(self, **options):
-        page = self.browser.new_page(**options)
-        page.set_default_timeout(PATIENCE)
-        self.addCleanup(page.close)
-        return page
-
-    def open(self, address):
-        page = self.new_page(viewport={"width": 1400, "height": 1300})
-        self.processor = page.context.new_cdp_session(page)
-        self.processor.send("Performance.enable", {"timeDomain": "threadTicks"})
-        self.troubles = []
-        # reading the colours of a canvas again and again is what these tests do, not the page
-        page.on("console", lambda message: self.troubles.append(message.text) if message.type in ("error", "warning")
-                and "willReadFrequently" not in message.text else None)
-        page.on("pageerror", lambda error: self.troubles.append(str(error)))
-        page.on("request", lambda request: None if request.url.startswith(("file:", "data:", "blob:"))
-                else self.troubles.append(request.url))
-        page.goto(address)
-        page.wait_for_function(SETTLED, arg=0)
-        return page
-
-    def processor_time(self):
-        """What the last opened page has taken so far [s]"""
-        told = self.processor.send("Performance.getMetrics")["metrics"]
-        return next(item["value"] for item in told if item["name"] == "TaskDuration")
-
+class Browser(Page):
     def test_shift_of_a_ball(self):
         page = self.open(self.page_of("cattaneo"))
         for canvas in ("map-pn", "map-eldiv", "plot-section", "plot-curve"):
@@ -209,9 +114,7 @@ class Browser(unittest.TestCase):
 
     def test_a_thousand_cases(self):
         path = os.path.join(self.scratch.name, "many")
-        with open(path + ".inp", "w") as file:
-            file.writelines((MANY if k == 0 else NEXT).format(creep=-4e-6 * k) for k in range(1000))
-            file.write("0\n")
+        many_cases(path + ".inp", 1000, 25)
         address = self.page_of("many", path)
         page = self.open(address)
         self.assertLess(self.processor_time(), 30.0)
@@ -220,35 +123,6 @@ class Browser(unittest.TestCase):
         page.wait_for_function(SETTLED, arg=999)
         self.assertIn("1000 of 1000", page.inner_text("#where"))
         self.assertEqual(self.troubles, [])
-
-    def test_the_server_in_the_browser(self):
-        import threading
-
-        from contact.report.server import Server
-        folder = os.path.join(self.scratch.name, "served")
-        os.mkdir(folder)
-        shutil.copy(os.path.join(SOURCE, "examples", "cattaneo.inp"), folder)
-        server = Server(folder, 0)
-        threading.Thread(target=server.serve_forever, daemon=True).start()
-        self.addCleanup(server.server_close)
-        self.addCleanup(server.shutdown)
-        page = self.new_page()
-        troubles = []
-        page.on("console", lambda message: troubles.append(message.text) if message.type == "error" else None)
-        page.goto("http://127.0.0.1:%d/" % server.server_port)
-        page.click("tr[data-name=cattaneo] button:has-text('check')")
-        page.wait_for_selector("#state.good")
-        page.click("tr[data-name=cattaneo] button:has-text('run')")
-        page.wait_for_selector("tr[data-name=cattaneo] a")
-        page.wait_for_selector("#state.good")
-        self.assertIn("Case     2", page.inner_text("#messages"))
-        with page.expect_popup() as popup:
-            page.click("tr[data-name=cattaneo] a")
-        result = popup.value
-        result.set_default_timeout(PATIENCE)
-        result.wait_for_function(SETTLED, arg=0)
-        self.assertGreater(result.evaluate(COLOURS, "map-pn"), 20)
-        self.assertEqual([text for text in troubles if "favicon" not in text and "404" not in text], [])
 
 
 if __name__ == "__main__":

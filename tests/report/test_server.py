@@ -60,7 +60,7 @@ class Pages(unittest.TestCase):
             page = file.read()
         self.assertNotRegex(page, r"""(src|href)\s*=|https?://|@[A-Z]+@|\bfetch\(""")
         self.assertIn("default-src 'none'", page)
-        self.assertEqual(len(re.findall("</script>", page)), 3)
+        self.assertEqual(len(re.findall("</script>", page)), 5)
         again = self.report("cattaneo.inp", "-o", "a 'b' $c.html")
         self.assertEqual(again.returncode, 0, again.stderr)
         self.assertTrue(os.path.isfile(os.path.join(self.folder, "a 'b' $c.html")))
@@ -137,10 +137,13 @@ class Serving(unittest.TestCase):
         connection.close()
         return answer.status, text
 
+    def files(self, folder=""):
+        return json.loads(self.ask("GET", "/files?folder=" + folder)[1])["files"]
+
     def messages(self):
         status, text = self.ask("GET", "/messages")
         self.assertEqual(status, 200)
-        return [(kind, json.loads(data)) for kind, data in re.findall(r"event: (\w+)\ndata: (.*)\n", text)]
+        return [(kind, json.loads(data)) for kind, data in re.findall(r"event: (\w+)\ndata: (.*)\n", text) if kind != "progress"]
 
     def test_listens_on_the_loopback_address_only(self):
         self.assertEqual(self.server.server_address[0], "127.0.0.1")
@@ -156,8 +159,9 @@ class Serving(unittest.TestCase):
         self.assertIsNone(self.server.job)
 
     def test_only_inputs_of_the_folder(self):
-        files = json.loads(self.ask("GET", "/files")[1])
-        self.assertEqual([file["name"] for file in files], ["--version", "cattaneo", "wrong"])
+        found = json.loads(self.ask("GET", "/files")[1])
+        self.assertEqual([file["name"] for file in found["files"]], ["--version", "cattaneo", "wrong"])
+        self.assertEqual(found["folders"], ["folder.inp"])
         for name in ("link", "..%2Foutside%2Fsecret", "../outside/secret", "folder", "other", "other.txt", "", "cattaneo.inp",
                      "%00", "cattaneo;id"):
             for path in ("/run", "/check"):
@@ -174,10 +178,13 @@ class Serving(unittest.TestCase):
         self.assertEqual(told[-1], ("end", 0))
         self.assertTrue(any("Case" in str(text) for kind, text in told if kind == "line"))
         self.assertEqual(told, self.messages())
+        state = json.loads(self.ask("GET", "/job")[1])
+        self.assertEqual((state["name"], state["mode"], state["done"], state["status"], state["begun"]),
+                         ("cattaneo", "run", True, 0, 2))
         status, page = self.ask("GET", "/result?name=cattaneo")
         self.assertEqual(status, 200)
         self.assertIn("cattaneo", page)
-        self.assertEqual({file["name"]: file["result"] for file in json.loads(self.ask("GET", "/files")[1])}["cattaneo"], "fresh")
+        self.assertEqual({file["name"]: file["result"] for file in self.files()}["cattaneo"], "fresh")
 
     def test_check_tells_errors_and_names_are_no_options(self):
         self.assertEqual(self.ask("POST", "/check?name=wrong")[0], 200)

@@ -3,6 +3,7 @@
 #   install_missing    installs the compiler, tools and libraries that are not there
 #   install_octave     the same for GNU Octave, which tests of matlab/ need; goes on without it
 #   install_python_packages   the same for numpy, chromium and others, which only tests need; goes on without them
+#   install_axe        the same for axe-core, which judges whether everybody can use the pages; goes on without it
 #   install_valgrind   the same for valgrind, by which tests look for uninitialised values; goes on without it
 #   install_linters    the same for fortitude, ruff, shellcheck and ford, the rules for sources and their pages
 #   install_fuzzer     the same for libFuzzer, which only tests/fuzz/run.sh needs
@@ -173,6 +174,18 @@ quiet_apt() {
   packages=$1
   as_root apt-get update || say "apt-get update failed; trying with the package lists that are there"
   as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends "$packages"
+}
+
+# The version by which the pages were judged
+axe=4.14.1
+install_axe() {
+  grep -q "\"version\": \"$axe\"" "$top/build/axe/node_modules/axe-core/package.json" 2>/dev/null && return 0
+  say "Installing axe-core for the tests"
+  if ! command -v npm >/dev/null 2>&1; then
+    quiet_apt npm || say "npm could not be installed"
+  fi
+  npm install --prefix "$top/build/axe" --ignore-scripts --no-audit --no-fund --silent "axe-core@$axe" ||
+    say "axe-core could not be installed; tests of the pages go on without it"
 }
 
 install_valgrind() {

@@ -22,12 +22,18 @@ def _embedded(value: Any) -> str:
             .replace("<", "\\u003c").replace("\u2028", "\\u2028").replace("\u2029", "\\u2029"))
 
 
-def page_of(path: str) -> str:
-    """The page of an .h5 file"""
-    data, blobs = read_experiment(path)
+#: Scripts of the page, in their order
+SCRIPTS = ("viewer.js",)
+
+
+def page_of(path: str, other: str | None = None) -> str:
+    """The page of an .h5 file, and of another one beside it"""
     page = resource("viewer.html")
+    data, blobs = read_experiment(path)
+    beside = read_experiment(other) if other else (None, [])
     parts = {"@TITLE@": html.escape(data["experiment"]) + " \u2013 CONTACT", "@DATA@": _embedded(data),
-             "@BLOBS@": _embedded(blobs), "@SCRIPT@": resource("viewer.js")}
+             "@BLOBS@": _embedded(blobs), "@DATA-OTHER@": _embedded(beside[0]), "@BLOBS-OTHER@": _embedded(beside[1]),
+             "@SCRIPT@": "\n".join(resource(name) for name in SCRIPTS)}
     pieces = []
     while parts:
         at, mark = min((page.index(mark), mark) for mark in parts)
@@ -36,10 +42,10 @@ def page_of(path: str) -> str:
     return "".join(pieces + [page])
 
 
-def write_page(path: str, target: str | None = None) -> str:
-    """Write the page of an .h5 file; beside it unless told otherwise. Returns its name"""
+def write_page(path: str, target: str | None = None, other: str | None = None) -> str:
+    """Write the page of an .h5 file, and of another one to compare with; beside it unless told otherwise. Returns its name"""
     target = target or os.path.splitext(path)[0] + ".html"
-    text = page_of(path)
+    text = page_of(path, other)
     temporary = target + ".tmp"
     try:
         with open(temporary, "w", encoding="utf-8") as file:

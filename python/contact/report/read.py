@@ -207,6 +207,16 @@ def _run_of(file: Any) -> dict[str, Any] | None:
     return {**found, "reason": _plain(file.attrs.get("reason", b""))}
 
 
+def run_of(path: str) -> dict[str, Any] | None:
+    """How far the run has come that wrote an .h5 file; None where the file does not say it or cannot be read"""
+    try:
+        import h5py
+        with h5py.File(path, "r") as file:
+            return _run_of(file)
+    except Exception:  # what is wrong is told when the results are looked at
+        return None
+
+
 def told_of_run(path: str) -> str:
     """A sentence about results that are not complete; nothing about complete ones"""
     import h5py

@@ -2,7 +2,8 @@
 
 The server listens on the loopback address and refuses requests that carry the name of another host or come from
 a page of another origin, so that no web page elsewhere can use it. It runs one program only, contact, and on
-nothing but the .inp files that lie in the folder; each run is confined to that folder and to the limits of --confine.
+nothing but the inputs that lie in the folder and below it; each run is confined to the folder of its input and to the
+limits of --confine. It writes results, and new inputs from a form, never over a file that is there.
 A request has to be complete after some seconds, and only so many connections are open at a time.
 """
 from __future__ import annotations
@@ -10,12 +11,8 @@ from __future__ import annotations
 import html
 import io
 import json
-import os
 import re
-import shutil
 import signal
-import stat
-import subprocess
 import sys
 import threading
 import time
@@ -23,6 +20,9 @@ import urllib.parse
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from typing import Any
 
+from .folder import Folder
+from .forms import Refused, form_of, new_input
+from .job import Job, program_path
 from .page import page_of, resource
 from .read import MissingResults
 
@@ -34,101 +34,8 @@ PATIENCE = 10.0
 REQUEST_TIME, ANSWER_TIME = 10.0, 60.0
 # Connections at a time, and pages that are made from results at a time
 MOST_CONNECTIONS, MOST_PAGES = 64, 2
-# Longest body of a request [bytes], and messages of a run that are kept
-MOST_BYTES, MOST_MESSAGES = 65536, 20000
-# How long a run that is to end may take for the case in hand [s]
-LAST_CASE = 2.0
-
-
-def program_path() -> str:
-    """The program: named by CONTACT_PROGRAM, or on the search path"""
-    named = os.environ.get("CONTACT_PROGRAM")
-    found = shutil.which(named or "contact")
-    if not found:
-        raise MissingResults("the program contact is not found; name it by the environment variable CONTACT_PROGRAM")
-    return os.path.abspath(found)
-
-
-class Folder:
-    """The .inp files of one folder"""
-
-    def __init__(self, path: str) -> None:
-        if not os.path.isdir(path):
-            raise MissingResults("%s is no folder" % path)
-        self.path = os.path.realpath(path)
-
-    def names(self) -> list[str]:
-        """Names of experiments: ordinary files of this folder, no links that lead out of it"""
-        found = []
-        for entry in os.scandir(self.path):
-            if not entry.name.endswith(".inp") or len(entry.name) == 4 or not entry.is_file():
-                continue
-            if os.path.dirname(os.path.realpath(entry.path)) == self.path:
-                found.append(entry.name[:-4])
-        return sorted(found)
-
-    def result(self, name: str) -> tuple[str, float | None]:
-        """The .h5 file of an experiment and when it was changed; None unless it is an ordinary file, and no link to one"""
-        path = os.path.join(self.path, name + ".h5")
-        try:
-            status = os.lstat(path)
-        except OSError:
-            return path, None
-        return path, status.st_mtime if stat.S_ISREG(status.st_mode) else None
-
-    def list(self) -> list[dict[str, Any]]:
-        files = []
-        for name in self.names():
-            status = os.stat(os.path.join(self.path, name + ".inp"))
-            changed = self.result(name)[1]
-            files.append({"name": name, "size": status.st_size, "changed": status.st_mtime,
-                          "result": "none" if changed is None else "fresh" if changed >= status.st_mtime else "old"})
-        return files
-
-
-class Job:
-    """One run of the program; its messages are kept, so that every listener gets all of them"""
-
-    def __init__(self, folder: Folder, name: str, mode: str) -> None:
-        self.name, self.mode = name, mode
-        self.messages: list[tuple[str, Any]] = []
-        self.done = False
-        self.news = threading.Condition()
-        # the name comes from the list of the folder; after -- it cannot be an option
-        command = [program_path(), "--confine", *(["--hdf5"] if mode == "run" else []), "--", "2" if mode == "run" else "3",
-                   os.path.join(folder.path, name)]
-        self.process = subprocess.Popen(command, cwd=folder.path, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                                        stderr=subprocess.STDOUT, start_new_session=True)
-        threading.Thread(target=self._listen, daemon=True).start()
-
-    def _tell(self, kind: str, value: Any) -> None:
-        with self.news:
-            self.messages.append((kind, value))
-            self.done = kind == "end"
-            self.news.notify_all()
-
-    def _listen(self) -> None:
-        assert self.process.stdout is not None
-        with self.process.stdout as lines:
-            for number, line in enumerate(lines):
-                if number < MOST_MESSAGES:
-                    self._tell("line", line[:1000].decode("utf-8", "replace").rstrip("\r\n"))
-                elif number == MOST_MESSAGES:
-                    self._tell("line", "There are more messages; the .out file has them.")
-        self._tell("end", self.process.wait())
-
-    def stop(self) -> None:
-        """The first time the run ends after the case in hand, the second time at once"""
-        if not self.done:
-            self.process.terminate()
-
-    def end(self) -> None:
-        """End the run, with its files closed if the case in hand is short"""
-        self.stop()
-        try:
-            self.process.wait(LAST_CASE)
-        except subprocess.TimeoutExpired:
-            self.process.kill()
+# Longest body of a request [bytes]
+MOST_BYTES = 65536
 
 
 class _InTime(io.RawIOBase):
@@ -198,7 +105,7 @@ class Handler(BaseHTTPRequestHandler):
 
     def _experiment(self, query: dict[str, list[str]]) -> str | None:
         name = query.get("name", [""])[0]
-        return name if name in self.server.folder.names() else None
+        return name if self.server.folder.input(name) else None
 
     def _safely(self, work: Any) -> None:
         """Answer a request; what goes wrong is an answer too"""
@@ -230,36 +137,61 @@ class Handler(BaseHTTPRequestHandler):
         if int(lengths[0]) > MOST_BYTES:
             self.close_connection = True
             return self._answer(413, "the request is too long")
-        self.rfile.read(int(lengths[0]))
-        return self._safely(self._do)
+        body = self.rfile.read(int(lengths[0]))
+        return self._safely(lambda path, query: self._do(path, query, body))
 
     def _show(self, path: str, query: dict[str, list[str]]) -> None:
         if path == "/":
             page = resource("start.html").replace("@FOLDER@", html.escape(self.server.folder.path))
-            return self._answer(200, page, "text/html")
-        if path == "/files":
-            return self._answer(200, json.dumps(self.server.folder.list()), "application/json")
+            return self._answer(200, page.replace("@SCRIPT@", resource("start.js")), "text/html")
+        if path in ("/files", "/form"):
+            folder = query.get("folder", [""])[0]
+            if self.server.folder.place(folder) is None:
+                return self._answer(404, "there is no such folder")
+            return self._answer(200, json.dumps(self._files(folder) if path == "/files" else form_of(self.server.folder, folder)),
+                                "application/json")
+        if path == "/job":
+            return self._answer(200, json.dumps(self.server.job.state() if self.server.job else None), "application/json")
         if path == "/messages":
             return self._stream()
-        if path == "/result":
+        if path in ("/input", "/result"):
             name = self._experiment(query)
             if name is None:
                 return self._answer(404, "there is no such experiment in this folder")
-            result, changed = self.server.folder.result(name)
-            if changed is None:
-                return self._answer(404, "there is no result of %s yet" % name)
-            try:
-                with self.server.pages:
-                    page = page_of(result)
-                return self._answer(200, page, "text/html")
-            except MissingResults as reason:
-                return self._answer(404, str(reason))
+            if path == "/result":
+                return self._result(name, query.get("with", [""])[0])
+            text = self.server.folder.text(name, query.get("format", ["inp"])[0])
+            return self._answer(404, "there is no input of this format") if text is None else self._answer(200, text)
         return self._answer(404, "there is no such page")
 
-    def _do(self, path: str, query: dict[str, list[str]]) -> None:
+    def _files(self, folder: str) -> dict[str, Any]:
+        """What the start page shows of a folder"""
+        return {"folder": folder, "folders": self.server.folder.folders(folder), "files": self.server.folder.list(folder)}
+
+    def _result(self, name: str, other: str) -> None:
+        """The page of a result, or of two of them side by side"""
+        paths = []
+        for one in [name, other] if other else [name]:
+            path, changed = self.server.folder.result(one) if self.server.folder.input(one) else ("", None)
+            if changed is None:
+                return self._answer(404, "there is no result of %s yet" % one)
+            paths.append(path)
+        try:
+            with self.server.pages:
+                page = page_of(*paths)
+            return self._answer(200, page, "text/html")
+        except MissingResults as reason:
+            return self._answer(404, str(reason))
+
+    def _do(self, path: str, query: dict[str, list[str]], body: bytes) -> None:
         if path == "/stop":
             self.server.stop_job()
             return self._answer(200, "stopped")
+        if path == "/new":
+            try:
+                return self._answer(200, json.dumps(new_input(self.server.folder, body)), "application/json")
+            except Refused as reason:
+                return self._answer(422, str(reason))
         if path not in ("/run", "/check"):
             return self._answer(404, "there is no such page")
         name = self._experiment(query)
@@ -272,7 +204,7 @@ class Handler(BaseHTTPRequestHandler):
         return self._answer(200 if started else 409, "started" if started else "another experiment is running; wait or stop it")
 
     def _stream(self) -> None:
-        """Messages of the job as server-sent events, from its first one on"""
+        """Messages of the job as server-sent events, from its first one on, and how far it is"""
         job = self.server.job
         self.send_response(200)
         self.send_header("Content-Type", "text/event-stream")
@@ -280,23 +212,25 @@ class Handler(BaseHTTPRequestHandler):
         self.send_header("Connection", "close")
         self.end_headers()
         self.close_connection = True
-        sent = 0
+        sent, told = 0, None
         try:
             while job is not None:
-                with job.news:
-                    if sent == len(job.messages) and not job.done:
-                        job.news.wait(PATIENCE)
-                    news, done = job.messages[sent:], job.done
-                if not news:
+                news, progress, done = job.follow(sent, PATIENCE)
+                if not news and progress == told:
                     self.wfile.write(b": still at work\n\n")
-                for kind, value in news:
-                    self.wfile.write(("event: %s\ndata: %s\n\n" % (kind, json.dumps(value))).encode("utf-8"))
-                self.wfile.flush()
-                sent += len(news)
+                for kind, value in news[:-1] if done else news:
+                    self._event(kind, value)
+                if progress != told:
+                    self._event("progress", progress)
                 if done:
-                    return
+                    return self._event(*news[-1])
+                self.wfile.flush()
+                sent, told = sent + len(news), progress
         except (ConnectionError, TimeoutError):
             pass
+
+    def _event(self, kind: str, value: Any) -> None:
+        self.wfile.write(("event: %s\ndata: %s\n\n" % (kind, json.dumps(value))).encode("utf-8"))
 
 
 class Server(ThreadingHTTPServer):
@@ -340,7 +274,10 @@ class Server(ThreadingHTTPServer):
         with self._starting:
             if self.job is not None and not self.job.done:
                 return False
-            self.job = Job(self.folder, name, mode)
+            path = self.folder.input(name)
+            if path is None:
+                raise MissingResults("there is no input of %s any more" % name)
+            self.job = Job(name, path, mode)
             return True
 
     def stop_job(self) -> None:

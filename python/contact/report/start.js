@@ -1,0 +1,346 @@
+// The start page of `contact report --serve`: folders, experiments, the run that goes on, the text of an input, a form.
+const byId = id => document.getElementById(id);
+const page = { folder: "", running: false, stream: null, begun: 0, title: "Messages" };
+
+function element(tag, text, name) {
+  const e = document.createElement(tag);
+  if (text !== undefined) e.textContent = text;
+  if (name) e.className = name;
+  return e;
+}
+function button(text, action, label) {
+  const b = element("button", text);
+  b.type = "button";
+  b.onclick = action;
+  if (label) b.setAttribute("aria-label", label);
+  return b;
+}
+const ask = (path, values) => fetch(path + "?" + new URLSearchParams(values));
+
+// ---------------------------------------------------------------- folders and experiments
+
+// What there is of a result, in words; the second value tells whether it is all there should be
+function told(file) {
+  if (file.result === "none") return ["not run yet", true];
+  const run = file.run,
+    age = file.result === "old" ? "result is older than the input" : "result is up to date";
+  if (!run) return [age, true];
+  if (!run.complete)
+    return [
+      `not complete: ${run.cases_finished} of ${run.input_readable ? "" : "at least "}${run.cases_planned} cases` +
+        (file.result === "old" ? "; older than the input" : ""),
+      false,
+    ];
+  const bad = (run.not_converged || 0) + (run.refused || 0);
+  return [
+    age +
+      `, ${run.cases_finished} case${run.cases_finished === 1 ? "" : "s"}` +
+      (bad ? `, ${bad} of them without result or not converged` : ""),
+    !bad,
+  ];
+}
+async function list() {
+  const answer = await ask("/files", { folder: page.folder });
+  if (!answer.ok) {
+    page.folder = "";
+    return answer.status === 404 ? list() : undefined;
+  }
+  const found = await answer.json(),
+    table = byId("files");
+  showWay(found.folders);
+  offerBeside(found.files.filter(file => file.result !== "none"));
+  table.replaceChildren();
+  if (!found.files.length) table.append(element("caption", "There is no input in this folder."));
+  for (const file of found.files) table.append(rowOf(file));
+  return undefined;
+}
+function rowOf(file) {
+  const row = element("tr"),
+    name = element("th", file.name.split("/").pop()),
+    actions = element("td", undefined, "do");
+  const [text, whole] = told(file),
+    about = element("span", new Date(1000 * file.changed).toLocaleString() + " \u00b7 ", "about");
+  row.dataset.name = file.name;
+  name.scope = "row";
+  about.append(element("span", text, whole ? "" : "warn"));
+  name.append(about);
+  for (const form of file.formats)
+    actions.append(
+      button(file.formats.length > 1 ? "." + form : "input", () => showInput(file.name, form), `input ${file.name}.${form}`),
+    );
+  for (const mode of ["check", "run"]) {
+    const b = button(mode, () => begin(mode, file.name), `${mode} ${file.name}`);
+    b.disabled = page.running;
+    actions.append(b);
+  }
+  if (file.result !== "none") {
+    const link = element("a", "look", "button"),
+      other = byId("beside").value;
+    link.href =
+      "/result?" + new URLSearchParams(other && other !== file.name ? { name: file.name, with: other } : { name: file.name });
+    link.target = "_blank";
+    link.rel = "noopener";
+    link.setAttribute("aria-label", `look at ${file.name}`);
+    actions.append(link);
+  }
+  row.append(name, actions);
+  return row;
+}
+function showWay(folders) {
+  const parts = page.folder ? page.folder.split("/") : [],
+    items = [];
+  const enter = (text, folder, label) => {
+    const b = button(text, () => enterFolder(folder), label);
+    b.className = "link";
+    items.push(b);
+  };
+  if (parts.length) enter("top", "", "top folder");
+  parts.forEach((part, k) => {
+    items.push(element("span", "/"));
+    if (k + 1 < parts.length) enter(part, parts.slice(0, k + 1).join("/"));
+    else items.push(element("b", part));
+  });
+  if (parts.length && folders.length) items.push(element("span", "\u00b7"));
+  for (const name of folders) enter(name + "/", [...parts, name].join("/"), `folder ${name}`);
+  byId("way").hidden = !items.length;
+  byId("way").replaceChildren(...items);
+}
+function enterFolder(folder) {
+  if (folder === page.folder) return list();
+  page.folder = folder;
+  history.pushState(null, "", folder ? "#" + encodeURIComponent(folder) : location.pathname);
+  return list();
+}
+function readAddress() {
+  try {
+    page.folder = decodeURIComponent(location.hash.slice(1));
+  } catch {
+    page.folder = "";
+  }
+}
+function offerBeside(files) {
+  const select = byId("beside"),
+    keep = select.value;
+  select.replaceChildren(new Option("none", ""), ...files.map(file => new Option(file.name, file.name)));
+  select.value = files.some(file => file.name === keep) ? keep : "";
+  byId("beside-bar").hidden = true;
+}
+
+// ---------------------------------------------------------------- the run
+
+function tell(text, kind) {
+  byId("state").textContent = text;
+  byId("state").className = "state " + (kind || "");
+}
+function show(what) {
+  for (const id of ["messages", "input", "form"]) byId(id).hidden = id !== what;
+  byId("back").hidden = what === "messages";
+  if (innerWidth <= 900) byId("side").scrollIntoView();
+}
+async function begin(mode, name) {
+  const answer = await fetch(`/${mode}?name=${encodeURIComponent(name)}`, { method: "POST" });
+  show("messages");
+  if (!answer.ok) return tell(await answer.text(), "bad");
+  return follow({ mode, name, done: false, seconds: 0 });
+}
+// Messages of the job from its first one on: of one that begins, and of one that goes on when the page is opened anew
+function follow(job) {
+  if (page.stream) page.stream.close();
+  byId("what").textContent = page.title = `${job.mode === "run" ? "Run" : "Check"} of ${job.name}`;
+  byId("messages").replaceChildren();
+  page.running = !job.done;
+  page.begun = Date.now() - 1000 * job.seconds;
+  byId("stop").disabled = job.done;
+  byId("stop").textContent = job.stopping ? "stop at once" : "stop";
+  tell(job.done ? "" : "at work \u2026");
+  progress(job);
+  const stream = (page.stream = new EventSource("/messages")),
+    box = byId("messages");
+  stream.addEventListener("line", event => {
+    const text = JSON.parse(event.data),
+      end = box.scrollTop + box.clientHeight > box.scrollHeight - 40;
+    box.append(element("span", text + "\n", /ERROR/.test(text) ? "error" : ""));
+    while (box.childElementCount > 20000) box.firstChild.remove();
+    if (end) box.scrollTop = box.scrollHeight;
+  });
+  stream.addEventListener("progress", event => progress(JSON.parse(event.data)));
+  stream.addEventListener("end", event => {
+    stream.close();
+    ended(JSON.parse(event.data));
+  });
+  list();
+}
+function ended(status) {
+  page.running = false;
+  page.stream = null;
+  byId("stop").disabled = true;
+  byId("stop").textContent = "stop";
+  byId("progress").hidden = true;
+  tell(status === 0 ? "finished" : status < 0 || status > 128 ? "stopped" : "finished with errors", status === 0 ? "good" : "bad");
+  list();
+}
+function progress(told) {
+  const bar = byId("progress"),
+    finished = Math.max(0, told.begun - 1);
+  if (!page.running || told.begun === undefined) return;
+  bar.hidden = !told.planned;
+  if (told.planned) {
+    bar.max = told.planned;
+    bar.value = finished;
+  }
+  if (!told.begun) return;
+  const seconds = (Date.now() - page.begun) / 1000,
+    left = told.planned && finished ? (seconds / finished) * (told.planned - finished) : 0;
+  const time = s => (s < 90 ? `${Math.ceil(s)} s` : `${Math.round(s / 60)} min`);
+  tell(
+    `case ${told.begun}${told.planned ? " of " + told.planned : ""}` + (left >= 2 ? `, about ${time(left)} left` : "") + " \u2026",
+  );
+}
+async function resume() {
+  const job = await (await fetch("/job")).json();
+  if (job) follow(job);
+}
+
+// ---------------------------------------------------------------- input
+
+async function showInput(name, form) {
+  const answer = await ask("/input", { name, format: form }),
+    text = await answer.text();
+  byId("input").textContent = text;
+  byId("input").setAttribute("aria-label", `input ${name}.${form}`);
+  byId("what").textContent = `${name}.${form}`;
+  show("input");
+  byId("input").scrollTop = 0;
+}
+
+// ---------------------------------------------------------------- a new experiment
+
+let offer = null;
+async function openForm() {
+  offer = await (await ask("/form", { folder: page.folder })).json();
+  byId("what").textContent = "New experiment" + (page.folder ? ` in ${page.folder}` : "");
+  show("form");
+  drawForm(Object.keys(offer.kinds)[0]);
+}
+function line(label, input, unit) {
+  const l = element("label", label);
+  l.htmlFor = input.id;
+  return [l, input, element("span", unit || "", "unit")];
+}
+function select(id, options) {
+  const s = element("select");
+  s.id = id;
+  s.append(...options.map(([value, text]) => new Option(text, value)));
+  return s;
+}
+function field(id, value) {
+  const input = element("input");
+  input.id = id;
+  input.value = value;
+  input.autocomplete = "off";
+  if (typeof value === "number") input.inputMode = "decimal";
+  return input;
+}
+function drawForm(kind) {
+  const { title, fields, vary } = offer.kinds[kind],
+    rows = [],
+    first =
+      title &&
+      select(
+        "new-kind",
+        Object.entries(offer.kinds).map(([k, v]) => [k, v.title]),
+      );
+  first.value = kind;
+  first.onchange = () => drawForm(first.value);
+  rows.push(
+    ...line("What", first),
+    ...line("Name", field("new-name", "")),
+    ...line(
+      "Format",
+      select(
+        "new-format",
+        offer.formats.map(f => [f, "." + f]),
+      ),
+    ),
+  );
+  for (const [name, label, third, value] of fields) {
+    const profiles = third === "profile",
+      choices = Array.isArray(third) ? third : profiles ? offer.profiles.map(p => [p, p]) : null;
+    const box = choices ? select("new-" + name, choices) : field("new-" + name, value);
+    if (profiles) box.value = offer.profiles.find(p => value.some(end => p.toLowerCase().endsWith(end))) || offer.profiles[0];
+    rows.push(...line(label, box, choices ? "" : third));
+  }
+  const named = Object.keys(vary).map(name => [name, fields.find(f => f[0] === name)[1]]);
+  rows.push(
+    ...line("Varies from case to case", select("new-vary", [["", "nothing, one case"], ...named])),
+    ...line("to", field("new-to", 0)),
+    ...line("in cases", field("new-count", 11)),
+  );
+  const send = element("button", "write the input"),
+    answer = element("p", "", "whole");
+  answer.id = "new-answer";
+  answer.setAttribute("role", "status");
+  answer.style.margin = "0";
+  answer.style.whiteSpace = "pre-wrap";
+  send.type = "submit";
+  send.className = "whole";
+  byId("form").replaceChildren(...rows, send, answer);
+  if (fields.some(f => f[2] === "profile") && !offer.profiles.length)
+    answer.textContent = "There are no profiles in this folder: put them into it, or into one below it.";
+}
+async function sendForm() {
+  const kind = byId("new-kind").value,
+    vary = byId("new-vary").value,
+    values = {},
+    number = id => (byId(id).value.trim() === "" ? NaN : Number(byId(id).value.replace(",", ".")));
+  for (const [name, , third] of offer.kinds[kind].fields)
+    values[name] = typeof third === "string" && third !== "profile" ? number("new-" + name) : byId("new-" + name).value;
+  const body = {
+    kind,
+    folder: page.folder,
+    name: byId("new-name").value.trim(),
+    format: byId("new-format").value,
+    values,
+    vary,
+    to: vary ? number("new-to") : 0,
+    count: vary ? number("new-count") : 1,
+  };
+  const answer = await fetch("/new", { method: "POST", body: JSON.stringify(body) }),
+    box = byId("new-answer");
+  box.className = "whole" + (answer.ok ? "" : " error");
+  if (!answer.ok) {
+    box.textContent = await answer.text();
+    return;
+  }
+  const made = await answer.json();
+  box.textContent = [
+    `${made.name} is written.`,
+    ...made.told
+      .trim()
+      .split("\n")
+      .map(text => text.trim()),
+  ].join("\n");
+  list();
+}
+
+byId("stop").onclick = () => {
+  fetch("/stop", { method: "POST" });
+  byId("stop").textContent = "stop at once";
+};
+byId("back").onclick = () => {
+  byId("what").textContent = page.title;
+  show("messages");
+};
+byId("fresh").onclick = openForm;
+byId("form").onsubmit = event => {
+  event.preventDefault();
+  sendForm();
+};
+byId("beside").onchange = list;
+addEventListener("popstate", () => {
+  readAddress();
+  list();
+});
+readAddress();
+list();
+resume();

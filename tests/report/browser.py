@@ -1,0 +1,136 @@
+"""A headless browser for the tests of the page: skipped (exit status 77) without h5py, Playwright for Python or Debian's chromium.
+
+The environment tells CONTACT_PROGRAM and CONTACT_SOURCE. axe-core is what tests/support/setup.sh installs below build/axe.
+"""
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+BROWSER = shutil.which("chromium") or shutil.which("chromium-browser")
+try:
+    import h5py  # noqa: F401
+    from playwright.sync_api import sync_playwright
+    if not BROWSER:
+        raise ImportError("there is no chromium")
+except ImportError as reason:
+    print("SKIPPED: %s" % reason)
+    sys.exit(77)
+
+PROGRAM = os.environ["CONTACT_PROGRAM"]
+SOURCE = os.environ["CONTACT_SOURCE"]
+EXAMPLES = os.path.join(SOURCE, "examples")
+sys.path.insert(0, os.path.join(SOURCE, "python"))
+from contact.report import write_page
+
+AXE = os.path.join(SOURCE, "build", "axe", "node_modules", "axe-core", "axe.min.js")
+# [ms]; how long a step takes on a busy machine says nothing of the page
+PATIENCE = 200_000
+SETTLED = "index => window.contactReport && contactReport.state.ready && contactReport.state.index === index"
+# Number of different colours on a canvas: a canvas that was not drawn has one
+COLOURS = """id => { const c = document.getElementById(id), p = c.getContext('2d')
+  .getImageData(0, 0, c.width, c.height).data;
+const seen = new Set(); for (let i = 0; i < p.length; i += 4) seen.add(p[i] * 65536 + p[i + 1] * 256 + p[i + 2]);
+return seen.size; }"""
+DESKTOP, PHONE = {"width": 1400, "height": 1300}, {"width": 390, "height": 844}
+
+# Cases of 2 kN that differ in their creepage
+MANY = """3
+203100
+022020
+0000001
+999 100 30 1 1e-5
+2000 {creep:.9f} 0 0
+0.3 0.3
+0 0.2 1000
+0.28 0.28 82000 82000
+1
+{n} {n} -2.5 -2.5 {size} {size}
+1 1
+0.01 0 0.01 0 0 0
+"""
+NEXT = """3
+203100
+100000
+0110001
+2000 {creep:.9f} 0 0
+"""
+
+
+def many_cases(path, count, elements):
+    """Write an input with cases of elements x elements"""
+    with open(path, "w") as file:
+        file.writelines((MANY if k == 0 else NEXT).format(creep=-4e-6 * k, n=elements, size=5.0 / elements) for k in range(count))
+        file.write("0\n")
+
+
+class Page(unittest.TestCase):
+    """A test case with a browser, a folder for results, and pages that tell what goes wrong in them"""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.scratch = tempfile.TemporaryDirectory()
+        cls.playwright = sync_playwright().start()
+        cls.browser = cls.playwright.chromium.launch(executable_path=BROWSER, args=["--no-sandbox", "--disable-gpu"],
+                                                     timeout=PATIENCE)
+        cls.made = {}
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.browser.close()
+        cls.playwright.stop()
+        cls.scratch.cleanup()
+
+    def results_of(self, name, path=None):
+        """The .h5 file of an example, or of an input; made once"""
+        if name not in self.made:
+            subprocess.run([PROGRAM, "--quiet", "--hdf5", "--output-dir", self.scratch.name, "2",
+                            path or os.path.join(EXAMPLES, name)], check=True, stdin=subprocess.DEVNULL, timeout=300)
+            self.made[name] = os.path.join(self.scratch.name, name + ".h5")
+        return self.made[name]
+
+    def page_of(self, name, path=None, other=None):
+        result = self.results_of(name, path)
+        target = "%s%s.html" % (result[:-3], "_" + other if other else "")
+        return "file://" + write_page(result, target, self.results_of(other) if other else None)
+
+    def new_page(self, **options):
+        page = self.browser.new_page(**options)
+        page.set_default_timeout(PATIENCE)
+        self.addCleanup(page.close)
+        return page
+
+    def open(self, address, index=0, **options):
+        """A page of results that has settled; self.troubles collects errors and requests to a network"""
+        page = self.new_page(**{"viewport": DESKTOP, **options})
+        self.processor = page.context.new_cdp_session(page)
+        self.processor.send("Performance.enable", {"timeDomain": "threadTicks"})
+        self.troubles = []
+        # reading the colours of a canvas again and again is what these tests do, not the page
+        page.on("console", lambda message: self.troubles.append(message.text) if message.type in ("error", "warning")
+                and "willReadFrequently" not in message.text else None)
+        page.on("pageerror", lambda error: self.troubles.append(str(error)))
+        page.on("request", lambda request: None if request.url.startswith(("file:", "data:", "blob:"))
+                else self.troubles.append(request.url))
+        page.goto(address)
+        page.wait_for_function(SETTLED, arg=index)
+        return page
+
+    def processor_time(self):
+        """What the last opened page has taken so far [s]"""
+        told = self.processor.send("Performance.getMetrics")["metrics"]
+        return next(item["value"] for item in told if item["name"] == "TaskDuration")
+
+    def assert_accessible(self, page):
+        """axe-core finds nothing; not judged where it is not installed"""
+        if not os.path.isfile(AXE):
+            print("axe-core is missing; what it finds is not judged")
+            return
+        with open(AXE, encoding="utf-8") as file:
+            page.evaluate(file.read() + ";0")
+        found = page.evaluate("async () => (await axe.run()).violations")
+        self.assertEqual([(one["id"], node["html"][:200], re.sub(r"\s+", " ", node["failureSummary"])) for one in found
+                          for node in one["nodes"]], [])

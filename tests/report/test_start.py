@@ -1,0 +1,113 @@
+#!/usr/bin/env python3
+"""The start page of the server in a real browser: a run that outlives the page, folders, inputs, a form; desktop and phone."""
+import os
+import shutil
+import threading
+import unittest
+
+from browser import COLOURS, DESKTOP, EXAMPLES, PATIENCE, PHONE, SETTLED, Page, many_cases
+from contact.report.server import Server
+
+STATE = "text => document.getElementById('state').textContent.includes(text)"
+
+
+class Start(Page):
+    def setUp(self):
+        self.folder = os.path.join(self.scratch.name, self.id().rpartition(".")[2])
+        shutil.copytree(os.path.join(EXAMPLES, "profiles"), os.path.join(self.folder, "study", "profiles"))
+        shutil.copy(os.path.join(EXAMPLES, "cattaneo.inp"), self.folder)
+        shutil.copy(os.path.join(EXAMPLES, "cattaneo.toml"), os.path.join(self.folder, "study"))
+        many_cases(os.path.join(self.folder, "long.inp"), 400, 60)
+        server = Server(self.folder, 0)
+        threading.Thread(target=server.serve_forever, daemon=True).start()
+        self.addCleanup(server.server_close)
+        self.addCleanup(server.shutdown)
+        self.address = "http://127.0.0.1:%d/" % server.server_port
+        self.troubles = []
+
+    def start(self, **options):
+        page = self.new_page(**options)
+        page.on("console", lambda message: self.troubles.append(message.text) if message.type == "error" else None)
+        page.on("pageerror", lambda error: self.troubles.append(str(error)))
+        page.goto(self.address)
+        page.wait_for_selector("#files tr")
+        return page
+
+    def no_troubles(self):
+        self.assertEqual([text for text in self.troubles if "favicon" not in text and "404" not in text], [])
+
+    def test_check_run_look(self):
+        page = self.start(viewport=DESKTOP)
+        page.click("tr[data-name=cattaneo] button:has-text('check')")
+        page.wait_for_selector("#state.good")
+        page.click("tr[data-name=cattaneo] button:has-text('run')")
+        page.wait_for_selector("tr[data-name=cattaneo] a")
+        page.wait_for_selector("#state.good")
+        self.assertIn("Case     2", page.inner_text("#messages"))
+        with page.expect_popup() as popup:
+            page.click("tr[data-name=cattaneo] a")
+        result = popup.value
+        result.set_default_timeout(PATIENCE)
+        result.wait_for_function(SETTLED, arg=0)
+        self.assertGreater(result.evaluate(COLOURS, "map-pn"), 20)
+        self.no_troubles()
+
+    def test_a_run_survives_reloading(self):
+        page = self.start(viewport=DESKTOP)
+        page.click("tr[data-name=long] button:has-text('run')")
+        page.wait_for_function(STATE, arg="of 400")
+        page.reload()
+        page.wait_for_function(STATE, arg="of 400")
+        self.assertEqual(page.inner_text("#what"), "Run of long")
+        self.assertIn("Case     1", page.inner_text("#messages"))
+        self.assertGreaterEqual(page.evaluate("document.getElementById('progress').value"), 1)
+        page.wait_for_selector("tr[data-name=cattaneo] button:has-text('run'):disabled")
+        page.click("#stop")
+        page.wait_for_function(STATE, arg="stopped")
+        page.wait_for_selector("tr[data-name=long] .warn")
+        self.assertRegex(page.inner_text("tr[data-name=long] .warn"), r"not complete: \d+ of 400 cases")
+        self.assertTrue(page.is_disabled("#stop"))
+        # of a run that has ended the messages stay, too
+        page.reload()
+        page.wait_for_function(STATE, arg="stopped")
+        self.assertIn("Case     1", page.inner_text("#messages"))
+        self.no_troubles()
+
+    def test_folders_input_and_form(self):
+        for size in (DESKTOP, PHONE):
+            page = self.start(viewport=size)
+            page.click("text=study/")
+            page.wait_for_selector("tr[data-name='study/cattaneo']")
+            page.reload()
+            page.wait_for_selector("tr[data-name='study/cattaneo']")
+            page.click("tr[data-name='study/cattaneo'] button:has-text('input')")
+            page.wait_for_function("() => document.getElementById('input').textContent.includes('[[case]]')")
+            self.assert_accessible(page)
+            page.click("#fresh")
+            page.wait_for_selector("#new-kind")
+            page.select_option("#new-kind", "wheel")
+            self.assertEqual((page.input_value("#new-rail")[-4:], page.input_value("#new-wheel")[-4:]), (".prr", ".prw"))
+            page.fill("#new-name", "made%d" % size["width"])
+            page.fill("#new-poiss", "0.7")
+            page.click("text=write the input")
+            page.wait_for_selector("#new-answer.error")
+            self.assertIn("POISS", page.inner_text("#new-answer").upper())
+            page.fill("#new-poiss", "0.28")
+            page.select_option("#new-vary", "y_ws")
+            page.fill("#new-to", "4")
+            page.fill("#new-count", "3")
+            page.click("text=write the input")
+            page.wait_for_selector("tr[data-name='study/made%d']" % size["width"])
+            self.assertIn("3 cases checked", page.inner_text("#new-answer"))
+            self.assert_accessible(page)
+            self.assertLessEqual(page.evaluate("document.documentElement.scrollWidth"), size["width"])
+            page.click("#way button:has-text('top')")
+            page.wait_for_selector("tr[data-name=long]")
+            page.go_back()
+            page.wait_for_selector("tr[data-name='study/cattaneo']")
+        self.troubles = [text for text in self.troubles if "422" not in text]
+        self.no_troubles()
+
+
+if __name__ == "__main__":
+    unittest.main()
