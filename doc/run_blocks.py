@@ -1,0 +1,129 @@
+#!/usr/bin/env python3
+"""Runs the blocks of pages that claim to run, and compares what they show
+
+Usage: run_blocks.py PAGE.md ... ; each page has a scratch folder of its own, with the profiles of the examples in it. A comment
+above a block says what it is:
+
+    <!-- file: NAME -->     the block is put into a file
+    <!-- run -->            a block of sh or python is run; blocks of python of one page share their variables
+    <!-- shows -->          lines of the block stand in this order in what the last run printed
+    <!-- shows: NAME -->    or in a file that it wrote
+
+Words have to be the same, `...` is any word, and numbers are the same to two units of their last figure. The program is that of
+the environment variable CONTACT_PROGRAM where there is one, the Python package that of this checkout.
+"""
+import contextlib
+import io
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+TOP = pathlib.Path(__file__).resolve().parents[1]
+BLOCK = re.compile(r"<!-- (file|run|shows)(?:: ([^\n]*?))? -->\n+```(\w*)\n(.*?)\n```", re.DOTALL)
+NUMBER = re.compile(r"[-+]?\d+(?:\.\d*)?(?:[eE][-+]?\d+)?")
+#: Seconds for one block
+LONGEST = 120
+#: A number is that of the page within so many units of its last figure
+UNITS = 2.0
+
+
+def same_number(shown, found):
+    """Is a number what the page shows, as far as its figures go?"""
+    mantissa = re.split("[eE]", shown)
+    decimals = len(mantissa[0].partition(".")[2])
+    power = int(mantissa[1]) if len(mantissa) > 1 else 0
+    return abs(float(shown) - float(found)) <= UNITS*10.0**(power - decimals)
+
+
+def same_line(shown, found):
+    """Have two lines the same words and numbers? `...` stands for any word"""
+    words = shown.split(), found.split()
+    if len(words[0]) == len(words[1]):
+        found = " ".join(word if word == "..." else other for word, other in zip(*words))
+    words = NUMBER.split(shown), NUMBER.split(found)
+    if [word.split() for word in words[0]] != [word.split() for word in words[1]]:
+        return False
+    return all(same_number(*pair) for pair in zip(NUMBER.findall(shown), NUMBER.findall(found)))
+
+
+def missing(shown, text):
+    """First line of a block that does not stand in the text in its turn; None when all are there"""
+    lines = iter(text.split("\n"))
+    for line in shown.split("\n"):
+        if line.strip() and not any(same_line(line, other) for other in lines):
+            return line
+    return None
+
+
+class Page:
+    """A page that is being followed"""
+
+    def __init__(self, path, folder):
+        self.path, self.folder, self.variables, self.printed, self.count = path, folder, {}, "", 0
+
+    def fail(self, text):
+        sys.exit(f"FAILED {self.path}: {text}")
+
+    def run(self, language, code):
+        if language == "sh":
+            done = subprocess.run(["sh", "-eu", "-c", code], capture_output=True, text=True, timeout=LONGEST)
+            self.printed = done.stdout
+            if done.returncode:
+                self.fail(f"status {done.returncode} of\n{code}\n{done.stdout}{done.stderr}")
+        elif language == "python":
+            printed = io.StringIO()
+            try:
+                with contextlib.redirect_stdout(printed):
+                    exec(compile(code, str(self.path), "exec"), self.variables)
+            except Exception as error:
+                self.fail(f"{type(error).__name__} {error} in\n{code}")
+            self.printed = printed.getvalue()
+        else:
+            self.fail(f"no way to run a block of \"{language}\"")
+
+    def follow(self):
+        """All blocks in their order"""
+        for kind, name, language, text in BLOCK.findall(self.path.read_text()):
+            self.count += 1
+            if kind == "file":
+                pathlib.Path(name).write_text(text + "\n")
+            elif kind == "run":
+                self.run(language, text)
+            else:
+                line = missing(text, pathlib.Path(name).read_text() if name else self.printed)
+                if line:
+                    self.fail(f"not shown any more: {line}\n" + ("" if name else f"but:\n{self.printed}"))
+
+
+def main():
+    """All pages that are named; how many blocks each has"""
+    program = os.environ.get("CONTACT_PROGRAM")
+    if program:
+        os.environ["PATH"] = os.pathsep.join((os.path.dirname(program), os.environ["PATH"]))
+        os.environ.setdefault("CONTACT_LIBRARY", str(pathlib.Path(program).parents[1] / "lib/libcontact.so"))
+    sys.path.insert(0, str(TOP / "python"))
+    try:
+        import numpy  # noqa: F401
+    except ImportError:
+        print("skipped: Python has no numpy")
+        sys.exit(77)
+    for name in sys.argv[1:]:
+        path = (pathlib.Path(name) if pathlib.Path(name).is_absolute() else TOP / name).resolve()
+        with tempfile.TemporaryDirectory() as folder:
+            shutil.copytree(TOP / "examples/profiles", pathlib.Path(folder) / "profiles")
+            (pathlib.Path(folder) / "examples").symlink_to(TOP / "examples")
+            os.chdir(folder)
+            page = Page(path, folder)
+            page.follow()
+            os.chdir(TOP)
+        print(f"{name}: {page.count} blocks")
+        if not page.count:
+            page.fail("nothing to run")
+
+
+if __name__ == "__main__":
+    main()
