@@ -32,6 +32,7 @@ contains
 
    !> An integer, or no_number
    pure integer function integer_of(argument) result(value)
+      !> Not present where the caller gave a null pointer
       integer(c_int), intent(in), optional :: argument
 
       value = no_number
@@ -40,6 +41,7 @@ contains
 
    !> A number, not a number when it was not given
    pure real(wp) function real_of(argument) result(value)
+      !> Not present where the caller gave a null pointer
       real(c_double), intent(in), optional :: argument
 
       value = ieee_value(1.0_wp, ieee_quiet_nan)
@@ -48,7 +50,9 @@ contains
 
    !> Length of an array that is usable: 0 when negative or when length or array are absent
    pure integer function count_of(length, is_there) result(n)
+      !> Elements that the caller says there are
       integer(c_int), intent(in), optional :: length
+      !> Was the array itself given?
       logical, intent(in) :: is_there
 
       n = 0
@@ -59,7 +63,9 @@ contains
    !>
    !> It ends at its length, a null character or 256 letters.
    pure function path_of(letters, length) result(path)
+      !> As the caller has them, with or without a null at the end
       character(kind=c_char), intent(in), optional :: letters(*)
+      !> Letters that the caller says there are; the null ends the text where it is absent
       integer(c_int), intent(in), optional :: length
       character(len=longest_path) :: path
       integer :: i
@@ -74,6 +80,7 @@ contains
 
    !> The elements of an array of integers
    pure function integers_of(length, array) result(list)
+      !> Number of elements, and the elements
       integer(c_int), intent(in), optional :: length, array(*)
       integer, allocatable :: list(:)
 
@@ -83,7 +90,9 @@ contains
 
    !> The elements of an array of numbers
    pure function reals_of(length, array) result(list)
+      !> Elements that the caller says there are
       integer(c_int), intent(in), optional :: length
+      !> None where the caller gave a null pointer
       real(c_double), intent(in), optional :: array(*)
       real(wp), allocatable :: list(:)
 
@@ -93,6 +102,7 @@ contains
 
    !> What is too small for the models becomes the smallest value; what is negative or not a number stays for the check of bounds
    elemental real(wp) function raised(value, least)
+      !> What a caller gave, and the smallest number that the models take; the same unit
       real(wp), intent(in) :: value, least
 
       raised = value
@@ -101,7 +111,9 @@ contains
 
    !> Hand over one integer
    pure subroutine give_integer(value, argument)
+      !> What is handed over
       integer, intent(in) :: value
+      !> Where it goes, if anywhere
       integer(c_int), intent(inout), optional :: argument
 
       if (present(argument)) argument = int(value, c_int)
@@ -109,7 +121,9 @@ contains
 
    !> Hand over one number
    pure subroutine give_real(value, argument)
+      !> What is handed over, in the units of the caller
       real(wp), intent(in) :: value
+      !> Where it goes, if anywhere
       real(c_double), intent(inout), optional :: argument
 
       if (present(argument)) argument = real(value, c_double)
@@ -117,8 +131,11 @@ contains
 
    !> Hand over as many integers as there is room for
    pure subroutine give_integers(list, length, array)
+      !> What is handed over
       integer, intent(in) :: list(:)
+      !> Elements for which the caller has room
       integer(c_int), intent(in), optional :: length
+      !> Where they go; behind them nothing is changed
       integer(c_int), intent(inout), optional :: array(*)
       integer :: n
 
@@ -128,8 +145,11 @@ contains
 
    !> Hand over as many numbers as there is room for
    pure subroutine give_reals(list, length, array)
+      !> What is handed over, in the units of the caller
       real(wp), intent(in) :: list(:)
+      !> Elements for which the caller has room
       integer(c_int), intent(in), optional :: length
+      !> Where they go; behind them nothing is changed
       real(c_double), intent(inout), optional :: array(*)
       integer :: n
 
@@ -141,7 +161,9 @@ contains
    pure subroutine give_zeros(first, length, array)
       !> First element to be filled
       integer, intent(in) :: first
+      !> Elements for which the caller has room
       integer(c_int), intent(in), optional :: length
+      !> Room of the caller
       real(c_double), intent(inout), optional :: array(*)
       integer :: n
 
@@ -151,7 +173,9 @@ contains
 
    !> Copy a text into the buffer of the caller, cut to fit and null-terminated
    subroutine give_message(text, buffer, length)
+      !> In one line
       character(len=*), intent(in) :: text
+      !> Null where no text is wanted
       type(c_ptr), intent(in) :: buffer
       !> Size of the buffer, the final null included
       integer(c_int), intent(in) :: length

@@ -93,6 +93,7 @@ contains
    !> Profiles, friction and discretisation must be there and fit
    subroutine check_data(problem, code, error)
       type(library_problem), intent(in) :: problem
+      !> Member of library_code that tells what is missing
       integer, intent(out) :: code
       type(error_type), allocatable, intent(out) :: error
       character(len=:), allocatable :: text

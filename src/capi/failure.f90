@@ -26,6 +26,7 @@ contains
       character(kind=c_char), intent(in) :: name(*)
       !> Arguments of the call; absent if it has none such
       integer(c_int), intent(in), optional :: ire, icp
+      !> -99, where the call has a place for it
       integer(c_int), intent(inout), optional :: ierror
       type(entry_type) :: this
       type(library_problem), pointer :: problem

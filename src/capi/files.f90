@@ -39,7 +39,9 @@ contains
 
    !> Path of a file in the folder of results; a folder that is relative starts at the working folder
    subroutine find_result_file(file, path)
+      !> Name without folder
       character(len=*), intent(in) :: file
+      !> With the folder before it
       character(len=:), allocatable, intent(out) :: path
 
       !$omp critical (contact_registry)
@@ -49,7 +51,9 @@ contains
 
    !> The same inside the critical section
    subroutine place_result(file, path)
+      !> Name without folder
       character(len=*), intent(in) :: file
+      !> With the folder before it
       character(len=:), allocatable, intent(out) :: path
 
       path = library%out_folder // file
@@ -58,6 +62,7 @@ contains
 
    !> Folder to which names of files are relative, with a separator at its end, "" for the current one
    subroutine find_working_folder(folder)
+      !> As the caller of cntc_initializefirst gave it
       character(len=:), allocatable, intent(out) :: folder
 
       !$omp critical (contact_registry)
@@ -99,6 +104,7 @@ contains
 
    !> The name of a file of the caller, relative to the working folder, as the input file in the folder of results must give it
    subroutine relate_to_results(name)
+      !> Changed only where it is relative
       character(len=:), allocatable, intent(inout) :: name
       character(len=:), allocatable :: folder
 

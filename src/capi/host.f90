@@ -47,7 +47,9 @@ module contact_capi_host
       !> What was remembered of this thread
       subroutine find_call(problem, stage) bind(c, name="contact_find_call")
          import :: c_int, c_ptr
+         !> Null when the thread is in no call
          type(c_ptr), intent(out) :: problem
+         !> How far the call has come, as remember_call was told
          integer(c_int), intent(out) :: stage
       end subroutine find_call
 
@@ -73,6 +75,7 @@ contains
 
    !> The current folder; "." when the system does not tell it
    subroutine find_current_folder(folder)
+      !> Absolute, as the system has it
       character(len=:), allocatable, intent(out) :: folder
       character(kind=c_char) :: letters(longest_path)
       integer :: i

@@ -62,6 +62,7 @@ contains
 
    !> The problem with these numbers, null when there is none; inside the critical section
    function existing_problem(ire, icp) result(problem)
+      !> Numbers of the result element and of the contact problem in it
       integer, intent(in) :: ire, icp
       type(library_problem), pointer :: problem
       integer :: k

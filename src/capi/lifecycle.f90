@@ -170,6 +170,7 @@ contains
       integer(c_int), value :: ire, icp
       !> Buffer, null if not wanted, and its size with the final null
       type(c_ptr), value :: message
+      !> Room for the text, the null included [bytes]
       integer(c_int), value :: message_length
       integer(c_int) :: code
       character(len=:), allocatable :: text
@@ -189,6 +190,7 @@ contains
       integer(c_int), intent(inout), optional :: iteration
       !> Buffer of the reason, null if not wanted, and its size with the final null
       type(c_ptr), value :: message
+      !> Room for the text, the null included [bytes]
       integer(c_int), value :: message_length
       integer(c_int) :: state
       type(case_status) :: status

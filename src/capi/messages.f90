@@ -23,6 +23,7 @@ contains
    !> A message about a wrong call: into the log at every level of debugging, and kept for the caller
    subroutine complain(call_of, text, code)
       type(entry_type), intent(in) :: call_of
+      !> One sentence, without the name of the routine
       character(len=*), intent(in) :: text
       !> Member of library_code; default other
       integer, intent(in), optional :: code
@@ -44,6 +45,7 @@ contains
    !> A complaint that the caller has not asked for yet stays.
    subroutine warn(call_of, text)
       type(entry_type), intent(in) :: call_of
+      !> One sentence, without the name of the routine
       character(len=*), intent(in) :: text
       type(library_problem), pointer :: problem
 
@@ -62,6 +64,7 @@ contains
       !> Level of debugging from which on it is written
       integer, intent(in) :: level
       type(entry_type), intent(in) :: call_of
+      !> One sentence, without the name of the routine
       character(len=*), intent(in) :: text
 
       if (.not. is_heard(level)) return
@@ -72,6 +75,7 @@ contains
 
    !> Are messages of this level written?
    logical function is_heard(level)
+      !> Amount of messages at which it appears, 0 to 5
       integer, intent(in) :: level
       integer :: debugging
 
@@ -82,6 +86,7 @@ contains
 
    !> Amount of messages
    subroutine set_debugging(level)
+      !> -1 for none to 5, as flag 2000 has it
       integer, intent(in) :: level
 
       !$omp atomic write
@@ -138,7 +143,9 @@ contains
 
    !> What went wrong last, "" when nothing did; forgotten by this question
    subroutine last_complaint(code, text, ire, icp)
+      !> As the call has returned it, 0 for a warning
       integer, intent(out) :: code
+      !> One sentence
       character(len=:), allocatable, intent(out) :: text
       !> A problem; result element 0 for whatever went wrong last in the library
       integer, intent(in) :: ire, icp
@@ -164,7 +171,9 @@ contains
 
    !> Keep what went wrong, inside the critical section
    subroutine set_last_error(code, text, call_of)
+      !> As the call returns it, 0 for a warning
       integer, intent(in) :: code
+      !> One sentence
       character(len=*), intent(in) :: text
       !> Belongs to the problem of this call, if there is one
       type(entry_type), intent(in), optional :: call_of
@@ -226,6 +235,7 @@ contains
    subroutine refuse_for_ever(problem, call_of, reason)
       type(library_problem), intent(inout) :: problem
       type(entry_type), intent(in) :: call_of
+      !> Told by each calculation that is refused
       character(len=*), intent(in) :: reason
 
       !$omp critical (contact_registry)

@@ -134,10 +134,13 @@ contains
    !> Read a profile and remember what went wrong
    subroutine read_given_profile(this, profiles, profile, side, given)
       type(entry_type), intent(in) :: this
+      !> Profiles of all problems, each read once
       type(profile_store), intent(inout) :: profiles
+      !> Name of the file and how it is to be read
       type(profile_spec), intent(in) :: profile
       !> Member of profile_side
       integer, intent(in) :: side
+      !> Where the curve, or what went wrong, is kept
       type(given_profile), intent(inout) :: given
       type(error_type), allocatable :: error
       type(log_type) :: log

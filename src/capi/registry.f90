@@ -118,9 +118,11 @@ contains
 
    !> Make a result element known; one that is active stays as it is
    subroutine register_element(ire, module_number, code, was_active)
+      !> Number of the result element, and the module that it is for: 1 or 3
       integer, intent(in) :: ire, module_number
       !> Member of library_code
       integer, intent(out) :: code
+      !> Was it known already?
       logical, intent(out) :: was_active
 
       !$omp critical (contact_registry)
@@ -156,6 +158,7 @@ contains
    !> yet is made with its defaults, as callers of the published interface expect.
    subroutine enter(call_of, allowed, problem, code)
       type(entry_type), intent(in) :: call_of
+      !> Modules and kinds of problems that the routine is for
       type(scope_type), intent(in) :: allowed
       type(library_problem), pointer, intent(out) :: problem
       !> Member of library_code
@@ -187,6 +190,7 @@ contains
    !> calculations run as there may be; it has the threads that are allowed inside
    subroutine enter_calculation(call_of, allowed, problem, code)
       type(entry_type), intent(in) :: call_of
+      !> Modules and kinds of problems that the routine is for
       type(scope_type), intent(in) :: allowed
       type(library_problem), pointer, intent(out) :: problem
       !> Member of library_code
@@ -317,6 +321,7 @@ contains
    !> One user less, and one calculation less, after a call that was left
    subroutine forget_call(problem, was_calculation)
       type(library_problem), pointer, intent(in) :: problem
+      !> Did the call hold one of the places of calculations?
       logical, intent(in) :: was_calculation
 
       if (was_calculation) call end_turn()
@@ -424,6 +429,7 @@ contains
 
    !> Threads inside a problem: negative for all, 0 and 1 for one; ignored before initialisation
    subroutine set_threads(number)
+      !> As the caller gave it
       integer, intent(in) :: number
 
       !$omp critical (contact_registry)

@@ -64,6 +64,7 @@ contains
       & message_length) result(status) bind(c, name="contact_run_limited")
       !> Path of the experiment, null-terminated
       type(c_ptr), value :: experiment
+      !> 2 runs, 3 only checks
       integer(c_int), value :: mode
       !> Folder of the results, null-terminated; null or empty for that of the input
       type(c_ptr), value :: output_dir
@@ -77,6 +78,7 @@ contains
       real(c_double), value :: seconds, megabytes, elements
       !> Buffer of the reason of a failure, null if not wanted, and its size
       type(c_ptr), value :: message
+      !> Room for the message, the null included [bytes]
       integer(c_int), value :: message_length
       integer(c_int) :: status
       type(request_type), target :: request
@@ -96,6 +98,7 @@ contains
       integer(c_int), value :: overwrite
       !> Buffer of what is told, null if not wanted, and its size
       type(c_ptr), value :: message
+      !> Room for the message, the null included [bytes]
       integer(c_int), value :: message_length
       integer(c_int) :: status
       type(request_type), target :: request
@@ -113,6 +116,7 @@ contains
       type(c_ptr), value :: experiment
       !> Buffer of the words, null if not wanted, and its size
       type(c_ptr), value :: text
+      !> Room for the words, the null included [bytes]
       integer(c_int), value :: text_length
       !> Size that the whole text needs
       integer(c_int), intent(out), optional :: needed

@@ -130,6 +130,7 @@ contains
    !> Nothing is stored, with the reason
    subroutine refuse_call(self, reason)
       class(setter), intent(inout) :: self
+      !> One sentence without the name of the setting
       character(len=*), intent(in) :: reason
 
       if (self%is_good) call complain(self%call_of, reason)
@@ -189,6 +190,7 @@ contains
 
    !> The value to which a smaller number is raised; below all numbers for those that are not raised
    pure real(wp) function min_value(name)
+      !> As the table of bounds has it
       character(len=*), intent(in) :: name
       integer :: k
 

@@ -16,6 +16,7 @@ contains
 
    !> Keep the times of a problem that is going to be freed
    subroutine book_times(slot)
+      !> Its times are zero afterwards
       type(problem_pointer), intent(inout) :: slot
 
       slot%timed_module = slot%p%module_number
@@ -57,6 +58,7 @@ contains
 
    !> Timer table: 0 none, 1 overview, 2 everything
    subroutine set_timer_level(level)
+      !> As the flag of the library has it
       integer, intent(in) :: level
 
       !$omp critical (contact_registry)

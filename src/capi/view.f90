@@ -52,6 +52,7 @@ contains
    subroutine enter_result(this, problem, view)
       type(entry_type), intent(in) :: this
       type(library_problem), pointer, intent(out) :: problem
+      !> The patch with its units, and the side of the track that it is on
       type(result_view), intent(out) :: view
 
       call enter(this, scope%one_patch, problem)
@@ -63,6 +64,7 @@ contains
    !> Totals by their names, in the units and with the signs of the caller
    pure function totals(self, names) result(values)
       class(result_view), intent(in) :: self
+      !> As the list of totals has them
       character(len=*), intent(in) :: names(:)
       real(wp) :: values(size(names))
       type(total_list) :: list

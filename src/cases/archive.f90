@@ -119,6 +119,7 @@ module contact_cases_archive
       subroutine list_interface(self, name, values, n, units, bounds)
          import :: case_archive, wp
          class(case_archive), intent(inout) :: self
+         !> As the table of bounds and the manual have it
          character(len=*), intent(in) :: name
          !> Unallocated, or of another size, where values come in
          real(wp), allocatable, intent(inout) :: values(:)
@@ -162,7 +163,9 @@ contains
    !> Note a number; angles are those whose unit is rad or rad/s
    subroutine note_real(self, name, value, default, unchecked, preset)
       class(case_archive), intent(inout) :: self
+      !> As the table of bounds and the manual have it
       character(len=*), intent(in) :: name
+      !> In internal units: N, mm, s, rad
       real(wp), intent(inout), target :: value
       !> Value of an optional number that is not given
       real(wp), intent(in), optional :: default
@@ -185,7 +188,9 @@ contains
    !> Note the components of a vector: name1, name2, ...
    subroutine note_reals(self, name, values)
       class(case_archive), intent(inout) :: self
+      !> Without the figure of the component
       character(len=*), intent(in) :: name
+      !> In internal units: N, mm, s, rad
       real(wp), intent(inout), target :: values(:)
       integer :: k
 
@@ -197,7 +202,9 @@ contains
    !> Note an integer
    subroutine note_integer(self, name, value, default, branch, unchecked)
       class(case_archive), intent(inout) :: self
+      !> As the table of bounds and the manual have it
       character(len=*), intent(in) :: name
+      !> Read, written or checked, as the archive is made for
       integer, intent(inout), target :: value
       !> Value of an optional number that is not given
       integer, intent(in), optional :: default
@@ -221,7 +228,9 @@ contains
    !> Note a text
    subroutine note_text(self, name, value)
       class(case_archive), intent(inout) :: self
+      !> As the manual has it
       character(len=*), intent(in) :: name
+      !> Read, written or checked, as the archive is made for
       type(text_variable), intent(inout), target :: value
 
       call add_item(self, name, item_kind%text)
@@ -231,6 +240,7 @@ contains
    !> Was an item of the last line given?
    pure logical function was_given(self, name)
       class(case_archive), intent(in) :: self
+      !> As the item was noted
       character(len=*), intent(in) :: name
       integer :: k
 
@@ -242,6 +252,7 @@ contains
    !> Place of an item in the last line, 0 when it is not there
    pure integer function place_of(self, name) result(k)
       class(case_archive), intent(in) :: self
+      !> As the item was noted
       character(len=*), intent(in) :: name
 
       do k = 1, self%count
@@ -304,6 +315,7 @@ contains
       class(case_archive), intent(in) :: self
       !> Item of the last line
       character(len=*), intent(in) :: name
+      !> Stay as they are
       integer, intent(inout) :: line, column
 
       associate (unused => self, no_name => name, no_line => line, no_column => column)
@@ -324,6 +336,7 @@ contains
    !> An item of the last line, "DX = 0.5", with blanks behind
    pure function show_item(self, name) result(text)
       class(case_archive), intent(in) :: self
+      !> As the item was noted
       character(len=*), intent(in) :: name
       character(len=shown_length) :: text
       integer :: k

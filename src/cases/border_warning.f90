@@ -71,6 +71,7 @@ contains
 
    !> Are two grids the same?
    pure logical function is_same(a, b)
+      !> Two rectangles of elements
       type(potential_contact), intent(in) :: a, b
 
       is_same = a%mx == b%mx .and. a%my == b%my .and. all(abs([a%xl - b%xl, a%yl - b%yl, a%dx - b%dx, a%dy - b%dy]) <= 0.0_wp)
@@ -79,6 +80,7 @@ contains
    !> Warn of places where wheel and rail overlap and no patch is
    subroutine warn_of_buried_ends(spec, wheel_rail, log)
       type(case_spec), intent(in) :: spec
+      !> Solved, with what the search has found
       type(wheel_rail_result), intent(in) :: wheel_rail
       type(log_type), intent(inout) :: log
       character(len=buried_length) :: words
@@ -113,6 +115,7 @@ contains
    !> Where an end of the wheel's profile stands within the rail
    function buried_words(spec, buried, number) result(words)
       type(case_spec), intent(in) :: spec
+      !> What the search has found there
       type(buried_end), intent(in) :: buried
       !> 1: the inner end, 2: the outer one
       integer, intent(in) :: number
@@ -129,6 +132,7 @@ contains
    !> Where wheel and rail overlap at another place along the track
    function beside_words(spec, beside) result(words)
       type(case_spec), intent(in) :: spec
+      !> What the search has found
       type(buried_end), intent(in) :: beside
       character(len=buried_length) :: words
       real(wp) :: y
@@ -142,7 +146,9 @@ contains
    !> Sides and ends in words; blank when there are none
    subroutine border_words(spec, border, words)
       type(case_spec), intent(in) :: spec
+      !> Sides of the grid and ends of profiles that contact reaches
       type(border_contact), intent(in) :: border
+      !> Of any length, for messages
       character(len=:), allocatable, intent(out) :: words
       character(len=5), parameter :: body_names(2) = ["rail ", "wheel"]
       character(len=300) :: text

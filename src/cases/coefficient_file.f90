@@ -38,10 +38,12 @@ contains
 
    !> Read the coefficients that a grid needs, and warn when the file has fewer or more
    subroutine read_coefficients(text, grid, gg, table, log, error)
+      !> The file, open at its first line
       type(input_lexer), intent(inout) :: text
       type(potential_contact), intent(in) :: grid
       !> Combined modulus of rigidity [N/mm2]
       real(wp), intent(in) :: gg
+      !> Coefficients of all distances on the grid
       type(influence_table), intent(out) :: table
       type(log_type), intent(inout) :: log
       type(error_type), allocatable, intent(out) :: error
@@ -63,11 +65,13 @@ contains
 
    !> Read all coefficients of a file with one matrix, for grids whose size is not known yet
    subroutine read_whole_table(text, sides, gg, table, log, error)
+      !> The file, open at its first line
       type(input_lexer), intent(inout) :: text
       !> Sides of the elements of wheel on rail, DX and DS [mm]
       real(wp), intent(in) :: sides(2)
       !> Combined modulus of rigidity [N/mm2]
       real(wp), intent(in) :: gg
+      !> Coefficients of all distances in the file
       type(influence_table), intent(out) :: table
       type(log_type), intent(inout) :: log
       type(error_type), allocatable, intent(out) :: error

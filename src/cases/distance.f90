@@ -39,6 +39,7 @@ contains
    subroutine list_forms(before_last, text)
       !> What stands before the last one
       character(len=*), intent(in) :: before_last
+      !> For messages
       character(len=:), allocatable, intent(out) :: text
       integer :: k
 

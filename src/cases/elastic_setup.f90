@@ -50,6 +50,7 @@ contains
    !> Conformal contact of module 3: the table of inclinations, or the straight line through it
    subroutine set_inclination(spec, model, error)
       type(case_spec), intent(in) :: spec
+      !> Elastic model of the patch, material given
       type(elastic_model), intent(inout) :: model
       type(error_type), allocatable, intent(out) :: error
       integer :: n
@@ -80,6 +81,7 @@ contains
       type(potential_contact), intent(in) :: grid
       !> Folder to which the name of the file is relative; "" for the current one
       character(len=*), intent(in) :: folder
+      !> Elastic model of the patch, material and inclination given
       type(elastic_model), intent(inout) :: model
       type(log_type), intent(inout) :: log
       type(error_type), allocatable, intent(out) :: error
@@ -97,6 +99,7 @@ contains
       type(case_spec), intent(in) :: spec
       !> As for set_coefficients
       character(len=*), intent(in) :: folder
+      !> The table of the case before, with the name and time of its file
       type(kept_table), intent(inout) :: kept
       type(log_type), intent(inout) :: log
       type(error_type), allocatable, intent(out) :: error

@@ -48,6 +48,7 @@ contains
    !> Estimate from the specification alone
    subroutine estimate_cost(spec, cost)
       type(case_spec), intent(in) :: spec
+      !> Elements, seconds and bytes
       type(case_cost), intent(out) :: cost
       type(potential_contact) :: grid
       type(combined_material) :: material
@@ -127,6 +128,7 @@ contains
 
    !> A cost in words, with blanks behind
    pure function cost_text(cost) result(text)
+      !> Elements, seconds and bytes
       type(case_cost), intent(in) :: cost
       character(len=240) :: text
       character(len=12) :: memory, time

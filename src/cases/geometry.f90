@@ -30,6 +30,7 @@ contains
    !> A force or approach of zero is allowed and gives no contact: zero semi-axes when the
    !> curvatures are given.
    subroutine solve_hertz(spec, control, fn, pen, gg, nu, hertz, error)
+      !> What the option gives: semi-axes, curvatures, force or approach
       type(grid_spec), intent(in) :: spec
       !> Member of normal_control
       integer, intent(in) :: control
@@ -110,6 +111,7 @@ contains
 
    !> Complete the potential contact from what its option gives (IPOTCN -1...-6 and 1...4)
    subroutine build_grid(spec, hertz, grid, error)
+      !> What the option gives: corners, centres or steps
       type(grid_spec), intent(in) :: spec
       !> Hertz solution, for IPOTCN -1...-5; may be absent or unallocated for the others
       type(hertz_result), intent(in), optional :: hertz
@@ -230,6 +232,7 @@ contains
    !> With Hertz data it is a1 x**2 + b1 y**2, whatever geometry the case holds. Elements outside
    !> the planform get excluded_distance, and so does every value that is meant to exclude.
    subroutine undeformed_distance(spec, grid, hertz, h, error)
+      !> Form of the gap with its coefficients
       type(geometry_spec), intent(in) :: spec
       type(potential_contact), intent(in) :: grid
       !> Hertz solution of a Hertzian geometry; may be absent or unallocated
@@ -354,6 +357,7 @@ contains
 
    !> Radius of curvature along x [mm] that the guess of the contact area of a single row uses; 0: unknown
    pure real(wp) function curvature_radius(spec, hertz) result(radius)
+      !> Form of the gap with its coefficients
       type(geometry_spec), intent(in) :: spec
       !> Hertz solution of a Hertzian geometry; may be absent or unallocated
       type(hertz_result), intent(in), optional :: hertz

@@ -49,6 +49,7 @@ contains
    subroutine visit_track(a, track, roller)
       class(case_archive), intent(inout) :: a
       type(track_spec), intent(inout), target :: track
+      !> Is the wheel on a roller instead of a rail?
       logical, intent(in) :: roller
       real(wp), target :: place(2)
 
@@ -153,6 +154,7 @@ contains
    subroutine visit_velocity(a, wheelset, roller, with_force)
       class(case_archive), intent(inout) :: a
       type(wheelset_spec), intent(inout), target :: wheelset
+      !> Is the wheel on a roller instead of a rail?
       logical, intent(in) :: roller
       !> With the longitudinal force in the place of the pitch rate?
       logical, intent(in) :: with_force

@@ -54,6 +54,7 @@ contains
       !> Folder to which names of profile files are relative, "" for the current one
       character(len=*), intent(in) :: folder
       type(log_type), intent(inout) :: log
+      !> Not changed where nothing is computed
       type(wheel_rail_result), intent(inout) :: result
       type(error_type), allocatable, intent(out) :: error
 
@@ -276,11 +277,15 @@ contains
 
    !> Take a profile from the store, which reads it when it is new or has changed
    subroutine load_profile(profiles, profile, side, folder, curve, surface, log, error, confined)
+      !> Profiles of all cases, each read once
       type(profile_store), intent(inout) :: profiles
+      !> Name of the file and how it is to be read
       type(profile_spec), intent(in) :: profile
       !> Member of profile_side
       integer, intent(in) :: side
+      !> To which the name is relative
       character(len=*), intent(in) :: folder
+      !> Smoothed, in its own axes [mm]
       type(profile_curve), intent(inout) :: curve
       !> Allocated on exit for slices files
       type(profile_surface), allocatable, intent(inout) :: surface

@@ -10,6 +10,7 @@ contains
    subroutine take_word(k, word)
       !> 1...command_argument_count()
       integer, intent(in) :: k
+      !> In its full length
       character(len=:), allocatable, intent(out) :: word
       integer :: length
 

@@ -76,6 +76,7 @@ contains
 
    !> Set a variable of the environment
    subroutine set_variable(name, value)
+      !> As the environment has it, and its new content
       character(len=*), intent(in) :: name, value
       integer(c_int) :: ignored
 

@@ -14,6 +14,7 @@ contains
 
    !> Answer to `contact --version`: program, compiler and linked HDF5, one line each
    subroutine write_versions(unit)
+      !> Open for formatted output
       integer, intent(in) :: unit
 
       write(unit, "(A)") "contact " // contact_version, "compiled by " // compiler_version(), "HDF5 " // trim(hdf5_version())

@@ -256,7 +256,9 @@ contains
 
    !> Does the format know this value of the digit?
    pure logical function is_known(name, digit, module_number)
+      !> Capital letter of the digit, C1 and the like with a figure
       character(len=*), intent(in) :: name
+      !> As the input has it
       integer, intent(in) :: digit
       !> 1 or 3
       integer, intent(in) :: module_number
@@ -266,7 +268,9 @@ contains
 
    !> Can this version compute it? False for unknown values too
    pure logical function is_built(name, digit, module_number)
+      !> Capital letter of the digit, C1 and the like with a figure
       character(len=*), intent(in) :: name
+      !> As the input has it
       integer, intent(in) :: digit
       !> 1 or 3
       integer, intent(in) :: module_number
@@ -279,7 +283,9 @@ contains
 
    !> Named choice behind a digit; an unknown digit is handed back as it is
    pure integer function choice_of(name, digit, module_number) result(choice)
+      !> Capital letter of the digit, C1 and the like with a figure
       character(len=*), intent(in) :: name
+      !> As the input has it
       integer, intent(in) :: digit
       !> 1 or 3
       integer, intent(in) :: module_number
@@ -292,7 +298,9 @@ contains
 
    !> Digit that stands for a named choice, -1 when there is none
    pure integer function digit_of(name, choice, module_number) result(digit)
+      !> Capital letter of the digit, C1 and the like with a figure
       character(len=*), intent(in) :: name
+      !> Member of the choices in contact_base_choices that belong to it
       integer, intent(in) :: choice
       !> 1 or 3
       integer, intent(in) :: module_number
@@ -313,7 +321,9 @@ contains
 
    !> What the digit means, in words
    pure function digit_text(name, digit, module_number) result(text)
+      !> Capital letter of the digit, C1 and the like with a figure
       character(len=*), intent(in) :: name
+      !> As the input has it
       integer, intent(in) :: digit
       !> 1 or 3
       integer, intent(in) :: module_number
@@ -327,6 +337,7 @@ contains
 
    !> The known values of a digit, "0, 1, 2, 3", for messages
    pure function allowed_text(name, module_number) result(text)
+      !> Capital letter of the digit, C1 and the like with a figure
       character(len=*), intent(in) :: name
       !> 1 or 3
       integer, intent(in) :: module_number
@@ -343,6 +354,7 @@ contains
    !> Value of the digit with the given name
    pure integer function digit_value(digits, name) result(digit)
       type(case_digits), intent(in) :: digits
+      !> Capital letter of the digit, C1 and the like with a figure
       character(len=*), intent(in) :: name
 
       select case (name)
@@ -376,7 +388,9 @@ contains
    !> Give a control digit a value
    pure subroutine put_digit(digits, name, value)
       type(case_digits), intent(inout) :: digits
+      !> Capital letter of the digit, C1 and the like with a figure
       character(len=*), intent(in) :: name
+      !> As the input has it
       integer, intent(in) :: value
 
       select case (name)
@@ -495,6 +509,7 @@ contains
 
    !> A control word as it is written in files, with its leading zeros
    pure function word_text(word, width) result(text)
+      !> All digits as one integer
       integer, intent(in) :: word
       !> Number of digits: 6, 7 and 7 or 8 for the words 1, 2 and 3
       integer, intent(in) :: width

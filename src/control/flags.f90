@@ -80,6 +80,7 @@ contains
 
    !> Row of the table, 0 when there is none
    pure integer function row_of_flag(code) result(row)
+      !> CNTC_ic_... or CNTC_if_...
       integer, intent(in) :: code
 
       do row = 1, size(flag_table)
@@ -90,6 +91,7 @@ contains
 
    !> Largest accepted value of a flag
    pure integer function highest_of(row, module_number) result(highest)
+      !> Of the table of flags
       type(flag_row), intent(in) :: row
       !> 1 or 3
       integer, intent(in) :: module_number
@@ -100,11 +102,15 @@ contains
 
    !> What is stored for a value that a caller gives, which may be another one, and whether it is stored at all
    pure subroutine accepted_value(row, value, module_number, stored, accepted)
+      !> Of the table of flags
       type(flag_row), intent(in) :: row
+      !> As the caller gave it
       integer, intent(in) :: value
       !> 1 or 3
       integer, intent(in) :: module_number
+      !> The nearest one that the flag can have, where this is documented
       integer, intent(out) :: stored
+      !> False where the call is refused
       logical, intent(out) :: accepted
 
       stored = value

@@ -65,8 +65,10 @@ contains
 
    !> The convention with a code; an unknown code changes nothing
    pure subroutine find_convention(code, units, known)
+      !> CNTC_un_...
       integer, intent(in) :: code
       type(unit_convention), intent(inout) :: units
+      !> Is there such a convention?
       logical, intent(out) :: known
       integer :: k
 
@@ -80,6 +82,7 @@ contains
 
    !> The quantity that has a unit of the table of bounds; a number for units that caller and program share
    elemental type(quantity_type) function quantity_of(unit) result(what)
+      !> As the tables write it: "N/mm2", "rad", "-"
       character(len=*), intent(in) :: unit
 
       select case (unit)
@@ -105,6 +108,7 @@ contains
    !> Factor from the units of a caller to internal ones
    elemental real(wp) function inward(units, what) result(factor)
       type(unit_convention), intent(in) :: units
+      !> Powers of length, force, velocity and angle
       type(quantity_type), intent(in) :: what
 
       factor = units%length**what%length*units%force**what%force*units%velocity**what%velocity*units%angle**what%angle
@@ -113,6 +117,7 @@ contains
    !> Factor, with sign, from internal units to those of a caller
    elemental real(wp) function outward(units, what, along, left) result(factor)
       type(unit_convention), intent(in) :: units
+      !> Powers of length, force, velocity and angle
       type(quantity_type), intent(in) :: what
       !> Member of orientation; default none
       integer, intent(in), optional :: along

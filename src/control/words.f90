@@ -118,6 +118,7 @@ contains
    pure integer function digit_of_word(name, word, module_number) result(digit)
       !> Letter of the digit
       character(len=*), intent(in) :: name
+      !> As the readable format has it
       character(len=*), intent(in) :: word
       !> 1 or 3
       integer, intent(in) :: module_number
@@ -136,6 +137,7 @@ contains
    pure function word_of_digit(name, digit, module_number) result(word)
       !> Letter of the digit
       character(len=*), intent(in) :: name
+      !> As input files have it
       integer, intent(in) :: digit
       !> 1 or 3
       integer, intent(in) :: module_number
@@ -169,6 +171,7 @@ contains
    pure subroutine words_of(words, text)
       !> Blank ones do not count
       character(len=*), intent(in) :: words(:)
+      !> For messages
       character(len=:), allocatable, intent(out) :: text
       integer :: k, n, total
 
@@ -188,8 +191,11 @@ contains
    pure subroutine form_value(name, word, value, is_known_word)
       !> IPOTCN, IBASE, IPLAN or ISUBS
       character(len=*), intent(in) :: name
+      !> As the readable format has it
       character(len=*), intent(in) :: word
+      !> 0 when the word is not known
       integer, intent(out) :: value
+      !> Was there such a word?
       logical, intent(out) :: is_known_word
       integer :: row
 
@@ -218,6 +224,7 @@ contains
    pure function form_word(name, value) result(word)
       !> IPOTCN, IBASE, IPLAN or ISUBS
       character(len=*), intent(in) :: name
+      !> As input files have it
       integer, intent(in) :: value
       character(len=24) :: word
 
@@ -229,6 +236,7 @@ contains
    pure function form_title(name, value) result(title)
       !> IPOTCN, IBASE, IPLAN or ISUBS
       character(len=*), intent(in) :: name
+      !> As input files have it
       integer, intent(in) :: value
       character(len=64) :: title
 
@@ -248,6 +256,7 @@ contains
 
    !> Key under which such a number stands in its group, blank for other numbers
    pure function form_key(name) result(key)
+      !> As the manual has it, in capital letters
       character(len=*), intent(in) :: name
       character(len=key_length) :: key
 
@@ -287,9 +296,11 @@ contains
    !>
    !> What stands in double quotes stays, as it is told as it was given.
    subroutine tell_in_words(message, module_number, text)
+      !> In the terms of input files
       character(len=*), intent(in) :: message
       !> 1 or 3
       integer, intent(in) :: module_number
+      !> In the terms of the readable format
       character(len=:), allocatable, intent(out) :: text
       character(len=*), parameter :: name_letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_"
       integer :: at, last

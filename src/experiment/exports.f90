@@ -66,6 +66,7 @@ contains
    !> Open what is asked for
    subroutine open_files(self, request, results, experiment, version, run, limits, error, from)
       class(export_files), intent(inout) :: self
+      !> Which files, and where
       type(export_request), intent(in) :: request
       !> Folder and name of the results, to which a suffix is added
       character(len=*), intent(in) :: results
@@ -131,6 +132,7 @@ contains
    !> Where the files end now
    subroutine take_ends(self, here)
       class(export_files), intent(in) :: self
+      !> Bytes of each file, in components of their own
       type(checkpoint), intent(inout) :: here
 
       if (allocated(self%json)) here%json = self%json%place()

@@ -90,6 +90,7 @@ contains
       class(journal_file), intent(inout) :: self
       !> Folder and name of the results
       character(len=*), intent(in) :: results
+      !> What the run was asked for
       type(journal_settings), intent(in) :: settings
       !> As for open_file of output_file
       logical, intent(in) :: confined
@@ -115,6 +116,7 @@ contains
       character(len=*), intent(in) :: results
       !> End of the line [bytes], and what it says
       integer(long), intent(in) :: place
+      !> State of the run behind that line
       type(checkpoint), intent(in) :: from
       !> As for open_file of output_file
       logical, intent(in) :: confined
@@ -129,6 +131,7 @@ contains
    !> A case is finished: what `now` says holds
    subroutine note(self, letter)
       class(journal_file), intent(inout) :: self
+      !> How the case ended, in one letter
       character(len=1), intent(in) :: letter
 
       self%letters = self%letters // letter
@@ -182,11 +185,13 @@ contains
       integer(long), intent(in) :: ends(3)
       !> Rows of cases and patches in the HDF5 file, huge without one
       integer, intent(in) :: rows(2)
+      !> What the run was asked for
       type(journal_settings), intent(out) :: settings
       !> Are there settings? Then there was a run
       logical, intent(out) :: found
       !> What the line says, no cases when there is none, and its end [bytes]
       type(checkpoint), intent(out) :: last
+      !> End of that line in the file [bytes]
       integer(long), intent(out) :: place
       !> How the cases ended
       character(len=:), allocatable, intent(out) :: letters
@@ -285,6 +290,7 @@ contains
 
    !> A letter for a case in which a larger grid was named
    pure function advised(letter) result(capital)
+      !> How the case ended
       character(len=1), intent(in) :: letter
       character(len=1) :: capital
 
@@ -293,7 +299,9 @@ contains
 
    !> Was a larger grid named? The letter becomes a plain one
    pure subroutine is_advised(letter, answer)
+      !> How the case ended
       character(len=1), intent(inout) :: letter
+      !> True for a letter that `advised` has made
       logical, intent(out) :: answer
 
       answer = letter >= "A" .and. letter <= "Z"

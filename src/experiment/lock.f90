@@ -32,6 +32,7 @@ contains
 
    subroutine take(self, place, error)
       class(experiment_lock), intent(inout) :: self
+      !> The experiment whose results are locked
       type(experiment_place), intent(in) :: place
       type(error_type), allocatable, intent(out) :: error
       character(len=:), allocatable :: what
@@ -79,6 +80,7 @@ contains
    !> Files of one case, <name>[_reNNN].NNNN[letter].{mat,subs,vts,blockN.vts}, and of a run, <name>.{h5,pvd}, with .tmp or .part
    !> behind them; so no file of an experiment is taken whose name begins with that of this one.
    pure logical function is_leftover_rest(rest) result(ours)
+      !> What follows the name of the experiment in a name of a file
       character(len=*), intent(in) :: rest
       character(len=*), parameter :: figures = "0123456789", letters = "abcdefghijklmnopqrstuvwxyz"
       integer :: at, last, dot

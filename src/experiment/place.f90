@@ -70,6 +70,7 @@ contains
 
    !> An experiment without suffix that has no file .inp but one .toml is read from that
    subroutine choose_input(place, has_both)
+      !> Its suffix is set
       type(experiment_place), intent(inout) :: place
       !> Are there both files, so that .inp is read because nothing else was said?
       logical, intent(out) :: has_both

@@ -52,6 +52,7 @@ contains
    !> Take the number of cases and start the clock
    subroutine begin(self, total)
       class(progress_line), intent(inout) :: self
+      !> Cases that the run has
       integer, intent(in) :: total
 
       self%total = merge(total, 0, total >= many_cases)
@@ -62,6 +63,7 @@ contains
    !> Tell how many cases are done; the cursor stays at the start of the line
    subroutine show(self, done)
       class(progress_line), intent(inout) :: self
+      !> Cases that have ended
       integer, intent(in) :: done
       real(wp) :: now
 
@@ -87,6 +89,7 @@ contains
 
    !> " case 12 of 171, 1:05 left"
    pure function progress_text(done, total, elapsed) result(text)
+      !> Cases that have ended, and those that the run has
       integer, intent(in) :: done, total
       !> Time that the cases have taken so far [s]
       real(wp), intent(in) :: elapsed

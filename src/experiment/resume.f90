@@ -60,6 +60,7 @@ contains
       type(experiment_state), intent(inout) :: state
       !> On return with what the run was asked for
       type(run_settings), intent(inout) :: asked
+      !> From the beginning where nothing can be gone on with
       type(resume_point), intent(out) :: point
       !> Is there nothing left to do?
       logical, intent(out) :: is_done
@@ -147,6 +148,7 @@ contains
    subroutine catch_up(state, asked, point, error)
       type(experiment_state), intent(inout) :: state
       type(run_settings), intent(in) :: asked
+      !> As find_point has found it
       type(resume_point), intent(in) :: point
       type(error_type), allocatable, intent(out) :: error
       type(input_case) :: this
@@ -278,6 +280,7 @@ contains
       type(experiment_state), intent(inout) :: state
       type(input_case), intent(in) :: this
       type(case_status), intent(in) :: status
+      !> Contact problem of the case
       type(numbered_slot), intent(in) :: slot
       character(len=1) :: letter
 

@@ -60,6 +60,7 @@ contains
 
    !> Run or check one experiment; the error is the first of all that were met
    subroutine run_experiment(settings, error, interrupted)
+      !> What the caller asks for
       type(run_settings), target, intent(in) :: settings
       type(error_type), allocatable, intent(out) :: error
       !> Did settings%stop_asked end it?

@@ -123,7 +123,9 @@ contains
    !> Index of the slot of a result element and patch, which is made when it is new
    subroutine find_slot(state, reid, cpid, k)
       type(experiment_state), intent(inout) :: state
+      !> Numbers of the result element and of the contact problem in it
       integer, intent(in) :: reid, cpid
+      !> In the list of slots of the experiment
       integer, intent(out) :: k
       type(numbered_slot), allocatable :: longer(:)
 
@@ -144,6 +146,7 @@ contains
    !> Solve a case of either module
    subroutine solve_one(state, slot, this, log, error)
       type(experiment_state), intent(in) :: state
+      !> Contact problem of the case
       type(numbered_slot), intent(inout) :: slot
       type(input_case), intent(in) :: this
       type(log_type), intent(inout) :: log
@@ -174,7 +177,9 @@ contains
 
    !> "1 case", "2 cases"
    pure function counted(n, what) result(text)
+      !> How many
       integer, intent(in) :: n
+      !> In the singular
       character(len=*), intent(in) :: what
       character(len=columns_of(n) + 1 + len(what) + merge(0, 1, n == 1)) :: text
 

@@ -47,6 +47,7 @@ contains
 
    pure subroutine add(self, other)
       class(stopwatch), intent(inout) :: self
+      !> Its times are added line by line
       type(stopwatch), intent(in) :: other
 
       self%calls = self%calls + other%calls
@@ -57,7 +58,9 @@ contains
    !> Component by component, because constructors with texts leak
    pure subroutine fill_line(self, name, line)
       class(stopwatch), intent(in) :: self
+      !> What is timed
       character(len=*), intent(in) :: name
+      !> With times of zero
       type(timer_line), intent(out) :: line
 
       line%name = name

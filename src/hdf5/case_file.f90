@@ -67,6 +67,7 @@ contains
 
    subroutine open_again(self, name, error)
       class(hdf5_case_file), intent(inout) :: self
+      !> Path of the file
       character(len=*), intent(in) :: name
       type(error_type), allocatable, intent(out) :: error
 

@@ -130,6 +130,7 @@ contains
    subroutine put(self, container, value)
       class(column_table), intent(inout) :: self
       type(hdf5_container), intent(inout) :: container
+      !> With name, unit and title
       type(named_value), intent(in) :: value
       integer :: k
 
@@ -213,6 +214,7 @@ contains
    subroutine read_column(self, container, name, values)
       class(column_table), intent(in) :: self
       type(hdf5_container), intent(inout) :: container
+      !> As the file has it
       character(len=*), intent(in) :: name
       !> As many as there are rows on disk; 0 when there is no such column, which is a failure of the container
       real(wp), intent(out), contiguous :: values(:)

@@ -314,6 +314,7 @@ contains
       class(hdf5_container), intent(inout) :: self
       !> Group in which it lies; `self%file` for the topmost
       integer(hid_t), intent(in) :: parent
+      !> Within the group in hand
       character(len=*), intent(in) :: name
       !> The open group
       integer(hid_t), intent(out) :: group
@@ -326,6 +327,7 @@ contains
    !> Remove a topmost group; nothing happens when there is none of that name
    subroutine remove_group(self, name)
       class(hdf5_container), intent(inout) :: self
+      !> Without slash
       character(len=*), intent(in) :: name
       integer :: status
       logical :: is_there
@@ -384,6 +386,7 @@ contains
       class(hdf5_container), intent(inout) :: self
       !> Group or dataset, or `self%file`
       integer(hid_t), intent(in) :: object
+      !> Of the attribute, and its content
       character(len=*), intent(in) :: name, value
       integer(hid_t) :: attribute, kind
       integer(hsize_t) :: one(1)
@@ -400,7 +403,9 @@ contains
    !> Set an integer as an attribute of the file, in place of one of that name
    subroutine set_count(self, name, value)
       class(hdf5_container), intent(inout) :: self
+      !> Of the attribute
       character(len=*), intent(in) :: name
+      !> Its new content
       integer, intent(in) :: value
       integer(hid_t) :: attribute
       integer(hsize_t) :: one(1)
@@ -419,6 +424,7 @@ contains
    !> Remove an attribute of the file; nothing happens when there is none of that name
    subroutine drop_attribute(self, name)
       class(hdf5_container), intent(inout) :: self
+      !> As the file has it
       character(len=*), intent(in) :: name
       logical :: is_there
       integer :: status

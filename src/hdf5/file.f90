@@ -213,7 +213,7 @@ contains
    !> Remove an attribute of the file; nothing happens when there is none of that name
    subroutine drop_attribute(self, name)
       class(hdf5_file), intent(inout) :: self
-      character(len=*), intent(in) :: name
+      character(len=*), intent(in) :: name !! As the file has it
 
       call self%container%drop_attribute(name)
    end subroutine drop_attribute
@@ -291,7 +291,7 @@ contains
    !> Go into a new group of the case
    subroutine enter(self, name)
       class(hdf5_file), intent(inout) :: self
-      character(len=*), intent(in) :: name
+      character(len=*), intent(in) :: name !! Without slash
       integer(hid_t) :: inner
 
       call self%container%new_group(self%group, name, inner)
@@ -314,7 +314,7 @@ contains
    !> Begin a row of the columns of cases, or of those of patches
    subroutine begin_row(self, patch)
       class(hdf5_file), intent(inout) :: self
-      logical, intent(in) :: patch
+      logical, intent(in) :: patch !! Of the patches instead of the cases?
 
       self%in_patch = patch
       if (patch) then
@@ -429,7 +429,7 @@ contains
    !> An array over the elements
    subroutine field(self, name, unit, title, values)
       class(hdf5_file), intent(inout) :: self
-      character(len=*), intent(in) :: name, unit, title
+      character(len=*), intent(in) :: name, unit, title !! Of the dataset; its unit, and in words what it is
       !> Shape (mx, my)
       real(wp), intent(in), contiguous, target :: values(:, :)
       integer(hsize_t) :: dims(2)
@@ -441,7 +441,7 @@ contains
    !> Element states
    subroutine division(self, name, title, states)
       class(hdf5_file), intent(inout) :: self
-      character(len=*), intent(in) :: name, title
+      character(len=*), intent(in) :: name, title !! Of the dataset, and in words what it is
       !> Shape (mx, my)
       integer, intent(in) :: states(:, :)
       real(wp), allocatable :: values(:, :)
@@ -455,7 +455,7 @@ contains
    !> An array over the points of a block
    subroutine block(self, name, unit, title, values, nx, ny, nz)
       class(hdf5_file), intent(inout) :: self
-      character(len=*), intent(in) :: name, unit, title
+      character(len=*), intent(in) :: name, unit, title !! Of the dataset; its unit, and in words what it is
       !> Size nx ny nz, x fastest
       real(wp), intent(in), contiguous :: values(:)
       !> Points in each direction

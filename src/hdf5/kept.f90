@@ -81,6 +81,7 @@ contains
       type(hdf5_container), intent(inout) :: container
       !> Open group
       integer(hid_t), intent(in) :: group
+      !> Under which the group has the object
       character(len=*), intent(in) :: name
       integer :: status
 
@@ -93,6 +94,7 @@ contains
       class(kept_object), intent(in) :: self
       !> All values in their order, and the shape
       real(wp), intent(in) :: values(:)
+      !> Extents, the slowest index first
       integer(hsize_t), intent(in) :: dims(:)
 
       holds = .false.

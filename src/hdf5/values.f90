@@ -103,6 +103,7 @@ contains
    !> Have two lists the same names and values?
    pure logical function equals(self, other)
       class(value_list), intent(in) :: self
+      !> Compared in the same order
       type(value_list), intent(in) :: other
       integer :: i
 
@@ -117,6 +118,7 @@ contains
    !> Have two values the same name and value?
    pure logical function is_same(self, other) result(same)
       class(named_value), intent(in) :: self
+      !> Compared bit by bit
       type(named_value), intent(in) :: other
 
       same = .false.
@@ -135,6 +137,7 @@ contains
 
    !> Equal bit by bit: a NaN equals itself, 0 and -0 differ
    elemental logical function same_number(a, b) result(same)
+      !> Any two numbers
       real(wp), intent(in) :: a, b
       same = transfer(a, 0_long) == transfer(b, 0_long)
    end function same_number
@@ -205,6 +208,7 @@ contains
       character(len=*), intent(in) :: name, unit, title
       !> Shape
       integer(hsize_t), intent(in) :: dims(:)
+      !> The first index runs fastest
       real(wp), intent(in), target :: values(product(dims))
       !> Type on disk: of numbers, or of element states
       integer(hid_t), intent(in) :: kind

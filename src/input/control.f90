@@ -32,6 +32,7 @@ contains
 
    !> Read the words and make named choices of their digits
    subroutine read_control_words(lexer, words, module_number, spec, error)
+      !> At the first word
       type(input_lexer), intent(inout) :: lexer
       type(control_words), intent(out) :: words
       !> 1 or 3
@@ -351,6 +352,7 @@ contains
       integer, intent(in) :: kind
       !> Letter of the digit
       character(len=*), intent(in) :: name
+      !> One sentence
       character(len=*), intent(in) :: message
 
       if (words%has_keys) then

@@ -83,6 +83,7 @@ contains
    !> Read a file from the disk
    subroutine open_experiment(self, file, error, below)
       class(experiment_reader), intent(out) :: self
+      !> Path
       character(len=*), intent(in) :: file
       type(error_type), allocatable, intent(out) :: error
       !> Folder below which the file must be; absent: anywhere
@@ -95,6 +96,7 @@ contains
 
    !> Is it a file of the readable format, by its name?
    pure logical function is_readable_format(file)
+      !> Path
       character(len=*), intent(in) :: file
       character(len=*), parameter :: suffix = ".toml"
 
@@ -116,6 +118,7 @@ contains
    !> Take a text that is in memory already
    subroutine open_experiment_text(self, text, name)
       class(experiment_reader), intent(out) :: self
+      !> As the file would have it
       character(len=*), intent(in) :: text
       !> Name of the file in messages
       character(len=*), intent(in) :: name

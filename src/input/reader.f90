@@ -27,6 +27,7 @@ contains
    !> reading goes on; `error` means that reading cannot go on.
    subroutine read_case(lexer, module_number, previous, has_previous, case_number, spec, problems, error, coefficients, &
       & first_line, digits)
+      !> At the first word of the case
       type(input_lexer), intent(inout), target :: lexer
       !> 1 or 3
       integer, intent(in) :: module_number

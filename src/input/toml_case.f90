@@ -56,6 +56,7 @@ contains
       logical, intent(in) :: ends_module
       !> The previous case of this module and result element, and whether there is one
       type(case_spec), intent(in) :: previous
+      !> Is there a case before, whose values stay where nothing is said?
       logical, intent(in) :: has_previous
       type(case_spec), intent(out) :: spec
       !> Has been started

@@ -56,6 +56,7 @@ contains
    !> Make a tree of a text and look at its top
    subroutine open_text(self, text, file, error)
       class(toml_cases), intent(out) :: self
+      !> As the file has it
       character(len=*), intent(in) :: text
       !> Name in messages
       character(len=*), intent(in) :: file
@@ -204,12 +205,17 @@ contains
       class(toml_cases), intent(inout) :: self
       !> Of its result element
       type(toml_memory), intent(inout) :: memory
+      !> 1 or 3
       integer, intent(in) :: module_number
+      !> Is the case the last one?
       logical, intent(in) :: ends_module
+      !> Whose values stay where nothing is said
       type(case_spec), intent(in) :: previous
+      !> Is there a case before?
       logical, intent(in) :: has_previous
       type(case_spec), intent(out) :: spec
       type(problem_list), intent(inout) :: problems
+      !> Grid of the influence coefficients that a file had for cases before
       type(potential_contact), intent(inout) :: coefficients
       !> Digits that stand for the case
       type(case_digits), intent(out) :: digits

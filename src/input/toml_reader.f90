@@ -51,6 +51,7 @@ contains
       !> Table of the case
       integer, intent(in) :: case_node
       type(problem_list), intent(in), target :: problems
+      !> What cases before have said
       type(toml_memory), intent(in), target :: memory
       !> One for each node
       logical, intent(in), target :: used(:)

@@ -83,6 +83,7 @@ contains
       class(toml_memory), intent(inout) :: self
       !> "group.key"
       character(len=*), intent(in) :: name
+      !> In the tree of the document
       integer, intent(in) :: node
       integer :: k
 
@@ -98,6 +99,7 @@ contains
    !> Is it an array of tables, of its own headers or in place?
    pure logical function is_tables(document, index)
       type(toml_document), intent(in) :: document
+      !> In the tree of the document
       integer, intent(in) :: index
       integer :: k
 
@@ -112,6 +114,7 @@ contains
    !> The n-th child, 0 when there are fewer
    pure integer function number_of(document, array, n) result(node)
       type(toml_document), intent(in) :: document
+      !> Node in the tree of the document, and which of its children, from 1
       integer, intent(in) :: array, n
       integer :: k
 
@@ -125,6 +128,7 @@ contains
    !> Number of values in an array of arrays
    recursive pure integer function leaves_of(document, index) result(n)
       type(toml_document), intent(in) :: document
+      !> In the tree of the document
       integer, intent(in) :: index
       integer :: k
 
@@ -169,6 +173,7 @@ contains
    !> A key of the table in hand, or remembered; 0 for none
    integer function list_of(self, key) result(node)
       class(toml_tables), intent(in) :: self
+      !> As the file writes it
       character(len=*), intent(in) :: key
       integer :: table
 
@@ -181,6 +186,7 @@ contains
    !> Find a key in the table in hand, then in those of cases before; an element of an array for names that end with a figure
    subroutine find(self, key, node)
       class(toml_tables), intent(inout) :: self
+      !> As the file writes it
       character(len=*), intent(in) :: key
       !> 0 when it was never given
       integer, intent(out) :: node
@@ -224,6 +230,7 @@ contains
       integer, intent(in) :: kind
       !> Node, 0 for none
       integer, intent(in) :: index
+      !> One sentence
       character(len=*), intent(in) :: message
       integer :: place
 
@@ -253,7 +260,9 @@ contains
    !> "key = value" as it was given
    function told(self, key, index) result(text)
       class(toml_tables), intent(in) :: self
+      !> As the file writes it
       character(len=*), intent(in) :: key
+      !> Of the value in the tree of the document
       integer, intent(in) :: index
       character(len=len(key) + 3 + len_told(self, index)) :: text
 

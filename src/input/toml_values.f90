@@ -18,8 +18,11 @@ contains
    !> Bounds of the value of an item
    subroutine check_item(self, item, key, node, bounds)
       class(toml_tables), intent(inout) :: self
+      !> With its value
       type(archive_item), intent(in) :: item
+      !> As the file writes it
       character(len=*), intent(in) :: key
+      !> Of the value in the tree of the document
       integer, intent(in) :: node
       !> Name of the bounds in the table; default that of the item
       character(len=*), intent(in), optional :: bounds
@@ -44,6 +47,7 @@ contains
       class(toml_tables), intent(inout) :: self
       !> Of the item
       character(len=*), intent(in) :: name
+      !> Values in the list
       integer, intent(out) :: number
       integer :: array, per, option
 
@@ -88,7 +92,9 @@ contains
    !> A value of the kind that an item needs
    subroutine take_number(self, item, index, complaint)
       class(toml_tables), intent(in) :: self
+      !> Its value is set
       type(archive_item), intent(inout) :: item
+      !> Of the value in the tree of the document
       integer, intent(in) :: index
       !> Why it is none; unallocated when it is
       character(len=:), allocatable, intent(out) :: complaint
@@ -144,13 +150,17 @@ contains
    !> Numbers of an array and of those in it
    recursive subroutine fill_list(self, array, key, row, values, filled, units)
       class(toml_tables), intent(inout) :: self
+      !> Node in the tree of the document
       integer, intent(in) :: array
+      !> As the file writes it
       character(len=*), intent(in) :: key
       !> Of the bounds
       integer, intent(in) :: row
+      !> In internal units; those that the array lacks stay
       real(wp), intent(inout) :: values(:)
       !> Number of values that have been taken
       integer, intent(inout) :: filled
+      !> Internal unit of each component, where they differ
       character(len=*), intent(in), optional :: units(:)
       character(len=:), allocatable :: complaint, unit
       integer :: k

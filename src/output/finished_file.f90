@@ -113,6 +113,7 @@ contains
    !> Go on with a file of results behind a place, or say why not
    subroutine open_result_again(file, name, place, error, limits)
       class(output_file), intent(inout) :: file
+      !> Path of the file
       character(len=*), intent(in) :: name
       !> Bytes that are kept
       integer(c_long), intent(in) :: place
@@ -130,6 +131,7 @@ contains
    !> Close a file of results and say whether all of it arrived
    subroutine close_result(file, name, error)
       class(output_file), intent(inout) :: file
+      !> Path of the file, for the message
       character(len=*), intent(in) :: name
       type(error_type), allocatable, intent(out) :: error
       logical :: complete
@@ -140,6 +142,7 @@ contains
 
    !> Rename a file; where the system refuses to replace, the old one steps aside, and comes back when that did not help
    integer function move_file(from, to) result(status)
+      !> Paths, old and new
       character(len=*), intent(in) :: from, to
       character(len=*), parameter :: aside = ".old"
       integer :: ignored, unit

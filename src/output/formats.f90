@@ -40,6 +40,7 @@ contains
 
    !> Integer, right-aligned in width columns; longer if it does not fit
    pure function whole(value, width) result(text)
+      !> What is written
       integer, intent(in) :: value
       !> Number of columns
       integer, intent(in) :: width
@@ -57,6 +58,7 @@ contains
    !> Fixed point with the given decimals, right-aligned; large values lose decimals, then
    !> turn to scientific notation
    pure function fixed(value, width, decimals) result(text)
+      !> What is written
       real(wp), intent(in) :: value
       !> Number of columns and of decimals
       integer, intent(in) :: width, decimals
@@ -86,6 +88,7 @@ contains
 
    !> Normalised scientific: one non-zero digit before the point
    pure function scientific(value, width, decimals) result(text)
+      !> What is written
       real(wp), intent(in) :: value
       !> Number of columns and of decimals
       integer, intent(in) :: width, decimals
@@ -103,6 +106,7 @@ contains
    !> Switching format: fixed with the given significant digits and four blanks behind for
    !> 0.1 <= |value| < 10**digits (after rounding), else 0.dddE+xx
    pure function general(value, width, digits) result(text)
+      !> What is written
       real(wp), intent(in) :: value
       !> Number of columns and of significant digits
       integer, intent(in) :: width, digits
@@ -129,6 +133,7 @@ contains
    !> "Smart" format: fixed with a constant number of digits for 0.1 <= |value| < 10**places,
    !> else scientific with the given significant digits. The switch looks at the unrounded value.
    pure function smart(value, width, places, digits) result(text)
+      !> What is written
       real(wp), intent(in) :: value
       !> Number of columns, digits of the fixed form, digits of the scientific form
       integer, intent(in) :: width, places, digits
@@ -156,6 +161,7 @@ contains
 
    !> Values next to each other in the format G 12.4
    pure function generals(values) result(text)
+      !> What is written
       real(wp), intent(in) :: values(:)
       character(len=12*size(values)) :: text
       integer :: i
@@ -166,6 +172,7 @@ contains
 
    !> Values next to each other in 12 columns with four decimals
    pure function fixeds(values) result(text)
+      !> What is written
       real(wp), intent(in) :: values(:)
       character(len=12*size(values)) :: text
       integer :: i
@@ -176,6 +183,7 @@ contains
 
    !> Values next to each other in the format S 12/4/4
    pure function smarts(values) result(text)
+      !> What is written
       real(wp), intent(in) :: values(:)
       character(len=12*size(values)) :: text
       integer :: i
@@ -192,6 +200,7 @@ contains
 
    !> Column names above values: two blanks, then three blanks and a name in each twelve columns
    pure function heading(names) result(text)
+      !> At most nine letters each
       character(len=*), intent(in) :: names(:)
       character(len=heading_length(names)) :: text
       integer :: i

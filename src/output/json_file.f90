@@ -64,6 +64,7 @@ contains
    !> Open a file, or take the standard output when the name is "-"
    subroutine open_json_file(self, name, planned, limits, error, place)
       class(json_file), intent(inout) :: self
+      !> Path of the file
       character(len=*), intent(in) :: name
       !> Number of cases of the input
       integer, intent(in) :: planned
@@ -322,6 +323,7 @@ contains
 
    !> A number in the fewest figures that read back as the same number, with blanks behind; null when it is not finite
    pure function number_text(value) result(text)
+      !> What is written
       real(wp), intent(in) :: value
       character(len=longest_number) :: text
       !> 15, 16 and 17 figures

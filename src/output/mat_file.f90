@@ -63,6 +63,7 @@ contains
    pure function mat_file_name(base, case_number, result_element, patch) result(name)
       !> Folder and name of the experiment
       character(len=*), intent(in) :: base
+      !> From 1
       integer, intent(in) :: case_number
       !> Result element and contact patch (1 = a), 0 for none
       integer, intent(in) :: result_element, patch
@@ -73,6 +74,7 @@ contains
 
    !> Write the file of a solved case; under its name it is complete or does not exist
    subroutine write_mat_file(file_name, spec, result, status, error, place)
+      !> Path
       character(len=*), intent(in) :: file_name
       type(case_spec), intent(in) :: spec
       type(patch_result), target, intent(in) :: result

@@ -32,6 +32,7 @@ module contact_output_record
       subroutine open_interface(self, name, columns, brief)
          import :: record_writer
          class(record_writer), intent(inout) :: self
+         !> Of the group
          character(len=*), intent(in) :: name
          !> Are these totals, of which a curve over the cases can be drawn? Default false
          logical, intent(in), optional :: columns
@@ -56,27 +57,34 @@ module contact_output_record
       subroutine numbers_interface(self, name, unit, title, values)
          import :: record_writer, wp
          class(record_writer), intent(inout) :: self
+         !> Of the list; its unit, and in words what it is
          character(len=*), intent(in) :: name, unit, title
+         !> In that unit
          real(wp), intent(in) :: values(:)
       end subroutine numbers_interface
 
       subroutine count_interface(self, name, title, value)
          import :: record_writer
          class(record_writer), intent(inout) :: self
+         !> Of the integer, and in words what it is
          character(len=*), intent(in) :: name, title
+         !> What is written
          integer, intent(in) :: value
       end subroutine count_interface
 
       subroutine text_interface(self, name, title, value)
          import :: record_writer
          class(record_writer), intent(inout) :: self
+         !> Of the text; in words what it is, and the text itself
          character(len=*), intent(in) :: name, title, value
       end subroutine text_interface
 
       subroutine flag_interface(self, name, title, value)
          import :: record_writer
          class(record_writer), intent(inout) :: self
+         !> Of the answer, and in words the question
          character(len=*), intent(in) :: name, title
+         !> What is written
          logical, intent(in) :: value
       end subroutine flag_interface
    end interface

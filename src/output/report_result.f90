@@ -84,6 +84,7 @@ contains
       type(total_list), intent(in) :: totals
       !> Names above the values that follow
       character(len=*), intent(in) :: first_heading, second_heading
+      !> Numbers of the first line, and of the second behind the approach, as the report shows them
       real(wp), intent(in) :: first(6), second(3)
       !> Name of the lateral force
       character(len=2), intent(in) :: lateral

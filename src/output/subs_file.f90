@@ -33,6 +33,7 @@ contains
    pure function subs_file_name(base, case_number, result_element, patch) result(name)
       !> Folder and name of the experiment
       character(len=*), intent(in) :: base
+      !> From 1
       integer, intent(in) :: case_number
       !> Result element and contact patch (1 = a), 0 for none
       integer, intent(in) :: result_element, patch
@@ -43,6 +44,7 @@ contains
 
    !> Write all blocks; under its name the file is complete or does not exist
    subroutine write_subs_file(file_name, spec, result, error)
+      !> Path
       character(len=*), intent(in) :: file_name
       type(case_spec), intent(in) :: spec
       !> The file is not made when the subsurface blocks are unallocated

@@ -71,6 +71,7 @@ contains
    !> Is this the text that was kept for a name?
    pure logical function is_same(self, name, text)
       class(remembered_texts), intent(in) :: self
+      !> Of a group, and what it says
       character(len=*), intent(in) :: name, text
       integer :: k
 
@@ -83,6 +84,7 @@ contains
    !> Keep the text for a name
    pure subroutine keep(self, name, text)
       class(remembered_texts), intent(inout) :: self
+      !> Of a group, and what it says
       character(len=*), intent(in) :: name, text
       integer :: k
 
@@ -246,7 +248,9 @@ contains
 
    !> A text in quotes
    pure subroutine quoted(value, text)
+      !> As the program has it
       character(len=*), intent(in) :: value
+      !> With escapes
       character(len=:), allocatable, intent(out) :: text
       character(len=6) :: escape
       integer :: k
@@ -268,6 +272,7 @@ contains
    !> Add a key with a value to the group in hand, unless the reader finds the value without it
    subroutine put(self, key, text, item, remark)
       class(toml_writer), intent(inout) :: self
+      !> As the file writes it, and its right-hand side
       character(len=*), intent(in) :: key, text
       !> With what it means
       type(archive_item), intent(in), optional :: item

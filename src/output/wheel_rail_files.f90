@@ -24,6 +24,7 @@ contains
       !> Result element 0 for none
       integer, intent(in) :: case_number, result_element
       type(case_spec), intent(in) :: spec
+      !> Of a solved case
       type(wheel_rail_result), intent(in) :: result
       type(error_type), allocatable, intent(out) :: error
       !> Time of the case, for the header [s]; default 0

@@ -492,6 +492,7 @@ contains
    !> An index in brackets does not count, and figures and the letters of a body at the end count only if the
    !> name stands in the table with them: B(3) is B, GG2 is GG, NOMRADW is NOMRAD.
    pure integer function bounds_of(name) result(row)
+      !> As messages and the manual have it
       character(len=*), intent(in) :: name
       integer :: last
 
@@ -531,6 +532,7 @@ contains
    pure logical function is_within(row, value)
       !> 0: none
       integer, intent(in) :: row
+      !> In the unit of the row
       real(wp), intent(in) :: value
 
       is_within = .false.
@@ -545,6 +547,7 @@ contains
       character(len=*), intent(in) :: name
       !> The value as it was given, "" to write it anew
       character(len=*), intent(in) :: word
+      !> In the unit of the row
       real(wp), intent(in) :: value
       !> Not allocated when the bounds are kept
       character(len=:), allocatable, intent(out) :: complaint
@@ -601,6 +604,7 @@ contains
    subroutine check_number(name, value, error, shown)
       !> As in the input files
       character(len=*), intent(in) :: name
+      !> In the unit of the table
       real(wp), intent(in) :: value
       type(error_type), allocatable, intent(inout) :: error
       !> Name in the complaint, where that is another one

@@ -20,6 +20,7 @@ contains
    !> Add a piece
    subroutine add(self, piece)
       class(text_buffer), intent(inout) :: self
+      !> Goes behind what is there
       character(len=*), intent(in) :: piece
       integer, parameter :: first_length = 1000
       character(len=:), allocatable :: longer
@@ -37,6 +38,7 @@ contains
    !> Add a line with its end
    subroutine add_line(self, line)
       class(text_buffer), intent(inout) :: self
+      !> Without its end
       character(len=*), intent(in) :: line
 
       call self%add(line)
@@ -46,6 +48,7 @@ contains
    !> The text
    subroutine get(self, text)
       class(text_buffer), intent(in) :: self
+      !> All that was added
       character(len=:), allocatable, intent(out) :: text
 
       text = ""

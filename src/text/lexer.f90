@@ -81,6 +81,7 @@ contains
    !> Read a file into memory
    subroutine open_file(self, file, error, below)
       class(input_lexer), intent(out) :: self
+      !> Path
       character(len=*), intent(in) :: file
       type(error_type), allocatable, intent(out) :: error
       !> Folder below which the file must be; absent: anywhere
@@ -187,6 +188,7 @@ contains
    !> The text as a whole, for formats with a grammar of their own
    subroutine get_text(self, text)
       class(input_lexer), intent(in) :: self
+      !> With the ends of its lines
       character(len=:), allocatable, intent(out) :: text
 
       text = self%text
@@ -203,6 +205,7 @@ contains
 
    !> Go on with the hash of a text: FNV-1a with 32 bits
    pure subroutine add_to_hash(text, hash)
+      !> Its bytes count, in their order
       character(len=*), intent(in) :: text
       !> Begins with empty_hash
       integer(long), intent(inout) :: hash
@@ -217,6 +220,7 @@ contains
    !> Go on with the hash of the text over some lines, without the ends of lines
    pure subroutine hash_lines(self, first, last, hash)
       class(input_lexer), intent(in) :: self
+      !> Numbers of lines, both included
       integer, intent(in) :: first, last
       !> As for add_to_hash
       integer(long), intent(inout) :: hash
@@ -297,6 +301,7 @@ contains
       integer, intent(out), optional :: line
       !> Bounds of the values, and the first value that is outside; it is not given when there is none
       real(wp), intent(in), optional :: lowest, highest
+      !> The first number beyond its bounds, with its place
       type(input_value), intent(out), optional :: outside
       type(input_value) :: value
       type(word_place) :: place
@@ -492,6 +497,7 @@ contains
 
    !> The same without the blanks
    pure function printable(piece) result(text)
+      !> A part of an input
       character(len=*), intent(in) :: piece
       character(len=len_trim(echo(piece))) :: text
 

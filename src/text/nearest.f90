@@ -35,6 +35,7 @@ contains
 
    !> Place of the most similar word in a list, 0 when none is similar: more than a third of its letters would change
    pure integer function nearest_word(word, list) result(place)
+      !> As it was mistyped
       character(len=*), intent(in) :: word
       !> Words with blanks behind; blank ones do not count
       character(len=*), intent(in) :: list(:)

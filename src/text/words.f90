@@ -28,6 +28,7 @@ contains
 
    !> Optional sign and figures
    pure subroutine to_integer(word, value, state)
+      !> Without blanks
       character(len=*), intent(in) :: word
       !> 0 unless the state is good
       integer, intent(out) :: value
@@ -60,6 +61,7 @@ contains
    !> The form is checked by hand: list-directed and formatted reading accept more (`1,5`, `3*2`,
    !> blanks as zeros, NaN), and numbers beyond the range would trap in a debug build.
    pure subroutine to_real(word, value, state)
+      !> Without blanks
       character(len=*), intent(in) :: word
       !> 0 unless the state is good
       real(wp), intent(out) :: value
@@ -155,6 +157,7 @@ contains
 
    !> A real number, with `d` or `D` behind it in degrees, with `r` or `R` in radians
    pure subroutine to_angle(word, value, state)
+      !> Without blanks
       character(len=*), intent(in) :: word
       !> Angle [rad]
       real(wp), intent(out) :: value
@@ -246,6 +249,7 @@ contains
 
    !> Columns that an integer needs
    pure integer function columns_of(value) result(columns)
+      !> May be negative
       integer, intent(in) :: value
       integer :: rest
 
@@ -259,6 +263,7 @@ contains
 
    !> An integer in as many characters as it needs
    pure function integer_text(value) result(text)
+      !> May be negative
       integer, intent(in) :: value
       character(len=columns_of(value)) :: text
 
@@ -286,6 +291,7 @@ contains
 
    !> The same without the blanks
    pure function real_text(value) result(text)
+      !> What is written
       real(wp), intent(in) :: value
       character(len=len_trim(six_figures(value))) :: text
 
@@ -306,8 +312,11 @@ contains
 
    !> A text with something else for each occurrence of a letter
    pure function replaced(text, letter, by) result(changed)
+      !> Any
       character(len=*), intent(in) :: text
+      !> What is looked for
       character, intent(in) :: letter
+      !> What stands there instead, of any length
       character(len=*), intent(in) :: by
       character(len=len(text) + occurrences(text, letter)*(len(by) - 1)) :: changed
       integer :: i, last
@@ -326,6 +335,7 @@ contains
 
    !> A real number in as few figures as tell it apart from all others, with blanks behind; it has a point or an exponent
    pure function exact_text(value) result(text)
+      !> What is written
       real(wp), intent(in) :: value
       character(len=26) :: text
       !> Numbers from 1e-5 to 1e7 are written without exponent
@@ -365,6 +375,7 @@ contains
 
    !> A text in small letters
    pure function small(text)
+      !> Other letters than A to Z stay
       character(len=*), intent(in) :: text
       character(len=len(text)) :: small
       integer :: k
@@ -377,6 +388,7 @@ contains
 
    !> A text in capital letters
    elemental function capital(text)
+      !> Other letters than a to z stay
       character(len=*), intent(in) :: text
       character(len=len(text)) :: capital
       integer :: k

@@ -66,6 +66,7 @@ contains
    !> A document with a text and an empty table
    subroutine begin(self, text)
       class(toml_document), intent(out) :: self
+      !> It is copied
       character(len=*), intent(in) :: text
       integer, parameter :: first_size = 64
 
@@ -82,6 +83,7 @@ contains
    !> Add a node; with a key it can be found by it
    subroutine add(self, parent, node, index)
       class(toml_document), intent(inout) :: self
+      !> Node of a table or an array
       integer, intent(in) :: parent
       !> Its key and its kind are known
       type(toml_node), intent(in) :: node
@@ -149,6 +151,7 @@ contains
    !> Put a string into the store
    subroutine keep(self, text, first, last)
       class(toml_document), intent(inout) :: self
+      !> Without quotes and escapes
       character(len=*), intent(in) :: text
       !> Where it is
       integer, intent(out) :: first, last
@@ -168,7 +171,9 @@ contains
    !> The child of a table with a key, 0 when there is none
    pure integer function child(self, parent, key) result(index)
       class(toml_document), intent(in) :: self
+      !> Node of a table
       integer, intent(in) :: parent
+      !> Without quotes
       character(len=*), intent(in) :: key
 
       index = self%places(self%slot_of(parent, key))
@@ -177,6 +182,7 @@ contains
    !> Key of a node, "" for an element of an array
    pure function key_of(self, index) result(text)
       class(toml_document), intent(in) :: self
+      !> Of a node
       integer, intent(in) :: index
       character(len=self%nodes(index)%key_last - self%nodes(index)%key_first + 1) :: text
 
@@ -186,6 +192,7 @@ contains
    !> A value as a text, "" for tables and arrays
    pure function text_of(self, index) result(text)
       class(toml_document), intent(in) :: self
+      !> Of a node
       integer, intent(in) :: index
       character(len=self%nodes(index)%text_last - self%nodes(index)%text_first + 1) :: text
 

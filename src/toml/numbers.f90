@@ -19,6 +19,7 @@ contains
       logical, intent(out) :: is_real
       !> Of integers, and of both
       integer(long), intent(out) :: i
+      !> The number, where it is real
       real(wp), intent(out) :: r
       !> What is wrong with it; unallocated when it is a number
       character(len=:), allocatable, intent(out) :: complaint

@@ -80,6 +80,7 @@ contains
 
    !> Can a key be written without quotes?
    pure logical function is_bare_key(key)
+      !> Without quotes
       character(len=*), intent(in) :: key
 
       is_bare_key = len(key) > 0 .and. verify(key, bare) == 0

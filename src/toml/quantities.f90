@@ -50,6 +50,7 @@ contains
       character(len=*), intent(in) :: text
       !> Unit of the result, as in the table of bounds; "- or mm" is one of two
       character(len=*), intent(in) :: wanted
+      !> In the internal unit
       real(wp), intent(out) :: value
       !> What is wrong with it; unallocated when it is good
       character(len=:), allocatable, intent(out) :: complaint

@@ -23,6 +23,7 @@ contains
    !> An error at a place of the line in hand
    subroutine fail(p, message, at)
       class(toml_scanner), intent(inout) :: p
+      !> One sentence without the place
       character(len=*), intent(in) :: message
       !> Character; default the next one
       integer, intent(in), optional :: at
@@ -128,6 +129,7 @@ contains
    !> Is this the next character? Then it is skipped
    logical function took(p, letter)
       class(toml_scanner), intent(inout) :: p
+      !> What is expected
       character, intent(in) :: letter
 
       took = .false.
