@@ -11,7 +11,7 @@ module contact_base_choices
    public :: variation, contact_location
    public :: sensitivity_choice
    public :: grid_form, planform_choice
-   public :: has_slope_reduction, is_fastrip, is_rolling, is_simplified
+   public :: has_slope_reduction, is_classical, is_fastrip, is_rolling, is_simplified
 
    !> How a case is linked to the previous one (P)
    type :: time_link_list
@@ -65,7 +65,7 @@ module contact_base_choices
    end type material_model_list
    type(material_model_list), parameter :: material_model = material_model_list()
 
-   !> Tangential solver (G)
+   !> Tangential solver (G). The default one acts in place of the others where it can, unless `classical` of the case is set
    type :: solver_choice_list
       !> Newton-Krylov with automatic fall-back
       integer :: default = 0
@@ -139,6 +139,15 @@ module contact_base_choices
    type(sensitivity_choice_list), parameter :: sensitivity_choice = sensitivity_choice_list()
 
 contains
+
+   !> Does a solver choice name a classical method, in whose place the default solver acts where it can?
+   pure elemental logical function is_classical(choice)
+      !> Member of solver_choice
+      integer, intent(in) :: choice
+
+      is_classical = choice == solver_choice%convex_gs .or. choice == solver_choice%gauss_seidel &
+         & .or. choice == solver_choice%gd_steady
+   end function is_classical
 
    !> Does one body roll over the other?
    elemental logical function is_rolling(kind)

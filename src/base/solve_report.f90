@@ -34,6 +34,8 @@ module contact_base_solve_report
       character(len=name_length) :: method = ""
       !> Name of the method that was tried first and given up; blank normally
       character(len=name_length) :: gave_up = ""
+      !> Name of the method that the input asks for, where another one acts; blank normally
+      character(len=name_length) :: asked = ""
       !> Member of ending
       integer :: ended = 0
       !> Iterations of the method (conjugate gradients, sweeps, Newton steps), last call

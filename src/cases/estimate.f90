@@ -75,12 +75,13 @@ contains
          continue
       case (motion%steady_rolling)
          tangential = steadily*n
-         if (spec%solver == solver_choice%gauss_seidel .or. spec%solver == solver_choice%gd_steady) &
+         if (spec%classical .and. (spec%solver == solver_choice%gauss_seidel .or. spec%solver == solver_choice%gd_steady)) &
             & tangential = by_steady_gs*n**1.5_wp
       case default
          tangential = by_step*n
       end select
-      if (spec%solver == solver_choice%convex_gs .and. spec%motion /= motion%none) tangential = by_convex_gs*n**1.5_wp
+      if (spec%classical .and. spec%solver == solver_choice%convex_gs .and. spec%motion /= motion%none) &
+         & tangential = by_convex_gs*n**1.5_wp
       if (is_varying_law(spec%friction_law)) tangential = changing_friction*tangential
       if (is_dissimilar(spec)) then
          tangential = tangential*min(spec%iteration%maxout, turns)

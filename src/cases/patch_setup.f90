@@ -123,6 +123,7 @@ contains
 
       problem%motion = spec%motion
       problem%solver = spec%solver
+      problem%classical = spec%classical
       problem%settings = spec%iteration%solver_settings
       problem%deadline = spec%limits%deadline
       problem%relaxation_given = spec%solver == solver_choice%convex_gs .or. spec%solver == solver_choice%gauss_seidel

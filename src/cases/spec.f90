@@ -162,6 +162,8 @@ module contact_cases_spec
       integer :: link = 2, pressure = 0, motion = 0, normal = 0, force = 0
       integer :: variation = 0, friction_law = 0, kernel = 2, material_model = 0
       integer :: slip_source = 0, solver = 0, estimate = 0
+      !> Does the classical solver run that `solver` names? Otherwise the default one, where it can; not part of the input file
+      logical :: classical = .false.
       !> Damping, surface temperatures, stresses below the surface?
       logical :: has_damping = .false., has_heat = .false., has_stress = .false.
       !> Which groups the case gives, and which it keeps

@@ -1,6 +1,6 @@
 !> All groups of the input that a case gives, in the order of the input files, once for all formats
 module contact_cases_whole_case
-   use contact_base_choices, only : force_control, grid_form, heat_source, kernel_model, material_model, &
+   use contact_base_choices, only : force_control, grid_form, heat_source, is_classical, kernel_model, material_model, &
       & motion, normal_control, planform_choice, pressure_model, slip_source, variation
    use contact_base_kinds, only : long, wp
    use contact_cases_archive, only : case_archive
@@ -37,6 +37,7 @@ contains
          if (parts%iteration == part_source%given) then
             call a%open_group("iteration")
             ! contact problems of their own may give a largest number of elements, which has no meaning for them
+            if (spec%classical .and. is_classical(spec%solver)) call a%comment("the solver runs with --classical only")
             call visit_iteration(a, spec%iteration, spec%solver, with_elements=is_wheel_rail .or. a%is_reading)
             call a%close_group()
          end if

@@ -59,6 +59,8 @@ module contact_cli_arguments
       integer :: heat_source = as_input_says
       !> Contact angles as in the established program?
       logical :: angle_below_axle = .true.
+      !> Run the classical solvers that cases name?
+      logical :: classical = .false.
       !> What a case may take, and whether the run is confined to its folder
       type(case_limits) :: limits
       !> What the run may take: time [s], and bytes of its files
@@ -143,6 +145,7 @@ contains
       settings%exports%vtk = asked%vtk
       settings%heat_source = asked%heat_source
       settings%angle_below_axle = asked%angle_below_axle
+      settings%classical = asked%classical
       if (allocated(asked%json)) settings%exports%json = asked%json
       if (.not. asked%quiet) then
          settings%screen = output_unit
@@ -242,6 +245,8 @@ contains
          if (value /= "contact" .and. value /= "established") call fatal_error(error, "the contact angle, '" // value // &
             & "', is not known; established and contact are")
          return
+      case ("--classical")
+         asked%classical = .true.
       case ("--confine")
          asked%limits%confined = .true.
       case ("--limit-time", "--limit-memory", "--limit-elements", "--limit-run-time", "--limit-output")
@@ -420,6 +425,7 @@ contains
          & "                    moving-source, without counting the heat of an element twice at its centre", &
          & "  --contact-angle NAME  on rails that vary along the track: established, of the section below the axle", &
          & "                    (default), or contact, of wheel and rail where they touch", &
+         & "  --classical       run the solvers that G names; without, the faster default solver acts in their place", &
          & "  --hdf5            write inputs, totals and fields of all cases to EXPNAM.h5", &
          & "  --json            write the totals of every case as JSON lines to EXPNAM.jsonl; --json=- writes", &
          & "                    them to the standard output, and nothing else", &

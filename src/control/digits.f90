@@ -178,13 +178,14 @@ module contact_control_digits
       & digit_row("H", 3, 1, both, .true., "surface temperatures with new values", "flash"), &
       & digit_row("G", 0, solver_choice%default, both, .true., "default solvers", "default"), &
       & digit_row("G", 1, 1, both, .true., "keep the solver settings of the previous case"), &
-      & digit_row("G", 2, solver_choice%convex_gs, both, .true., "ConvexGS always, relaxation is read", "convex_gs"), &
+      & digit_row("G", 2, solver_choice%convex_gs, both, .true., &
+      & "with --classical ConvexGS always; relaxation is read", "convex_gs"), &
       & digit_row("G", 3, solver_choice%gauss_seidel, both, .true., &
-      & "SteadyGS in steady rolling, relaxation is read", "gauss_seidel"), &
+      & "with --classical SteadyGS in steady rolling; relaxation is read", "gauss_seidel"), &
       & digit_row("G", 4, solver_choice%default_friction, both, .true., &
       & "default solvers, slip velocity iteration is read", "default_friction"), &
       & digit_row("G", 5, solver_choice%gd_steady, both, .true., &
-      & "GDsteady in steady rolling, its parameters are read", "gd_steady"), &
+      & "with --classical GDsteady in steady rolling; its parameters are read", "gd_steady"), &
       & digit_row("I", 0, estimate_choice%fresh, both, .true., "start from zero tractions", "fresh"), &
       & digit_row("I", 1, estimate_choice%previous, both, .true., "start from the previous solution, regularised", "previous"), &
       & digit_row("I", 2, estimate_choice%previous_normal, both, .true., &

@@ -50,6 +50,7 @@ contains
       settings%vtk = asked%exports%vtk
       settings%heat_source = asked%heat_source
       settings%angle_below_axle = asked%angle_below_axle
+      settings%classical = asked%classical
       if (asked%limits%deadline%seconds < huge(1.0_wp)) settings%seconds = asked%limits%deadline%seconds
       if (asked%limits%bytes < huge(1_long)) settings%bytes = asked%limits%bytes
       if (asked%limits%elements < huge(1_long)) settings%elements = asked%limits%elements
@@ -127,6 +128,7 @@ contains
       if (now%heat_source /= before%heat_source .and. now%heat_source /= as_input_says) &
          & what = "with another kind of temperatures (--heat)"
       if (before%angle_below_axle .and. .not. now%angle_below_axle) what = "with another kind of contact angles (--contact-angle)"
+      if (now%classical .and. .not. before%classical) what = "with the default solver (--classical)"
       if (len(what) > 0) then
          call fatal_error(error, "the run was made " // what // ": it cannot be resumed like this; run it anew without --resume")
          return
@@ -136,6 +138,7 @@ contains
       asked%exports%vtk = before%vtk
       asked%heat_source = before%heat_source
       asked%angle_below_axle = before%angle_below_axle
+      asked%classical = before%classical
       if (before%seconds > 0.0_wp .and. .not. now%seconds > 0.0_wp) asked%limits%deadline%seconds = before%seconds
       if (before%bytes > 0 .and. now%bytes == 0) asked%limits%bytes = before%bytes
       if (before%elements > 0 .and. now%elements == 0) asked%limits%elements = before%elements

@@ -70,6 +70,8 @@ module contact_experiment_state
       integer :: heat_source = as_input_says
       !> Contact angles on rails that vary along the track: of the section below the axle, as in the established program?
       logical :: angle_below_axle = .true.
+      !> Do the classical solvers run that cases name?
+      logical :: classical = .false.
       !> Go on with a run that has ended before all cases were finished?
       logical :: resume = .false.
    end type run_settings
@@ -169,6 +171,7 @@ contains
 
       if (asked%heat_source /= as_input_says) this%spec%heat%source = asked%heat_source
       if (allocated(this%spec%wheel_rail)) this%spec%wheel_rail%search%angle_below_axle = asked%angle_below_axle
+      this%spec%classical = asked%classical
       if (this%spec%output_level > 0 .or. this%spec%mat_file > 0 .or. this%spec%has_stress) state%silent = .false.
       this%spec%limits = state%limits
       this%spec%limits%deadline%seconds = min(this%spec%limits%deadline%seconds, state%deadline%left())

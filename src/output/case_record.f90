@@ -238,6 +238,8 @@ contains
       method = trim(report%method)
       if (method == "") method = "none"
       call record%text(problem // "_method", "method that ended the iteration", method)
+      if (report%asked /= "") call record%text(problem // "_asked", "method of the input, where another one acts", &
+         & trim(report%asked))
       if (report%gave_up /= "") call record%text(problem // "_gave_up", "method that was given up", trim(report%gave_up))
       call record%text(problem // "_ended", "how the iteration ended", trim(ending_name(report)))
       call record%count(problem // "_iterations", "iterations of the last call", report%iterations)

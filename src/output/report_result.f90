@@ -197,6 +197,7 @@ contains
       if (line == " EFFECTS: ") line = line // "none"
       line = line // "; SOLVER: " // method_name(result%normal)
       if (has_tangential) line = line // ", " // method_name(result%tangential)
+      if (has_tangential .and. result%tangential%asked /= "") line = line // " instead of " // harmless(result%tangential%asked)
       line = line // "; RESIDUAL: " // trim(residual_text(result%normal%residual))
       if (has_tangential) line = line // ", " // trim(residual_text(result%tangential%residual))
       if (has_tangential .and. result%outer_iterations > 1) &

@@ -1,6 +1,6 @@
 !> The tangential problem of a patch: shear tractions and slip on a given contact area
 module contact_patch_tangential_step
-   use contact_base_choices, only : motion, solver_choice
+   use contact_base_choices, only : is_classical, motion, solver_choice
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
    use contact_base_solve_report, only : ending, solve_report
@@ -13,7 +13,7 @@ module contact_patch_tangential_step
    use contact_patch_result, only : patch_result
    use contact_patch_workspace, only : patch_workspace, prepare_box, prepare_window
    use contact_patch_yield, only : carry_yield, set_yield
-   use contact_tangential_classical, only : classical_method, solve_classical
+   use contact_tangential_classical, only : classical_method, method_name, solve_classical
    use contact_tangential_full_sliding, only : is_beyond_friction, slide_fully
    use contact_tangential_nested, only : solve_newton_krylov
    use contact_tangential_problem, only : prepare_solution, tangential_problem, tangential_solution
@@ -281,55 +281,81 @@ contains
       t%settings%omegas = omega(2)
    end subroutine set_relaxation
 
-   !> Run the solver that the case names; the default one hands over when it makes no progress
+   !> Run the default solver, which hands over to a classical one when it makes no progress, or the classical one that is asked for
    subroutine choose_and_solve(problem, workspace, log, report)
       type(patch_problem), intent(in) :: problem
       type(patch_workspace), intent(inout) :: workspace
       type(log_type), intent(inout) :: log
       type(solve_report), intent(inout) :: report
-      integer :: method, choice
+      integer :: method
 
-      method = classical_method%tang_cg
-      if (problem%motion == motion%steady_rolling) method = classical_method%steady_gs
-      choice = problem%solver
+      method = classical_one(problem)
+      report%asked = ""
       if (is_beyond_friction(workspace%tangential) .and. .not. problem%general_step) then
          call slide_fully(workspace%tangential, workspace%box, workspace%solution, report)
-         return
-      end if
-      if (problem%general_step) then
+      else if (problem%general_step) then
+         ! the default solver takes steps of one element along x only
          call solve_classical(workspace%tangential, workspace%box, classical_method%convex_gs, workspace%solution, report, log, &
             & workspace%shifted)
-         return
-      end if
-      if (.not. workspace%box%has_table()) then
-         ! Gauss-Seidel methods and GDsteady need one table of coefficients for all elements
-         method = classical_method%tang_cg
-         if (choice == solver_choice%convex_gs .or. choice == solver_choice%gauss_seidel &
-            & .or. choice == solver_choice%gd_steady) then
-            call log%warning("no half-space coefficients (material.influence = ""conformal"" or ""tabulated""): solver &
-               &Newton-Krylov instead of the one that was asked for (iteration.solver = ""convex_gs"", ""gauss_seidel"" or &
-               &""gd_steady"")")
-            choice = solver_choice%default
-         end if
-      end if
-      select case (choice)
-      case (solver_choice%convex_gs)
-         method = classical_method%convex_gs
-      case (solver_choice%gauss_seidel)
-         continue
-      case (solver_choice%gd_steady)
-         if (problem%motion == motion%steady_rolling) method = classical_method%gd_steady
-      case default
-         call solve_newton_krylov(workspace%tangential, workspace%box, workspace%tangential_work, workspace%solution, report, log)
-         if (report%ended == ending%out_of_time) return
-         if (report%succeeded() .or. (problem%motion == motion%steady_rolling .and. .not. workspace%box%has_table())) return
-         call log%warning("Newton-Krylov made no further progress; a classical method takes over")
+      else if (.not. (problem%classical .and. is_classical(problem%solver))) then
+         call solve_by_default(problem, method, workspace, log, report)
+      else if (method /= classical_method%tang_cg .and. .not. workspace%box%has_table()) then
+         call log%warning("no half-space coefficients (material.influence = ""conformal"" or ""tabulated""): solver &
+            &Newton-Krylov instead of the one that was asked for (iteration.solver = ""convex_gs"", ""gauss_seidel"" or &
+            &""gd_steady"")")
+         call solve_by_default(problem, method, workspace, log, report)
+      else
          call solve_classical(workspace%tangential, workspace%box, method, workspace%solution, report, log)
-         report%gave_up = "Newton-Krylov"
-         return
-      end select
-      call solve_classical(workspace%tangential, workspace%box, method, workspace%solution, report, log)
+      end if
+      if (is_classical(problem%solver) .and. report%method /= method_name(method)) report%asked = method_name(method)
    end subroutine choose_and_solve
+
+   !> Newton-Krylov; when it makes no progress, a classical method
+   subroutine solve_by_default(problem, method, workspace, log, report)
+      type(patch_problem), intent(in) :: problem
+      !> Member of classical_method
+      integer, intent(in) :: method
+      type(patch_workspace), intent(inout) :: workspace
+      type(log_type), intent(inout) :: log
+      type(solve_report), intent(inout) :: report
+      !> A classical method looks at the size of its updates, which leaves a residual far below the tolerance as a rule: who asked
+      !> for one gets as much of the default method, down to where rounding begins. With this share its residual is the smaller one
+      !> in 457 of 500 problems of test_solvers_agree, and below the tolerance in all
+      real(wp), parameter :: usual_share = 0.1_wp, least = 1.0e-12_wp
+      real(wp) :: eps
+
+      associate (t => workspace%tangential)
+         eps = t%settings%eps
+         if (is_classical(problem%solver)) t%settings%eps = min(eps, max(usual_share*eps, least))
+         call solve_newton_krylov(t, workspace%box, workspace%tangential_work, workspace%solution, report, log)
+         t%settings%eps = eps
+         report%tolerance = eps
+         if (report%ended == ending%out_of_time) return
+         if (is_classical(problem%solver) .and. (report%ended == ending%stagnated .or. report%ended == ending%iteration_limit) &
+            & .and. report%residual >= 0.0_wp .and. report%residual <= eps) report%ended = ending%converged
+         if (report%succeeded()) return
+         if (problem%motion == motion%steady_rolling .and. .not. workspace%box%has_table()) return
+         call log%warning("Newton-Krylov made no further progress; a classical method takes over")
+         if (workspace%box%has_table()) then
+            call solve_classical(t, workspace%box, method, workspace%solution, report, log)
+         else
+            call solve_classical(t, workspace%box, classical_method%tang_cg, workspace%solution, report, log)
+         end if
+         report%gave_up = "Newton-Krylov"
+      end associate
+   end subroutine solve_by_default
+
+   !> The classical method that the case names, or that the default solver hands over to; member of classical_method
+   pure integer function classical_one(problem) result(method)
+      type(patch_problem), intent(in) :: problem
+
+      method = classical_method%tang_cg
+      if (problem%motion == motion%steady_rolling) then
+         method = classical_method%steady_gs
+         if (problem%solver == solver_choice%gd_steady) method = classical_method%gd_steady
+      end if
+      if (problem%solver == solver_choice%convex_gs) method = classical_method%convex_gs
+   end function classical_one
 
    !> Heading of the flow trace
    pure function type_of_motion(choice) result(text)

@@ -126,6 +126,7 @@ contains
             case%spec = ellipse_case(4.0_wp, 3.0_wp, 20000.0_wp, 19, 15)
             case%spec%material%gg = 82000.0_wp
             case%spec%solver = methods(method)
+            case%spec%classical = .true.
             call make_layer(case, 0.0_wp, 100.0_wp, slopes(k))
             call creep(case%spec, motion%steady_rolling, ksi=0.5_wp, mu=0.3_wp)
             call case%run(suite, "full shearing")
@@ -163,6 +164,7 @@ contains
                case%spec = ellipse_case(4.0_wp, 3.0_wp, 20000.0_wp, 41, 9)
                case%spec%material%gg = 1.0e12_wp
                case%spec%solver = methods(method)
+               case%spec%classical = .true.
                call make_layer(case, flexibility*layer_modulus, limit, slopes(k))
                call creep(case%spec, motion%steady_rolling, ksi=ksi, mu=mu)
                case%spec%rolling%chi = chi(side)

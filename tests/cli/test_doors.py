@@ -68,12 +68,12 @@ class Doors(unittest.TestCase):
         for name in ("60E1.prr", "S1002.prw"):
             os.symlink(os.path.join(PROFILES, name), os.path.join(self.folder, name))
 
-    def run_text(self, text, mode="2"):
+    def run_text(self, text, mode="2", *more):
         """Status, errors, the .out file and the JSON records of an input"""
         with open(os.path.join(self.folder, "x.inp"), "w") as file:
             file.write(text)
         options = ["--json"] if mode == "2" else []
-        run = subprocess.run([PROGRAM, *options, mode, "x"], cwd=self.folder, capture_output=True, text=True, timeout=60)
+        run = subprocess.run([PROGRAM, *options, *more, mode, "x"], cwd=self.folder, capture_output=True, text=True, timeout=60)
         self.assertNotIn("Backtrace", run.stderr)
         out, records = run.stdout, []
         if mode == "2":
@@ -237,7 +237,7 @@ class Refusals(Doors):
         self.refused(text, "99800 by 279 elements with 1 matrices needs too many coefficients; accepted are 5e8")
 
     def test_solvers(self):
-        """G chooses the solver of steady rolling in both modules, and G = 1 keeps it"""
+        """G chooses the solver of steady rolling in both modules with --classical, and is noted without; G = 1 keeps it"""
         chosen = ((0, "", "Newton-Krylov"), (2, "\n0.9 1 0 0.5", "ConvexGS"), (3, "\n0.9 1 0 0.5", "SteadyGS"),
                   (4, "\n0 0.5", "Newton-Krylov"),
                   (5, "\n1.0 0.5 2 1.5 0.01 2.5 1.2 1.3", "GDsteady"))
@@ -247,9 +247,17 @@ class Refusals(Doors):
                                      **({"side": "1.0"} if module == "1" else {})})
                 if module == "1":
                     case = case.replace("0000201", f"0{digit}00201")
-                _, _, records = self.run_text(f"{module}\n{case}{module}\n{kept}0\n")
-                found = [record["patches"][0]["solver"]["tangential_method"] for record in records]
-                self.assertEqual(found, [solver, solver], (module, digit))
+                text = f"{module}\n{case}{module}\n{kept}0\n"
+                _, _, records = self.run_text(text, "2", "--classical")
+                found = [record["patches"][0]["solver"] for record in records]
+                self.assertEqual([one["tangential_method"] for one in found], [solver, solver], (module, digit))
+                self.assertFalse([one for one in found if "tangential_asked" in one])
+                _, out, records = self.run_text(text)
+                found = [record["patches"][0]["solver"] for record in records]
+                self.assertEqual([one["tangential_method"] for one in found], ["Newton-Krylov"]*2, (module, digit))
+                self.assertEqual([one.get("tangential_asked", "Newton-Krylov") for one in found], [solver, solver], (module, digit))
+                self.assertLessEqual(max(one["tangential_residual"] for one in found), 1e-5)
+                self.assertEqual(out.count(f"Newton-Krylov instead of {solver};"), 2*(solver != "Newton-Krylov"), (module, digit))
 
     def test_backslashes_in_names_of_profiles(self):
         """Names as they are written elsewhere, with folders, from the root on and from here"""

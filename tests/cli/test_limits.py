@@ -110,7 +110,7 @@ class Limits(unittest.TestCase):
             " ".join(f"{0.01*k:.2f}" for k in range(1, n + 1)) + "\n" for n in (200, 200, 100)) + "0\n"
         slow = case(400, g=2, limits="999 100 30 1 1e-5\n0.9 1.0 0 0.5")
         for text, memory, told in ((case(40), 10000, False), (stresses, 100, True), (slow, 100, True)):
-            done, _lines = self.run_program(text + "0\n", f"--limit-memory={memory}")
+            done, _lines = self.run_program(text + "0\n", f"--limit-memory={memory}", "--classical")
             self.assertEqual("Estimate of this case" in done.stdout, told, done.stdout + done.stderr)
 
     def soft_rolling(self, modulus):

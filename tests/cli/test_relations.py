@@ -126,7 +126,7 @@ class Relations(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             with open(os.path.join(folder, "x.inp"), "w", encoding="utf-8") as file:
                 file.write("".join(map(two_cases, cases)) + "0\n")
-            run = subprocess.run([PROGRAM, "--quiet", "--json", "2", "x"], cwd=folder, stdin=subprocess.DEVNULL,
+            run = subprocess.run([PROGRAM, "--quiet", "--json", "--classical", "2", "x"], cwd=folder, stdin=subprocess.DEVNULL,
                                  capture_output=True, text=True, timeout=120)
             self.assertEqual(run.returncode, 0, run.stderr)
             with open(os.path.join(folder, "x.jsonl"), encoding="utf-8") as file:

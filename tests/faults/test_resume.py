@@ -191,6 +191,7 @@ def refusals():
     judge("another file", lambda: None, "--hdf5", expected="without --hdf5")
     judge("standard output", lambda: None, "--json=-", expected="--json=- does not go with --resume")
     judge("other temperatures", lambda: None, "--heat", "moving-source", expected="--heat")
+    judge("another solver", lambda: None, "--classical", expected="--classical")
     prepare(bad, "x", text)
     code, said = runs.run(bad, "x", "--resume")
     if code or not (bad / "x.out").exists():

@@ -138,6 +138,7 @@ contains
    subroutine products(suite)
       type(test_suite), intent(inout) :: suite
       type(test_case) :: case
+      integer :: warnings
 
       call write_file(mx, my, 1, captions=0)
       call set_case(case)
@@ -146,7 +147,12 @@ contains
       case%spec%material%cfname = file
       case%spec%solver = solver_choice%gauss_seidel
       call case%run(suite, "G = 3")
-      call suite%check(case%log%warnings > 0, "a warning that the solver is another one")
+      call suite%check(case%result%tangential%asked == "SteadyGS", "the default solver acts, which is said")
+      warnings = case%log%warnings
+      case%spec%classical = .true.
+      call case%run(suite, "G = 3, classical")
+      ! those of the first run, and one that the solver is another one
+      call suite%equal(case%log%warnings, 2*warnings + 1, "a warning that the solver is another one")
       call case%release()
    end subroutine products
 

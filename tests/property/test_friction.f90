@@ -262,6 +262,7 @@ contains
             call two%release()
             two = test_case(one%spec)
             two%spec%solver = method
+            two%spec%classical = .true.
             two%spec%iteration%omegah = 0.7_wp
             two%spec%iteration%omegas = 0.7_wp
             call two%run(suite, "Gauss-Seidel or conjugate gradients")

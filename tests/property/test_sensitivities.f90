@@ -49,6 +49,7 @@ contains
       if (kinds(kind) == motion%transient_rolling) call creep(case%spec, kinds(kind), 1.1e-2_wp, 0.5e-2_wp)
       if (kinds(kind) == motion%shift) call shift(case%spec, 1.6e-3_wp, 0.7e-3_wp)
       case%spec%solver = solver
+      case%spec%classical = .true.
       case%spec%iteration%sensitivity = sensitivity_choice%all
       case%spec%iteration%epsens = 1.0e-9_wp
       case%spec%iteration%mxsens = 200

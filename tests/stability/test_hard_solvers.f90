@@ -33,6 +33,7 @@ contains
             do s = 1, size(choices)
                call hard_example(t, k, spec, what)
                spec%solver = choices(s)
+               spec%classical = .true.
                spec%iteration%eps = 1.0e-5_wp
                write(label, "(2a, i0, 2a)") what, ", T=", t, ", ", names(s)
                ! sweeps end when the tractions no longer change, which is not yet the residual

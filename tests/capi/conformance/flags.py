@@ -17,7 +17,7 @@ FLAGS = {"ic_config": (0, 5, "near"), "ic_pvtime": (0, 3, "near"), "ic_bound": (
          "ic_iestim": (0, 3, "near"), "ic_output": (0, 6, "near"), "ic_flow": (0, 9, "near"), "ic_return": (0, 3, "near"),
          "ic_matfil": (0, 2, "zero"), "ic_sens": (0, 3, "near"), "ic_ifmeth": (0, 1, "near"), "ic_ifvari": (1, 4, "near"),
          "ic_sbsout": (0, 4, "near"), "ic_sbsfil": (0, 2, "zero"), "ic_npomax": (100, 1000000, "near"), "if_wrtinp": (0, 2, "keep"),
-         "own_heat": (0, 1, "keep"), "own_angle": (0, 1, "keep")}
+         "own_heat": (0, 1, "keep"), "own_angle": (0, 1, "keep"), "own_classical": (0, 1, "keep")}
 # Flags that belong to wheel and rail: module 3 does not store them
 OF_PAIRS = {"ic_config", "ic_discns", "own_angle"}
 # Values within the range that no digit has, and that are not available, where they are stored
@@ -130,6 +130,23 @@ def unknown():
     check(cntc.calculate(4, -1) < 0, "elements without length")
 
 
+def solvers():
+    """G = 3 through the routines: the default solver unless the flag asks for the sweeps; both agree within the tolerance"""
+    pair(7)
+    cntc.setsolverflags(7, -1, 0, [999, 100, 30, 1], [1e-4])
+    forces = {}
+    for digit, classical in ((0, 0), (3, 0), (3, 1), (0, 1)):
+        cntc.setsolverflags(7, -1, digit, [999, 100, 30, 1] + [0]*(digit == 3), [1e-4] + [0.9, 1.0, 0.5]*(digit == 3))
+        cntc.setflags(7, -1, [CNTC["own_classical"]], [classical])
+        same(cntc.calculate(7, -1), 0, f"G = {digit}, classical {classical}: {last_error(7, -1)}")
+        forces[digit, classical] = np.array(cntc.getcontactforces(7, 1)[:3])
+    same(list(forces[0, 0]), list(forces[0, 1]), "the flag is for other solvers than the default one")
+    check((forces[3, 0] != forces[3, 1]).any(), "the flag acts")
+    # the tolerance is relative to the tractions as a whole
+    check(np.abs(forces[3, 1] - forces[3, 0]).max() < 1e-3*np.abs(forces[3, 0]).max(), f"the solvers agree: {forces}")
+    cntc.finalize(7)
+
+
 def rollers():
     """A roller needs its radius, and is well with it"""
     pair(5)
@@ -168,6 +185,7 @@ def threads():
 documents()
 ranges()
 unknown()
+solvers()
 rollers()
 refused_in_parts()
 threads()

@@ -53,6 +53,7 @@ contains
       call suite%close_to(seconds(spec, 1000), 5.0_wp, 4.5_wp, "pressures: order of magnitude")
       do kind = 1, 4
          other = spec
+         other%classical = .true.
          select case (kind)
          case (1); other%motion = motion%shift
          case (2); other%motion = motion%steady_rolling
@@ -60,6 +61,13 @@ contains
          case (4); other%motion = motion%shift; other%solver = solver_choice%convex_gs
          end select
          tangential = seconds(other, 100) - normal
+         if (kind >= 3) then
+            ! the default solver in place of a classical one
+            other%classical = .false.
+            call suite%close_to((seconds(other, 200) - 4.0_wp*normal)/(seconds(other, 100) - normal), 4.0_wp, 1.0e-9_wp, &
+               & "in place of a classical one")
+            other%classical = .true.
+         end if
          call suite%check(tangential > normal, "tractions take more than pressures")
          call suite%close_to((seconds(other, 200) - 4.0_wp*normal)/tangential, merge(4.0_wp, 8.0_wp, kind <= 2), 1.0e-9_wp, &
             & "tractions: how they grow")
