@@ -390,20 +390,29 @@ class Store:
                                                           + 0.2*caught["all", name])
         return sorted(names, key=cost), reached
 
+    def place_of(self, fault):
+        """Path and number of the line of a fault now: the nearest in its file, or the only one elsewhere; None when it is gone"""
+        path = self.source / fault.file
+        if path.exists():
+            lines = path.read_text(encoding="utf-8", errors="surrogateescape").split("\n")
+            near = [number for number, line in enumerate(lines, 1) if line == fault.old]
+            if near:
+                return path, min(near, key=lambda number: abs(number - fault.line))
+        found = []
+        for other in sorted((self.source / "src").rglob("*.f90")) if fault.file.startswith("src/") else []:
+            lines = other.read_text(encoding="utf-8", errors="surrogateescape").split("\n")
+            found += [(other, number) for number, line in enumerate(lines, 1) if line == fault.old]
+        return found[0] if len(found) == 1 else (None, 0)
+
     def judge(self, fault, room, limit, caught):
         """Plant one fault: how it was caught"""
         result = {"file": fault.file, "line": fault.line, "kind": fault.kind, "old": fault.old, "new": fault.new, "room": room}
-        path = self.source / fault.file
-        if not path.exists():
-            # its lines may stand in another file now, which nobody looks for
+        path, number = self.place_of(fault)
+        if path is None:
             return dict(result, told="gone")
         text = path.read_text(encoding="utf-8", errors="surrogateescape")
         lines = text.split("\n")
-        near = [k for k, line in enumerate(lines, 1) if line == fault.old]
-        if not near:
-            return dict(result, told="gone")
-        number = min(near, key=lambda k: abs(k - fault.line))
-        fault = fault._replace(line=number)
+        fault = fault._replace(line=number, file=str(path.relative_to(self.source)))
         lines[number - 1] = fault.new
         script = room in SCRIPTS
         self.restore()

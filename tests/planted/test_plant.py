@@ -129,6 +129,8 @@ def judged():
         toy.add_line("results.jsonl", dict(result, seed=1, commit="0"*40))
     check(toy.judge(known[13, "r = sqrt(x**2 - y**2)"]._replace(old="gone"), "toy", 60, caught)["told"] == "gone",
           "a line that is not there")
+    check(toy.judge(known[13, "r = sqrt(x**2 - y**2)"]._replace(file="src/toy/before.f90"), "toy", 60, caught)["told"] == "caught",
+          "a line that moved to another file")
     toy.restore()
     check(toy.run_test("length", 20)[0] == "passed", "the toy is restored")
     # the second verdict on a fault counts, the first is remembered
