@@ -68,7 +68,6 @@ contains
       integer, intent(out) :: code
       type(case_spec) :: told
 
-      code = library_code%success
       if (problem%spec%solve) then
          status = problem%result%status
          problem%has_result = .true.
@@ -79,8 +78,8 @@ contains
          call write_results(this, problem, told, log)
          call dump_contact_case(problem, told)
       end if
-      if (.not. status%is_solved()) then
-         code = code_of_contact(status)
+      code = code_of_contact(status)
+      if (code /= library_code%success) then
          call complain(this, status%reason, code)
       else if (problem%has_result) then
          code = border_elements(problem%result%division)

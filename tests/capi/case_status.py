@@ -140,7 +140,9 @@ def by_program(name, text, state, missed):
     """What the program tells of a case; returns the reason"""
     with open(name + ".inp", "w") as file:
         file.write(text + "0\n")
-    done = run("2", name, "--json", "--hdf5")
+    # the default solver misses nothing that the pressures reach, a slow one by name does
+    solver = ["--classical"] if missed == "tangential" else []
+    done = run("2", name, "--json", "--hdf5", *solver)
     same(done.returncode, 1 if state == 2 else 0, f"{name}: exit status, {done.stderr[-300:]}")
     with open(name + ".jsonl") as file:
         line = json.loads(file.readline())
@@ -174,7 +176,7 @@ def by_program(name, text, state, missed):
         rows = np.loadtxt(table, comments="%")
         check(rows.shape[1] == 11 and rows[0, -1] == 2410 and np.isfinite(rows).all(), f"{table}: still a table")
         same(np.loadtxt(table, skiprows=13).shape[0], rows.shape[0] - 6, f"{table}: elements begin in line 14")
-    strict = run("2", name, "--strict", "--quiet")
+    strict = run("2", name, "--strict", "--quiet", *solver)
     same(strict.returncode, {0: 0, 1: 2, 2: 1}[state], f"{name}: exit status with --strict")
     return reason
 
@@ -212,6 +214,7 @@ def settle(problem, name):
     problem.set_creepages(*motion)
     problem.set_solver(**limits)
     if name == "tangential":
+        problem.set_flags(own_classical=1)
         problem._do(cntc.setsolverflags, problem.number, 1, 2, [9, 100, 30, 1, 0], [1e-7, 0.9, 1.0, 0.5])
     if name == "force":
         problem.set_tangential_force(0.9)
@@ -253,6 +256,8 @@ def by_library3(name, state, missed, code, reason):
 def by_library1(name, path, state, missed, code, reason):
     with contact.WheelRail() as pair:
         same(cntc.readinpfile(pair.number, 1988, path), 0, f"1 {name}: the input is read")
+        if name == "tangential":
+            pair.set_flags(own_classical=1)
         with warnings.catch_warnings(record=True) as heard:
             warnings.simplefilter("always")
             got, ended, text = 0, "", ""

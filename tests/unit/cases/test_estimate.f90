@@ -35,7 +35,7 @@ contains
    subroutine contact_problems(suite)
       type(test_suite), intent(inout) :: suite
       type(case_spec) :: spec, other
-      type(case_cost) :: cost
+      type(case_cost) :: cost, with_points
       real(wp) :: normal, tangential
       integer :: kind
 
@@ -46,6 +46,13 @@ contains
       call estimate_cost(spec, cost)
       call suite%check(cost%elements == 600_long .and. .not. cost%at_most, "elements")
       call suite%close_to(cost%bytes, 600.0_wp*bytes_per_element, 1.0e-9_wp, "memory", relative=.true.)
+      other = spec
+      other%has_stress = .true.
+      allocate(other%subsurface%blocks(2))
+      other%subsurface%blocks(1)%z = [0.0_wp, 0.5_wp, 1.0_wp]
+      other%subsurface%blocks(2)%z = [2.0_wp]
+      call estimate_cost(other, with_points)
+      call suite%close_to(with_points%bytes - cost%bytes, 4*600*300.0_wp, 1.0e-6_wp, "memory of points below the surface")
       spec%motion = motion%none
       normal = seconds(spec, 100)
       call suite%close_to(seconds(spec, 200)/normal, 4.0_wp, 1.0e-9_wp, "pressures: by elements")

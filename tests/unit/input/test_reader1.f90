@@ -156,7 +156,7 @@ contains
 
    subroutine friction_points(suite)
       type(test_suite), intent(inout) :: suite
-      type(case_spec) :: spec
+      type(case_spec) :: spec, next
       type(problem_list) :: problems
       type(error_type), allocatable :: error
 
@@ -166,6 +166,10 @@ contains
       call suite%check(size(spec%friction%sets) == 2, "two control points")
       call suite%close_to([spec%friction%sets%position], [-pi/9.0_wp, -pi/18.0_wp], closed, "their angles")
       call suite%close_to([spec%friction%sets%fstat], [0.2_wp, 0.3_wp], closed, "their coefficients")
+      call read_text(new_case(), next, problems, error, previous=spec)
+      call suite%check(.not. allocated(error), "one set behind several")
+      if (allocated(error)) return
+      call suite%check(size(next%friction%sets) == 1, "the control points of the case before are gone")
 
       call read_text(new_case(word2="2422033", friction="1; 5. 0.2 0.1 20. 0. 0.; 0.01 1."), spec, problems, error)
       call suite%check(.not. allocated(error), "a falling law at one position")
