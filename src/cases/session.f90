@@ -14,6 +14,7 @@ module contact_cases_session
    use contact_normal_estimate, only : elliptic_pressure
    use contact_cases_resolution_warning, only : warn_of_few_elements
    use contact_patch_border, only : find_border
+   use contact_patch_error_estimate, only : coarse_level, estimate_errors, release_coarse_level
    use contact_patch_time_steps, only : clear_time_step, link_time_steps
    use contact_patch_problem, only : patch_problem, patch_state
    use contact_patch_result, only : patch_result
@@ -29,6 +30,8 @@ module contact_cases_session
       type(patch_state) :: state
       type(patch_workspace) :: workspace
       type(patch_problem) :: problem
+      !> The level that errors are estimated from; unallocated before they are asked for
+      type(coarse_level), allocatable :: coarse
       !> The grid for which a warning has named a larger one
       type(potential_contact) :: advised
    end type contact_session
@@ -95,6 +98,14 @@ contains
       call warn_of_border(spec, session%problem, result, log, advised=session%advised)
       call warn_of_few_elements(result, "DY", log)
       call name_effects(spec, session%problem, result)
+      if (allocated(result%errors)) deallocate(result%errors)
+      if (spec%estimates_errors) then
+         if (.not. allocated(session%coarse)) allocate(session%coarse)
+         call estimate_errors(session%problem, session%state, spec%link, 1, session%coarse, result, error)
+         if (allocated(error)) return
+      else if (allocated(session%coarse)) then
+         session%coarse%state%started = .false.
+      end if
       if (allocated(result%subsurface)) deallocate(result%subsurface)
       if (.not. spec%has_stress) return
       call subsurface_stresses(spec, result, error)
@@ -144,6 +155,7 @@ contains
    subroutine release_session(session)
       type(contact_session), intent(inout) :: session
       call release_workspace(session%workspace)
+      if (allocated(session%coarse)) call release_coarse_level(session%coarse)
    end subroutine release_session
 
    !> Zero tractions and no contact, after a case that could not be linked

@@ -172,6 +172,8 @@ module contact_cases_spec
       integer :: mat_file = 0, output_level = 0, flow_level = 0
       !> What it may take
       type(case_limits) :: limits
+      !> Shall the errors of the totals be estimated? Not part of the input file
+      logical :: estimates_errors = .false.
       !> Solve the case, or only store its input? Is it the last one of its module in a row?
       logical :: solve = .true., ends_module = .false.
       type(iteration_spec) :: iteration

@@ -217,6 +217,7 @@ contains
          problem%relative_step = spec%wheel_rail%search%dqrel
          problem%max_elements = spec%iteration%npot_max
          problem%limits = spec%limits
+         problem%estimates_errors = spec%estimates_errors
          call require_memory(int(spec%iteration%npot_max, long), bytes_per_element, "elements, as many as are allowed,", error)
          if (.not. allocated(error)) call set_model(spec, template%model, error)
          if (allocated(error)) return

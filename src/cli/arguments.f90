@@ -61,6 +61,8 @@ module contact_cli_arguments
       logical :: angle_below_axle = .true.
       !> Run the classical solvers that cases name?
       logical :: classical = .false.
+      !> Estimate the errors of the totals?
+      logical :: errors = .false.
       !> What a case may take, and whether the run is confined to its folder
       type(case_limits) :: limits
       !> What the run may take: time [s], and bytes of its files
@@ -146,6 +148,7 @@ contains
       settings%heat_source = asked%heat_source
       settings%angle_below_axle = asked%angle_below_axle
       settings%classical = asked%classical
+      settings%errors = asked%errors
       if (allocated(asked%json)) settings%exports%json = asked%json
       if (.not. asked%quiet) then
          settings%screen = output_unit
@@ -252,6 +255,8 @@ contains
       case ("--limit-time", "--limit-memory", "--limit-elements", "--limit-run-time", "--limit-output")
          call take_limit()
          return
+      case ("--errors")
+         asked%errors = .true.
       case ("--strict")
          asked%strict = .true.
       case ("--resume")
@@ -270,7 +275,7 @@ contains
          return
       case default
          call fatal_error(error, "there is no option '" // name // &
-            & "'; the options are --help, --version, --output-dir DIR, --threads N, --heat NAME, --hdf5, " // &
+            & "'; the options are --help, --version, --output-dir DIR, --threads N, --heat NAME, --errors, --hdf5, " // &
             & "--json, --vtk, --confine, --limit-time S, --limit-run-time S, --limit-memory MB, --limit-elements N, " // &
             & "--limit-output MB, --resume, --strict and --quiet")
          return
@@ -426,6 +431,7 @@ contains
          & "  --contact-angle NAME  on rails that vary along the track: established, of the section below the axle", &
          & "                    (default), or contact, of wheel and rail where they touch", &
          & "  --classical       run the solvers that G names; without, the faster default solver acts in their place", &
+         & "  --errors          estimate the errors of all totals, from a coarser level of the same contact", &
          & "  --hdf5            write inputs, totals and fields of all cases to EXPNAM.h5", &
          & "  --json            write the totals of every case as JSON lines to EXPNAM.jsonl; --json=- writes", &
          & "                    them to the standard output, and nothing else", &

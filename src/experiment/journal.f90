@@ -40,6 +40,8 @@ module contact_experiment_journal
       !> Member of heat_source
       integer :: heat_source = 0
       logical :: angle_below_axle = .true., classical = .false.
+      !> Are errors estimated?
+      logical :: errors = .false.
       !> Limits of a case: time [s], memory [bytes], elements
       real(wp) :: seconds = 0.0_wp
       integer(long) :: bytes = 0, elements = 0
@@ -102,8 +104,8 @@ contains
       call self%file%open_file(self%name, reason, confined)
       call self%file%line(heading)
       associate (s => settings)
-         write(text, "(A, 1X, 3(L1, 1X), I0, 2(1X, L1), ES25.16E3, 2(1X, I0))") trim(s%version), s%json, s%hdf5, s%vtk, &
-            & s%heat_source, s%angle_below_axle, s%classical, s%seconds, s%bytes, s%elements
+         write(text, "(A, 1X, 3(L1, 1X), I0, 3(1X, L1), ES25.16E3, 2(1X, I0))") trim(s%version), s%json, s%hdf5, s%vtk, &
+            & s%heat_source, s%angle_below_axle, s%classical, s%errors, s%seconds, s%bytes, s%elements
       end associate
       call write_hashed(self%file, text)
       call self%file%flush_now()
@@ -215,7 +217,8 @@ contains
       call take_line(2)
       if (.not. is_whole) return
       associate (s => settings)
-         read(body, *, iostat=status) s%version, s%json, s%hdf5, s%vtk, s%heat_source, s%angle_below_axle, s%classical, s%seconds, &
+         read(body, *, iostat=status) s%version, s%json, s%hdf5, s%vtk, s%heat_source, s%angle_below_axle, s%classical, s%errors, &
+            & s%seconds, &
             & s%bytes, s%elements
          if (status /= 0) return
          if (.not. (s%seconds >= 0.0_wp .and. s%bytes >= 0 .and. s%elements >= 0)) return

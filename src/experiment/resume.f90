@@ -51,6 +51,7 @@ contains
       settings%heat_source = asked%heat_source
       settings%angle_below_axle = asked%angle_below_axle
       settings%classical = asked%classical
+      settings%errors = asked%errors
       if (asked%limits%deadline%seconds < huge(1.0_wp)) settings%seconds = asked%limits%deadline%seconds
       if (asked%limits%bytes < huge(1_long)) settings%bytes = asked%limits%bytes
       if (asked%limits%elements < huge(1_long)) settings%elements = asked%limits%elements
@@ -129,6 +130,7 @@ contains
          & what = "with another kind of temperatures (--heat)"
       if (before%angle_below_axle .and. .not. now%angle_below_axle) what = "with another kind of contact angles (--contact-angle)"
       if (now%classical .and. .not. before%classical) what = "with the default solver (--classical)"
+      if (now%errors .and. .not. before%errors) what = "without --errors"
       if (len(what) > 0) then
          call fatal_error(error, "the run was made " // what // ": it cannot be resumed like this; run it anew without --resume")
          return
@@ -139,6 +141,7 @@ contains
       asked%heat_source = before%heat_source
       asked%angle_below_axle = before%angle_below_axle
       asked%classical = before%classical
+      asked%errors = before%errors
       if (before%seconds > 0.0_wp .and. .not. now%seconds > 0.0_wp) asked%limits%deadline%seconds = before%seconds
       if (before%bytes > 0 .and. now%bytes == 0) asked%limits%bytes = before%bytes
       if (before%elements > 0 .and. now%elements == 0) asked%limits%elements = before%elements

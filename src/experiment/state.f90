@@ -72,6 +72,8 @@ module contact_experiment_state
       logical :: angle_below_axle = .true.
       !> Do the classical solvers run that cases name?
       logical :: classical = .false.
+      !> Shall the errors of the totals be estimated?
+      logical :: errors = .false.
       !> Go on with a run that has ended before all cases were finished?
       logical :: resume = .false.
    end type run_settings
@@ -172,6 +174,7 @@ contains
       if (asked%heat_source /= as_input_says) this%spec%heat%source = asked%heat_source
       if (allocated(this%spec%wheel_rail)) this%spec%wheel_rail%search%angle_below_axle = asked%angle_below_axle
       this%spec%classical = asked%classical
+      if (asked%errors) this%spec%estimates_errors = .true.
       if (this%spec%output_level > 0 .or. this%spec%mat_file > 0 .or. this%spec%has_stress) state%silent = .false.
       this%spec%limits = state%limits
       this%spec%limits%deadline%seconds = min(this%spec%limits%deadline%seconds, state%deadline%left())

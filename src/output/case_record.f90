@@ -2,6 +2,7 @@
 !>
 !> Values are unfiltered, unlike those of the .out file.
 module contact_output_case_record
+   use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
    use contact_base_case_status, only : case_state, case_status
    use contact_base_choices, only : motion
    use contact_base_kinds, only : wp
@@ -9,7 +10,7 @@ module contact_output_case_record
    use contact_cases_border_warning, only : beside_words, border_words, buried_words
    use contact_cases_spec, only : case_spec
    use contact_output_record, only : record_writer
-   use contact_patch_quantities, only : total_list
+   use contact_patch_quantities, only : error_law, total_list
    use contact_patch_resolution, only : elements_across, is_coarse
    use contact_patch_result, only : patch_result
    use contact_wheelrail_result, only : wheel_rail_patch, wheel_rail_result
@@ -129,6 +130,7 @@ contains
 
       call pair%totals(spec%wheel_rail, totals)
       call describe_list(record, "totals", totals)
+      if (allocated(pair%errors)) call describe_errors(record, pair%errors, totals, "")
       if (pair%beside%depth > 0.0_wp) call record%text("beside", "another place along the track where wheel and rail &
          &overlap, which carries no load here", trim(beside_words(spec, pair%beside)))
       if (.not. any(pair%buried%depth > 0.0_wp)) return
@@ -155,6 +157,7 @@ contains
          call contact%totals(totals)
       end if
       call describe_list(record, "totals", totals)
+      if (allocated(contact%errors)) call describe_errors(record, contact%errors%value, totals, trim(contact%errors%reason))
       call describe_border(record, spec, contact)
       call describe_resolution(record, contact)
       call describe_solution(record, spec, contact)
@@ -181,6 +184,36 @@ contains
       end do
       call record%close_group()
    end subroutine describe_list
+
+   !> Estimated errors of the totals; those that have none are named
+   subroutine describe_errors(record, errors, totals, reason)
+      class(record_writer), intent(inout) :: record
+      !> Of the first totals of the list, in their units; NaN for none
+      real(wp), intent(in) :: errors(:)
+      type(total_list), intent(in) :: totals
+      !> Why there is no estimate; "" where there is one
+      character(len=*), intent(in) :: reason
+      character(len=:), allocatable :: without
+      integer :: k
+
+      without = ""
+      call record%open_group("errors", columns=.true.)
+      do k = 1, size(errors)
+         associate (row => totals%rows(k))
+            if (.not. row%in_files .or. row%law == error_law%none) cycle
+            if (ieee_is_finite(errors(k))) then
+               call record%number(trim(row%name) // "_error", trim(row%unit), "estimated error of " // trim(row%name), &
+                  & errors(k))
+            else
+               if (len(without) > 0) without = without // ", "
+               without = without // trim(row%name)
+            end if
+         end associate
+      end do
+      if (len(without) > 0) call record%text("without", "totals that were given, or of which no error is known", without)
+      if (reason /= "") call record%text("reason", "why there is no estimate", reason)
+      call record%close_group()
+   end subroutine describe_errors
 
    !> Where contact is cut off by the border of the potential contact or the end of a profile; nothing where it is not
    subroutine describe_border(record, spec, contact)

@@ -7,8 +7,9 @@ module contact_output_report
    use contact_output_formats, only : fixed, whole
    use contact_grid_picture, only : write_picture
    use contact_output_report_input, only : write_input
-   use contact_output_report_result, only : write_sensitivities, write_solution_line, write_statistics, write_totals
+   use contact_output_report_result, only : write_errors, write_sensitivities, write_solution_line, write_statistics, write_totals
    use contact_output_report_subsurface, only : write_subsurface
+   use contact_patch_quantities, only : total_list
    use contact_patch_result, only : patch_result
    implicit none (type, external)
    private
@@ -78,6 +79,7 @@ contains
       type(log_type), intent(inout) :: log
       type(case_spec), intent(in) :: spec
       type(patch_result), intent(in) :: result
+      type(total_list) :: totals
 
       if (.not. log%out%is_open() .and. log%screen == 0) return
       if (spec%output_level < 1) return
@@ -86,6 +88,10 @@ contains
          call write_totals(log, spec, result)
          if (spec%output_level >= 2) call write_sensitivities(log, spec, result)
          if (spec%output_level >= 2) call write_statistics(log, spec, result)
+         if (allocated(result%errors)) then
+            call result%totals(totals)
+            call write_errors(log, result%errors%value, totals, trim(result%errors%reason))
+         end if
          call write_solution_line(log, spec, result, result%status)
       end if
       if (spec%output_level < 3 .or. .not. allocated(result%division)) return

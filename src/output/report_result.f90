@@ -1,5 +1,6 @@
 !> Results of a case in the .out file: totals, sensitivities, statistics, how it was solved
 module contact_output_report_result
+   use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
    use contact_base_case_status, only : case_status
    use contact_base_choices, only : force_control, is_rolling, motion, pressure_model, variation
    use contact_base_kinds, only : wp
@@ -7,12 +8,16 @@ module contact_output_report_result
    use contact_base_solve_report, only : solve_report
    use contact_cases_spec, only : case_spec
    use contact_output_formats, only : scientific, smart, smarts, whole
-   use contact_patch_quantities, only : total_list
+   use contact_patch_quantities, only : error_law, total_list
    use contact_patch_result, only : patch_result
    implicit none (type, external)
    private
 
-   public :: ending_text, remove_noise, write_sensitivities, write_solution_line, write_statistics, write_total_lines, write_totals
+   public :: ending_text, remove_noise, write_errors, write_sensitivities, write_solution_line, write_statistics, &
+      & write_total_lines, write_totals
+
+   !> Errors of totals in a line
+   integer, parameter :: errors_per_line = 5
 
 contains
 
@@ -151,6 +156,42 @@ contains
          call log%result(row)
       end do
    end subroutine write_sensitivities
+
+   !> Estimated errors of the totals, in lines of words
+   subroutine write_errors(log, errors, totals, reason)
+      type(log_type), intent(inout) :: log
+      !> Of the first totals of the list, in their units; NaN for none
+      real(wp), intent(in) :: errors(:)
+      type(total_list), intent(in) :: totals
+      !> Why there is no estimate; "" where there is one
+      character(len=*), intent(in) :: reason
+      character(len=:), allocatable :: line, without
+      integer :: k, n
+
+      call log%result("")
+      call log%result(" ESTIMATED ERRORS OF THE TOTALS, in their units")
+      line = ""
+      without = ""
+      n = 0
+      do k = 1, size(errors)
+         associate (row => totals%rows(k))
+            if (.not. row%in_files .or. row%law == error_law%none) cycle
+            if (.not. ieee_is_finite(errors(k))) then
+               without = without // " " // trim(row%name)
+               cycle
+            end if
+            line = line // "  " // trim(row%name) // ": " // trim(adjustl(scientific(errors(k), 10, 1)))
+            if (row%unit /= "-") line = line // " " // trim(row%unit)
+            n = n + 1
+            if (mod(n, errors_per_line) > 0) cycle
+         end associate
+         call log%result("  " // line)
+         line = ""
+      end do
+      if (len(line) > 0) call log%result("  " // line)
+      if (len(without) > 0) call log%result("   given, or without an estimate:" // without)
+      if (reason /= "") call log%result("   no estimate: " // reason)
+   end subroutine write_errors
 
    !> Numbers of elements per state, passes of the solvers
    subroutine write_statistics(log, spec, result)

@@ -15,7 +15,7 @@ module contact_output_report_wheel_rail
    use contact_output_formats, only : fixed, fixeds, generals, heading, smart, smarts, whole
    use contact_grid_picture, only : write_picture
    use contact_output_report_materials, only : write_flexibilities, write_friction
-   use contact_output_report_result, only : ending_text, remove_noise, write_solution_line, write_statistics, &
+   use contact_output_report_result, only : ending_text, remove_noise, write_errors, write_solution_line, write_statistics, &
       & write_total_lines
    use contact_output_report_subsurface, only : write_subsurface
    use contact_output_report_wheel_rail_input, only : write_wheel_rail_input
@@ -82,6 +82,7 @@ contains
       end if
       call log%result("     FX(TR)      FY(TR)      FZ(TR)      FX(WS)      FY(WS)      FZ(WS)")
       call log%result(smarts(totals%of(["fx_tr", "fy_tr", "fz_tr", "fx_ws", "fy_ws", "fz_ws"])))
+      if (allocated(result%errors)) call write_errors(log, result%errors, totals, "")
       if (spec%output_level < 4) return
       call log%result("")
       call log%result("     MX@R(TR)    MY@R(TR)    MZ@R(TR)    MX@W(WS)    MY@W(WS)    MZ@W(WS)")
@@ -128,6 +129,8 @@ contains
          end if
          call write_patch_totals(log, spec, patch, totals)
          if (spec%output_level >= 2) call write_statistics(log, spec, patch%contact)
+         if (allocated(patch%contact%errors)) call write_errors(log, patch%contact%errors%value, totals, &
+            & trim(patch%contact%errors%reason))
          call write_solution_line(log, spec, patch%contact, status)
          if (spec%output_level >= 3) then
             call write_picture(log, patch%contact%division, spec%motion, patch%contact%chi)

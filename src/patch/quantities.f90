@@ -8,7 +8,7 @@ module contact_patch_quantities
    implicit none (type, external)
    private
 
-   public :: element_field, is_lateral, orientation, total, total_list
+   public :: element_field, error_law, is_lateral, orientation, total, total_list
 
    type :: orientation_list
       !> The same for both bodies and both sides of the track
@@ -22,6 +22,27 @@ module contact_patch_quantities
    end type orientation_list
    !> Which sign a quantity has; inside it is that on body 1 of a pair on the right side
    type(orientation_list), parameter :: orientation = orientation_list()
+
+   type :: error_law_list
+      !> No estimate: given, a number of elements, or not studied
+      integer :: none = 0
+      !> Follows from the pressures; relative to its own value
+      integer :: normal = 1
+      !> Force, moment or ratio that follows from the tangential tractions; relative to what friction can bear at most
+      integer :: friction = 2
+      !> Creepage or shift that prescribed forces bring about; relative to the larger one of both
+      integer :: creepage = 3
+      !> Power of friction; relative to its own value
+      integer :: power = 4
+      !> Largest value of a field, taken at centres of elements; relative to its own value
+      integer :: peak = 5
+      !> Area of whole elements; relative to its own value
+      integer :: area = 6
+      !> Energy of all tractions; relative to its own value
+      integer :: energy = 7
+   end type error_law_list
+   !> How the error of a total comes about, see contact_patch_error_estimate
+   type(error_law_list), parameter :: error_law = error_law_list()
 
    !> One total
    type :: total
@@ -40,6 +61,8 @@ module contact_patch_quantities
       character(len=12) :: heading = ""
       !> Does it go to JSON and HDF5?
       logical :: in_files = .true.
+      !> Member of error_law
+      integer :: law = error_law%none
    end type total
 
    !> Totals in the order in which they are written
@@ -125,7 +148,7 @@ contains
    end subroutine start
 
    !> Add a real number
-   pure subroutine add(self, name, unit, meaning, value, along, heading, in_files)
+   pure subroutine add(self, name, unit, meaning, value, along, heading, in_files, law)
       class(total_list), intent(inout) :: self
       !> See total
       character(len=*), intent(in) :: name, unit, meaning
@@ -137,6 +160,8 @@ contains
       character(len=*), intent(in), optional :: heading
       !> Does it go to files? Default yes
       logical, intent(in), optional :: in_files
+      !> Member of error_law; default none
+      integer, intent(in), optional :: law
       type(total), allocatable :: longer(:)
 
       self%is_finite = self%is_finite .and. ieee_is_finite(value)
@@ -153,6 +178,7 @@ contains
          if (self%left .and. is_lateral(row%along)) row%value = -value
          if (present(heading)) row%heading = heading
          if (present(in_files)) row%in_files = in_files
+         if (present(law)) row%law = law
       end associate
    end subroutine add
 

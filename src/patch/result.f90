@@ -7,11 +7,14 @@ module contact_patch_result
    use contact_base_solve_report, only : solve_report
    use contact_grid_element_division, only : element
    use contact_grid_potential_contact, only : potential_contact
-   use contact_patch_quantities, only : element_field, is_lateral, orientation, total_list
+   use contact_patch_quantities, only : element_field, error_law, is_lateral, orientation, total_list
    implicit none (type, external)
    private
 
-   public :: border_contact, mirrored, patch_result, hertz_result, subsurface_result
+   public :: border_contact, error_estimate, mirrored, patch_result, hertz_result, reason_length, subsurface_result
+
+   !> Room for the reason why there is no estimate
+   integer, parameter :: reason_length = 96
 
    !> Where contact reaches the end of what is known of the surfaces
    type :: border_contact
@@ -51,6 +54,18 @@ module contact_patch_result
       !> Points near the surface and off the centres of elements: there the stresses are those of constant tractions
       integer :: stepped = 0
    end type subsurface_result
+
+   !> Estimated errors of the totals of a patch, see contact_patch_error_estimate
+   type :: error_estimate
+      !> Estimated error of each row of `totals`, not negative, in its unit; NaN: there is no estimate. Shape (rows of totals)
+      real(wp), allocatable :: value(:)
+      !> Why totals have no estimate; blank: they have one, as far as their law is known
+      character(len=reason_length) :: reason = ""
+      !> Parts of the estimate, relative: of the solvers (normal, tangential problem) and of contact that the window cuts off [-]
+      real(wp) :: stopping(2) = 0.0_wp, window = 0.0_wp
+      !> Elements in contact of the coarse level
+      integer :: ncon = 0
+   end type error_estimate
 
    !> Totals, fields and reports of a solved patch; what of them goes to outputs is listed in `totals` and `fields`
    type :: patch_result
@@ -117,6 +132,8 @@ module contact_patch_result
       real(wp), allocatable :: temp1(:, :), temp2(:, :)
       !> Subsurface blocks; unallocated when not asked for
       type(subsurface_result), allocatable :: subsurface(:)
+      !> Estimated errors of the totals; unallocated when not asked for
+      type(error_estimate), allocatable :: errors
    contains
       !> Area of the elements in contact [mm2]
       procedure :: contact_area
@@ -144,28 +161,28 @@ contains
       logical, intent(in), optional :: left
 
       call list%start(left)
-      call list%add("fn", "N", "normal force", self%fn)
-      call list%add("fx", "N", "longitudinal force on body 1", self%fx, orientation%along)
-      call list%add("fy", "N", "lateral force on body 1", self%fy, orientation%across)
+      call list%add("fn", "N", "normal force", self%fn, law=error_law%normal)
+      call list%add("fx", "N", "longitudinal force on body 1", self%fx, orientation%along, law=error_law%friction)
+      call list%add("fy", "N", "lateral force on body 1", self%fy, orientation%across, law=error_law%friction)
       call list%add("mz", "N mm", "moment about the normal through the origin, on body 1; wheel on rail: through the contact &
-         &reference", self%mz, orientation%across)
-      call list%add("fx_rel", "-", "FX over friction coefficient times FN", self%fx_rel, orientation%along)
-      call list%add("fy_rel", "-", "FY over friction coefficient times FN", self%fy_rel, orientation%across)
+         &reference", self%mz, orientation%across, law=error_law%friction)
+      call list%add("fx_rel", "-", "FX over friction coefficient times FN", self%fx_rel, orientation%along, law=error_law%friction)
+      call list%add("fy_rel", "-", "FY over friction coefficient times FN", self%fy_rel, orientation%across, law=error_law%friction)
       call list%add("mu_scal", "-", "friction coefficient of the relative forces", self%mu_scal)
-      call list%add("pen", "mm", "approach of the bodies", self%pen)
-      call list%add("pmax", "N/mm2", "largest pressure", self%pmax)
+      call list%add("pen", "mm", "approach of the bodies", self%pen, law=error_law%normal)
+      call list%add("pmax", "N/mm2", "largest pressure", self%pmax, law=error_law%peak)
       if (is_rolling(self%motion)) then
-         call list%add("cksi", "-", "longitudinal creepage, given or found", self%cksi, orientation%along)
-         call list%add("ceta", "-", "lateral creepage, given or found", self%ceta, orientation%across)
+         call list%add("cksi", "-", "longitudinal creepage, given or found", self%cksi, orientation%along, law=error_law%creepage)
+         call list%add("ceta", "-", "lateral creepage, given or found", self%ceta, orientation%across, law=error_law%creepage)
          call list%add("cphi", "rad/mm", "spin", self%cphi, orientation%across)
-         call list%add("friction_power", "W", "frictional power, dissipation negative", self%friction_power)
+         call list%add("friction_power", "W", "frictional power, dissipation negative", self%friction_power, law=error_law%power)
       else if (self%motion == motion_choice%shift) then
-         call list%add("shift_x", "mm", "longitudinal shift, given or found", self%cksi, orientation%along)
-         call list%add("shift_y", "mm", "lateral shift, given or found", self%ceta, orientation%across)
+         call list%add("shift_x", "mm", "longitudinal shift, given or found", self%cksi, orientation%along, law=error_law%creepage)
+         call list%add("shift_y", "mm", "lateral shift, given or found", self%ceta, orientation%across, law=error_law%creepage)
          call list%add("rotation", "rad", "rotation", self%cphi, orientation%across)
-         call list%add("friction_work", "J", "frictional work, dissipation negative", self%friction_power)
+         call list%add("friction_work", "J", "frictional work, dissipation negative", self%friction_power, law=error_law%power)
       end if
-      call list%add("elastic_energy", "J", "elastic energy", self%elastic_energy)
+      call list%add("elastic_energy", "J", "elastic energy", self%elastic_energy, law=error_law%energy)
       if (allocated(self%damping)) then
          call list%add("fn_damp", "N", "normal damping force, not part of FN", self%damping(1))
          call list%add("fx_damp", "N", "longitudinal damping force, not part of FX", self%damping(2), orientation%along)
@@ -173,13 +190,13 @@ contains
       end if
       if (allocated(self%temp1)) then
          associate (highest => [highest_in_contact(self, self%temp1), highest_in_contact(self, self%temp2)])
-            call list%add("max_temp1", "degC", "highest surface temperature of body 1", highest(1))
-            call list%add("max_temp2", "degC", "highest surface temperature of body 2", highest(2))
+            call list%add("max_temp1", "degC", "highest surface temperature of body 1", highest(1), law=error_law%peak)
+            call list%add("max_temp2", "degC", "highest surface temperature of body 2", highest(2), law=error_law%peak)
             call list%add("max_temp", "degC", "highest surface temperature", maxval(highest), heading="MAX(T1,T2)", &
-               & in_files=.false.)
+               & in_files=.false., law=error_law%peak)
          end associate
       end if
-      call list%add("contact_area", "mm2", "area of the elements in contact", self%contact_area())
+      call list%add("contact_area", "mm2", "area of the elements in contact", self%contact_area(), law=error_law%area)
       call list%count("ncon", "elements in contact", self%ncon)
       call list%count("border_elements", "elements in contact in the outer rows and columns", self%border%elements)
       call list%count("nadh", "elements in adhesion", self%nadh)

@@ -3,6 +3,7 @@ module contact_wheelrail_memory
    use contact_base_choices, only : motion
    use contact_base_kinds, only : wp
    use contact_friction_law, only : friction_set
+   use contact_patch_error_estimate, only : coarse_level, release_coarse_level
    use contact_patch_problem, only : patch_problem, patch_state
    use contact_patch_result, only : patch_result
    use contact_patch_workspace, only : patch_workspace, release_workspace
@@ -23,6 +24,8 @@ module contact_wheelrail_memory
       type(patch_state) :: state
       type(patch_workspace) :: workspace
       type(patch_result) :: result
+      !> The level that errors are estimated from; unallocated before they are asked for
+      type(coarse_level), allocatable :: coarse
       type(contact_region) :: region
       type(frame) :: plane
       !> Curved reference surface; unallocated for a flat patch whose slip is that of its reference
@@ -75,6 +78,7 @@ contains
       if (.not. allocated(memory%slot)) return
       do k = 1, size(memory%slot)
          call release_workspace(memory%slot(k)%workspace)
+         if (allocated(memory%slot(k)%coarse)) call release_coarse_level(memory%slot(k)%coarse)
       end do
    end subroutine release_wheel_rail
 

@@ -40,6 +40,8 @@ module contact_wheelrail_problem
       integer :: force = force_control%creepages
       !> Only search for contact?
       logical :: geometry_only = .false.
+      !> Shall the errors of the totals be estimated?
+      logical :: estimates_errors = .false.
       !> What the case may take; the deadline stands in the template, too
       type(case_limits) :: limits
       !> Start from the previous case?

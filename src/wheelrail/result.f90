@@ -8,7 +8,7 @@ module contact_wheelrail_result
    use contact_base_kinds, only : wp
    use contact_friction_law, only : friction_set
    use contact_base_choices, only : motion
-   use contact_patch_quantities, only : orientation, total_list
+   use contact_patch_quantities, only : error_law, orientation, total_list
    use contact_patch_result, only : patch_result
    use contact_wheelrail_spec, only : wheel_rail_spec
    implicit none (type, external)
@@ -101,6 +101,8 @@ module contact_wheelrail_result
       !> Heights tried in one search for the vertical force: largest number of this case
       integer :: max_trials = 0
       real(wp) :: force_error = 0.0_wp
+      !> Estimated error of each row of `totals` in its unit, NaN without an estimate; unallocated when not asked for
+      real(wp), allocatable :: errors(:)
    contains
       !> All totals, for outputs
       procedure :: totals => wheel_rail_totals
@@ -122,29 +124,37 @@ contains
       type(total_list), intent(inout) :: list
 
       call list%start(pair%left)
-      call list%add("fx_tr", "N", "force on the rail along the track", self%force_track(1), orientation%along)
-      call list%add("fy_tr", "N", "lateral force on the rail in track coordinates", self%force_track(2), orientation%across)
-      call list%add("fz_tr", "N", "vertical force on the rail in track coordinates", self%force_track(3), orientation%along)
+      call list%add("fx_tr", "N", "force on the rail along the track", self%force_track(1), orientation%along, &
+         & law=error_law%friction)
+      call list%add("fy_tr", "N", "lateral force on the rail in track coordinates", self%force_track(2), orientation%across, &
+         & law=error_law%friction)
+      call list%add("fz_tr", "N", "vertical force on the rail in track coordinates", self%force_track(3), orientation%along, &
+         & law=error_law%friction)
       call list%add("fx_ws", "N", "longitudinal force on the rail in wheelset coordinates", self%force_wheelset(1), &
-         & orientation%along)
-      call list%add("fy_ws", "N", "lateral force on the rail in wheelset coordinates", self%force_wheelset(2), orientation%across)
-      call list%add("fz_ws", "N", "vertical force on the rail in wheelset coordinates", self%force_wheelset(3), orientation%along)
+         & orientation%along, law=error_law%friction)
+      call list%add("fy_ws", "N", "lateral force on the rail in wheelset coordinates", self%force_wheelset(2), orientation%across, &
+         & law=error_law%friction)
+      call list%add("fz_ws", "N", "vertical force on the rail in wheelset coordinates", self%force_wheelset(3), orientation%along, &
+         & law=error_law%friction)
       ! moments are axial vectors: the mirror changes the sign of their x and z components
-      call list%add("mx_r_tr", "N mm", "roll moment about the rail marker, track axes", self%moment_rail(1), orientation%across)
-      call list%add("my_r_tr", "N mm", "pitch moment about the rail marker, track axes", self%moment_rail(2), orientation%along)
-      call list%add("mz_r_tr", "N mm", "yaw moment about the rail marker, track axes", self%moment_rail(3), orientation%across)
+      call list%add("mx_r_tr", "N mm", "roll moment about the rail marker, track axes", self%moment_rail(1), orientation%across, &
+         & law=error_law%friction)
+      call list%add("my_r_tr", "N mm", "pitch moment about the rail marker, track axes", self%moment_rail(2), orientation%along, &
+         & law=error_law%friction)
+      call list%add("mz_r_tr", "N mm", "yaw moment about the rail marker, track axes", self%moment_rail(3), orientation%across, &
+         & law=error_law%friction)
       call list%add("mx_w_ws", "N mm", "roll moment about the wheel marker, wheelset axes", self%moment_wheel(1), &
-         & orientation%across)
+         & orientation%across, law=error_law%friction)
       call list%add("my_w_ws", "N mm", "pitch moment about the wheel marker, wheelset axes", self%moment_wheel(2), &
-         & orientation%along)
+         & orientation%along, law=error_law%friction)
       call list%add("mz_w_ws", "N mm", "yaw moment about the wheel marker, wheelset axes", self%moment_wheel(3), &
-         & orientation%across)
+         & orientation%across, law=error_law%friction)
       call list%add("s_ws", "mm", "position of the wheelset along the track", pair%wheelset%s)
       call list%add("y_ws", "mm", "lateral position of the wheelset", pair%wheelset%y)
-      call list%add("z_ws", "mm", "height of the wheelset, given or found", self%z_ws)
+      call list%add("z_ws", "mm", "height of the wheelset, given or found", self%z_ws, law=error_law%normal)
       call list%add("roll_ws", "rad", "roll angle of the wheelset", pair%wheelset%roll)
       call list%add("yaw_ws", "rad", "yaw angle of the wheelset", pair%wheelset%yaw)
-      call list%add("vpitch_ws", "rad/s", "pitch rate of the wheelset, given or found", self%vpitch)
+      call list%add("vpitch_ws", "rad/s", "pitch rate of the wheelset, given or found", self%vpitch, law=error_law%creepage)
       call list%add("dy_defl", "mm", "lateral deflection of the rail", self%dy_defl, orientation%side)
       call list%add("dz_defl", "mm", "vertical deflection of the rail", self%dz_defl)
       call list%add("smallest_gap", "mm", "smallest vertical gap, negative: overlap", self%smallest_gap)

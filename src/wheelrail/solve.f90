@@ -7,6 +7,7 @@ module contact_wheelrail_solve
    use contact_base_log, only : log_type
    use contact_text_words, only : real_text
    use contact_wheelrail_deflection, only : lower_rail, search_deflection
+   use contact_wheelrail_error_estimate, only : estimate_wheel_rail_errors
    use contact_wheelrail_gather, only : gather
    use contact_wheelrail_geometry, only : box_on_lattice, max_patches, place
    use contact_wheelrail_height, only : settle
@@ -35,6 +36,7 @@ contains
       !> Allocated when the case has no result
       type(error_type), allocatable, intent(out) :: error
       real(wp) :: z
+      integer :: k
 
       if (.not. allocated(memory%slot)) allocate(memory%slot(max_patches))
       if (.not. problem%use_previous) then
@@ -78,6 +80,18 @@ contains
       if (problem%force == force_control%massless_rail) call lower_rail(problem, memory, z, result)
       call place(problem, memory%geometry, z, result%dz_defl)
       result%z_ws = z
+      if (allocated(result%errors)) deallocate(result%errors)
+      if (problem%estimates_errors .and. .not. problem%geometry_only) then
+         call estimate_wheel_rail_errors(problem, memory, result, error)
+         if (allocated(error)) then
+            call memory%last%clear()
+            return
+         end if
+      else if (allocated(memory%slot)) then
+         do k = 1, memory%used
+            if (allocated(memory%slot(k)%result%errors)) deallocate(memory%slot(k)%result%errors)
+         end do
+      end if
       call gather(problem, memory, result)
    end subroutine solve_wheel_rail
 

@@ -1,0 +1,170 @@
+"""Random contacts of many kinds, as cases of the readable format on any grid.
+
+A contact is a dictionary that knows nothing of elements: geometry, loads, motion, friction, materials. `text_of` writes it for a
+number of elements along each side and an offset of the grid, so that the same contact can be solved on any grid.
+"""
+import math
+
+
+def elliptic(g):
+    """Integrals B and D of Hertz's theory and the complete ones K and E for the ratio g of the semi-axes."""
+    a, b, c, total, power = 1.0, g, math.sqrt(max(0.0, 1.0 - g * g)), 0.0, 1.0
+    while abs(c) > 1e-15:
+        total += power * c * c / 2.0
+        a, b, c, power = (a + b) / 2.0, math.sqrt(a * b), (a - b) / 2.0, power * 2.0
+    k = math.pi / (2.0 * a)
+    e = k * (1.0 - total)
+    k2 = 1.0 - g * g
+    if k2 < 1e-8:
+        return math.pi / 4, math.pi / 4, k, e
+    return (e - g * g * k) / k2, (k - e) / k2, k, e
+
+
+def curvatures(a, b, modulus, fn):
+    """Coefficients of x**2 and y**2 that make Hertz's ellipse have the semi-axes a and b under the force fn."""
+    g = min(a, b) / max(a, b)
+    bb, dd, _, e = elliptic(g)
+    ratio = g * g * dd / bb
+    rho = 4.0 * math.pi * math.sqrt(a * b) ** 3 * modulus * math.sqrt(g) / (3.0 * fn * e)
+    larger = 2.0 / rho / (1.0 + ratio)
+    return (larger, ratio * larger) if a <= b else (ratio * larger, larger)
+
+
+def contact(random, kind):
+    """One contact of a kind."""
+    a, b = (math.exp(random.uniform(math.log(1.0), math.log(8.0))) for _ in "ab")
+    poisson, shear = random.choice([(0.28, 82000.0), (0.3, 80000.0), (0.45, 1000.0)])
+    p0 = random.uniform(0.002, 0.01) * shear
+    fn = 2.0 * math.pi * a * b * p0 / 3.0
+    mu = random.uniform(0.1, 0.6)
+    # creepage at which about all of a contact slides
+    full = mu * p0 / shear * math.sqrt(a * b) * 4.0 * (1.0 - poisson) / max(a, 0.5 * b)
+    angle = random.uniform(0.0, 2.0 * math.pi)
+    size = full * math.exp(random.uniform(math.log(0.05), math.log(1.2)))
+    c = {"kind": kind, "a": a, "b": b, "fn": fn, "mu": mu, "poiss": [poisson] * 2, "gg": [shear] * 2, "margin": 1.15,
+         "motion": "steady_rolling", "tangential": "creepages", "normal": "force", "steps": 1, "extra": "", "maxout": 1,
+         "creep": (size * math.cos(angle), size * math.sin(angle)), "chi": 0.0, "order": 1, "model": "elastic",
+         "material": "", "friction": f'law = "coulomb"\nvariation = "none"\nfstat = {mu!r}\nfkin = {mu!r}\n',
+         "spin": random.choice([0.0, 1.0]) * random.uniform(-1.0, 1.0) * full / math.sqrt(a * b)}
+    b1, b3 = curvatures(a, b, shear / (1.0 - poisson), fn)
+    c["geometry"] = f'form = "quadratic"\nplanform = "unrestricted"\nb = [{b1!r}, 0.0, {b3!r}, 0.0, 0.0, 0.0]\n'
+    CHANGES[kind](random, c, b1, b3, full)
+    return c
+
+
+def _normal(random, c, b1, b3, full):
+    c.update(motion="none", order=2)
+    if random.random() < 0.5:
+        _by_approach(c, b1, b3)
+
+
+def _by_approach(c, b1, b3):
+    """The approach of Hertz's theory instead of the force."""
+    g = min(c["a"], c["b"]) / max(c["a"], c["b"])
+    _, _, k, e = elliptic(g)
+    c.update(normal="approach", pen=min(c["a"], c["b"]) ** 2 * (b1 + b3) * k / e)
+
+
+def _shift(random, c, b1, b3, full):
+    length = math.sqrt(c["a"] * c["b"])
+    c.update(motion="shift", order=2, creep=tuple(x * length for x in c["creep"]), spin=c["spin"] * length)
+
+
+def _forces(random, c, b1, b3, full):
+    angle, size = random.uniform(0, 2 * math.pi), random.uniform(0.1, 0.9)
+    c.update(tangential="fx_and_fy", force=(size * math.cos(angle), size * math.sin(angle)))
+
+
+def _dissimilar(random, c, b1, b3, full):
+    c.update(poiss=[0.3, 0.3], gg=[c["gg"][0], c["gg"][0] * random.uniform(2.0, 5.0)], maxout=20)
+
+
+def _profile(random, c, b1, b3, full):
+    """A circle along x, across it a profile that is no parabola: flat, skew, or with two parts."""
+    b, n = c["b"], 2001
+    amplitude, waves, phase = random.uniform(0.1, 0.5), random.uniform(0.8, 2.5), random.uniform(0, 6.28)
+    y1, dy = -4.0 * b, 8.0 * b / (n - 1)
+    values = []
+    for k in range(n):
+        y = y1 + k * dy
+        values.append(b3 * y * y + b3 * b * b * amplitude * math.cos(waves * math.pi * y / b + phase))
+    c["geometry"] = (f'form = "profile"\nplanform = "unrestricted"\nxm = 0.0\nrm = {1 / (2 * b1)!r}\ny1 = {y1!r}\ndy1 = {dy!r}\n'
+                     "b = [" + ", ".join(f"{v:.12g}" for v in values) + "]\n")
+    c["margin"] = 1.9
+
+
+def _falling(random, c, b1, b3, full):
+    mu, speed = c["mu"], 1000.0 * full * random.uniform(0.2, 2.0)
+    c["friction"] = (f'law = "exponential"\nvariation = "none"\nfkin = {0.7 * mu!r}\nfexp1 = {0.3 * mu!r}\n'
+                     f"sabsh1 = {speed!r}\nfexp2 = 0.0\nsabsh2 = 1.0\nmemdst = 0.001\nmem_s0 = 1.0\n")
+
+
+def _viscoelastic(random, c, b1, b3, full):
+    c.update(model="viscoelastic", maxout=20, margin=1.3,
+             material=f"fg = [1.0, 1.0]\ntc = [{c['a'] / 2000.0!r}, {c['a'] / 2000.0!r}]\n")
+
+
+def _layer(random, c, b1, b3, full):
+    thickness = random.uniform(0.005, 0.03)
+    c.update(model="interfacial_layer",
+             material=f"gg3 = {c['gg'][0] / 100.0!r}\nlaythk = {thickness!r}\ntau_c0 = 0.0\nk_tau = 0.0\n")
+
+
+def _heat(random, c, b1, b3, full):
+    c["extra"] = ('[case.heat]\nmodel = "flash"\nbktemp1 = 20.0\nheatcp1 = 450.0\nlambda1 = 0.05\ndens1 = 7.85e-6\n'
+                  "bktemp2 = 20.0\nheatcp2 = 450.0\nlambda2 = 0.05\ndens2 = 7.85e-6\n")
+    c["creep"] = tuple(2.0 * x for x in c["creep"])
+
+
+def _transient(random, c, b1, b3, full):
+    # a step is an element of the coarsest grid and stays that on finer ones
+    c.update(motion="transient_rolling", steps=4, dq=0.15 * c["a"], order=2)
+
+
+def _reverse(random, c, b1, b3, full):
+    c["chi"] = math.pi
+
+
+def _plain(random, c, b1, b3, full):
+    pass
+
+
+def _fastsim(random, c, b1, b3, full):
+    c.update(model="fastsim", material="")
+
+
+CHANGES = {"rolling": _plain, "normal": _normal, "shift": _shift, "forces": _forces, "dissimilar": _dissimilar,
+           "profile": _profile, "falling": _falling, "viscoelastic": _viscoelastic, "layer": _layer, "heat": _heat,
+           "transient": _transient, "reverse": _reverse}
+
+
+def text_of(c, n, offset, eps=1e-6, options=""):
+    """The cases of a contact on n elements along each side; the grid is shifted by parts of an element."""
+    length_x, length_y = 2 * c["margin"] * c["a"], 2 * c["margin"] * c["b"]
+    dx, dy = length_x / n, length_y / n
+    xl, yl = -0.5 * length_x + (offset[0] - 0.5) * dx, -0.5 * length_y + (offset[1] - 0.5) * dy
+    rolling = c["motion"].endswith("rolling")
+    lines = []
+    for step in range(c["steps"]):
+        lines.append("[[case]]")
+        lines += ['module = "contact"', f"result_element = {2 if c['extra'] else 1}",
+                  f'motion = "{c["motion"]}"', f'normal = "{c["normal"]}"',
+                  f'tangential = "{c["tangential"]}"', f'material_model = "{c["model"]}"', "output_level = 0", options,
+                  f'sequence = "{"continue_all" if step else "initiate"}"', f'estimate = "{"previous" if step else "fresh"}"']
+        if step:
+            continue
+        load = f"fn = {c['fn']!r}" if c["normal"] == "force" else f"pen = {c['pen']!r}"
+        xi, eta = c["creep"]
+        lines += ["[case.iteration]", 'solver = "default"', f"eps = {eps!r}", "maxgs = 999", "maxin = 200", "maxnr = 60",
+                  f"maxout = {c['maxout']}", "[case.kinematics]", load, f"cphi = {c['spin']!r}"]
+        if c["tangential"] == "creepages":
+            lines += [f"cksi = {xi!r}", f"ceta = {eta!r}"]
+        else:
+            lines += [f"fx = {c['force'][0]!r}", f"fy = {c['force'][1]!r}"]
+        lines += ["[case.friction]", c["friction"]]
+        if rolling:
+            lines += ["[case.rolling]", f"chi = {c['chi']!r}", f"dq = {c.get('dq', dx)!r}", "veloc = 1000.0"]
+        lines += ["[case.material]", 'influence = "piecewise_constant"', f"poiss = {c['poiss']}", f"gg = {c['gg']}", c["material"],
+                  "[case.grid]", 'form = "corner_and_sides"', f"mx = {n + 1}", f"my = {n + 1}", f"xl = {xl!r}", f"yl = {yl!r}",
+                  f"dx = {dx!r}", f"dy = {dy!r}", "[case.geometry]", c["geometry"], c["extra"]]
+    return "\n".join(lines) + "\n"

@@ -1,0 +1,184 @@
+"""Estimated against true errors of random contacts: python3 errors.py [--count N] [--seed S] [--kinds a,b] [--check]
+
+Each contact is solved with --errors on a grid of random size and offset, and on grids of 3 and 6 times as many elements along each
+side, whose totals are extrapolated. Printed is the distribution of the effectivity, the estimated error over the true one, by kind
+of contact and by total. With --check the command fails where the bounds of the suite are missed. CONTACT_PROGRAM names the program.
+"""
+import argparse
+import json
+import math
+import os
+import random
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+from error_cases import CHANGES, contact, text_of
+
+#: Sides of the finer grids
+FINER = (3, 6)
+#: What the suite asks for with a fixed seed: least and most effectivity of all contacts, part of them within 0.3 to 5
+BOUNDS = {"forces": (0.1, 30.0, 0.8), "pen": (0.1, 30.0, 0.9), "fn": (0.1, 10.0, 0.9), "contact_area": (0.1, 20.0, 0.85),
+          "pmax": (0.1, math.inf, 0.75), "creepages": (0.1, 10.0, 0.6), "friction_power": (0.0, math.inf, 0.75)}
+#: Totals of the groups whose largest relative error counts
+FORCES = ("fx", "fy", "mz")
+
+
+def run(program, folder, name, texts, errors):
+    """Solve cases; their records by their numbers in the file."""
+    (folder / f"{name}.toml").write_text("\n".join(texts))
+    command = [program, "--quiet", "--json", "2", name]
+    if errors:
+        command.insert(1, "--errors")
+    done = subprocess.run(command, cwd=folder, env=dict(os.environ, OMP_NUM_THREADS="1"), capture_output=True, text=True)
+    lines = (folder / f"{name}.jsonl").read_text().splitlines()
+    records = [json.loads(line) for line in lines]
+    records = [r for r in records if "patches" in r and "case" in r]
+    if not records:
+        sys.exit(f"{name}: {done.stdout}{done.stderr}")
+    return dict(enumerate(records, 1))
+
+
+def last_cases(contacts):
+    """Number of the last case of each contact in a file."""
+    number, last = 0, []
+    for c in contacts:
+        number += c["steps"]
+        last.append(number)
+    return last
+
+
+def patch_of(records, number):
+    """The patch of a solved case."""
+    record = records.get(number)
+    if not record or not record.get("converged") or not record["patches"]:
+        return None
+    patch = record["patches"][0]
+    return {group: {name: v["value"] if isinstance(v, dict) else v for name, v in patch[group].items()}
+            for group in ("totals", "errors") if group in patch}
+
+
+def scale_of(name, totals, c):
+    """What the error of a total is relative to."""
+    if name in ("fx", "fy"):
+        return totals["mu_scal"] * totals["fn"]
+    if name == "mz":
+        return totals["mu_scal"] * totals["fn"] * math.sqrt(totals["contact_area"] / math.pi)
+    if name in ("cksi", "ceta"):
+        return max(abs(totals["cksi"]), abs(totals["ceta"]))
+    return abs(totals[name])
+
+
+def judge(program, seed, count, kinds, limits, folder):
+    """Relative true errors and estimates of all totals of all contacts."""
+    source = random.Random(seed)
+    contacts = [contact(source, kinds[k % len(kinds)]) for k in range(count)]
+    sizes = [source.randrange(*limits) for _ in contacts]
+    grids = {}
+    for factor in (1, *FINER):
+        texts = [text_of(c, n * factor, (source.random(), source.random()), eps=1e-6 if factor == 1 else 1e-7)
+                 for c, n in zip(contacts, sizes)]
+        grids[factor] = run(program, folder, f"level{factor}", texts, factor == 1)
+    rows = []
+    for c, n, last in zip(contacts, sizes, last_cases(contacts)):
+        patches = [patch_of(grids[f], last) for f in (1, *FINER)]
+        if None in patches or "errors" not in patches[0]:
+            rows.append((c, n, None))
+            continue
+        ratio = (FINER[1] / FINER[0]) ** c["order"]
+        values = {}
+        for key, estimate in patches[0]["errors"].items():
+            if not key.endswith("_error"):
+                continue
+            name = key[:-6]
+            coarse, middle, fine = (p["totals"][name] for p in patches)
+            exact = fine + (fine - middle) / (ratio - 1.0)
+            scale = scale_of(name, patches[0]["totals"], c) or 1.0
+            values[name] = (estimate / scale, abs(coarse - exact) / scale, abs(fine - exact) / scale)
+        rows.append((c, n, values))
+    return rows
+
+
+def groups_of(values):
+    """Errors of the totals, those of the tangential forces together: the largest relative ones."""
+    forces = [values[name] for name in FORCES if name in values]
+    groups = {}
+    if forces:
+        groups["forces"] = tuple(max(f[k] for f in forces) for k in range(3))
+    creep = [values[name] for name in ("cksi", "ceta", "shift_x", "shift_y") if name in values]
+    if creep:
+        groups["creepages"] = tuple(max(f[k] for f in creep) for k in range(3))
+    seen = (*FORCES, "cksi", "ceta", "shift_x", "shift_y", "max_temp1")
+    return groups | {name: value for name, value in values.items() if name not in seen and not name.endswith("_rel")}
+
+
+def line_of(title, pairs):
+    """One line of a table: number, quantiles of the effectivity, parts within the bounds."""
+    ratios = sorted(e / max(t, 1e-12) for e, t, _ in pairs)
+    n = len(ratios)
+
+    def at(q):
+        return ratios[min(n - 1, int(q * n))]
+
+    within = sum(0.3 <= r <= 5.0 for r in ratios) / n
+    low = sum(r < 0.3 for r in ratios)
+    high = sum(r > 5.0 for r in ratios)
+    median = sorted(t for _, t, _ in pairs)[n // 2]
+    return (f"| {title} | {n} | {median:.1e} | {at(0.0):.2f} | {at(0.05):.2f} | {at(0.5):.2f} | {at(0.95):.2f} | {at(1.0):.3g} "
+            f"| {100 * within:.0f} | {low} | {high} |")
+
+
+def misses(by_total, unsolved):
+    """Complaints about estimates beyond the bounds of the suite, "" when there are none."""
+    complaints = [f"{unsolved} contacts have no result"] if unsolved else []
+    for name, (least, most, part) in BOUNDS.items():
+        ratios = [e / max(t, 1e-12) for e, t, _ in by_total[name]]
+        within = sum(0.3 <= r <= 5.0 for r in ratios) / len(ratios)
+        if min(ratios) < least or max(ratios) > most or within < part:
+            complaints.append(f"{name}: effectivity {min(ratios):.2f} to {max(ratios):.2f}, {100 * within:.0f} % within 0.3 to 5; "
+                              f"expected {least} to {most} and {100 * part:.0f} %")
+    return "\n".join(complaints)
+
+
+HEADING = ("| | contacts | median true error | least | 5 % | median | 95 % | most | within 0.3 to 5 [%] | below | above |\n"
+           "|---|---|---|---|---|---|---|---|---|---|---|")
+
+
+def main():
+    """Study or test."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--count", type=int, default=60)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--kinds", default=",".join(CHANGES))
+    parser.add_argument("--sizes", default="16,45", help="least and largest number of elements along each side")
+    parser.add_argument("--check", action="store_true", help="36 contacts on small grids; fail where bounds are missed")
+    parser.add_argument("--list", action="store_true", help="name the contacts whose estimates miss the bounds")
+    asked = parser.parse_args()
+    if asked.check:
+        asked.count, asked.seed, asked.sizes = 36, 11, "15,24"
+    kinds = asked.kinds.split(",")
+    limits = tuple(int(word) for word in asked.sizes.split(","))
+    with tempfile.TemporaryDirectory() as name:
+        rows = judge(os.environ["CONTACT_PROGRAM"], asked.seed, asked.count, kinds, limits, Path(name))
+    by_total, by_kind = {}, {}
+    for c, n, values in rows:
+        if values is None:
+            print(f"no result: {c['kind']} on {n} elements")
+            continue
+        for group, value in groups_of(values).items():
+            if asked.list and not 0.3 <= value[0] / max(value[1], 1e-12) <= 5.0:
+                print(f"{c['kind']} on {n}, a/b {c['a'] / c['b']:.2f}, {group}: estimated {value[0]:.1e}, true {value[1]:.1e}")
+            by_total.setdefault(group, []).append(value)
+            by_kind.setdefault((c["kind"], group), []).append(value)
+    print(HEADING)
+    for group, pairs in by_total.items():
+        print(line_of(group, pairs))
+    if asked.check:
+        sys.exit(misses(by_total, sum(values is None for _, _, values in rows)) or 0)
+    for (kind, group), pairs in sorted(by_kind.items()):
+        print(line_of(f"{kind}: {group}", pairs))
+
+
+if __name__ == "__main__":
+    main()
