@@ -61,11 +61,23 @@ for name = {'eldiv','eldiv_spy','eldiv_contour','h','mu','pn','px','py','ptabs',
       case 'srel'
          c = get(colors_shown(), 'cdata');
          check_near(max(c(:)), max(w.srel(:)), 1e-15, 'slip velocity');
+      case 'sabs'
+         c = get(colors_shown(), 'cdata');
+         check_near(max(c(:)), max(w.srel(:))*w.kincns.veloc, 1e-9, 'slip in mm/s');
+      case 'fricdens'
+         c = get(colors_shown(), 'cdata');
+         power = w.srel .* hypot(w.px,w.py) * w.kincns.veloc;
+         check_near(1000*max(c(:)), max(power(:)), 1e-9*max(power(:)), 'power density, W = N mm/s / 1000');
    end
    if (any(strcmp(name{1}, {'eldiv','eldiv_spy','eldiv_contour','pn','ptvec','ptabs+vec','srel+vec'})))
       snap(['plot3d_' strrep(name{1},'+','_')]);
    end
 end
+opt.field = 'fricdens';
+plot3d(s, opt);
+c = get(colors_shown(), 'cdata');
+work = s.shft .* hypot(s.px,s.py);
+check_near(1000*max(c(:)), max(work(:)), 1e-9*max(work(:)), 'work density of a shift, J = N mm / 1000');
 t = loadcase('sliding_temperature');
 opt.field = 'temp1';
 plot3d(t, opt);
