@@ -278,7 +278,12 @@ contains
    !> Weighted square sum of the residual
    pure real(wp) function square(self)
       class(descent), intent(in) :: self
-      square = sum((self%r*spread(self%weight, 3, 2))**2)
+      integer :: k
+
+      square = 0.0_wp
+      do k = 1, 2
+         square = square + sum((self%r(:, :, k)*self%weight)**2)
+      end do
    end function square
 
    !> The projection asked for; for two iterations another one when progress was poor

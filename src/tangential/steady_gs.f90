@@ -90,7 +90,7 @@ contains
       integer, intent(in) :: iy, i, last
       real(wp), contiguous, intent(inout) :: slip(:, :)
       integer :: k
-      real(wp) :: p(2), length, bound
+      real(wp) :: p(2), change(2), length, bound
 
       do k = i - 1, 0, -1
          if (rows%state(k, iy) /= element%adhesion) exit
@@ -100,13 +100,15 @@ contains
          if (length > bound) then
             p = p*(bound/length)
             rows%p(k, :, iy) = p
-            call change_increment(rows, iy, k, p - rows%p(k + 1, :, iy) - rows%dp(k, :, iy), i, last, slip)
+            change = p - rows%p(k + 1, :, iy) - rows%dp(k, :, iy)
+            call change_increment(rows, iy, k, change, i, last, slip)
          else
             rows%p(k, :, iy) = p
          end if
       end do
       ! the traction of an element in slip stays, that of an exterior one is zero
-      call change_increment(rows, iy, k, rows%p(k, :, iy) - rows%p(k + 1, :, iy) - rows%dp(k, :, iy), i, last, slip)
+      change = rows%p(k, :, iy) - rows%p(k + 1, :, iy) - rows%dp(k, :, iy)
+      call change_increment(rows, iy, k, change, i, last, slip)
    end subroutine carry_downstream
 
    !> Add to one increment, and to the slip of the elements upstream of i

@@ -273,11 +273,13 @@ contains
       !> New traction [N/mm2]
       real(wp), intent(out) :: p(2)
       type(yield_point) :: point
-      real(wp) :: before
+      real(wp) :: before, old(2)
 
+      ! a copy: its place in the row is not contiguous, and a temporary of the compiler comes from the heap
+      old = self%p(i, :, iy)
       if (.not. allocated(self%yield)) then
          call solve_element(c, s0, self%bound(i, iy), p, self%state(i, iy))
-         call relax_element(self%p(i, :, iy), self%bound(i, iy), omegah, omegas, self%state(i, iy), p)
+         call relax_element(old, self%bound(i, iy), omegah, omegas, self%state(i, iy), p)
          return
       end if
       if (self%steady) then
@@ -289,7 +291,7 @@ contains
       self%state(i, iy) = point%state
       self%plastic(i, iy) = point%plastic
       self%limit(i, iy) = point%limit
-      if (point%state /= element%plastic) call relax_element(self%p(i, :, iy), self%largest(i, iy), omegah, omegas, &
+      if (point%state /= element%plastic) call relax_element(old, self%largest(i, iy), omegah, omegas, &
          & point%state, p)
       if (self%steady) call follow_limits(self, iy, i - 1)
    end subroutine solve_one

@@ -6,6 +6,7 @@ program performance_smoke
    use contact_bench_measure, only : allocations
    use contact_bench_problems, only : new_line_case, new_normal_case, new_rolling_case, new_table_case, normal_case, &
       & rolling_contacts, session_case, set_table_kind, solve_one, table_creepage, table_kind, table_kinds, tangential_case
+   use contact_tangential_classical, only : classical_method, method_name
    use contact_test_harness, only : test_suite
    implicit none (type, external)
 
@@ -42,6 +43,10 @@ program performance_smoke
          & ": 100 products " // found(real(report%products, wp)))
    end do
 
+   do k = classical_method%tang_cg, classical_method%gd_steady
+      call sweeps_without_heap(k)
+   end do
+
    call new_line_case(session)
    call solve_one(session)
    call suite%check(session%result%tangential%succeeded() .and. session%result%tangential%products <= 100, &
@@ -57,6 +62,35 @@ program performance_smoke
    call suite%finish()
 
 contains
+
+   !> Classical methods ask for memory once per call, not in their iterations
+   subroutine sweeps_without_heap(method)
+      !> Member of classical_method
+      integer, intent(in) :: method
+      integer, parameter :: limits(2) = [4, 12]
+      integer(long) :: before, requests(2)
+      integer :: i, repetition
+
+      call new_rolling_case(rolling_contacts(1), 40, 1.0e-9_wp, tangential)
+      tangential%problem%steady = method /= classical_method%tang_cg
+      tangential%method = method
+      do i = 1, size(limits)
+         tangential%problem%settings%maxgs = limits(i)
+         ! the first call makes room for the second one
+         do repetition = 1, 2
+            before = allocations()
+            call tangential%run(report)
+            requests(i) = allocations() - before
+         end do
+         call suite%check(report%iterations == limits(i) .or. report%gave_up /= "", "all iterations, " // trim(method_name(method)))
+      end do
+      if (before < 0) then
+         call suite%skip("requests to the heap", "they cannot be counted here")
+      else
+         call suite%equal(int(requests(2) - requests(1)), 0, "requests of more iterations, " // trim(method_name(method)))
+      end if
+      call tangential%release()
+   end subroutine sweeps_without_heap
 
    !> Cases of a table: they converge by Newton-Krylov, with few products
    subroutine table_cases()
