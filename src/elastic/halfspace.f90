@@ -63,10 +63,46 @@ contains
       do l = 0, ny
          do k = 0, nx
             v = combine_corners(corner(:, k, l) - corner(:, k - 1, l) - corner(:, k, l - 1) + corner(:, k - 1, l - 1), material)
-            call set_mirrored(table, k, l, v)
+            ! a coefficient that is odd in an offset vanishes exactly at offset 0
+            if (k == 0 .or. l == 0) v(4) = 0.0_wp
+            table%nn(k, l) = v(1)
+            table%xx(k, l) = v(2)
+            table%yy(k, l) = v(3)
+            table%xy(k, l) = v(4)
+            if (.not. allocated(table%xn)) cycle
+            table%xn(k, l) = merge(0.0_wp, v(5), k == 0)
+            table%yn(k, l) = merge(0.0_wp, v(6), l == 0)
          end do
       end do
+      call mirror(table%nn, nx, ny, 1, 1)
+      call mirror(table%xx, nx, ny, 1, 1)
+      call mirror(table%yy, nx, ny, 1, 1)
+      call mirror(table%xy, nx, ny, -1, -1)
+      if (.not. allocated(table%xn)) return
+      call mirror(table%xn, nx, ny, -1, 1)
+      call mirror(table%yn, nx, ny, 1, -1)
    end subroutine fill_table
+
+   !> The other three quadrants of a kernel that is even (+1) or odd (-1) in each offset
+   pure subroutine mirror(kernel, nx, ny, sign_x, sign_y)
+      !> Largest offsets
+      integer, intent(in) :: nx, ny
+      !> Shape (-nx:nx, -ny:ny); set where both offsets are at least 0
+      real(wp), contiguous, intent(inout) :: kernel(-nx:, -ny:)
+      integer, intent(in) :: sign_x, sign_y
+      integer :: k, l
+
+      do l = 0, ny
+         do k = 1, nx
+            kernel(-k, l) = sign_x*kernel(k, l)
+         end do
+      end do
+      do l = 1, ny
+         do k = -nx, nx
+            kernel(k, -l) = sign_y*kernel(k, l)
+         end do
+      end do
+   end subroutine mirror
 
    !> All coefficients with the observation point moved by (shift_x, shift_y)
    subroutine fill_shifted_table(table, material, dx, dy, nx, ny, shift_x, shift_y)

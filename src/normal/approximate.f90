@@ -8,6 +8,7 @@ module contact_normal_approximate
    use contact_base_log, only : log_type
    use contact_base_solve_report, only : ending, solve_report
    use contact_elastic_compliance, only : compliance
+   use contact_elastic_pressure_sums, only : pressure_sums
    use contact_grid_potential_contact, only : potential_contact
    use contact_normal_analyn, only : analyn_pressure
    use contact_normal_kpec, only : kpec_shape
@@ -23,7 +24,7 @@ contains
    !> The report ends as "converged" after one pass, without iterations; its residual stays unknown,
    !> since these methods do not fulfil the contact conditions to any tolerance. Where the surfaces overlap and no
    !> element gets a pressure it ends as "stagnated", with a warning.
-   subroutine approximate_pressure(model, grid, gap, modulus, operator, pn, report, log)
+   subroutine approximate_pressure(model, grid, gap, modulus, operator, sums, pn, report, log)
       !> Member of pressure_model: kpec or analyn
       integer, intent(in) :: model
       !> Centres and sides of the elements
@@ -33,8 +34,10 @@ contains
       real(wp), contiguous, intent(in) :: gap(:, :)
       !> Contact modulus G/(1 - nu) of the combined material [N/mm2]
       real(wp), intent(in) :: modulus
-      !> Prepared for the window
-      class(compliance), intent(inout) :: operator
+      !> Prepared for the window where `sums` do not suit the bodies
+      class(compliance), allocatable, intent(inout) :: operator
+      !> Prepared for the window where they suit the bodies
+      type(pressure_sums), allocatable, intent(in) :: sums
       !> Pressures [N/mm2], shape (mx, my)
       real(wp), contiguous, intent(inout) :: pn(:, :)
       !> How it ended; transforms are added to those of before
@@ -47,7 +50,7 @@ contains
       select case (model)
       case (pressure_model%kpec)
          report%method = "KPEC"
-         call scaled_kpec(grid, gap, operator, pn, report)
+         call scaled_kpec(grid, gap, operator, sums, pn, report)
       case (pressure_model%analyn)
          report%method = "ANALYN"
          call analyn_pressure(grid, gap, modulus, pn)
@@ -62,10 +65,11 @@ contains
    end subroutine approximate_pressure
 
    !> KPEC with the factor by which the displacement equals the largest overlap
-   subroutine scaled_kpec(grid, gap, operator, pn, report)
+   subroutine scaled_kpec(grid, gap, operator, sums, pn, report)
       type(potential_contact), intent(in) :: grid
       real(wp), contiguous, intent(in) :: gap(:, :)
-      class(compliance), intent(inout) :: operator
+      class(compliance), allocatable, intent(inout) :: operator
+      type(pressure_sums), allocatable, intent(in) :: sums
       real(wp), contiguous, intent(inout) :: pn(:, :)
       type(solve_report), intent(inout) :: report
       real(wp), allocatable :: un(:, :)
@@ -74,6 +78,11 @@ contains
       allocate(weight, mold=pn)
       call kpec_shape(grid, gap, pn, weight)
       if (.not. any(pn > 0.0_wp)) return
+      if (allocated(sums)) then
+         ! displacements of the deepest elements only
+         pn = pn*(-sum(weight*gap)/sums%weighted(weight, pn))
+         return
+      end if
       allocate(un, mold=pn)
       call operator%normal(pn, un)
       pn = pn*(-sum(weight*gap)/sum(weight*un))

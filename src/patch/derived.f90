@@ -13,7 +13,7 @@ module contact_patch_derived
    implicit none (type, external)
    private
 
-   public :: reset_result, derive, remember_friction
+   public :: complete, derive, remember_friction, reset_result
 
    !> Velocities below this value give the time step of this one [mm/s]
    real(wp), parameter :: min_velocity = 1.0e-10_wp
@@ -152,7 +152,7 @@ contains
       if (allocated(problem%simplified)) then
          call spring_displacements(problem, state, workspace, result)
          result%friction_power = area/(nmm_per_joule*result%dt)*(sum(result%px*result%sx) + sum(result%py*result%sy))
-      else
+      else if (.not. is_deferred(problem)) then
          call displacements(problem, state, box, workspace, result)
       end if
       if (problem%motion /= motion%none .and. .not. allocated(problem%simplified)) then
@@ -169,15 +169,45 @@ contains
          if (problem%model%coupled()) call coupled_residual(problem, box, result)
       end if
       call derive_yield(problem, state, workspace%solution, result)
+      if (.not. is_deferred(problem)) call derive_energy(problem, result)
+      state%now%pen = result%pen
+      state%creep = [result%cksi, result%ceta]
+   end subroutine derive
+
+   !> Are the displacements of a solution without tangential tractions wanted later, if at all?
+   pure logical function is_deferred(problem)
+      type(patch_problem), intent(in) :: problem
+      is_deferred = problem%defers_displacements .and. problem%motion == motion%none .and. .not. allocated(problem%simplified)
+   end function is_deferred
+
+   !> Displacements and elastic energy that were left out
+   subroutine complete(problem, state, workspace, result)
+      !> As in `derive`
+      type(patch_problem), intent(in) :: problem
+      !> Solved tractions
+      type(patch_state), intent(in) :: state
+      !> Compliances
+      type(patch_workspace), intent(inout) :: workspace
+      !> Derived from the same tractions; gets displacements and energy
+      type(patch_result), intent(inout) :: result
+
+      if (result%ncon == 0 .or. .not. is_deferred(problem)) return
+      call displacements(problem, state, contact_box(state%now%division), workspace, result)
+      call derive_energy(problem, result)
+   end subroutine complete
+
+   !> Elastic energy, where displacements are known
+   pure subroutine derive_energy(problem, result)
+      type(patch_problem), intent(in) :: problem
+      type(patch_result), intent(inout) :: result
+
       if (.not. allocated(problem%given_pressure)) then
-         result%elastic_energy = area/(2.0_wp*nmm_per_joule) &
+         result%elastic_energy = problem%grid%dx*problem%grid%dy/(2.0_wp*nmm_per_joule) &
             & *(sum(result%pn*result%un) + sum(result%px*result%ux) + sum(result%py*result%uy))
       else
          result%un = 0.0_wp
       end if
-      state%now%pen = result%pen
-      state%creep = [result%cksi, result%ceta]
-   end subroutine derive
+   end subroutine derive_energy
 
    !> Displacement differences in simplified theory: tangential ones by springs, normal ones by half-spaces
    subroutine spring_displacements(problem, state, workspace, result)

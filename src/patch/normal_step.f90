@@ -5,6 +5,7 @@ module contact_patch_normal_step
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
    use contact_base_solve_report, only : ending
+   use contact_elastic_pressure_sums, only : pressure_sums
    use contact_grid_element_division, only : element
    use contact_grid_picture, only : trace_picture
    use contact_normal_active_sets, only : solve_by_active_sets
@@ -48,7 +49,10 @@ contains
          if (first) then
             if (allocated(problem%pressure_estimate)) state%now%pn = problem%pressure_estimate
          end if
-         call prepare_window(problem, workspace)
+         if (problem%pressure == pressure_model%full .or. problem%couples() &
+            & .or. .not. suits_sums(problem)) then
+            call prepare_window(problem, workspace)
+         end if
          associate (normal => workspace%normal)
             normal%mx = problem%grid%mx
             normal%my = problem%grid%my
@@ -83,8 +87,9 @@ contains
                ! overlap of the surfaces instead of their distance; excluded elements stay excluded
                where (normal%h < excluded_threshold) normal%h = normal%h - problem%pen
                associate (material => problem%model%material)
+                  call prepare_sums(problem, workspace)
                   call approximate_pressure(problem%pressure, problem%grid, normal%h, material%gg/(1.0_wp - material%nu), &
-                     & workspace%window, state%now%pn, result%normal, log)
+                     & workspace%window, workspace%sums, state%now%pn, result%normal, log)
                end associate
             end if
          end associate
@@ -118,6 +123,28 @@ contains
          where (state%now%division > element%exterior) state%now%division = element%adhesion
       end if
    end subroutine normal_step
+
+   !> Can displacements that approximate pressures need be summed directly?
+   pure logical function suits_sums(problem)
+      type(patch_problem), intent(in) :: problem
+      type(pressure_sums) :: sums
+
+      suits_sums = sums%suits(problem%model)
+   end function suits_sums
+
+   !> Coefficients for the sums, where they suit
+   subroutine prepare_sums(problem, workspace)
+      type(patch_problem), intent(in) :: problem
+      type(patch_workspace), intent(inout) :: workspace
+
+      if (.not. suits_sums(problem)) then
+         if (allocated(workspace%sums)) deallocate(workspace%sums)
+         return
+      end if
+      if (.not. allocated(workspace%sums)) allocate(workspace%sums)
+      if (problem%pressure == pressure_model%kpec) call workspace%sums%prepare(problem%model, problem%grid%dx, problem%grid%dy, &
+         & problem%grid%mx, problem%grid%my)
+   end subroutine prepare_sums
 
    !> Normal displacements by the present tangential tractions
    subroutine shear_lift(problem, state, workspace)

@@ -4,6 +4,7 @@ module contact_patch_workspace
    use contact_elastic_compliance, only : compliance
    use contact_elastic_halfspace, only : kernel_table
    use contact_elastic_new_compliance, only : new_compliance
+   use contact_elastic_pressure_sums, only : pressure_sums
    use contact_elastic_previous, only : previous_operator
    use contact_grid_element_division, only : bounding_box
    use contact_numeric_anderson, only : anderson_iteration
@@ -23,6 +24,8 @@ module contact_patch_workspace
       !> Compliance on the whole window and on the bounding box of the contact area
       class(compliance), allocatable :: window, box
       type(previous_operator) :: previous
+      !> Normal displacements of few elements, for approximate pressures; unallocated where they do not suit the bodies
+      type(pressure_sums), allocatable :: sums
       !> Coefficients of the same particles a step ago, in steady rolling with steps of any length
       type(kernel_table) :: shifted
       type(normal_problem) :: normal

@@ -46,6 +46,7 @@ contains
          & call find_share(geometry, slot, is_new)
       has_friction = with_friction .or. is_new
       if (.not. has_friction) slot%problem%motion = motion%none
+      slot%problem%defers_displacements = .true.
       slot%friction_share = share_at(problem, geometry, slot)
       if (problem%geometry_only) return
 

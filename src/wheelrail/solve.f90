@@ -5,6 +5,7 @@ module contact_wheelrail_solve
    use contact_base_error, only : error_type
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
+   use contact_patch_derived, only : complete
    use contact_text_words, only : real_text
    use contact_wheelrail_deflection, only : lower_rail, search_deflection
    use contact_wheelrail_error_estimate, only : estimate_wheel_rail_errors
@@ -68,6 +69,13 @@ contains
       if (allocated(error)) then
          call memory%last%clear()
          return
+      end if
+      if (.not. problem%geometry_only) then
+         do k = 1, memory%used
+            associate (slot => memory%slot(k))
+               call complete(slot%problem, slot%state, slot%workspace, slot%result)
+            end associate
+         end do
       end if
       call judge_direction(problem, memory%geometry%pitch_rate, log)
       memory%z_ws = z

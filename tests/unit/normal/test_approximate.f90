@@ -6,9 +6,11 @@ program test_approximate
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
    use contact_base_solve_report, only : solve_report
+   use contact_elastic_compliance, only : compliance
    use contact_elastic_material, only : combined_material, combine
    use contact_elastic_model, only : elastic_model
-   use contact_elastic_operator, only : elastic_operator
+   use contact_elastic_new_compliance, only : new_compliance
+   use contact_elastic_pressure_sums, only : pressure_sums
    use contact_grid_potential_contact, only : potential_contact
    use contact_normal_approximate, only : approximate_pressure
    use contact_normal_estimate, only : elliptic_pressure, sdec_pressure
@@ -30,6 +32,7 @@ program test_approximate
    call mirrors(suite)
    call no_jumps(suite)
    call missed_overlap(suite)
+   call sums_and_transforms(suite)
    call suite%finish()
 
 contains
@@ -157,15 +160,34 @@ contains
       grid = potential_contact(mx, my, -half_x, -half_y, 2.0_wp*half_x/mx, 2.0_wp*half_y/my)
    end function window
 
+   !> Displacements of the deepest elements by sums, and by transforms
+   subroutine sums_and_transforms(suite)
+      type(test_suite), intent(inout) :: suite
+      type(potential_contact) :: grid
+      real(wp), allocatable :: one(:, :), other(:, :)
+      integer :: n
+
+      do n = 10, 60, 25
+         grid = window(n, n + 7, 6.0_wp, 5.0_wp)
+         one = pressure_of(pressure_model%kpec, grid, quadratic_gap(grid, 1.1e-3_wp, 2.3e-3_wp, 0.02_wp))
+         other = pressure_of(pressure_model%kpec, grid, quadratic_gap(grid, 1.1e-3_wp, 2.3e-3_wp, 0.02_wp), by_transforms=.true.)
+         call suite%check(maxval(one) > 0.0_wp, "there is contact")
+         call suite%close_to([other], [one], 1.0e-12_wp*maxval(one), "sums and transforms")
+      end do
+   end subroutine sums_and_transforms
+
    !> Pressures of one method, steel
-   function pressure_of(model, grid, gap, warnings) result(pn)
+   function pressure_of(model, grid, gap, warnings, by_transforms) result(pn)
       integer, intent(in) :: model
       type(potential_contact), intent(in) :: grid
       real(wp), intent(in) :: gap(:, :)
       integer, intent(out), optional :: warnings
+      !> By the operator of the window, as for bodies without one table of coefficients
+      logical, intent(in), optional :: by_transforms
       real(wp), allocatable :: pn(:, :)
       real(wp), allocatable :: copy(:, :)
-      type(elastic_operator) :: operator
+      class(compliance), allocatable :: operator
+      type(pressure_sums), allocatable :: sums
       type(combined_material) :: material
       type(solve_report) :: report
       type(log_type) :: log
@@ -173,10 +195,16 @@ contains
       material = steel()
       copy = gap
       allocate(pn, mold=copy)
-      call operator%prepare(elastic_model(material), grid%dx, grid%dy, grid%mx, grid%my, 1)
-      call approximate_pressure(model, grid, copy, material%gg/(1.0_wp - material%nu), operator, pn, report, log)
+      if (present(by_transforms)) then
+         call new_compliance(elastic_model(material), operator)
+         call operator%prepare(elastic_model(material), grid%dx, grid%dy, grid%mx, grid%my, 1)
+      else
+         allocate(sums)
+         call sums%prepare(elastic_model(material), grid%dx, grid%dy, grid%mx, grid%my)
+      end if
+      call approximate_pressure(model, grid, copy, material%gg/(1.0_wp - material%nu), operator, sums, pn, report, log)
       if (present(warnings)) warnings = log%warnings
-      call operator%release()
+      if (allocated(operator)) call operator%release()
    end function pressure_of
 
    pure function steel() result(material)

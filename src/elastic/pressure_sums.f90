@@ -1,0 +1,100 @@
+!> Normal displacements in a few elements by pressures, summed directly
+!>
+!> Where few displacements are wanted no transforms are needed, and no spectra for a window whose size changes from one solution
+!> to the next: coefficients are kept for the largest window so far.
+module contact_elastic_pressure_sums
+   use contact_base_kinds, only : wp
+   use contact_elastic_coefficients, only : fill_coefficients
+   use contact_elastic_halfspace, only : kernel_table
+   use contact_elastic_model, only : elastic_model
+   implicit none (type, external)
+   private
+
+   public :: pressure_sums
+
+   !> Coefficients of normal displacements by pressures
+   type :: pressure_sums
+      private
+      type(kernel_table) :: table
+      type(elastic_model) :: model
+   contains
+      !> Is there one table of coefficients for all elements of such bodies?
+      procedure, nopass :: suits
+      !> Coefficients for a window; everything is kept when it has them
+      procedure :: prepare
+      !> Weighted sum of displacements
+      procedure :: weighted
+   end type pressure_sums
+
+contains
+
+   pure logical function suits(model)
+      !> The bodies
+      type(elastic_model), intent(in) :: model
+      suits = model%is_flat() .and. .not. allocated(model%memory)
+   end function suits
+
+   subroutine prepare(self, model, dx, dy, mx, my)
+      class(pressure_sums), intent(inout) :: self
+      !> Bodies that are suited
+      type(elastic_model), intent(in) :: model
+      !> Sides of the elements [mm]
+      real(wp), intent(in) :: dx, dy
+      !> Size of the window
+      integer, intent(in) :: mx, my
+      !> Windows grow: room for a quarter more
+      real(wp), parameter :: room = 1.25_wp
+      logical :: same
+
+      same = allocated(self%table%nn)
+      if (same) same = abs(self%table%dx - dx) <= 0.0_wp .and. abs(self%table%dy - dy) <= 0.0_wp .and. self%model%same_as(model)
+      if (same .and. self%table%nx >= mx .and. self%table%ny >= my) return
+      self%model = model
+      if (same) then
+         call fill_coefficients(self%table, model, dx, dy, max(self%table%nx, ceiling(room*mx)), &
+            & max(self%table%ny, ceiling(room*my)))
+      else
+         call fill_coefficients(self%table, model, dx, dy, mx, my)
+      end if
+   end subroutine prepare
+
+   !> Sum of weight times displacement [mm]
+   pure real(wp) function weighted(self, weight, p) result(total)
+      class(pressure_sums), intent(in) :: self
+      !> Weights, few of them not zero [-], and pressures [N/mm2]; both of the shape of the window
+      real(wp), contiguous, intent(in) :: weight(:, :), p(:, :)
+      real(wp) :: here, row(4)
+      integer :: ix, iy, k, l, m, first(size(p, 2)), last(size(p, 2))
+
+      do l = 1, size(p, 2)
+         first(l) = size(p, 1) + 1
+         last(l) = 0
+         do k = 1, size(p, 1)
+            if (p(k, l) <= 0.0_wp) cycle
+            first(l) = min(first(l), k)
+            last(l) = k
+         end do
+      end do
+      total = 0.0_wp
+      do iy = 1, size(p, 2)
+         do ix = 1, size(p, 1)
+            if (.not. weight(ix, iy) > 0.0_wp) cycle
+            here = 0.0_wp
+            do l = 1, size(p, 2)
+               ! four sums at once do not wait for each other
+               row = 0.0_wp
+               do k = first(l), last(l) - 3, 4
+                  do m = 0, 3
+                     row(m + 1) = row(m + 1) + self%table%nn(ix - k - m, iy - l)*p(k + m, l)
+                  end do
+               end do
+               do m = k, last(l)
+                  row(1) = row(1) + self%table%nn(ix - m, iy - l)*p(m, l)
+               end do
+               here = here + sum(row)
+            end do
+            total = total + weight(ix, iy)*here
+         end do
+      end do
+   end function weighted
+end module contact_elastic_pressure_sums
