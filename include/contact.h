@@ -125,6 +125,52 @@ enum {
  * Returns CONTACT_SOLVED, CONTACT_NOT_CONVERGED, CONTACT_REFUSED or CONTACT_NOT_CALCULATED. */
 int contact_case_status(int ire, int icp, int *iteration, char *message, int message_length);
 
+/* Many cases of a text in one call, without files: the heart of studies, see doc/user/studies.md.
+ *
+ * A batch keeps what calculations share from call to call. One thread at a time may use it; different batches may be used
+ * by different threads at the same time. */
+typedef struct contact_batch contact_batch;
+
+/* A batch. threads: of each calculation; seconds: what each case may take [s], 0 without limit. NULL without memory */
+contact_batch *contact_batch_open(int threads, double seconds);
+void contact_batch_close(contact_batch *batch);
+
+/* What is to be done, and where results go */
+typedef struct {
+  const char *text;     /* cases in the readable format (doc/user/readable.md) */
+  const char *folder;   /* to which names of files are relative; NULL for the current one */
+  const char *names;    /* numbers that vary, "group.key", a line end between two; all given by the second case of the text */
+  int numbers, sets;    /* how many they are, and how many sets of values. numbers = 0: the cases of the text are solved one after
+                           the other. Otherwise only the second one, once for each set; it keeps what the first gives */
+  const double *given;  /* their values, [sets][numbers], in the units of the keys */
+  int room_rows, room_columns, room_cases; /* sizes of the arrays below */
+  double *values;       /* totals, [room_rows][room_columns]; what a row does not have keeps its value */
+  int *places;          /* case from 1 and patch of each row, [room_rows][2]. A contact problem has one row, patch 1; wheel and
+                           rail one for both together, patch 0, and one for each patch */
+  int *states;          /* CONTACT_SOLVED, ..., and CONTACT_MISSED_... of each case, [room_cases][2]; 5: out of time */
+  char *reasons;        /* why a case was not solved, [room_cases][reason_length], null-terminated; others keep their value */
+  int reason_length;
+  int rows, cases, columns; /* receive how many there are; columns of all calls with this batch */
+} contact_batch_job;
+
+/* Solve cases. What is wrong with a case is told in states and reasons, and the next one is solved.
+ *
+ * message         receives "" or the reason of a failure, cut to fit; NULL if not wanted
+ * message_length  size of message in bytes, the final null included
+ *
+ * Returns 0, or another number when the text cannot be read or an array is too short; what is counted is good then. */
+int contact_batch_solve(contact_batch *batch, contact_batch_job *job, char *message, int message_length);
+
+/* Name, unit and meaning of a column of values, from 1, each into a buffer of this length.
+ * Returns 0 for a number of patches, 1 for an integer of patches, 2 and 3 for those of wheel and rail together, -1: none */
+int contact_batch_column(contact_batch *batch, int number, char *name, char *unit, char *meaning, int length);
+
+/* An element field, such as "pn", of a patch of the case that was solved last: numbers of elements along x and y, centre of the
+ * first element and sides of an element [mm], unit; then its values, [my][mx]. Return 0, or 1 when there is none */
+int contact_batch_field(contact_batch *batch, int patch, const char *name, int *mx, int *my, double frame[4], char *unit,
+                        int length);
+int contact_batch_field_values(contact_batch *batch, int patch, const char *name, int room, double *values);
+
 #ifdef __cplusplus
 }
 #endif

@@ -2,7 +2,7 @@
 
 :class:`Problem` is two bodies in contact, :class:`WheelRail` a wheel on a rail; :mod:`contact.cntc` has the
 routines of the library one by one. :func:`read`, :func:`explain` and :func:`convert` are for experiments in files, :func:`load`
-for their results. The library is loaded when it is first needed.
+for their results, :class:`Study` for many cases. The library is loaded when it is first needed.
 """
 from typing import TYPE_CHECKING, Any
 
@@ -10,21 +10,22 @@ from ._signatures import VERSION as __version__
 from .errors import ContactError, ContactWarning, NotConvergedWarning
 
 if TYPE_CHECKING:
-    from . import cntc
+    from . import cntc, study
     from ._element import Patch, Stresses, output_to
     from ._experiment import convert, explain, read
     from ._load import Case, Experiment, StoredPatch, load
     from .problem import Problem, Result
+    from .study import Study
     from .wheel_rail import Forces, WheelRail, WheelRailPatch, WheelRailResult, Wrench
 
 __all__ = ["Case", "ContactError", "ContactWarning", "Experiment", "Forces", "NotConvergedWarning", "Patch", "Problem", "Result",
-           "StoredPatch", "Stresses", "WheelRail", "WheelRailPatch", "WheelRailResult", "Wrench", "cntc", "convert", "explain",
-           "load", "output_to", "read"]
+           "StoredPatch", "Stresses", "Study", "WheelRail", "WheelRailPatch", "WheelRailResult", "Wrench", "cntc", "convert",
+           "explain", "load", "output_to", "read", "study"]
 
 _HOMES = {"Patch": "_element", "Stresses": "_element", "output_to": "_element", "Problem": "problem",
           "Result": "problem", "WheelRail": "wheel_rail", "WheelRailPatch": "wheel_rail",
           "WheelRailResult": "wheel_rail", "Forces": "wheel_rail", "Wrench": "wheel_rail",
-          "convert": "_experiment", "explain": "_experiment", "read": "_experiment",
+          "Study": "study", "convert": "_experiment", "explain": "_experiment", "read": "_experiment",
           "Case": "_load", "Experiment": "_load", "StoredPatch": "_load", "load": "_load"}
 
 
@@ -33,6 +34,6 @@ def __getattr__(name: str) -> Any:
     import importlib
     if name in _HOMES:
         return getattr(importlib.import_module(f".{_HOMES[name]}", __name__), name)
-    if name == "cntc":
-        return importlib.import_module(".cntc", __name__)
+    if name in ("cntc", "study"):
+        return importlib.import_module(f".{name}", __name__)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

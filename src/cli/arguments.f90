@@ -335,7 +335,7 @@ contains
       asked%mode = to_number(word)
       if (is_mode(asked%mode)) return
       call fatal_error(error, "the first argument, '" // word // "', is not a mode; the modes are 1, 2 and 3, and there are " // &
-         & "the commands convert, explain and report")
+         & "the commands convert, explain, report and study")
    end subroutine take_mode
 
    !> Is there such a mode?
@@ -411,6 +411,7 @@ contains
          & "       contact convert [--force] [--output-dir DIR] EXPNAM.inp | EXPNAM.toml", &
          & "       contact explain EXPNAM", &
          & "       contact report EXPNAM | --serve [FOLDER]", &
+         & "       contact study STUDY.toml [--explain] [--workers N] [--scheduler ADDRESS]", &
          & "", &
          & "Rolling and sliding contact with friction.", &
          & "", &
@@ -422,6 +423,7 @@ contains
          & "What is missing is asked for.", &
          & "convert writes an experiment in the other format; explain tells its cases in words", &
          & "report  makes one HTML page of the results of --hdf5, or serves a folder to a browser on this machine", &
+         & "study   computes many cases from one description, on this machine or many; contact study --help", &
          & "", &
          & "Options", &
          & "  --output-dir DIR  write the results to this folder instead of that of the input", &

@@ -1,4 +1,4 @@
-!> contact report: finds Python and the package that makes pages, and hands the rest of the command line to it
+!> contact report and contact study: finds Python and the package that does it, and hands the rest of the command line to it
 module contact_cli_report
    use, intrinsic :: iso_c_binding, only : c_char, c_null_char, c_size_t
    use, intrinsic :: iso_fortran_env, only : error_unit
@@ -11,20 +11,26 @@ module contact_cli_report
 
    !> Names the folder that holds the Python package `contact`, where it is not found beside the program
    character(len=*), parameter :: variable = "CONTACT_PYTHON"
-   character(len=*), parameter :: package_file = "/contact/report/__main__.py"
+   character(len=*), parameter :: package_file = "/contact/__init__.py"
+   !> Commands that Python does, by the part of the package with their name
+   character(len=8), parameter :: commands(2) = [character(len=8) :: "report", "study"]
    !> From the folder of the program: installed, and in the build folder of a checkout
    character(len=*), parameter :: usual_places(3) = [character(len=26) :: "/../share/contact/python", "/../../../python", &
       & "/../../python"]
-   !> Runs the package from the folder that is the first argument, or from where Python has it when that is empty
-   character(len=*), parameter :: start = "import sys" // new_line("a") &
-      & // "place = sys.argv.pop(1)" // new_line("a") &
+   !> Runs the part of the package that the first argument names, from the folder that is the second one, or from where Python has
+   !> it when that is empty
+   character(len=*), parameter :: start = "import importlib, sys" // new_line("a") &
+      & // "part, place = sys.argv.pop(1), sys.argv.pop(1)" // new_line("a") &
       & // "sys.path[:1] = [place] if place else []" // new_line("a") &
       & // "try:" // new_line("a") &
-      & // "    from contact.report.__main__ import main" // new_line("a") &
+      & // "    main = importlib.import_module('contact.%s.__main__' % part).main" // new_line("a") &
       & // "except ModuleNotFoundError as missing:" // new_line("a") &
-      & // "    sys.exit('contact report: the Python package contact.report is not found (%s). It is in the folder python of " &
+      & // "    if not (missing.name or '').startswith('contact'):" // new_line("a") &
+      & // "        sys.exit('contact %s: the Python package %s is not found; it comes with: python3 -m pip install " &
+      & // "SOURCES/python[%s]' % (part, missing.name, part))" // new_line("a") &
+      & // "    sys.exit('contact %s: the Python package contact.%s is not found (%s). It is in the folder python of " &
       & // "the sources and is\ninstalled with the program; name its folder by the environment variable " // variable &
-      & // ", or: python3 -m pip install SOURCES/python' % missing)" // new_line("a") &
+      & // ", or: python3 -m pip install SOURCES/python' % (part, part, missing))" // new_line("a") &
       & // "sys.exit(main())"
 
    interface
@@ -40,17 +46,18 @@ module contact_cli_report
 
 contains
 
-   !> Is the first word of the command line "report"?
+   !> Is the first word of the command line one that Python does?
    logical function is_report()
       character(len=8) :: word
 
       is_report = .false.
       if (command_argument_count() < 1) return
       call get_command_argument(1, word)
-      is_report = word == "report"
+      is_report = any(word == commands)
    end function is_report
 
-   !> Do what `contact report ...` asks for: Python takes the place of this program, so that whoever ends it ends the page server.
+   !> Do what `contact report ...` or `contact study ...` asks for: Python takes the place of this program, so that whoever ends it
+   !> ends the page server.
    !> Returns an exit status only when there is no Python
    integer function run_report() result(status)
       character(len=:), allocatable :: place, program_name
@@ -60,17 +67,23 @@ contains
       call find_program(program_name)
       call find_package(program_name, place)
       if (len(program_name) > 0) call set_variable("CONTACT_PROGRAM", program_name)
-      allocate(words(command_argument_count() + 3))
+      allocate(words(command_argument_count() + 4))
       words(1)%text = "python3"
       words(2)%text = "-c"
       words(3)%text = start
-      words(4)%text = place
+      call take_word(1, words(4)%text)
+      words(5)%text = place
       do k = 2, command_argument_count()
-         call take_word(k, words(k + 3)%text)
+         call take_word(k, words(k + 4)%text)
       end do
       call become(words)
-      write(error_unit, "(A)") "contact report: Python 3 is not found; install it together with NumPy and h5py " &
-         & // "(apt-get install python3-h5py)"
+      if (words(4)%text == "report") then
+         write(error_unit, "(A)") "contact report: Python 3 is not found; install it together with NumPy and h5py " &
+            & // "(apt-get install python3-h5py)"
+      else
+         write(error_unit, "(A)") "contact " // words(4)%text // ": Python 3 is not found; install it, and then the packages for " &
+            & // "studies: python3 -m pip install 'SOURCES/python[study]'"
+      end if
       status = 1
    end function run_report
 

@@ -1,6 +1,7 @@
 !> An input file as a sequence of cases: module lines, result elements, stored input
 module contact_input_experiment_file
    use contact_base_error, only : add_context, error_kind, error_type, fatal_error
+   use contact_base_kinds, only : wp
    use contact_cases_spec, only : case_spec
    use contact_control_digits, only : case_digits
    use contact_grid_potential_contact, only : potential_contact
@@ -61,15 +62,24 @@ module contact_input_experiment_file
       type(element_store), allocatable, private :: stores(:)
       !> The cases of the readable format; unallocated for the other one
       type(toml_cases), allocatable, private :: cases
+      !> The case whose numbers are varied, and where these are in the text
+      type(case_address), private :: varied
+      integer, allocatable, private :: varied_numbers(:)
+      !> Was it read without a problem before?
+      logical, private :: is_repeat = .false.
    contains
       !> Read a file from the disk
       procedure :: open_file => open_experiment
       !> Take a text that is in memory already
       procedure :: open_text => open_experiment_text
+      procedure :: open_readable => open_readable_text
       !> Back to the beginning of the text
       procedure :: rewind => rewind_experiment
       !> The next case
       procedure :: next_case
+      !> Go to the next case of the readable format and find numbers that it gives; read it with other values of them
+      procedure :: prepare_variation
+      procedure :: read_variation
       !> Replace the stored input of the case that was read last
       procedure :: store_case
       procedure, private :: next_readable_case
@@ -126,6 +136,95 @@ contains
       call self%lexer%open_text(text, name)
       allocate(self%stores(4))
    end subroutine open_experiment_text
+
+   !> Take a text of the readable format that is in memory already
+   subroutine open_readable_text(self, text, name, error)
+      !> The reader
+      class(experiment_reader), intent(out) :: self
+      !> In the readable format
+      character(len=*), intent(in) :: text
+      !> Name of the file in messages
+      character(len=*), intent(in) :: name
+      !> It cannot be done
+      type(error_type), allocatable, intent(out) :: error
+
+      call self%open_text(text, name)
+      call open_cases(self, error)
+   end subroutine open_readable_text
+
+   !> Go to the next case, which belongs to the problem of the one before, and find numbers that it gives
+   subroutine prepare_variation(self, names, error)
+      !> The reader
+      class(experiment_reader), intent(inout) :: self
+      !> "group.key", each once
+      character(len=*), intent(in) :: names(:)
+      !> It cannot be done
+      type(error_type), allocatable, intent(out) :: error
+      integer :: k
+      logical :: ends_module
+
+      if (.not. allocated(self%cases) .or. self%current == 0) then
+         call fatal_error(error, "numbers vary in a case of the readable format that follows another one")
+         return
+      end if
+      call self%cases%go_on(self%varied, ends_module, error)
+      if (allocated(error)) return
+      if (self%varied%module_number == 0) then
+         call fatal_error(error, "there is no case whose numbers vary")
+         return
+      end if
+      allocate(self%varied_numbers(size(names)))
+      do k = 1, size(names)
+         self%varied_numbers(k) = self%cases%find_number(trim(names(k)))
+         if (self%varied_numbers(k) > 0) cycle
+         call fatal_error(error, "the case gives no number '" // trim(names(k)) // "' that could vary")
+         return
+      end do
+   end subroutine prepare_variation
+
+   !> Read the case of `prepare_variation` with other values; what it keeps is always that of the case before
+   subroutine read_variation(self, values, this)
+      !> The reader
+      class(experiment_reader), intent(inout) :: self
+      !> Of the numbers, in the units of their keys
+      real(wp), intent(in) :: values(:)
+      !> The case
+      type(input_case), intent(out) :: this
+      type(potential_contact) :: coefficients
+      integer :: k
+
+      call this%problems%start(self%lexer%file)
+      do k = 1, size(values)
+         call self%cases%set_number(self%varied_numbers(k), values(k))
+      end do
+      this%module_number = self%varied%module_number
+      this%reid = self%varied%reid
+      this%cpid = self%varied%cpid
+      this%first_line = self%varied%line
+      this%number = 1
+      call read_it()
+      if (this%problems%is_usable()) then
+         self%is_repeat = .true.
+         return
+      end if
+      ! once more, with the values as texts for the complaint
+      do k = 1, size(values)
+         call self%cases%write_number(self%varied_numbers(k))
+      end do
+      call this%problems%start(self%lexer%file)
+      call read_it()
+
+   contains
+
+      !> Read the case in hand with its present values
+      subroutine read_it()
+         associate (store => self%stores(self%current))
+            coefficients = store%coefficients
+            call self%cases%read_case(store%memory, this%module_number, .true., store%spec, .true., this%spec, this%problems, &
+               & coefficients, this%digits, self%is_repeat)
+         end associate
+      end subroutine read_it
+   end subroutine read_variation
 
    !> Back to the beginning of the text, with an empty memory
    subroutine rewind_experiment(self)

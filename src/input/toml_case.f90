@@ -42,7 +42,7 @@ contains
    !>
    !> As read_case of contact_input_reader; whatever is wrong is told in `problems`.
    subroutine read_toml_case(document, case_node, memory, used, module_number, ends_module, previous, has_previous, &
-      & spec, problems, coefficients, digits)
+      & spec, problems, coefficients, digits, is_repeat)
       type(toml_document), intent(in), target :: document
       !> Table of the case
       integer, intent(in) :: case_node
@@ -65,6 +65,8 @@ contains
       type(potential_contact), intent(inout) :: coefficients
       !> Digits that stand for the case
       type(case_digits), intent(out) :: digits
+      !> Was the case read before, with other values of its numbers? Default false
+      logical, intent(in), optional :: is_repeat
       type(control_words) :: words
       type(toml_reader) :: a
       character(len=:), allocatable :: text
@@ -73,6 +75,7 @@ contains
 
       spec = previous
       a = new_toml_reader(document, case_node, problems, memory, used)
+      if (present(is_repeat)) a%is_repeat = is_repeat
       words%has_keys = .true.
       if (has_previous) words%digits = digits_of(previous)
       call take_choices(a, module_number, has_previous, words, is_good)
@@ -89,7 +92,7 @@ contains
          if (a%is_good) then
             call check_case(words, a, previous, has_previous, coefficients, spec, problems)
             if (module_number == 3 .and. words%digits%c /= 0) coefficients = frame_of(spec%grid)
-            call a%refuse_unused(group_names)
+            if (.not. a%is_repeat) call a%refuse_unused(group_names)
          end if
          call refuse_unbuilt_digits(words, module_number, spec, problems)
       end if

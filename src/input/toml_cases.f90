@@ -1,7 +1,7 @@
 !> A file of the readable format as a sequence of cases
 module contact_input_toml_cases
    use contact_base_error, only : error_kind, error_type, fatal_error
-   use contact_base_kinds, only : long
+   use contact_base_kinds, only : long, wp
    use contact_cases_spec, only : case_spec
    use contact_control_digits, only : case_digits
    use contact_grid_potential_contact, only : potential_contact
@@ -10,7 +10,7 @@ module contact_input_toml_cases
    use contact_input_toml_tables, only : toml_memory
    use contact_text_lexer, only : printable
    use contact_text_nearest, only : nearest_word
-   use contact_text_words, only : integer_text
+   use contact_text_words, only : integer_text, real_text
    use contact_toml_document, only : toml_document, toml_kind, toml_kind_text
    use contact_toml_parser, only : parse_toml
    implicit none (type, external)
@@ -20,6 +20,8 @@ module contact_input_toml_cases
 
    !> Largest number of a result element and of a patch
    integer(long), parameter :: highest_element = 999, highest_patch = 9
+   !> Real numbers below it are exact as integers
+   real(wp), parameter :: largest_integer = 2.0_wp**53
    !> Keys at the top of the file
    character(len=5), parameter :: top_keys(2) = [character(len=5) :: "case", "title"]
 
@@ -49,6 +51,11 @@ module contact_input_toml_cases
       procedure :: go_on
       !> Read the case in hand
       procedure :: read_case
+      !> Find numbers that the case in hand gives, and give them other values
+      procedure :: find_number
+      procedure :: set_number
+      !> Make its value the text that complaints show
+      procedure :: write_number
    end type toml_cases
 
 contains
@@ -201,7 +208,9 @@ contains
    end subroutine find_address
 
    !> Read the case in hand, as read_toml_case
-   subroutine read_case(self, memory, module_number, ends_module, previous, has_previous, spec, problems, coefficients, digits)
+   subroutine read_case(self, memory, module_number, ends_module, previous, has_previous, spec, problems, coefficients, digits, &
+      & is_repeat)
+      !> The cases of a text
       class(toml_cases), intent(inout) :: self
       !> Of its result element
       type(toml_memory), intent(inout) :: memory
@@ -219,8 +228,65 @@ contains
       type(potential_contact), intent(inout) :: coefficients
       !> Digits that stand for the case
       type(case_digits), intent(out) :: digits
+      !> Was the case read before, with other values of its numbers? Default false
+      logical, intent(in), optional :: is_repeat
 
       call read_toml_case(self%document, self%node, memory, self%used, module_number, ends_module, previous, has_previous, &
-         & spec, problems, coefficients, digits)
+         & spec, problems, coefficients, digits, is_repeat)
    end subroutine read_case
+
+   !> The node of a number "group.key" that the case in hand gives; 0 when it gives none
+   pure integer function find_number(self, name) result(index)
+      !> The cases of a text
+      class(toml_cases), intent(in) :: self
+      !> "group.key", or "key" for one of the case itself
+      character(len=*), intent(in) :: name
+      integer :: dot
+
+      dot = index_of_dot(name)
+      index = self%node
+      if (dot > 0) index = self%document%child(index, name(:dot - 1))
+      if (index == 0) return
+      index = self%document%child(index, name(dot + 1:))
+      if (index == 0) return
+      if (self%document%nodes(index)%kind /= toml_kind%integer .and. self%document%nodes(index)%kind /= toml_kind%real) index = 0
+   end function find_number
+
+   !> Place of the dot between group and key, 0 without one
+   pure integer function index_of_dot(name) result(dot)
+      !> "group.key"
+      character(len=*), intent(in) :: name
+      dot = index(name, ".")
+   end function index_of_dot
+
+   !> Give a number another value; a number that was written as an integer becomes a real one when the value is none
+   pure subroutine set_number(self, index, value)
+      !> The cases of a text
+      class(toml_cases), intent(inout) :: self
+      !> From find_number
+      integer, intent(in) :: index
+      !> In the unit of the key
+      real(wp), intent(in) :: value
+
+      associate (node => self%document%nodes(index))
+         node%kind = toml_kind%real
+         node%r = value
+         if (.not. (abs(value) < largest_integer)) return
+         if (abs(value - anint(value)) > 0.0_wp) return
+         node%kind = toml_kind%integer
+         node%i = nint(value, long)
+      end associate
+   end subroutine set_number
+
+   !> Make the value of a number the text that complaints show
+   subroutine write_number(self, index)
+      !> The cases of a text
+      class(toml_cases), intent(inout) :: self
+      !> From find_number
+      integer, intent(in) :: index
+
+      associate (node => self%document%nodes(index))
+         call self%document%keep(real_text(node%r), node%text_first, node%text_last)
+      end associate
+   end subroutine write_number
 end module contact_input_toml_cases

@@ -42,6 +42,8 @@ module contact_input_toml_tables
       character(len=key_length) :: asked_groups(max_keys) = "", asked_keys(max_keys) = ""
       !> Is a value of the last line missing or wrong?
       logical :: line_is_bad = .false.
+      !> Was the case read before, with other values? Its keys are known then
+      logical :: is_repeat = .false.
    contains
       procedure :: line_of
       !> Does the case give a group?
@@ -151,6 +153,7 @@ contains
       character(len=*), intent(in) :: group, key
       integer :: k
 
+      if (self%is_repeat) return
       do k = 1, self%asked_count
          if (self%asked_groups(k) == group .and. self%asked_keys(k) == key) return
       end do

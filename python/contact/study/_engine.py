@@ -1,0 +1,147 @@
+"""Who does the tasks of a study: threads or processes of this machine, or a cluster of Dask."""
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from concurrent.futures import FIRST_COMPLETED, Executor, Future, ProcessPoolExecutor, ThreadPoolExecutor, wait
+from multiprocessing import get_context
+from typing import Any, Callable
+
+from ..errors import ContactError
+from ._task import Done, Task, refused, solve_task
+
+#: Tasks that wait for each worker, so that none is idle
+_AHEAD = 2
+#: How often a task may end with its worker before it is given up
+_LIVES = 4
+
+
+class Engine:
+    """Does tasks; the order in which results come is that in which they are ready.
+
+    Parameters
+    ----------
+    workers
+        How many at a time; None: the processors that this process may use.
+    kind
+        ``"threads"`` or ``"processes"`` of this machine.
+    scheduler
+        Address of a scheduler of Dask, such as ``"tcp://10.0.0.1:8786"``, or a ``distributed.Client``; then `workers` and `kind`
+        are those of the cluster.
+    """
+
+    def __init__(self, workers: int | None = None, kind: str = "threads", scheduler: Any = None) -> None:
+        if kind not in ("threads", "processes"):
+            raise ValueError(f"engine = {kind!r} is none of threads, processes")
+        if workers is not None and workers < 1:
+            raise ValueError(f"workers = {workers} is less than 1")
+        self._client: Any = None
+        self._own_client = False
+        self._kind = kind
+        if scheduler is not None:
+            self._client = _client_of(scheduler)
+            self._own_client = isinstance(scheduler, str)
+        self._workers = workers or (len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1)
+
+    @property
+    def workers(self) -> int:
+        """How many work at this moment."""
+        if self._client is not None:
+            return max(1, int(sum(self._client.nthreads().values())))
+        return self._workers
+
+    @property
+    def dashboard(self) -> str:
+        """Address of the page of a cluster, "" without one."""
+        return str(self._client.dashboard_link or "") if self._client is not None else ""
+
+    def run(self, tasks: Callable[[], Task | None], stop: Callable[[], bool] = lambda: False) -> Iterator[Done]:
+        """Do tasks until there are none.
+
+        A task whose worker dies is done again, in halves; a single point that ends its worker again and again is refused.
+
+        Parameters
+        ----------
+        tasks
+            Gives the next task, None when there is none left.
+        stop
+            Shall no further task be begun?
+        """
+        executor = self._start()
+        pending: dict[Future[Done], tuple[Task, int]] = {}
+        again: list[tuple[Task, int]] = []
+        try:
+            while True:
+                while len(pending) < self.workers * _AHEAD and not stop():
+                    if again:
+                        task, lives = again.pop()
+                    else:
+                        following = tasks()
+                        if following is None:
+                            break
+                        task, lives = following, _LIVES
+                    pending[executor.submit(solve_task, task)] = (task, lives)
+                if not pending:
+                    return
+                ready, _ = wait(pending, return_when=FIRST_COMPLETED)
+                broken = False
+                for future in ready:
+                    task, lives = pending.pop(future)
+                    error = future.exception()
+                    if error is None:
+                        yield future.result()
+                    elif not _is_death(error):
+                        raise error
+                    elif lives > 1 or len(task) > 1:
+                        parts = task.halves() if len(task) > 1 else (task,)
+                        again.extend((part, _LIVES if len(task) > 1 else lives - 1) for part in parts)
+                        broken = True
+                    else:
+                        yield refused(task, "the worker ended while it computed this case, several times")
+                        broken = True
+                if broken and self._client is None:
+                    # a pool that lost a process is of no use, and neither is what it still had to do
+                    for future, (task, lives) in pending.items():
+                        future.cancel()
+                        again.append((task, lives))
+                    pending.clear()
+                    executor.shutdown(wait=False)
+                    executor = self._start()
+        finally:
+            for future in pending:
+                future.cancel()
+            executor.shutdown(wait=self._client is None)
+
+    def close(self) -> None:
+        """Leave the cluster."""
+        if self._client is not None and self._own_client:
+            self._client.close()
+
+    def _start(self) -> Executor:
+        """Whoever takes tasks"""
+        if self._client is not None:
+            pool: Executor = self._client.get_executor(pure=False, retries=_LIVES)
+            return pool
+        if self._kind == "processes":
+            return ProcessPoolExecutor(self._workers, mp_context=get_context("spawn"))
+        return ThreadPoolExecutor(self._workers, thread_name_prefix="study")
+
+
+def _client_of(scheduler: Any) -> Any:
+    """A client of a cluster"""
+    if not isinstance(scheduler, str):
+        return scheduler
+    try:
+        import distributed
+    except ImportError as reason:
+        raise ContactError("studies on a cluster need Dask: pip install 'contact-mechanics[study]'") from reason
+    try:
+        client: Any = distributed
+        return client.Client(scheduler, timeout="10s")
+    except OSError as reason:
+        raise ContactError(f"no scheduler of Dask answers at {scheduler}: {reason}") from reason
+
+
+def _is_death(error: BaseException) -> bool:
+    """Did the worker end, and not the task?"""
+    return type(error).__name__ in ("BrokenProcessPool", "KilledWorker", "CancelledError", "FutureCancelledError")

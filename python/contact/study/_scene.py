@@ -1,0 +1,232 @@
+"""The base of a study: cases in either format, and the text of a case with other inputs."""
+from __future__ import annotations
+
+import copy
+import hashlib
+import json
+import os
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from .._experiment import read
+from ..errors import ContactError
+
+#: One input that stands for several
+_TOGETHER = {"friction.coefficient": ("friction.fstat", "friction.fkin")}
+#: Words that decide what a group consists of: where they change, the group begins anew
+_HEADS = {"form", "law", "variation", "model"}
+#: Keys of a case that a case of a study does not take over
+_DROPPED = ("title", "renew")
+#: Groups with names of files
+_FILES = ("rail_profile", "wheel_profile", "influence")
+
+
+class Scene:
+    """Base of a study.
+
+    Parameters
+    ----------
+    base
+        Path of an experiment, in either format, or its cases as :func:`contact.read` gives them.
+    case
+        Number of the case that is varied, from 1: with all that the cases before it gave, as a new sequence. Without it the
+        experiment is one scene: its cases are computed one after the other for each point, with the dimension ``step``.
+    folder
+        To which names of files are relative, when cases are given.
+    """
+
+    def __init__(self, base: str | os.PathLike[str] | Sequence[Mapping[str, Any]] | Mapping[str, Any], case: int | None = None,
+                 folder: str | os.PathLike[str] | None = None) -> None:
+        if isinstance(base, (str, os.PathLike)):
+            given = _with_suffix(Path(base))
+            cases = read(given)
+            self.folder = given.resolve().parent
+        else:
+            cases = [dict(base)] if isinstance(base, Mapping) else [dict(one) for one in base]
+            self.folder = Path(folder or ".").resolve()
+        self.cases: list[dict[str, Any]] = copy.deepcopy(cases)
+        if not cases:
+            raise ContactError("the base of a study has no case")
+        if case is not None:
+            if not 1 <= case <= len(cases):
+                raise ContactError(f"case = {case}: the base has {len(cases)} cases")
+            self.cases = [_merged(self.cases[:case])]
+        if len(self.cases) == 1:
+            # what a case gives must not depend on the case before it
+            self.cases[0].update(sequence="initiate", estimate="fresh")
+        for one in self.cases:
+            for key in _DROPPED[:1]:
+                one.pop(key, None)
+            one.update(output_level=0, flow_level=0, mat_file=0)
+        self.is_wheel_rail = any(one.get("module") in (1, "wheel_rail") for one in self.cases)
+
+    @property
+    def steps(self) -> int:
+        """Number of cases for each point."""
+        return len(self.cases)
+
+    def digest(self) -> bytes:
+        """What the results follow from: the cases, and the contents of the files that they name."""
+        found = hashlib.blake2b(json.dumps(self.cases, sort_keys=True).encode(), digest_size=16)
+        for one in self.cases:
+            for group in _FILES:
+                name = one.get(group, {}).get("file")
+                if name is None:
+                    continue
+                for file in _with_slices(self.folder / name):
+                    found.update(file.read_bytes() if file.is_file() else b"missing")
+        return found.digest()
+
+    def keys_of(self, path: str) -> tuple[str, ...]:
+        """The keys that an input stands for: both of two bodies, both coefficients of friction"""
+        if path in _TOGETHER:
+            return _TOGETHER[path]
+        group, _, key = path.rpartition(".")
+        table = self.cases[0].get(group) if group else self.cases[0]
+        if isinstance(table, dict) and isinstance(table.get(key), list) and len(table[key]) == 2:
+            return f"{path}1", f"{path}2"
+        return (path,)
+
+    def text(self, words: Mapping[str, Any]) -> str:
+        """The cases with other inputs, in the readable format."""
+        return "".join(write_case(one) for one in self._with(words))
+
+    def varied_text(self, words: Mapping[str, Any], numbers: Mapping[str, float]) -> tuple[str, list[str]]:
+        """The case with other inputs, and behind it one that gives some numbers only; their keys in its order."""
+        keys = [key for path in numbers for key in self.keys_of(path)]
+        second: dict[str, Any] = {}
+        for path, value in numbers.items():
+            for key in self.keys_of(path):
+                _put(second, key, value)
+        return self.text({**words, **numbers}) + write_case(second), keys
+
+    def _with(self, words: Mapping[str, Any]) -> list[dict[str, Any]]:
+        """A copy of the cases with other inputs"""
+        cases = copy.deepcopy(self.cases)
+        for path, value in words.items():
+            step, colon, rest = path.partition(":")
+            if colon:
+                if not step.isdigit() or not 1 <= int(step) <= len(cases):
+                    raise ContactError(f"{path}: the base has cases 1 to {len(cases)}")
+                for key in self.keys_of(rest):
+                    _put(cases[int(step) - 1], key, value)
+                continue
+            for key in self.keys_of(path):
+                _put(cases[0], key, value)
+                for later in cases[1:]:
+                    if _gives(later, key):
+                        _put(later, key, value)
+        return cases
+
+
+def _with_suffix(path: Path) -> Path:
+    """The input of an experiment whose suffix may be missing"""
+    if path.suffix in (".inp", ".toml"):
+        return path
+    for suffix in (".inp", ".toml"):
+        file = path.with_name(path.name + suffix)
+        if file.is_file():
+            return file
+    raise ContactError(f"{path}: there is neither {path.name}.inp nor {path.name}.toml")
+
+
+def _with_slices(file: Path) -> list[Path]:
+    """A profile, and for a file of slices all files of its folder of slices"""
+    if file.suffix.lower() not in (".slcs", ".slcw") or not file.is_file():
+        return [file]
+    return [file] + sorted(other for other in file.parent.rglob("*") if other.is_file() and other != file)
+
+
+def _merged(cases: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
+    """What the last case gives, and keeps of those before"""
+    result: dict[str, Any] = {}
+    for case in cases:
+        for key in _DROPPED:
+            result.pop(key, None)
+        for key, value in case.items():
+            if not isinstance(value, dict) or not isinstance(result.get(key), dict):
+                result[key] = copy.deepcopy(value)
+                continue
+            before = result[key]
+            if any(head in value and head in before and value[head] != before[head] for head in _HEADS):
+                result[key] = copy.deepcopy(value)
+            else:
+                for name in value:
+                    # gg and gg1 are the same number
+                    for other in (f"{name}1", f"{name}2", name.rstrip("12")):
+                        if other != name:
+                            _forget(before, name, other)
+                before.update(copy.deepcopy(value))
+    for key in _DROPPED:
+        result.pop(key, None)
+    result.pop("solve", None)
+    return result
+
+
+def _forget(group: dict[str, Any], name: str, other: str) -> None:
+    """An array of two values, and one of them with a figure behind its name, are the same numbers"""
+    if other not in group:
+        return
+    if isinstance(group[other], list) and len(group[other]) == 2 and name[-1:] in "12":
+        pair = group.pop(other)
+        group[f"{other}1"], group[f"{other}2"] = pair
+    elif other[:-1] == name:
+        group.pop(other)
+
+
+def _gives(case: Mapping[str, Any], key: str) -> bool:
+    """Does a case give an input itself?"""
+    group, _, name = key.rpartition(".")
+    table = case.get(group) if group else case
+    return isinstance(table, dict) and (name in table or (name[-1:] in "12" and name[:-1] in table))
+
+
+def _put(case: dict[str, Any], key: str, value: Any) -> None:
+    """Give an input of a case"""
+    group, _, name = key.rpartition(".")
+    table = case.setdefault(group, {}) if group else case
+    if not isinstance(table, dict):
+        raise ContactError(f"{key}: {group} is no table of the base")
+    stem = name[:-1]
+    if name[-1:] in ("1", "2") and isinstance(table.get(stem), list) and len(table[stem]) == 2:
+        table[stem][int(name[-1]) - 1] = value
+    else:
+        table[name] = value
+
+
+def write_case(case: Mapping[str, Any]) -> str:
+    """A case in the readable format."""
+    lines = ["[[case]]"]
+    groups = []
+    for key, value in case.items():
+        if isinstance(value, Mapping):
+            groups.append((key, value))
+        else:
+            lines.append(f"{key} = {_value(value)}")
+    for key, group in groups:
+        lines.append(f"[case.{key}]")
+        lines.extend(f"{name} = {_value(value)}" for name, value in group.items())
+    return "\n".join(lines) + "\n"
+
+
+def _value(value: Any) -> str:
+    """A value in TOML"""
+    if hasattr(value, "item"):
+        value = value.item()
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, int):
+        return str(value)
+    if isinstance(value, float):
+        if value != value or value in (float("inf"), float("-inf")):
+            # the readable format has none; what reads it refuses the case
+            return '"not a finite number"'
+        return repr(int(value)) if value.is_integer() and abs(value) < 1e15 else repr(value)
+    if isinstance(value, str):
+        return json.dumps(value, ensure_ascii=False)
+    if isinstance(value, Mapping):
+        return "{" + ", ".join(f"{name} = {_value(one)}" for name, one in value.items()) + "}"
+    if isinstance(value, Sequence):
+        return "[" + ", ".join(_value(one) for one in value) + "]"
+    raise ContactError(f"{value!r} cannot be an input: numbers, words and lists can")

@@ -1,0 +1,372 @@
+"""Studies: many cases from one description."""
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import random
+import time
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Callable, Union
+
+import numpy as np
+import xarray
+from numpy.typing import NDArray
+
+from .._signatures import VERSION
+from ..errors import ContactError
+from . import _dataset, _failures
+from ._engine import Engine
+from ._expression import evaluate
+from ._progress import Progress, Wanted, duration
+from ._scene import Scene
+from ._space import Axis, Rule, Values, make_space
+from ._store import Keys, Places, Store
+from ._task import Task, solve_task
+
+#: Of a dataset, a quantity that follows from it: a formula, or a function
+Derived = Union[str, Callable[[xarray.Dataset], Any]]
+
+#: What a task should take [s], and most points of one
+_TASK_SECONDS, _MOST_POINTS = 0.5, 4096
+#: Points that are solved to learn what a case costs
+_TRIALS = 4
+#: Points whose inputs are written as bytes at a time
+_PORTION = 1 << 16
+
+
+@dataclass(frozen=True)
+class Plan:
+    """What a study is, before it runs.
+
+    Attributes
+    ----------
+    points, left_out, there
+        Points of the axes; those that the constraints leave out; those that are in the folder already.
+    cases
+        Cases that are to be computed.
+    seconds_per_case
+        Measured on a few points, on one thread; NaN when nothing is left to do.
+    seconds
+        Expected time with the workers.
+    bytes
+        Expected size of what is added to the folder.
+    memory
+        Expected memory of the results as a dataset [bytes].
+    workers
+        How many work at a time.
+    """
+
+    points: int
+    left_out: int
+    there: int
+    cases: int
+    seconds_per_case: float
+    seconds: float
+    bytes: int
+    memory: int
+    workers: int
+
+    def __str__(self) -> str:
+        lines = [f"{self.points} points, {self.left_out} left out by constraints, {self.there} computed before"]
+        if self.cases:
+            lines.append(f"{self.cases} cases to compute, {1e3 * self.seconds_per_case:.3g} ms each on one thread (measured): "
+                         f"about {duration(self.seconds)} with {self.workers} worker{'s' * (self.workers > 1)}")
+            lines.append(f"about {self.bytes / 1e6:.3g} MB of results, {self.memory / 1e6:.3g} MB of memory as a dataset")
+        else:
+            lines.append("nothing is left to compute")
+        return "\n".join(lines)
+
+
+class Study:
+    """Many cases from one description.
+
+    Parameters
+    ----------
+    base
+        Path of an experiment in either format, or its cases as :func:`contact.read` gives them.
+    vary
+        What varies: a mapping from inputs, ``"group.key"`` of the readable format, to values, to ``"= formula"`` or to a function
+        of the others; a :func:`sample` or :func:`table`; or a list of these. Each list, sample and table is a dimension.
+    case
+        Number of the case of the base that is varied, from 1. Without it all cases are computed for each point, one after the
+        other, with the dimension ``step``.
+    where
+        Formulae or functions of the inputs that have to hold; points that break one are left out.
+    derive
+        Quantities that follow from the results: formulae or functions of the dataset, by name.
+    totals
+        Names of the totals that are kept in the dataset; default all.
+    fields
+        Element fields that are kept, such as ``"pn"``; default none. Of several cases of a point, those of the last.
+    folder
+        Of the study: what was computed stays there, and is not computed again. None: nothing is kept on the disk.
+    seconds
+        What each case may take [s]; 0 without limit. A limit makes results depend on the machine.
+    base_folder
+        To which names of files are relative when the base is given as cases.
+
+    Examples
+    --------
+    >>> study = contact.Study("creep.toml", {"kinematics.cksi": contact.study.span(0, 0.01, 11)})
+    >>> print(study.explain())
+    >>> results = study.run()
+    >>> results.fx.plot()
+    """
+
+    def __init__(self, base: str | os.PathLike[str] | Sequence[Mapping[str, Any]] | Mapping[str, Any],
+                 vary: Mapping[str, Any] | Axis | Sequence[Any] | None = None, *, case: int | None = None,
+                 where: Sequence[Rule] | Rule | None = None, derive: Mapping[str, Derived] | None = None,
+                 totals: Sequence[str] | None = None, fields: Sequence[str] = (), folder: str | os.PathLike[str] | None = None,
+                 seconds: float = 0.0, base_folder: str | os.PathLike[str] | None = None) -> None:
+        self._scene = Scene(base, case, base_folder)
+        self._space = make_space([vary] if isinstance(vary, Axis) else vary, where)
+        self._derive = dict(derive or {})
+        self._totals = list(totals) if totals is not None else None
+        self._fields = tuple(fields)
+        self._seconds = seconds
+        self.folder = Path(folder) if folder is not None else None
+        self._columns: dict[str, Values] = self._space.columns()
+        self._chosen = self._space.chosen(self._columns)
+        numeric = {path: values for path, values in self._columns.items() if values.dtype == np.float64}
+        # a word, and whatever a scene of several cases is given, is written into a text; numbers go along as such
+        self._numbers = numeric if self._scene.steps == 1 else {}
+        self._numbers = {path: values for path, values in self._numbers.items() if ":" not in path}
+        self._words = {path: values for path, values in self._columns.items() if path not in self._numbers}
+        self._made: Keys | None = None
+
+    # ---- what there is to do
+
+    def keys(self) -> Keys:
+        """A key for each point, shape (points, 2): of its inputs, the base with its files, and the version."""
+        if self._made is not None:
+            return self._made
+        paths = sorted(self._columns)
+        start = hashlib.blake2b(self._scene.digest(), digest_size=16)
+        start.update(json.dumps([VERSION, paths, sorted(self._fields), self._seconds]).encode())
+        made = np.empty((self._space.count, 2), dtype=np.uint64)
+        for first in range(0, len(made), _PORTION):
+            portion = slice(first, min(first + _PORTION, len(made)))
+            parts = [_as_bytes(self._columns[path][portion]) for path in paths]
+            rows = np.concatenate(parts, axis=1) if parts else np.zeros((portion.stop - first, 0), dtype=np.uint8)
+            data, width = rows.tobytes(), rows.shape[1]
+            for k in range(len(rows)):
+                one = start.copy()
+                one.update(data[k * width:(k + 1) * width])
+                made[first + k] = np.frombuffer(one.digest(), dtype=np.uint64)
+        self._made = made
+        return made
+
+    def explain(self, workers: int | None = None, scheduler: Any = None) -> Plan:
+        """Cases, time and size of a study, by solving a few of its points; nothing is kept.
+
+        Parameters
+        ----------
+        workers, scheduler
+            As for :meth:`run`.
+        """
+        engine = Engine(workers, scheduler=scheduler)
+        try:
+            keys = self.keys()
+            there = self._there(keys)
+            todo = np.flatnonzero(self._chosen & ~there)
+            left_out = int((~self._chosen).sum())
+            if len(todo) == 0:
+                return Plan(len(keys), left_out, int((there & self._chosen).sum()), 0, float("nan"), 0.0, 0, 0, engine.workers)
+            trials = np.array(sorted(random.Random(1).sample(range(len(todo)), min(_TRIALS, len(todo)))))
+            solve_task(self._task(todo[trials[:1]], keys))
+            times, sizes, rows, columns = [], [], 0, 1
+            for trial in trials:
+                begun = time.perf_counter()
+                done = solve_task(self._task(todo[trial:trial + 1], keys))
+                times.append(time.perf_counter() - begun)
+                # a batch of many points has one head
+                sizes.append(done.values.nbytes + done.places.nbytes + 2 * self._scene.steps + 16
+                             + sum(values.nbytes for values in done.arrays.values()))
+                rows, columns = max(rows, len(done.places)), max(columns, len(done.columns))
+            per_point = float(np.mean(times))
+            cases = len(todo) * self._scene.steps
+            return Plan(len(keys), left_out, int((there & self._chosen).sum()), cases, per_point / self._scene.steps,
+                        per_point * len(todo) / engine.workers, int(np.mean(sizes) * len(todo)),
+                        len(keys) * max(1, rows) * columns * 8, engine.workers)
+        finally:
+            engine.close()
+
+    def _there(self, keys: Keys) -> NDArray[np.bool_]:
+        """Which points were computed before"""
+        if self.folder is None or not self.folder.is_dir():
+            return np.zeros(len(keys), dtype=bool)
+        store = Store(self.folder)
+        try:
+            return Places(store.keys()).of(keys) >= 0
+        finally:
+            store.close()
+
+    # ---- doing it
+
+    def run(self, workers: int | None = None, *, engine: str = "threads", scheduler: Any = None, progress: Wanted = None,
+            points_per_task: int | None = None, stop: Callable[[], bool] = lambda: False) -> xarray.Dataset:
+        """Compute what is not there yet.
+
+        Parameters
+        ----------
+        workers
+            Cases that are computed at the same time; default the processors of this machine.
+        engine
+            ``"threads"``, or ``"processes"``, which outlive a failure of one of them.
+        scheduler
+            Address of a scheduler of Dask, or a ``distributed.Client``: its workers compute. They need the package, the
+            library, and files of profiles under the same names.
+        progress
+            True, False, None for where it can be shown, or a function that is told in words.
+        points_per_task
+            Points that a worker gets at once; default such that it takes half a second.
+        stop
+            Asked between tasks: shall the study end? What was computed is kept.
+
+        Returns
+        -------
+        The results, see doc/user/studies.md. A case that was refused or did not converge is part of them, with its reason.
+        """
+        keys = self.keys()
+        store = Store(self.folder)
+        doers = Engine(workers, engine, scheduler)
+        try:
+            there = Places(store.keys()).of(keys) >= 0
+            todo = np.flatnonzero(self._chosen & ~there)
+            # the same inputs at two points are one case
+            todo = todo[np.sort(np.unique(keys[todo], axis=0, return_index=True)[1])] if len(todo) else todo
+            self._check(todo)
+            shown = Progress(len(todo), int((there & self._chosen).sum()), progress)
+            pace = _Pace(points_per_task, len(todo), doers.workers)
+            tasks = self._tasks(todo, keys, pace)
+            try:
+                for done in doers.run(lambda: next(tasks, None), stop):
+                    store.add(done)
+                    pace.learn(len(done.keys), done.worked)
+                    shown.add(len(done.keys), int((done.states[:, :, 0] != 0).any(axis=1).sum()))
+            finally:
+                shown.close()
+            return self._results(store, keys)
+        finally:
+            doers.close()
+            store.close()
+
+    def results(self) -> xarray.Dataset:
+        """What is there, without computing anything."""
+        store = Store(self.folder)
+        try:
+            return self._results(store, self.keys())
+        finally:
+            store.close()
+
+    def _results(self, store: Store, keys: Keys) -> xarray.Dataset:
+        """The dataset of what is in the store"""
+        data = _dataset.assemble(store, keys, self._chosen, self._space, self._columns, self._scene, self._totals, self._fields)
+        for name, rule in self._derive.items():
+            names: dict[str, Any] = {str(key): data[key] for key in list(data.variables)}
+            values = rule(data) if callable(rule) else evaluate(rule, names)
+            if isinstance(values, xarray.Dataset):
+                data = data.merge(values)
+            else:
+                data[name] = values
+                if isinstance(rule, str):
+                    data[name].attrs["long_name"] = rule
+        return data
+
+    def _check(self, todo: NDArray[np.intp]) -> None:
+        """A mistake in the name of an input is told at once, and not as the refusal of every case"""
+        if len(todo) == 0:
+            return
+        done = solve_task(self._task(todo[:1], self.keys()))
+        reason = done.reasons.get("0,0", "")
+        mistakes = ("is not known", "has no meaning", "gives no number", "stands outside")
+        if done.states[0, 0, 0] == 2 and any(words in reason for words in mistakes):
+            raise ContactError(f"the inputs of the study do not fit its base: {reason}")
+
+    def _tasks(self, todo: NDArray[np.intp], keys: Keys, pace: _Pace) -> Iterator[Task]:
+        """Tasks for points; those of one task have the same words"""
+        if not self._numbers:
+            for first in _portions(len(todo), pace):
+                yield self._task(todo[first], keys)
+            return
+        groups = np.zeros(len(todo), dtype=np.int64)
+        for values in self._words.values():
+            found: dict[bytes, int] = {}
+            marks = np.array([found.setdefault(row.tobytes(), len(found)) for row in _as_bytes(values[todo])])
+            groups = groups * (len(found) + 1) + marks
+        order = np.argsort(groups, kind="stable")
+        starts = np.flatnonzero(np.diff(groups[order])) + 1
+        for group in np.split(todo[order], starts):
+            for part in _portions(len(group), pace):
+                yield self._task(group[part], keys)
+
+    def _task(self, points: NDArray[np.intp], keys: Keys) -> Task:
+        """A task for points with the same words, or without numbers"""
+        first = points[0]
+        folder = str(self._scene.folder)
+        if self._numbers:
+            words = {path: values[first] for path, values in self._words.items()}
+            numbers = {path: float(values[first]) for path, values in self._numbers.items()}
+            finite = {path: value if np.isfinite(value) else 0.0 for path, value in numbers.items()}
+            text, names = self._scene.varied_text(words, finite)
+            given = np.column_stack([values[points] for path, values in self._numbers.items()
+                                     for _ in self._scene.keys_of(path)])
+            texts = [text]
+        else:
+            texts = [self._scene.text({path: values[point] for path, values in self._words.items()}) for point in points]
+            names, given = [], np.zeros((0, 0))
+        return Task(keys[points], texts, names, given, folder, self._scene.steps, self._scene.is_wheel_rail, self._fields,
+                    self._seconds)
+
+    @staticmethod
+    def failures(results: xarray.Dataset) -> str:
+        """A table of the kinds of cases that were not solved, in words; "" when all were."""
+        return _failures.table(results)
+
+
+class _Pace:
+    """How many points a task has: such that workers ask rarely, and results are kept often"""
+
+    def __init__(self, given: int | None, points: int, workers: int) -> None:
+        if given is not None and given < 1:
+            raise ValueError(f"points_per_task = {given} is less than 1")
+        self._given = given
+        # at the end all workers should be busy
+        self._fair = max(1, points // (4 * workers))
+        self.size = given or 1
+
+    def learn(self, points: int, seconds: float) -> None:
+        """A task of so many points took that long"""
+        if self._given is None and points and seconds > 0.0:
+            wanted = int(_TASK_SECONDS * points / seconds)
+            self.size = max(1, min(wanted, 4 * self.size, self._fair, _MOST_POINTS))
+
+
+def _portions(count: int, pace: _Pace) -> Iterator[slice]:
+    """Slices of so many points as suits at the time"""
+    first = 0
+    while first < count:
+        last = min(count, first + pace.size)
+        yield slice(first, last)
+        first = last
+
+
+def _as_bytes(values: Values) -> NDArray[np.uint8]:
+    """Eight bytes for each value: of a number itself, of anything else a digest"""
+    if values.dtype == np.float64:
+        # both zeros are one
+        return np.ascontiguousarray(values + 0.0).view(np.uint8).reshape(-1, 8)
+    rows = [hashlib.blake2b(json.dumps(_plain(value), sort_keys=True).encode(), digest_size=8).digest() for value in values]
+    return np.frombuffer(b"".join(rows), dtype=np.uint8).reshape(-1, 8)
+
+
+def _plain(value: Any) -> Any:
+    """A value as JSON has it"""
+    if hasattr(value, "tolist"):
+        return value.tolist()
+    if isinstance(value, os.PathLike):
+        return os.fspath(value)
+    return value

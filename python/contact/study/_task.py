@@ -1,0 +1,195 @@
+"""What one worker does in one go: some points of a study, solved by the library. Runs in threads, processes and on clusters."""
+from __future__ import annotations
+
+import io
+import json
+import threading
+import time
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..errors import ContactError
+from ._batch import Batch, Column, Numbers
+
+#: Most patches of wheel and rail for which there is room
+MOST_PATCHES = 12
+
+_own = threading.local()
+
+
+@dataclass
+class Task:
+    """Points to be solved.
+
+    Attributes
+    ----------
+    keys
+        Of the points, see Study.
+    texts
+        One for each point, or one for all, whose second case is solved with the numbers `given`.
+    names, given
+        Numbers that vary, and their values of shape (points, numbers).
+    folder
+        To which names of files are relative.
+    steps
+        Cases of each point.
+    is_wheel_rail
+        Has a point of wheel and rail several rows?
+    fields
+        Element fields to be kept.
+    seconds
+        What each case may take [s], 0 without limit.
+    """
+
+    keys: NDArray[np.uint64]
+    texts: list[str]
+    names: list[str]
+    given: Numbers
+    folder: str
+    steps: int
+    is_wheel_rail: bool
+    fields: tuple[str, ...] = ()
+    seconds: float = 0.0
+
+    def __len__(self) -> int:
+        return len(self.keys)
+
+    def halves(self) -> tuple[Task, Task]:
+        """The same in two tasks."""
+        middle = len(self) // 2
+        return self.part(slice(0, middle)), self.part(slice(middle, None))
+
+    def part(self, points: slice) -> Task:
+        """Some of the points."""
+        texts = self.texts if self.names else self.texts[points]
+        given = self.given[points] if self.names else self.given
+        return Task(self.keys[points], texts, self.names, given, self.folder, self.steps, self.is_wheel_rail, self.fields,
+                    self.seconds)
+
+
+@dataclass
+class Done:
+    """Results of a task.
+
+    Attributes
+    ----------
+    keys
+        Of the points, shape (points, 2).
+    columns
+        What the columns of values are.
+    values, places
+        Totals of shape (rows, columns), and point, step and patch of each row.
+    states
+        How each case ended and what was missed, shape (points, steps, 2).
+    reasons
+        Why a case was not solved, by "point,step".
+    frames, arrays
+        Fields by "name,point,step,patch": first centre and sides of an element, and values of shape (my, mx); units of fields.
+    worked
+        Time of the work [s].
+    """
+
+    keys: NDArray[np.uint64]
+    columns: list[Column]
+    values: Numbers
+    places: NDArray[np.int32]
+    states: NDArray[np.int8]
+    reasons: dict[str, str]
+    frames: dict[str, tuple[float, float, float, float]] = field(default_factory=dict)
+    arrays: dict[str, Numbers] = field(default_factory=dict)
+    units: dict[str, str] = field(default_factory=dict)
+    worked: float = 0.0
+
+    def to_bytes(self) -> bytes:
+        """All of it but the keys, as a file of numpy."""
+        head = {"columns": [vars(column) for column in self.columns], "reasons": self.reasons, "frames": self.frames,
+                "units": self.units, "worked": self.worked}
+        file = io.BytesIO()
+        arrays: dict[str, Any] = {f"field {name}": values for name, values in self.arrays.items()}
+        np.savez(file, head=np.frombuffer(json.dumps(head).encode(), dtype=np.uint8), values=self.values, places=self.places,
+                 states=self.states, **arrays)
+        return file.getvalue()
+
+    @classmethod
+    def from_bytes(cls, keys: bytes, data: bytes) -> Done:
+        """What `to_bytes` made."""
+        with np.load(io.BytesIO(data), allow_pickle=False) as file:
+            head = json.loads(file["head"].tobytes())
+            arrays = {name[len("field "):]: file[name] for name in file.files if name.startswith("field ")}
+            return cls(np.frombuffer(keys, dtype=np.uint64).reshape(-1, 2), [Column(**one) for one in head["columns"]],
+                       file["values"], file["places"], file["states"], head["reasons"],
+                       {name: tuple(frame) for name, frame in head["frames"].items()}, arrays, head["units"], head["worked"])
+
+
+def refused(task: Task, reason: str) -> Done:
+    """Results of a task that cannot be done."""
+    states = np.zeros((len(task), task.steps, 2), dtype=np.int8)
+    states[:, :, 0] = 2
+    reasons = {f"{point},{step}": reason for point in range(len(task)) for step in range(task.steps)}
+    return Done(task.keys, [], np.zeros((0, 0)), np.zeros((0, 3), dtype=np.int32), states, reasons)
+
+
+def solve_task(task: Task) -> Done:
+    """Do a task. The library keeps what it can between the tasks of a thread."""
+    started = time.perf_counter()
+    batches = _own.__dict__.setdefault("batches", {})
+    if task.seconds not in batches:
+        batches[task.seconds] = Batch(1, task.seconds)
+    done = _solve(task, batches[task.seconds])
+    done.worked = time.perf_counter() - started
+    return done
+
+
+def _solve(task: Task, batch: Batch) -> Done:
+    """Do a task with a batch of this thread"""
+    room = MOST_PATCHES + 1 if task.is_wheel_rail else 1
+    if task.names and not task.fields:
+        try:
+            solved = batch.solve(task.texts[0], task.folder, task.names, task.given, patches=room)
+        except ContactError as error:
+            return refused(task, str(error))
+        places = np.insert(solved.places.astype(np.int32), 1, 0, axis=1)
+        reasons = {f"{point},0": reason for point, reason in enumerate(solved.reasons) if reason}
+        return Done(task.keys, solved.columns, solved.values, places, solved.states.astype(np.int8)[:, np.newaxis, :], reasons)
+    done = Done(task.keys, [], np.zeros((0, 0)), np.zeros((0, 3), dtype=np.int32),
+                np.zeros((len(task), task.steps, 2), dtype=np.int8), {})
+    values, places_of = [], []
+    for point in range(len(task)):
+        try:
+            if task.names:
+                solved = batch.solve(task.texts[0], task.folder, task.names, task.given[point:point + 1], patches=room)
+            else:
+                solved = batch.solve(task.texts[point], task.folder, cases=task.steps, patches=room)
+        except ContactError as error:
+            done.states[point, :, 0] = 2
+            done.reasons.update({f"{point},{step}": str(error) for step in range(task.steps)})
+            continue
+        done.columns = solved.columns
+        done.states[point, :len(solved.states)] = solved.states
+        done.reasons.update({f"{point},{step}": reason for step, reason in enumerate(solved.reasons) if reason})
+        rows = np.empty((len(solved.places), 3), dtype=np.int32)
+        rows[:, 0], rows[:, 1:] = point, solved.places
+        places_of.append(rows)
+        values.append(solved.values)
+        for name in task.fields:
+            for _, step, patch in rows:
+                if step == task.steps - 1 and patch > 0:
+                    _keep_field(batch, done, name, f"{name},{point},{step},{patch}", int(patch))
+    if values:
+        done.places = np.concatenate(places_of)
+        done.values = np.full((len(done.places), len(done.columns)), np.nan)
+        first = 0
+        for one in values:
+            done.values[first:first + len(one), :one.shape[1]] = one
+            first += len(one)
+    return done
+
+
+def _keep_field(batch: Batch, done: Done, name: str, key: str, patch: int) -> None:
+    """Keep a field of the case that was solved last"""
+    found = batch.field(name, patch)
+    if found is not None:
+        done.arrays[key], done.frames[key], done.units[name] = found

@@ -1,0 +1,119 @@
+"""A cluster of Dask on this machine: its processes are killed, stopped, added and refused memory while a study runs."""
+import os
+import re
+import signal
+import subprocess
+import sys
+import threading
+import time
+
+import contact
+import numpy as np
+import pytest
+from bases import rolling
+
+POINTS = 600
+
+
+class Cluster:
+    """A scheduler, and workers that come and go: processes of their own on the loopback device"""
+
+    def __init__(self, folder):
+        self.folder, self.processes = folder, []
+        self.scheduler = self.start("scheduler", "--host", "127.0.0.1", "--port", "0", "--no-dashboard")
+        self.address = re.search(r"tcp://127\.0\.0\.1:\d+", self.line_with(self.scheduler, "Scheduler at")).group()
+
+    def start(self, kind, *words):
+        """A process of Dask"""
+        environment = {**os.environ, "DASK_DISTRIBUTED__WORKER__MEMORY__TERMINATE": "0.95",
+                       "DASK_DISTRIBUTED__SCHEDULER__ALLOWED_FAILURES": "10"}
+        process = subprocess.Popen([sys.executable, "-m", "distributed.cli.dask_" + kind, *words], cwd=self.folder,
+                                   env=environment, stderr=subprocess.PIPE, stdout=subprocess.DEVNULL, text=True)
+        self.processes.append(process)
+        return process
+
+    def line_with(self, process, words):
+        """A line of what a process says; the rest is read so that it never waits"""
+        for line in process.stderr:
+            if words in line:
+                threading.Thread(target=lambda: [None for _ in process.stderr], daemon=True).start()
+                return line
+        raise AssertionError(f"the process ended without saying {words}")
+
+    def worker(self, *more):
+        """One more worker"""
+        process = self.start("worker", self.address, "--no-nanny", "--nthreads", "1", "--no-dashboard", "--host", "127.0.0.1",
+                             *more)
+        self.line_with(process, "Registered to")
+        return process
+
+    def close(self):
+        """End what is left"""
+        for process in self.processes:
+            if process.poll() is None:
+                process.send_signal(signal.SIGCONT)
+                process.kill()
+        for process in self.processes:
+            process.wait()
+            process.stderr.close()
+
+
+@pytest.fixture
+def cluster(tmp_path):
+    """A cluster without workers"""
+    made = Cluster(tmp_path)
+    yield made
+    made.close()
+
+
+def test_workers_come_and_go(cluster, tmp_path, monkeypatch):
+    study = contact.Study(rolling(7), {"kinematics.cksi": contact.study.span(-0.01, 0.01, POINTS // 2),
+                                       "friction.coefficient": [0.2, -1.0]}, folder=tmp_path / "s")
+    first, second = cluster.worker(), cluster.worker()
+    acts = []
+
+    def act(words):
+        """One worker is killed, one stands still and goes on, two are added, one of them without memory"""
+        done = int(words.split()[0])
+        if done > 60 and not acts:
+            acts.append("killed")
+            first.kill()
+        elif done > 150 and len(acts) == 1:
+            acts.append("stopped")
+            second.send_signal(signal.SIGSTOP)
+            cluster.worker("--memory-limit", "60MB")
+            cluster.worker()
+        elif done > 250 and len(acts) == 2:
+            acts.append("goes on")
+            second.send_signal(signal.SIGCONT)
+        time.sleep(0.05)
+
+    shown = contact.study._study.Progress
+    original = shown.add
+
+    def add(self, points, failed):
+        # told of every task, not four times a second
+        self._last = 0.0
+        original(self, points, failed)
+
+    monkeypatch.setattr(shown, "add", add)
+    begun = time.monotonic()
+    found = study.run(scheduler=cluster.address, progress=act, points_per_task=10)
+    took = time.monotonic() - begun
+    assert acts == ["killed", "stopped", "goes on"], acts
+    assert took < 120.0
+    serial = contact.Study(rolling(7), {"kinematics.cksi": contact.study.span(-0.01, 0.01, POINTS // 2),
+                                        "friction.coefficient": [0.2, -1.0]}).run(workers=1)
+    assert (found.status.sel(coefficient=0.2) == 0).all() and (found.status.sel(coefficient=-1.0) == 2).all()
+    for name, values in serial.data_vars.items():
+        if values.dtype.kind == "f":
+            assert values.values.tobytes() == found[name].values.tobytes(), name
+    store = contact.study._store.Store(tmp_path / "s")
+    keys = store.keys()
+    store.close()
+    assert len(np.unique(keys, axis=0)) == len(keys) == POINTS
+
+
+def test_no_scheduler_is_told():
+    with pytest.raises(contact.ContactError, match="no scheduler of Dask answers at tcp:"):
+        contact.study.Engine(scheduler="tcp://127.0.0.1:9")

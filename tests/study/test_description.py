@@ -1,0 +1,112 @@
+"""What varies: axes, samples, tables, rules, constraints; what a study says beforehand; what it refuses."""
+import contact
+import numpy as np
+import pandas
+import pytest
+from bases import EXAMPLES, rolling
+from contact.study import log_span, sample, span, table
+from contact.study._expression import evaluate, names_in
+from contact.study._progress import Progress, duration
+from contact.study._space import make_space
+
+
+def test_axes_make_a_grid_in_order():
+    space = make_space({"kinematics.cksi": [1, 2, 3], "friction.fstat": span(0.1, 0.2, 2), "pressure": ["full", "kpec"]}, None)
+    assert space.shape == (3, 2, 2)
+    columns = space.columns()
+    np.testing.assert_array_equal(columns["kinematics.cksi"], np.repeat([1.0, 2.0, 3.0], 4))
+    assert list(columns["pressure"][:4]) == ["full", "kpec", "full", "kpec"]
+    assert [axis.name for axis in space.axes] == ["cksi", "fstat", "pressure"]
+
+
+def test_ranges():
+    np.testing.assert_allclose(log_span(1.0, 100.0, 3), [1.0, 10.0, 100.0])
+    np.testing.assert_allclose(span(0.0, 1.0, 3), [0.0, 0.5, 1.0])
+
+
+@pytest.mark.parametrize("method", ["latin_hypercube", "sobol"])
+def test_samples_fill_their_ranges(method):
+    axis = sample({"a.x": (2.0, 4.0), "a.y": (1e-3, 1e3, "log")}, 64, method, seed=3)
+    x, y = axis.columns["a.x"], axis.columns["a.y"]
+    # one point in each of 64 layers of both, which both methods promise
+    for unit in ((x - 2.0) / 2.0, np.log10(y) / 6.0 + 0.5):
+        assert len(np.unique(np.floor(64.0 * unit))) == 64
+        assert unit.min() >= 0.0 and unit.max() <= 1.0
+    np.testing.assert_array_equal(x, sample({"a.x": (2.0, 4.0), "a.y": (1e-3, 1e3, "log")}, 64, method, seed=3).columns["a.x"])
+
+
+def test_longer_sobol_sequences_begin_with_shorter_ones():
+    long, short = (sample({"a.x": (0, 1), "a.y": (0, 1)}, n, "sobol").columns["a.y"] for n in (32, 16))
+    np.testing.assert_array_equal(long[:16], short)
+
+
+def test_tables(tmp_path):
+    frame = pandas.DataFrame({"force": [1.0, 2.5], "method": ["full", "kpec"]})
+    frame.to_csv(tmp_path / "a.csv", index=False)
+    frame.to_parquet(tmp_path / "a.parquet")
+    for name in ("a.csv", "a.parquet"):
+        axis = table(tmp_path / name, {"kinematics.fn": "force", "pressure": "method"})
+        np.testing.assert_array_equal(axis.columns["kinematics.fn"], [1.0, 2.5])
+        assert list(axis.columns["pressure"]) == ["full", "kpec"]
+    with pytest.raises(ValueError, match="no column weight"):
+        table(frame, {"a.b": "weight"})
+
+
+def test_rules_and_constraints():
+    space = make_space({"a.x": [1, 2, 3], "a.y": [1, 2], "b.sum": lambda p: p["x"] + p["y"], "b.twice": "= 2 * sum"},
+                       ["x > y", lambda p: p["sum"] < 5])
+    columns = space.columns()
+    np.testing.assert_array_equal(columns["b.twice"], 2 * (columns["a.x"] + columns["a.y"]))
+    np.testing.assert_array_equal(space.chosen(columns), (columns["a.x"] > columns["a.y"]) & (columns["b.sum"] < 5))
+
+
+def test_formulae_are_no_programs():
+    assert evaluate("1 < x < 3 and not y", {"x": np.array([2.0, 4.0]), "y": np.array([False, False])}).tolist() == [True, False]
+    assert names_in("hypot(fx, fy) + pi") == {"fx", "fy"}
+    for bad in ("__import__('os')", "x.real", "x[0]", "(lambda: 1)()", "[x]", "x +"):
+        with pytest.raises(ValueError):
+            evaluate(bad, {"x": 1.0})
+
+
+def test_mistakes_are_told():
+    with pytest.raises(ValueError, match="varies twice"):
+        make_space([{"a.x": [1]}, sample({"a.x": (0, 1)}, 4)], None)
+    with pytest.raises(contact.ContactError, match=r"inputs of the study do not fit.*did you mean|is not known"):
+        contact.Study(rolling(), {"kinematics.xksi": [0.001]}).run()
+    with pytest.raises(contact.ContactError, match="has 1 cases"):
+        contact.Study(rolling(), case=2)
+    with pytest.raises(contact.ContactError, match="neither"):
+        contact.Study("no_such_experiment")
+    with pytest.raises(ValueError, match="none of threads, processes"):
+        contact.Study(rolling()).run(engine="carrots")
+
+
+def test_explain_tells_before_it_runs(tmp_path):
+    study = contact.Study(rolling(), {"kinematics.cksi": span(0, 0.01, 21)}, where="cksi < 0.00951", folder=tmp_path / "s")
+    plan = study.explain(workers=2)
+    assert (plan.points, plan.left_out, plan.there, plan.cases, plan.workers) == (21, 1, 0, 20, 2)
+    assert 0.0 < plan.seconds_per_case < 1.0
+    assert plan.seconds == pytest.approx(plan.seconds_per_case * 10)
+    study.run(workers=1)
+    after = study.explain()
+    assert (after.there, after.cases) == (20, 0)
+    # what it said of the size, against what the folder has: within the heads of the batches
+    assert plan.bytes < (tmp_path / "s" / "cases.sqlite").stat().st_size < 4 * plan.bytes + 60000
+    assert "nothing is left" in str(after)
+
+
+def test_progress_tells_time_left():
+    told = []
+    progress = Progress(10, 5, told.append)
+    progress.add(10, 2)
+    assert told and told[0].startswith("15 of 15 points, 2 not solved, ") and told[0].endswith("left")
+    assert [duration(t) for t in (3.0, 59, 600, 86400, 1e6)] == ["3.0 s", "59 s", "10 min", "24 h", "11.6 days"]
+
+
+def test_both_formats_are_the_same_base():
+    vary = {"friction.coefficient": [0.2, 0.4]}
+    one, other = (contact.Study(EXAMPLES / f"cattaneo{suffix}", vary).run(workers=1) for suffix in (".inp", ".toml"))
+    assert one.sizes["step"] == 2
+    np.testing.assert_array_equal(one.fx.values, other.fx.values)
+    # the friction that varies is what the shift meets
+    np.testing.assert_allclose(one.fx.sel(step=2), -0.875 * np.array([0.2, 0.4]) * 9.1954, rtol=1e-3)

@@ -1,0 +1,206 @@
+"""Results of studies against other doors of the library, against themselves in another order, and their files."""
+import json
+import os
+import subprocess
+
+import contact
+import numpy as np
+import pandas
+import pytest
+import xarray
+from bases import EXAMPLES, rolling
+from contact.study import _engine, _study, sample, save, span
+from contact.study._scene import Scene
+from contact.study._store import FILE, Store
+
+SLIPS = {"kinematics.cksi": [0.0, 0.002, -0.005], "kinematics.cphi": [0.0, 0.0004]}
+PAIR = EXAMPLES / "wheel_on_rail.toml"
+#: A wheel in the tread, at the flange, and beside the rail, on elements that a test can afford
+PLACES = {"position.y_ws": [-1.0, 5.0, 60.0], "search.dx": [0.8], "search.ds": [0.8]}
+
+
+def same(one, other, names=None):
+    """Are two datasets the same to the last bit?"""
+    for name in names or one.data_vars:
+        if one[name].dtype.kind == "f":
+            assert one[name].values.tobytes() == other[name].values.tobytes(), name
+        elif name not in ("reason", "reasons"):
+            np.testing.assert_array_equal(one[name].values, other[name].values)
+
+
+def test_totals_are_those_of_the_objects():
+    found = contact.Study(rolling(), SLIPS, fields=["pn", "sx"]).run(workers=2)
+    assert found.fx.dims == ("cksi", "cphi") and found.fx.attrs["units"] == "N"
+    with contact.Problem() as problem:
+        problem.set_material(g=82000.0, nu=0.28)
+        problem.set_friction(0.3)
+        problem.set_hertz(9, 9, aa=6.0, bb=5.0, scale=1.3)
+        problem.set_normal_force(70e3)
+        problem.set_rolling(30000.0, 1.0)
+        for cksi in found.cksi.values:
+            for cphi in found.cphi.values:
+                problem.set_creepages(cksi, 0.0, cphi)
+                result, here = problem.solve(), found.sel(cksi=cksi, cphi=cphi)
+                for name in ("fn", "fx", "fy", "mz"):
+                    assert float(here[name]) == getattr(result, name), name
+                assert here.pmax == result.max_pressure and here.status == 0
+                np.testing.assert_array_equal(here.pn, result.pn)
+                np.testing.assert_array_equal(here.sx, result.sx)
+                assert here.x_first == pytest.approx(result.x[0], rel=1e-12)
+
+
+def test_wheel_and_rail_as_the_program_tells(tmp_path):
+    found = contact.Study(PAIR, PLACES, case=1).run(workers=2)
+    assert found.fz_tr.dims == ("y_ws", "dx", "ds") and found.fn.dims == ("y_ws", "dx", "ds", "patch")
+    text = "".join(Scene(PAIR, 1).text({"position.y_ws": y, "search.dx": 0.8, "search.ds": 0.8})
+                   for y in PLACES["position.y_ws"]).replace("profiles/", f"{EXAMPLES}/profiles/")
+    (tmp_path / "pair.toml").write_text(text)
+    subprocess.run([os.environ["CONTACT_PROGRAM"], "2", "pair", "--json", "--quiet"], cwd=tmp_path, check=False)
+    lines = [json.loads(line) for line in (tmp_path / "pair.jsonl").read_text().splitlines()]
+    cases = [line for line in lines if "status_code" in line]
+    assert len(cases) == 3
+    for place, case in enumerate(cases):
+        here = found.isel(y_ws=place, dx=0, ds=0)
+        assert int(here.status) == case["status_code"]
+        if case["status_code"] == 2:
+            continue
+        for name, total in case["totals"].items():
+            name = "y_ws_result" if name == "y_ws" else name
+            assert float(here[name]) == (total["value"] if isinstance(total, dict) else total), name
+        for number, patch in enumerate(case["patches"]):
+            for name, total in patch["totals"].items():
+                assert float(here[name][number]) == (total["value"] if isinstance(total, dict) else total), name
+
+
+@pytest.mark.parametrize("base, vary, case", [
+    (rolling(), [SLIPS, {"friction.coefficient": [0.1, 0.5], "grid.aa": [6.0, 2.0]}], None), (PAIR, PLACES, 1)])
+def test_results_follow_from_nothing_but_the_inputs(base, vary, case):
+    """Order, size of tasks, threads and processes: the same to the last bit"""
+    study = contact.Study(base, vary, case=case)
+    serial = study.run(workers=1, points_per_task=1)
+    same(serial, study.run(workers=1, points_per_task=1000))
+    same(serial, study.run(workers=3, points_per_task=2))
+    back = {path: list(values)[::-1] for part in (vary if isinstance(vary, list) else [vary]) for path, values in part.items()}
+    same(serial, contact.Study(base, back, case=case).run(workers=1, points_per_task=1000)
+         .isel({name: slice(None, None, -1) for name in serial.sizes if name not in ("sentence", "patch")}))
+    if case is None:
+        same(serial, study.run(workers=2, engine="processes"))
+
+
+def test_words_and_numbers_vary_together():
+    vary = {"pressure": ["full", "elliptical"], "grid.form": ["hertz_axes"], "kinematics.cksi": [0.001, 0.003]}
+    found = contact.Study(rolling(), vary).run(workers=1)
+    for word in vary["pressure"]:
+        alone = contact.Study({**rolling(), "pressure": word}, {"kinematics.cksi": vary["kinematics.cksi"]}).run(workers=1)
+        np.testing.assert_array_equal(found.fx.sel(pressure=word).values[0], alone.fx.values)
+
+
+def test_failures_are_data():
+    found = contact.Study(rolling(), {"kinematics.cksi": [0.001, float("nan")], "friction.coefficient": [0.3, -1.0]}).run()
+    assert found.status.values.tolist() == [[0, 2], [2, 2]]
+    assert np.isnan(found.fx.values[found.status.values == 2]).all()
+    text = str(found.reasons.values[found.reason.values[0, 1]])
+    assert "-1" in text and "fstat" in text
+    lines = contact.Study.failures(found).splitlines()
+    assert len(lines) == 5 and lines[1].split()[0] == "2", lines
+    few = rolling()
+    few["iteration"] = {"solver": "default", "maxgs": 1, "maxin": 100, "maxnr": 30, "eps": 1e-9}
+    found = contact.Study(few, {"kinematics.cksi": [0.002]}).run()
+    assert found.status.values[0] == 1 and np.isfinite(found.fx.values[0]) and found.missed.values[0] > 0
+    assert "not converged" in contact.Study.failures(found)
+    assert contact.Study.failures(contact.Study(rolling(), {"kinematics.cksi": [0.002]}).run()) == ""
+
+
+def test_constraints_leave_points_out():
+    found = contact.Study(rolling(), SLIPS, where="cksi >= 0", derive={"t_gamma": "-(fx * cksi + mz * cphi)",
+                                                                     "ratio": lambda data: data.fx / data.fn}).run()
+    assert (found.status.sel(cksi=-0.005) == -1).all() and np.isnan(found.fx.sel(cksi=-0.005)).all()
+    np.testing.assert_array_equal(found.t_gamma, -(found.fx * found.cksi + found.mz * found.cphi))
+    np.testing.assert_array_equal(found.ratio, found.fx / found.fn)
+
+
+def test_studies_go_on_and_grow(tmp_path, monkeypatch):
+    solved = []
+    real = _engine.solve_task
+    monkeypatch.setattr(_engine, "solve_task", lambda task: solved.append(len(task)) or real(task))
+
+    def study(values, **more):
+        return contact.Study(rolling(), {"kinematics.cksi": values, "friction.coefficient": [0.2, 0.3]}, folder=tmp_path, **more)
+
+    asked = []
+    part = study(span(0, 0.01, 11)).run(workers=1, points_per_task=2, stop=lambda: asked.append(1) or len(asked) > 6)
+    there = sum(solved)
+    assert 0 < there < 22 and (part.status == -2).sum() == 22 - there
+    whole = study(span(0, 0.01, 11)).run()
+    assert sum(solved) == 22 and (whole.status == 0).all()
+    # new values, another order, another way to say it: only what is new is computed
+    more = study([0.01, 0.0, 0.0035]).run()
+    assert sum(solved) == 24
+    np.testing.assert_array_equal(more.fx.values[0], whole.fx.values[-1])
+    axis = contact.study.Axis("row", {"friction.coefficient": np.array([0.3, 0.2]), "kinematics.cksi": np.array([0.01, 0.0035])})
+    contact.Study(rolling(), axis, folder=tmp_path).run()
+    assert sum(solved) == 24
+    # another base, another field, another version: nothing of it fits
+    contact.Study(rolling(7), {"kinematics.cksi": [0.01]}, folder=tmp_path).run()
+    assert sum(solved) == 25
+    study([0.01], fields=["pn"]).run()
+    assert sum(solved) == 27
+    monkeypatch.setattr(_study, "VERSION", "another")
+    study([0.01]).run()
+    assert sum(solved) == 29
+
+
+def test_files_of_profiles_are_part_of_the_key(tmp_path):
+    for name in ("60E1.prr", "S1002.prw"):
+        (tmp_path / name).write_bytes((EXAMPLES / "profiles" / name).read_bytes())
+    case = Scene(PAIR, 1).cases[0]
+    case["rail_profile"]["file"], case["wheel_profile"]["file"] = "60E1.prr", "S1002.prw"
+    before = Scene(case, folder=tmp_path).digest()
+    assert before == Scene(case, folder=tmp_path).digest()
+    (tmp_path / "60E1.prr").write_text((tmp_path / "60E1.prr").read_text() + "\n")
+    assert before != Scene(case, folder=tmp_path).digest()
+
+
+def test_one_study_at_a_time_writes_into_a_folder(tmp_path):
+    store = Store(tmp_path)
+    with pytest.raises(contact.ContactError, match="another study"):
+        contact.Study(rolling(), folder=tmp_path).run()
+    store.close()
+    (tmp_path / "b").mkdir()
+    (tmp_path / "b" / FILE).write_bytes(b"something else" * 100)
+    with pytest.raises(contact.ContactError, match="no file of a study"):
+        contact.Study(rolling(), folder=tmp_path / "b").run()
+
+
+def test_files_of_results(tmp_path):
+    found = contact.Study(rolling(), [SLIPS, sample({"friction.coefficient": (0.1, 0.5), "kinematics.fn": (1e4, 9e4)}, 4)],
+                          where="cksi < 0.001", fields=["pn"]).run()
+    for name in ("a.nc", "a.zarr"):
+        save(found, tmp_path / name)
+    with xarray.open_dataset(tmp_path / "a.nc") as back:
+        xarray.testing.assert_equal(found, back.load())
+        assert back.fx.encoding["chunksizes"] == (3, 2, 4)
+        assert back.fx.attrs == found.fx.attrs
+    with xarray.open_zarr(tmp_path / "a.zarr", consolidated=False) as back:
+        np.testing.assert_array_equal(found.pn, back.pn)
+    save(found, tmp_path / "a.parquet")
+    frame = pandas.read_parquet(tmp_path / "a.parquet")
+    assert len(frame) == found.status.size
+    row = frame[(frame.cksi == 0.0) & (frame.cphi == 0.0004) & (frame["sample"] == 2)]
+    assert row.fx.item() == found.fx.sel(cksi=0.0, cphi=0.0004)[2] and row.fn.item() == row.fn_result.item()
+    with pytest.raises(contact.ContactError, match=r"\.nc, \.zarr or \.parquet"):
+        save(found, tmp_path / "a.xls")
+
+
+def test_a_process_that_dies_costs_its_case_only(monkeypatch):
+    """A worker that ends with its case is not waited for again and again; all others are there"""
+    import deadly
+    found = contact.Study(rolling(), {"kinematics.cksi": [0.001, 0.002, 0.003, 0.004]})
+    engine = contact.study.Engine(2, "processes")
+    keys = found.keys()
+    tasks = iter([found._task(np.arange(4), keys)])
+    monkeypatch.setattr(_engine, "solve_task", deadly.solve)
+    done = list(engine.run(lambda: next(tasks, None)))
+    assert sum(len(one.keys) for one in done) == 4
+    dead = [one for one in done if one.states[:, :, 0].any()]
+    assert len(dead) == 1 and len(dead[0].keys) == 1 and "several times" in dead[0].reasons["0,0"]
