@@ -12,8 +12,8 @@ from ._task import Done, Task, refused, solve_task
 
 #: Tasks that wait for each worker, so that none is idle
 _AHEAD = 2
-#: How often a task may end with its worker before it is given up
-_LIVES = 4
+#: How often a task may end with its worker, alone, before it is given up; how often Dask tries one that fails
+_LIVES, _RETRIES = 2, 4
 
 
 class Engine:
@@ -58,7 +58,8 @@ class Engine:
     def run(self, tasks: Callable[[], Task | None], stop: Callable[[], bool] = lambda: False) -> Iterator[Done]:
         """Do tasks until there are none.
 
-        A task whose worker dies is done again, in halves; a single point that ends its worker again and again is refused.
+        A task whose worker dies is done again when nothing else is under way, in halves if it dies again; a single point that ends
+        its worker again and again is refused.
 
         Parameters
         ----------
@@ -69,12 +70,14 @@ class Engine:
         """
         executor = self._start()
         pending: dict[Future[Done], tuple[Task, int]] = {}
-        again: list[tuple[Task, int]] = []
+        # what ended with its worker, most often beside the task that is to blame
+        suspects: list[tuple[Task, int]] = []
         try:
             while True:
-                while len(pending) < self.workers * _AHEAD and not stop():
-                    if again:
-                        task, lives = again.pop()
+                alone = bool(suspects)
+                while len(pending) < (1 if alone else self.workers * _AHEAD) and not stop():
+                    if alone:
+                        task, lives = suspects.pop()
                     else:
                         following = tasks()
                         if following is None:
@@ -83,8 +86,9 @@ class Engine:
                     pending[executor.submit(solve_task, task)] = (task, lives)
                 if not pending:
                     return
+                is_sure = alone and len(pending) == 1
                 ready, _ = wait(pending, return_when=FIRST_COMPLETED)
-                broken = False
+                is_broken = False
                 for future in ready:
                     task, lives = pending.pop(future)
                     error = future.exception()
@@ -92,18 +96,19 @@ class Engine:
                         yield future.result()
                     elif not _is_death(error):
                         raise error
-                    elif lives > 1 or len(task) > 1:
-                        parts = task.halves() if len(task) > 1 else (task,)
-                        again.extend((part, _LIVES if len(task) > 1 else lives - 1) for part in parts)
-                        broken = True
                     else:
-                        yield refused(task, "the worker ended while it computed this case, several times")
-                        broken = True
-                if broken and self._client is None:
+                        is_broken = True
+                        if not is_sure:
+                            suspects.append((task, lives))
+                        elif len(task) > 1:
+                            suspects.extend((part, _LIVES) for part in task.halves())
+                        elif lives > 1:
+                            suspects.append((task, lives - 1))
+                        else:
+                            yield refused(task, "the worker ended while it computed this case, several times")
+                if is_broken and self._client is None:
                     # a pool that lost a process is of no use, and neither is what it still had to do
-                    for future, (task, lives) in pending.items():
-                        future.cancel()
-                        again.append((task, lives))
+                    suspects.extend(pending.values())
                     pending.clear()
                     executor.shutdown(wait=False)
                     executor = self._start()
@@ -120,7 +125,7 @@ class Engine:
     def _start(self) -> Executor:
         """Whoever takes tasks"""
         if self._client is not None:
-            pool: Executor = self._client.get_executor(pure=False, retries=_LIVES)
+            pool: Executor = self._client.get_executor(pure=False, retries=_RETRIES)
             return pool
         if self._kind == "processes":
             return ProcessPoolExecutor(self._workers, mp_context=get_context("spawn"))
