@@ -23,13 +23,15 @@ class Browser(Page):
         # the middle of the contact sticks, and its pressure is the largest
         box = page.locator("#map-pn").bounding_box()
         page.mouse.move(box["x"] + 58 + (box["width"] - 142) / 2, box["y"] + 12 + (box["height"] - 52) / 2)
-        page.wait_for_function("document.getElementById('readout').innerText.includes('adhesion')")
+        page.wait_for_function("() => document.getElementById('readout').innerText.includes('adhesion')")
         told = page.inner_text("#readout").replace("\n", " ")
         largest = page.evaluate("Math.max(...contactReport.state.fields.pn)")
         self.assertRegex(told, r"pn\s*%.2f" % largest)
         # zoom and pan change the view, a double click shows all again
         before = page.evaluate("contactReport.state.view")
+        page.keyboard.down("Control")
         page.mouse.wheel(0, -300)
+        page.keyboard.up("Control")
         page.wait_for_function("w => contactReport.state.view[1] - contactReport.state.view[0] < 0.8 * w",
                                arg=before[1] - before[0])
         zoomed = page.evaluate("contactReport.state.view")
@@ -79,7 +81,7 @@ class Browser(Page):
         at = page.evaluate("([x, z]) => ({ x: contactReport.plots.block.X(x), y: contactReport.plots.block.Y(z) })",
                            [float(points["x"][10]), float(points["z"][1])])
         page.hover("#map-block", position=at)
-        page.wait_for_function("document.getElementById('readout').innerText.includes('von Mises')")
+        page.wait_for_function("() => document.getElementById('readout').innerText.includes('von Mises')")
         told = page.inner_text("#readout").replace("\n", " ")
         self.assertRegex(told, "von Mises stress ?%s" % float("%.5g" % values[1, place, 10]))
         # another plane, its place, another stress
@@ -102,7 +104,7 @@ class Browser(Page):
     def test_narrow_and_other_side(self):
         page = self.open(self.page_of("wheel_on_rail"))
         page.set_viewport_size({"width": 400, "height": 800})
-        page.wait_for_function("document.documentElement.scrollWidth <= 400")
+        page.wait_for_function("() => document.documentElement.scrollWidth <= 400")
         # right and left side: the contact is in view on both
         for index in (0, 5):
             page.evaluate("contactReport.go(%d)" % index)

@@ -58,7 +58,10 @@ class Pages(unittest.TestCase):
         self.assertEqual((run.returncode, run.stdout.strip()), (0, "cattaneo.html"), run.stderr)
         with open(os.path.join(self.folder, "cattaneo.html"), encoding="utf-8") as file:
             page = file.read()
-        self.assertNotRegex(page, r"""(src|href)\s*=|https?://|@[A-Z]+@|\bfetch\(""")
+        # the name of the format SVG looks like an address, and is none
+        page = page.replace("http://www.w3.org/2000/svg", "")
+        found = re.search(r"""(src|href)\s*=|https?://|@[A-Z]+@|\bfetch\(""", page)
+        self.assertIsNone(found, found and page[found.start() - 80:found.end() + 80])
         self.assertIn("default-src 'none'", page)
         self.assertEqual(len(re.findall("</script>", page)), 5)
         again = self.report("cattaneo.inp", "-o", "a 'b' $c.html")

@@ -21,6 +21,7 @@ def main(arguments: list[str] | None = None) -> int:
         "Results of an experiment as one HTML file, or a page on this machine on which experiments are checked, run and seen."))
     parser.add_argument("experiment", nargs="?", metavar="EXPNAM", help="experiment that was run with contact --hdf5")
     parser.add_argument("-o", "--output", metavar="FILE", help="name of the HTML file; default EXPNAM.html")
+    parser.add_argument("--with", dest="other", metavar="OTHER", help="another experiment, to be compared with the first")
     parser.add_argument("--serve", nargs="?", const=".", metavar="FOLDER",
                         help="serve the .inp files of a folder (default: this one) on the loopback address")
     parser.add_argument("--port", type=port_number, default=DEFAULT_PORT,
@@ -28,14 +29,16 @@ def main(arguments: list[str] | None = None) -> int:
     asked = parser.parse_args(arguments)
     if (asked.experiment is None) == (asked.serve is None):
         parser.error("name an experiment, or ask for --serve")
+    if asked.serve is not None and (asked.other is not None or asked.output is not None):
+        parser.error("--with and --output go with an experiment, not with --serve")
     try:
         if asked.serve is not None:
             serve(asked.serve, asked.port)
         else:
             name = find_results(asked.experiment)
-            print(write_page(name, asked.output))
-            warning = told_of_run(name)
-            if warning:
+            other = find_results(asked.other) if asked.other is not None else None
+            print(write_page(name, asked.output, other))
+            for warning in filter(None, [told_of_run(path) for path in (name, other) if path]):
                 print("contact report: %s" % warning, file=sys.stderr)
     except (MissingResults, OSError, RuntimeError) as reason:  # the last one of h5py, when a file cannot be closed
         print("contact report: %s" % reason, file=sys.stderr)

@@ -23,7 +23,8 @@ def _embedded(value: Any) -> str:
 
 
 #: Scripts of the page, in their order
-SCRIPTS = ("viewer.js",)
+SCRIPTS = ("data.js", "scale.js", "svg.js", "frame.js", "maps.js", "plots.js", "block.js", "scene.js", "tables.js", "export.js",
+           "page.js")
 
 
 def page_of(path: str, other: str | None = None) -> str:

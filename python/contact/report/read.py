@@ -78,6 +78,9 @@ class _Reader:
         self._groups: dict[int, dict[str, Any]] = {}
         self._fields: dict[int, int] = {}
         self._meanings: dict[tuple[Any, ...], tuple[str, str]] = {}
+        # arrays of the last case, by patch and name, with their places in the file
+        self._last: dict[tuple[int, str], tuple[int, Any]] = {}
+        self.ranges: dict[str, list[float]] = {}
 
     def address(self, item: Any) -> int:
         return int(self.h5py.h5o.get_info(item.id).addr)
@@ -132,6 +135,40 @@ class _Reader:
             self.inputs.append({name: self.described(name, groups[name]) for name in groups})
         return self._input_numbers[key]
 
+    def array(self, number: int, name: str, item: Any) -> Any:
+        """Values of a field; those that the patch had in the case before are not read again"""
+        at = self.address(item)
+        if self._last.get((number, name), (0,))[0] != at:
+            self._last[number, name] = at, self.data(item)
+        return self._last[number, name][1]
+
+    def widen(self, name: str, values: Any) -> None:
+        """Take values into the range that the common colours of all cases stand for"""
+        if values.size:
+            low, high = float(values.min()), float(values.max())
+            if abs(low) < float("inf") and abs(high) < float("inf"):
+                before = self.ranges.get(name, [low, high])
+                self.ranges[name] = [min(low, before[0]), max(high, before[1])]
+
+    def ranges_of(self, values: dict[str, Any], rolling: bool, veloc: float) -> None:
+        """Ranges of the fields of a patch in contact, and of those that the page makes of them (fieldsOf in data.js)"""
+        import numpy as np
+        inside = values["eldiv"] > 0
+        f = {name: array[inside] for name, array in values.items() if name != "eldiv"}
+        if "px" in f:
+            f["pt"] = np.hypot(f["px"], f["py"])
+            if "mu" in f:
+                bound = f["mu"] * f["pn"]
+                f["use"] = np.minimum(1.5, np.divide(f["pt"], bound, out=np.zeros_like(bound), where=bound > 0.0))
+            if "sx" in f:
+                f["slip"] = np.hypot(f["sx"], f["sy"])
+                if rolling and veloc > 0.0:
+                    f["power"] = abs(f["px"] * f["sx"] + f["py"] * f["sy"]) * veloc / 1000.0
+        if "uplsx" in f:
+            f["upls"] = np.hypot(f["uplsx"], f["uplsy"])
+        for name, array in f.items():
+            self.widen(name, array)
+
     def patch(self, group: Any, number: int, totals: dict[str, Any]) -> dict[str, Any]:
         fields: dict[str, int] = {}
         units: dict[str, str] = {}
@@ -139,19 +176,24 @@ class _Reader:
         arrays = group["fields"]
         grid = {name: value for name, value in self.values(group["grid"]).items() if name not in ("x", "y")}
         pen = totals.get("pen") or 0.0
+        values: dict[str, Any] = {}
         for name, item in arrays.items():
             if name in HIDDEN_FIELDS:
                 continue
+            array = self.array(number, name, item)
             units[name], self.titles[name] = self.meaning(("fields", name, rolling), item)
             at = self.address(item)
             if name == "h":
-                gap = self.data(item) - pen
+                gap = array - pen
                 if abs(gap).max() < 1e6:
                     fields["gap"] = self.blobs.add(gap)
+                    values["gap"] = gap
                 continue
             if at not in self._fields:
-                self._fields[at] = self.blobs.add(self.data(item))
+                self._fields[at] = self.blobs.add(array)
             fields[name] = self._fields[at]
+            values[name] = array
+        self.ranges_of(values, rolling, grid.get("veloc") or 0.0)
         found = {"number": number, "totals": totals, "grid": grid, "fields": fields, "units": units,
                  "solver": self.values(group["solver"]),
                  "effects": self.values(group["effects"])["names"] if "effects" in group else "",
@@ -171,7 +213,23 @@ class _Reader:
         points = {axis: _plain(self.data(group["points"][axis])) for axis in "xyz"}
         count = len(points["x"]) * len(points["y"]) * len(points["z"])
         names = SHOWN_STRESSES + (MORE_STRESSES if count <= MOST_POINTS else ())
-        return {**points, "fields": {name: self.blobs.add(self.data(group[name])) for name in names if name in group}}
+        arrays = {name: self.data(group[name]) for name in names if name in group}
+        for name, array in arrays.items():
+            self.widen("block " + name, array)
+        return {**points, "fields": {name: self.blobs.add(array) for name, array in arrays.items()}}
+
+
+def _problem_of(head: dict[str, Any]) -> str:
+    """Result element and contact problem in words, where there are several"""
+    names = (("result_element", "element %d", 0), ("contact_problem", "problem %d", 1))
+    return ", ".join(text % head[name] for name, text, first in names if head[name] > first)
+
+
+def _side_of(case: Any, module: int) -> str:
+    """Which wheel of the wheelset a case of wheel and rail is about"""
+    if module != 1 or "inputs/search/left" not in case:
+        return ""
+    return "left" if case["inputs/search/left"][()] else "right"
 
 
 def _case_name(head: dict[str, Any]) -> str:
@@ -249,7 +307,10 @@ def _read(file: Any, path: str) -> tuple[dict[str, Any], list[dict[str, str]]]:
         label = str(ident["case"])
         if ident["result_element"]:
             label = "%d:%s" % (ident["result_element"], label)
+        if ident["contact_problem"] > 1:
+            label += "/%d" % ident["contact_problem"]
         case = {"label": label, "number": ident["case"], "module": ident["module"], "solved": bool(head["solved"]),
+                "side": _side_of(group, ident["module"]), "problem": _problem_of(ident),
                 "converged": bool(head["converged"]), "status": "solved", "seconds": _plain(head["seconds"]),
                 "inputs": reader.input_of(group), "totals": {name: _plain(head[name]) for name in case_rows if ident["module"] == 1
                                                              and name not in ("case", "line", "solved", "converged", "status_code",
@@ -272,7 +333,7 @@ def _read(file: Any, path: str) -> tuple[dict[str, Any], list[dict[str, str]]]:
         cases.append(case)
     data = {"experiment": _plain(file.attrs["experiment"]), "program": _plain(file.attrs["program"]),
             "run": _run_of(file), "columns": {**case_meta, **patch_meta}, "inputs": reader.inputs,
-            "titles": reader.titles, "cases": cases}
+            "titles": reader.titles, "ranges": reader.ranges, "cases": cases}
     return data, reader.blobs.items
 
 

@@ -123,7 +123,7 @@ function offerBeside(files) {
     keep = select.value;
   select.replaceChildren(new Option("none", ""), ...files.map(file => new Option(file.name, file.name)));
   select.value = files.some(file => file.name === keep) ? keep : "";
-  byId("beside-bar").hidden = true;
+  byId("beside-bar").hidden = files.length < 2;
 }
 
 // ---------------------------------------------------------------- the run
