@@ -42,7 +42,8 @@ enum {
 enum {
   CONTACT_MOVING_HEAT = 8,      /* surface temperatures by moving sources, as --heat moving-source */
   CONTACT_ANGLE_AT_CONTACT = 16, /* contact angles on rails that vary along the track, as --contact-angle contact */
-  CONTACT_CLASSICAL = 64        /* the solvers that G names run, as --classical */
+  CONTACT_CLASSICAL = 64,       /* the solvers that G names run, as --classical */
+  CONTACT_SECOND_ORDER = 128    /* steady rolling of second order in the size of elements, as --order 2 */
 };
 
 /* The input comes from a stranger: ordinary files below the folder of the experiment only, and the limits of
@@ -50,7 +51,7 @@ enum {
 enum { CONTACT_CONFINE = 32 };
 
 /* The same as contact_run, with more: outputs is 0 or a sum of CONTACT_WRITE_..., CONTACT_MOVING_HEAT,
- * CONTACT_ANGLE_AT_CONTACT, CONTACT_CLASSICAL and CONTACT_CONFINE */
+ * CONTACT_ANGLE_AT_CONTACT, CONTACT_CLASSICAL, CONTACT_SECOND_ORDER and CONTACT_CONFINE */
 int contact_run_with(const char *experiment, int mode, const char *output_dir, int threads,
                      int outputs, char *message, int message_length);
 

@@ -60,6 +60,7 @@ function [ CNTC ] = cntc_getmagicnumbers( )
 %   CNTC.own_angle    contact angles on rails that vary along the track: 0 as the established program, of the section below the axle; 1 of wheel and rail where they touch
 %   CNTC.own_across   read only, elements across the contact in its narrower direction, 0 without contact; fewer than 5 are a rough result
 %   CNTC.own_classical solvers that G names: 0 the default solver acts in their place, to a residual as small, where it can; 1 they run
+%   CNTC.own_order    discretisation of steady rolling: 1 the established one, 2 of second order in the size of elements
 %
 % Data that go along into the .mat files
 %
@@ -161,6 +162,7 @@ function [ CNTC ] = cntc_getmagicnumbers( )
    CNTC.own_angle = 9004;
    CNTC.own_across = 9005;
    CNTC.own_classical = 9006;
+   CNTC.own_order = 9007;
    CNTC.mt_tim = 2011;
    CNTC.mt_xr = 2012;
    CNTC.mt_yr = 2013;

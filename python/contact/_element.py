@@ -474,8 +474,20 @@ class Element:
                  [bulk, *first, bulk if bulk2 is None else bulk2, *second, plastic_share])
 
     def set_solver(self, eps: float = 1e-5, maxgs: int = 999, maxin: int = 100, maxnr: int = 30,
-                   maxout: int = 1) -> None:
-        """Tolerance [-] and limits of the iterations of the default solver (G = 0)."""
+                   maxout: int = 1, order: int = 1) -> None:
+        """Tolerance [-] and limits of the iterations of the default solver (G = 0), and order of the discretisation.
+
+        Parameters
+        ----------
+        eps, maxgs, maxin, maxnr, maxout
+            Relative tolerance of the equations [-], and limits of iterations.
+        order
+            Discretisation of steady rolling: 1, the established one, or 2, whose errors fall with the square of the
+            size of elements (doc/theory/second_order.md).
+        """
+        if order not in (1, 2):
+            raise ValueError(f"order = {order!r} is none of 1, 2")
+        self.set_flags(own_order=order)
         self._do(cntc.setsolverflags, self.number, self._icp, 0, [maxgs, maxin, maxnr, maxout], [eps])
 
     def add_block(self, x: ArrayLike | None, y: ArrayLike | None, z: ArrayLike, block: int = 1) -> None:

@@ -143,6 +143,7 @@ MAGIC_NUMBERS = {
     "own_angle": 9004,  # contact angles on rails that vary along the track: 0 as the established program, of the section below the axle; 1 of wheel and rail where they touch
     "own_across": 9005,  # read only, elements across the contact in its narrower direction, 0 without contact; fewer than 5 are a rough result
     "own_classical": 9006,  # solvers that G names: 0 the default solver acts in their place, to a residual as small, where it can; 1 they run
+    "own_order": 9007,  # discretisation of steady rolling: 1 the established one, 2 of second order in the size of elements
     # Data that go along into the .mat files
     "mt_tim": 2011,  # time [s]
     "mt_xr": 2012,  # contact point on the rail, x [L]

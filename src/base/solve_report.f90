@@ -4,7 +4,7 @@ module contact_base_solve_report
    implicit none (type, external)
    private
 
-   public :: solve_report, ending, failure_text, size_text
+   public :: reason_length, solve_report, ending, failure_text, size_text
 
    type :: ending_list
       !> Nothing was iterated (empty contact, skipped problem)
@@ -27,6 +27,8 @@ module contact_base_solve_report
 
    !> Length of the names of methods; of fixed length, a report is set without a request to the heap
    integer, parameter :: name_length = 24
+   !> Length of the reason for an order
+   integer, parameter :: reason_length = 48
 
    !> Outcome of one iterative method
    type :: solve_report
@@ -51,6 +53,10 @@ module contact_base_solve_report
       real(wp) :: residual = -1.0_wp
       !> Tolerance that was asked for
       real(wp) :: tolerance = 0.0_wp
+      !> Order of the discretisation that acted, 1 or 2, where 2 was asked for; 0 otherwise
+      integer :: order = 0
+      !> Why it was 1 in spite of that
+      character(len=reason_length) :: order_reason = ""
    contains
       !> Did the iteration reach its tolerance (or had nothing to do)?
       procedure :: succeeded => report_succeeded

@@ -200,6 +200,7 @@ contains
       case (flag%npomax); place => problem%spec%iteration%npot_max
       case (flag%wrtinp); place => problem%write_input
       case (flag%own_heat); place => problem%spec%heat%source
+      case (flag%own_order); place => problem%spec%iteration%order
       case default; nullify(place)
       end select
    end function place_of

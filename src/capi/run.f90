@@ -21,7 +21,8 @@ module contact_capi_run
    integer(c_int), parameter :: mode_run = 2, mode_check = 3
    !> Bits that ask for more files, for other ways to compute, for a confined run, and all of them together
    integer, parameter :: json_bit = 0, hdf5_bit = 1, vtk_bit = 2, heat_bit = 3, angle_bit = 4, confine_bit = 5, classical_bit = 6
-   integer(c_int), parameter :: all_outputs = 127
+   integer, parameter :: order_bit = 7
+   integer(c_int), parameter :: all_outputs = 255
    !> Failures by their cause start here, so that 1 stays free for a wrong call
    integer(c_int), parameter :: wrong_call = 1, first_failure = 10
 
@@ -210,6 +211,7 @@ contains
          if (btest(outputs, heat_bit)) settings%heat_source = heat_source%moving
          if (btest(outputs, angle_bit)) settings%angle_below_axle = .false.
          settings%classical = btest(outputs, classical_bit)
+         if (btest(outputs, order_bit)) settings%order = 2
          settings%limits%confined = btest(outputs, confine_bit)
          if (len_trim(experiment) == 0) then
             call fatal_error(error, "contact_run: the name of the experiment is missing")
@@ -219,7 +221,7 @@ contains
             call fatal_error(error, "contact_run: the number of threads is negative")
          else if (outputs < 0 .or. outputs > all_outputs) then
             call fatal_error(error, "contact_run_with: the outputs are not a sum of CONTACT_WRITE_JSON, _HDF5, _VTK, " // &
-               & "CONTACT_MOVING_HEAT, CONTACT_ANGLE_AT_CONTACT, CONTACT_CLASSICAL and CONTACT_CONFINE")
+               & "CONTACT_MOVING_HEAT, CONTACT_ANGLE_AT_CONTACT, CONTACT_CLASSICAL, CONTACT_SECOND_ORDER and CONTACT_CONFINE")
          else
             call set_limits(request%limits, settings%limits, error)
          end if

@@ -57,6 +57,8 @@ module contact_cli_arguments
       logical :: vtk = .false.
       !> Member of heat_source, or as_input_says
       integer :: heat_source = as_input_says
+      !> Order of the discretisation of steady rolling, or as_input_says
+      integer :: order = as_input_says
       !> Contact angles as in the established program?
       logical :: angle_below_axle = .true.
       !> Run the classical solvers that cases name?
@@ -146,6 +148,7 @@ contains
       settings%exports%hdf5 = asked%hdf5
       settings%exports%vtk = asked%vtk
       settings%heat_source = asked%heat_source
+      settings%order = asked%order
       settings%angle_below_axle = asked%angle_below_axle
       settings%classical = asked%classical
       settings%errors = asked%errors
@@ -241,6 +244,13 @@ contains
                & "', is not known; established and moving-source are")
          end select
          return
+      case ("--order")
+         call take_value("the order of the discretisation of steady rolling: 1 or 2")
+         if (allocated(error)) return
+         asked%order = to_number(value)
+         if (all(asked%order /= [1, 2])) call fatal_error(error, "the order of the discretisation, '" // value // &
+            & "', is not known; 1 and 2 are")
+         return
       case ("--contact-angle")
          call take_value("where contact angles are taken: established or contact")
          if (allocated(error)) return
@@ -275,7 +285,7 @@ contains
          return
       case default
          call fatal_error(error, "there is no option '" // name // &
-            & "'; the options are --help, --version, --output-dir DIR, --threads N, --heat NAME, --errors, --hdf5, " // &
+            & "'; the options are --help, --version, --output-dir DIR, --threads N, --heat NAME, --order N, --errors, --hdf5, " // &
             & "--json, --vtk, --confine, --limit-time S, --limit-run-time S, --limit-memory MB, --limit-elements N, " // &
             & "--limit-output MB, --resume, --strict and --quiet")
          return
@@ -430,6 +440,8 @@ contains
          & "  --threads N       number of threads; default is OMP_NUM_THREADS or all processors", &
          & "  --heat NAME       surface temperatures: established, as the established program (default for .inp), or", &
          & "                    moving-source, without counting the heat of an element twice at its centre", &
+         & "  --order N         discretisation of steady rolling: 1, the established one, or 2, whose errors fall with the", &
+         & "                    square of the size of elements; default is 1 for .inp, and what a case says for .toml", &
          & "  --contact-angle NAME  on rails that vary along the track: established, of the section below the axle", &
          & "                    (default), or contact, of wheel and rail where they touch", &
          & "  --classical       run the solvers that G names; without, the faster default solver acts in their place", &

@@ -1,6 +1,6 @@
 !> Experiments from one format of input to the other
 module contact_experiment_convert
-   use contact_base_choices, only : heat_source
+   use contact_base_choices, only : heat_source, motion
    use contact_base_error, only : add_context, error_kind, error_type, fatal_error
    use contact_base_output_file, only : output_file, remove_file
    use contact_experiment_place, only : choose_input, experiment_place, input_suffix, locate_experiment, readable_suffix
@@ -161,11 +161,12 @@ contains
       type(experiment_reader) :: reader
       type(input_case) :: this
       character(len=:), allocatable :: remarks
-      logical :: begins_module, is_moving
+      logical :: begins_module, is_moving, is_second
 
       cases = 0
       begins_module = .true.
       is_moving = .false.
+      is_second = .false.
       call reader%open_file(input, error)
       do while (.not. allocated(error))
          call next_good_case(reader, this, told, error)
@@ -177,12 +178,14 @@ contains
          if (begins_module) call write_module_line(file, this)
          begins_module = this%spec%ends_module
          if (this%spec%has_heat .and. this%spec%heat%source == heat_source%moving) is_moving = .true.
+         if (this%spec%motion == motion%steady_rolling .and. this%spec%iteration%order == 2) is_second = .true.
          call write_input_case(file, this%spec)
       end do
       if (allocated(error)) return
       call file%line(" 0   % MODULE: end")
       if (is_moving) call told%add_line(" Temperatures of " // input // " are those of moving sources; the new file needs " // &
          & "--heat moving-source to have them")
+      if (is_second) call told%add_line(" Steady rolling of " // input // " is of order 2; the new file needs --order 2 for that")
    end subroutine write_established
 
    !> MODULE {REID {CPID}}

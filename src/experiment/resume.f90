@@ -52,6 +52,7 @@ contains
       settings%angle_below_axle = asked%angle_below_axle
       settings%classical = asked%classical
       settings%errors = asked%errors
+      settings%order = asked%order
       if (asked%limits%deadline%seconds < huge(1.0_wp)) settings%seconds = asked%limits%deadline%seconds
       if (asked%limits%bytes < huge(1_long)) settings%bytes = asked%limits%bytes
       if (asked%limits%elements < huge(1_long)) settings%elements = asked%limits%elements
@@ -128,6 +129,7 @@ contains
       if (now%vtk .and. .not. before%vtk) what = "without --vtk"
       if (now%heat_source /= before%heat_source .and. now%heat_source /= as_input_says) &
          & what = "with another kind of temperatures (--heat)"
+      if (now%order /= before%order .and. now%order /= as_input_says) what = "with another order of the discretisation (--order)"
       if (before%angle_below_axle .and. .not. now%angle_below_axle) what = "with another kind of contact angles (--contact-angle)"
       if (now%classical .and. .not. before%classical) what = "with the default solver (--classical)"
       if (now%errors .and. .not. before%errors) what = "without --errors"
@@ -142,6 +144,7 @@ contains
       asked%angle_below_axle = before%angle_below_axle
       asked%classical = before%classical
       asked%errors = before%errors
+      asked%order = before%order
       if (before%seconds > 0.0_wp .and. .not. now%seconds > 0.0_wp) asked%limits%deadline%seconds = before%seconds
       if (before%bytes > 0 .and. now%bytes == 0) asked%limits%bytes = before%bytes
       if (before%elements > 0 .and. now%elements == 0) asked%limits%elements = before%elements

@@ -68,6 +68,8 @@ module contact_experiment_state
       type(export_request) :: exports
       !> How temperatures are computed, member of heat_source, or as_input_says
       integer :: heat_source = as_input_says
+      !> Order of the discretisation of steady rolling, 1 or 2, or as_input_says
+      integer :: order = as_input_says
       !> Contact angles on rails that vary along the track: of the section below the axle, as in the established program?
       logical :: angle_below_axle = .true.
       !> Do the classical solvers run that cases name?
@@ -172,6 +174,7 @@ contains
       type(input_case), intent(inout) :: this
 
       if (asked%heat_source /= as_input_says) this%spec%heat%source = asked%heat_source
+      if (asked%order /= as_input_says) this%spec%iteration%order = asked%order
       if (allocated(this%spec%wheel_rail)) this%spec%wheel_rail%search%angle_below_axle = asked%angle_below_axle
       this%spec%classical = asked%classical
       if (asked%errors) this%spec%estimates_errors = .true.

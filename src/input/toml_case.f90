@@ -9,7 +9,8 @@ module contact_input_toml_case
    use contact_cases_whole_case, only : visit_case
    use contact_control_digits, only : case_digits, digit_names, digit_of, digit_table, put_digit, word_length
    use contact_control_translation, only : digits_of, take_digits
-   use contact_control_words, only : choice_words, digit_of_word, form_value, is_choice, key_of, key_table, tell_in_words, words_of
+   use contact_control_words, only : choice_words, digit_of_word, form_value, is_choice, key_of, key_table, tell_in_words, &
+      & usual_order, words_of
    use contact_input_control, only : check_digits, control_words, refuse_unbuilt_digits
    use contact_grid_potential_contact, only : potential_contact
    use contact_input_checks, only : check_case
@@ -87,6 +88,7 @@ contains
          call check_digits(words, module_number, previous, has_previous, spec, problems)
          digits = words%digits
          call take_heat_source(a, spec)
+         call take_order(a, has_previous, spec)
          if (spec%motion == motion%none .and. .not. has_previous) a%lenient_group = "friction"
          call visit_case(a, spec)
          if (a%is_good) then
@@ -415,6 +417,30 @@ contains
          end associate
       end do
    end subroutine take_plain_keys
+
+   !> Order of the discretisation of steady rolling, kept from case to case
+   subroutine take_order(a, has_previous, spec)
+      type(toml_reader), intent(inout) :: a
+      logical, intent(in) :: has_previous
+      type(case_spec), intent(inout) :: spec
+      integer :: node, table
+
+      if (.not. has_previous) spec%iteration%order = usual_order
+      table = a%document%child(a%case_node, "iteration")
+      if (table == 0) return
+      if (a%document%nodes(table)%kind /= toml_kind%table) return
+      call a%note_key("iteration", "order")
+      node = a%document%child(table, "order")
+      if (node == 0) return
+      a%used(node) = .true.
+      associate (value => a%document%nodes(node))
+         if (value%kind == toml_kind%integer .and. any(value%i == [1, 2])) then
+            spec%iteration%order = int(value%i)
+         else
+            call a%add_problem(severity%error, node, "order must be 1 or 2")
+         end if
+      end associate
+   end subroutine take_order
 
    !> How temperatures are computed: with moving sources, unless a case asks for those of the established program
    subroutine take_heat_source(a, spec)

@@ -274,6 +274,9 @@ contains
       if (report%asked /= "") call record%text(problem // "_asked", "method of the input, where another one acts", &
          & trim(report%asked))
       if (report%gave_up /= "") call record%text(problem // "_gave_up", "method that was given up", trim(report%gave_up))
+      if (report%order > 0) call record%count(problem // "_order", "order of the discretisation", report%order)
+      if (report%order_reason /= "") call record%text(problem // "_order_reason", "why it is not the one that was asked for", &
+         & trim(report%order_reason))
       call record%text(problem // "_ended", "how the iteration ended", trim(ending_name(report)))
       call record%count(problem // "_iterations", "iterations of the last call", report%iterations)
       if (report%residual >= 0.0_wp) call record%number(problem // "_residual", "", "relative residual", report%residual)

@@ -47,7 +47,7 @@ contains
       call say("Pressures: " // trim(digit("B", spec%pressure)))
       if (spec%motion /= motion%none) then
          call say("Friction: " // trim(digit("L", spec%friction_law)) // "; " // trim(digit("V", spec%variation)))
-         call say("Solver: " // trim(digit("G", spec%solver)))
+         call say("Solver: " // trim(digit("G", spec%solver)) // merge("; order 2", "         ", spec%iteration%order == 2))
       end if
       call say("Material: " // trim(digit("M", spec%material_model)))
       if (.not. is_simplified(spec%material_model)) call say("Elasticity: " // trim(digit("C", spec%kernel)))

@@ -237,7 +237,7 @@ contains
       end if
       if (line == " EFFECTS: ") line = line // "none"
       line = line // "; SOLVER: " // method_name(result%normal)
-      if (has_tangential) line = line // ", " // method_name(result%tangential)
+      if (has_tangential) line = line // ", " // method_name(result%tangential) // order_text(result%tangential)
       if (has_tangential .and. result%tangential%asked /= "") line = line // " instead of " // harmless(result%tangential%asked)
       line = line // "; RESIDUAL: " // trim(residual_text(result%normal%residual))
       if (has_tangential) line = line // ", " // trim(residual_text(result%tangential%residual))
@@ -274,6 +274,17 @@ contains
       name = harmless(report%method)
       if (name == "") name = "none"
    end function method_name
+
+   !> Order of the discretisation where the second was asked for, with the reason where it is the first
+   pure function order_text(report) result(text)
+      type(solve_report), intent(in) :: report
+      character(len=merge(0, len(" of order 1") + merge(0, len_trim(report%order_reason) + 3, report%order_reason == ""), &
+         & report%order == 0)) :: text
+
+      if (report%order == 0) return
+      text = " of order " // achar(iachar("0") + report%order)
+      if (report%order_reason /= "") text = trim(text) // " (" // trim(report%order_reason) // ")"
+   end function order_text
 
    !> Residual in two digits
    pure function residual_text(residual) result(text)

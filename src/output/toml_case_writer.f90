@@ -70,6 +70,7 @@ contains
          a%module_number = module_number
          a%digits = digits_of(spec)
          a%has_moving_heat = spec%heat%source == heat_source%moving
+         a%order = spec%iteration%order
          a%case_text = line_feed // remarks // "[[case]]" // line_feed
          if (self%text%length == 0) a%case_text = remarks // "[[case]]" // line_feed
          call put_element(self, a, before)

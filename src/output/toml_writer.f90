@@ -8,7 +8,7 @@ module contact_output_toml_writer
    use contact_cases_archive, only : archive_item, case_archive, item_kind
    use contact_control_digits, only : case_digits, digit_text, digit_value
    use contact_control_words, only : form_key, form_table, form_title, form_word, key_length, key_of_item, key_table, &
-      & tell_in_words, word_of_digit
+      & tell_in_words, usual_order, word_of_digit
    use contact_text_bounds, only : bounds_table
    use contact_text_words, only : exact_text, integer_text, small
    use contact_toml_quantities, only : read_quantity
@@ -49,6 +49,8 @@ module contact_output_toml_writer
       integer :: module_number = 3
       type(case_digits) :: digits
       logical :: has_moving_heat = .false.
+      !> Order of the discretisation
+      integer :: order = 1
       !> Are preset numbers being noted? Then nothing is written
       logical :: is_recording = .false.
       !> Has each row of the grid a friction of its own?
@@ -109,6 +111,8 @@ contains
       self%in_part = .false.
       if (self%is_recording) return
       call put_group_choices(self)
+      if (text == "iteration" .and. (self%order /= usual_order .or. any(self%memory%names == "iteration.order"))) &
+         & call self%put("order", integer_text(self%order))
       if (text == "heat") call self%put("source", trim(merge('"moving"     ', '"established"', self%has_moving_heat)))
    end subroutine open_table
 

@@ -3,7 +3,8 @@ module contact_patch_kinematics
    use contact_base_choices, only : motion
    use contact_base_kinds, only : wp
    use contact_grid_element_division, only : element
-   use contact_patch_problem, only : patch_problem, patch_state, traction_fields
+   use contact_patch_order, only : spin_offset_of
+   use contact_patch_problem, only : patch_problem, patch_state, rolling_direction, traction_fields
    use contact_patch_result, only : patch_result
    use contact_patch_workspace, only : patch_workspace, prepare_window
    implicit none (type, external)
@@ -18,7 +19,8 @@ contains
 
    !> Rigid slip per step without unknown creepages [mm], Kalker (1990)
    !>
-   !> The offset of a sixth of the step makes the spin contribution second order accurate.
+   !> An offset of a sixth of the step makes up for part of the error of the first order; the second order takes the middle of the
+   !> step.
    pure subroutine rigid_slip(problem, result, spin_weight)
       !> Creepages, spin with its centre, extra slip, distance per step
       type(patch_problem), intent(in) :: problem
@@ -27,10 +29,11 @@ contains
       !> Weight of the spin in x and y, for simplified theory [-]; default 1
       real(wp), intent(in), optional :: spin_weight(2)
       integer :: ix, iy
-      real(wp) :: x0, y0, cx, cy, spin(2)
+      real(wp) :: x0, y0, cx, cy, spin(2), offset
 
-      x0 = problem%spin_centre(1) - problem%spin_offset*problem%dq*cos(problem%chi)
-      y0 = problem%spin_centre(2) - problem%spin_offset*problem%dq*sin(problem%chi)
+      offset = spin_offset_of(problem, result%tangential)*problem%dq
+      x0 = problem%spin_centre(1) - offset*cos(problem%chi)
+      y0 = problem%spin_centre(2) - offset*sin(problem%chi)
       cx = merge(problem%creep(1), 0.0_wp, problem%n_forces < 1)
       cy = merge(problem%creep(2), 0.0_wp, problem%n_forces < 2)
       spin = problem%spin_weight*problem%spin
@@ -42,9 +45,33 @@ contains
          end do
       end do
       if (.not. allocated(problem%extra_slip)) return
+      if (result%tangential%order == 2) then
+         result%wx = result%wx + problem%dq*half_ahead(problem%extra_slip(:, :, 1), rolling_direction(problem))
+         result%wy = result%wy + problem%dq*half_ahead(problem%extra_slip(:, :, 2), rolling_direction(problem))
+         return
+      end if
       result%wx = result%wx + problem%dq*problem%extra_slip(:, :, 1)
       result%wy = result%wy + problem%dq*problem%extra_slip(:, :, 2)
    end subroutine rigid_slip
+
+   !> A field half an element ahead: the mean with the next element; at the end of the grid the straight line goes on
+   pure function half_ahead(field, direction) result(ahead)
+      !> Shape (mx, my)
+      real(wp), intent(in) :: field(:, :)
+      !> Towards increasing (+1) or decreasing (-1) x
+      integer, intent(in) :: direction
+      real(wp) :: ahead(size(field, 1), size(field, 2))
+      integer :: ix, mx
+
+      mx = size(field, 1)
+      do ix = 1, mx
+         if (ix + direction >= 1 .and. ix + direction <= mx) then
+            ahead(ix, :) = 0.5_wp*(field(ix, :) + field(ix + direction, :))
+         else
+            ahead(ix, :) = field(ix, :) + 0.5_wp*(field(ix, :) - field(min(mx, max(1, ix - direction)), :))
+         end if
+      end do
+   end function half_ahead
 
    !> Displacements at the previous time of the particles that are in the elements now
    subroutine previous_displacement(problem, state, workspace)

@@ -11,6 +11,7 @@ module contact_patch_sensitivities
    use contact_elastic_compliance, only : compliance
    use contact_grid_element_division, only : bounding_box, contact_box, element
    use contact_normal_stiffness, only : pressure_derivative
+   use contact_patch_order, only : spin_offset_of
    use contact_patch_problem, only : patch_problem
    use contact_patch_result, only : patch_result
    use contact_patch_workspace, only : patch_workspace
@@ -95,12 +96,13 @@ contains
       real(wp), intent(inout) :: worst
       type(bounding_box) :: box
       real(wp), allocatable :: shift(:, :, :), bound(:, :), change(:, :, :), box_q(:, :)
-      real(wp) :: x0, y0, scale, moment, reached
+      real(wp) :: x0, y0, scale, moment, reached, offset
       integer :: input, ix, iy
 
       box = contact_box(result%division)
-      x0 = problem%spin_centre(1) - problem%spin_offset*problem%dq*cos(problem%chi)
-      y0 = problem%spin_centre(2) - problem%spin_offset*problem%dq*sin(problem%chi)
+      offset = spin_offset_of(problem, result%tangential)*problem%dq
+      x0 = problem%spin_centre(1) - offset*cos(problem%chi)
+      y0 = problem%spin_centre(2) - offset*sin(problem%chi)
       scale = problem%grid%dx*problem%grid%dy/(result%mu_scal*result%fn + tiny(scale))
       associate (t => workspace%tangential, operator => workspace%box)
          allocate(shift(t%mx, t%my, 2), change(t%mx, t%my, 2), bound(t%mx, t%my))

@@ -17,6 +17,7 @@ module contact_patch_solve
    use contact_patch_heat, only : derive_temperatures
    use contact_patch_kinematics, only : previous_displacement, rigid_slip
    use contact_patch_normal_step, only : normal_step, shear_lift
+   use contact_patch_order, only : choose_order
    use contact_patch_problem, only : patch_problem, patch_state
    use contact_patch_result, only : patch_result
    use contact_patch_sensitivities, only : find_sensitivities
@@ -60,6 +61,7 @@ contains
       if (allocated(error)) return
       call fit_workspace(problem, workspace)
       call reset_result(problem, state, result)
+      call choose_order(problem, result%tangential)
       if (problem%motion /= motion%none) call rigid_slip(problem, result)
       if (problem%motion == motion%none) then
          state%now%px = 0.0_wp

@@ -8,7 +8,9 @@ module contact_patch_tangential_step
    use contact_friction_law, only : friction_driver
    use contact_grid_element_division, only : bounding_box, contact_box, element
    use contact_grid_picture, only : trace_picture
+   use contact_patch_kinematics, only : rigid_slip
    use contact_patch_leading_edge, only : correct_leading_edge
+   use contact_patch_order, only : lower_order, set_second_order
    use contact_patch_problem, only : patch_problem, patch_state, rolling_direction
    use contact_patch_result, only : patch_result
    use contact_patch_workspace, only : patch_workspace, prepare_box, prepare_window
@@ -55,16 +57,12 @@ contains
       if (problem%general_step) call prepare_step(problem, workspace)
       if (iterates_friction(problem)) call workspace%friction%start(problem, state, result%dt, &
          & result%outer_iterations == 1, result%mu)
-      call set_tangential(problem, state, box, workspace, result)
-      if (problem%corrects_leading_edge) call correct_leading_edge(problem, state, box, result, workspace, log)
-      if (problem%model%coupled()) call add_by_pressures(problem, state, box, workspace)
-      if (log%shows(2)) call log%trace(2, " TANG: " // trim(type_of_motion(problem%motion)))
-      if (iterates_friction(problem)) then
-         call solve_with_friction(problem, state, box, workspace, log, result)
-      else
-         call choose_and_solve(problem, workspace, log, result%tangential)
-         result%tangential%passes = result%tangential%passes + 1
-         if (log%shows(9)) call show_division(state, box, workspace%solution, log)
+      call state_and_solve(problem, state, box, workspace, log, result)
+      if (allocated(workspace%tangential%second) .and. .not. any(result%tangential%ended == [ending%converged, &
+         & ending%out_of_time, ending%beyond_friction])) then
+         call lower_order("no progress with order 2", result%tangential)
+         call rigid_slip(problem, result)
+         call state_and_solve(problem, state, box, workspace, log, result)
       end if
 
       associate (solution => workspace%solution)
@@ -77,6 +75,29 @@ contains
       end associate
       if (problem%remembers_yield) call carry_yield(problem, box, workspace%solution, state)
    end subroutine tangential_step
+
+   !> Make the tangential problem of the order that acts, and solve it
+   subroutine state_and_solve(problem, state, box, workspace, log, result)
+      type(patch_problem), intent(in) :: problem
+      type(patch_state), intent(in) :: state
+      type(bounding_box), intent(in) :: box
+      type(patch_workspace), intent(inout) :: workspace
+      type(log_type), intent(inout) :: log
+      type(patch_result), intent(inout) :: result
+
+      call set_tangential(problem, state, box, workspace, result)
+      call set_second_order(problem, state, box, result%tangential, workspace)
+      if (problem%corrects_leading_edge) call correct_leading_edge(problem, state, box, result, workspace, log)
+      if (problem%model%coupled()) call add_by_pressures(problem, state, box, workspace)
+      if (log%shows(2)) call log%trace(2, " TANG: " // trim(type_of_motion(problem%motion)))
+      if (iterates_friction(problem)) then
+         call solve_with_friction(problem, state, box, workspace, log, result)
+      else
+         call choose_and_solve(problem, workspace, log, result%tangential)
+         result%tangential%passes = result%tangential%passes + 1
+         if (log%shows(9)) call show_division(state, box, workspace%solution, log)
+      end if
+   end subroutine state_and_solve
 
    !> Do coefficients of friction depend on the solution?
    pure logical function iterates_friction(problem)
@@ -333,7 +354,8 @@ contains
          if (report%ended == ending%out_of_time) return
          if (is_classical(problem%solver) .and. (report%ended == ending%stagnated .or. report%ended == ending%iteration_limit) &
             & .and. report%residual >= 0.0_wp .and. report%residual <= eps) report%ended = ending%converged
-         if (report%succeeded()) return
+         ! without success the order is lowered first
+         if (report%succeeded() .or. allocated(t%second)) return
          if (problem%motion == motion%steady_rolling .and. .not. workspace%box%has_table()) return
          call log%warning("Newton-Krylov made no further progress; a classical method takes over")
          if (workspace%box%has_table()) then

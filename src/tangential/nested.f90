@@ -49,8 +49,8 @@ contains
 
    !> Solve a tangential problem by Newton-Krylov; nested iteration where that pays
    subroutine solve_newton_krylov(problem, operator, workspace, solution, report, log)
-      !> Rigid slip, bounds, prescribed forces, tolerance
-      type(tangential_problem), intent(in) :: problem
+      !> Rigid slip, bounds, prescribed forces, tolerance; where it is of second order, its turns are renewed
+      type(tangential_problem), intent(inout) :: problem
       !> Prepared for the window and the rolling direction of the problem
       class(compliance), intent(inout) :: operator
       !> Coarser levels with their operators, and scratch, kept from call to call

@@ -9,6 +9,7 @@ module contact_tangential_newton
    use contact_base_log, only : log_type
    use contact_base_solve_report, only : ending
    use contact_elastic_compliance, only : compliance
+   use contact_grid_element_division, only : element
    use contact_tangential_newton_jacobian, only : apply_d, differentiate_return_map, fit_workspace, linear_system, linearise, &
       & new_system, newton_workspace
    use contact_tangential_newton_linear, only : solve_linear
@@ -45,6 +46,10 @@ module contact_tangential_newton
    !> Largest change of creepages at first, as a part of the slip that full sliding brings about, and its growth after a step
    !> that was cut short and did well; see doc/theory/solvers.md
    real(wp), parameter :: first_range = 0.2_wp, range_growth = 3.0_wp
+   !> Turns of the slip are renewed when the residual is below the first value, or after so many steps, and again after each step,
+   !> so many times; more of them change forces by less than the size of elements does; measured
+   real(wp), parameter :: turn_below = 0.03_wp
+   integer, parameter :: late = 12, most_turns = 3
    !> Least weight of an element in the mean slip, relative to its bound; chosen
    real(wp), parameter :: min_weight = 1.0e-3_wp
 
@@ -52,8 +57,8 @@ contains
 
    !> Improve a solution until the true residual is below a tolerance
    subroutine newton_solve(problem, operator, tolerance, workspace, solution, outcome, log)
-      !> Rigid slip, bounds, prescribed forces, limits of the iteration
-      type(tangential_problem), intent(in) :: problem
+      !> Rigid slip, bounds, prescribed forces, limits of the iteration; where it is of second order, its turns are renewed
+      type(tangential_problem), intent(inout) :: problem
       !> Prepared for the window and the rolling direction of the problem
       class(compliance), intent(inout) :: operator
       !> On the true residual [-]
@@ -68,7 +73,7 @@ contains
       type(log_type), intent(inout), optional :: log
       type(linear_system) :: system
       real(wp) :: residual, previous, forcing, history(0:max_steps), best, creep_range, correction(2), unbalance(2)
-      integer :: step, k
+      integer :: step, k, turns, since
 
       outcome%residual = 0.0_wp
       if (.not. any(problem%contact)) return
@@ -96,12 +101,19 @@ contains
       call start_values(problem, operator, system, solution, workspace, residual)
       previous = residual
       history = 0.0_wp
+      turns = merge(0, most_turns, allocated(problem%second))
+      since = 0
       do step = 0, max_steps
+         if (turns < most_turns .and. (residual < turn_below .or. step > late)) then
+            call renew_turns(problem, system, solution, residual)
+            turns = turns + 1
+            since = step
+         end if
          history(step) = residual
          outcome%steps = step
          outcome%residual = residual
          if (present(log)) call trace_step(problem, step, residual, solution, log)
-         call judge(problem, step, history, tolerance, outcome%ended)
+         call judge(problem, step, since, history, tolerance, outcome%ended)
          if (outcome%ended /= ending%not_started) exit
 
          call linearise(problem, system, solution, workspace)
@@ -126,10 +138,10 @@ contains
    end subroutine newton_solve
 
    !> Is the iteration over before the next step, and how?
-   subroutine judge(problem, step, history, tolerance, ended)
+   subroutine judge(problem, step, since, history, tolerance, ended)
       type(tangential_problem), intent(in) :: problem
-      !> Steps so far
-      integer, intent(in) :: step
+      !> Steps so far, and those before the equations changed last
+      integer, intent(in) :: step, since
       !> Residuals after 0 to `step` steps, and the tolerance [-]
       real(wp), intent(in) :: history(0:), tolerance
       !> Member of ending; not_started when the iteration goes on
@@ -141,7 +153,7 @@ contains
             ended = ending%diverged
          else if (residual <= tolerance) then
             ended = ending%converged
-         else if (step >= patience .and. residual > halved*history(max(0, step - patience))) then
+         else if (step >= since + patience .and. residual > halved*history(max(0, step - patience))) then
             ended = ending%stagnated
          else if (step == max_steps) then
             ended = ending%iteration_limit
@@ -150,6 +162,22 @@ contains
          end if
       end associate
    end subroutine judge
+
+   !> Turn the slip to the direction that it has in the middle of elements by the present tractions
+   subroutine renew_turns(problem, system, solution, residual)
+      type(tangential_problem), intent(inout) :: problem
+      type(linear_system), intent(in) :: system
+      !> Its slip is turned
+      type(tangential_solution), intent(inout) :: solution
+      !> That of the new equations [-]
+      real(wp), intent(out) :: residual
+
+      call divide_elements(problem, solution%p, solution%slip, system%r, solution%division)
+      call problem%second%unweigh(solution%slip)
+      call problem%second%set_turns(problem%contact, solution%division == element%slip, problem%direction, solution%slip)
+      call problem%second%weigh(solution%slip)
+      residual = true_residual(problem, solution%p, solution%slip, system%r)
+   end subroutine renew_turns
 
    !> Go along the correction, in shorter steps until the residual falls enough; the best of them is taken
    subroutine take_step(problem, operator, system, correction, residual, creep_range, workspace, solution, best)
@@ -240,6 +268,7 @@ contains
          workspace%residual = -workspace%residual
       else
          workspace%residual = system%r*shift
+         if (allocated(problem%second)) call problem%second%weigh(workspace%residual)
          call apply_d(workspace, workspace%residual)
          do k = 1, 2
             workspace%residual(:, :, k) = workspace%residual(:, :, k) - bound*workspace%direction(:, :, k)

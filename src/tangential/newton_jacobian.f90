@@ -271,7 +271,8 @@ contains
       do k = 1, system%n_forces
          creep(k) = system%creep_scale*y(system%n + k)/system%g_norm
       end do
-      if (allocated(problem%share)) then
+      if (allocated(problem%second)) call problem%second%weigh(workspace%trial)
+      if (allocated(problem%share) .or. allocated(problem%second)) then
          call add_creepages(problem, creep, workspace%trial)
          creep = 0.0_wp
       end if

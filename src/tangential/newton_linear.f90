@@ -163,11 +163,13 @@ contains
 
       workspace%trial = v
       call apply_d(workspace, workspace%trial)
+      if (allocated(problem%second)) call problem%second%to_inverse(workspace%trial)
       if (problem%steady) then
          call operator%steady_inverse(workspace%trial, u)
       else
          call operator%tangential_inverse(workspace%trial, u)
       end if
+      if (allocated(problem%second)) call problem%second%restore(workspace%trial)
       if (allocated(workspace%point)) whole = u/system%r
       do iy = 1, problem%my
          do ix = 1, problem%mx
@@ -184,6 +186,7 @@ contains
          end do
       end do
       if (allocated(workspace%point)) call add_radial(workspace, whole, u)
+      if (allocated(problem%second)) call problem%second%keep_stiff(v, u)
    end subroutine precondition_field
 
    !> Preconditioned border columns and the inverse of their Schur complement

@@ -16,6 +16,7 @@ module contact_tangential_problem
    use contact_base_solver_settings, only : solver_settings
    use contact_elastic_compliance, only : compliance
    use contact_grid_element_division, only : element
+   use contact_tangential_second_order, only : second_order
    use contact_tangential_yield, only : return_map, yield_data, yield_point
    implicit none (type, external)
    private
@@ -63,6 +64,9 @@ module contact_tangential_problem
       type(deadline_type) :: deadline
       !> Yield limits; unallocated: the surface does not yield
       type(yield_data), allocatable :: yield
+      !> Terms of the leading edge, and weights and turns of the equations: all slip is weighted and turned until the solution is
+      !> settled; unallocated: the scheme of first order
+      type(second_order), allocatable :: second
    contains
       !> Does the traction of a yielding element depend on the plastic displacement?
       procedure :: hardens
@@ -123,6 +127,7 @@ contains
 
       if (problem%steady) then
          call operator%steady(p, u)
+         if (allocated(problem%second)) call problem%second%add_terms(p, u)
       else
          call operator%tangential(p, u)
       end if
@@ -143,10 +148,11 @@ contains
 
       call apply_operator(problem, operator, p, slip)
       slip = slip + problem%shift
+      if (allocated(problem%second)) call problem%second%weigh(slip)
       call add_creepages(problem, creep, slip)
    end subroutine slip_of
 
-   !> Add the slip per step by unknown creepages
+   !> Add the slip per step by unknown creepages, weighted and turned as the slip is
    pure subroutine add_creepages(problem, creep, slip)
       !> Distance per step, and the number of unknown creepages
       type(tangential_problem), intent(in) :: problem
@@ -156,6 +162,15 @@ contains
       real(wp), contiguous, intent(inout) :: slip(:, :, :)
       integer :: k
 
+      if (allocated(problem%second)) then
+         associate (row => problem%second%row)
+            if (problem%n_forces >= 1) slip = slip + problem%dq*creep(1)*row
+            if (problem%n_forces < 2) return
+            slip(:, :, 1) = slip(:, :, 1) - problem%dq*creep(2)*row(:, :, 2)
+            slip(:, :, 2) = slip(:, :, 2) + problem%dq*creep(2)*row(:, :, 1)
+         end associate
+         return
+      end if
       do k = 1, problem%n_forces
          if (allocated(problem%share)) then
             slip(:, :, k) = slip(:, :, k) + problem%dq*creep(k)*problem%share
@@ -322,20 +337,22 @@ contains
 
    !> Tell plastic shearing and slip apart, in a solution whose slip holds both
    !>
-   !> Without slope an element yields when its limit is the bound. Nothing happens where the
-   !> surface does not yield.
+   !> Without slope an element yields when its limit is the bound. With the scheme of second order the slip becomes that in
+   !> the middle of elements. Nothing else happens where the surface does not yield.
    subroutine settle(problem, r, solution)
       !> Yield data and rolling direction
       type(tangential_problem), intent(in) :: problem
       !> Scale of the slip, see residual_scale [(N/mm2)/mm]
       real(wp), intent(in) :: r
-      !> Gets plastic displacements, yield limits and element states; its slip loses the plastic part
+      !> Gets plastic displacements, yield limits and element states; its slip loses the plastic part, and weights and turns
       type(tangential_solution), intent(inout) :: solution
       real(wp), allocatable :: before(:, :)
       type(yield_point) :: point
       real(wp) :: z(2), length
       integer :: ix, iy
 
+      if (allocated(problem%second)) call problem%second%centre_slip(problem%contact, solution%division == element%slip, &
+         & problem%direction, solution%slip)
       if (.not. allocated(problem%yield)) return
       if (allocated(solution%plastic)) deallocate(solution%plastic, solution%limit)
       allocate(solution%plastic(problem%mx, problem%my, 2), source=0.0_wp)

@@ -22,7 +22,7 @@ from checks import SOURCE, check, finish, same
 import small_case
 
 PROGRAM = os.environ["CONTACT_PROGRAM"]
-JSON, HDF5, VTK, MOVING_HEAT, ANGLE_AT_CONTACT, CONFINE, CLASSICAL, NOTHING = 1, 2, 4, 8, 16, 32, 64, 128
+JSON, HDF5, VTK, MOVING_HEAT, ANGLE_AT_CONTACT, CONFINE, CLASSICAL, ORDER, NOTHING = 1, 2, 4, 8, 16, 32, 64, 128, 256
 #: Returned values: 10 and the kind of the error
 FILE_FAILED, BEYOND_LIMIT, LOCKED = 12, 17, 19
 SLICES = """0.0 1.0   OFFSET SCALE
@@ -196,7 +196,8 @@ def main():
 
     for name, quantity, bit, option in (("warm", "max_temp1", MOVING_HEAT, "--heat=moving-source"),
                                         ("yawed", "deltcp_tr", ANGLE_AT_CONTACT, "--contact-angle=contact"),
-                                        ("swept", "tangential_method", CLASSICAL, "--classical")):
+                                        ("swept", "tangential_method", CLASSICAL, "--classical"),
+                                        ("swept", "tangential_order", ORDER, "--order=2")):
         values = {}
         for outputs, options in ((0, []), (bit, [option])):
             done = subprocess.run([PROGRAM, "--quiet", "--json", *options, "2", name], stdin=subprocess.DEVNULL,
@@ -207,7 +208,7 @@ def main():
             status, said = run(name, JSON + outputs)
             same(status, 0, f"{name}, outputs {outputs}: {said}")
             same(total(name, quantity), values[outputs], f"{name}: {quantity} of the library and of the program")
-        acts = values[bit] != values[0] if bit == CLASSICAL else abs(values[bit]/values[0] - 1.0) > 0.01
+        acts = values[bit] != values[0] if bit in (CLASSICAL, ORDER) else abs(values[bit]/values[0] - 1.0) > 0.01
         check(acts, f"{name}: the choice acts, {values}")
     limited(library)
     status, said = run("warm", NOTHING)

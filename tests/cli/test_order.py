@@ -1,0 +1,117 @@
+#!/usr/bin/env python3
+"""The order of the discretisation: --order, the key of the readable format, what the report says, what is left at order 1
+
+The environment tells CONTACT_PROGRAM.
+"""
+import json
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import tempfile
+import unittest
+
+PROGRAM = os.environ["CONTACT_PROGRAM"]
+
+
+def rolling(motion=3, bound=0, force=0, friction=0, influence=2, material=0, solver=0, layer="", extra=""):
+    """A case of an ellipse in an input file; fields that are blank are absent"""
+    rows = ["3 MODULE", f"2{bound}{motion}1{force}0 PBTNFS", f"{friction}2{influence}{material}20 LDCMZE",
+            f"0{solver}00111 HGIAOWR",
+            "999 100 30 1 1e-6 MAXGS MAXIN MAXNR MAXOUT EPS", extra,
+            "30000 0.0005 0.0002 0.0003 FN CKSI CETA CPHI", "0.3 0.3 FSTAT FKIN",
+            "0 0.5 30000 CHI DQ VELOC" if motion > 1 else "", "0.28 0.28 82000 82000 POISS GG", layer,
+            "-3 IPOTCN", "14 14 3 5 1.2 MX MY AA BB SCALE"]
+    return "\n".join(row for row in rows if row) + "\n"
+
+
+class Order(unittest.TestCase):
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp())
+        self.addCleanup(shutil.rmtree, self.folder)
+
+    def run_program(self, *words, status=0):
+        done = subprocess.run([PROGRAM, *words], cwd=self.folder, capture_output=True, text=True, timeout=120)
+        self.assertEqual(done.returncode, status, done.stdout + done.stderr)
+        return done.stdout + done.stderr
+
+    def solve(self, name, text, *options):
+        """Words on the solver in the report, and the record of the first patch"""
+        if text:
+            (self.folder / name).write_text(text + (" 0 MODULE\n" if name.endswith(".inp") else ""))
+        self.run_program("--json", *options, "2", name)
+        stem = name.split(".")[0]
+        words = re.search(r"SOLVER: (.*?); RESIDUAL", (self.folder / (stem + ".out")).read_text()).group(1)
+        record = json.loads((self.folder / (stem + ".jsonl")).read_text().split("\n")[0])["patches"][0]
+        return words, record
+
+    def test_asked_for(self):
+        plain, one = self.solve("a.inp", rolling())
+        before = (self.folder / "a.jsonl").read_text()
+        first, same = self.solve("a.inp", "", "--order", "1")
+        second, two = self.solve("a.inp", "", "--order=2")
+        self.assertEqual((plain, first), ("NormCG, Newton-Krylov",) * 2)
+        self.assertEqual(second, "NormCG, Newton-Krylov of order 2")
+        self.assertEqual(two["solver"]["tangential_order"], 2)
+        self.assertNotIn("tangential_order", one["solver"])
+        self.assertEqual(one["totals"], same["totals"])
+        self.solve("a.inp", "")
+        self.assertEqual(re.sub(r'"(seconds|date)[^,]*', "", (self.folder / "a.jsonl").read_text()),
+                         re.sub(r'"(seconds|date)[^,]*', "", before))
+        change = abs(two["totals"]["fy_rel"]["value"] - one["totals"]["fy_rel"]["value"])
+        self.assertTrue(1e-3 < change < 3e-2, change)
+
+    def test_left_at_order_1(self):
+        """What the second order is not made for is solved as before, and the report says why"""
+        relaxation = "1 1 0 0.5 OMEGAH OMEGAS INISLP OMGSLP"
+        layer = "1000 0.02 0 0 GG3 LAYTHK TAU_C0 K_TAU"
+        for name, reason, choice in (("shift", "order 2 is for steady rolling", {"motion": 1}),
+                                     ("transient", "order 2 is for steady rolling", {"motion": 2}),
+                                     ("bilinear", "bilinear tractions", {"influence": 3}),
+                                     ("formula", "pressures by formula", {"bound": 3}),
+                                     ("gauss", "order 2 is for the default solver", {"solver": 3, "extra": relaxation}),
+                                     ("layer", "elastic layer", {"material": 4, "layer": layer})):
+            with self.subTest(name):
+                text = rolling(**choice)
+                _, one = self.solve(name + ".inp", text)
+                words, two = self.solve(name + ".inp", "", "--order", "2")
+                self.assertTrue(words.endswith(f" of order 1 ({reason})"), words)
+                self.assertEqual((two["solver"]["tangential_order"], two["solver"]["tangential_order_reason"]), (1, reason))
+                self.assertEqual(one["totals"], two["totals"])
+
+    def test_readable_format(self):
+        """The order stands in the file, is kept from case to case, and goes along with conversion as far as it can"""
+        (self.folder / "a.inp").write_text(rolling() + " 0 MODULE\n")
+        _, one = self.solve("a.inp", "")
+        self.run_program("convert", "a.inp")
+        converted = (self.folder / "a.toml").read_text()
+        (self.folder / "a.inp").rename(self.folder / "b.inp")
+        _, again = self.solve("a.toml", "")
+        self.assertEqual(one["totals"], again["totals"])
+        plain = re.sub(r"order = 1.*\n", "", converted)
+        second = plain.replace("[case.iteration]\n", "[case.iteration]\norder = 2\n")
+        words, two = self.solve("c.toml", second + "\n[[case]]\n[case.kinematics]\ncphi = 0.0004\n")
+        self.assertEqual(words, "NormCG, Newton-Krylov of order 2")
+        kept = json.loads((self.folder / "c.jsonl").read_text().split("\n")[1])["patches"][0]
+        self.assertEqual(kept["solver"]["tangential_order"], 2)
+        _, asked = self.solve("b.inp", "", "--order", "2")
+        self.assertEqual(two["totals"], asked["totals"])
+        _, lowered = self.solve("c.toml", "", "--order", "1")
+        self.assertEqual(lowered["totals"], one["totals"])
+        self.assertIn("order 2", self.run_program("explain", "c.toml"))
+        said = self.run_program("convert", "c.toml")
+        self.assertIn("--order 2", said)
+
+    def test_refused(self):
+        (self.folder / "a.inp").write_text(rolling() + " 0 MODULE\n")
+        self.assertIn("1 and 2 are", self.run_program("--order", "3", "2", "a", status=1))
+        self.run_program("convert", "a.inp")
+        for word in ("3", '"2"', "1.5"):
+            text = re.sub(r"order = 1.*\n", "", (self.folder / "a.toml").read_text())
+            (self.folder / "d.toml").write_text(text.replace("[case.iteration]\n", f"[case.iteration]\norder = {word}\n"))
+            self.assertIn("order must be 1 or 2", self.run_program("3", "d.toml", status=1))
+
+
+if __name__ == "__main__":
+    unittest.main()
