@@ -82,7 +82,8 @@ def prepare():
 def total(name, quantity):
     with open(name + ".jsonl") as file:
         patch = json.loads(file.readline())["patches"][0]
-    return patch["solver"][quantity] if quantity in patch["solver"] else patch["totals"][quantity]["value"]
+    # what is not there acts by default
+    return patch["solver"].get(quantity) if quantity.startswith("tangential_") else patch["totals"][quantity]["value"]
 
 
 def confined(run):

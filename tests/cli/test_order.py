@@ -74,8 +74,9 @@ class Order(unittest.TestCase):
                                      ("layer", "elastic layer", {"material": 4, "layer": layer})):
             with self.subTest(name):
                 text = rolling(**choice)
-                _, one = self.solve(name + ".inp", text)
-                words, two = self.solve(name + ".inp", "", "--order", "2")
+                options = ["--classical"] if name == "gauss" else []
+                _, one = self.solve(name + ".inp", text, *options)
+                words, two = self.solve(name + ".inp", "", "--order", "2", *options)
                 self.assertTrue(words.endswith(f" of order 1 ({reason})"), words)
                 self.assertEqual((two["solver"]["tangential_order"], two["solver"]["tangential_order_reason"]), (1, reason))
                 self.assertEqual(one["totals"], two["totals"])
