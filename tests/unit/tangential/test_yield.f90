@@ -415,7 +415,7 @@ contains
 
    !> Solve from nothing by Newton-Krylov (0) or a classical method
    subroutine solve(problem, operator, method, solution, what)
-      type(tangential_problem), intent(in) :: problem
+      type(tangential_problem), intent(inout) :: problem
       type(elastic_operator), intent(inout) :: operator
       integer, intent(in) :: method
       type(tangential_solution), intent(out) :: solution
