@@ -5,6 +5,7 @@ import csv
 import math
 import os
 import re
+import shutil
 import subprocess
 import unittest
 import xml.etree.ElementTree
@@ -248,6 +249,27 @@ class Viewer(Page):
         self.assertAlmostEqual(float(rows["y_over_q"][3]), float(rows["fy_tr"][3]) / float(rows["fz_tr"][3]), places=9)
         # drawing into a file leaves the page as it was
         self.assertGreater(page.evaluate(COLOURS, "plot-scene"), 30)
+        self.assertEqual(self.troubles, [])
+
+    def test_estimated_errors_stand_beside_totals(self):
+        path = os.path.join(self.scratch.name, "judged.inp")
+        shutil.copy(os.path.join(SOURCE, "examples", "cattaneo.inp"), path)
+        subprocess.run([PROGRAM, "--quiet", "--errors", "--hdf5", "2", path], check=True, stdin=subprocess.DEVNULL, timeout=60)
+        self.made["judged"] = path[:-4] + ".h5"
+        with h5py.File(self.made["judged"]) as file:
+            error = file["patches/pmax_error"][0]
+        self.assertGreater(error, 0)
+        page = self.open(self.page_of("judged"))
+        self.assertIn("\u00b1 " + page.evaluate("e => figures(e, 2)", error), page.inner_text("#totals tr:has-text('pmax')"))
+        self.assertNotIn("More", page.inner_text("#totals"))
+        self.assertNotIn("pmax_error", page.inner_html("#curve-y"))
+        for opener in ("Cases", "Totals"):
+            page.click("button[aria-label='%s: tools']" % opener)
+        rows = self.table(page, "Cases as CSV")
+        self.assertAlmostEqual(float(rows[1][rows[0].index("pmax_error [N/mm2]")]), error, delta=1e-9 * error)
+        rows = self.table(page, "Totals as CSV")
+        self.assertEqual(rows[0][5], "estimated error")
+        self.assertAlmostEqual(float(next(row for row in rows if row[1] == "pmax")[5]), error, delta=1e-9 * error)
         self.assertEqual(self.troubles, [])
 
     def test_on_paper(self):

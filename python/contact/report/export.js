@@ -134,37 +134,48 @@ function csvOfScene() {
       }
   return rows;
 }
-// All totals of all cases and patches
+// All totals of all cases and patches, each with its estimated error where errors were asked for
 function csvOfCases() {
   const rows = [],
-    names = new Set();
+    names = new Set(),
+    judged = new Set();
   for (const c of data.cases)
     for (const p of c.patches.length ? c.patches : [null]) {
-      const t = totalsOf(c, p);
-      Object.keys(t).forEach(n => names.add(n));
-      rows.push([c, p, t]);
+      const totals = totalsOf(c, p);
+      for (const name of Object.keys(totals)) {
+        names.add(name);
+        if (Number.isFinite(errorOf(c, p, name))) judged.add(name);
+      }
+      rows.push([c, p, totals]);
     }
   const order = grouped(Object.fromEntries([...names].map(n => [n, 0]))).flatMap(g => g[1]);
+  const unit = n => (about(n).unit && about(n).unit !== "-" ? ` [${about(n).unit}]` : "");
+  const head = order.flatMap(n => [n + unit(n), ...(judged.has(n) ? [`${n}_error${unit(n)}`] : [])]);
   return [
-    [
-      "case",
-      "side",
-      "patch",
-      "status",
-      ...order.map(n => n + (about(n).unit && about(n).unit !== "-" ? ` [${about(n).unit}]` : "")),
-    ],
-    ...rows.map(([c, p, t]) => [c.label, c.side || "", p ? p.number : "", c.status, ...order.map(n => t[n])]),
+    ["case", "side", "patch", "status", ...head],
+    ...rows.map(([c, p, totals]) => [
+      ...[c.label, c.side || "", p ? p.number : "", c.status],
+      ...order.flatMap(n => [totals[n], ...(judged.has(n) ? [errorOf(c, p, n)] : [])]),
+    ]),
   ];
 }
 function csvOfTotals() {
-  const totals = totalsOf(nowCase(), nowPatch()),
+  const c = nowCase(),
+    p = nowPatch(),
+    totals = totalsOf(c, p),
     o = state.other && totalsOf(state.other.case, state.other.patch);
-  return [
-    ["group", "name", "meaning", "value", "unit", ...(o ? ["other run"] : [])],
-    ...grouped(totals).flatMap(([group, names]) =>
-      names.map(n => [group, n, about(n).title, totals[n], about(n).unit, ...(o ? [o[n]] : [])]),
-    ),
+  const judged = Object.keys(totals).some(n => Number.isFinite(errorOf(c, p, n)));
+  const row = (group, n) => [
+    group,
+    n,
+    about(n).title,
+    totals[n],
+    about(n).unit,
+    ...(judged ? [errorOf(c, p, n)] : []),
+    ...(o ? [o[n]] : []),
   ];
+  const head = ["group", "name", "meaning", "value", "unit", ...(judged ? ["estimated error"] : []), ...(o ? ["other run"] : [])];
+  return [head, ...grouped(totals).flatMap(([group, names]) => names.map(n => row(group, n)))];
 }
 function csvOfInputs() {
   return [

@@ -26,8 +26,16 @@ const ALSO = {
 };
 // What is no result of a patch or case, or stands in "how it was obtained"
 const HEADS = "case patch result_element contact_problem module line solved converged status_code missed seconds".split(" ");
+const isError = name => name.endsWith("_error");
 const isSkipped = name =>
-  HEADS.includes(name) || /^(normal|tangential|friction)_(iterations|residual|tolerance)$|^(outer|coupled)_/.test(name);
+  HEADS.includes(name) ||
+  isError(name) ||
+  /^(normal|tangential|friction)_(iterations|residual|tolerance)$|^(outer|coupled)_/.test(name);
+// The estimated error of a total, where errors were asked for
+const errorOf = (c, p, name) => {
+  const found = [p && p.totals, c && c.totals].find(totals => totals && Number.isFinite(totals[`${name}_error`]));
+  return found ? found[`${name}_error`] : NaN;
+};
 // Totals that follow from others: Y/Q, and the work of friction per way
 const DERIVED = {
   y_over_q: { unit: "", title: "lateral over vertical force on the rail", of: t => (t.fz_tr ? t.fy_tr / t.fz_tr : NaN) },
@@ -172,7 +180,8 @@ function tableOfTotals() {
       symbol.className = "symbol";
       symbol.textContent = " " + name + (ALSO[name] ? `, ${ALSO[name]}` : "");
       first.append(symbol);
-      cell(row, figures(totals[name], 6));
+      const error = errorOf(c, p, name);
+      cell(row, figures(totals[name], 6) + (Number.isFinite(error) ? ` \u00b1 ${figures(error, 2)}` : ""));
       if (runs[1]) {
         cell(row, others ? figures(others[name], 6) : "\u2013");
         cell(row, others && name in totals && name in others ? figures(totals[name] - others[name], 3) : "\u2013");
