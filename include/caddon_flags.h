@@ -53,6 +53,7 @@ enum caddon_flags {
   CNTC_own_across = 9005, /* read only, elements across the contact in its narrower direction, 0 without contact; fewer than 5 are a rough result */
   CNTC_own_classical = 9006, /* solvers that G names: 0 the default solver acts in their place, to a residual as small, where it can; 1 they run */
   CNTC_own_order = 9007, /* discretisation of steady rolling: 1 the established one, 2 of second order in the size of elements */
+  CNTC_own_errors = 9008, /* errors of the totals are estimated by each calculation: 0 no, 1 yes, see cntc_geterrors */
   /* Data that go along into the .mat files */
   CNTC_mt_tim = 2011, /* time [s] */
   CNTC_mt_xr = 2012, /* contact point on the rail, x [L] */

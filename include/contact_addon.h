@@ -394,6 +394,15 @@ void cntc_getmaximumtraction(const int *ire, const int *icp, double *ptmax);
  *   t1max, t2max: of bodies 1 and 2 [degC] */
 void cntc_getmaximumtemperature(const int *ire, const int *icp, double *t1max, double *t2max);
 
+/* Get the estimated errors of the totals of a patch, after a calculation with the flag
+ * CNTC_own_errors = 1.
+ *   rvalues: errors of the normal force, the tangential forces [F], the spin moment [F L], the
+ *       approach [L], the largest pressure [F/L2], the contact area [L2], the longitudinal and
+ *       lateral creepage or shift [-] or [L], the frictional power [W] or work [J], the elastic
+ *       energy [J], the highest temperature of body 1 [degC]; not negative, -1 for what is given
+ *       or has no estimate */
+void cntc_geterrors(const int *ire, const int *icp, const int *lenarr, double *rvalues);
+
 /* Get one field for each element.
  *   ifld: CNTC_fld_*
  *   fld: value of each element, in the unit of the field */

@@ -101,6 +101,7 @@
 %   cntc_getmaximumpressure     - get the largest pressure.
 %   cntc_getmaximumtraction     - get the largest tangential traction.
 %   cntc_getmaximumtemperature  - get the largest surface temperatures.
+%   cntc_geterrors              - get the estimated errors of the totals of a patch, after a calculation with the flag CNTC_own_errors = 1.
 %   cntc_getfielddata           - get one field for each element.
 %   cntc_gettractions           - get the tractions of each element.
 %   cntc_getmicroslip           - get the slip of each element.

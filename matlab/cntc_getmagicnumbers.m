@@ -61,6 +61,7 @@ function [ CNTC ] = cntc_getmagicnumbers( )
 %   CNTC.own_across   read only, elements across the contact in its narrower direction, 0 without contact; fewer than 5 are a rough result
 %   CNTC.own_classical solvers that G names: 0 the default solver acts in their place, to a residual as small, where it can; 1 they run
 %   CNTC.own_order    discretisation of steady rolling: 1 the established one, 2 of second order in the size of elements
+%   CNTC.own_errors   errors of the totals are estimated by each calculation: 0 no, 1 yes, see cntc_geterrors
 %
 % Data that go along into the .mat files
 %
@@ -163,6 +164,7 @@ function [ CNTC ] = cntc_getmagicnumbers( )
    CNTC.own_across = 9005;
    CNTC.own_classical = 9006;
    CNTC.own_order = 9007;
+   CNTC.own_errors = 9008;
    CNTC.mt_tim = 2011;
    CNTC.mt_xr = 2012;
    CNTC.mt_yr = 2013;

@@ -65,6 +65,7 @@ function [ letters ] = cntc_signature( name )
       table.cntc_getmaximumpressure = 'iiR';
       table.cntc_getmaximumtraction = 'iiR';
       table.cntc_getmaximumtemperature = 'iiRR';
+      table.cntc_geterrors = 'iiiR';
       table.cntc_getfielddata = 'iiiiR';
       table.cntc_gettractions = 'iiiRRR';
       table.cntc_getmicroslip = 'iiiRR';

@@ -76,6 +76,7 @@ SIGNATURES = {
     "cntc_getmaximumpressure": "ire:i icp:i pnmax:>d",
     "cntc_getmaximumtraction": "ire:i icp:i ptmax:>d",
     "cntc_getmaximumtemperature": "ire:i icp:i t1max:>d t2max:>d",
+    "cntc_geterrors": "ire:i icp:i lenarr:i rvalues:>D",
     "cntc_getfielddata": "ire:i icp:i ifld:i lenarr:i fld:>D",
     "cntc_gettractions": "ire:i icp:i lenarr:i pn:>D px:>D py:>D",
     "cntc_getmicroslip": "ire:i icp:i lenarr:i sx:>D sy:>D",
@@ -144,6 +145,7 @@ MAGIC_NUMBERS = {
     "own_across": 9005,  # read only, elements across the contact in its narrower direction, 0 without contact; fewer than 5 are a rough result
     "own_classical": 9006,  # solvers that G names: 0 the default solver acts in their place, to a residual as small, where it can; 1 they run
     "own_order": 9007,  # discretisation of steady rolling: 1 the established one, 2 of second order in the size of elements
+    "own_errors": 9008,  # errors of the totals are estimated by each calculation: 0 no, 1 yes, see cntc_geterrors
     # Data that go along into the .mat files
     "mt_tim": 2011,  # time [s]
     "mt_xr": 2012,  # contact point on the rail, x [L]

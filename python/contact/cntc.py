@@ -603,6 +603,12 @@ def getmaximumtemperature(ire: Number = 1, icp: Number = 1) -> tuple[float, floa
     return values
 
 
+def geterrors(ire: Number = 1, icp: Number = 1) -> Field:
+    """Estimated errors of normal force, tangential forces, spin moment, approach, largest pressure, contact area, both creepages,
+    frictional power, elastic energy and the highest temperature of body 1; -1 for none. Shape (12,)."""
+    return _list_of("cntc_geterrors", 12, _element(ire), _patch(icp))
+
+
 def _fields(routine: str, count: int, ire: Number, icp: Number, *more: int, dtype: Any = np.float64) -> list[Any]:
     """As many fields as the routine gives, each (my, mx)"""
     element, patch = _element(ire), _patch(icp)

@@ -1,6 +1,7 @@
 !> Entries that hand out element fields of one patch
 module contact_capi_fields
    use, intrinsic :: iso_c_binding, only : c_double, c_int
+   use contact_base_choices, only : motion
    use contact_base_kinds, only : wp
    use contact_capi_arguments, only : give, give_list, integer_of
    use contact_capi_library, only : entry_type
@@ -15,7 +16,7 @@ module contact_capi_fields
    private
 
    public :: cntc_getfielddata, cntc_gettractions, cntc_getmicroslip, cntc_getdisplacements, cntc_getelementdivision
-   public :: cntc_getmaximumpressure, cntc_getmaximumtraction, cntc_getmaximumtemperature
+   public :: cntc_getmaximumpressure, cntc_getmaximumtraction, cntc_getmaximumtemperature, cntc_geterrors
 
 contains
 
@@ -126,6 +127,27 @@ contains
       end associate
       call leave(problem)
    end subroutine cntc_getelementdivision
+
+   !> Estimated errors of the totals of a patch; -1 for none
+   subroutine cntc_geterrors(ire, icp, lenarr, rvalues) bind(c, name="inside_cntc_geterrors")
+      integer(c_int), intent(in), optional :: ire, icp, lenarr
+      real(c_double), intent(inout), optional :: rvalues(*)
+      type(library_problem), pointer :: problem
+      type(entry_type) :: this
+      type(result_view) :: view
+      character(len=16) :: names(12)
+
+      this = entry_type("cntc_getErrors", integer_of(ire), integer_of(icp))
+      call enter_result(this, problem, view)
+      if (.not. associated(problem)) return
+      if (.not. allocated(view%patch%errors)) &
+         & call complain(this, "no errors were estimated: set the flag CNTC_own_errors before the calculation")
+      names = [character(len=16) :: "fn", "fx", "fy", "mz", "pen", "pmax", "contact_area", "cksi", "ceta", "friction_power", &
+         & "elastic_energy", "max_temp1"]
+      if (view%patch%motion == motion%shift) names(8:10) = [character(len=16) :: "shift_x", "shift_y", "friction_work"]
+      call give_list(view%errors(names), lenarr, rvalues)
+      call leave(problem)
+   end subroutine cntc_geterrors
 
    !> Largest pressure
    subroutine cntc_getmaximumpressure(ire, icp, pnmax) bind(c, name="inside_cntc_getmaximumpressure")

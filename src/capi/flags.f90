@@ -165,6 +165,8 @@ contains
             if (is_wheel_rail) spec%wheel_rail%search%angle_below_axle = number == 0
          case (flag%own_classical)
             spec%classical = number /= 0
+         case (flag%own_errors)
+            spec%estimates_errors = number /= 0
          case (flag%timers)
             call set_timer_level(number)
          case (flag%ncase)
@@ -257,6 +259,7 @@ contains
             number = 0
             if (is_wheel_rail) number = merge(0, 1, spec%wheel_rail%search%angle_below_axle)
          case (flag%own_classical); number = merge(1, 0, spec%classical)
+         case (flag%own_errors); number = merge(1, 0, spec%estimates_errors)
          case (flag%own_border); call look_at_patches(problem, icp, number, other(1), other(2))
          case (flag%own_stepped); call look_at_patches(problem, icp, other(1), number, other(2))
          case (flag%own_across); call look_at_patches(problem, icp, other(1), other(2), number)

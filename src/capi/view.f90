@@ -1,5 +1,6 @@
 !> Results of one patch as callers get them: which patch, which side, which rows
 module contact_capi_view
+   use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
    use contact_base_kinds, only : wp
    use contact_capi_library, only : entry_type
    use contact_capi_messages, only : complain
@@ -24,7 +25,12 @@ module contact_capi_view
       !> Totals by their names, and numbers of rows of elements
       procedure :: totals
       procedure :: rows
+      !> Estimated errors of totals
+      procedure :: errors
    end type result_view
+
+   !> What callers get in place of an error that is not known
+   real(wp), parameter :: no_error = -1.0_wp
 
 contains
 
@@ -77,6 +83,26 @@ contains
          end associate
       end do
    end function totals
+
+   !> Estimated errors of totals by their names, in the units of the caller; -1 for none
+   pure function errors(self, names) result(values)
+      class(result_view), intent(in) :: self
+      !> As the list of totals has them; those that the case does not have get no value
+      character(len=*), intent(in) :: names(:)
+      real(wp) :: values(size(names))
+      type(total_list) :: list
+      integer :: k, row
+
+      values = no_error
+      if (.not. allocated(self%patch%errors)) return
+      call self%patch%totals(list)
+      do k = 1, size(names)
+         row = list%place_of(names(k))
+         if (list%rows(row)%name /= names(k) .or. row > size(self%patch%errors%value)) cycle
+         if (ieee_is_finite(self%patch%errors%value(row))) values(k) = self%patch%errors%value(row) &
+            & *abs(outward(self%units, quantity_of(list%rows(row)%unit), list%rows(row)%along, self%left))
+      end do
+   end function errors
 
    !> Numbers of rows of elements, from the lowest y as the caller sees it
    pure function rows(self)

@@ -101,7 +101,8 @@ contains
       if (allocated(result%errors)) deallocate(result%errors)
       if (spec%estimates_errors) then
          if (.not. allocated(session%coarse)) allocate(session%coarse)
-         call estimate_errors(session%problem, session%state, spec%link, 1, session%coarse, result, error)
+         call estimate_errors(session%problem, session%state, spec%link, max(1, result%tangential%order), session%coarse, &
+            & result, error)
          if (allocated(error)) return
       else if (allocated(session%coarse)) then
          session%coarse%state%started = .false.

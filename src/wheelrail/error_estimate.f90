@@ -59,9 +59,10 @@ contains
       do k = 1, memory%used
          associate (slot => memory%slot(k))
             if (problem%force_prescribed) then
-               call compare_levels(slot%problem, 1, slot%coarse, slot%result, change*slot%plane%axes(3, 3))
+               call compare_levels(slot%problem, max(1, slot%result%tangential%order), slot%coarse, slot%result, &
+                  & change*slot%plane%axes(3, 3))
             else
-               call compare_levels(slot%problem, 1, slot%coarse, slot%result)
+               call compare_levels(slot%problem, max(1, slot%result%tangential%order), slot%coarse, slot%result)
             end if
          end associate
       end do

@@ -168,3 +168,70 @@ def text_of(c, n, offset, eps=1e-6, options=""):
                   "[case.grid]", 'form = "corner_and_sides"', f"mx = {n + 1}", f"my = {n + 1}", f"xl = {xl!r}", f"yl = {yl!r}",
                   f"dx = {dx!r}", f"dy = {dy!r}", "[case.geometry]", c["geometry"], c["extra"]]
     return "\n".join(lines) + "\n"
+
+
+def wheel(random):
+    """A wheel S1002 on a rail 60E1 somewhere between the tread and the flange."""
+    vs = 20000.0
+    return {"kind": "wheel on rail", "steps": 1, "order": 1, "a": 1.0, "b": 1.0, "y": random.uniform(-5.0, 6.5),
+            "yaw": random.uniform(-0.008, 0.008), "fz": random.uniform(20000.0, 120000.0), "mu": random.uniform(0.1, 0.5), "vs": vs,
+            "vpitch": -vs / 460.0 * (1.0 + random.uniform(-0.0012, 0.0012)), "cant": random.choice([0.025, 0.05]),
+            "normal": "force", "dx": random.uniform(0.3, 0.7)}
+
+
+def wheel_text(c, factor, profiles):
+    """The case of a wheel with elements smaller by a factor."""
+    size = c["dx"] / factor
+    return f"""[[case]]
+module = "wheel_rail"
+configuration = "right_on_track"
+motion = "steady_rolling"
+normal = "force"
+tangential = "velocities"
+output_level = 0
+sequence = "initiate"
+estimate = "fresh"
+[case.iteration]
+solver = "default"
+maxin = 100
+maxnr = 60
+maxgs = 999
+eps = 1e-6
+npot_max = 400000
+[case.friction]
+law = "coulomb"
+variation = "none"
+fstat = {c["mu"]!r}
+fkin = {c["mu"]!r}
+[case.material]
+influence = "piecewise_constant"
+poiss = [0.28, 0.28]
+gg = [82000.0, 82000.0]
+[case.search]
+location = "locus"
+dx = {size!r}
+ds = {size!r}
+a_sep = "90.0 deg"
+d_turn = 12.0
+[case.track]
+gaught = 14.0
+gaugsq = 0.0
+gaugwd = 1435.0
+cant = {c["cant"]!r}
+[case.rail_profile]
+file = "{profiles}/60E1.prr"
+[case.deviations]
+[case.wheel_dimensions]
+fbdist = 1360.0
+fbpos = -70.0
+nomradw = 460.0
+[case.wheel_profile]
+file = "{profiles}/S1002.prw"
+[case.position]
+y_ws = {c["y"]!r}
+yaw = {c["yaw"]!r}
+fz = {c["fz"]!r}
+[case.velocity]
+vs = {c["vs"]!r}
+vpitch = {c["vpitch"]!r}
+"""

@@ -14,7 +14,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from error_cases import CHANGES, contact, text_of
+from error_cases import CHANGES, contact, text_of, wheel, wheel_text
 
 #: Sides of the finer grids
 FINER = (3, 6)
@@ -25,10 +25,10 @@ BOUNDS = {"forces": (0.1, 30.0, 0.8), "pen": (0.1, 30.0, 0.9), "fn": (0.1, 10.0,
 FORCES = ("fx", "fy", "mz")
 
 
-def run(program, folder, name, texts, errors):
+def run(program, folder, name, texts, errors, options=()):
     """Solve cases; their records by their numbers in the file."""
     (folder / f"{name}.toml").write_text("\n".join(texts))
-    command = [program, "--quiet", "--json", "2", name]
+    command = [program, *options, "--quiet", "--json", "2", name]
     if errors:
         command.insert(1, "--errors")
     done = subprocess.run(command, cwd=folder, env=dict(os.environ, OMP_NUM_THREADS="1"), capture_output=True, text=True)
@@ -70,7 +70,7 @@ def scale_of(name, totals, c):
     return abs(totals[name])
 
 
-def judge(program, seed, count, kinds, limits, folder):
+def judge(program, seed, count, kinds, limits, folder, options):
     """Relative true errors and estimates of all totals of all contacts."""
     source = random.Random(seed)
     contacts = [contact(source, kinds[k % len(kinds)]) for k in range(count)]
@@ -79,14 +79,14 @@ def judge(program, seed, count, kinds, limits, folder):
     for factor in (1, *FINER):
         texts = [text_of(c, n * factor, (source.random(), source.random()), eps=1e-6 if factor == 1 else 1e-7)
                  for c, n in zip(contacts, sizes)]
-        grids[factor] = run(program, folder, f"level{factor}", texts, factor == 1)
+        grids[factor] = run(program, folder, f"level{factor}", texts, factor == 1, options)
     rows = []
     for c, n, last in zip(contacts, sizes, last_cases(contacts)):
         patches = [patch_of(grids[f], last) for f in (1, *FINER)]
         if None in patches or "errors" not in patches[0]:
             rows.append((c, n, None))
             continue
-        ratio = (FINER[1] / FINER[0]) ** c["order"]
+        ratio = (FINER[1] / FINER[0]) ** (2 if "2" in options else c["order"])
         values = {}
         for key, estimate in patches[0]["errors"].items():
             if not key.endswith("_error"):
@@ -98,6 +98,37 @@ def judge(program, seed, count, kinds, limits, folder):
             values[name] = (estimate / scale, abs(coarse - exact) / scale, abs(fine - exact) / scale)
         rows.append((c, n, values))
     return rows
+
+
+def judge_wheels(program, seed, count, folder):
+    """The same for wheels on rails: forces in track coordinates and heights, and more of single patches."""
+    source = random.Random(seed)
+    wheels = [wheel(source) for _ in range(count)]
+    profiles = Path(__file__).resolve().parents[2] / "examples" / "profiles"
+    grids = {f: run(program, folder, f"wheels{f}", [wheel_text(c, f, profiles) for c in wheels], f == 1) for f in (1, *FINER)}
+    rows = []
+    for number, c in enumerate(wheels, 1):
+        records = [grids[f].get(number, {}) for f in (1, *FINER)]
+        if not all(r.get("converged") and r.get("patches") for r in records) or len({len(r["patches"]) for r in records}) > 1:
+            rows.append((c, round(10.0 / c["dx"]), None))
+            continue
+        patches = [p["totals"] for p in records[0]["patches"]]
+        bound = c["mu"] * sum(p["fn"]["value"] for p in patches)
+        values = {"fx": ratio_of(records, "fx_tr", 1, bound), "fy": ratio_of(records, "fy_tr", 1, bound),
+                  "height": ratio_of(records, "z_ws", 2, max(p["pen"]["value"] for p in patches))}
+        if len(patches) == 1:
+            parts = [r["patches"][0] for r in records]
+            values.update({name: ratio_of(parts, name, order, abs(patches[0][name]["value"]))
+                           for name, order in (("pmax", 2), ("contact_area", 1), ("friction_power", 1))})
+        rows.append((c, round(10.0 / c["dx"]), values))
+    return rows
+
+
+def ratio_of(records, name, order, scale):
+    """Estimated and true relative error of a total of three levels."""
+    coarse, middle, fine = (r["totals"][name]["value"] for r in records)
+    exact = fine + (fine - middle) / ((FINER[1] / FINER[0]) ** order - 1.0)
+    return records[0]["errors"][f"{name}_error"]["value"] / scale, abs(coarse - exact) / scale, abs(fine - exact) / scale
 
 
 def groups_of(values):
@@ -153,6 +184,8 @@ def main():
     parser.add_argument("--kinds", default=",".join(CHANGES))
     parser.add_argument("--sizes", default="16,45", help="least and largest number of elements along each side")
     parser.add_argument("--check", action="store_true", help="36 contacts on small grids; fail where bounds are missed")
+    parser.add_argument("--wheels", type=int, default=0, help="number of wheels on rails besides")
+    parser.add_argument("--order", type=lambda n: ("--order", n), default=(), help="order of the discretisation, 1 or 2")
     parser.add_argument("--list", action="store_true", help="name the contacts whose estimates miss the bounds")
     asked = parser.parse_args()
     if asked.check:
@@ -160,7 +193,10 @@ def main():
     kinds = asked.kinds.split(",")
     limits = tuple(int(word) for word in asked.sizes.split(","))
     with tempfile.TemporaryDirectory() as name:
-        rows = judge(os.environ["CONTACT_PROGRAM"], asked.seed, asked.count, kinds, limits, Path(name))
+        program = os.environ["CONTACT_PROGRAM"]
+        rows = judge(program, asked.seed, asked.count, kinds, limits, Path(name), asked.order) if asked.count else []
+        if asked.wheels:
+            rows += judge_wheels(program, asked.seed, asked.wheels, Path(name))
     by_total, by_kind = {}, {}
     for c, n, values in rows:
         if values is None:

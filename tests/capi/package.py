@@ -355,6 +355,41 @@ def temperatures():
     cntc.finalize(number)
 
 
+def estimated_errors():
+    """Errors come with results that ask for them, in the units of the caller, and not with others"""
+    found = {}
+    for units, length in (("mm", 1.0), ("si", 1e-3)):
+        with contact.Problem(units=units) as problem:
+            rolling_ball(problem, length)
+            same(problem.solve().errors, None, "errors that nobody asked for")
+            problem.set_errors()
+            found[units] = problem.solve()
+            problem.set_errors(False)
+            same(problem.solve().errors, None, "errors that are not wanted any more")
+    mm, si = found["mm"].errors, found["si"].errors
+    check("fn" not in mm and "cksi" not in mm, "what is given has no error")
+    same(sorted(mm), sorted(si), "totals with errors in both units")
+    check(0.0 < mm["fx"] < 0.05 * found["mm"].fn * 0.3, "error of the force")
+    close(si["fx"], mm["fx"], 1e-5, "forces in N in both")
+    close(si["pen"], 1e-3 * mm["pen"], 1e-5, "approach in SI units")
+    close(si["mz"], 1e-3 * mm["mz"], 1e-5, "moment in SI units")
+    with contact.WheelRail() as pair:
+        braked_wheel(pair)
+        pair.set_rail(os.path.join(PROFILES, "60E1.prr"))
+        pair.set_errors()
+        patch = pair.solve().patches[0]
+        check(0.0 < patch.errors["fx"] < 0.05 * patch.fn, "error of a patch of wheel and rail")
+
+
+def rolling_ball(problem, length):
+    """A ball that rolls with creepage"""
+    problem.set_material(g=82000.0 / length**2, nu=0.28)
+    problem.set_friction(0.3)
+    problem.set_hertz(31, 31, aa=5.0 * length, bb=5.0 * length)
+    problem.set_normal_force(50e3)
+    problem.set_creepages(0.001)
+
+
 def places():
     """Where the library is looked for when nothing is said: files that are there, then names for the system"""
     from contact import _library
@@ -396,6 +431,6 @@ def output():
 
 if __name__ == "__main__":
     for part in (results, distance, prescribed_and_transient, errors, many, threads, wheel_on_rail, older_scripts, documents,
-                 doubts, temperatures, places, output):
+                 doubts, temperatures, estimated_errors, places, output):
         part()
     finish()

@@ -17,7 +17,8 @@ FLAGS = {"ic_config": (0, 5, "near"), "ic_pvtime": (0, 3, "near"), "ic_bound": (
          "ic_iestim": (0, 3, "near"), "ic_output": (0, 6, "near"), "ic_flow": (0, 9, "near"), "ic_return": (0, 3, "near"),
          "ic_matfil": (0, 2, "zero"), "ic_sens": (0, 3, "near"), "ic_ifmeth": (0, 1, "near"), "ic_ifvari": (1, 4, "near"),
          "ic_sbsout": (0, 4, "near"), "ic_sbsfil": (0, 2, "zero"), "ic_npomax": (100, 1000000, "near"), "if_wrtinp": (0, 2, "keep"),
-         "own_heat": (0, 1, "keep"), "own_angle": (0, 1, "keep"), "own_classical": (0, 1, "keep"), "own_order": (1, 2, "keep")}
+         "own_heat": (0, 1, "keep"), "own_angle": (0, 1, "keep"), "own_classical": (0, 1, "keep"), "own_order": (1, 2, "keep"),
+         "own_errors": (0, 1, "keep")}
 # Flags that belong to wheel and rail: module 3 does not store them
 OF_PAIRS = {"ic_config", "ic_discns", "own_angle"}
 # Values within the range that no digit has, and that are not available, where they are stored
