@@ -369,7 +369,16 @@ class Viewer(Page):
         page.mouse.down()
         page.mouse.move(box["x"] + 260, box["y"] + 130, steps=3)
         page.mouse.up()
-        self.assertNotEqual(page.evaluate("contactReport.plots.scene.turn"), turn)
+        turned = page.evaluate("contactReport.plots.scene.turn")
+        self.assertNotEqual(turned, turn)
+        # what was turned stays so in other cases; else the rail is seen from the side to which the contact is inclined
+        self.step(page, 8)
+        self.assertEqual(page.evaluate("contactReport.plots.scene.turn"), turned)
+        page.click("#reset")
+        for index, side in ((8, 1), (3, -1)):
+            self.step(page, index)
+            self.assertGreater(side * math.cos(page.evaluate("contactReport.plots.scene.turn[0]")), 0.5)
+            self.assertGreater(side * page.evaluate("contactReport.data.cases[%d].patches[0].totals.deltcp_tr" % index), 0.03)
         self.assertEqual(self.troubles, [])
 
     def test_incomplete_results_say_so(self):

@@ -29,10 +29,7 @@ function resetView() {
   const padX = Math.max(1, 0.12 * (x1 - x0 + 1)),
     padY = Math.max(my > 1 ? 1 : 0, 0.12 * (y1 - y0 + 1) * (my > 1 ? 1 : 0));
   state.view = state.home = [xl + (x0 - padX) * dx, xl + (x1 + 1 + padX) * dx, yl + (y0 - padY) * dy, yl + (y1 + 1 + padY) * dy];
-  for (const plot of Object.values(plots)) {
-    plot.own = null;
-    if (plot === plots.scene) plot.whole();
-  }
+  for (const plot of Object.values(plots)) plot.own = null;
   draw();
 }
 let queued = false;
@@ -303,7 +300,10 @@ function listen() {
     });
   byId("previous").onclick = () => go(state.index - 1, state.patch);
   byId("next").onclick = () => go(state.index + 1, state.patch);
-  byId("reset").onclick = resetView;
+  byId("reset").onclick = () => {
+    plots.scene.whole();
+    resetView();
+  };
   byId("slider").oninput = event => go(Number(event.target.value), state.patch);
   byId("play").onclick = () => play(playing === null);
   for (const id of ["quantity", "scene-field", "scale", "show"])

@@ -3,7 +3,13 @@ const LIGHT = [0.35, -0.45, -0.82];
 class Scene extends Picture {
   constructor(id) {
     super(id);
-    Object.assign(this, { turn: [0.75, 0.7], scale: 1, shift: [0, 0] });
+    Object.assign(this, { turn: [0.75, 0.7], scale: 1, shift: [0, 0], free: true });
+  }
+  // Until somebody turns the rail it is seen from the side to which its contact is inclined
+  face(patches) {
+    const load = patches.reduce((sum, p) => sum + p.totals.fn, 0);
+    const tilt = patches.reduce((sum, p) => sum + p.totals.fn * p.totals.deltcp_tr, 0) / (load || 1);
+    if (this.free && Math.abs(tilt) > 0.03) this.turn = [tilt < 0 ? Math.PI - 0.75 : 0.75, 0.7];
   }
   get key() {
     return byId("scene-field").value;
@@ -12,6 +18,7 @@ class Scene extends Picture {
     const c0 = nowCase();
     if (!c0.markers) return;
     if (!c0.patches.length) return this.blank();
+    this.face(c0.patches);
     const c = this.prepare(),
       rail = railLine(c0),
       name = this.key;
@@ -204,6 +211,7 @@ class Scene extends Picture {
     return { turn: this.turn.slice(), shift: this.shift.slice() };
   }
   drag(from, dx, dy) {
+    this.free = false;
     this.turn = [from.turn[0] + dx / 150, Math.min(1.55, Math.max(0.1, from.turn[1] + dy / 150))];
     changed();
   }
@@ -212,7 +220,7 @@ class Scene extends Picture {
     changed();
   }
   whole() {
-    Object.assign(this, { turn: [0.75, 0.7], scale: 1, shift: [0, 0] });
+    Object.assign(this, { turn: [0.75, 0.7], scale: 1, shift: [0, 0], free: true });
     changed();
   }
   move(dx, dy) {
