@@ -9,7 +9,7 @@ import contact
 import pandas
 import pytest
 import xarray
-from bases import rolling
+from bases import EXAMPLES, rolling
 from contact.study.__main__ import main
 from contact.study._scene import write_case
 
@@ -119,3 +119,23 @@ def test_a_signal_ends_it_and_it_goes_on(folder):
                          folder=folder / "b.study").explain()
     assert plan.points == 30000 and plan.there > 0 and plan.there + plan.cases == 30000
     assert not (folder / "b.nc").exists()
+
+
+@pytest.mark.parametrize("name, coarse", [("creep_curves", {"count = 41": "count = 5", "count = 6": "count = 2"}),
+                                          ("wheelset", {"count = 5 ": "count = 1 ", "count = 25": "count = 2",
+                                                        "[0.0, 0.025, 0.05]": "[0.025]"})])
+def test_worked_studies(tmp_path, monkeypatch, capsys, name, coarse):
+    """The examples as they stand, with fewer points"""
+    text = (EXAMPLES / "studies" / f"{name}.toml").read_text()
+    text = text.replace('"../wheel', f'"{EXAMPLES}/wheel').replace('"roller.toml"', f'"{EXAMPLES}/studies/roller.toml"')
+    for old, new in coarse.items():
+        text = text.replace(old, new)
+    (tmp_path / f"{name}.toml").write_text(text)
+    monkeypatch.setattr(sys, "argv", ["contact study", str(tmp_path / f"{name}.toml"), "--strict"])
+    assert main() == 0, capsys.readouterr()
+    with xarray.open_dataset(tmp_path / f"{name}.nc") as data:
+        assert (data.status == 0).all()
+        if name == "creep_curves":
+            # beyond saturation the traction is the friction; more creepage is more traction
+            assert abs(data.traction[:, -1] + data.coefficient).max() < 1e-4
+            assert (data.fx.diff("cksi") < 1e-6 * 7e4).all()

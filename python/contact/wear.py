@@ -1,0 +1,158 @@
+"""Wear and rolling contact fatigue from results: quantities of the literature, each a function of arrays.
+
+Arguments are numbers or arrays that fit each other, xarray variables included. Units are those of results: mm, N, N/mm2; creepages
+have none, spin is in rad/mm. Nothing here is computed unless it is called.
+"""
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+#: From here on traction the surface yields first, and not the depth below it [-] (Johnson 1985, section 9.2: f = 0.25 and p0/k = 4
+#: in line contact)
+_SURFACE_TRACTION = 0.25
+
+
+def t_gamma(fx: Any, fy: Any, cksi: Any, ceta: Any, mz: Any = 0.0, cphi: Any = 0.0) -> Any:
+    """Dissipation per distance rolled [N = J/m].
+
+    Parameters
+    ----------
+    fx, fy, mz
+        Forces [N] and moment [N mm].
+    cksi, ceta, cphi
+        Creepages [-] and spin [rad/mm]; without mz and cphi spin does not count.
+
+    Returns
+    -------
+    ``abs(fx cksi) + abs(fy ceta) + abs(mz cphi)``, not negative. Source: Pearce and Sherratt, Prediction of wheel profile wear,
+    Wear 144 (1991), who count the term of spin, too.
+    """
+    return abs(fx * cksi) + abs(fy * ceta) + abs(mz * cphi)
+
+
+def wear_index(dissipation: Any, contact_area: Any) -> Any:
+    """T-gamma over the contact area [N/mm2], by which regimes of wear are told apart.
+
+    Parameters
+    ----------
+    dissipation
+        From :func:`t_gamma` [N].
+    contact_area
+        In mm2; where it is 0 the result is 0.
+
+    Returns
+    -------
+    Not negative. Source: Lewis and Dwyer-Joyce, Wear mechanisms and transitions in railway wheel steels, Proc. IMechE J 218 (2004).
+    """
+    area = np.asarray(contact_area, dtype=float) if np.isscalar(contact_area) else contact_area
+    return dissipation * (area > 0) / (area + (area <= 0))
+
+
+def friction_power_density(px: Any, py: Any, sx: Any, sy: Any, veloc: Any) -> Any:
+    """Frictional power per area [W/mm2], not negative.
+
+    Parameters
+    ----------
+    px, py
+        Tractions on body 1 [N/mm2].
+    sx, sy
+        Relative slip [-], whose sign is opposite to that of the tractions.
+    veloc
+        Velocity [mm/s].
+
+    Returns
+    -------
+    Product of tractions and sliding velocity; summed over elements times their area it is minus the total ``friction_power``.
+    """
+    return -1e-3 * veloc * (px * sx + py * sy)
+
+
+def archard_depth(pn: Any, sx: Any, sy: Any, dx: float, coefficient: float, hardness: float, axis: int = -1) -> Any:
+    """Depth that one passage of the contact wears off [mm].
+
+    Parameters
+    ----------
+    pn
+        Pressures [N/mm2], x along `axis`.
+    sx, sy
+        Relative slip [-].
+    dx
+        Side of an element along x [mm].
+    coefficient
+        Archard's, of the user's materials and conditions [-].
+    hardness
+        Of the softer body, [N/mm2].
+
+    Returns
+    -------
+    For each row: ``coefficient / hardness`` times the integral of pressure times slip along x. A point that the contact rolls
+    over slides slip times dx in each element. Source: Archard, Contact and rubbing of flat surfaces, J. Appl. Phys. 24
+    (1953); along the strips of a contact as in Jendel, Prediction of wheel profile wear, Wear 253 (2002).
+
+    Raises
+    ------
+    ValueError
+        If the hardness is not positive or the coefficient negative.
+    """
+    if not hardness > 0.0 or not coefficient >= 0.0:
+        raise ValueError("the hardness has to be positive, and the coefficient not negative")
+    slip = np.hypot(sx, sy)
+    return coefficient / hardness * np.nansum(pn * slip, axis=axis) * dx
+
+
+def surface_fatigue_index(fx: Any, fy: Any, fn: Any, aa: Any, bb: Any, shear_yield: float) -> Any:
+    """How far a contact is beyond the shakedown limit of its surface [-]; above 0 fatigue of the surface is expected.
+
+    Parameters
+    ----------
+    fx, fy, fn
+        Tangential and normal forces [N].
+    aa, bb
+        Semi-axes of the contact [mm].
+    shear_yield
+        Yield stress in cyclic shear [N/mm2].
+
+    Returns
+    -------
+    ``f - 2 pi a b k / (3 Fn)`` with f the tangential over the normal force. Source: Ekberg, Kabo and Andersson, An engineering
+    model for prediction of rolling contact fatigue of railway wheels, Fatigue Fract. Eng. Mater. Struct. 25 (2002).
+    """
+    return np.hypot(fx, fy) / fn - 2.0 * np.pi * aa * bb * shear_yield / (3.0 * fn)
+
+
+def shakedown_limit(traction: Any) -> Any:
+    """Largest pressure over yield stress in shear, p0/k [-], under which a contact ends in elastic shakedown.
+
+    Parameters
+    ----------
+    traction
+        Tangential over normal force of full sliding, not negative [-].
+
+    Returns
+    -------
+    4 below the surface, up to a traction of 0.25, and ``1 / traction`` at the surface beyond: line contact, perfect plasticity.
+    Source: Johnson, Contact mechanics, Cambridge 1985, section 9.2.
+    """
+    ratio = np.asarray(traction, dtype=float)
+    return np.where(ratio <= _SURFACE_TRACTION, 1.0 / _SURFACE_TRACTION, 1.0 / np.maximum(ratio, _SURFACE_TRACTION))
+
+
+def shakedown_state(pmax: Any, traction: Any, shear_yield: float) -> Any:
+    """Where a contact is on the shakedown map: pressure over its limit [-]; above 1 plastic strain goes on with every passage.
+
+    Parameters
+    ----------
+    pmax
+        Largest pressure [N/mm2].
+    traction
+        Tangential over normal force [-].
+    shear_yield
+        Yield stress in cyclic shear [N/mm2].
+
+    Returns
+    -------
+    ``pmax / (shear_yield * shakedown_limit(traction))``.
+    """
+    return np.asarray(pmax) / (shear_yield * shakedown_limit(traction))
