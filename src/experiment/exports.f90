@@ -6,13 +6,14 @@ module contact_experiment_exports
    use contact_cases_wheel_rail_session, only : wheel_rail_session
    use contact_cases_spec, only : case_spec
    use contact_experiment_journal, only : checkpoint
+   use contact_experiment_place, only : experiment_place
    use contact_hdf5_case_file, only : hdf5_case_file
    use contact_output_case_record, only : case_head, run_summary
    use contact_output_json_file, only : json_file
+   use contact_output_vtk_bodies, only : body_profile, take_section
    use contact_output_vtk_files, only : vtk_files
    use contact_patch_result, only : patch_result
    use contact_profile_curve, only : profile_curve
-   use contact_profile_surface, only : profile_surface, surface_cut
    use contact_wheelrail_result, only : wheel_rail_result
    implicit none (type, external)
    private
@@ -64,14 +65,14 @@ contains
    end function wanted
 
    !> Open what is asked for
-   subroutine open_files(self, request, results, experiment, version, run, limits, error, from)
+   subroutine open_files(self, request, place, version, run, limits, error, from)
       class(export_files), intent(inout) :: self
       !> Which files, and where
       type(export_request), intent(in) :: request
-      !> Folder and name of the results, to which a suffix is added
-      character(len=*), intent(in) :: results
-      !> Name of the experiment, version of the program
-      character(len=*), intent(in) :: experiment, version
+      !> Where input and results are
+      type(experiment_place), intent(in) :: place
+      !> Version of the program
+      character(len=*), intent(in) :: version
       !> What is planned
       type(run_summary), intent(in) :: run
       !> As for open_result
@@ -81,7 +82,7 @@ contains
       type(checkpoint), intent(in), optional :: from
 
       if (present(from)) then
-         call go_on(self, request, results, run, from, limits, error)
+         call go_on(self, request, place, run, from, limits, error)
          return
       end if
       if (allocated(request%json)) then
@@ -89,26 +90,27 @@ contains
          if (request%json == "-") then
             call self%json%open_file("-", run%planned, limits, error)
          else
-            call self%json%open_file(results // ".jsonl", run%planned, limits, error)
+            call self%json%open_file(place%results // ".jsonl", run%planned, limits, error)
          end if
          if (allocated(error)) return
       end if
       if (request%hdf5) then
          allocate(self%hdf5)
-         call self%hdf5%open_file(results // ".h5", experiment, version, run, error)
+         call self%hdf5%open_file(place%results // ".h5", place%name, version, place%input, place%folder, run, limits, error)
          if (allocated(error)) return
       end if
       if (request%vtk) then
          allocate(self%vtk)
-         call self%vtk%open_collection(results, run, limits, error)
+         call self%vtk%open_collection(place%results, run, limits, error)
       end if
    end subroutine open_files
 
    !> Open the files that are there and go on with them; the HDF5 file is open already
-   subroutine go_on(self, request, results, run, from, limits, error)
+   subroutine go_on(self, request, place, run, from, limits, error)
       type(export_files), intent(inout) :: self
       type(export_request), intent(in) :: request
-      character(len=*), intent(in) :: results
+      !> Where input and results are
+      type(experiment_place), intent(in) :: place
       type(run_summary), intent(in) :: run
       type(checkpoint), intent(in) :: from
       type(case_limits), intent(in) :: limits
@@ -116,16 +118,16 @@ contains
 
       if (allocated(request%json)) then
          allocate(self%json)
-         call self%json%open_file(results // ".jsonl", run%planned, limits, error, from%json)
+         call self%json%open_file(place%results // ".jsonl", run%planned, limits, error, from%json)
          if (allocated(error)) return
       end if
       if (allocated(self%hdf5)) then
-         call self%hdf5%go_on(from%rows(1), from%rows(2), run, error)
+         call self%hdf5%go_on(from%rows(1), from%rows(2), place%input, place%folder, run, limits, error)
          if (allocated(error)) return
       end if
       if (request%vtk) then
          allocate(self%vtk)
-         call self%vtk%open_collection(results, run, limits, error, from%vtk)
+         call self%vtk%open_collection(place%results, run, limits, error, from%vtk)
       end if
    end subroutine go_on
 
@@ -186,14 +188,21 @@ contains
       type(case_head), intent(in) :: head
       type(case_spec), intent(in) :: spec
       !> For the profiles
-      type(wheel_rail_session), intent(in) :: session
+      type(wheel_rail_session), target, intent(in) :: session
       type(wheel_rail_result), intent(in) :: pair
       type(error_type), allocatable, intent(out) :: error
       type(profile_curve), allocatable :: rail, wheel
       ! where the first contact is in rail and wheel, along the track [mm]
       real(wp) :: place(2)
+      type(body_profile) :: bodies(2)
 
-      if (allocated(self%vtk)) call self%vtk%write_wheel_rail(head, spec, pair, error)
+      if (allocated(self%vtk)) then
+         bodies(1)%profile => session%problem%rail
+         bodies(2)%profile => session%problem%wheel
+         if (allocated(session%problem%rail_surface)) bodies(1)%surface => session%problem%rail_surface
+         if (allocated(session%problem%wheel_surface)) bodies(2)%surface => session%problem%wheel_surface
+         call self%vtk%write_wheel_rail(head, spec, pair, bodies(1), bodies(2), error)
+      end if
       if (allocated(self%json)) call self%json%write_wheel_rail(head, spec, pair)
       if (.not. allocated(self%hdf5)) return
       associate (problem => session%problem, w => spec%wheel_rail%wheelset)
@@ -205,22 +214,4 @@ contains
          call self%hdf5%write_wheel_rail(head, spec, pair, rail, wheel)
       end associate
    end subroutine write_wheel_rail
-
-   !> The profile of a body; of one that varies along it the section at a position
-   subroutine take_section(profile, surface, position, curve)
-      type(profile_curve), intent(in) :: profile
-      type(profile_surface), intent(in), optional :: surface
-      !> Along the rail [mm], around the wheel [rad]
-      real(wp), intent(in) :: position
-      !> Unallocated where a surface has no section
-      type(profile_curve), allocatable, intent(out) :: curve
-      type(surface_cut) :: there
-
-      if (.not. present(surface)) then
-         allocate(curve, source=profile)
-         return
-      end if
-      call surface%continued(position, there)
-      if (there%present) allocate(curve, source=there%curve)
-   end subroutine take_section
 end module contact_experiment_exports

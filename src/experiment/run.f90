@@ -426,11 +426,9 @@ contains
          ! counting means reading all of the input: where results are few and quick, that waits until somebody needs to know
          if (asked%progress .or. asked%exports%any()) call count_planned(state)
          if (point%active) then
-            call state%exports%open_files(asked%exports, state%place%results, state%place%name, version, state%run, &
-               & state%limits, error, point%at)
+            call state%exports%open_files(asked%exports, state%place, version, state%run, state%limits, error, point%at)
          else
-            call state%exports%open_files(asked%exports, state%place%results, state%place%name, version, state%run, &
-               & state%limits, error)
+            call state%exports%open_files(asked%exports, state%place, version, state%run, state%limits, error)
          end if
       end if
       done = .not. allocated(error)

@@ -3,8 +3,10 @@ module contact_hdf5_case_file
    use contact_base_choices, only : is_rolling
    use contact_base_error, only : error_type
    use contact_base_kinds, only : long, wp
+   use contact_base_limits, only : case_limits
    use contact_cases_spec, only : case_spec
    use contact_hdf5_file, only : hdf5_file
+   use contact_hdf5_provenance, only : provenance
    use contact_output_case_record, only : case_head, describe_head, describe_list, describe_patch, describe_run, &
       & describe_wheel_rail, run_summary, side_sign
    use contact_output_input_record, only : describe_input
@@ -13,6 +15,7 @@ module contact_hdf5_case_file
    use contact_profile_curve, only : profile_curve
    use contact_text_words, only : integer_text
    use contact_wheelrail_result, only : wheel_rail_patch, wheel_rail_result
+   use contact_wheelrail_spec, only : profile_spec
    implicit none (type, external)
    private
 
@@ -21,6 +24,8 @@ module contact_hdf5_case_file
    !> The HDF5 file of an experiment
    type :: hdf5_case_file
       type(hdf5_file), private :: file
+      !> Where the results come from
+      type(provenance), private :: origin
    contains
       procedure :: open_file
       !> Open a file to go on with it; its rows of cases or patches; go on behind some of them, or give it up again
@@ -39,16 +44,26 @@ module contact_hdf5_case_file
 
 contains
 
-   subroutine open_file(self, name, experiment, version, run, error)
+   subroutine open_file(self, name, experiment, version, input, folder, run, limits, error)
       class(hdf5_case_file), intent(inout) :: self
       !> File, experiment, version of the program
       character(len=*), intent(in) :: name, experiment, version
+      !> The input file, and the folder to which names in it are relative
+      character(len=*), intent(in) :: input, folder
       !> What is planned
       type(run_summary), intent(in) :: run
+      !> Must files be below the folder?
+      type(case_limits), intent(in) :: limits
       type(error_type), allocatable, intent(out) :: error
 
       call self%file%open_file(name, experiment, "contact " // version, error)
-      if (.not. allocated(error)) call tell_start(self%file, run, error)
+      if (allocated(error)) return
+      if (limits%confined) then
+         call self%origin%start(self%file%container, input, folder, below=folder)
+      else
+         call self%origin%start(self%file%container, input, folder)
+      end if
+      call tell_start(self%file, run, error)
    end subroutine open_file
 
    !> The run begins
@@ -77,15 +92,20 @@ contains
    subroutine abandon(self)
       class(hdf5_case_file), intent(inout) :: self
 
+      call self%origin%release(self%file%container)
       call self%file%abandon()
    end subroutine abandon
 
-   subroutine go_on(self, cases, patches, run, error)
+   subroutine go_on(self, cases, patches, input, folder, run, limits, error)
       class(hdf5_case_file), intent(inout) :: self
       !> Rows that stay
       integer, intent(in) :: cases, patches
+      !> The input file, and the folder to which names in it are relative
+      character(len=*), intent(in) :: input, folder
       !> What is planned
       type(run_summary), intent(in) :: run
+      !> Must files be below the folder?
+      type(case_limits), intent(in) :: limits
       type(error_type), allocatable, intent(out) :: error
       character(len=*), parameter :: told_at_the_end(3) = [character(len=13) :: "solved", "not_converged", "refused"]
       integer :: k
@@ -94,6 +114,11 @@ contains
       do k = 1, size(told_at_the_end)
          call self%file%drop_attribute(trim(told_at_the_end(k)))
       end do
+      if (limits%confined) then
+         call self%origin%start_again(self%file%container, input, folder, below=folder)
+      else
+         call self%origin%start_again(self%file%container, input, folder)
+      end if
       call tell_start(self%file, run, error)
    end subroutine go_on
 
@@ -117,6 +142,7 @@ contains
          call describe_run(self%file, run)
          call self%file%close_attributes()
       end if
+      call self%origin%release(self%file%container)
       call self%file%close_file(error)
    end subroutine close_file
 
@@ -161,6 +187,8 @@ contains
       type(total_list) :: markers
       integer :: k
 
+      call note_profile(self, spec%wheel_rail%rail_profile, spec%limits)
+      call note_profile(self, spec%wheel_rail%wheel_profile, spec%limits)
       call begin(self%file, head)
       call self%file%enter("inputs")
       call describe_input(self%file, spec)
@@ -177,6 +205,17 @@ contains
       end do
       call self%file%end_case(head%finished)
    end subroutine write_wheel_rail
+
+   !> Note where a profile comes from
+   subroutine note_profile(self, profile, limits)
+      type(hdf5_case_file), intent(inout) :: self
+      type(profile_spec), intent(in) :: profile
+      !> Must files be below the folder of the experiment?
+      type(case_limits), intent(in) :: limits
+
+      if (allocated(profile%points) .or. .not. allocated(profile%name)) return
+      call self%origin%note_profile(self%file%container, profile%name, limits%confined)
+   end subroutine note_profile
 
    !> Begin a case with its row of /cases
    subroutine begin(file, head)
@@ -274,6 +313,8 @@ contains
       real(wp) :: reference(2)
       integer :: i, k
 
+      call file%scale(1, "x_element", "mm", "centres of columns", contact%grid%x([(i, i = 1, contact%grid%mx)]))
+      call file%scale(2, "y_element", "mm", "centres of rows", contact%grid%y([(i, i = 1, contact%grid%my)]))
       call file%open_group("grid")
       associate (grid => contact%grid)
          call file%count("mx", "columns", grid%mx)
@@ -319,6 +360,7 @@ contains
       step = merge(-1, 1, s < 0.0_wp)
       last = size(place%curve, 2)
       call file%open_group("curve")
+      call file%make_table()
       if (step > 0) then
          call put(place%curve)
       else
@@ -345,6 +387,7 @@ contains
       type(profile_curve), intent(in) :: curve
 
       call file%open_group(name)
+      call file%make_table()
       call file%numbers("y", "mm", "lateral, about the marker", side_sign(spec)*curve%y%value(curve%y%s))
       call file%numbers("z", "mm", "vertical, about the marker", curve%z%value(curve%y%s))
       call file%close_group()
@@ -355,9 +398,17 @@ contains
       type(hdf5_file), intent(inout) :: file
       type(subsurface_result), intent(in) :: block
       character(len=2), parameter :: component(6) = ["xx", "xy", "xz", "yy", "yz", "zz"]
+      character(len=*), parameter :: sense(6) = [character(len=45) :: "normal stress along x, tension positive", &
+         & "shear stress, force along y on a plane of x", "shear stress, force along z on a plane of x", &
+         & "normal stress along y, tension positive", "shear stress, force along z on a plane of y", &
+         & "normal stress along z, tension positive"]
+      character(len=*), parameter :: direction(3) = [character(len=12) :: "longitudinal", "lateral", "vertical"]
       integer :: k
 
       associate (nx => block%nx, ny => block%ny, nz => block%nz)
+         call file%scale(1, "x", "mm", "columns of points", block%position(1, :nx))
+         call file%scale(2, "y", "mm", "rows of points", block%position(2, :nx*ny:nx))
+         call file%scale(3, "z", "mm", "depths, positive in body 1", block%position(3, :nx*ny*nz:nx*ny))
          call file%open_group("points")
          call file%numbers("x", "mm", "columns of points", block%position(1, :nx))
          call file%numbers("y", "mm", "rows of points", block%position(2, :nx*ny:nx))
@@ -365,10 +416,10 @@ contains
          call file%close_group()
       end associate
       do k = 1, 3
-         call put("u" // "xyz"(k:k), "mm", "displacement", block%displacement(k, :))
+         call put("u" // "xyz"(k:k), "mm", trim(direction(k)) // " displacement", block%displacement(k, :))
       end do
       do k = 1, 6
-         call put("sig" // component(k), "N/mm2", "stress, tension positive", block%stress(k, :))
+         call put("sig" // component(k), "N/mm2", trim(sense(k)), block%stress(k, :))
       end do
       call put("sighyd", "N/mm2", "mean stress", block%sighyd)
       call put("sigvm", "N/mm2", "equivalent stress of von Mises", block%sigvm)

@@ -9,6 +9,7 @@ module contact_hdf5_columns
       & hid_t, hsize_t
    use contact_base_kinds, only : wp
    use contact_hdf5_container, only : hdf5_container
+   use contact_hdf5_scales, only : attach_scales, make_scale
    use contact_hdf5_values, only : item_kind, name_length, named_value
    implicit none (type, external)
    private
@@ -17,6 +18,8 @@ module contact_hdf5_columns
 
    !> Rows that wait in memory at most, and rows of a chunk on disk
    integer, parameter :: max_rows = 4096, chunk_rows = 64
+   !> The column by which rows are known
+   character(len=*), parameter :: row_name = "case"
    !> Columns for which there is room at first
    integer, parameter :: usual_columns = 64
 
@@ -59,6 +62,7 @@ contains
    !> Make an empty table
    subroutine create(self, container, name)
       class(column_table), intent(inout) :: self
+      !> The open file
       type(hdf5_container), intent(inout) :: container
       !> Name of its group
       character(len=*), intent(in) :: name
@@ -72,6 +76,7 @@ contains
    !> Open the columns of a table that is there
    subroutine reopen(self, container, name)
       class(column_table), intent(inout) :: self
+      !> The open file
       type(hdf5_container), intent(inout) :: container
       !> Name of its group
       character(len=*), intent(in) :: name
@@ -119,6 +124,7 @@ contains
    !> Begin a row
    subroutine next_row(self, container)
       class(column_table), intent(inout) :: self
+      !> The open file
       type(hdf5_container), intent(inout) :: container
 
       if (self%waiting == max_rows) call self%write_rows(container)
@@ -129,6 +135,7 @@ contains
    !> Put a value into the last row; texts and arrays have no columns
    subroutine put(self, container, value)
       class(column_table), intent(inout) :: self
+      !> The open file
       type(hdf5_container), intent(inout) :: container
       !> With name, unit and title
       type(named_value), intent(in) :: value
@@ -145,6 +152,7 @@ contains
    !> Add a column; earlier rows are NaN
    subroutine new_column(self, container, value)
       class(column_table), intent(inout) :: self
+      !> The open file
       type(hdf5_container), intent(inout) :: container
       !> Gives name, unit and description
       type(named_value), intent(in) :: value
@@ -152,7 +160,7 @@ contains
       type(column), allocatable :: longer(:)
       integer(hid_t) :: properties, space
       integer(hsize_t) :: dims(1), limit(1)
-      integer :: status
+      integer :: k, status
 
       if (self%used == size(self%columns)) then
          allocate(longer(2*self%used), wider(max_rows, 2*self%used))
@@ -178,14 +186,19 @@ contains
          end if
          call container%release(space)
          call container%release(properties)
-         if (len_trim(value%unit) > 0) call container%set_text(new%id, "units", trim(value%unit))
-         call container%set_text(new%id, "long_name", trim(value%title))
+         call container%describe(new%id, trim(value%unit), trim(value%title))
+         ! rows are known by the number of their case, which is written first
+         if (value%name == row_name) call make_scale(container, new%id)
+         do k = 1, self%used - 1
+            if (self%columns(k)%name == row_name) call attach_scales(container, new%id, [self%columns(k)%id])
+         end do
       end associate
    end subroutine new_column
 
    !> Write the rows that wait
    subroutine write_rows(self, container)
       class(column_table), intent(inout) :: self
+      !> The open file
       type(hdf5_container), intent(inout) :: container
       integer(hid_t) :: memory, space
       integer(hsize_t) :: first(1), length(1), total(1)
@@ -213,6 +226,7 @@ contains
    !> Read a column
    subroutine read_column(self, container, name, values)
       class(column_table), intent(in) :: self
+      !> The open file
       type(hdf5_container), intent(inout) :: container
       !> As the file has it
       character(len=*), intent(in) :: name
@@ -233,6 +247,7 @@ contains
    !> Drop the rows behind some
    subroutine cut(self, container, rows)
       class(column_table), intent(inout) :: self
+      !> The open file
       type(hdf5_container), intent(inout) :: container
       !> Rows that stay, at most those on disk
       integer, intent(in) :: rows
@@ -251,6 +266,7 @@ contains
    !> Close all columns
    subroutine release(self, container)
       class(column_table), intent(inout) :: self
+      !> The open file
       type(hdf5_container), intent(inout) :: container
       integer :: k
 

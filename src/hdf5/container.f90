@@ -23,7 +23,7 @@ module contact_hdf5_container
    implicit none (type, external)
    private
 
-   public :: hdf5_container, large, max_chunk, max_text_length
+   public :: clock, compression_level, hdf5_container, large, max_chunk, max_text_length
 
    !> Longest text that is stored; longer ones are cut [characters]
    integer, parameter :: max_text_length = 1000
@@ -78,6 +78,7 @@ module contact_hdf5_container
       procedure :: text_type
       !> Attributes: a text of any object, an integer of the file; remove one of the file
       procedure :: set_text
+      procedure :: describe
       procedure :: set_count
       procedure :: drop_attribute
       !> Status of a call of HDF5, and the end of an identifier
@@ -400,6 +401,22 @@ contains
       call self%release(attribute)
    end subroutine set_text
 
+   !> Say what an object is, and in which unit
+   subroutine describe(self, object, unit, title)
+      class(hdf5_container), intent(inout) :: self
+      !> Dataset
+      integer(hid_t), intent(in) :: object
+      !> Unit, "-" for a ratio, which is 1 in the conventions that the file follows, "" for none; and what it is
+      character(len=*), intent(in) :: unit, title
+
+      if (unit == "-") then
+         call self%set_text(object, "units", "1")
+      else if (len(unit) > 0) then
+         call self%set_text(object, "units", unit)
+      end if
+      if (len(title) > 0) call self%set_text(object, "long_name", title)
+   end subroutine describe
+
    !> Set an integer as an attribute of the file, in place of one of that name
    subroutine set_count(self, name, value)
       class(hdf5_container), intent(inout) :: self
@@ -433,6 +450,14 @@ contains
       if (status >= 0 .and. is_there) call h5adelete_f(self%file, name, status)
       call self%check(status)
    end subroutine drop_attribute
+
+   !> Time since some moment [s]
+   real(wp) function clock() result(seconds)
+      integer(long) :: ticks, rate
+
+      call system_clock(ticks, rate)
+      seconds = real(ticks, wp)/real(rate, wp)
+   end function clock
 
    !> Remember a call that failed
    subroutine check(self, status)

@@ -5,6 +5,9 @@
 !>     /cases/<name>, /patches/<name>     totals as columns over all cases and patches
 !>     /case_0001/inputs/<group>/<name>
 !>     /case_0001/patch_1/totals/<name>, solver/<name>, fields/<name>, grid/<name>, subsurface/block_1/<name>
+!>     /case_0001/patch_1/x_element, y_element        dimension scales of the fields; those of a block are its x, y, z
+!>
+!> Every array has dimension scales: columns the number of the case, a list without others is its own.
 !>
 !> Groups and fields that are as they were in the case before are stored once and linked.
 !>
@@ -15,7 +18,7 @@ module contact_hdf5_file
    use contact_base_error, only : error_type
    use contact_base_kinds, only : long, wp
    use contact_hdf5_columns, only : column_table
-   use contact_hdf5_container, only : hdf5_container
+   use contact_hdf5_container, only : clock, hdf5_container
    use contact_hdf5_kept, only : kept_list
    use contact_hdf5_values, only : item_kind, value_list, write_array
    use contact_output_record, only : record_writer
@@ -24,6 +27,8 @@ module contact_hdf5_file
 
    public :: hdf5_file
 
+   !> Conventions that units and flags follow
+   character(len=*), parameter :: conventions = "CF-1.11"
    !> Number of this layout
    integer, parameter :: layout = 1
    !> Wait this many times as long as the last copy took before the next one: 2 % of the time goes into copies, and up to 5 %
@@ -34,7 +39,7 @@ module contact_hdf5_file
 
    !> The file
    type, extends(record_writer) :: hdf5_file
-      type(hdf5_container), private :: container
+      type(hdf5_container) :: container
       !> Totals of cases and of patches; which of them has the open row
       type(column_table), private :: cases, patches
       logical, private :: in_patch = .false.
@@ -49,6 +54,10 @@ module contact_hdf5_file
       character(len=:), allocatable, private :: leaf
       type(value_list), private :: values
       logical, private :: as_columns = .false., only_texts = .false.
+      !> Do the lists of numbers in the group lie along the first of them?
+      logical, private :: is_table = .false.
+      !> Scales of the next arrays, in the order of their dimensions
+      integer(hid_t), private :: scales(3) = -1
       !> Time of the last copy, and how long to wait for the next [s]
       real(wp), private :: last_copy = 0.0_wp, wait = 0.0_wp
    contains
@@ -74,7 +83,11 @@ module contact_hdf5_file
       procedure :: field
       procedure :: division
       procedure :: block
+      !> Places along a dimension of the arrays that follow
+      procedure :: scale
       procedure :: open_group
+      !> The lists of the open group are columns of a table
+      procedure :: make_table
       procedure :: close_group
       !> Instead of close_group: the values become attributes of the file
       procedure :: close_attributes
@@ -112,6 +125,8 @@ contains
          call this%set_text(this%file, "title", "results of CONTACT")
          call this%set_text(this%file, "experiment", experiment)
          call this%set_text(this%file, "program", version)
+         call this%set_text(this%file, "source", version)
+         call this%set_text(this%file, "Conventions", conventions)
          call this%set_text(this%file, "axes", "datasets of fields have the shape (my, mx) in C, h5py and NumPy")
          call this%set_count("layout", layout)
       end associate
@@ -221,19 +236,8 @@ contains
    !> The values of the group become attributes of the file
    subroutine close_attributes(self)
       class(hdf5_file), intent(inout) :: self
-      integer :: i
 
-      do i = 1, self%values%count
-         if (self%container%failed) return
-         associate (this => self%values%items(i))
-            if (this%kind == item_kind%text) then
-               call self%container%drop_attribute(trim(this%name))
-               call self%container%set_text(self%container%file, trim(this%name), this%text)
-            else
-               call self%container%set_count(trim(this%name), nint(this%value))
-            end if
-         end associate
-      end do
+      call self%values%write_attributes(self%container)
    end subroutine close_attributes
 
    !> Size of the file in the making [bytes]
@@ -279,14 +283,6 @@ contains
       call self%container%set_count("cases_finished", finished)
       call self%renew()
    end subroutine end_case
-
-   !> Time since some moment [s]
-   real(wp) function clock() result(seconds)
-      integer(long) :: ticks, rate
-
-      call system_clock(ticks, rate)
-      seconds = real(ticks, wp)/real(rate, wp)
-   end function clock
 
    !> Go into a new group of the case
    subroutine enter(self, name)
@@ -337,13 +333,21 @@ contains
       if (present(brief)) self%only_texts = brief
       self%as_columns = .false.
       if (present(columns)) self%as_columns = columns
+      self%is_table = .false.
       self%values%count = 0
    end subroutine open_group
+
+   !> Lists of numbers in the open group, all of the same length, lie along the first of them
+   subroutine make_table(self)
+      class(hdf5_file), intent(inout) :: self
+
+      self%is_table = .true.
+   end subroutine make_table
 
    !> Write the group of values; what is as in the case before is linked, as a whole or one by one
    subroutine close_group(self)
       class(hdf5_file), intent(inout) :: self
-      integer(hid_t) :: group
+      integer(hid_t) :: along, group
       integer :: i, k, known, status
 
       if (self%as_columns) then
@@ -365,8 +369,9 @@ contains
                call before%link(self%container, self%group, self%leaf)
                return
             end if
-            known = before%group%count
+            if (.not. self%is_table) known = before%group%count
          end if
+         along = -1
          call self%container%new_group(self%group, self%leaf, group)
          do i = 1, self%values%count
             associate (this => self%values%items(i))
@@ -377,9 +382,14 @@ contains
                      cycle
                   end if
                end if
-               call this%write(self%container, group, described=.not. self%as_columns)
+               if (self%is_table) then
+                  call this%write(self%container, group, .true., along)
+               else
+                  call this%write(self%container, group, described=.not. self%only_texts)
+               end if
             end associate
          end do
+         if (along >= 0) call self%container%release(along)
          if (.not. allocated(before%group)) allocate(before%group)
          before%group%count = self%values%count
          before%group%items = self%values%items(:self%values%count)
@@ -426,6 +436,23 @@ contains
       call self%values%add(name, "", title, item_kind%flag, merge(1.0_wp, 0.0_wp, value))
    end subroutine flag
 
+   !> Places along a dimension of the arrays that follow, as a dataset of the group that was entered
+   subroutine scale(self, dimension, name, unit, title, values)
+      class(hdf5_file), intent(inout) :: self
+      !> Its number, 1 for the one that runs fastest
+      integer, intent(in) :: dimension
+      !> Name, unit and description
+      character(len=*), intent(in) :: name, unit, title
+      !> The places
+      real(wp), intent(in) :: values(:)
+      integer(hsize_t) :: dims(1)
+      integer(hid_t) :: none(0)
+
+      dims = size(values, kind=hsize_t)
+      call self%kept%write(self%container, self%group, self%place, name, unit, title, values, dims, h5t_ieee_f64le, none, &
+         & self%scales(dimension))
+   end subroutine scale
+
    !> An array over the elements
    subroutine field(self, name, unit, title, values)
       class(hdf5_file), intent(inout) :: self
@@ -435,7 +462,8 @@ contains
       integer(hsize_t) :: dims(2)
 
       dims = shape(values, kind=hsize_t)
-      call keep_array(self, name, unit, title, values, dims, h5t_ieee_f64le, .true.)
+      call self%kept%write(self%container, self%group, self%place, name, unit, title, values, dims, h5t_ieee_f64le, &
+         & self%scales(:2))
    end subroutine field
 
    !> Element states
@@ -449,7 +477,7 @@ contains
 
       values = real(states, wp)
       dims = shape(values, kind=hsize_t)
-      call keep_array(self, name, "-", title, values, dims, h5t_std_i8le, .true.)
+      call self%kept%write(self%container, self%group, self%place, name, "", title, values, dims, h5t_std_i8le, self%scales(:2))
    end subroutine division
 
    !> An array over the points of a block
@@ -460,41 +488,12 @@ contains
       real(wp), intent(in), contiguous :: values(:)
       !> Points in each direction
       integer, intent(in) :: nx, ny, nz
+      integer(hid_t) :: data
       integer(hsize_t) :: dims(3)
 
-      dims = int([nx, ny, nz], hsize_t)
-      call keep_array(self, name, unit, title, values, dims, h5t_ieee_f64le, .false.)
-   end subroutine block
-
-   !> Write an array, or link the one of the case before when it is the same
-   subroutine keep_array(self, name, unit, title, values, dims, kind, keep)
-      class(hdf5_file), intent(inout) :: self
-      character(len=*), intent(in) :: name, unit, title
-      integer(hsize_t), intent(in) :: dims(:)
-      real(wp), intent(in), target :: values(product(dims))
-      !> Type on disk
-      integer(hid_t), intent(in) :: kind
-      !> Look for the same array in the case before?
-      logical, intent(in) :: keep
-      integer(hid_t) :: data
-      integer :: k
-
       if (self%container%failed) return
-      k = 0
-      if (keep) then
-         call self%kept%find(self%place // "/" // name, k)
-         if (self%kept%objects(k)%holds(values, dims)) then
-            call self%kept%objects(k)%link(self%container, self%group, name)
-            return
-         end if
-      end if
-      call write_array(self%container, self%group, name, unit, title, values, dims, kind, data)
-      if (k > 0) then
-         self%kept%objects(k)%values = values
-         self%kept%objects(k)%dims = dims
-         call self%kept%replace(self%container, k, data)
-      else
-         call self%container%release(data)
-      end if
-   end subroutine keep_array
+      dims = int([nx, ny, nz], hsize_t)
+      call write_array(self%container, self%group, name, unit, title, values, dims, h5t_ieee_f64le, self%scales, data)
+      call self%container%release(data)
+   end subroutine block
 end module contact_hdf5_file

@@ -3,7 +3,7 @@ module contact_hdf5_kept
    use hdf5, only : h5olink_f, hid_t, hsize_t
    use contact_base_kinds, only : wp
    use contact_hdf5_container, only : hdf5_container
-   use contact_hdf5_values, only : same_number, value_list
+   use contact_hdf5_values, only : same_number, value_list, write_array
    implicit none (type, external)
    private
 
@@ -18,12 +18,14 @@ module contact_hdf5_kept
       !> Of a field: its values and their shape
       real(wp), allocatable :: values(:)
       integer(hsize_t), allocatable :: dims(:)
+      !> Scales along which it lies, open
+      integer(hid_t), allocatable :: scales(:)
       !> Of a group
       type(value_list), allocatable :: group
    contains
       !> Link it
       procedure :: link
-      !> Is it an array with these values?
+      !> Is it an array with these values at these places?
       procedure :: holds
    end type kept_object
 
@@ -36,6 +38,8 @@ module contact_hdf5_kept
    contains
       procedure :: find
       procedure :: replace
+      !> Write an array, or link the one of the case before when it is the same
+      procedure :: write
       procedure :: release
    end type kept_list
 
@@ -65,6 +69,7 @@ contains
             call move_alloc(self%objects(i)%place, longer(i)%place)
             call move_alloc(self%objects(i)%values, longer(i)%values)
             call move_alloc(self%objects(i)%dims, longer(i)%dims)
+            call move_alloc(self%objects(i)%scales, longer(i)%scales)
             call move_alloc(self%objects(i)%group, longer(i)%group)
          end do
          call move_alloc(longer, self%objects)
@@ -78,6 +83,7 @@ contains
    !> Link the object into a group
    subroutine link(self, container, group, name)
       class(kept_object), intent(in) :: self
+      !> The open file
       type(hdf5_container), intent(inout) :: container
       !> Open group
       integer(hid_t), intent(in) :: group
@@ -90,22 +96,26 @@ contains
    end subroutine link
 
    !> Is the object an array of this shape with the same values?
-   pure logical function holds(self, values, dims)
+   pure logical function holds(self, values, dims, scales)
       class(kept_object), intent(in) :: self
       !> All values in their order, and the shape
       real(wp), intent(in) :: values(:)
       !> Extents, the slowest index first
       integer(hsize_t), intent(in) :: dims(:)
+      !> Open scales along which it lies
+      integer(hid_t), intent(in) :: scales(:)
 
       holds = .false.
       if (.not. allocated(self%values)) return
       if (.not. all(self%dims == dims)) return
+      if (.not. all(self%scales == scales)) return
       holds = all(same_number(self%values, values))
    end function holds
 
    !> The object on disk is another one from now on
    subroutine replace(self, container, k, id)
       class(kept_list), intent(inout) :: self
+      !> The open file
       type(hdf5_container), intent(inout) :: container
       !> Number in `objects`
       integer, intent(in) :: k
@@ -116,9 +126,48 @@ contains
       self%objects(k)%id = id
    end subroutine replace
 
+   !> Write an array, or link the one of the case before when it is the same
+   subroutine write(self, container, group, place, name, unit, title, values, dims, kind, scales, id)
+      class(kept_list), intent(inout) :: self
+      !> The open file
+      type(hdf5_container), intent(inout) :: container
+      !> Open group
+      integer(hid_t), intent(in) :: group
+      !> Place of the group, see kept_object; name, unit and description of the array
+      character(len=*), intent(in) :: place, name, unit, title
+      !> Shape
+      integer(hsize_t), intent(in) :: dims(:)
+      !> All values in their order
+      real(wp), intent(in), target :: values(product(dims))
+      !> Type on disk
+      integer(hid_t), intent(in) :: kind
+      !> Open scales along which it lies; none for a scale
+      integer(hid_t), intent(in) :: scales(:)
+      !> The dataset, open until the next of that name is written
+      integer(hid_t), intent(out), optional :: id
+      integer(hid_t) :: data
+      integer :: k
+
+      if (container%failed) return
+      call self%find(place // "/" // name, k)
+      associate (this => self%objects(k))
+         if (this%holds(values, dims, scales)) then
+            call this%link(container, group, name)
+         else
+            call write_array(container, group, name, unit, title, values, dims, kind, scales, data)
+            this%values = values
+            this%dims = dims
+            this%scales = scales
+            call self%replace(container, k, data)
+         end if
+         if (present(id)) id = this%id
+      end associate
+   end subroutine write
+
    !> Close all objects
    subroutine release(self, container)
       class(kept_list), intent(inout) :: self
+      !> The open file
       type(hdf5_container), intent(inout) :: container
       integer :: k
 

@@ -4,13 +4,16 @@ module contact_hdf5_values
       & h5t_std_i32le, h5t_std_i8le, hid_t, hsize_t
    use contact_base_kinds, only : long, wp
    use contact_hdf5_container, only : hdf5_container, large, max_chunk, max_text_length
+   use contact_hdf5_scales, only : attach_scales, make_scale, tell_flags
    implicit none (type, external)
    private
 
-   public :: item_kind, name_length, named_value, same_number, value_list, write_array
+   public :: flag_meanings, item_kind, name_length, named_value, same_number, value_list, write_array
 
    !> Longest name of a value, unit, description [characters]
-   integer, parameter :: name_length = 32, unit_length = 16, title_length = 80
+   integer, parameter :: name_length = 32, unit_length = 36, title_length = 104
+   !> What element states mean, from 0
+   character(len=*), parameter :: flag_meanings = "exterior adhesion slip plastic"
 
    type :: item_kind_list
       integer :: real_number = 1, real_numbers = 2, whole = 3, text = 4, flag = 5
@@ -47,6 +50,8 @@ module contact_hdf5_values
       procedure :: keep_texts
       !> Have the lists the same names and values?
       procedure :: equals
+      !> Write them as attributes of the file, texts and integers
+      procedure :: write_attributes
    end type value_list
 
 contains
@@ -115,6 +120,26 @@ contains
       equals = .true.
    end function equals
 
+   !> Write the values as attributes of the file, in place of those of the same names
+   subroutine write_attributes(self, container)
+      class(value_list), intent(in) :: self
+      !> The open file
+      type(hdf5_container), intent(inout) :: container
+      integer :: i
+
+      do i = 1, self%count
+         if (container%failed) return
+         associate (this => self%items(i))
+            if (this%kind == item_kind%text) then
+               call container%drop_attribute(trim(this%name))
+               call container%set_text(container%file, trim(this%name), this%text)
+            else
+               call container%set_count(trim(this%name), nint(this%value))
+            end if
+         end associate
+      end do
+   end subroutine write_attributes
+
    !> Have two values the same name and value?
    pure logical function is_same(self, other) result(same)
       class(named_value), intent(in) :: self
@@ -143,21 +168,22 @@ contains
    end function same_number
 
    !> Write the value as a dataset of its group
-   subroutine write(self, container, group, described)
+   subroutine write(self, container, group, described, along)
       class(named_value), intent(in), target :: self
+      !> The open file
       type(hdf5_container), intent(inout) :: container
       !> Open group
       integer(hid_t), intent(in) :: group
-      !> With its unit and description as attributes, if it has a unit?
+      !> With its unit and description as attributes?
       logical, intent(in) :: described
+      !> Scale of several numbers: -1 for one of their own; where it is none yet, they become it
+      integer(hid_t), intent(inout), optional :: along
       integer(hid_t) :: data, kind, properties, space
       integer(hsize_t) :: dims(1)
       integer :: status
-      logical :: with_unit
 
-      with_unit = described .and. len_trim(self%unit) > 0
       properties = container%bare
-      if (with_unit) properties = container%compact
+      if (described .or. self%kind == item_kind%real_numbers) properties = container%compact
       dims = 1
       space = container%scalar
       select case (self%kind)
@@ -192,15 +218,24 @@ contains
          call h5dwrite_f(data, kind, self%text, dims, status)
       end select
       call container%check(status)
-      if (with_unit) then
-         call container%set_text(data, "units", trim(self%unit))
-         call container%set_text(data, "long_name", trim(self%title))
+      if (described) call container%describe(data, trim(self%unit), trim(self%title))
+      if (self%kind == item_kind%real_numbers) then
+         if (.not. present(along)) then
+            call make_scale(container, data)
+         else if (along < 0) then
+            call make_scale(container, data)
+            along = data
+            return
+         else
+            call attach_scales(container, data, [along])
+         end if
       end if
       call container%release(data)
    end subroutine write
 
    !> Write an array of any rank as a dataset
-   subroutine write_array(container, group, name, unit, title, values, dims, kind, data)
+   subroutine write_array(container, group, name, unit, title, values, dims, kind, scales, data)
+      !> The open file
       type(hdf5_container), intent(inout) :: container
       !> Open group
       integer(hid_t), intent(in) :: group
@@ -212,6 +247,8 @@ contains
       real(wp), intent(in), target :: values(product(dims))
       !> Type on disk: of numbers, or of element states
       integer(hid_t), intent(in) :: kind
+      !> Open datasets with the places along the dimensions; empty: it is a scale itself
+      integer(hid_t), intent(in) :: scales(:)
       !> The open dataset
       integer(hid_t), intent(out) :: data
       integer(hid_t) :: properties, space
@@ -230,8 +267,17 @@ contains
       call container%check(status)
       call h5dwrite_f(data, h5t_native_double, values, [size(values, kind=hsize_t)], status)
       call container%check(status)
-      if (len(unit) > 0) call container%set_text(data, "units", unit)
-      call container%set_text(data, "long_name", title)
+      if (kind == h5t_std_i8le) then
+         call container%describe(data, "-", title)
+         call tell_flags(container, data, flag_meanings)
+      else
+         call container%describe(data, unit, title)
+      end if
+      if (size(scales) > 0) then
+         call attach_scales(container, data, scales)
+      else
+         call make_scale(container, data)
+      end if
       call container%release(space)
       if (properties /= container%compact) call container%release(properties)
    end subroutine write_array

@@ -1,6 +1,6 @@
 !> The input of a case for programs: what was asked, kept groups included
 module contact_output_input_record
-   use contact_base_choices, only : has_slope_reduction, heat_source_name, material_model, pressure_model, variation
+   use contact_base_choices, only : has_slope_reduction, heat_source_name, material_model, motion, pressure_model, variation
    use contact_base_kinds, only : wp
    use contact_cases_spec, only : case_spec, friction_set
    use contact_cases_collector, only : collected_length, collector, friction_numbers
@@ -110,16 +110,23 @@ contains
             call record%number("fn", "N", "normal force, prescribed with N = 1", k%fn)
             call record%number("fx", "-", "relative force FX, prescribed with F = 1, 2", k%fx)
             call record%number("fy", "-", "relative force FY, prescribed with F = 2", k%fy)
-            call record%number("cksi", "- or mm", "longitudinal creepage or shift", k%cksi)
-            call record%number("ceta", "- or mm", "lateral creepage or shift", k%ceta)
-            call record%number("cphi", "rad/mm or rad", "spin or rotation", k%cphi)
+            if (spec%motion == motion%shift) then
+               call record%number("cksi", "mm", "longitudinal shift", k%cksi)
+               call record%number("ceta", "mm", "lateral shift", k%ceta)
+               call record%number("cphi", "rad", "rotation", k%cphi)
+            else
+               call record%number("cksi", "-", "longitudinal creepage", k%cksi)
+               call record%number("ceta", "-", "lateral creepage", k%ceta)
+               call record%number("cphi", "rad/mm", "spin", k%cphi)
+            end if
             call record%close_group()
-            call record%open_group("rolling")
-            call record%number("spinxo", "mm", "spin centre", k%spinxo)
-            call record%number("spinyo", "mm", "spin centre", k%spinyo)
          end associate
-      else
          call record%open_group("rolling")
+         call record%number("spinxo", "mm", "spin centre", spec%kinematics%spinxo)
+         call record%number("spinyo", "mm", "spin centre", spec%kinematics%spinyo)
+      else
+         ! speed and steps of wheel and rail are in other groups
+         return
       end if
       call record%number("chi", "rad", "rolling direction", spec%rolling%chi)
       call record%number("dq", "mm", "distance per step", spec%rolling%dq)
@@ -330,7 +337,8 @@ contains
       call record%count("mirror_z", "MIRRORZ", profile%mirror_z)
       call record%number("scale", "-", "factor to mm", profile%scale)
       call record%count("smoothing_method", "ISMOOTH", profile%smoothing_method)
-      call record%number("smoothing", "", "its parameter", profile%smoothing)
+      call record%number("smoothing", trim(merge("mm3", "mm ", profile%smoothing_method == 0)), &
+         & "weight (method 0) or wavelength (1, 2) of smoothing", profile%smoothing)
       call record%close_group()
    end subroutine describe_profile
 end module contact_output_input_record

@@ -1,8 +1,8 @@
 !> Contact surfaces and blocks below them as VTK files, for ParaView and its kin
 !>
 !> <name>.<case><patch>.vts holds the elements as cells, <name>.<case><patch>.block<k>.vts the points of a
-!> subsurface block, and <name>.pvd lists all of them with the number of the case as time. Arrays are
-!> appended as raw binary numbers. Wheel and rail: points and vectors are in track coordinates.
+!> subsurface block, <name>.<case>.rail.vts and .wheel.vts the surfaces of both bodies, and <name>.pvd lists all of them with
+!> the number of the case as time. Wheel and rail: points and vectors are in track coordinates.
 module contact_output_vtk_files
    use, intrinsic :: iso_c_binding, only : c_long
    use contact_base_choices, only : is_rolling, motion
@@ -12,7 +12,9 @@ module contact_output_vtk_files
    use contact_base_output_file, only : output_file
    use contact_cases_spec, only : case_spec
    use contact_output_case_record, only : case_head, planned_text, run_summary, side_sign
-   use contact_output_finished_file, only : case_file_name, close_result, finished_file, open_result, open_result_again
+   use contact_output_finished_file, only : case_file_name, close_result, open_result, open_result_again
+   use contact_output_vtk_bodies, only : body_points, body_profile
+   use contact_output_vtk_grid, only : finish_grid, put, start_grid, vtk_grid
    use contact_patch_quantities, only : element_field, is_lateral
    use contact_patch_result, only : patch_result, subsurface_result
    use contact_text_words, only : integer_text, replaced
@@ -45,21 +47,8 @@ module contact_output_vtk_files
    !> In the list, where files of a case are not there
    character(len=*), parameter :: loss = "    <!-- missing: a file of case "
 
-   !> One VTK file in the making: the head tells where the arrays behind it begin
-   type :: vtk_grid
-      type(finished_file) :: file
-      character(len=:), allocatable :: head
-      !> Numbers of points and cells in each direction
-      integer :: points(3) = 0
-      logical :: on_cells = .true.
-      !> Arrays, one after the other, and their end
-      real(wp), allocatable :: numbers(:)
-      integer :: used = 0
-      !> Bytes in front of the next array
-      integer(long) :: offset = 0
-      !> Length of each array
-      integer, allocatable :: lengths(:)
-   end type vtk_grid
+   !> Numbers of the surfaces of the bodies in the list, behind those of the patches
+   integer, parameter :: rail_part = 98, wheel_part = 99
 
    !> Length of the remark at the end of the collection, so that each covers the one before
    integer, parameter :: remark_length = 80
@@ -212,12 +201,18 @@ contains
    end subroutine write_contact
 
    !> A solved case of module 1
-   subroutine write_wheel_rail(self, head, spec, pair, error)
+   subroutine write_wheel_rail(self, head, spec, pair, rail, wheel, error)
       class(vtk_files), intent(inout) :: self
+      !> Number of the case
       type(case_head), intent(in) :: head
+      !> What was asked
       type(case_spec), intent(in) :: spec
+      !> What was found
       type(wheel_rail_result), intent(in) :: pair
+      !> Profiles or surfaces of both bodies
+      type(body_profile), intent(in) :: rail, wheel
       type(error_type), allocatable, intent(out) :: error
+      character(len=12) :: case_text
       integer :: k
 
       do k = 1, size(pair%patches)
@@ -226,7 +221,37 @@ contains
          call self%list_loss(head%number)
          return
       end do
+      write(case_text, "(I0.4)") head%number
+      call write_body(self, head, spec, pair, rail, "rail", case_text, error)
+      if (.not. allocated(error)) call write_body(self, head, spec, pair, wheel, "wheel", case_text, error)
+      if (allocated(error)) call self%list_loss(head%number)
    end subroutine write_wheel_rail
+
+   !> The surface of a body; nothing where there is none
+   subroutine write_body(self, head, spec, pair, profile, name, case_text, error)
+      type(vtk_files), intent(inout) :: self
+      type(case_head), intent(in) :: head
+      type(case_spec), intent(in) :: spec
+      type(wheel_rail_result), intent(in) :: pair
+      type(body_profile), intent(in) :: profile
+      !> "rail" or "wheel"
+      character(len=*), intent(in) :: name
+      !> Number of the case
+      character(len=*), intent(in) :: case_text
+      type(error_type), allocatable, intent(out) :: error
+      character(len=:), allocatable :: file
+      real(wp), allocatable :: points(:, :, :)
+      type(vtk_grid) :: grid
+
+      call body_points(spec, pair, profile, name == "wheel", points)
+      if (size(points) == 0) return
+      points(2, :, :) = side_sign(spec)*points(2, :, :)
+      call start_grid(grid, [size(points, 2), size(points, 3), 1], .false., size(points))
+      file = case_file_name(self%base, trim(case_text), name // ".vts", head%result_element, 0)
+      call finish_grid(grid, file, reshape(points, [size(points)]), error, spec%limits)
+      if (.not. allocated(error)) call self%list_file(file, head%number, merge(wheel_part, rail_part, name == "wheel"))
+      call add_context(error, "writing VTK files")
+   end subroutine write_body
 
    !> Surface and blocks of a patch
    subroutine write_patch(self, head, spec, contact, number, error, place)
@@ -294,7 +319,7 @@ contains
          call start_grid(grid, [mx + 1, my + 1, 1], .true., size(points) + mx*my*(7 + size(fields)))
          call put(grid, "element state", 1, reshape(real(contact%division, wp), [mx*my]))
          do k = 1, size(fields)
-            if (fields(k)%label == "" .or. .not. fields(k)%is_written()) cycle
+            if (fields(k)%label == "" .or. fields(k)%is_zero .or. .not. associated(fields(k)%values)) cycle
             label = fields(k)%label
             if (fields(k)%unit /= "-") label = trim(label) // " [" // trim(fields(k)%unit) // "]"
             call put(grid, trim(label), 1, merge(s, 1.0_wp, is_lateral(fields(k)%along))/fields(k)%divisor &
@@ -388,78 +413,4 @@ contains
       if (allocated(place%curve) .and. present(row)) angle = place%curve(3, row)
       vector = [local(1), s*(cos(angle)*local(2) - sin(angle)*local(3)), sin(angle)*local(2) + cos(angle)*local(3)]
    end function turned
-
-   !> Begin a structured grid
-   subroutine start_grid(grid, points, on_cells, size_of_all)
-      type(vtk_grid), intent(inout) :: grid
-      !> Numbers of points along the three directions
-      integer, intent(in) :: points(3)
-      !> Do the arrays belong to cells?
-      logical, intent(in) :: on_cells
-      !> Upper bound of the numbers in all arrays
-      integer, intent(in) :: size_of_all
-      character(len=120) :: extent
-
-      grid%points = points
-      grid%on_cells = on_cells
-      allocate(grid%numbers(size_of_all), grid%lengths(0))
-      write(extent, "(5(I0, 1X), I0)") 0, points(1) - 1, 0, points(2) - 1, 0, points(3) - 1
-      grid%head = '<?xml version="1.0"?>' // new_line("a") // '<VTKFile type="StructuredGrid" version="1.0" byte_order="' &
-         & // byte_order() // '" header_type="UInt64">' // new_line("a") // '<StructuredGrid WholeExtent="' // trim(extent) &
-         & // '">' // new_line("a") // '<Piece Extent="' // trim(extent) // '">' // new_line("a") &
-         & // merge("<CellData> ", "<PointData>", on_cells) // new_line("a")
-   end subroutine start_grid
-
-   !> How this machine stores numbers
-   pure function byte_order() result(name)
-      character(len=12) :: name
-      character(len=1) :: bytes(4)
-
-      bytes = transfer(1, bytes)
-      name = merge("LittleEndian", "BigEndian   ", iachar(bytes(1)) == 1)
-   end function byte_order
-
-   !> Add an array
-   subroutine put(grid, name, components, values)
-      type(vtk_grid), intent(inout) :: grid
-      character(len=*), intent(in) :: name
-      integer, intent(in) :: components
-      real(wp), intent(in) :: values(:)
-      character(len=120) :: rest
-
-      write(rest, "(A, I0, A, I0, A)") '" NumberOfComponents="', components, '" format="appended" offset="', grid%offset, '"/>'
-      grid%head = grid%head // '<DataArray type="Float64" Name="' // name // trim(rest) // new_line("a")
-      grid%numbers(grid%used + 1:grid%used + size(values)) = values
-      grid%used = grid%used + size(values)
-      grid%lengths = [grid%lengths, size(values)]
-      grid%offset = grid%offset + 8_long*(1_long + size(values, kind=long))
-   end subroutine put
-
-   !> Points, and the file
-   subroutine finish_grid(grid, name, points, error, limits)
-      type(vtk_grid), intent(inout) :: grid
-      character(len=*), intent(in) :: name
-      real(wp), intent(in) :: points(:)
-      type(error_type), allocatable, intent(out) :: error
-      !> As for open_result
-      type(case_limits), intent(in) :: limits
-      integer :: first, k
-
-      grid%head = grid%head // trim(merge("</CellData> ", "</PointData>", grid%on_cells)) // new_line("a") // "<Points>" &
-         & // new_line("a")
-      call put(grid, "Points", 3, points)
-      grid%head = grid%head // "</Points>" // new_line("a") // "</Piece>" // new_line("a") // "</StructuredGrid>" &
-         & // new_line("a") // '<AppendedData encoding="raw">' // new_line("a") // "_"
-      call grid%file%start(name, error, limits)
-      if (allocated(error)) return
-      call grid%file%bytes(grid%head)
-      first = 0
-      do k = 1, size(grid%lengths)
-         call grid%file%bytes(transfer(8_long*grid%lengths(k), "12345678"))
-         call grid%file%bytes(grid%numbers(first + 1:first + grid%lengths(k)))
-         first = first + grid%lengths(k)
-      end do
-      call grid%file%line(new_line("a") // "</AppendedData>" // new_line("a") // "</VTKFile>")
-      call grid%file%finish(error)
-   end subroutine finish_grid
 end module contact_output_vtk_files

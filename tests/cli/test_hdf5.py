@@ -3,6 +3,7 @@
 
 Skipped (exit status 77) without h5py. The environment tells CONTACT_PROGRAM and CONTACT_SOURCE.
 """
+import hashlib
 import os
 import shutil
 import signal
@@ -104,6 +105,70 @@ class Hdf5(unittest.TestCase):
                 self.assertEqual(h5py.h5o.get_info(first[same].id).addr, h5py.h5o.get_info(last[same].id).addr, same)
             self.assertNotEqual(h5py.h5o.get_info(first["patch_1/fields/px"].id).addr,
                                 h5py.h5o.get_info(last["patch_1/fields/px"].id).addr)
+
+    def test_file_describes_itself(self):
+        """Units, names, dimension scales and flags of everything; where the results come from"""
+        for name in ("manchester", "conformal_wheel", "subsurface"):
+            file = self.run_example(name)
+            self.assertEqual(file.attrs["Conventions"], b"CF-1.11")
+            self.assertLess(abs(file["provenance/created/seconds"][()] - time.time()), 600)
+            missing, titles = [], {}
+
+            def look(path, item):
+                if not isinstance(item, h5py.Dataset):
+                    return
+                if item.ndim and not item.is_scale and not all(len(dimension) == 1 for dimension in item.dims):
+                    missing.append(path + ": dimension scales")  # noqa: B023
+                for axis, dimension in enumerate(item.dims if not item.is_scale else ()):
+                    if len(dimension) and dimension[0].shape != (item.shape[axis],):
+                        missing.append(path + ": length of a scale")  # noqa: B023
+                if "/solver/" not in path and "/effects/" not in path and "long_name" not in item.attrs:
+                    missing.append(path + ": long_name")  # noqa: B023
+                if item.dtype.kind == "f" and "units" not in item.attrs and not path.startswith(("cases", "patches")):
+                    missing.append(path + ": units")  # noqa: B023
+                if "/block_1/s" in path:
+                    titles.setdefault(path.split("/")[0], []).append(item.attrs["long_name"])  # noqa: B023
+
+            file.visititems(look)
+            self.assertEqual(missing, [])
+            for found in titles.values():
+                self.assertEqual(len(set(found)), 12)
+            patch = file["case_0001/patch_1"]
+            self.assertEqual(patch["fields/eldiv"].attrs["flag_values"].tolist(), [0, 1, 2, 3])
+            self.assertEqual(patch["fields/eldiv"].attrs["flag_meanings"], b"exterior adhesion slip plastic")
+            np.testing.assert_array_equal(patch["fields/pn"].dims[0][0], patch["grid/y"])
+            np.testing.assert_array_equal(patch["fields/pn"].dims[1][0], patch["grid/x"])
+            self.assertEqual(patch["totals/fx"].attrs["units"], b"N")
+            self.assertEqual("rolling" in file["case_0001/inputs"], name == "subsurface")
+            with open(os.path.join(SOURCE, "examples", name + ".inp"), "rb") as source:
+                text = source.read()
+            origin = file["provenance"]
+            self.assertEqual(origin["input"][0], text)
+            self.assertEqual(origin["input_sha256"][()], hashlib.sha256(text).hexdigest().encode())
+            profiles = [(origin[item]["file"][()].decode(), origin[item]["sha256"][()].decode()) for item in origin
+                        if item.startswith("profile_")]
+            self.assertEqual(len(profiles), 0 if name == "subsurface" else 2)
+            for path, digest in profiles:
+                with open(os.path.join(SOURCE, "examples", path), "rb") as source:
+                    self.assertEqual(hashlib.sha256(source.read()).hexdigest(), digest)
+            file.close()
+
+    def test_xarray_knows_all_dimensions(self):
+        try:
+            import xarray
+            import h5netcdf  # noqa: F401
+        except ImportError as reason:
+            self.skipTest(str(reason))
+        self.run_example("subsurface").close()
+        path = os.path.join(self.folder, "subsurface.h5")
+        for group, sizes in (("patches", {"case": 4}), ("case_0002/patch_1/fields", {"y_element": 41, "x_element": 41})):
+            with xarray.open_dataset(path, group=group, engine="h5netcdf") as data:
+                self.assertEqual(dict(data.sizes), sizes)
+        if hasattr(xarray, "open_datatree"):
+            with xarray.open_datatree(path, engine="h5netcdf") as tree:
+                self.assertEqual([str(name) for node in tree.subtree for name in node.dims if "phony" in str(name)], [])
+                self.assertIn("x_element", tree["case_0002/patch_1/fields"].to_dataset().coords)
+                self.assertEqual(tree["case_0001/patch_1/subsurface/block_1/sigvm"].dims, ("z", "y", "x"))
 
     def test_shifts_and_rolling_have_columns_of_their_own(self):
         with self.run_example("cattaneo") as file:

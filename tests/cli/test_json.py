@@ -42,7 +42,65 @@ def read(text):
     return cases
 
 
+def faults(value, schema, place="line"):
+    """What a value has that a schema does not allow; the words of JSON Schema that ours uses"""
+    if schema is False:
+        return [place + " must not be there"]
+    if "anyOf" in schema:
+        found = [faults(value, choice, place) for choice in schema["anyOf"]]
+        return [] if [] in found else min(found, key=len)
+    kinds = {"object": dict, "array": list, "string": str, "number": (int, float), "integer": int, "boolean": bool,
+             "null": type(None)}
+    kind = schema.get("type", list(kinds))
+    allowed = [kinds[word] for word in ([kind] if isinstance(kind, str) else kind)]
+    if not any(isinstance(value, one) and (isinstance(value, bool) <= (one in (bool, object))) for one in allowed):
+        return ["%s is %r, not of type %s" % (place, value, kind)]
+    if ("const" in schema and value != schema["const"]) or value not in schema.get("enum", [value]):
+        return ["%s is %r" % (place, value)]
+    found = []
+    if isinstance(value, dict):
+        found += [place + " lacks " + name for name in schema.get("required", ()) if name not in value]
+        for name, item in value.items():
+            if name in schema.get("properties", {}):
+                found += faults(item, schema["properties"][name], place + "." + name)
+            elif not schema.get("additionalProperties", True):
+                found.append("%s has %s" % (place, name))
+    if isinstance(value, list) and "items" in schema:
+        for k, item in enumerate(value):
+            found += faults(item, schema["items"], "%s[%d]" % (place, k))
+    return found
+
+
 class Json(unittest.TestCase):
+    def test_lines_are_as_the_schema_says(self):
+        with open(os.path.join(SOURCE, "doc/user/results.schema.json"), encoding="utf-8") as file:
+            schema = json.load(file)
+        lines = []
+        for name in ("cattaneo", "manchester", "falling_friction", "sliding_temperature", "simplified", "layer_element"):
+            self.run_example(name)
+            with open(os.path.join(self.folder, name + ".jsonl"), encoding="utf-8") as file:
+                lines += [json.loads(line) for line in file]
+        with open(os.path.join(self.folder, "short.inp"), "w", encoding="utf-8") as file:
+            file.write(EMPTY.format(pen=2000).replace("5 5 -1.0 -1.0", "3 3 -0.6 -0.6") + "0\n")
+        lines += [json.loads(line) for line in self.run_program("--quiet", "--json=-", "2", "short").stdout.splitlines()]
+        self.assertTrue(any("border" in patch for line in lines for patch in line["patches"]), "contact at the border is tried")
+        for line in lines:
+            self.assertEqual(faults(line, schema), [])
+        # it tells what is wrong
+        for change, word in ((lambda line: line.pop("status"), "lacks status"), (lambda line: line.update(fn=1), "has fn"),
+                             (lambda line: line["patches"][0]["totals"]["fn"].update(unit="kN"), "unit is 'kN'"),
+                             (lambda line: line.update(solved=1), "not of type boolean"),
+                             (lambda line: line.update(case=True), "not of type integer")):
+            line = json.loads(json.dumps(lines[0]))
+            change(line)
+            self.assertTrue(any(word in fault for fault in faults(line, schema)), (word, faults(line, schema)))
+        try:
+            import jsonschema
+        except ImportError:
+            return
+        for line in lines:
+            jsonschema.validate(line, schema)
+
     def setUp(self):
         scratch = tempfile.TemporaryDirectory()
         self.addCleanup(scratch.cleanup)

@@ -91,12 +91,43 @@ class Vtk(unittest.TestCase):
         for case in cases:
             total = [0.0, 0.0, 0.0]
             for step, file in listed:
-                if step == case["case"]:
+                if step == case["case"] and not file.endswith((".rail.vts", ".wheel.vts")):
                     _, sizes, arrays = read_by_hand(os.path.join(self.folder, file))
                     total = [a + b for a, b in zip(total, self.force(arrays, sizes))]
             for axis, name in enumerate(("fx_tr", "fy_tr", "fz_tr")):
                 self.assertAlmostEqual(total[axis], case["totals"][name]["value"], delta=1e-6 * case["totals"]["fz_tr"]["value"],
                                        msg="case %d %s" % (case["case"], name))
+
+    def test_patches_lie_on_rail_and_wheel(self):
+        """Where pressure is highest, rail and wheel are nearer to the patch than the step of their sections makes them"""
+        for case in self.run_example("wheel_on_rail")[:3]:
+            name = "wheel_on_rail.%04d" % case["case"]
+            self.assertIn((case["case"], name + ".rail.vts"), self.collection("wheel_on_rail"))
+            _, sizes, arrays = read_by_hand(os.path.join(self.folder, name + "a.vts"))
+            pressure = [value[0] for value in arrays["pressure [N/mm2]"]]
+            k = max(range(len(pressure)), key=pressure.__getitem__)
+            spot = arrays["Points"][k + k // sizes[0]]
+            rail = read_by_hand(os.path.join(self.folder, name + ".rail.vts"))[2]["Points"]
+            across = min(((p[1] - spot[1]) ** 2 + (p[2] - spot[2]) ** 2) ** 0.5 for p in rail)
+            self.assertLess(across, 1.0)
+            self.assertTrue(min(p[0] for p in rail) < spot[0] < max(p[0] for p in rail))
+            wheel = read_by_hand(os.path.join(self.folder, name + ".wheel.vts"))[2]["Points"]
+            self.assertLess(min(sum((a - b) ** 2 for a, b in zip(p, spot)) ** 0.5 for p in wheel), 25.0)
+            # the lowest meridian is one of the sections
+            self.assertLess(min(((p[1] - spot[1]) ** 2 + (p[2] - spot[2]) ** 2) ** 0.5 for p in wheel), 1.0)
+            # the axle is where the nominal radius of 460 mm puts it
+            heights = [p[2] for p in wheel]
+            self.assertAlmostEqual((max(heights) + min(heights)) / 2, case["totals"]["z_ws"]["value"] - 460.0, delta=2.0)
+
+    def test_all_fields_are_there(self):
+        self.run_example("cattaneo")
+        _, sizes, arrays = read_by_hand(os.path.join(self.folder, "cattaneo.0002.vts"))
+        for name in ("distance [mm]", "un [mm]", "ux [mm]", "uy [mm]", "sx [mm]", "wx [mm]", "px [N/mm2]", "friction coefficient"):
+            self.assertEqual(len(arrays[name]), sizes[0] * sizes[1], name)
+        # slip is rigid shift and change of the elastic displacement
+        k = max(range(sizes[0] * sizes[1]), key=lambda k: abs(arrays["sx [mm]"][k][0]))
+        self.assertAlmostEqual(arrays["slip [mm]"][k][0], arrays["sx [mm]"][k][0], delta=1e-15)
+        self.assertAlmostEqual(arrays["sx [mm]"][k][0], arrays["wx [mm]"][k][0] + arrays["ux [mm]"][k][0], delta=1e-6)
 
     @unittest.skipIf(vtk is None, "the package vtk is not installed")
     def test_vtk_reads_the_same(self):

@@ -139,9 +139,9 @@ install_octave() {
 }
 
 # What the tests of Python ask for: numpy and h5py to run, pip, setuptools and wheel to install the package, mypy for its types,
-# playwright for the browser, matplotlib and xarray for results,
+# playwright for the browser, matplotlib, xarray and h5netcdf for results,
 # pytest and the rest for studies. setuptools comes first: it refuses to be imported after the distutils that it replaces
-has_python_packages() { python3 -c "import setuptools, numpy, h5py, pip, wheel, mypy, playwright, matplotlib, xarray,
+has_python_packages() { python3 -c "import setuptools, numpy, h5py, pip, wheel, mypy, playwright, matplotlib, xarray, h5netcdf,
   pytest, scipy, pandas, pyarrow, netCDF4, zarr, distributed" >/dev/null 2>&1; }
 
 # From the system's packages, or in a folder below build
@@ -154,7 +154,7 @@ install_python_packages() {
   fi
   say "Installing packages of Python for the tests"
   if command -v apt-get >/dev/null 2>&1 && { [ "$(id -u)" = 0 ] || sudo -n true 2>/dev/null; }; then
-    packages="python3-numpy python3-h5py python3-pip python3-setuptools python3-wheel python3-venv python3-mypy python3-matplotlib python3-xarray chromium"
+    packages="python3-numpy python3-h5py python3-pip python3-setuptools python3-wheel python3-venv python3-mypy python3-matplotlib python3-xarray python3-h5netcdf chromium"
     # shellcheck disable=SC2086
     { as_root apt-get update
       as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends $packages
@@ -164,7 +164,7 @@ install_python_packages() {
     return 0
   fi
   { [ -x "$top/build/python/bin/python3" ] || python3 -m venv "$top/build/python"; } &&
-    "$top/build/python/bin/python3" -m pip install --quiet numpy h5py setuptools wheel mypy playwright matplotlib xarray \
+    "$top/build/python/bin/python3" -m pip install --quiet numpy h5py setuptools wheel mypy playwright matplotlib xarray h5netcdf \
       pytest scipy pandas pyarrow netCDF4 zarr distributed
   PATH=$top/build/python/bin:$PATH
   export PATH

@@ -57,6 +57,12 @@ def _plain(value: Any) -> Any:
     return None if isinstance(number, float) and not abs(number) < float("inf") else number
 
 
+def _unit(item: Any) -> str:
+    """The unit of a dataset; that of a ratio, 1 in the file, is shown as a dash"""
+    unit = str(_plain(item.attrs.get("units", b"")))
+    return "-" if unit == "1" else unit
+
+
 def _is_lost(values: Any) -> bool:
     """Are there values that HDF5 has filled in where it did not find a piece of an array? See src/hdf5/file.f90"""
     if values.dtype == "<f8":
@@ -104,7 +110,7 @@ class _Reader:
     def meaning(self, key: tuple[Any, ...], item: Any) -> tuple[str, str]:
         """Unit and description, which all items with the same key have in common; attributes are slow to read"""
         if key not in self._meanings:
-            self._meanings[key] = _plain(item.attrs.get("units", b"")), _plain(item.attrs.get("long_name", b""))
+            self._meanings[key] = _unit(item), _plain(item.attrs.get("long_name", b""))
         return self._meanings[key]
 
     def described(self, kind: str, group: Any) -> dict[str, list[Any]]:
@@ -119,7 +125,7 @@ class _Reader:
         table, meta = {}, {}
         for column, item in self.file[name].items():
             table[column] = self.data(item)
-            meta[column] = {"unit": _plain(item.attrs.get("units", b"")), "title": _plain(item.attrs.get("long_name", b""))}
+            meta[column] = {"unit": _unit(item), "title": _plain(item.attrs.get("long_name", b""))}
         if len({values.shape for values in table.values()}) > 1:
             raise ValueError("the columns of /%s have different lengths" % name)
         return table, meta

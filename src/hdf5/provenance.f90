@@ -1,0 +1,278 @@
+!> Where results come from: the group /provenance with the time, a copy of the input, and hashes of input and profiles
+!>
+!> The time stands in /provenance/created/seconds, so that who compares files by all but times leaves it out with the others.
+module contact_hdf5_provenance
+   use, intrinsic :: iso_c_binding, only : c_long, c_null_ptr, c_ptr
+   use hdf5, only : h5dcreate_f, h5dget_type_f, h5dopen_f, h5dread_f, h5dwrite_f, h5gcreate_f, h5gopen_f, h5ldelete_f, &
+      & h5lexists_f, h5p_dataset_create_f, h5pcreate_f, h5pset_chunk_f, h5pset_deflate_f, h5pset_fletcher32_f, &
+      & h5pset_obj_track_times_f, h5screate_simple_f, h5t_fortran_s1, h5tcopy_f, h5tget_size_f, h5tset_size_f, hid_t, &
+      & hsize_t, size_t
+   use contact_base_error, only : error_type
+   use contact_base_kinds, only : wp
+   use contact_hdf5_container, only : compression_level, hdf5_container
+   use contact_hdf5_scales, only : make_scale
+   use contact_hdf5_values, only : item_kind, value_list
+   use contact_text_lexer, only : input_lexer
+   use contact_text_sha256, only : sha256
+   use contact_text_words, only : integer_text
+   implicit none (type, external)
+   private
+
+   public :: provenance
+
+   !> What is known of it while the file is open
+   type :: provenance
+      !> The group
+      integer(hid_t), private :: group = -1
+      !> Folder to which names of files are relative, "" for the current one
+      character(len=:), allocatable, private :: folder
+      !> Names of the profiles that were noted, each in ":"
+      character(len=:), allocatable, private :: known
+      integer, private :: profiles = 0
+   contains
+      !> Begin with the input, or with what an interrupted run has noted
+      procedure :: start
+      procedure :: start_again
+      !> Note a profile, at its first use
+      procedure :: note_profile
+      procedure :: release
+   end type provenance
+
+   character(len=*), parameter :: group_name = "provenance", profile_name = "profile_"
+
+contains
+
+   !> Begin with the input
+   subroutine start(self, container, input, folder, below)
+      class(provenance), intent(inout) :: self
+      !> The open file
+      type(hdf5_container), intent(inout) :: container
+      !> Name of the input file, and folder to which names in it are relative
+      character(len=*), intent(in) :: input, folder
+      !> Folder below which files must be; absent: anywhere
+      character(len=*), intent(in), optional :: below
+      integer :: status
+
+      self%folder = folder
+      self%known = ":"
+      call h5gcreate_f(container%file, group_name, self%group, status)
+      call container%check(status)
+      call write_time(container, self%group)
+      call write_input(container, self%group, input, below)
+   end subroutine start
+
+   !> Name, hash and copy of the input
+   subroutine write_input(container, group, input, below)
+      !> The open file
+      type(hdf5_container), intent(inout) :: container
+      !> Open group
+      integer(hid_t), intent(in) :: group
+      !> Name of the input file
+      character(len=*), intent(in) :: input
+      !> Folder below which it must be; absent: anywhere
+      character(len=*), intent(in), optional :: below
+      type(input_lexer) :: lexer
+      type(error_type), allocatable :: error
+      character(len=:), allocatable :: text
+
+      call lexer%open_file(input, error, below)
+      if (allocated(error)) return
+      call lexer%get_text(text)
+      call describe(container, group, "input_", input(index(input, "/", back=.true.) + 1:), text)
+      call write_copy(container, group, text)
+   end subroutine write_input
+
+   !> When the file was begun
+   subroutine write_time(container, group)
+      !> The open file
+      type(hdf5_container), intent(inout) :: container
+      !> Open group
+      integer(hid_t), intent(in) :: group
+      type(value_list) :: values
+      integer(hid_t) :: inner
+      interface
+         function seconds_now(place) result(seconds) bind(c, name="time")
+            import :: c_long, c_ptr
+            type(c_ptr), value :: place
+            integer(c_long) :: seconds
+         end function seconds_now
+      end interface
+
+      call container%new_group(group, "created", inner)
+      call values%add("seconds", "seconds since 1970-01-01T00:00:00Z", "when the file was begun", item_kind%real_number, &
+         & real(seconds_now(c_null_ptr), wp))
+      if (.not. container%failed) call values%items(1)%write(container, inner, .true.)
+      call container%release(inner)
+   end subroutine write_time
+
+   !> Go on with the group that is there: the input may have been mended, profiles are those of the cases so far
+   subroutine start_again(self, container, input, folder, below)
+      class(provenance), intent(inout) :: self
+      !> The open file
+      type(hdf5_container), intent(inout) :: container
+      !> Name of the input file, and folder to which names in it are relative
+      character(len=*), intent(in) :: input, folder
+      !> Folder below which files must be; absent: anywhere
+      character(len=*), intent(in), optional :: below
+      character(len=*), parameter :: changed(3) = [character(len=12) :: "input", "input_file", "input_sha256"]
+      character(len=:), allocatable :: name
+      logical :: is_there
+      integer :: k, status
+
+      call h5lexists_f(container%file, group_name, is_there, status)
+      call container%check(status)
+      if (.not. is_there) then
+         ! of an earlier version
+         call self%start(container, input, folder, below)
+         return
+      end if
+      self%folder = folder
+      self%known = ":"
+      call h5gopen_f(container%file, group_name, self%group, status)
+      call container%check(status)
+      do k = 1, size(changed)
+         call h5lexists_f(self%group, trim(changed(k)), is_there, status)
+         if (status >= 0 .and. is_there) call h5ldelete_f(self%group, trim(changed(k)), status)
+         call container%check(status)
+      end do
+      call write_input(container, self%group, input, below)
+      do
+         call h5lexists_f(self%group, profile_name // integer_text(self%profiles + 1), is_there, status)
+         call container%check(status)
+         if (container%failed .or. .not. is_there) return
+         self%profiles = self%profiles + 1
+         call read_name(container, self%group, profile_name // integer_text(self%profiles) // "/file", name)
+         self%known = self%known // name // ":"
+      end do
+   end subroutine start_again
+
+   !> Read a text
+   subroutine read_name(container, group, place, text)
+      !> The open file
+      type(hdf5_container), intent(inout) :: container
+      !> Open group
+      integer(hid_t), intent(in) :: group
+      !> Name of the dataset
+      character(len=*), intent(in) :: place
+      character(len=:), allocatable, intent(out) :: text
+      integer(hid_t) :: data, kind
+      integer(hsize_t) :: one(1)
+      integer(size_t) :: length
+      integer :: status
+
+      one = 1
+      text = ""
+      call h5dopen_f(group, place, data, status)
+      call container%check(status)
+      if (container%failed) return
+      call h5dget_type_f(data, kind, status)
+      call h5tget_size_f(kind, length, status)
+      call container%check(status)
+      deallocate(text)
+      allocate(character(len=length) :: text)
+      call h5dread_f(data, kind, text, one, status)
+      call container%check(status)
+      call container%release(kind)
+      call container%release(data)
+   end subroutine read_name
+
+   !> Note name and hash of a profile file at its first use
+   subroutine note_profile(self, container, name, confined)
+      class(provenance), intent(inout) :: self
+      !> The open file
+      type(hdf5_container), intent(inout) :: container
+      !> As the input gives it
+      character(len=*), intent(in) :: name
+      !> Must it be below the folder of the experiment?
+      logical, intent(in) :: confined
+      type(input_lexer) :: lexer
+      type(error_type), allocatable :: error
+      character(len=:), allocatable :: path, text
+      integer(hid_t) :: group
+      integer :: k
+
+      if (index(self%known, ":" // name // ":") > 0 .or. container%failed .or. self%group < 0) return
+      self%known = self%known // name // ":"
+      path = name
+      do k = 1, len(path)
+         if (path(k:k) == "\") path(k:k) = "/"
+      end do
+      if (path(:1) /= "/" .and. len(self%folder) > 0) path = self%folder // "/" // path
+      if (confined) then
+         call lexer%open_file(path, error, self%folder)
+      else
+         call lexer%open_file(path, error)
+      end if
+      if (allocated(error)) return
+      call lexer%get_text(text)
+      self%profiles = self%profiles + 1
+      call container%new_group(self%group, profile_name // integer_text(self%profiles), group)
+      call describe(container, group, "", name, text)
+      call container%release(group)
+   end subroutine note_profile
+
+   !> Name and hash of a file
+   subroutine describe(container, group, prefix, name, text)
+      !> The open file
+      type(hdf5_container), intent(inout) :: container
+      !> Open group
+      integer(hid_t), intent(in) :: group
+      !> Of the names of the datasets
+      character(len=*), intent(in) :: prefix
+      !> Name of the file and what it holds
+      character(len=*), intent(in) :: name, text
+      type(value_list) :: values
+      integer :: k
+
+      call values%add(prefix // "file", "", "name of the file", item_kind%text, 0.0_wp, text=name)
+      call values%add(prefix // "sha256", "", "hash SHA-256 of its bytes", item_kind%text, 0.0_wp, text=sha256(text))
+      do k = 1, values%count
+         if (.not. container%failed) call values%items(k)%write(container, group, .true.)
+      end do
+   end subroutine describe
+
+   !> All bytes of the input, as one text of its length
+   subroutine write_copy(container, group, text)
+      !> The open file
+      type(hdf5_container), intent(inout) :: container
+      !> Open group
+      integer(hid_t), intent(in) :: group
+      character(len=*), intent(in) :: text
+      integer(hid_t) :: data, kind, properties, space
+      integer(hsize_t) :: one(1)
+      integer :: status
+
+      if (len(text) == 0 .or. container%failed) return
+      one = 1
+      call h5tcopy_f(h5t_fortran_s1, kind, status)
+      call h5tset_size_f(kind, int(len(text), size_t), status)
+      call container%check(status)
+      call h5pcreate_f(h5p_dataset_create_f, properties, status)
+      call h5pset_obj_track_times_f(properties, .false., status)
+      call h5pset_chunk_f(properties, 1, one, status)
+      call h5pset_fletcher32_f(properties, status)
+      call h5pset_deflate_f(properties, compression_level, status)
+      call h5screate_simple_f(1, one, space, status)
+      call container%check(status)
+      call h5dcreate_f(group, "input", kind, space, data, status, dcpl_id=properties)
+      call container%check(status)
+      call h5dwrite_f(data, kind, text, one, status)
+      call container%check(status)
+      call container%describe(data, "", "copy of the input file")
+      call make_scale(container, data)
+      call container%release(data)
+      call container%release(space)
+      call container%release(properties)
+      call container%release(kind)
+   end subroutine write_copy
+
+   !> Close the group
+   subroutine release(self, container)
+      class(provenance), intent(inout) :: self
+      !> The open file
+      type(hdf5_container), intent(inout) :: container
+
+      if (self%group >= 0) call container%release(self%group)
+      self%group = -1
+   end subroutine release
+end module contact_hdf5_provenance

@@ -1,0 +1,106 @@
+!> Dimension scales: arrays that are the places along a dimension, and which ones belong to an array
+!>
+!> Attributes of the dimension scale specification of HDF5, CLASS and DIMENSION_LIST, by which NetCDF, xarray and h5py know the
+!> dimensions.
+!> REFERENCE_LIST, the way back from a scale to all arrays along it, is left out: one scale serves thousands of arrays, and the list
+!> would be written anew for each of them. Readers find their way without it.
+module contact_hdf5_scales
+   use, intrinsic :: iso_c_binding, only : c_loc, c_null_char, c_ptr, c_size_t
+   use hdf5, only : h5acreate_f, h5awrite_f, h5rcreate_f, h5screate_simple_f, h5t_c_s1, h5t_std_i8le, &
+      & h5t_native_integer, h5t_std_ref_obj, h5tcopy_f, h5tset_size_f, h5tvlen_create_f, hid_t, hobj_ref_t_f, hsize_t, size_t
+   use contact_hdf5_container, only : hdf5_container
+   implicit none (type, external)
+   private
+
+   public :: attach_scales, make_scale, tell_flags
+
+   !> A list of variable length as HDF5 takes it
+   type, bind(c) :: item_list
+      integer(c_size_t) :: length
+      type(c_ptr) :: items
+   end type item_list
+
+   !> Dimensions of an array at most
+   integer, parameter :: most_dimensions = 3
+
+contains
+
+   !> Say that an array holds the places along a dimension
+   subroutine make_scale(container, data)
+      !> The open file
+      type(hdf5_container), intent(inout) :: container
+      !> Open dataset of rank 1
+      integer(hid_t), intent(in) :: data
+      character(len=*), parameter :: class = "DIMENSION_SCALE" // c_null_char
+      integer(hid_t) :: attribute, kind
+      integer(hsize_t) :: one(1)
+      integer :: status
+
+      one = 1
+      call h5tcopy_f(h5t_c_s1, kind, status)
+      call h5tset_size_f(kind, int(len(class), size_t), status)
+      call container%check(status)
+      call h5acreate_f(data, "CLASS", kind, container%scalar, attribute, status)
+      call container%check(status)
+      call h5awrite_f(attribute, kind, class, one, status)
+      call container%check(status)
+      call container%release(attribute)
+      call container%release(kind)
+   end subroutine make_scale
+
+   !> Say along which scales an array lies
+   subroutine attach_scales(container, data, scales)
+      !> The open file
+      type(hdf5_container), intent(inout) :: container
+      !> Open dataset
+      integer(hid_t), intent(in) :: data
+      !> Open datasets of the scales, in the order of the dimensions in Fortran
+      integer(hid_t), intent(in) :: scales(:)
+      type(hobj_ref_t_f), target :: references(most_dimensions)
+      type(item_list), target :: lists(most_dimensions)
+      integer(hid_t) :: attribute, kind, space
+      integer :: k, n, status
+
+      n = size(scales)
+      do k = 1, n
+         ! the file has the dimensions in the opposite order
+         call h5rcreate_f(scales(n + 1 - k), ".", references(k), status)
+         call container%check(status)
+         lists(k) = item_list(1_c_size_t, c_loc(references(k)))
+      end do
+      call h5tvlen_create_f(h5t_std_ref_obj, kind, status)
+      call container%check(status)
+      call h5screate_simple_f(1, [int(n, hsize_t)], space, status)
+      call h5acreate_f(data, "DIMENSION_LIST", kind, space, attribute, status)
+      call container%check(status)
+      call h5awrite_f(attribute, kind, c_loc(lists), status)
+      call container%check(status)
+      call container%release(attribute)
+      call container%release(space)
+      call container%release(kind)
+   end subroutine attach_scales
+
+   !> Say what the integers of an array mean: 0, 1, ... in this order
+   subroutine tell_flags(container, data, meanings)
+      !> The open file
+      type(hdf5_container), intent(inout) :: container
+      !> Open dataset of small integers
+      integer(hid_t), intent(in) :: data
+      !> Words with blanks between them
+      character(len=*), intent(in) :: meanings
+      integer(hid_t) :: attribute, space
+      integer(hsize_t) :: dims(1)
+      integer :: k, n, status
+
+      n = 1 + count([(meanings(k:k) == " ", k = 1, len(meanings))])
+      dims = n
+      call h5screate_simple_f(1, dims, space, status)
+      call h5acreate_f(data, "flag_values", h5t_std_i8le, space, attribute, status)
+      call container%check(status)
+      call h5awrite_f(attribute, h5t_native_integer, [(k, k = 0, n - 1)], dims, status)
+      call container%check(status)
+      call container%release(attribute)
+      call container%release(space)
+      call container%set_text(data, "flag_meanings", meanings)
+   end subroutine tell_flags
+end module contact_hdf5_scales
