@@ -35,7 +35,7 @@ contains
       type(case_spec), intent(in) :: spec
       !> For the places of the markers
       type(wheel_rail_result), intent(in) :: pair
-      !> Of the body
+      !> What its surface is made of
       type(body_profile), intent(in) :: profile
       !> The wheel, or the rail?
       logical, intent(in) :: is_wheel

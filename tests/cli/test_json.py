@@ -80,6 +80,10 @@ class Json(unittest.TestCase):
             self.run_example(name)
             with open(os.path.join(self.folder, name + ".jsonl"), encoding="utf-8") as file:
                 lines += [json.loads(line) for line in file]
+        for name in ("cattaneo", "manchester"):
+            text = self.run_program("--quiet", "--errors", "--json=-", "--output-dir", ".", "2",
+                                    os.path.join(SOURCE, "examples", name)).stdout
+            lines += [json.loads(line) for line in text.splitlines()]
         with open(os.path.join(self.folder, "short.inp"), "w", encoding="utf-8") as file:
             file.write(EMPTY.format(pen=2000).replace("5 5 -1.0 -1.0", "3 3 -0.6 -0.6") + "0\n")
         lines += [json.loads(line) for line in self.run_program("--quiet", "--json=-", "2", "short").stdout.splitlines()]

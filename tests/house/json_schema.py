@@ -56,6 +56,13 @@ def listed(file, name):
             for title, unit, meaning, *_ in totals(file, name)}
 
 
+def errors(members_of_totals):
+    """Estimated errors of totals"""
+    found = {name + "_error": {**item, "description": "estimated error of " + name} for name, item in members_of_totals.items()
+             if item["type"] == "object"}
+    return group({**found, **members("describe_errors")[0]}, (), "with --errors")
+
+
 def schema():
     head, always = members("describe_head")
     solver, _ = members("describe_solution")
@@ -65,12 +72,14 @@ def schema():
     run, run_always = members("describe_run")
     patch = group({"patch": {"description": "number of the patch in its case", **KINDS["count"]},
                    "effects": {"description": "effects that acted", **KINDS["text"]}, "totals": group(patch_totals, ["fn", "pen"]),
+                   "errors": errors(patch_totals),
                    "border": group(border[0], border[0], "where contact is cut off"),
                    "coarse": group(coarse[0], coarse[0], "how few elements wide contact is"), "solver": group(solver)},
                   ["patch", "totals", "solver"])
+    pair_totals = listed("wheelrail/result.f90", "wheel_rail_totals")
     case = group({**head, "cases_planned": {"description": "cases of the input", **KINDS["count"]},
                   "side": {"description": "side of the track", "enum": WORDS["side"]},
-                  "totals": group(listed("wheelrail/result.f90", "wheel_rail_totals"), (), "forces and position of wheel and rail"),
+                  "totals": group(pair_totals, (), "forces and position of wheel and rail"), "errors": errors(pair_totals),
                   **members("describe_wheel_rail")[0],
                   "buried": group({end: {"description": "an end of the wheel profile within the rail", **KINDS["text"]}
                                    for end in ("inner", "outer")}),
