@@ -14,6 +14,10 @@
 %   plot2d          - tractions along rows or columns of the contact area.
 %   plot3d          - all kinds of results for the whole contact area, also on rails and wheels.
 %   plotstrs        - displacements and stresses below the surface.
+%   plot_2dspline   - the surface of a profile that varies along the rail or around the wheel.
+%   plot_arrow      - an arrow in two or three dimensions.
+%   plot_cm         - the sign of a centre of mass.
+%   matlab_color    - colours of lines by their numbers.
 %
 % Wheel and rail profiles.
 %
@@ -21,6 +25,9 @@
 %   read_slices     - read a profile that varies along the rail or around the wheel.
 %   read_simpack    - read a Simpack file (prr, prw).
 %   read_miniprof   - read a Miniprof file (ban, whl) or a table.
+%   read_vampire    - read a Vampire file (rai, whe).
+%   smooth_profile  - smooth a profile by a cubic spline.
+%   make_spline     - cubic smoothing spline through the points of a curve.
 %   modify_profile  - mirror, scale and order the points of a profile.
 %   resample_slices - corresponding points on the slices of a varying profile.
 %   write_simpack   - write a Simpack file.

@@ -8,7 +8,7 @@ function [ varargout ] = loadstrs( expnam, icase, ipatch )
 %   icase    number of the case (default 1)
 %   ipatch   number of the contact patch of a wheel-rail case (default 0: none, then the first)
 %
-% One struct for each block of points of the input:
+% One struct for each block of points of the input, [] for a block that is asked for and not there:
 %
 %   nx, ny, nz, npoints   numbers of points
 %   x, y, z               their coordinates, column vectors [mm]
@@ -42,7 +42,7 @@ function [ varargout ] = loadstrs( expnam, icase, ipatch )
       require_file('', 'loadstrs', expnam, icase);
    end
    if (nargout>numel(blocks))
-      error('loadstrs: "%s" has %d blocks, %d were asked for.', fname, numel(blocks), nargout);
+      blocks(numel(blocks)+1:nargout) = {[]};
    end
    varargout = blocks(1:max(1,nargout));
 

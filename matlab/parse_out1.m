@@ -1,21 +1,24 @@
-function [ sol ] = parse_out1( fname )
+function [ sol, ws_pos, tot_forc, cp_pos, cp_creep, cp_force, cp_subs ] = parse_out1( fname, ire, idebug )
 % PARSE_OUT1  Read positions, forces and results per contact patch of module 1 cases from an .out file.
 %
 %   sol = parse_out1( fname )
+%   sol = parse_out1( fname, ire )     cases of a result element of the library; -1 or []: all (default)
+%   [npatch, ws_pos, tot_forc, cp_pos, cp_creep, cp_force, cp_subs] = parse_out1( ... )   the parts of sol
 %
 %   fname   name of the .out file; without extension, .out is added
+%   idebug, a third argument, is for scripts that give it; nothing is printed
 %
 % Values of a case are rows with one column per case; values of contact patches are arrays with one row per
 % patch and one column per case. NaN stands where the file has nothing, e.g. for patches that do not exist.
 %
 %   sol.complete  false when the file says that cases are missing, or ends in their midst; then there is a warning
-%   sol.icase     numbers of the cases
+%   sol.icase     numbers of the cases; sol.ire, sol.tim: result elements and times [s], in files of the library
 %   sol.config    0, 1: left and right wheel on rail; 4, 5: the same on roller
 %   sol.ws_pos    wheelset: s (for rollers x), y, z [mm], roll, yaw, pitch [rad]
 %                 and velocities vs, vy, vz [mm/s], vroll, vyaw, vpitch, vpitch_rol [rad/s]
 %   sol.whl_dev   deviations of a flexible wheelset: dx, dy, dz, droll, dyaw, dpitch and their velocities with v ahead
 %   sol.rail      deviations dy, dz [mm], droll [rad] with velocities vy, vz, vroll; of the massless
-%                 rail: deflections dy_defl, dz_defl [mm]
+%                 rail: deflections dy_defl, dz_defl [mm], springs ky, kz [N/mm], forces fy, fz [N]
 %   sol.tot_forc  forces on the rail in track and wheelset directions: fx_tr ... fz_ws [N]; with O >= 4 moments at
 %                 the rail and wheel markers: mx_r_tr, my_r_tr, mz_r_tr, mx_w_ws, my_w_ws, mz_w_ws [N mm]
 %   sol.npatch    numbers of contact patches
@@ -28,12 +31,91 @@ function [ sol ] = parse_out1( fname )
 %   sol.cp_stat   numbers npot, ncon, nadh, nslip, nplast of elements, inorm, itang of iterations
 %   sol.cp_subs   largest stresses below the surface, arrays (patch, case, block): sighyd.val, .x, .y, .z, ...
 %
+% Names of other scripts stand beside these: ws_pos.x, .vx, dx_whl ..., dyrail ..., kyrail ... fzdefl; tot_forc.mx_tr ...;
+% cp_pos.delt_tr, ncon, nadh, nslip, nplast, prev_icp (patch, number, case); cp_force.fric.
+%
 % See also: parse_out3, loadcase.
 
    fname = with_extension(fname, '.out');
    sol = guarded(fname, 'parse_out1', @() parse_lines(read_out(fname, 'parse_out1')));
+   sol = other_names(sol);
+   if (nargin>1 && ~isempty(ire) && ire>=0)
+      if (~isfield(sol, 'ire'))
+         error('parse_out1: "%s" tells no result elements.', fname);
+      end
+      sol = chosen_cases(sol, sol.ire==ire, numel(sol.icase));
+   end
+   if (nargout>1)
+      ws_pos   = sol.ws_pos;
+      tot_forc = sol.tot_forc;
+      cp_pos   = sol.cp_pos;
+      cp_creep = sol.cp_creep;
+      cp_force = sol.cp_force;
+      cp_subs  = sol.cp_subs;
+      sol      = sol.npatch;
+   end
 
 end % function parse_out1
+
+%------------------------------------------------------------------------------------------------------
+
+function [ sol ] = other_names( sol )
+% The names of other scripts beside ours
+
+   sol.ws_pos.x  = sol.ws_pos.s;
+   sol.ws_pos.vx = sol.ws_pos.vs;
+   sol.ws_pos = copied(sol.ws_pos, sol.whl_dev, {'dx','dy','dz','droll','dyaw','dpitch','vx','vy','vz','vroll','vyaw','vpitch'}, ...
+         {'dx_whl','dy_whl','dz_whl','drollw','dyaww','dpitchw','vxwhl','vywhl','vzwhl','vrollw','vyaww','vpitchw'});
+   sol.ws_pos = copied(sol.ws_pos, sol.rail, {'dy','dz','droll','vy','vz','vroll'}, ...
+         {'dyrail','dzrail','drrail','vyrail','vzrail','vrrail'});
+   sol.ws_pos = copied(sol.ws_pos, sol.rail, {'ky','dy_defl','fy','kz','dz_defl','fz'}, ...
+         {'kyrail','dydefl','fydefl','kzrail','dzdefl','fzdefl'});
+   for axis = 'xyz'
+      sol.tot_forc.(['m' axis '_tr']) = sol.tot_forc.(['m' axis '_r_tr']);
+      sol.tot_forc.(['m' axis '_ws']) = sol.tot_forc.(['m' axis '_w_ws']);
+   end
+   sol.cp_pos.delt_tr = sol.cp_pos.delttr;
+   for name = {'ncon','nadh','nslip','nplast'}
+      sol.cp_pos.(name{1}) = sol.cp_stat.(name{1});
+   end
+   before = cat(3, sol.cp_pos.prev1, sol.cp_pos.prev2);
+   sol.cp_pos.prev_icp = permute(before, [1 3 2]);
+   sol.cp_force.fric = sol.cp_force.fricw;
+
+end % function other_names
+
+%------------------------------------------------------------------------------------------------------
+
+function [ to ] = copied( to, from, names, others )
+% Values under other names, where there are any
+
+   if (all(isnan(from.(names{1}))))
+      return
+   end
+   for i = 1 : numel(names)
+      to.(others{i}) = from.(names{i});
+   end
+
+end % function copied
+
+%------------------------------------------------------------------------------------------------------
+
+function [ s ] = chosen_cases( s, wanted, n )
+% Some of the n cases, in all arrays of nested structs
+
+   names = fieldnames(s);
+   for i = 1 : numel(names)
+      v = s.(names{i});
+      if (isstruct(v))
+         s.(names{i}) = chosen_cases(v, wanted, n);
+      elseif (strcmp(names{i}, 'prev_icp'))
+         s.(names{i}) = v(:,:,wanted);
+      elseif (size(v,2)==n && ~strcmp(names{i},'complete'))
+         s.(names{i}) = v(:,wanted,:);
+      end
+   end
+
+end % function chosen_cases
 
 %------------------------------------------------------------------------------------------------------
 
@@ -45,6 +127,23 @@ function [ sol ] = parse_lines( out )
    sol.complete = out.complete;
    sol.icase    = out.icase;
    sol.config   = find_config(out);
+   told = cell(1, n);
+   for i = find(strncmp(out.lines, ' Case', 5))
+      j = out.case_of(i);
+      if (j>0)
+         told{j} = regexp(out.lines{i}, 'result element *(\d+)(?:, t= *([-+.eEdD\d]+))?', 'tokens', 'once');
+      end
+   end
+   if (~all(cellfun('isempty', told)))
+      sol.ire = NaN(1, n);
+      sol.tim = NaN(1, n);
+      for j = find(~cellfun('isempty', told))
+         sol.ire(j) = str2double(told{j}{1});
+         if (numel(told{j})>1)
+            sol.tim(j) = str2double(told{j}{2});
+         end
+      end
+   end
    out.in_module1 = ~isnan(sol.config);
 
    sol.ws_pos   = rows(out, 'Y_WS        Z_WS', 1, ...
@@ -58,7 +157,8 @@ function [ sol ] = parse_lines( out )
          {'vxwhl','vywhl','vzwhl','vrollw','vyaww','vpitchw'}, sol.whl_dev);
    sol.rail     = rows(out, ' DYRAIL', 1, {'dy','dz','droll','vy','vz','vroll'}, ...
          {'dyrail','dzrail','drollr','vyrail','vzrail','vrollr'});
-   sol.rail     = rows(out, ' DY_DEFL', 1, {'dy_defl','dz_defl'}, {'dy_defl','dz_defl'}, sol.rail);
+   deflection   = {'ky_rail','dy_defl','fy_rail','kz_rail','dz_defl','fz_rail'};
+   sol.rail     = rows(out, ' DY_DEFL', 1, {'ky','dy_defl','fy','kz','dz_defl','fz'}, deflection, sol.rail);
    forces       = {'fx_tr','fy_tr','fz_tr','fx_ws','fy_ws','fz_ws'};
    sol.tot_forc = rows(out, 'FX(TR)      FY(TR)', 1, forces, forces);
    moments      = {'mx_r_tr','my_r_tr','mz_r_tr','mx_w_ws','my_w_ws','mz_w_ws'};

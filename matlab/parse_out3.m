@@ -1,9 +1,19 @@
-function [ sol ] = parse_out3( fname )
+function [ sol, force, subs ] = parse_out3( fname, use_struct, idebug )
 % PARSE_OUT3  Read creepages, forces and other overall results of module 3 cases from an .out file.
 %
 %   sol = parse_out3( fname )
+%   [creep, force, subs] = parse_out3( fname )       as arrays with one row per case
+%   [creep, force, subs] = parse_out3( fname, 0 )    the same, also for one output
 %
-%   fname   name of the .out file; without extension, .out is added
+%   fname       name of the .out file; without extension, .out is added
+%   use_struct  0: arrays; 1: a struct; default: a struct when one output is asked for
+%   idebug      for scripts that give it; nothing is printed
+%
+%   creep   columns pen, cksi, ceta, cphi, ncon, nadh, nslip, nplast
+%   force   columns fn, fx, fy, mz, elen, fricw, pmax, temp1, temp2; temp1 is the higher temperature, temp2 NaN, as
+%           the file tells one only
+%   subs    array (case, 4, 8) of value, x, y, z of sighyd, sigvm, sigtr, sigma1, sigma3, sigxx, sigyy, sigzz, of the
+%           first block; [] without
 %
 % All results are rows with one value per case, NaN where the file has none (module 1 cases, cases that could
 % not be solved, output with O = 0 or 1):
@@ -11,10 +21,10 @@ function [ sol ] = parse_out3( fname )
 %   sol.complete  false when the file says that cases are missing, or ends in their midst; then there is a warning
 %   sol.icase   numbers of the cases
 %   sol.kincns  chi [rad] (rolling) or dt [s] (shifts), dq [mm], veloc [mm/s]
-%   sol.creep   cksi, ceta [-] or shift distances [mm], cphi [rad/mm] or [rad]; pen: approach [mm]
+%   sol.creep   ncon, nadh, nslip, nplast as in stat; cksi, ceta [-] or shift distances [mm], cphi [rad/mm] or [rad]; pen: approach [mm]
 %   sol.force   fn [N]; fx, fy: tangential forces relative to fstat * fn, or to fn where friction varies;
 %               fx_true, fy_true [N]; mz [N mm]; elen: elastic energy [J]; fricw: frictional power [W], in
-%               shifts work [J]; pmax [N/mm2]; temp: maximum temperature [degC]
+%               shifts work [J]; pmax [N/mm2]; temp, also temp1: maximum temperature [degC]
 %   sol.stat    numbers npot, ncon, nadh, nslip, nplast of elements, inorm, itang of iterations
 %   sol.subs    largest stresses below the surface and their places, arrays (1, ncase, nblock): sighyd.val, .x, ...
 %
@@ -25,8 +35,37 @@ function [ sol ] = parse_out3( fname )
 
    fname = with_extension(fname, '.out');
    sol = guarded(fname, 'parse_out3', @() parse_lines(read_out(fname, 'parse_out3')));
+   force = [];
+   subs  = [];
+   if ((nargin<2 || isempty(use_struct)) && nargout<2) || (nargin>1 && isequal(use_struct,1))
+      return
+   end
+   names = {'sighyd','sigvm','sigtr','sigma1','sigma3','sigxx','sigyy','sigzz'};
+   if (~isempty(sol.subs))
+      subs = NaN(numel(sol.icase), 4, numel(names));
+      parts = {'val','x','y','z'};
+      for i = 1 : numel(names)
+         for j = 1 : 4
+            subs(:,j,i) = sol.subs.(names{i}).(parts{j})(1,:,1);
+         end
+      end
+   end
+   force = columns(sol.force, {'fn','fx','fy','mz','elen','fricw','pmax','temp1','temp2'});
+   sol   = columns(sol.creep, {'pen','cksi','ceta','cphi','ncon','nadh','nslip','nplast'});
 
 end % function parse_out3
+
+%------------------------------------------------------------------------------------------------------
+
+function [ table ] = columns( s, names )
+% Rows of a struct as columns of an array
+
+   table = zeros(numel(s.(names{1})), numel(names));
+   for i = 1 : numel(names)
+      table(:,i) = s.(names{i});
+   end
+
+end % function columns
 
 %------------------------------------------------------------------------------------------------------
 
@@ -74,6 +113,11 @@ function [ sol ] = parse_lines( out )
          sol.stat = collect(sol.stat, 1, out.case_of(k), names, heading_values(out.lines, k), names);
       end
    end
+   for name = {'ncon','nadh','nslip','nplast'}
+      sol.creep.(name{1}) = sol.stat.(name{1});
+   end
+   sol.force.temp1 = sol.force.temp;
+   sol.force.temp2 = NaN(1, n);
    sol.subs = collect_subs(out, 1);
 
 end % function parse_lines

@@ -28,7 +28,8 @@ function [ opt ] = plot3d( sol, opt, prr, prw )
 %              'temp1', 'temp2'         surface temperatures [degC] (H>=1)
 %              'default'                'ptabs+vec', without friction 'pn'
 %   exterval   value at elements out of contact; NaN (default): not drawn; []: as stored in sol
-%   rw_surf    'none' (default): flat; 'prr': on the rail surface; 'prw': on the wheel surface; 'both': on
+%              any other array of the struct, by its name
+%   rw_surf    (also: rw_surfc) 'none' (default): flat; 'prr': on the rail surface; 'prw': on the wheel surface; 'both': on
 %              the rail with the wheel added
 %   typplot    'surf' (default), 'contourf', or with profiles 'rw_rear', 'rw_side': rear and side view; the
 %              largest value of each row or column is then drawn as a bar along the surface normal
@@ -36,14 +37,15 @@ function [ opt ] = plot3d( sol, opt, prr, prw )
 % How it is shown:
 %
 %   view       'default', [azimuth elevation] in degrees, [0 90] for a picture from above, or 'rail': from
-%              above with x pointing up and y to the right
+%              above with x pointing up and y to the right; 'rdyn': from below, x pointing left
 %   xrange     range of x [mm] of the surfaces and of the side view (default: the contact and its surroundings)
 %   xysteps    distance of thin lines on surfaces [mm], dxy or [dx dy] (default: found from their size)
 %   zrange     range of the values for heights and colours
 %   ixrange, iyrange   numbers of the first and last element to be shown; 'auto' (default): the
 %              contact area and one element more; 'all': the whole grid
 %   numvecx, numvecy   largest number of arrows in x- and y-direction (default 15)
-%   xstretch   factor of lengths in x-direction against those in y-direction; 1 (default): axes fill the figure
+%   xstretch   factor of lengths in x-direction against those in y-direction; 1 (default): to scale. A single row or
+%              column of elements fills the figure
 %   vecscale   length of arrows and bars in mm for a value of 1 (default: found from the values)
 %   veccolor   their colour (default 'b' for 'ptvec' and bars, else 'k'), vecwidth their line width
 %   addeldiv   1: lines around the contact area and the areas of slip and plasticity; 0: none; [] (default):
@@ -70,6 +72,11 @@ function [ opt ] = plot3d( sol, opt, prr, prw )
    end
    if (nargin<4)
       prw = [];
+   end
+   if (isstruct(opt) && isfield(opt, 'rw_surfc'))
+      % the name in other scripts
+      opt.rw_surf = opt.rw_surfc;
+      opt = rmfield(opt, 'rw_surfc');
    end
    opt = with_defaults(opt, defaults, 'plot3d');
    one_of(opt.rw_surf, {'none','prr','prw','both'}, 'rw_surf');

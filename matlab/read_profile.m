@@ -1,13 +1,17 @@
-function [ p ] = read_profile( fname, is_wheel, mirror_y, mirror_z, scale_yz )
+function [ p ] = read_profile( fname, is_wheel, mirror_y, mirror_z, scale_yz, rgt_side, idebug, make_plot, varargin )
 % READ_PROFILE  Read a wheel or rail profile of any kind and bring it into the form CONTACT works with.
 %
-%   p = read_profile( fname, is_wheel, mirror_y, mirror_z, scale_yz )
+%   p = read_profile( fname, is_wheel, mirror_y, mirror_z, scale_yz, rgt_side, idebug, make_plot )
 %
-%   fname      file: Simpack (.prr, .prw), Miniprof (.ban, .whl), slices (.slcs, .slcw), or a table of two columns
+%   fname      file: Simpack (.prr, .prw), Miniprof (.ban, .whl), Vampire (.rai, .whe), slices (.slcs, .slcw), or a table of
+%              two columns
 %   is_wheel   1 for a wheel, 0 for a rail; [] (default): from the extension, a rail where that tells nothing
 %   mirror_y   1: change the sign of y; 0 (default): keep it; -1: keep it, whatever a Simpack file says
 %   mirror_z   1: change the sign of z; 0 (default): find out, for Simpack do as the file says; -1: keep it
 %   scale_yz   factor of y and z that makes them mm (default 1)
+%   rgt_side   Vampire: 1 (default) the right profile of the file, 0 the left one
+%   idebug     for scripts that give it, as all that follows make_plot; nothing is printed
+%   make_plot  number of a figure in which the profile is drawn; 0 (default): none
 %
 %   p   struct with columns ProfileY, ProfileZ [mm] and ProfileS [mm], sums of chords from the first
 %       point on, and with Fname and is_wheel. Right-hand side profile, y positive to the field side, z
@@ -34,8 +38,8 @@ function [ p ] = read_profile( fname, is_wheel, mirror_y, mirror_z, scale_yz )
    [~, ~, ext] = fileparts(fname);
    ext = [lower(ext), '    '];
    kind = ext(2:4);
-   wheel_kind = any(strcmp(kind, {'prw','whl'})) || strcmp(ext(2:5), 'slcw');
-   rail_kind  = any(strcmp(kind, {'prr','ban'})) || strcmp(ext(2:5), 'slcs');
+   wheel_kind = any(strcmp(kind, {'prw','whl','whe'})) || strcmp(ext(2:5), 'slcw');
+   rail_kind  = any(strcmp(kind, {'prr','ban','rai'})) || strcmp(ext(2:5), 'slcs');
    if (isempty(is_wheel))
       is_wheel = wheel_kind;
    elseif ((is_wheel && rail_kind) || (~is_wheel && wheel_kind))
@@ -45,8 +49,18 @@ function [ p ] = read_profile( fname, is_wheel, mirror_y, mirror_z, scale_yz )
    end
 
    if (strcmp(kind, 'slc'))
-      p = read_slices(fname, is_wheel, mirror_y, mirror_z, scale_yz);
+      p = read_slices(fname, mirror_y, mirror_z, scale_yz);
       return
+   elseif (any(strcmp(kind, {'rai','whe'})))
+      if (nargin<6)
+         rgt_side = [];
+      end
+      p = read_vampire(fname, rgt_side);
+      % heights point downwards already
+      if (mirror_z==0)
+         mirror_z = -1;
+      end
+      inversion = [];
    elseif (any(strcmp(kind, {'prr','prw'})))
       p = read_simpack(fname);
       if ((p.type==1) ~= is_wheel)
@@ -65,5 +79,16 @@ function [ p ] = read_profile( fname, is_wheel, mirror_y, mirror_z, scale_yz )
       inversion = [];
    end
    p = modify_profile(p, is_wheel, mirror_y, mirror_z, scale_yz, inversion);
+   if (nargin>=8 && ~isempty(make_plot) && make_plot>0)
+      figure(make_plot);
+      clf
+      plot(p.ProfileY, p.ProfileZ, '-o');
+      set(gca, 'ydir','reverse');
+      axis equal
+      grid on
+      xlabel('y [mm]');
+      ylabel('z [mm]');
+      title(fname, 'interpreter','none');
+   end
 
 end % function read_profile

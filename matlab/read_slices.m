@@ -1,14 +1,15 @@
-function [ slcs ] = read_slices( fname, is_wheel, mirror_y, mirror_z, scale_yz )
+function [ slcs ] = read_slices( fname, mirror_y, mirror_z, scale_yz, idebug )
 % READ_SLICES  Read a profile that varies along the rail or around the wheel (.slcs, .slcw) with all its slices.
 %
-%   slcs = read_slices( fname, is_wheel, mirror_y, mirror_z, scale_yz )
+%   slcs = read_slices( fname, mirror_y, mirror_z, scale_yz )
 %
-%   arguments as for READ_PROFILE; they hold for all slices
+%   arguments as for READ_PROFILE; they hold for all slices. Rail or wheel is told by the extension; idebug, a fifth
+%   argument, is for scripts that give it, nothing is printed
 %
 %   slcs   struct with Fname, is_wheel, nslc,
 %          u          positions of the slices along the track [mm], for wheels angles [rad]
 %          prof       cell array with the struct of READ_PROFILE for each slice
-%          u_intpol   1: interpolation between slices, 2: approximation
+%          u_intpol, u_method  1: interpolation between slices, 2: approximation
 %          s_feat     nslc x nfeat array of positions of features along the slices [mm], negative where absent
 %          kink, accel   numbers of parts with kinks and accelerations to the next part
 %
@@ -16,16 +17,23 @@ function [ slcs ] = read_slices( fname, is_wheel, mirror_y, mirror_z, scale_yz )
 %
 % See also: read_profile, resample_slices, plot3d.
 
-   if (nargin<2 || isempty(is_wheel))
-      is_wheel = ~isempty(regexp(lower(fname), '\.slcw', 'once'));
+   if (nargin>=4 && isnumeric(scale_yz) && ~isempty(scale_yz) && scale_yz<=0)
+      % no scale: the arguments as READ_PROFILE has them, with is_wheel in front
+      mirror_y = mirror_z;
+      mirror_z = scale_yz;
+      scale_yz = [];
+      if (nargin>=5)
+         scale_yz = idebug;
+      end
    end
-   if (nargin<3)
+   is_wheel = ~isempty(regexp(lower(fname), '\.slcw', 'once'));
+   if (nargin<2)
       mirror_y = [];
    end
-   if (nargin<4)
+   if (nargin<3)
       mirror_z = [];
    end
-   if (nargin<5)
+   if (nargin<4)
       scale_yz = [];
    end
 
@@ -53,7 +61,7 @@ function [ slcs ] = read_slices( fname, is_wheel, mirror_y, mirror_z, scale_yz )
       error('read_slices: "%s" ends before slice %d.', fname, nslc);
    end
 
-   slcs = struct('Fname',fname, 'is_wheel',is_wheel, 'nslc',nslc, 'u_intpol',u_intpol);
+   slcs = struct('Fname',fname, 'is_wheel',is_wheel, 'nslc',nslc, 'u_intpol',u_intpol, 'u_method',u_intpol, 'nfeat',nfeat);
    slcs.u = zeros(nslc, 1);
    slcs.prof = cell(nslc, 1);
    folder = fileparts(fname);

@@ -1,7 +1,8 @@
-function write_simpack( p, fname, comment )
+function write_simpack( p, fname, comment, z )
 % WRITE_SIMPACK  Write a profile to a Simpack file (.prr for rails, .prw for wheels).
 %
 %   write_simpack( p, fname, comment )
+%   write_simpack( fname, comment, y, z )     the order of other scripts
 %
 %   p         struct of READ_PROFILE, or an n x 2 array of y and z [mm]
 %   fname     name of the file; .prw makes it a wheel profile, .prr a rail profile
@@ -11,6 +12,12 @@ function write_simpack( p, fname, comment )
 
    if (nargin<3)
       comment = '';
+   end
+   if (ischar(p) && nargin==4)
+      name    = p;
+      p       = [comment(:), z(:)];
+      comment = fname;
+      fname   = name;
    end
    [~, ~, ext] = fileparts(fname);
    type = find(strcmpi(ext, {'.prr','.prw'})) - 1;

@@ -51,9 +51,11 @@ function draw_flat( sol, opt )
       axis([xc(1) xc(end) yc(1) yc(end)]);
       box on
    end
-   if (opt.xstretch~=1)
-      da = get(gca, 'dataaspectratio');
-      set(gca, 'dataaspectratio',[1 opt.xstretch da(3)]);
+   if (opt.xstretch~=1 || (numel(xm)>1 && numel(ym)>1))
+      lengths = [xc(end)-xc(1), yc(end)-yc(1)] .* [1 1/opt.xstretch];
+      heights = get(gca, 'zlim');
+      % heights take half of what the longer side takes
+      set(gca, 'dataaspectratio',[1 opt.xstretch 2*diff(heights)/max(lengths)]);
    end
    xlabel('x [mm]');
    ylabel('y [mm]');
@@ -77,13 +79,15 @@ function [ azel, above, y_reversed ] = view_angles( view, flat_field )
    elseif (strcmp(view,'rail'))
       azel = [-90 90];
       y_reversed = true;
+   elseif (strcmp(view,'rdyn'))
+      azel = [180 90];
    elseif (strcmp(view,'default'))
       azel = [-37.5 30];
       if (flat_field)
          azel = [0 90];
       end
    else
-      error('plot3d: option view must be ''default'', ''rail'' or [azimuth elevation].');
+      error('plot3d: option view must be ''default'', ''rail'', ''rdyn'' or [azimuth elevation].');
    end
    above = (abs(azel(2))==90);
 
@@ -173,7 +177,10 @@ function draw_arrows( f, sol, opt, ix, iy, xm, ym )
       end
    end
    args = line_options(color, opt.vecwidth);
-   quiver(x(there), y(there), vx(there), vy(there), 0, args{:});
+   % quiver fails without any
+   if (any(there(:)))
+      quiver(x(there), y(there), vx(there), vy(there), 0, args{:});
+   end
 
 end % function draw_arrows
 

@@ -183,7 +183,9 @@ function [ val ] = draw_patch( sol, f, opt, c, body, lift )
       Z  = Z + outward*0.5*lift;
       vz = vy.*tz;
       vy = vy.*ty;
-      quiver3(X(there), Y(there), Z(there), vx(there), vy(there), vz(there), 0, args{:});
+      if (any(there(:)))
+         quiver3(X(there), Y(there), Z(there), vx(there), vy(there), vz(there), 0, args{:});
+      end
    end
    if (~isempty(opt.addeldiv) && opt.addeldiv || strcmp(f.name,'eldiv_contour'))
       masks = element_masks(sol);

@@ -1,0 +1,20 @@
+function [ rgb ] = matlab_color( num )
+% MATLAB_COLOR  Colours of lines in the order in which Matlab takes them, one row of red, green, blue for each number.
+%
+%   rgb = matlab_color( num )
+%
+%   num   numbers from 1 on; behind the last colour the first follows
+%
+% See also: plot_arrow, plot_cm.
+
+   % the order of lines since Matlab R2014b
+   order = [   0, 114, 189
+             217,  83,  25
+             237, 177,  32
+             126,  47, 142
+             119, 172,  48
+              77, 190, 238
+             162,  20,  47 ] / 255;
+   rgb = order(mod(num(:)-1, size(order,1))+1, :);
+
+end % function matlab_color

@@ -1,0 +1,110 @@
+% Calls as scripts for other programs of this kind make them: argument lists, outputs, names of fields and options
+
+folder = fullfile(getenv('CONTACT_SOURCE'), 'examples', 'profiles');
+
+% --- overall results of module 3
+run_example('cattaneo');
+sol = parse_out3('cattaneo');
+[creep, force] = parse_out3('cattaneo.out');
+check(isequal(size(creep), [2 8]) && isequal(size(force), [2 9]), 'arrays with one row per case');
+check_near(creep(:,1:2), [sol.creep.pen; sol.creep.cksi]', 0, 'approach and creepage');
+check(isequaln(creep(:,5:8), [sol.stat.ncon; sol.stat.nadh; sol.stat.nslip; sol.stat.nplast]'), 'numbers of elements');
+check_near(force(:,[1 2 7]), [sol.force.fn; sol.force.fx; sol.force.pmax]', 0, 'forces');
+[c, f] = parse_out3('cattaneo', 0);
+check(isequaln(c, creep) && isequaln(f, force), 'use_struct = 0');
+check(isequaln(parse_out3('cattaneo', 0), creep), 'one array');
+s = parse_out3('cattaneo', 1);
+check(isstruct(s) && isequaln(s.creep.ncon, sol.stat.ncon) && isfield(s.force, 'temp1'), 'use_struct = 1, names');
+run_example('subsurface');
+[~, ~, subs] = parse_out3('subsurface');
+t = parse_out3('subsurface');
+check_near(subs(:,:,2), [t.subs.sigvm.val(1,:,1); t.subs.sigvm.x(1,:,1); t.subs.sigvm.y(1,:,1); t.subs.sigvm.z(1,:,1)]', 0, ...
+           'largest stresses as an array');
+[b{1:9}] = loadstrs('subsurface', 1);
+check(isstruct(b{1}) && isempty(b{9}), 'more blocks are asked for than there are');
+
+% --- overall results of module 1
+run_example('manchester', 'profiles/60E1.prr', 'profiles/S1002.prw');
+sol = parse_out1('manchester');
+[npatch, ws_pos, tot_forc, cp_pos, cp_creep, cp_force] = parse_out1('manchester.out', [], 0);
+check(isequal(npatch, sol.npatch) && isequaln(ws_pos, sol.ws_pos) && isequaln(tot_forc, sol.tot_forc), 'six outputs');
+check(isequaln(cp_pos, sol.cp_pos) && isequaln(cp_creep, sol.cp_creep) && isequaln(cp_force, sol.cp_force), 'and the others');
+check_near([ws_pos.x; ws_pos.vx], [ws_pos.s; ws_pos.vs], 0, 'x and vx');
+check(isequaln(cp_pos.delt_tr, cp_pos.delttr) && isequaln(cp_pos.ncon, sol.cp_stat.ncon), 'angle and numbers in cp_pos');
+check(isequal(size(cp_pos.prev_icp), [1 2 2]) && isequaln(cp_force.fric, cp_force.fricw), 'patches before, frictional power');
+check(all(isfield(tot_forc, {'mx_tr','my_tr','mz_tr','mx_ws','my_ws','mz_ws'})), 'moments');
+check(isequaln(parse_out1('manchester', -1), sol), 'all result elements');
+check_error(@() parse_out1('manchester', 2), 'tells no result elements');
+text = regexprep(fileread('manchester.out'), ' Case +(\d)', ' Case     $1 for w/r contact on result element  $1, t=   0.25');
+f = fopen('elements.out', 'w');   fwrite(f, text);   fclose(f);
+s = parse_out1('elements');
+check_near([s.ire; s.tim], [1 2; 0.25 0.25], 0, 'result elements and times');
+s = parse_out1('elements', 2);
+check(isequal(s.icase, 2) && isequaln(s.cp_pos.ycp_tr, sol.cp_pos.ycp_tr(:,2)) && isequaln(s.tot_forc.fx_tr, sol.tot_forc.fx_tr(2)), ...
+      'one result element');
+
+% --- profiles
+y = (-10:10)';
+z = y.^2/600;
+write_simpack('habit.prr', 'a comment', y, z);
+p = read_simpack('habit.prr');
+check_near([p.ProfileY p.ProfileZ], [y z], 1e-9, 'write_simpack(fname, comment, y, z)');
+check(strcmp(p.comment, 'a comment'), 'its comment');
+write_simpack([y z], 'ours.prr', 'a comment');
+check(isequal(fileread('ours.prr'), fileread('habit.prr')), 'the same in our order');
+q = read_profile('habit.prr', [], -1, -1, 1, 1, 0, 0, 0);
+check_near(q.ProfileY, y, 1e-9, 'read_profile with 9 arguments');
+f = fopen('habit.slcs', 'w');
+fprintf(f, '0 1 %% offset, scale\n3 %% slices\n0 0 0 %% features\n1 %% interpolation\n');
+fprintf(f, '%d ''habit.prr''\n', [0; 100; 200]);
+fclose(f);
+s = read_slices('habit.slcs', 0, -1, 2, 0);
+check_near(s.prof{2}.ProfileY, 2*y, 1e-9, 'read_slices(fname, mirror_y, mirror_z, scale_yz, idebug)');
+check(s.u_method==1 && s.nfeat==0, 'its names');
+s = read_slices('habit.slcs', 0, 0, -1, 2);
+check_near(s.prof{3}.ProfileY, 2*y, 1e-9, 'and with is_wheel in front');
+f = fopen('habit.rai', 'w');
+fprintf(f, 'RAILPROFILE\na rail\nGAUGEPOINT CUSTOM 10\nGAUGE 1435\n');
+% left and right rail, heights upwards: the gauge face is at 717.5
+fprintf(f, '%g,%g %g,%g\n', [-717.5 -20 717.5 -20; -717.5 -4 717.5 -4; -720 0 720 0; -750 0 751 0; -780 -3 781 -3]');
+fclose(f);
+p = read_profile('habit.rai');
+check(p.GaugeHeight==10 && p.GaugeWidth==1435 && p.is_wheel==0, 'head of a Vampire file');
+check_near([p.ProfileY p.ProfileZ], [0 20; 0 4; 2.5 0; 33.5 0; 63.5 3], 1e-9, 'rail of a Vampire file');
+p = read_profile('habit.rai', 0, 0, 0, 1, 0);
+check_near(p.ProfileY(4), 32.5, 1e-9, 'the left rail');
+f = fopen('habit.whe', 'w');
+fprintf(f, 'WHEELPROFILE\na wheel\nTREADDATUM EUROPEAN\nFLANGEBACK 1360\n');
+fprintf(f, '%g %g %g %g ! remark\n', [-680 0 680 0; -700 28 700 28; -750 0 750 0; -800 -3 800 -3]');
+fclose(f);
+p = read_vampire('habit.whe');
+check(p.FlangeBackPos==-70 && p.FlangeBackDist==1360, 'flange back');
+check_near(p.ProfileY, [-70; -50; 0; 50], 1e-9, 'the tread datum is the origin');
+check_error(@() read_vampire('habit.prr'), 'WHEELPROFILE');
+
+% --- smoothing: a parabola stays, its noise goes, waves of length l_filt are halved
+x = (0:0.5:100)';
+spl = make_spline(x, sin(x/10), [], 0);
+d = 0.25;
+check_near(spl.a0y + d*(spl.a1y + d*(spl.a2y + d*spl.a3y)), sin((x(1:end-1)+d)/10), 5e-4, 'a spline through points');
+check_near(spl.y, sin(x/10), 0, 'the points');
+wave = cos(2*pi*x/5);
+p = smooth_profile([x, 1e-3*wave], 5, [], [], []);
+check_near(p(60:140,2), 0.5e-3*wave(60:140), 2e-5, 'half of a wave of the length of the filter');
+p = smooth_profile([x, 1e-3*cos(2*pi*x/50)], 5, [], [], []);
+check_near(p(60:140,2), 1e-3*cos(2*pi*x(60:140)/50), 1e-6, 'long waves stay');
+line = make_spline(x, 3 + 2*x + 0.1*wave, [], 1e12);
+check(max(abs(diff(line.y, 2))) < 1e-6, 'much smoothness is a straight line');
+corner = max(0, x-50);
+q = smooth_profile([x, corner], 10);
+check_near(q(:,2), corner, 1e-9, 'a kink stays a kink');
+q = smooth_profile([x, corner], 10, [], [], []);
+check(abs(q(101,2)) > 0.1, 'without it the corner is rounded');
+q = smooth_profile(read_profile(fullfile(folder,'60E1.prr')), [], 0, 0.25);
+check(all(abs(diff(q.ProfileS(2:end-1)) - 0.25) < 5e-3), 'new points at equal steps');
+check_error(@() make_spline(x, x, [], 0, [], [], 3), 'iaccel is not built');
+check_error(@() smooth_profile([x x], 5, [], [], [], [], [], 1), 'use_bspline is not built');
+check_error(@() make_spline(x, x(2:end), [], 0), 'same number of points');
+
+% --- colours
+check(isequal(size(matlab_color([1 2 8])), [3 3]) && isequal(matlab_color(8), matlab_color(1)), 'colours in turn');

@@ -1,0 +1,90 @@
+% Pictures by the options and helpers of other scripts
+
+folder = fullfile(getenv('CONTACT_SOURCE'), 'examples', 'profiles');
+run_example('manchester', 'profiles/60E1.prr', 'profiles/S1002.prw');
+prr = read_profile(fullfile(folder, '60E1.prr'));
+prw = read_profile(fullfile(folder, 'S1002.prw'));
+s = loadcase('manchester', 1);
+
+opt = plot3d;
+opt.rw_surfc = 'both';
+opt.typplot  = 'rw_rear';
+opt.field    = 'pn';
+lastwarn('');
+figure(1);   plot3d(s, opt, prr, prw);
+check(isempty(lastwarn()), 'rw_surfc is an option');
+check(numel(get(gca, 'children')) > 2, 'rail, wheel and bars are drawn');
+
+opt = plot3d;
+opt.view  = 'rdyn';
+opt.field = 'pn';
+figure(2);   clf;   plot3d(s, opt);
+[az, el] = view();
+check(mod(az,360)==180 && el==90, 'view = rdyn');
+aspect = get(gca, 'dataaspectratio');
+check_near(aspect(2)/aspect(1), 1, 1e-12, 'from above to scale');
+opt.view = 'default';
+plot3d(s, opt);
+aspect = get(gca, 'dataaspectratio');
+check_near(aspect(2)/aspect(1), 1, 1e-12, 'heights stand on a plane to scale');
+
+s.twice = 2*s.pn;
+opt.field = 'twice';
+opt.view  = [0 90];
+plot3d(s, opt);
+colours = findobj(gca, 'type','surface');
+c = get(colours(1), 'cdata');
+check_near(max(c(:)), 2*max(s.pn(:)), 1e-9*max(s.pn(:)), 'any field of the struct');
+
+still = s;
+still.px(:) = 0;
+still.py(:) = 0;
+opt = plot3d;
+opt.field = 'ptabs+vec';
+figure(3);   plot3d(still, opt);
+h = findobj(gca, 'type','surface');
+c = get(h(end), 'cdata');
+check(max(c(:))==0, 'arrows of length zero');
+opt.rw_surfc = 'prr';
+plot3d(still, opt, prr);
+check(~isempty(findobj(gca, 'type','surface')), 'and on a rail');
+
+figure(4);   clf;
+h = plot_arrow([1 2], [4 0], 2);
+check_near(get(h(1), 'xdata'), [1 5], 1e-12, 'shaft of an arrow');
+check_near([get(h(2), 'xdata'); get(h(2), 'ydata')], [4 5 4; 2+tan(pi/12) 2 2-tan(pi/12)], 1e-12, 'head of an arrow');
+check_near(get(h(1), 'color'), matlab_color(2), 1e-12, 'colour by number');
+h = plot_arrow([0 0 0], [0 0 2], 'k', 1, 1);
+check_near(get(h(1), 'zdata'), [0 2], 1e-12, 'an arrow in space');
+check_error(@() plot_arrow([0 0], [1 1 1]), '2 or 3 numbers');
+h = plot_cm([10 5], 2, 6, 90, 'r');
+check(numel(h)==7, 'sign of a centre of mass');
+check_near([max(get(h(1),'xdata')) max(get(h(1),'ydata'))], [12 7], 1e-3, 'its circle');
+check_near([get(h(4),'xdata'); get(h(4),'ydata')], [10 10; 7 13], 1e-9, 'its first arrow');
+check(numel(plot_cm([0;0], 1, [], [], [], 1))==3, 'without arrows');
+
+y = (-10:10)';
+for i = 1 : 3
+   write_simpack(sprintf('slice%d.prr', i), '', y, y.^2/600 + i);
+end
+f = fopen('habit.slcs', 'w');
+fprintf(f, '0 1\n3\n0 0 0\n1\n');
+fprintf(f, '%d ''slice%d.prr''\n', [0 1; 100 2; 200 3]');
+fclose(f);
+slcs = read_profile('habit.slcs', [], 0, -1);
+opt = plot_2dspline;
+opt.show_slc  = 1:99;
+opt.slc_color = (1:6)';
+opt.urange    = [0 150];
+figure(5);   plot_2dspline(slcs, opt);
+h = findobj(gca, 'type','surface');
+z = get(h(1), 'zdata');
+check_near([min(z(1,:)) min(z(end,:))], [1 2], 1e-3, 'the slices within the range');
+x = get(h(1), 'xdata');
+check_near([x(1) x(end)], [0 100], 1e-9, 'their positions');
+check(numel(findobj(gca, 'type','line', 'linewidth',1.5))==3, 'slices are highlighted');
+opt.typplot = 'refl';   opt.refl_avec = [105 30];   opt.refl_dth = 5;
+plot_2dspline([], slcs, opt);
+h = findobj(gca, 'type','surface');
+check(isempty(setdiff(unique(get(h(1), 'cdata')), [0 1])), 'stripes');
+check_error(@() plot_2dspline(slcs, struct('typplot','sphere')), 'is none of');
