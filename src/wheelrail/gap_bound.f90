@@ -283,12 +283,18 @@ contains
       real(wp), intent(in) :: places(:)
       real(wp), intent(inout) :: low(:)
       real(wp) :: middle(size(y, 1), 2), bend(size(y, 1)), bulge, slope, least, ends(2), step
-      integer :: i, j, n, first, last
+      !> Control points of each point together, and how far they reach
+      real(wp) :: py(size(y, 2), size(y, 1)), pz(size(y, 2), size(y, 1)), reach(2, size(y, 1))
+      integer :: i, j, k, n, first, last
 
       n = size(y, 1)
       if (n < 2) return
-      middle(:, 1) = sum(y, 2)/size(y, 2)
-      middle(:, 2) = sum(z, 2)/size(z, 2)
+      py = transpose(y)
+      pz = transpose(z)
+      do i = 1, n
+         middle(i, :) = [sum(py(:, i)), sum(pz(:, i))]/size(y, 2)
+         reach(:, i) = [minval(py(:, i)), maxval(py(:, i))]
+      end do
       bend = 0.0_wp
       do i = 2, n - 1
          bend(i) = hypot(middle(i - 1, 1) - 2.0_wp*middle(i, 1) + middle(i + 1, 1), &
@@ -298,20 +304,25 @@ contains
       if (size(places) > 1) step = places(2) - places(1)
       do i = 1, n - 1
          bulge = bulge_share*maxval(bend(max(1, i - neighbours + 1):min(n, i + neighbours)))
-         ends = [minval(y(i:i + 1, :)) - bulge, maxval(y(i:i + 1, :)) + bulge]
+         ends = [minval(reach(1, i:i + 1)) - bulge, maxval(reach(2, i:i + 1)) + bulge]
          first = max(1, ceiling((ends(1) - places(1))/step) + 1)
          last = min(size(places), floor((ends(2) - places(1))/step) + 1)
          if (first > last) cycle
          associate (rise => middle(i + 1, 2) - middle(i, 2), run => middle(i + 1, 1) - middle(i, 1))
             if (abs(rise) >= wall*abs(run)) then
-               least = minval(z(i:i + 1, :)) - bulge - extra
+               least = minval(pz(:, i:i + 1)) - bulge - extra
                low(first:last) = min(low(first:last), least)
                cycle
             end if
             slope = rise/run
          end associate
-         least = minval(z(i:i + 1, :) - middle(i, 2) - slope*(y(i:i + 1, :) - middle(i, 1))) &
-            & - bulge*sqrt(1.0_wp + slope**2) - extra
+         least = huge(1.0_wp)
+         do j = i, i + 1
+            do k = 1, size(y, 2)
+               least = min(least, pz(k, j) - middle(i, 2) - slope*(py(k, j) - middle(i, 1)))
+            end do
+         end do
+         least = least - bulge*sqrt(1.0_wp + slope**2) - extra
          do j = first, last
             low(j) = min(low(j), middle(i, 2) + slope*(places(j) - middle(i, 1)) + least)
          end do

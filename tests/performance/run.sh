@@ -61,6 +61,8 @@ measure() {
   [ $rail = yes ] && return 0
   printf '\n## The whole program\n\n'
   python3 "$here/whole_program.py" "$programs/bin/contact" "$bench"
+  printf '\n## Inputs as users write them\n\n'
+  python3 "$here/asked_inputs.py" "$programs/bin/contact" "$top"
   printf '\n## Files for other programs\n\n'
   python3 "$here/exports.py" "$programs/bin/contact"
   printf '\n## Requests to the heap in repeated cases, 11 x 11\n\n'
