@@ -57,6 +57,8 @@ contains
       if (allocated(error)) return
       call dump_wheel_rail_case(this, problem)
       call find_working_folder(folder)
+      ! callers step through time; programs of cases read each one as if it stood alone
+      problem%wheel_rail%problem%in_loop = .true.
       call solve_wheel_rail_case(problem%wheel_rail, problem%spec, folder, log, problem%wheel_rail_result, error)
    end subroutine solve_wheel_rail
 

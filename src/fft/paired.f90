@@ -8,6 +8,7 @@ module contact_fft_paired
    use contact_base_kinds, only : wp
    use contact_fft_fftw, only : destroy, fftw_backward, fftw_estimate, fftw_execute_dft, fftw_forward, &
       & fftw_plan_many_dft
+   use contact_fft_kept_plans, only : keep_plans, plan_kind, plans_per_size, take_plans
    implicit none (type, external)
    private
 
@@ -25,6 +26,8 @@ module contact_fft_paired
       complex(wp), allocatable, private :: columns(:, :), columns_back(:, :)
       type(c_ptr), private :: row_forward = c_null_ptr, row_backward = c_null_ptr
       type(c_ptr), private :: column_forward = c_null_ptr, column_backward = c_null_ptr
+      !> Are the plans those of all windows of this size?
+      logical, private :: shared = .false.
    contains
       !> Make plans for a window; keeps them when the sizes are the same
       procedure :: prepare
@@ -42,6 +45,7 @@ contains
       class(paired_plan), intent(inout) :: self
       !> Window and padded window; px >= mx, py >= my
       integer, intent(in) :: mx, my, px, py
+      type(c_ptr) :: plan(plans_per_size)
 
       if (self%mx == mx .and. self%my == my .and. self%px == px .and. self%py == py &
          & .and. c_associated(self%row_forward)) return
@@ -54,15 +58,23 @@ contains
       allocate(self%rows_back(px, my), self%columns_back(py, px), self%spectrum(py, px))
       ! the planner of FFTW is not thread-safe; estimated plans make results reproducible
       !$omp critical (contact_fft_planner)
-      self%row_forward = fftw_plan_many_dft(1, [px], my, self%rows, [px], 1, px, self%columns, [px], py, 1, &
-         & fftw_forward, fftw_estimate)
-      self%column_forward = fftw_plan_many_dft(1, [py], px, self%columns, [py], 1, py, self%spectrum, [py], 1, py, &
-         & fftw_forward, fftw_estimate)
-      self%column_backward = fftw_plan_many_dft(1, [py], px, self%spectrum, [py], 1, py, self%columns_back, [py], 1, py, &
-         & fftw_backward, fftw_estimate)
-      self%row_backward = fftw_plan_many_dft(1, [px], my, self%columns_back, [px], py, 1, self%rows_back, [px], 1, px, &
-         & fftw_backward, fftw_estimate)
+      call take_plans(plan_kind%paired, my, px, py, plan, self%shared)
+      if (.not. self%shared) then
+         plan = [fftw_plan_many_dft(1, [px], my, self%rows, [px], 1, px, self%columns, [px], py, 1, &
+            & fftw_forward, fftw_estimate), &
+            & fftw_plan_many_dft(1, [px], my, self%columns_back, [px], py, 1, self%rows_back, [px], 1, px, &
+            & fftw_backward, fftw_estimate), &
+            & fftw_plan_many_dft(1, [py], px, self%columns, [py], 1, py, self%spectrum, [py], 1, py, &
+            & fftw_forward, fftw_estimate), &
+            & fftw_plan_many_dft(1, [py], px, self%spectrum, [py], 1, py, self%columns_back, [py], 1, py, &
+            & fftw_backward, fftw_estimate)]
+         call keep_plans(plan_kind%paired, my, px, py, plan, self%shared)
+      end if
       !$omp end critical (contact_fft_planner)
+      self%row_forward = plan(1)
+      self%row_backward = plan(2)
+      self%column_forward = plan(3)
+      self%column_backward = plan(4)
    end subroutine prepare
 
    subroutine forward(self, fields, ahead)
@@ -118,6 +130,13 @@ contains
    subroutine release(self)
       class(paired_plan), intent(inout) :: self
 
+      if (self%shared) then
+         self%row_forward = c_null_ptr
+         self%row_backward = c_null_ptr
+         self%column_forward = c_null_ptr
+         self%column_backward = c_null_ptr
+         self%shared = .false.
+      end if
       !$omp critical (contact_fft_planner)
       call destroy(self%row_forward)
       call destroy(self%row_backward)

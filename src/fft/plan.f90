@@ -11,6 +11,7 @@ module contact_fft_plan
    use contact_fft_fftw, only : destroy, fftw_backward, fftw_destroy_plan, fftw_estimate, &
       & fftw_execute_dft, fftw_execute_dft_c2r, fftw_execute_dft_r2c, fftw_forward, fftw_plan_dft_1d, fftw_plan_dft_r2c_2d, &
       & fftw_plan_many_dft_c2r, fftw_plan_many_dft_r2c, fftw_destroy_input
+   use contact_fft_kept_plans, only : keep_plans, plan_kind, plans_per_size, take_plans
    implicit none (type, external)
    private
 
@@ -36,6 +37,8 @@ module contact_fft_plan
       complex(wp), allocatable, private :: column(:, :)
       type(c_ptr), private :: row_forward = c_null_ptr, row_backward = c_null_ptr
       type(c_ptr), private :: column_forward = c_null_ptr, column_backward = c_null_ptr
+      !> Are the plans those of all windows of this size?
+      logical, private :: shared = .false.
    contains
       !> Make plans for a window; keeps them when the size is the same
       procedure :: prepare => prepare_plan
@@ -85,6 +88,7 @@ contains
       !> Window and padded window; px even or 1, px >= mx, py >= my
       integer, intent(in) :: mx, my, px, py
       complex(wp), allocatable :: spectrum(:, :)
+      type(c_ptr) :: plan(plans_per_size)
 
       if (self%mx == mx .and. self%my == my .and. self%px == px .and. self%py == py &
          & .and. c_associated(self%row_forward)) return
@@ -95,16 +99,24 @@ contains
       self%py = py
       self%kx = px/2 + 1
       allocate(self%rows(px, my, 2), source=0.0_wp)
-      allocate(self%column(py, 2), spectrum(py, self%kx), source=(0.0_wp, 0.0_wp))
+      allocate(self%column(py, 2), source=(0.0_wp, 0.0_wp))
       ! the planner of FFTW is not thread-safe; estimated plans make results reproducible
       !$omp critical (contact_fft_planner)
-      self%row_forward = fftw_plan_many_dft_r2c(1, [px], my, self%rows, [px], 1, px, &
-         & spectrum, [self%kx], py, 1, fftw_estimate)
-      self%row_backward = fftw_plan_many_dft_c2r(1, [px], my, spectrum, [self%kx], py, 1, &
-         & self%rows, [px], 1, px, ior(fftw_estimate, fftw_destroy_input))
-      self%column_forward = fftw_plan_dft_1d(py, spectrum, self%column, fftw_forward, fftw_estimate)
-      self%column_backward = fftw_plan_dft_1d(py, spectrum, self%column, fftw_backward, fftw_estimate)
+      call take_plans(plan_kind%single, my, px, py, plan, self%shared)
+      if (.not. self%shared) then
+         allocate(spectrum(py, self%kx), source=(0.0_wp, 0.0_wp))
+         plan = [fftw_plan_many_dft_r2c(1, [px], my, self%rows, [px], 1, px, spectrum, [self%kx], py, 1, fftw_estimate), &
+            & fftw_plan_many_dft_c2r(1, [px], my, spectrum, [self%kx], py, 1, self%rows, [px], 1, px, &
+            & ior(fftw_estimate, fftw_destroy_input)), &
+            & fftw_plan_dft_1d(py, spectrum, self%column, fftw_forward, fftw_estimate), &
+            & fftw_plan_dft_1d(py, spectrum, self%column, fftw_backward, fftw_estimate)]
+         call keep_plans(plan_kind%single, my, px, py, plan, self%shared)
+      end if
       !$omp end critical (contact_fft_planner)
+      self%row_forward = plan(1)
+      self%row_backward = plan(2)
+      self%column_forward = plan(3)
+      self%column_backward = plan(4)
    end subroutine prepare_plan
 
    subroutine transform_forward(self, field, spectrum, channel)
@@ -162,23 +174,37 @@ contains
       real(wp), contiguous, intent(inout) :: period(:, :)
       !> Spectrum, shape (py, px/2 + 1)
       complex(wp), contiguous, intent(inout) :: spectrum(:, :)
-      type(c_ptr) :: plan
+      type(c_ptr) :: plan(plans_per_size)
       complex(wp), allocatable :: by_rows(:, :)
+      logical :: shared
 
       allocate(by_rows(size(spectrum, 2), size(period, 2)))
       !$omp critical (contact_fft_planner)
-      plan = fftw_plan_dft_r2c_2d(size(period, 2), size(period, 1), period, by_rows, fftw_estimate)
+      plan = c_null_ptr
+      call take_plans(plan_kind%kernel, 0, size(period, 1), size(period, 2), plan, shared)
+      if (.not. shared) then
+         plan(1) = fftw_plan_dft_r2c_2d(size(period, 2), size(period, 1), period, by_rows, fftw_estimate)
+         call keep_plans(plan_kind%kernel, 0, size(period, 1), size(period, 2), plan, shared)
+      end if
       !$omp end critical (contact_fft_planner)
-      call fftw_execute_dft_r2c(plan, period, by_rows)
+      call fftw_execute_dft_r2c(plan(1), period, by_rows)
       spectrum = transpose(by_rows)
+      if (shared) return
       !$omp critical (contact_fft_planner)
-      call fftw_destroy_plan(plan)
+      call fftw_destroy_plan(plan(1))
       !$omp end critical (contact_fft_planner)
    end subroutine kernel_spectrum
 
    subroutine release_plan(self)
       class(fft_plan), intent(inout) :: self
 
+      if (self%shared) then
+         self%row_forward = c_null_ptr
+         self%row_backward = c_null_ptr
+         self%column_forward = c_null_ptr
+         self%column_backward = c_null_ptr
+         self%shared = .false.
+      end if
       !$omp critical (contact_fft_planner)
       call destroy(self%row_forward)
       call destroy(self%row_backward)

@@ -14,6 +14,7 @@ module contact_normal_conjugate_gradient
    use contact_elastic_compliance, only : compliance
    use contact_elastic_new_compliance, only : new_compliance
    use contact_grid_coarsening, only : coarse_neighbours, coarse_size, coarsening_factor, shortest_side
+   use contact_normal_few_elements, only : area_factor, solve_few
    use contact_normal_last_answer, only : answer_type
    use contact_normal_problem, only : approach_scale, load_lowest_element, make_admissible, normal_problem, &
       & pressure_displacement
@@ -36,6 +37,8 @@ module contact_normal_conjugate_gradient
       type(level_type), allocatable :: level(:)
       !> What the same question would be answered with: tables of creep forces repeat one normal problem
       type(answer_type), private :: last
+      !> That of the last contact of few elements, where problems follow each other
+      type(area_factor) :: factor
    end type normal_workspace
 
    !> Largest number of levels
@@ -90,7 +93,10 @@ contains
       call workspace%last%note_question(problem, operator, p)
       pairs_before = operator%fft_pairs()
       products_before = operator%products
-      call solve_level(problem, operator, workspace, 1, p, pen, problem%eps, report, log)
+      report%ended = ending%not_started
+      if (problem%follows) call solve_few(problem, operator, workspace%factor, p, pen, report)
+      if (report%ended /= ending%converged) &
+         & call solve_level(problem, operator, workspace, 1, p, pen, problem%eps, report, log)
       call workspace%last%note_answer(problem, p, pen, report)
       report%products = report%products + operator%products - products_before
       report%fft_pairs = report%fft_pairs + operator%fft_pairs() - pairs_before

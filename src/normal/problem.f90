@@ -29,6 +29,8 @@ module contact_normal_problem
       !> Tolerance on the contact conditions relative to the approach, largest number of iterations
       real(wp) :: eps = 1.0e-6_wp
       integer :: maxgs = 999
+      !> Are the pressures that the solver starts from those of a problem that differs a little, again and again?
+      logical :: follows = .false.
       !> When the time is up
       type(deadline_type) :: deadline
       !> Parts that act on each other with less than full strength; unallocated: everything acts fully

@@ -16,7 +16,7 @@ module contact_normal_stiffness
 contains
 
    !> Solve A q = 1 on the contact area by preconditioned conjugate gradients
-   subroutine pressure_derivative(operator, parts, contact, tolerance, max_iterations, q, reached)
+   subroutine pressure_derivative(operator, parts, contact, tolerance, max_iterations, q, reached, from_estimate)
       !> Prepared for the window
       class(compliance), intent(inout) :: operator
       !> Parts that act on each other with less than full strength; unallocated: everything acts fully
@@ -31,17 +31,37 @@ contains
       real(wp), contiguous, intent(inout) :: q(:, :)
       !> Residual that was reached
       real(wp), intent(out) :: reached
+      !> Is q an estimate on entry? Default no
+      logical, intent(in), optional :: from_estimate
       real(wp), allocatable :: r(:, :), z(:, :), d(:, :), u(:, :)
       real(wp) :: rz, previous, curvature, start
       integer :: k
+      logical :: has_estimate
 
-      q = 0.0_wp
+      has_estimate = .false.
+      if (present(from_estimate)) has_estimate = from_estimate
+      if (has_estimate) then
+         where (.not. contact) q = 0.0_wp
+      else
+         q = 0.0_wp
+      end if
       reached = 0.0_wp
       if (.not. any(contact)) return
       allocate(r(size(q, 1), size(q, 2)), z(size(q, 1), size(q, 2)), d(size(q, 1), size(q, 2)), u(size(q, 1), size(q, 2)))
       r = merge(1.0_wp, 0.0_wp, contact)
       start = norm2(r)
       reached = 1.0_wp
+      if (has_estimate) then
+         call displacement_between(parts, operator, q, u)
+         ! the sum of q is right to second order with a residual perpendicular to it
+         curvature = sum(q*u)
+         rz = 0.0_wp
+         if (curvature > 0.0_wp) rz = sum(q)/curvature
+         q = rz*q
+         r = merge(r - rz*u, 0.0_wp, contact)
+         reached = norm2(r)/start
+         if (reached <= tolerance) return
+      end if
       previous = 0.0_wp
       do k = 1, max_iterations
          call operator%normal_inverse(r, z)

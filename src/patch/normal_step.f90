@@ -36,11 +36,11 @@ contains
       type(log_type), intent(inout) :: log
       !> Gets the report of the normal problem and the contact area
       type(patch_result), intent(inout) :: result
-      integer :: ix, iy
-      logical :: first
+      logical :: first, scales
       character(len=80) :: line
 
       first = result%outer_iterations == 1
+      scales = .false.
       if (allocated(problem%given_pressure)) then
          state%now%pn = problem%given_pressure
          where (problem%h > excluded_threshold) state%now%pn = 0.0_wp
@@ -48,6 +48,8 @@ contains
       else
          if (first) then
             if (allocated(problem%pressure_estimate)) state%now%pn = problem%pressure_estimate
+            if (problem%follows_approach) call follow_approach(problem, state)
+            scales = problem%follows_approach .and. .not. problem%couples()
          end if
          if (problem%pressure == pressure_model%full .or. problem%couples() &
             & .or. .not. suits_sums(problem)) then
@@ -72,6 +74,7 @@ contains
             normal%fn = problem%fn
             normal%eps = problem%settings%eps*problem%pressure_eps
             normal%maxgs = problem%settings%maxgs
+            normal%follows = problem%follows_approach
             normal%deadline = problem%deadline
             if (problem%pressure == pressure_model%full) then
                call log%trace(4, " NORM")
@@ -94,19 +97,7 @@ contains
             end if
          end associate
       end if
-      result%ncon = 0
-      do iy = 1, problem%grid%my
-         do ix = 1, problem%grid%mx
-            if (state%now%pn(ix, iy) > 0.0_wp) then
-               result%ncon = result%ncon + 1
-               if (state%now%division(ix, iy) == element%exterior) state%now%division(ix, iy) = element%adhesion
-            else
-               state%now%division(ix, iy) = element%exterior
-               state%now%px(ix, iy) = 0.0_wp
-               state%now%py(ix, iy) = 0.0_wp
-            end if
-         end do
-      end do
+      call mark_contact(state, scales, result%ncon)
       if (problem%solves_for_pressure()) then
          result%normal%passes = result%normal%passes + 1
          if (log%shows(3)) then
@@ -145,6 +136,60 @@ contains
       if (problem%pressure == pressure_model%kpec) call workspace%sums%prepare(problem%model, problem%grid%dx, problem%grid%dy, &
          & problem%grid%mx, problem%grid%my)
    end subroutine prepare_sums
+
+   !> Elements with pressure are in contact; the others have no tractions
+   pure subroutine mark_contact(state, scales, ncon)
+      !> With the pressures; gets element states
+      type(patch_state), intent(inout) :: state
+      !> Are the tangential tractions relative to the pressures?
+      logical, intent(in) :: scales
+      !> Elements in contact
+      integer, intent(out) :: ncon
+      integer :: ix, iy
+
+      ncon = 0
+      do iy = 1, size(state%now%pn, 2)
+         do ix = 1, size(state%now%pn, 1)
+            if (state%now%pn(ix, iy) > 0.0_wp) then
+               ncon = ncon + 1
+               if (scales) then
+                  state%now%px(ix, iy) = state%now%px(ix, iy)*state%now%pn(ix, iy)
+                  state%now%py(ix, iy) = state%now%py(ix, iy)*state%now%pn(ix, iy)
+               end if
+               if (state%now%division(ix, iy) == element%exterior) state%now%division(ix, iy) = element%adhesion
+            else
+               state%now%division(ix, iy) = element%exterior
+               state%now%px(ix, iy) = 0.0_wp
+               state%now%py(ix, iy) = 0.0_wp
+            end if
+         end do
+      end do
+   end subroutine mark_contact
+
+   !> Estimates at this approach: pressures from those at the last one and their derivative, tractions relative to them
+   pure subroutine follow_approach(problem, state)
+      !> With the approach that is asked for
+      type(patch_problem), intent(in) :: problem
+      !> Pressures, approach and derivative of the last solution on entry
+      type(patch_state), intent(inout) :: state
+      !> Largest change, relative to the approach: pressures are nearly linear over it
+      real(wp), parameter :: largest_change = 0.3_wp
+      real(wp) :: change
+
+      if (.not. problem%couples()) then
+         where (state%now%pn > 0.0_wp)
+            state%now%px = state%now%px/state%now%pn
+            state%now%py = state%now%py/state%now%pn
+         else where
+            state%now%px = 0.0_wp
+            state%now%py = 0.0_wp
+         end where
+      end if
+      change = problem%pen - state%now%pen
+      if (.not. allocated(state%now%rate) .or. problem%force_prescribed) return
+      if (.not. abs(change) < largest_change*problem%pen) return
+      where (state%now%pn > 0.0_wp) state%now%pn = max(0.0_wp, state%now%pn + change*state%now%rate)
+   end subroutine follow_approach
 
    !> Normal displacements by the present tangential tractions
    subroutine shear_lift(problem, state, workspace)

@@ -87,6 +87,10 @@ module contact_patch_problem
       type(solver_settings) :: settings
       !> Part of the tolerance that pressures are solved to. Below 1 in a search that asks how they change by less than that
       real(wp) :: pressure_eps = 1.0_wp
+      !> The same for tangential tractions
+      real(wp) :: traction_eps = 1.0_wp
+      !> Does the estimate of the pressures follow the approach, by their derivative in the last solution?
+      logical :: follows_approach = .false.
       !> When the time is up
       type(deadline_type) :: deadline
       !> Is the relaxation that of the input? Otherwise the shape of the elements decides
@@ -139,6 +143,8 @@ module contact_patch_problem
       real(wp), allocatable :: pn(:, :), px(:, :), py(:, :)
       !> Approach [mm]
       real(wp) :: pen = 0.0_wp
+      !> Derivative of the pressures to the approach [N/mm3]; unallocated where nobody asks for it
+      real(wp), allocatable :: rate(:, :)
       !> Does the time step belong to a solved case? Its forces Fn, Fx, Fy, without damping [N]
       logical :: is_solved = .false.
       real(wp) :: force(3) = 0.0_wp

@@ -10,9 +10,10 @@ module contact_patch_sensitivities
    use contact_base_log, only : log_type
    use contact_elastic_compliance, only : compliance
    use contact_grid_element_division, only : bounding_box, contact_box, element
+   use contact_normal_few_elements, only : area_factor
    use contact_normal_stiffness, only : pressure_derivative
    use contact_patch_order, only : spin_offset_of
-   use contact_patch_problem, only : patch_problem
+   use contact_patch_problem, only : patch_problem, patch_state
    use contact_patch_result, only : patch_result
    use contact_patch_workspace, only : patch_workspace
    use contact_tangential_nested, only : traction_derivative
@@ -31,11 +32,13 @@ module contact_patch_sensitivities
 contains
 
    !> Fill the table of sensitivities as far as the problem asks for it
-   subroutine find_sensitivities(problem, workspace, result, log)
+   subroutine find_sensitivities(problem, workspace, state, result, log)
       !> Which sensitivities, with what tolerance; prescribed forces
       type(patch_problem), intent(in) :: problem
       !> Compliances, and the tangential problem with its solution
       type(patch_workspace), intent(inout) :: workspace
+      !> The derivative of its pressures is kept where estimates follow the approach
+      type(patch_state), intent(inout) :: state
       !> Totals are known
       type(patch_result), intent(inout) :: result
       !> Hears of linear systems that were not solved accurately enough
@@ -48,7 +51,7 @@ contains
       reached = 0.0_wp
       if (problem%sensitivity == sensitivity_choice%none .or. result%ncon == 0) return
       if (problem%sensitivity >= sensitivity_choice%normal .and. problem%solves_for_pressure()) &
-         & call normal_stiffness(problem, workspace%window, result, q, reached)
+         & call normal_stiffness(problem, workspace%window, workspace%normal_work%factor, state, result, q, reached)
       ! the linearised problem of any other step than one element is not at hand
       if (problem%motion /= motion%none .and. .not. allocated(problem%simplified) .and. .not. problem%general_step) &
          & call tangential_part()
@@ -67,19 +70,39 @@ contains
    end subroutine find_sensitivities
 
    !> dFn/dpen [N/mm] and the derivative of the pressures
-   subroutine normal_stiffness(problem, operator, result, q, reached)
+   subroutine normal_stiffness(problem, operator, factor, state, result, q, reached)
       type(patch_problem), intent(in) :: problem
       class(compliance), intent(inout) :: operator
+      !> May be that of the contact area
+      type(area_factor), intent(inout) :: factor
+      type(patch_state), intent(inout) :: state
       type(patch_result), intent(inout) :: result
       !> [N/mm3], shape (mx, my)
       real(wp), allocatable, intent(out) :: q(:, :)
       !> Relative residual
       real(wp), intent(out) :: reached
       logical, allocatable :: contact(:, :)
+      logical :: has_estimate, is_found
+      !> Where an estimate is improved: the error of the stiffness is the square of it
+      real(wp), parameter :: rough = 5.0e-3_wp
+      real(wp) :: tolerance
 
       contact = result%division > element%exterior
-      allocate(q, mold=result%pn)
-      call pressure_derivative(operator, problem%parts, contact, problem%epsens, problem%mxsens, q, reached)
+      has_estimate = problem%follows_approach .and. allocated(state%now%rate)
+      if (has_estimate) then
+         call move_alloc(state%now%rate, q)
+      else
+         allocate(q, mold=result%pn)
+      end if
+      reached = 0.0_wp
+      is_found = .false.
+      if (problem%follows_approach .and. .not. allocated(problem%parts)) &
+         & call factor%pressure_derivative(operator, result%pn, q, is_found)
+      tolerance = problem%epsens
+      if (has_estimate) tolerance = max(tolerance, rough)
+      if (.not. is_found) call pressure_derivative(operator, problem%parts, contact, tolerance, problem%mxsens, q, reached, &
+         & has_estimate)
+      if (problem%follows_approach) state%now%rate = q
       result%sensitivity(row_fn, to_pen) = problem%grid%dx*problem%grid%dy*sum(q)
    end subroutine normal_stiffness
 

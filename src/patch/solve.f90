@@ -98,7 +98,7 @@ contains
       call derive_status(problem, turns, result)
       if (.not. result%status%is_solved()) call log%warning(result%status%reason)
       call remember_forces(problem, state, result)
-      call find_sensitivities(problem, workspace, result, log)
+      call find_sensitivities(problem, workspace, state, result, log)
       call remember_friction(problem, result, state)
       call derive_temperatures(problem, log, result)
       state%started = .true.

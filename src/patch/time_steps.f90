@@ -273,6 +273,10 @@ contains
       deallocate(fields%division, fields%pn, fields%px, fields%py)
       call fit_fields(fields, grid%mx, grid%my)
       fields%grid = grid
+      if (allocated(fields%rate)) then
+         deallocate(fields%rate)
+         allocate(fields%rate(grid%mx, grid%my), source=0.0_wp)
+      end if
       do iy = 1, grid%my
          jy = iy + ky
          if (jy < 1 .or. jy > old%grid%my) cycle
@@ -283,6 +287,7 @@ contains
             fields%pn(ix, iy) = old%pn(jx, jy)
             fields%px(ix, iy) = old%px(jx, jy)
             fields%py(ix, iy) = old%py(jx, jy)
+            if (allocated(fields%rate)) fields%rate(ix, iy) = old%rate(jx, jy)
          end do
       end do
    end subroutine move_window
@@ -301,6 +306,7 @@ contains
       fields%px = 0.0_wp
       fields%py = 0.0_wp
       fields%pen = 0.0_wp
+      if (allocated(fields%rate)) deallocate(fields%rate)
       fields%is_solved = .false.
       fields%force = 0.0_wp
    end subroutine clear_time_step

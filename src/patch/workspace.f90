@@ -6,6 +6,7 @@ module contact_patch_workspace
    use contact_elastic_new_compliance, only : new_compliance
    use contact_elastic_pressure_sums, only : pressure_sums
    use contact_elastic_previous, only : previous_operator
+   use contact_elastic_shelf, only : operator_shelf
    use contact_grid_element_division, only : bounding_box
    use contact_numeric_anderson, only : anderson_iteration
    use contact_normal_conjugate_gradient, only : normal_problem, normal_workspace, release_normal
@@ -23,6 +24,8 @@ module contact_patch_workspace
    type :: patch_workspace
       !> Compliance on the whole window and on the bounding box of the contact area
       class(compliance), allocatable :: window, box
+      !> Those of other windows and boxes that were in use
+      type(operator_shelf) :: windows, boxes
       type(previous_operator) :: previous
       !> Normal displacements of few elements, for approximate pressures; unallocated where they do not suit the bodies
       type(pressure_sums), allocatable :: sums
@@ -82,6 +85,8 @@ contains
       !> Its `window` is prepared
       type(patch_workspace), intent(inout) :: workspace
 
+      call workspace%windows%fetch(problem%model, problem%grid%dx, problem%grid%dy, problem%grid%mx, problem%grid%my, &
+         & workspace%window)
       call new_compliance(problem%model, workspace%window)
       call workspace%window%prepare(problem%model, problem%grid%dx, problem%grid%dy, problem%grid%mx, problem%grid%my, &
          & rolling_direction(problem), problem%grid%y(1))
@@ -96,6 +101,8 @@ contains
       !> Its `box` is prepared
       type(patch_workspace), intent(inout) :: workspace
 
+      call workspace%boxes%fetch(problem%model, problem%grid%dx, problem%grid%dy, box%ix1 - box%ix0 + 1, &
+         & box%iy1 - box%iy0 + 1, workspace%box)
       call new_compliance(problem%model, workspace%box)
       call workspace%box%prepare(problem%model, problem%grid%dx, problem%grid%dy, box%ix1 - box%ix0 + 1, &
          & box%iy1 - box%iy0 + 1, rolling_direction(problem), problem%grid%y(box%iy0))
@@ -108,6 +115,8 @@ contains
 
       if (allocated(workspace%window)) call workspace%window%release()
       if (allocated(workspace%box)) call workspace%box%release()
+      call workspace%windows%release()
+      call workspace%boxes%release()
       call workspace%previous%release()
       call release_normal(workspace%normal_work)
       call release_nested(workspace%tangential_work)

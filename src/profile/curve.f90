@@ -58,12 +58,25 @@ module contact_profile_curve
       procedure :: seen_from
       !> The point with the smallest z of a rail
       procedure :: top
+      !> Is another curve the same, bit by bit?
+      procedure :: same_as
    end type profile_curve
 
    !> Stretches of y shorter than this are vertical [mm]
    real(wp), parameter :: vertical = 1.0e-9_wp
 
 contains
+
+   !> Is another curve the same, bit by bit?
+   pure logical function same_as(self, other)
+      class(profile_curve), intent(in) :: self
+      !> What it is compared with
+      type(profile_curve), intent(in) :: other
+
+      same_as = allocated(self%y%c) .and. allocated(other%y%c)
+      if (same_as) same_as = all(shape(self%y%c) == shape(other%y%c))
+      if (same_as) same_as = all(self%y%s == other%y%s) .and. all(self%y%c == other%y%c) .and. all(self%z%c == other%z%c)
+   end function same_as
 
    !> A curve from its coordinates
    function new_curve(side, y, z) result(curve)

@@ -53,12 +53,18 @@ module contact_wheelrail_geometry
       real(wp) :: lowest_for_regions = -huge(1.0_wp)
       !> Penetration that carries the prescribed force [mm]: of the last search of this case, or 0
       real(wp) :: penetration = 0.0_wp
+      !> Does the case follow the last one in a loop over time?
+      logical :: follows = .false.
       !> Part of EPS that the pressures of the present trial are solved to
       real(wp) :: pressure_eps = 1.0_wp
+      !> The same for tangential tractions
+      real(wp) :: traction_eps = 1.0_wp
       !> Lateral deflection of the rail [mm] and pitch rate of the wheelset [rad/s]: prescribed, or the present trial
       real(wp) :: deflection = 0.0_wp, pitch_rate = 0.0_wp
-      !> Top of the canted rail and its gauge point [mm]
+      !> Top of the canted rail and its gauge point [mm], and what they were found for: cant [rad], height of the gauge point [mm]
       real(wp) :: top_z = 0.0_wp, gauge_y = 0.0_wp
+      real(wp) :: gauged_cant = 0.0_wp, gauged_height = 0.0_wp
+      type(profile_curve) :: gauged
       !> Where the tractions of the previous time step are
       type(carried_step) :: before
       !> Position of the wheelset along the rail [mm], and the arc length of the rail's profile at its origin [mm]

@@ -154,7 +154,13 @@ contains
          call evaluate(problem, memory, z, with_friction=.false., log=log, error=error)
          return
       end if
-      call search_apart(problem, memory, search, is_settled, log, error)
+      is_settled = .false.
+      if (memory%geometry%follows) then
+         search%guess = search%touch + memory%course%penetration(problem%spec%wheelset, target)
+         call search%follow(problem, memory, memory%course%stiffer, is_settled, log, error)
+         if (.not. allocated(error) .and. is_settled) call learn_shares(memory)
+      end if
+      if (.not. (is_settled .or. allocated(error))) call search_apart(problem, memory, search, is_settled, log, error)
       if (.not. allocated(error) .and. .not. is_settled) call search_together(problem, memory, search, log, error)
       z = search%z
       if (allocated(error)) return

@@ -5,8 +5,11 @@ module contact_wheelrail_height_search
    use contact_base_error, only : error_type
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
+   use contact_wheelrail_course, only : power
    use contact_wheelrail_force_balance, only : balance_ending, force_balance
+   use contact_patch_small_step, only : can_step, small_step
    use contact_wheelrail_memory, only : wheel_rail_memory, vertical_force, vertical_slope
+   use contact_wheelrail_patch_solution, only : find_forces
    use contact_wheelrail_problem, only : wheel_rail_problem
    use contact_wheelrail_trial, only : evaluate
    implicit none (type, external)
@@ -32,9 +35,14 @@ module contact_wheelrail_height_search
       real(wp), private :: small = 1.0_wp
       !> Trials of the case before this search
       integer, private :: trials_before = 0
+      !> Are the pressures of all trials made sharp?
+      logical, private :: all_sharp = .false.
+      !> But for the first one, which only has to tell the next height?
+      logical, private :: is_rough = .false.
    contains
       procedure :: begin
       procedure :: run
+      procedure :: follow
       procedure :: try
       procedure, private :: bracket
    end type height_search
@@ -43,6 +51,17 @@ module contact_wheelrail_height_search
    real(wp), parameter :: near_by = 20.0_wp, sharper = 0.05_wp
    !> Least part of the normal forces that pressures are made sharper for
    real(wp), parameter :: smallest = 1.0e-4_wp
+   !> A search that follows the last case: trials at most, part of EPS that it goes on to, part of the missed force that a trial
+   !> leaves at most, and derivatives of the force that are believed, relative to those by the stiffness
+   integer, parameter :: max_followed = 7
+   real(wp), parameter :: smooth = 0.02_wp, quick_progress = 0.2_wp, least_stiff = 0.3_wp, most_stiff = 3.0_wp
+   !> Tangential tractions are made sharp to so many times the part of EPS of the pressures
+   real(wp), parameter :: smooth_tractions = 5.0_wp
+   !> Parts of EPS that the first of these trials solves pressures and tractions to: it is not the last one
+   real(wp), parameter :: first_pressures = 0.3_wp, first_tractions = 30.0_wp
+   !> A way between two heights that tells a derivative, relative to the penetration: on a shorter one grids that follow the
+   !> contact count, too. They leave steps of the force up to this part of it
+   real(wp), parameter :: telling_way = 1.0e-3_wp, step_of_grids = 1.0e-4_wp
    !> Where the normal forces are so many times the prescribed force, friction carries nearly all of them
    real(wp), parameter :: mostly_friction = 20.0_wp
    !> A wheel whose force is exceeded at first touch is lifted off by so many approaches of its patches, and by this length [mm]
@@ -100,6 +119,121 @@ contains
       call self%bracket(problem, memory, with_friction, max_trials - (self%trials - before), log, error)
    end subroutine run
 
+   !> A search without bracket, with friction in every trial, from a guess that follows the last case
+   !>
+   !> Newton's method for F**(2/3). The derivative by the stiffness leaves out that steep patches turn and friction changes; what
+   !> two trials tell of the true one serves the next trials, and the next case. The force is met closer than within EPS: what is
+   !> missed would be noise between one case and the next. Where a step does not do well, the search is not settled, and nothing
+   !> is lost but time.
+   subroutine follow(self, problem, memory, stiffer, is_settled, log, error)
+      class(height_search), intent(inout) :: self
+      !> What is asked for wheel and rail
+      type(wheel_rail_problem), intent(in) :: problem
+      !> Patches of the trials; those of the last one stay
+      type(wheel_rail_memory), intent(inout) :: memory
+      !> Derivative of the force, relative to that by the stiffness [-]: last known, and found
+      real(wp), intent(inout) :: stiffer
+      !> Was the force met? z is the height, or the best of those that were tried
+      logical, intent(out) :: is_settled
+      !> Takes the trace of the trials
+      type(log_type), intent(inout) :: log
+      !> Allocated when a trial has no result
+      type(error_type), allocatable, intent(out) :: error
+      real(wp) :: z, last_z, last_force, miss, last_miss, best, told, low(2), high(2)
+      integer :: k
+
+      call self%balance%start(self%target, problem%template%settings%eps, self%bottom, &
+         & self%touch + deepest*memory%geometry%placement%wheel_radius, max_followed, forces_are_estimates=.false.)
+      is_settled = .false.
+      self%all_sharp = .true.
+      z = self%guess
+      best = huge(best)
+      last_miss = huge(last_miss)
+      last_z = z
+      last_force = 0.0_wp
+      low = huge(low)
+      high = huge(high)
+      do k = 1, max_followed
+         self%is_rough = k == 1
+         call self%try(problem, memory, z, .true., log, error)
+         if (allocated(error)) exit
+         miss = abs(self%force - self%target)
+         if (k > 1 .and. abs(z - last_z) > telling_way*(z - self%touch)) then
+            told = (self%force - last_force)/((z - last_z)*max(self%slope, tiny(told)))
+            if (told > least_stiff .and. told < most_stiff) stiffer = told
+         end if
+         if (miss < best) then
+            best = miss
+            self%z = z
+         end if
+         is_settled = k > 1 .and. miss <= smooth_part(problem)*self%balance%tolerance
+         if (k > 1 .and. .not. is_settled .and. miss <= self%balance%tolerance) then
+            call finish(self, memory, stiffer, z, is_settled)
+            if (.not. is_settled) is_settled = k == max_followed .or. miss > quick_progress*last_miss
+         end if
+         if (is_settled) self%z = z
+         if (is_settled .or. .not. (self%slope > 0.0_wp .and. self%force > 0.0_wp)) exit
+         if (k > 1 .and. miss > max(quick_progress*last_miss, step_of_grids*self%target)) exit
+         if (self%force < self%target) then
+            low = [z, self%force]
+         else
+            high = [z, self%force]
+         end if
+         last_miss = miss
+         last_z = z
+         last_force = self%force
+         z = z + self%force/(power*stiffer*self%slope)*((self%target/self%force)**power - 1.0_wp)
+         ! between heights with less and with more force a chord leads on
+         if (max(low(1), high(1)) < huge(low) .and. .not. (z > low(1) .and. z < high(1))) &
+            & z = low(1) + (high(1) - low(1))*(self%target - low(2))/(high(2) - low(2))
+         if (.not. z > self%touch) exit
+      end do
+      self%all_sharp = .false.
+      self%balance%z = self%z
+      self%balance%force = self%force
+      self%guess = self%z
+   end subroutine follow
+
+   !> The last step of Newton's method to first order, where all patches can do it: from within EPS to the force itself
+   subroutine finish(self, memory, stiffer, z, is_done)
+      type(height_search), intent(inout) :: self
+      !> Solved patches; get their forces at the new height
+      type(wheel_rail_memory), intent(inout) :: memory
+      !> Derivative of the force, relative to that by the stiffness [-]
+      real(wp), intent(in) :: stiffer
+      !> Height of the last trial [mm]; the new one
+      real(wp), intent(inout) :: z
+      logical, intent(out) :: is_done
+      real(wp) :: step
+      integer :: k
+
+      is_done = .false.
+      if (.not. self%slope > 0.0_wp .or. memory%used == 0) return
+      do k = 1, memory%used
+         if (.not. can_step(memory%slot(k)%problem, memory%slot(k)%state)) return
+      end do
+      step = (self%target - self%force)/(stiffer*self%slope)
+      do k = 1, memory%used
+         associate (slot => memory%slot(k))
+            ! what turns and moves with the height makes the force stiffer; the patch takes its part of it
+            call small_step(slot%problem, stiffer*slot%plane%axes(3, 3)*step, slot%state, slot%result)
+            call find_forces(slot)
+         end associate
+      end do
+      z = z + step
+      self%force = vertical_force(memory)
+      is_done = .true.
+   end subroutine finish
+
+   !> Part of EPS that noise between cases is kept below
+   pure real(wp) function smooth_part(problem)
+      type(wheel_rail_problem), intent(in) :: problem
+      !> Relative forces below this are round-off and what is left of iterations
+      real(wp), parameter :: finest = 1.0e-8_wp
+
+      smooth_part = min(1.0_wp, max(smooth, finest/problem%template%settings%eps))
+   end function smooth_part
+
    !> A search between two heights
    subroutine bracket(self, problem, memory, with_friction, max_trials, log, error)
       class(height_search), intent(inout) :: self
@@ -144,9 +278,15 @@ contains
       memory%geometry%pressure_eps = 1.0_wp
       if (self%off > problem%template%settings%eps .and. self%off*self%small < near_by*problem%template%settings%eps) &
          & memory%geometry%pressure_eps = sharper*self%small
+      memory%geometry%traction_eps = 1.0_wp
+      if (self%all_sharp) then
+         memory%geometry%pressure_eps = merge(first_pressures, smooth_part(problem), self%is_rough)*self%small
+         memory%geometry%traction_eps = merge(first_tractions, min(1.0_wp, smooth_tractions*smooth_part(problem)), self%is_rough)
+      end if
       call evaluate(problem, memory, z, with_friction, log, error)
       self%trials = self%trials + 1
       memory%geometry%pressure_eps = 1.0_wp
+      memory%geometry%traction_eps = 1.0_wp
       if (allocated(error)) then
          call log%speak()
          return

@@ -8,6 +8,7 @@ module contact_wheelrail_memory
    use contact_patch_result, only : patch_result
    use contact_patch_workspace, only : patch_workspace, release_workspace
    use contact_wheelrail_carry_over, only : carried_step, lattice_window
+   use contact_wheelrail_course, only : course_type
    use contact_wheelrail_creepage, only : contact_motion
    use contact_wheelrail_curved_patch, only : curved_reference
    use contact_wheelrail_frame, only : frame
@@ -65,6 +66,8 @@ module contact_wheelrail_memory
       type(carried_step) :: last
       !> Motion of the last case
       integer :: motion = motion%none
+      !> Heights of the last cases of a time loop
+      type(course_type) :: course
    end type wheel_rail_memory
 
 contains

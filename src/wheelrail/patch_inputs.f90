@@ -53,6 +53,8 @@ contains
       call move_alloc(slot%problem%h, h)
       slot%problem = problem%template
       slot%problem%pressure_eps = geometry%pressure_eps
+      slot%problem%traction_eps = geometry%traction_eps
+      slot%problem%follows_approach = geometry%follows
       if (allocated(slot%curve)) deallocate(slot%curve)
       slot%reference = [lattice_x(problem, geometry, slot%region%x), rail%s_at(slot%region%y) - geometry%profile_origin]
       if (keeps_lattice(problem)) then

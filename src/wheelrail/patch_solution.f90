@@ -16,7 +16,7 @@ module contact_wheelrail_patch_solution
    implicit none (type, external)
    private
 
-   public :: solve_slot
+   public :: solve_slot, find_forces
 
 contains
 
@@ -54,6 +54,18 @@ contains
       if (allocated(error)) return
       call solve_patch(slot%problem, slot%state, slot%workspace, log, slot%result, error)
       if (allocated(error)) return
+      call find_forces(slot)
+      if (has_friction .and. problem%template%motion /= motion%none .and. slot%result%fn > 0.0_wp) then
+         slot%friction_share = (slot%force - slot%pressure_force)/slot%result%fn
+         if (is_new) call add_share(geometry, slot)
+      end if
+   end subroutine solve_slot
+
+   !> Forces and moments of a solved patch in the axes of its plane
+   subroutine find_forces(slot)
+      !> Solved
+      type(patch_slot), intent(inout) :: slot
+
       if (allocated(slot%curve)) then
          call curved_forces(slot%curve, slot%plane, slot%result, slot%pressure_force, slot%force, slot%moment)
       else
@@ -61,11 +73,7 @@ contains
          slot%force = [slot%result%fx, slot%result%fy, slot%result%fn]
          slot%moment = [slot%result%mx, slot%result%my, slot%result%mz]
       end if
-      if (has_friction .and. problem%template%motion /= motion%none .and. slot%result%fn > 0.0_wp) then
-         slot%friction_share = (slot%force - slot%pressure_force)/slot%result%fn
-         if (is_new) call add_share(geometry, slot)
-      end if
-   end subroutine solve_slot
+   end subroutine find_forces
 
    !> Does the patch continue one whose friction is known? Each of these is continued by one patch; a patch that took the
    !> place of two of them is a new one
@@ -152,6 +160,7 @@ contains
             state%now%px = estimate%px
             state%now%py = estimate%py
             state%now%pen = estimate%pen
+            if (allocated(estimate%rate)) state%now%rate = estimate%rate
          else if (size(slot%previous) > 0) then
             state%before%is_solved = .true.
             state%before%force = before%total_force(number)

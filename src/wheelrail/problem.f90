@@ -46,6 +46,9 @@ module contact_wheelrail_problem
       type(case_limits) :: limits
       !> Start from the previous case?
       logical :: use_previous = .false.
+      !> Is the case one of a loop over time, in which the last ones are starting values, whatever it continues? The answer does
+      !> not depend on them beyond the tolerance, but figures behind it do
+      logical :: in_loop = .false.
       !> How the case continues the previous one, member of time_link
       integer :: link = time_link%initiate
       !> Power of the interpenetration in the weights of the contact reference

@@ -10,7 +10,7 @@ module contact_wheelrail_solve
    use contact_wheelrail_deflection, only : lower_rail, search_deflection
    use contact_wheelrail_error_estimate, only : estimate_wheel_rail_errors
    use contact_wheelrail_gather, only : gather
-   use contact_wheelrail_geometry, only : box_on_lattice, max_patches, place
+   use contact_wheelrail_geometry, only : box_on_lattice, max_patches, place, wheel_rail_geometry
    use contact_wheelrail_height, only : settle
    use contact_wheelrail_memory, only : wheel_rail_memory
    use contact_wheelrail_pitch_rate, only : search_pitch_rate
@@ -40,7 +40,8 @@ contains
       integer :: k
 
       if (.not. allocated(memory%slot)) allocate(memory%slot(max_patches))
-      if (.not. problem%use_previous) then
+      memory%geometry%follows = follows_last(problem, memory)
+      if (.not. (problem%use_previous .or. memory%geometry%follows)) then
          memory%slot%state%started = .false.
          memory%used = 0
          memory%geometry%shares = 0
@@ -56,9 +57,7 @@ contains
       end if
       if (problem%force /= force_control%massless_rail) memory%geometry%deflection = 0.0_wp
       if (problem%force /= force_control%longitudinal_force) memory%geometry%pitch_rate = problem%spec%wheelset%vpitch
-      if (problem%spec%track%gaught > 0.0_wp) &
-         & call gauge_point(problem%rail, problem%spec%track%cant, problem%spec%track%gaught, memory%geometry%top_z, &
-         & memory%geometry%gauge_y)
+      if (problem%spec%track%gaught > 0.0_wp) call find_gauge_point(problem, memory%geometry)
       if (problem%geometry_only .or. problem%force == force_control%creepages) then
          call settle(problem, memory, z, log, result, error)
       else if (problem%force == force_control%longitudinal_force) then
@@ -68,6 +67,7 @@ contains
       end if
       if (allocated(error)) then
          call memory%last%clear()
+         call memory%course%forget()
          return
       end if
       if (.not. problem%geometry_only) then
@@ -78,6 +78,8 @@ contains
          end do
       end if
       call judge_direction(problem, memory%geometry%pitch_rate, log)
+      if (problem%in_loop) call memory%course%note(problem%spec%wheelset, merge(problem%spec%wheelset%fz, 0.0_wp, &
+         & problem%force_prescribed .and. result%status%is_solved()), memory%geometry%penetration)
       memory%z_ws = z
       memory%started = .true.
       if (.not. problem%geometry_only) call keep_time_step(problem, memory)
@@ -102,6 +104,33 @@ contains
       end if
       call gather(problem, memory, result)
    end subroutine solve_wheel_rail
+
+   !> The gauge point of the rail, unless it is that of the last case
+   subroutine find_gauge_point(problem, geometry)
+      type(wheel_rail_problem), intent(in) :: problem
+      type(wheel_rail_geometry), intent(inout) :: geometry
+
+      associate (cant => problem%spec%track%cant, height => problem%spec%track%gaught)
+         if (abs(geometry%gauged_cant - cant) <= 0.0_wp .and. abs(geometry%gauged_height - height) <= 0.0_wp) then
+            if (problem%rail%same_as(geometry%gauged)) return
+         end if
+         call gauge_point(problem%rail, cant, height, geometry%top_z, geometry%gauge_y)
+         geometry%gauged_cant = cant
+         geometry%gauged_height = height
+         geometry%gauged = problem%rail
+      end associate
+   end subroutine find_gauge_point
+
+   !> Is the last case near enough for starting values, and what is sought the height alone?
+   pure logical function follows_last(problem, memory) result(follows)
+      type(wheel_rail_problem), intent(in) :: problem
+      type(wheel_rail_memory), intent(in) :: memory
+
+      follows = problem%in_loop .and. memory%started .and. problem%force_prescribed .and. .not. problem%geometry_only &
+         & .and. problem%force == force_control%creepages .and. problem%template%motion == memory%motion &
+         & .and. problem%template%solves_for_pressure()
+      if (follows) follows = memory%course%is_near(problem%spec%wheelset)
+   end function follows_last
 
    !> Warn of a wheel that turns against its direction of travel
    subroutine judge_direction(problem, pitch_rate, log)

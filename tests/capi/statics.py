@@ -32,6 +32,8 @@ KNOWN = {
     "reserve_pieces": "counted atomically",
     "reserve_uses": "counted atomically",
     "table": "blocks of memory and their owners; atomic",
+    "__contact_fft_kept_plans_MOD_kept": "plans of all windows of a size; every access is inside `contact_fft_planner`",
+    "__contact_fft_kept_plans_MOD_n_kept": "their number, the same",
     ".gomp_critical_user_contact_registry": "lock of the registry",
     ".gomp_critical_user_contact_printing": "lock of the .out file of the library",
     ".gomp_critical_user_contact_fft_planner": "lock of FFTW's planner",

@@ -58,6 +58,11 @@ measure() {
   fi
   printf '\n## Wheel on rail\n\n'
   measure_rail || return 1
+  printf '\n## A wheel in a time loop\n\n'
+  printf 'Eight wheels, 1 ms per step, S1002 on 60E1, EPS = 1e-5, P = 2; processor time of a call of the library on one thread, ms.\n\n'
+  steps=500
+  case $options in *--quick*) steps=60 ;; esac
+  "$programs/tests/performance_vehicle" "$top/examples/profiles" $steps || return 1
   [ $rail = yes ] && return 0
   printf '\n## The whole program\n\n'
   python3 "$here/whole_program.py" "$programs/bin/contact" "$bench"

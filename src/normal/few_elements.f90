@@ -1,0 +1,255 @@
+!> The normal problem of a contact of few elements: active sets with a Cholesky factor that is kept
+!>
+!> Influence coefficients depend on offsets only, so that the matrix of the elements in contact is the same wherever they are. In a
+!> loop over time the area is often that of the last solution; then two triangles solve for the pressures, or their derivative to
+!> the approach, to the last figure. Elements under tension are left out, elements that overlap are taken in, until nothing
+!> changes. Where that does not end soon, conjugate gradients go on from there.
+module contact_normal_few_elements
+   use contact_base_constants, only : excluded_threshold
+   use contact_base_kinds, only : wp
+   use contact_base_solve_report, only : ending, solve_report
+   use contact_elastic_compliance, only : compliance
+   use contact_elastic_model, only : elastic_model
+   use contact_elastic_operator, only : elastic_operator
+   use contact_normal_problem, only : approach_scale, normal_problem, pressure_displacement
+   implicit none (type, external)
+   private
+
+   public :: area_factor, solve_few
+
+   !> Elements of a factor at most: beyond, transforms take less time
+   integer, parameter :: most = 200
+   !> Changes of the area before conjugate gradients take over, and elements at least
+   integer, parameter :: max_changes = 12, least = 4
+
+   !> The factor of a contact area, and scratch; not of meaning where `n` is 0
+   type :: area_factor
+      !> Elements in contact
+      integer, private :: n = 0
+      !> Their places in the window, those of the factor, shape (2, most)
+      integer, allocatable, private :: place(:, :), known(:, :)
+      !> Lower triangle, shape (most, most), and a vector, shape (most)
+      real(wp), allocatable, private :: lower(:, :), x(:)
+      !> Displacements and residuals on the window [mm], shape (mx, my)
+      real(wp), allocatable, private :: u(:, :)
+      !> What the factor was made for
+      real(wp), private :: dx = 0.0_wp, dy = 0.0_wp
+      type(elastic_model), private :: model
+   contains
+      !> Make the factor of an area, or keep it
+      procedure, private :: fit
+      !> Solve with the right-hand side x
+      procedure, private :: substitute
+      !> Derivative of the pressures to the approach
+      procedure :: pressure_derivative
+   end type area_factor
+
+contains
+
+   !> Pressures for a prescribed approach, from an estimate that is nearly right
+   subroutine solve_few(problem, operator, factor, p, pen, report)
+      !> Undeformed distance, tolerance
+      type(normal_problem), intent(in) :: problem
+      !> Prepared for the window
+      class(compliance), intent(inout) :: operator
+      !> Kept from call to call
+      type(area_factor), intent(inout) :: factor
+      !> Estimate on entry, pressures on exit [N/mm2], shape (mx, my)
+      real(wp), contiguous, intent(inout) :: p(:, :)
+      !> Approach [mm]
+      real(wp), intent(in) :: pen
+      !> Converged, or not started where another method has to do it
+      type(solve_report), intent(inout) :: report
+      real(wp) :: scale, worst, r
+      integer :: change, ix, iy, k
+      logical :: fits, grows
+
+      report%ended = ending%not_started
+      if (problem%force_prescribed .or. allocated(problem%parts) .or. .not. is_plain(operator)) return
+      if (allocated(factor%u)) then
+         if (any(shape(factor%u) /= shape(p))) deallocate(factor%u)
+      end if
+      if (.not. allocated(factor%u)) allocate(factor%u(problem%mx, problem%my))
+      do change = 1, max_changes
+         report%iterations = change
+         call factor%fit(operator, p, fits)
+         if (.not. fits) return
+         do k = 1, factor%n
+            factor%x(k) = pen - problem%h(factor%place(1, k), factor%place(2, k))
+         end do
+         call factor%substitute()
+         do k = 1, factor%n
+            p(factor%place(1, k), factor%place(2, k)) = max(0.0_wp, factor%x(k))
+         end do
+         if (any(factor%x(:factor%n) <= 0.0_wp)) cycle
+         call pressure_displacement(problem, operator, p, factor%u)
+         worst = 0.0_wp
+         do iy = 1, problem%my
+            do ix = 1, problem%mx
+               if (problem%h(ix, iy) > excluded_threshold) cycle
+               r = pen - problem%h(ix, iy) - factor%u(ix, iy)
+               if (.not. p(ix, iy) > 0.0_wp) r = max(0.0_wp, r)
+               worst = max(worst, abs(r))
+            end do
+         end do
+         scale = approach_scale(pen, minval(problem%h), worst)
+         report%residual = worst/scale
+         if (report%residual <= problem%eps) then
+            report%method = "Cholesky"
+            report%ended = ending%converged
+            return
+         end if
+         grows = .false.
+         do iy = 1, problem%my
+            do ix = 1, problem%mx
+               if (p(ix, iy) > 0.0_wp .or. problem%h(ix, iy) > excluded_threshold) cycle
+               if (.not. pen - problem%h(ix, iy) - factor%u(ix, iy) > problem%eps*scale) cycle
+               ! any pressure counts as contact: the factor tells how much it is
+               p(ix, iy) = tiny(p)
+               grows = .true.
+            end do
+         end do
+         if (.not. grows) return
+      end do
+   end subroutine solve_few
+
+   !> Are the coefficients those of plain half-spaces, the same at opposite offsets?
+   pure logical function is_plain(operator)
+      class(compliance), intent(in) :: operator
+
+      select type (operator)
+      type is (elastic_operator)
+         is_plain = .not. (allocated(operator%model%memory) .or. allocated(operator%model%inclination))
+      class default
+         is_plain = .false.
+      end select
+   end function is_plain
+
+   !> The factor for the elements with pressure
+   subroutine fit(self, operator, p, fits)
+      class(area_factor), intent(inout) :: self
+      !> Its table has the coefficients
+      class(compliance), intent(in) :: operator
+      !> Pressures [N/mm2], shape (mx, my)
+      real(wp), contiguous, intent(in) :: p(:, :)
+      !> Are there neither too many elements nor too few?
+      logical, intent(out) :: fits
+      integer :: ix, iy, j, k, n
+      logical :: same
+
+      fits = .false.
+      n = count(p > 0.0_wp)
+      if (n > most .or. n < least) return
+      if (.not. allocated(self%lower)) allocate(self%lower(most, most), self%x(most), self%place(2, most), self%known(2, most))
+      k = 0
+      do iy = 1, size(p, 2)
+         do ix = 1, size(p, 1)
+            if (.not. p(ix, iy) > 0.0_wp) cycle
+            k = k + 1
+            self%place(:, k) = [ix, iy]
+         end do
+      end do
+      same = self%n == n .and. abs(self%dx - operator%dx) <= 0.0_wp .and. abs(self%dy - operator%dy) <= 0.0_wp
+      if (same) same = self%model%same_as(operator%model)
+      if (same) then
+         do k = 2, n
+            same = all(self%place(:, k) - self%place(:, 1) == self%known(:, k) - self%known(:, 1))
+            if (.not. same) exit
+         end do
+      end if
+      if (.not. same) then
+         self%n = 0
+         do j = 1, n
+            do k = j, n
+               self%lower(k, j) = operator%table%nn(self%place(1, k) - self%place(1, j), self%place(2, k) - self%place(2, j))
+            end do
+         end do
+         call factorize(self%lower, n, fits)
+         if (.not. fits) return
+         self%n = n
+         self%known(:, :n) = self%place(:, :n)
+         self%dx = operator%dx
+         self%dy = operator%dy
+         if (.not. self%model%same_as(operator%model)) self%model = operator%model
+      end if
+      fits = .true.
+   end subroutine fit
+
+   !> Cholesky factor in place, four columns taken off at a time
+   pure subroutine factorize(a, n, is_positive)
+      !> Lower triangle of a symmetric matrix on entry, of its factor on exit
+      real(wp), contiguous, intent(inout) :: a(:, :)
+      !> Size of the matrix
+      integer, intent(in) :: n
+      !> Is the matrix positive definite?
+      logical, intent(out) :: is_positive
+      real(wp) :: t(4)
+      integer :: i, j, k
+
+      is_positive = .false.
+      do j = 1, n
+         do k = 1, j - 4, 4
+            t = a(j, k:k + 3)
+            do i = j, n
+               a(i, j) = a(i, j) - (t(1)*a(i, k) + t(2)*a(i, k + 1) + t(3)*a(i, k + 2) + t(4)*a(i, k + 3))
+            end do
+         end do
+         do k = 4*((j - 1)/4) + 1, j - 1
+            t(1) = a(j, k)
+            do i = j, n
+               a(i, j) = a(i, j) - t(1)*a(i, k)
+            end do
+         end do
+         if (.not. a(j, j) > 0.0_wp) return
+         t(1) = 1.0_wp/sqrt(a(j, j))
+         do i = j, n
+            a(i, j) = t(1)*a(i, j)
+         end do
+      end do
+      is_positive = .true.
+   end subroutine factorize
+
+   !> Forward and backward
+   pure subroutine substitute(self)
+      class(area_factor), intent(inout) :: self
+      integer :: i, j
+
+      associate (n => self%n, x => self%x, lower => self%lower)
+         do j = 1, n
+            x(j) = x(j)/lower(j, j)
+            do i = j + 1, n
+               x(i) = x(i) - x(j)*lower(i, j)
+            end do
+         end do
+         do j = n, 1, -1
+            x(j) = (x(j) - dot_product(lower(j + 1:n, j), x(j + 1:n)))/lower(j, j)
+         end do
+      end associate
+   end subroutine substitute
+
+   !> Derivative of the pressures to the approach while the area is kept, where the factor is that of the area
+   subroutine pressure_derivative(self, operator, p, q, found)
+      class(area_factor), intent(inout) :: self
+      !> Prepared for the window
+      class(compliance), intent(in) :: operator
+      !> Pressures of the last solution [N/mm2], shape (mx, my)
+      real(wp), contiguous, intent(in) :: p(:, :)
+      !> Derivative [N/mm3], shape (mx, my); zero outside of the area
+      real(wp), contiguous, intent(inout) :: q(:, :)
+      !> Unchanged where it is not found
+      logical, intent(out) :: found
+      integer :: k
+
+      found = .false.
+      if (self%n == 0 .or. .not. is_plain(operator)) return
+      if (count(p > 0.0_wp) /= self%n) return
+      call self%fit(operator, p, found)
+      if (.not. found) return
+      self%x(:self%n) = 1.0_wp
+      call self%substitute()
+      q = 0.0_wp
+      do k = 1, self%n
+         q(self%place(1, k), self%place(2, k)) = self%x(k)
+      end do
+   end subroutine pressure_derivative
+end module contact_normal_few_elements

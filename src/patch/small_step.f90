@@ -1,0 +1,72 @@
+!> A solved patch at an approach that differs by next to nothing, to first order
+module contact_patch_small_step
+   use contact_base_kinds, only : wp
+   use contact_grid_element_division, only : element
+   use contact_patch_problem, only : patch_problem, patch_state
+   use contact_patch_result, only : patch_result
+   implicit none (type, external)
+   private
+
+   public :: can_step, small_step
+
+contains
+
+   !> Is the derivative known, and is it all there is?
+   !>
+   !> Heat, yield limits, friction that follows its slip, and pressures that follow tractions change by more.
+   pure logical function can_step(problem, state)
+      !> What was solved
+      type(patch_problem), intent(in) :: problem
+      !> Its solution
+      type(patch_state), intent(in) :: state
+
+      can_step = allocated(state%now%rate) .and. problem%solves_for_pressure() .and. .not. (problem%force_prescribed &
+         & .or. problem%couples() .or. allocated(problem%simplified) .or. allocated(problem%friction) &
+         & .or. allocated(problem%thermal) .or. problem%remembers_yield .or. allocated(problem%damping) .or. problem%n_forces > 0)
+   end function can_step
+
+   !> Pressures, and forces of all kinds, at another approach
+   !>
+   !> Pressures change by their derivative, tangential tractions in proportion to them: exact where the surfaces slide, and
+   !> where they adhere wrong by a part of a change that is within the tolerance.
+   pure subroutine small_step(problem, change, state, result)
+      !> What was solved
+      type(patch_problem), intent(in) :: problem
+      !> Of the approach [mm]
+      real(wp), intent(in) :: change
+      !> Solution; gets the new one
+      type(patch_state), intent(inout) :: state
+      !> The same, and its totals
+      type(patch_result), intent(inout) :: result
+      real(wp) :: ratio, area
+      integer :: ix, iy
+
+      area = problem%grid%dx*problem%grid%dy
+      result%mx = 0.0_wp
+      result%my = 0.0_wp
+      result%mz = 0.0_wp
+      do iy = 1, problem%grid%my
+         do ix = 1, problem%grid%mx
+            if (.not. (result%pn(ix, iy) > 0.0_wp .and. result%division(ix, iy) > element%exterior)) cycle
+            ratio = max(0.0_wp, 1.0_wp + change*state%now%rate(ix, iy)/result%pn(ix, iy))
+            result%pn(ix, iy) = ratio*result%pn(ix, iy)
+            result%px(ix, iy) = ratio*result%px(ix, iy)
+            result%py(ix, iy) = ratio*result%py(ix, iy)
+            result%un(ix, iy) = result%un(ix, iy) + change
+            result%mx = result%mx + area*result%pn(ix, iy)*problem%grid%y(iy)
+            result%my = result%my - area*result%pn(ix, iy)*problem%grid%x(ix)
+            result%mz = result%mz + area*(result%py(ix, iy)*problem%grid%x(ix) - result%px(ix, iy)*problem%grid%y(iy))
+         end do
+      end do
+      result%pen = result%pen + change
+      result%fn = area*sum(result%pn)
+      result%fx = area*sum(result%px)
+      result%fy = area*sum(result%py)
+      result%pmax = maxval(result%pn)
+      state%now%pn = result%pn
+      state%now%px = result%px
+      state%now%py = result%py
+      state%now%pen = result%pen
+      state%now%force = [result%fn, result%fx, result%fy]
+   end subroutine small_step
+end module contact_patch_small_step

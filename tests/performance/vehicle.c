@@ -1,0 +1,224 @@
+/* A vehicle of four wheelsets that runs over a straight track: one call of the library per wheel and time step.
+ *
+ * usage: vehicle FOLDER_OF_PROFILES [--check] [STEPS]
+ *
+ * Tells the distribution of the processor time of calls, with the goals of doc/validation/performance.md. With --check it judges
+ * what does not depend on the machine: forces do not depend on the calls before beyond the tolerance, they are smooth, and no
+ * call fails. */
+#define _POSIX_C_SOURCE 200809L
+#include <caddon_flags.h>
+#include <contact_addon.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+enum { wheels = 8, sweep = 80 };
+static const double pi = 3.14159265358979323846, radius = 460.0, speed = 25000.0, eps = 1e-5, load = 62500.0;
+static const int whole = -1, zero = 0;
+static const char *folder;
+static int failures = 0;
+
+static void check(int condition, const char *what, double value) {
+  if (condition) return;
+  failures++;
+  printf("FAILED %s: %g\n", what, value);
+}
+
+/* Where a wheelset is, and how it moves [mm, rad, s] */
+typedef struct {
+  double y, yaw, roll, vy, vyaw, vpitch, fz;
+} position;
+
+static double seconds(void) {
+  struct timespec t;
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static void profile(int ire, const char *name) {
+  char path[1000];
+  int length, numbers[3] = {-1, 0, 0};
+  const int three = 3, two = 2;
+  double reals[2] = {1.0, 0.0};
+  snprintf(path, sizeof path, "%s/%s", folder, name);
+  length = (int)strlen(path);
+  cntc_setprofileinputfname(&ire, path, &length, &three, numbers, &two, reals);
+}
+
+/* A wheel on the left or on the right rail; P says what a case continues */
+static void set_up(int ire, int left, double side, int p) {
+  const int one = 1, two = 2, four = 4, five = 5, eight = 8, three = 3, eleven = 11, type = -1;
+  const int flags[] = {CNTC_if_units, CNTC_ic_config, CNTC_ic_tang, CNTC_ic_pvtime,
+                       CNTC_ic_norm,  CNTC_ic_output, CNTC_ic_flow, CNTC_ic_discns};
+  const int values[] = {CNTC_un_cntc, left ? 0 : 1, 3, p, 1, 0, 0, 2}, limits[] = {999, 100, 30, 1};
+  const double steel[] = {0.28, 0.28, 82000.0, 82000.0}, coulomb[] = {0.35, 0.35}, no_offset = 0.0, step = 1.0;
+  const double grid[] = {side, side, pi / 2, 8.0, 4.0}, set[] = {1360.0, -70.0, radius};
+  const double track[] = {14.0, 0.0, 1435.0, 0.025, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+  int version, error;
+  cntc_initialize(&ire, &one, &version, &error, " ", &one);
+  cntc_setflags(&ire, &whole, &eight, flags, values);
+  cntc_setmaterialparameters(&ire, &whole, &zero, &four, steel);
+  cntc_setfrictionmethod(&ire, &whole, &zero, &two, coulomb);
+  cntc_setsolverflags(&ire, &whole, &zero, &four, limits, &one, &eps);
+  cntc_setpotcontact(&ire, &whole, &type, &five, grid);
+  cntc_setrollingstepsize(&ire, &whole, &no_offset, &step);
+  cntc_settrackdimensions(&ire, &three, &eleven, track);
+  cntc_setwheelsetdimensions(&ire, &three, &three, set);
+  profile(ire, "60E1.prr");
+  profile(ire, "S1002.prw");
+}
+
+/* One call: FX, FY, FZ, MX, MY, MZ on the rail */
+static int step(int ire, position at, double *force) {
+  const int flags = 2, six = 6, length = 24;
+  const double place[] = {0.0, at.y, 0.0, at.roll, at.yaw, 0.0}, rate[] = {speed, at.vy, 0.0, 0.0, at.vyaw, at.vpitch};
+  double values[24] = {0};
+  int error = -1;
+  cntc_setwheelsetposition(&ire, &flags, &six, place);
+  cntc_setwheelsetvelocity(&ire, &flags, &six, rate);
+  cntc_setverticalforce(&ire, &at.fz);
+  cntc_calculate(&ire, &whole, &error);
+  cntc_getglobalforces(&ire, &whole, &length, values);
+  memcpy(force, values, 6 * sizeof(double));
+  return error;
+}
+
+/* Hunting into the flanges, over an uneven track, with loads that swing between the wheels; 1 ms per step */
+static position on_the_way(int wheel, int k) {
+  const double t = 1e-3 * k, w = 2 * pi * 1.3, late = 0.9 * (wheel / 2), a = 4.9, b = 0.0021;
+  position at;
+  at.y = 0.6 + a * sin(w * t + late) + 0.25 * sin(2 * pi * 9.0 * t + late);
+  at.vy = a * w * cos(w * t + late) + 0.25 * 2 * pi * 9.0 * cos(2 * pi * 9.0 * t + late);
+  at.yaw = b * cos(w * t + late);
+  at.vyaw = -b * w * sin(w * t + late);
+  at.roll = 2e-4 * sin(w * t + late);
+  at.vpitch = -speed / radius * (1.0 + 8e-4 * sin(2 * pi * 1.7 * t + wheel));
+  at.fz = load + 9000.0 * sin(2 * pi * 2.5 * t + 0.7 * wheel);
+  return at;
+}
+
+static int compare(const void *a, const void *b) {
+  const double x = *(const double *)a, y = *(const double *)b;
+  return x < y ? -1 : x > y;
+}
+
+/* All wheels through all steps: the distribution of the time of calls [ms] */
+static void drive(double side, int steps, double median, double late) {
+  double *time = malloc(sizeof(double) * (size_t)(wheels * steps)), force[6], sum = 0.0, from;
+  int k, wheel, n = wheels * steps;
+  if (time == NULL) exit(1);
+  for (wheel = 0; wheel < wheels; wheel++) set_up(wheel + 1, wheel % 2, side, 2);
+  for (k = 0; k < steps; k++)
+    for (wheel = 0; wheel < wheels; wheel++) {
+      from = seconds();
+      check(step(wheel + 1, on_the_way(wheel, k), force) == 0, "a call fails at step", k);
+      time[wheels * k + wheel] = 1e3 * (seconds() - from);
+      check(fabs(force[2] - on_the_way(wheel, k).fz) <= 1.01 * eps * load, "the vertical force is missed at step", k);
+    }
+  for (wheel = 1; wheel <= wheels; wheel++) cntc_finalize(&wheel);
+  for (k = 0; k < n; k++) sum += time[k];
+  qsort(time, (size_t)n, sizeof(double), compare);
+  printf("| %.1f | %d | %.2f | %.2f | %.2f | %.2f | %.2f | %.1f | %.1f |\n", side, n, sum / n, time[n / 2], time[9 * n / 10],
+         time[99 * n / 100], time[n - 1], median, late);
+  free(time);
+}
+
+/* Along the same way with starting values from the step before, and from nothing */
+static void compare_with_fresh(double side, int from, int steps, int p) {
+  double force[6], fresh[6], worst = 0.0;
+  int k, i;
+  set_up(1, 1, side, p);
+  for (k = from; k < from + steps; k++) {
+    step(1, on_the_way(0, k), force);
+    if ((k - from) % 4 != 3) continue;
+    set_up(2, 1, side, 2);
+    step(2, on_the_way(0, k), fresh);
+    for (i = 0; i < 3; i++) worst = fmax(worst, fabs(force[i] - fresh[i]) / fresh[2]);
+    i = 2;
+    cntc_finalize(&i);
+  }
+  i = 1;
+  cntc_finalize(&i);
+  printf("DX = %.1f, P = %d: forces with and without a past differ by %.1e FZ\n", side, p, worst);
+  check(worst <= 2.0 * eps, "forces depend on the past", worst);
+}
+
+/* Residual of a least-squares cubic through the values of a sweep, root of the mean square */
+static double noise(const double *f) {
+  double a[4][5] = {{0}}, p[4] = {1.0, 0.0, 0.0, 0.0}, sum = 0.0, t, v, factor;
+  int i, j, k, r;
+  for (i = 0; i < sweep; i++) {
+    t = 2.0 * i / (sweep - 1) - 1.0;
+    for (j = 1; j < 4; j++) p[j] = p[j - 1] * t;
+    for (j = 0; j < 4; j++) {
+      for (k = 0; k < 4; k++) a[j][k] += p[j] * p[k];
+      a[j][4] += p[j] * (f[i] - f[0]);
+    }
+  }
+  for (j = 0; j < 4; j++)
+    for (r = 0; r < 4; r++) {
+      if (r == j) continue;
+      factor = a[r][j] / a[j][j];
+      for (k = j; k < 5; k++) a[r][k] -= factor * a[j][k];
+    }
+  for (i = 0; i < sweep; i++) {
+    t = 2.0 * i / (sweep - 1) - 1.0;
+    for (v = 0.0, j = 3; j >= 0; j--) v = v * t + a[j][4] / a[j][j];
+    sum += (f[i] - f[0] - v) * (f[i] - f[0] - v);
+  }
+  return sqrt(sum / sweep);
+}
+
+/* Small lateral steps, as an implicit integrator takes them: FX, FY, FZ, and MZ over 1 mm */
+static void judge_smoothness(double side, double y0) {
+  static const int which[4] = {0, 1, 2, 5};
+  static const char *name[4] = {"FX", "FY", "FZ", "MZ"};
+  double f[4][sweep], force[6];
+  position at = on_the_way(0, 0);
+  int i, j;
+  set_up(1, 1, side, 2);
+  at.vy = at.vyaw = at.roll = 0.0;
+  at.yaw = 0.002;
+  for (i = -2; i < sweep; i++) {
+    at.y = y0 + 1e-4 * i;
+    step(1, at, force);
+    for (j = 0; j < 4; j++)
+      if (i >= 0) f[j][i] = force[which[j]];
+  }
+  i = 1;
+  cntc_finalize(&i);
+  printf("DX = %.1f, y = %.1f:", side, y0);
+  for (j = 0; j < 4; j++) {
+    printf(" %s %.1e", name[j], noise(f[j]) / at.fz);
+    if (j < 3) check(noise(f[j]) <= 1e-6 * at.fz, "noise relative to FZ", noise(f[j]) / at.fz);
+  }
+  printf(" FZ of noise\n");
+}
+
+int main(int count, char **word) {
+  int version, error, steps = 500, judges = 0, i;
+  if (count < 2) return 2;
+  folder = word[1];
+  for (i = 2; i < count; i++) {
+    if (strcmp(word[i], "--check") == 0) judges = 1;
+    else steps = atoi(word[i]);
+  }
+  if (steps < 1) return 2;
+  cntc_initializefirst(&version, &error, &zero, " ", " ", "vehicle", (const int[]){1}, (const int[]){1}, (const int[]){7});
+  cntc_setglobalflags((const int[]){2}, (const int[]){CNTC_if_idebug, CNTC_if_openmp}, (const int[]){0, 1});
+  if (judges) {
+    compare_with_fresh(1.0, 0, 60, 2);
+    compare_with_fresh(1.0, 100, 24, 0);
+    compare_with_fresh(0.5, 150, 16, 2);
+    judge_smoothness(1.0, 1.3);
+    judge_smoothness(0.5, 1.3);
+    judge_smoothness(0.5, 5.3);
+  } else {
+    printf("| DX = DS, mm | calls | mean, ms | median | 90 %% | 99 %% | largest | goal: median | 99 %% |\n|---|---|---|---|---|---|---|---|---|\n");
+    drive(1.0, steps, 0.6, 1.0);
+    drive(0.5, steps, 2.5, 4.0);
+  }
+  return failures > 0;
+}
