@@ -1,15 +1,43 @@
 # The compiler and the outside libraries, with the targets by which rooms name them after LIBRARIES:
-# FFTW3::fftw3 (fft), hdf5_fortran (hdf5, cli)
+# CONTACT_FFT_LIBRARY (fft), hdf5_fortran (hdf5, cli)
 if(NOT CMAKE_Fortran_COMPILER_ID STREQUAL "GNU" OR CMAKE_Fortran_COMPILER_VERSION VERSION_LESS 12)
   message(FATAL_ERROR "CONTACT is built with gfortran 12 or newer, found "
     "${CMAKE_Fortran_COMPILER_ID} ${CMAKE_Fortran_COMPILER_VERSION}; "
     "choose another compiler with -DCMAKE_Fortran_COMPILER=...")
 endif()
 find_package(OpenMP REQUIRED COMPONENTS Fortran)
-find_package(FFTW3 REQUIRED)
 find_package(HDF5 REQUIRED COMPONENTS Fortran)
 
 # HDF5 with its Fortran modules
 add_library(hdf5_fortran INTERFACE)
 target_include_directories(hdf5_fortran INTERFACE ${HDF5_Fortran_INCLUDE_DIRS})
 target_link_libraries(hdf5_fortran INTERFACE ${HDF5_Fortran_LIBRARIES})
+
+# Transforms: FFTW, or MKL, which has the same interface, or pocketfft, whose source is here. CONTACT_FFT_LINK is what programs with
+# the static library need
+set(CONTACT_FFT fftw CACHE STRING "Library of Fourier transforms: fftw, mkl or pocketfft")
+set_property(CACHE CONTACT_FFT PROPERTY STRINGS fftw mkl pocketfft)
+if(CONTACT_FFT STREQUAL "fftw")
+  find_package(FFTW3 REQUIRED)
+  set(CONTACT_FFT_SOURCES fftw.f90 library_fftw.f90)
+  set(CONTACT_FFT_LIBRARY FFTW3::fftw3)
+  set(CONTACT_FFT_LINK -lfftw3)
+elseif(CONTACT_FFT STREQUAL "mkl")
+  find_package(MKLFFT REQUIRED)
+  set(CONTACT_FFT_SOURCES fftw.f90 library_fftw.f90)
+  set(CONTACT_FFT_LIBRARY MKLFFT::mkl)
+  set(CONTACT_FFT_LINK -lmkl_rt)
+elseif(CONTACT_FFT STREQUAL "pocketfft")
+  enable_language(CXX)
+  set(CONTACT_FFT_SOURCES library_pocketfft.f90 pocketfft_plans.cpp pocketfft_portable.cpp)
+  if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+    list(APPEND CONTACT_FFT_SOURCES pocketfft_avx2.cpp)
+  endif()
+  set(CONTACT_FFT_LIBRARY contact_cxx)
+  set(CONTACT_FFT_LINK -lstdc++)
+  # Fortran links: the run-time library of C++ comes by its name
+  add_library(contact_cxx INTERFACE)
+  target_link_libraries(contact_cxx INTERFACE ${CMAKE_CXX_IMPLICIT_LINK_LIBRARIES})
+else()
+  message(FATAL_ERROR "CONTACT_FFT is fftw, mkl or pocketfft, not ${CONTACT_FFT}")
+endif()

@@ -101,7 +101,7 @@ install(EXPORT contact NAMESPACE contact:: FILE contact-targets.cmake
 # is listed for `pkg-config --static`
 file(RELATIVE_PATH pc_prefix
   ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
-set(pc_private "-lfftw3")
+set(pc_private "${CONTACT_FFT_LINK}")
 # HDF5 often lies in a folder of its own, which linkers do not look into
 string(JOIN " " hdf5_private ${HDF5_Fortran_LIBRARIES})
 string(APPEND pc_private " ${hdf5_private}")

@@ -4,7 +4,7 @@ set(CONTACT_MODULE_ROOT ${CMAKE_BINARY_DIR}/modules)
 
 # contact_room(<room> [USES <lower rooms>] SOURCES <files> [LIBRARIES <targets>] [PROGRAM <file>])
 #
-# LIBRARIES are outside libraries only this room knows (FFTW3::fftw3 in fft). PROGRAM is the file of
+# LIBRARIES are outside libraries only this room knows (that of transforms in fft). PROGRAM is the file of
 # the main program; its room is linked into bin/contact and not into the libraries.
 function(contact_room room)
   cmake_parse_arguments(arg "" "PROGRAM" "USES;SOURCES;LIBRARIES" ${ARGN})
@@ -15,7 +15,7 @@ function(contact_room room)
   add_library(contact_${room} OBJECT ${arg_SOURCES})
   set_target_properties(contact_${room} PROPERTIES
     Fortran_MODULE_DIRECTORY ${CONTACT_MODULE_ROOT}/${room}
-    POSITION_INDEPENDENT_CODE ON)
+    POSITION_INDEPENDENT_CODE ON CXX_STANDARD 14 CXX_STANDARD_REQUIRED ON CXX_EXTENSIONS OFF)
   target_link_libraries(contact_${room} PRIVATE contact_warnings OpenMP::OpenMP_Fortran
     ${arg_LIBRARIES})
 

@@ -42,3 +42,4 @@ set(CMAKE_Fortran_FLAGS_DEBUG
   "-O0 -g -fcheck=all,no-array-temps -fbacktrace -finit-real=snan -ffpe-trap=invalid,zero,overflow")
 set(CMAKE_Fortran_FLAGS_RELEASE "-O3 -g1")
 set(CMAKE_C_FLAGS_DEBUG "-O0 -g")
+set(CMAKE_CXX_FLAGS_DEBUG "-O0 -g")

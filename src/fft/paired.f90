@@ -6,8 +6,7 @@
 module contact_fft_paired
    use, intrinsic :: iso_c_binding, only : c_associated, c_null_ptr, c_ptr
    use contact_base_kinds, only : wp
-   use contact_fft_fftw, only : destroy, fftw_backward, fftw_estimate, fftw_execute_dft, fftw_forward, &
-      & fftw_plan_many_dft
+   use contact_fft_library, only : backwards, destroy, execute_complex, forwards, plan_complex
    use contact_fft_kept_plans, only : keep_plans, plan_kind, plans_per_size, take_plans
    implicit none (type, external)
    private
@@ -60,14 +59,10 @@ contains
       !$omp critical (contact_fft_planner)
       call take_plans(plan_kind%paired, my, px, py, plan, self%shared)
       if (.not. self%shared) then
-         plan = [fftw_plan_many_dft(1, [px], my, self%rows, [px], 1, px, self%columns, [px], py, 1, &
-            & fftw_forward, fftw_estimate), &
-            & fftw_plan_many_dft(1, [px], my, self%columns_back, [px], py, 1, self%rows_back, [px], 1, px, &
-            & fftw_backward, fftw_estimate), &
-            & fftw_plan_many_dft(1, [py], px, self%columns, [py], 1, py, self%spectrum, [py], 1, py, &
-            & fftw_forward, fftw_estimate), &
-            & fftw_plan_many_dft(1, [py], px, self%spectrum, [py], 1, py, self%columns_back, [py], 1, py, &
-            & fftw_backward, fftw_estimate)]
+         plan = [plan_complex(px, my, self%rows, 1, px, self%columns, py, 1, forwards), &
+            & plan_complex(px, my, self%columns_back, py, 1, self%rows_back, 1, px, backwards), &
+            & plan_complex(py, px, self%columns, 1, py, self%spectrum, 1, py, forwards), &
+            & plan_complex(py, px, self%spectrum, 1, py, self%columns_back, 1, py, backwards)]
          call keep_plans(plan_kind%paired, my, px, py, plan, self%shared)
       end if
       !$omp end critical (contact_fft_planner)
@@ -107,8 +102,8 @@ contains
             end do
          end if
       end do
-      call fftw_execute_dft(self%row_forward, self%rows, self%columns)
-      call fftw_execute_dft(self%column_forward, self%columns, self%spectrum)
+      call execute_complex(self%row_forward, self%rows, self%columns)
+      call execute_complex(self%column_forward, self%columns, self%spectrum)
    end subroutine forward
 
    subroutine backward(self, fields)
@@ -117,8 +112,8 @@ contains
       real(wp), contiguous, intent(inout) :: fields(:, :, :)
       integer :: ix, iy
 
-      call fftw_execute_dft(self%column_backward, self%spectrum, self%columns_back)
-      call fftw_execute_dft(self%row_backward, self%columns_back, self%rows_back)
+      call execute_complex(self%column_backward, self%spectrum, self%columns_back)
+      call execute_complex(self%row_backward, self%columns_back, self%rows_back)
       do iy = 1, self%my
          do ix = 1, self%mx
             fields(ix, iy, 1) = real(self%rows_back(ix, iy))

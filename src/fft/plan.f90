@@ -8,9 +8,8 @@
 module contact_fft_plan
    use, intrinsic :: iso_c_binding, only : c_associated, c_null_ptr, c_ptr
    use contact_base_kinds, only : wp
-   use contact_fft_fftw, only : destroy, fftw_backward, fftw_destroy_plan, fftw_estimate, &
-      & fftw_execute_dft, fftw_execute_dft_c2r, fftw_execute_dft_r2c, fftw_forward, fftw_plan_dft_1d, fftw_plan_dft_r2c_2d, &
-      & fftw_plan_many_dft_c2r, fftw_plan_many_dft_r2c, fftw_destroy_input
+   use contact_fft_library, only : backwards, destroy, execute_backward, execute_complex, execute_forward, forwards, &
+      & plan_backward, plan_complex, plan_forward, plan_plane
    use contact_fft_kept_plans, only : keep_plans, plan_kind, plans_per_size, take_plans
    implicit none (type, external)
    private
@@ -105,11 +104,10 @@ contains
       call take_plans(plan_kind%single, my, px, py, plan, self%shared)
       if (.not. self%shared) then
          allocate(spectrum(py, self%kx), source=(0.0_wp, 0.0_wp))
-         plan = [fftw_plan_many_dft_r2c(1, [px], my, self%rows, [px], 1, px, spectrum, [self%kx], py, 1, fftw_estimate), &
-            & fftw_plan_many_dft_c2r(1, [px], my, spectrum, [self%kx], py, 1, self%rows, [px], 1, px, &
-            & ior(fftw_estimate, fftw_destroy_input)), &
-            & fftw_plan_dft_1d(py, spectrum, self%column, fftw_forward, fftw_estimate), &
-            & fftw_plan_dft_1d(py, spectrum, self%column, fftw_backward, fftw_estimate)]
+         plan = [plan_forward(px, my, self%rows, 1, px, spectrum, py, 1), &
+            & plan_backward(px, my, spectrum, py, 1, self%rows, 1, px), &
+            & plan_complex(py, 1, spectrum, 1, py, self%column, 1, py, forwards), &
+            & plan_complex(py, 1, spectrum, 1, py, self%column, 1, py, backwards)]
          call keep_plans(plan_kind%single, my, px, py, plan, self%shared)
       end if
       !$omp end critical (contact_fft_planner)
@@ -135,11 +133,11 @@ contains
          self%rows(1:self%mx, iy, c) = field(:, iy)
          self%rows(self%mx + 1:, iy, c) = 0.0_wp
       end do
-      call fftw_execute_dft_r2c(self%row_forward, self%rows(:, :, c), spectrum)
+      call execute_forward(self%row_forward, self%rows(:, :, c), spectrum)
       if (self%py == 1) return
       do k = 1, self%kx
          spectrum(self%my + 1:, k) = (0.0_wp, 0.0_wp)
-         call fftw_execute_dft(self%column_forward, spectrum(:, k), self%column(:, c))
+         call execute_complex(self%column_forward, spectrum(:, k), self%column(:, c))
          spectrum(:, k) = self%column(:, c)
       end do
    end subroutine transform_forward
@@ -158,11 +156,11 @@ contains
       if (present(channel)) c = channel
       if (self%py > 1) then
          do k = 1, self%kx
-            call fftw_execute_dft(self%column_backward, spectrum(:, k), self%column(:, c))
+            call execute_complex(self%column_backward, spectrum(:, k), self%column(:, c))
             spectrum(:self%my, k) = self%column(:self%my, c)
          end do
       end if
-      call fftw_execute_dft_c2r(self%row_backward, spectrum, self%rows(:, :, c))
+      call execute_backward(self%row_backward, spectrum, self%rows(:, :, c))
       do iy = 1, self%my
          field(:, iy) = self%rows(1:self%mx, iy, c)
       end do
@@ -183,15 +181,15 @@ contains
       plan = c_null_ptr
       call take_plans(plan_kind%kernel, 0, size(period, 1), size(period, 2), plan, shared)
       if (.not. shared) then
-         plan(1) = fftw_plan_dft_r2c_2d(size(period, 2), size(period, 1), period, by_rows, fftw_estimate)
+         plan(1) = plan_plane(size(period, 2), size(period, 1), period, by_rows)
          call keep_plans(plan_kind%kernel, 0, size(period, 1), size(period, 2), plan, shared)
       end if
       !$omp end critical (contact_fft_planner)
-      call fftw_execute_dft_r2c(plan(1), period, by_rows)
+      call execute_forward(plan(1), period, by_rows)
       spectrum = transpose(by_rows)
       if (shared) return
       !$omp critical (contact_fft_planner)
-      call fftw_destroy_plan(plan(1))
+      call destroy(plan(1))
       !$omp end critical (contact_fft_planner)
    end subroutine kernel_spectrum
 

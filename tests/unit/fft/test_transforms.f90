@@ -1,0 +1,104 @@
+!> Transforms of padded windows are the sums that define them, with whatever library they are made
+program transforms
+   use contact_base_constants, only : pi
+   use contact_base_kinds, only : wp
+   use contact_fft_paired, only : paired_plan
+   use contact_fft_plan, only : fft_plan, kernel_spectrum
+   use contact_test_harness, only : test_suite
+   implicit none (type, external)
+   type(test_suite) :: suite
+   !> Windows and padded windows: squares, lines, odd lengths, primes
+   integer, parameter :: sizes(4, 6) = reshape([3, 5, 6, 10, 8, 8, 16, 16, 1, 7, 1, 14, 9, 1, 18, 1, 6, 11, 14, 22, 13, 4, 26, 9], &
+      & [4, 6])
+   !> Round-off of sums of some hundred terms of order one
+   real(wp), parameter :: tolerance = 2.0e-13_wp
+   integer :: k
+
+   call suite%start("transforms")
+   do k = 1, size(sizes, 2)
+      call compare(sizes(1, k), sizes(2, k), sizes(3, k), sizes(4, k))
+   end do
+   call suite%finish()
+
+contains
+
+   !> A field without symmetry
+   pure function field_of(mx, my) result(field)
+      integer, intent(in) :: mx, my
+      real(wp) :: field(mx, my)
+      integer :: ix, iy
+
+      do iy = 1, my
+         do ix = 1, mx
+            field(ix, iy) = sin(1.3_wp*ix + 0.7_wp*iy*iy) + 0.2_wp*ix
+         end do
+      end do
+   end function field_of
+
+   !> Coefficient of a padded window by its definition
+   pure complex(wp) function coefficient(field, px, py, jx, jy)
+      real(wp), intent(in) :: field(:, :)
+      integer, intent(in) :: px, py, jx, jy
+      integer :: ix, iy
+
+      coefficient = 0.0_wp
+      do iy = 0, size(field, 2) - 1
+         do ix = 0, size(field, 1) - 1
+            coefficient = coefficient + field(ix + 1, iy + 1) &
+               & *exp(cmplx(0.0_wp, -2.0_wp*pi*(real(ix*jx, wp)/px + real(iy*jy, wp)/py), wp))
+         end do
+      end do
+   end function coefficient
+
+   subroutine compare(mx, my, px, py)
+      integer, intent(in) :: mx, my, px, py
+      type(fft_plan) :: plan
+      type(paired_plan) :: pair
+      complex(wp), allocatable :: spectrum(:, :), kernel(:, :)
+      real(wp), allocatable :: field(:, :), back(:, :), period(:, :), fields(:, :, :)
+      character(len=40) :: name
+      real(wp) :: error
+      integer :: jx, jy
+
+      write(name, "(4(I0, 1X))") mx, my, px, py
+      field = field_of(mx, my)
+      allocate(spectrum(py, px/2 + 1), kernel(py, px/2 + 1), back(mx, my), period(px, py))
+      call plan%prepare(mx, my, px, py)
+      call plan%forward(field, spectrum)
+      error = 0.0_wp
+      do jy = 0, py - 1
+         do jx = 0, px/2
+            error = max(error, abs(spectrum(jy + 1, jx + 1) - coefficient(field, px, py, jx, jy)))
+         end do
+      end do
+      call suite%close_to(error, 0.0_wp, tolerance*mx*my, "forward " // name)
+      period = 0.0_wp
+      period(1:mx, 1:my) = field
+      call kernel_spectrum(period, kernel)
+      call suite%close_to(maxval(abs(kernel - spectrum)), 0.0_wp, tolerance*mx*my, "kernel " // name)
+      call plan%backward(spectrum, back)
+      call suite%close_to(maxval(abs(back/(real(px, wp)*py) - field)), 0.0_wp, tolerance, "back again " // name)
+      call plan%release()
+
+      ! differences of two fields need two columns of padding
+      if (px < mx + 2) return
+      allocate(fields(mx, my, 2))
+      fields(:, :, 1) = field
+      fields(:, :, 2) = 1.0_wp - field**2
+      call pair%prepare(mx, my, px, py)
+      call pair%forward(fields)
+      error = 0.0_wp
+      do jy = 0, py - 1
+         do jx = 0, px - 1
+            error = max(error, abs(pair%spectrum(jy + 1, jx + 1) - coefficient(field, px, py, jx, jy) &
+               & - (0.0_wp, 1.0_wp)*coefficient(1.0_wp - field**2, px, py, jx, jy)))
+         end do
+      end do
+      call suite%close_to(error, 0.0_wp, 4.0_wp*tolerance*mx*my, "two fields " // name)
+      call pair%backward(fields)
+      call suite%close_to(maxval(abs(fields(:, :, 1)/(real(px, wp)*py) - field)), 0.0_wp, tolerance, "first field " // name)
+      call suite%close_to(maxval(abs(fields(:, :, 2)/(real(px, wp)*py) - 1.0_wp + field**2)), 0.0_wp, tolerance, &
+         & "second field " // name)
+      call pair%release()
+   end subroutine compare
+end program transforms
