@@ -1,0 +1,67 @@
+"""Settings of Sphinx for the site, see build.sh"""
+import pathlib
+import re
+
+from sphinx.util import logging
+
+HERE = pathlib.Path(__file__).resolve().parent
+project = "CONTACT"
+version = release = re.search(r'contact_version = "([^"]+)"', (HERE.parent / "src/cli/versions.f90").read_text())[1]
+extensions = ["myst_parser"]
+root_doc = "index"
+exclude_patterns = ["develop/ford.md"]
+html_theme = "furo"
+html_title = f"CONTACT {release}"
+html_copy_source = False
+# The names of headings are those of the pages in the repository
+myst_heading_anchors = 4
+suppress_warnings = ["myst.header", "misc.highlighting_failure"]
+
+#: Pages in the order of the menu; those that are missing here come last
+MENU = {
+    "Start": ["user/first_wheel", "user/running", "user/tutorials", "user/plots"],
+    "Reference": ["user/signs", "user/wheel_rail", "user/wheel_rail_results", "user/input", "user/output", "user/profiles",
+                  "user/readable", "user/results", "user/python", "user/matlab", "user/library", "user/routines"],
+    "Differences": ["user/differences", "user/guide_sections", "changes"],
+    "Theory": ["theory/*"],
+    "Validation": ["validation/*"],
+    "Development": ["develop/*"],
+}
+LINK = re.compile(r"(?<!!)\[([^\]]*)\]\(([^)#\s]+)(#[^)\s]*)?\)")
+
+
+def plain_links(page, text):
+    """Links to what is in the repository and no page of the site become its name; a link to nothing is a warning"""
+    folder = (HERE / page).parent
+
+    def told(match):
+        words, target = match[1], match[2]
+        if "://" in target or target.startswith("mailto:"):
+            return match[0]
+        path = (folder / target).resolve()
+        if not path.exists():
+            logging.getLogger(__name__).warning(f"{page}: there is no {target}")
+        if HERE in path.parents and path.suffix == ".md":
+            return match[0]
+        return words if words.startswith("`") else f"{words} (`{path.relative_to(HERE.parent)}`)"
+    return LINK.sub(told, text)
+
+
+def read(app, page, source):
+    """Each page as Sphinx shall see it"""
+    text = plain_links(page, source[0])
+    if page == root_doc:
+        placed, menu = set(), ""
+        for title, names in MENU.items():
+            found = [other for name in names for other in sorted(app.env.found_docs)
+                     if (other == name or pathlib.PurePath(other).match(name)) and other not in placed]
+            placed.update(found)
+            menu += f"\n```{{toctree}}\n:hidden:\n:caption: {title}\n\n" + "\n".join(found) + "\n```\n"
+        rest = sorted(set(app.env.found_docs) - placed - {root_doc})
+        text += menu + ("\n```{toctree}\n:hidden:\n:caption: More\n\n" + "\n".join(rest) + "\n```\n" if rest else "")
+    source[0] = text
+
+
+def setup(app):
+    """Called by Sphinx"""
+    app.connect("source-read", read)
