@@ -6,7 +6,7 @@ import os
 import re
 
 import numpy as np
-from checks import SOURCE, check, finish, profiles, same
+from checks import SOURCE, check, close, finish, profiles, same
 from contact import cntc
 from contact._library import call, last_error
 from contact.cntc import CNTC
@@ -126,7 +126,8 @@ def unknown():
             check(f"{digit} = {value} is not a known digit of wheel-rail contact" in text, f"{name} = {value}: {text}")
         cntc.setflags(4, -1, [CNTC[name]], [good])
         same(cntc.calculate(4, -1), 0, f"{name} as it was")
-        same(cntc.getglobalforces(4, -1)[0], force, f"{name} as it was: force")
+        # pressures start from those of the last case, and end within EPS of the vertical force
+        close(cntc.getglobalforces(4, -1)[0], force, 1e-5*1e4, f"{name} as it was: force")
     cntc.setpotcontact(4, -1, -1, [0.0, 1.0, np.pi / 2, 8, 4])
     check(cntc.calculate(4, -1) < 0, "elements without length")
 
@@ -141,7 +142,7 @@ def solvers():
         cntc.setflags(7, -1, [CNTC["own_classical"]], [classical])
         same(cntc.calculate(7, -1), 0, f"G = {digit}, classical {classical}: {last_error(7, -1)}")
         forces[digit, classical] = np.array(cntc.getcontactforces(7, 1)[:3])
-    same(list(forces[0, 0]), list(forces[0, 1]), "the flag is for other solvers than the default one")
+    close(forces[0, 0], forces[0, 1], 1e-4*1e4, "the flag is for other solvers than the default one")
     check((forces[3, 0] != forces[3, 1]).any(), "the flag acts")
     # the tolerance is relative to the tractions as a whole
     check(np.abs(forces[3, 1] - forces[3, 0]).max() < 1e-3*np.abs(forces[3, 0]).max(), f"the solvers agree: {forces}")

@@ -41,20 +41,22 @@ static void calculate(int ire, int icp, const char *loop, double *force) {
   }
 }
 
-/* Forces may differ by a relative tolerance: the search for a height starts from the previous one */
+/* Forces may differ by a tolerance relative to the largest one: in wheel on rail height and pressures start from the previous ones, to EPS */
 static void repeat(int ire, int icp, double tolerance, const char *loop) {
-  double first[4], force[4];
+  double first[4], force[4], scale, most = 0.0;
   long before = 0, after;
-  int i, k, same = 1;
+  int i, k;
   calculate(ire, icp, loop, first);
+  scale = fmax(fmax(fabs(first[0]), fabs(first[1])), fabs(first[2]));
   check(fabs(first[0]) + fabs(first[1]) > 1.0, loop, "there is a force");
   for (k = 1; k < cases; k++) {
     if (k == warm_up) before = resident();
     calculate(ire, icp, loop, force);
-    for (i = 0; i < 4; i++) same = same && fabs(force[i] - first[i]) <= tolerance * fabs(first[0]);
+    for (i = 0; i < 4; i++) most = fmax(most, fabs(force[i] - first[i])/scale);
   }
   after = resident();
-  check(same, loop, "all cases have the same forces");
+  printf("%s: forces differ by %.1e\n", loop, most);
+  check(most <= tolerance, loop, "all cases have the same forces");
   check(after - before < 512 * 1024, loop, "memory does not grow");
   printf("%s: %ld kB more in %d cases\n", loop, (after - before) / 1024, cases - warm_up);
 }
@@ -112,7 +114,7 @@ static void wheel_on_rail(int ire, const char *folder, const char *loop) {
   /* E = 1 is taken for 2 here */
   cntc_setwheelsetvelocity(&ire, &one, &six, velocity);
   cntc_setverticalforce(&ire, &fz);
-  repeat(ire, -1, 1e-9, loop);
+  repeat(ire, -1, 1e-5, loop);
 }
 
 int main(int argc, char **argv) {
