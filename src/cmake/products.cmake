@@ -36,7 +36,9 @@ endfunction()
 
 # The version of its interface is its soname
 contact_shared(contact)
-set_target_properties(contact PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR})
+if(NOT SKBUILD)
+  set_target_properties(contact PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR})
+endif()
 add_library(contact::contact ALIAS contact)
 
 # The same under the file name that existing callers load and link, beside the program. As that one it has no
@@ -84,6 +86,12 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/matlab DESTINATION ${CMAKE_INSTALL_DATAD
   FILES_MATCHING PATTERN *.m PATTERN *.c)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE
   DESTINATION ${CMAKE_INSTALL_DATADIR}/licenses/${PROJECT_NAME})
+
+# Inside a wheel of Python: library and program in the package's folder, see src/packaging/pyproject.toml
+if(SKBUILD)
+  install(TARGETS contact LIBRARY DESTINATION contact COMPONENT python RUNTIME DESTINATION contact COMPONENT python)
+  install(TARGETS contact_program RUNTIME DESTINATION contact/bin COMPONENT python)
+endif()
 
 # CMake package: find_package(contact) gives contact::contact
 include(CMakePackageConfigHelpers)

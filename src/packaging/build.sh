@@ -1,0 +1,8 @@
+#!/bin/sh
+# All packages that can be built here: a wheel for Python with its source distribution, and one for Debian. Usage: build.sh [FOLDER]
+set -eu
+here=$(cd "$(dirname "$0")" && pwd)
+sh "$here/wheel.sh" "$@"
+if command -v dpkg-deb > /dev/null; then
+  sh "$here/deb.sh" "$@"
+fi

@@ -1,0 +1,51 @@
+#!/usr/bin/env python3
+"""What packages say of the program is so: options in the man page and in the completion, and the version in all recipes"""
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+
+TOP = pathlib.Path(os.environ["CONTACT_SOURCE"])
+FOLDER = TOP / "src/packaging"
+
+
+def complaints(options):
+    """What the completion of bash does not offer"""
+    bash = shutil.which("bash")
+    if not bash:
+        return []
+    folder = os.path.dirname(os.environ["CONTACT_PROGRAM"])
+    script = f'PATH="{folder}:$PATH"; . {FOLDER}/contact.bash; COMP_WORDS=(contact --); COMP_CWORD=1; _contact; echo ${{COMPREPLY[@]}}'
+    offered = subprocess.run([bash, "-c", script], capture_output=True, text=True).stdout.split()
+    return [f"the completion lacks {option}" for option in sorted(options - set(offered))]
+
+
+def main():
+    """Compares words of the help with those of the files"""
+    told = subprocess.run([os.environ["CONTACT_PROGRAM"], "--help"], capture_output=True, text=True, check=True).stdout
+    version = subprocess.run([os.environ["CONTACT_PROGRAM"], "--version"], capture_output=True, text=True, check=True).stdout
+    options = set(re.findall(r"--[a-z][a-z0-9-]+", told))
+    assert len(options) > 10, "options of the help"
+    bad = []
+    page = subprocess.run([sys.executable, str(FOLDER / "man.py"), os.environ["CONTACT_PROGRAM"]], capture_output=True, text=True,
+                          check=True).stdout.replace("\\-", "-")
+    headed = re.findall(r"^\.B (--.*)$", page, re.MULTILINE)
+    bad += [f"the man page lacks {option}" for option in sorted(options - set(re.findall(r"--[a-z][a-z0-9-]+", page)))]
+    bad += [] if len(headed) > 10 else ["the man page has no options of their own"]
+    bad += complaints(options)
+    source = (TOP / "src/cli/versions.f90").read_text()
+    pattern = re.search(r"^regex = '(.*)'$", (FOLDER / "pyproject.toml").read_text(), re.MULTILINE)[1]
+    numbers = {re.search(pattern, source)["value"], version.split()[1]}
+    if len(numbers) > 1:
+        bad.append(f"versions differ: {sorted(numbers)}")
+    for script in FOLDER.glob("*.sh"):
+        if subprocess.run(["sh", "-n", str(script)]).returncode:
+            bad.append(f"{script.name} is no script of sh")
+    print("\n".join([f"FAILED {fault}" for fault in bad] + [f"{len(options)} options, {len(bad)} failures"]))
+    return 1 if bad else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
