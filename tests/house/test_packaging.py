@@ -17,7 +17,8 @@ def complaints(options):
     if not bash:
         return []
     folder = os.path.dirname(os.environ["CONTACT_PROGRAM"])
-    script = f'PATH="{folder}:$PATH"; . {FOLDER}/contact.bash; COMP_WORDS=(contact --); COMP_CWORD=1; _contact; echo ${{COMPREPLY[@]}}'
+    script = (f'PATH="{folder}:$PATH"; . {FOLDER}/contact.bash; '
+              'COMP_WORDS=(contact --); COMP_CWORD=1; _contact; echo ${COMPREPLY[@]}')
     offered = subprocess.run([bash, "-c", script], capture_output=True, text=True).stdout.split()
     return [f"the completion lacks {option}" for option in sorted(options - set(offered))]
 
