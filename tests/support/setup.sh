@@ -139,10 +139,10 @@ install_octave() {
 }
 
 # What the tests of Python ask for: numpy and h5py to run, pip, setuptools and wheel to install the package, mypy for its types,
-# playwright for the browser, matplotlib, xarray and h5netcdf for results,
-# pytest and the rest for studies. setuptools comes first: it refuses to be imported after the distutils that it replaces
-has_python_packages() { python3 -c "import setuptools, numpy, h5py, pip, wheel, mypy, playwright, matplotlib, xarray, h5netcdf,
-  pytest, scipy, pandas, pyarrow, netCDF4, zarr, distributed" >/dev/null 2>&1; }
+# playwright for the browser, matplotlib, xarray, h5netcdf and jsonschema for results, pytest and the rest for studies. setuptools comes first: it refuses to be imported after the distutils that it replaces
+python_modules="setuptools, numpy, h5py, pip, wheel, mypy, playwright, matplotlib, xarray, h5netcdf, jsonschema"
+study_modules="pytest, scipy, pandas, pyarrow, netCDF4, zarr, distributed"
+has_python_packages() { python3 -c "import $python_modules, $study_modules" >/dev/null 2>&1; }
 
 # From the system's packages, or in a folder below build
 install_python_packages() {
@@ -164,7 +164,7 @@ install_python_packages() {
     return 0
   fi
   { [ -x "$top/build/python/bin/python3" ] || python3 -m venv "$top/build/python"; } &&
-    "$top/build/python/bin/python3" -m pip install --quiet numpy h5py setuptools wheel mypy playwright matplotlib xarray h5netcdf \
+    "$top/build/python/bin/python3" -m pip install --quiet numpy h5py setuptools wheel mypy playwright matplotlib xarray h5netcdf jsonschema \
       pytest scipy pandas pyarrow netCDF4 zarr distributed
   PATH=$top/build/python/bin:$PATH
   export PATH
