@@ -24,7 +24,8 @@ reason_of() {
     capi_memory | capi_many_rounds) echo "measures memory, of which the sanitizers keep what was freed" ;;
     performance*) echo "judges times and requests for memory" ;;
     octave_*) echo "Octave is not instrumented and cannot load the library; its scripts read files that other tests write too" ;;
-    report_browser) echo "tests the page in the browser" ;;
+    report_browser | report_start | report_viewer) echo "tests the page in the browser" ;;
+    study_*) echo "Python loads the library into workers that have no instruments" ;;
     capi_wheel | capi_types) echo "tests the package of Python, not the library" ;;
   esac
 }
@@ -33,7 +34,7 @@ export ASAN_OPTIONS=allocator_may_return_null=1 UBSAN_OPTIONS=print_stacktrace=1
 export LSAN_OPTIONS="suppressions=$top/tests/support/leaks.supp:print_suppressions=0"
 # programs of the tests that are timed get more time
 export CONTACT_SLOWER=20
-elsewhere='^(performance|performance_rail|octave_.*|report_browser|no_exports)$'
+elsewhere='^(performance.*|octave_.*|report_browser|report_start|report_viewer|no_exports)$'
 
 build sanitize -DCONTACT_TESTS=ON
 part "Address and undefined-behaviour sanitizers, leaks" \
