@@ -175,7 +175,8 @@ contains
          new%name = value%name
          dims = self%written
          limit = h5s_unlimited_f
-         call container%chunked([int(chunk_rows, hsize_t)], properties, compressed=.false., states=.false.)
+         ! compressed, also because zeros have the checksum zero: a damaged place of a piece that leads to zeros is seen
+         call container%chunked([int(chunk_rows, hsize_t)], properties, compressed=.true., states=.false.)
          call h5screate_simple_f(1, dims, space, status, limit)
          call h5dcreate_f(self%group, trim(value%name), h5t_ieee_f64le, space, new%id, status, dcpl_id=properties)
          call container%check(status)
