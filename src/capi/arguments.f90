@@ -4,17 +4,19 @@
 !> value, so that no entry has to look at pointers itself.
 module contact_capi_arguments
    use, intrinsic :: ieee_arithmetic, only : ieee_quiet_nan, ieee_value
-   use, intrinsic :: iso_c_binding, only : c_associated, c_char, c_double, c_f_pointer, c_int, c_null_char, c_ptr
+   use, intrinsic :: iso_c_binding, only : c_associated, c_char, c_double, c_f_pointer, c_int, c_null_char, c_ptr, c_size_t
    use contact_base_kinds, only : wp
    use contact_text_words, only : replaced
    implicit none (type, external)
    private
 
    public :: no_number, integer_of, real_of, count_of, path_of, integers_of, reals_of, raised
-   public :: give, give_list, give_message, give_zeros
+   public :: give, give_list, give_message, give_zeros, take_text
 
    !> Stands for an integer that was not given; no code, index or count is that large
    integer, parameter :: no_number = -huge(1)
+   !> Status of a call with unusable arguments; failures by their error_kind start behind first_failure
+   integer(c_int), parameter, public :: wrong_call = 1, first_failure = 10
    !> Longest name of a file that is copied
    integer, parameter :: longest_path = 256
 
@@ -27,6 +29,15 @@ module contact_capi_arguments
       module procedure give_integers
       module procedure give_reals
    end interface give_list
+
+   interface
+      !> Length of a null-terminated text
+      function c_strlen(text) result(length) bind(c, name="strlen")
+         import :: c_ptr, c_size_t
+         type(c_ptr), value :: text
+         integer(c_size_t) :: length
+      end function c_strlen
+   end interface
 
 contains
 
@@ -170,6 +181,24 @@ contains
       n = count_of(length, present(array))
       if (n >= first) array(first:n) = 0.0_c_double
    end subroutine give_zeros
+
+   !> A null-terminated text as a Fortran one, "" for a null pointer
+   subroutine take_text(pointer, text)
+      !> From the caller
+      type(c_ptr), intent(in) :: pointer
+      !> Without the null
+      character(len=:), allocatable, intent(out) :: text
+      character(kind=c_char), pointer :: letters(:)
+      integer :: i
+
+      text = ""
+      if (.not. c_associated(pointer)) return
+      call c_f_pointer(pointer, letters, [c_strlen(pointer)])
+      text = repeat(" ", size(letters))
+      do i = 1, size(letters)
+         text(i:i) = letters(i)
+      end do
+   end subroutine take_text
 
    !> Copy a text into the buffer of the caller, cut to fit and null-terminated
    subroutine give_message(text, buffer, length)

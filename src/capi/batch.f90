@@ -1,10 +1,10 @@
 !> The C interface: many cases of a text in one call; see include/contact.h
 module contact_capi_batch
-   use, intrinsic :: iso_c_binding, only : c_associated, c_char, c_double, c_f_pointer, c_int, c_loc, c_null_ptr, c_ptr, c_size_t
+   use, intrinsic :: iso_c_binding, only : c_associated, c_double, c_f_pointer, c_int, c_loc, c_null_ptr, c_ptr
    use omp_lib, only : omp_get_max_threads, omp_set_num_threads
    use contact_base_error, only : error_kind, error_type, fatal_error
    use contact_base_guard, only : do_guarded, end_text, free_left_blocks, guard_end, new_owner
-   use contact_capi_arguments, only : give_message
+   use contact_capi_arguments, only : first_failure, give_message, take_text, wrong_call
    use contact_capi_host, only : give_floats_back, hold_floats
    use contact_experiment_batch, only : batch_field, batch_room, case_batch, close_batch, find_field, open_batch, &
       & solve_cases, solve_variations
@@ -13,11 +13,6 @@ module contact_capi_batch
 
    public :: contact_batch_open, contact_batch_close, contact_batch_solve, contact_batch_column, contact_batch_field, &
       & contact_batch_field_values
-
-   !> As for contact_run: a wrong call, and failures by their error_kind
-   integer(c_int), parameter :: wrong_call = 1, first_failure = 10
-   !> Longest name "group.key"
-   integer, parameter :: longest_name = 64
 
    !> What the host holds
    type :: open_type
@@ -53,15 +48,6 @@ module contact_capi_batch
       type(c_ptr) :: name = c_null_ptr
       type(batch_field) :: field
    end type field_request
-
-   interface
-      !> Length of a null-terminated text
-      function c_strlen(text) result(length) bind(c, name="strlen")
-         import :: c_ptr, c_size_t
-         type(c_ptr), value :: text
-         integer(c_size_t) :: length
-      end function c_strlen
-   end interface
 
 contains
 
@@ -188,7 +174,7 @@ contains
       type(batch_room) :: room
       real(c_double), pointer :: sets(:, :)
       character(len=:), allocatable :: text, folder, list
-      character(len=longest_name), allocatable :: names(:)
+      character(len=:), allocatable :: names(:)
 
       call c_f_pointer(data, request)
       associate (job => request%job)
@@ -221,8 +207,8 @@ contains
    subroutine split(list, count, names)
       character(len=*), intent(in) :: list
       integer, intent(in) :: count
-      character(len=longest_name), allocatable, intent(out) :: names(:)
-      character(len=longest_name) :: found(count)
+      character(len=:), allocatable, intent(out) :: names(:)
+      character(len=len(list)) :: found(count)
       integer :: first, k, length
 
       first = 1
@@ -358,20 +344,4 @@ contains
       call take_text(request%name, name)
       call find_field(request%open%batch, request%patch, name, request%field)
    end subroutine find_inside
-
-   !> A null-terminated text as a Fortran one, "" for a null pointer
-   subroutine take_text(pointer, text)
-      type(c_ptr), intent(in) :: pointer
-      character(len=:), allocatable, intent(out) :: text
-      character(kind=c_char), pointer :: letters(:)
-      integer :: i
-
-      text = ""
-      if (.not. c_associated(pointer)) return
-      call c_f_pointer(pointer, letters, [c_strlen(pointer)])
-      text = repeat(" ", size(letters))
-      do i = 1, size(letters)
-         text(i:i) = letters(i)
-      end do
-   end subroutine take_text
 end module contact_capi_batch

@@ -1,12 +1,12 @@
 !> The C interface: an experiment run by a host program, the two formats of input, an experiment in words; see include/contact.h
 module contact_capi_run
-   use, intrinsic :: iso_c_binding, only : c_associated, c_char, c_double, c_f_pointer, c_int, c_loc, c_null_ptr, c_ptr, c_size_t
+   use, intrinsic :: iso_c_binding, only : c_double, c_f_pointer, c_int, c_loc, c_null_ptr, c_ptr
    use contact_base_choices, only : heat_source
    use contact_base_error, only : error_kind, error_type, fatal_error, full_text
    use contact_base_guard, only : do_guarded, end_text, guard_end
    use contact_base_kinds, only : long
    use contact_base_limits, only : case_limits, fill_limits
-   use contact_capi_arguments, only : give_message
+   use contact_capi_arguments, only : first_failure, give_message, take_text, wrong_call
    use contact_capi_host, only : give_floats_back, hold_floats
    use contact_experiment_convert, only : convert_experiment
    use contact_experiment_explain, only : explain_experiment
@@ -23,8 +23,6 @@ module contact_capi_run
    integer, parameter :: json_bit = 0, hdf5_bit = 1, vtk_bit = 2, heat_bit = 3, angle_bit = 4, confine_bit = 5, classical_bit = 6
    integer, parameter :: order_bit = 7
    integer(c_int), parameter :: all_outputs = 255
-   !> Failures by their cause start here, so that 1 stays free for a wrong call
-   integer(c_int), parameter :: wrong_call = 1, first_failure = 10
 
    !> What a call is for
    integer, parameter :: to_run = 1, to_convert = 2, to_explain = 3
@@ -46,15 +44,6 @@ module contact_capi_run
       integer(c_int) :: length = 0, needed = 0
       integer(c_int) :: status = 0
    end type request_type
-
-   interface
-      !> Length of a null-terminated text
-      function c_strlen(text) result(length) bind(c, name="strlen")
-         import :: c_ptr, c_size_t
-         type(c_ptr), value :: text
-         integer(c_size_t) :: length
-      end function c_strlen
-   end interface
 
 contains
 
@@ -255,20 +244,4 @@ contains
       if (asked(2) > 0.0_c_double) limits%bytes = int(1.0e6_c_double*asked(2), long)
       if (asked(3) > 0.0_c_double) limits%elements = int(asked(3), long)
    end subroutine set_limits
-
-   !> A null-terminated text as a Fortran one, "" for a null pointer
-   subroutine take_text(pointer, text)
-      type(c_ptr), intent(in) :: pointer
-      character(len=:), allocatable, intent(out) :: text
-      character(kind=c_char), pointer :: letters(:)
-      integer :: i
-
-      text = ""
-      if (.not. c_associated(pointer)) return
-      call c_f_pointer(pointer, letters, [c_strlen(pointer)])
-      text = repeat(" ", size(letters))
-      do i = 1, size(letters)
-         text(i:i) = letters(i)
-      end do
-   end subroutine take_text
 end module contact_capi_run

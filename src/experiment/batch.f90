@@ -5,7 +5,7 @@
 module contact_experiment_batch
    use, intrinsic :: iso_c_binding, only : c_char, c_null_char
    use contact_base_case_status, only : case_state, case_status
-   use contact_base_error, only : error_kind, error_type, fatal_error, full_text
+   use contact_base_error, only : error_type, fatal_error
    use contact_base_kinds, only : wp
    use contact_cases_slot, only : release_slot
    use contact_experiment_state, only : complete_spec, experiment_state, find_slot, run_settings, solve_one
@@ -187,20 +187,7 @@ contains
          this%spec%output_level = 0
          call complete_spec(batch%state, batch%settings, this)
          call find_slot(batch%state, this%reid, this%cpid, k)
-         associate (slot => batch%state%slots(k))
-            call solve_one(batch%state, slot, this, batch%state%log, refusal)
-            if (allocated(refusal)) then
-               if (refusal%kind == error_kind%time) then
-                  call status%run_out_of_time(full_text(refusal))
-               else
-                  call status%refuse(full_text(refusal))
-               end if
-            else if (this%module_number == 1) then
-               status = slot%wheel_rail_result%status
-            else
-               status = slot%result%status
-            end if
-         end associate
+         call solve_one(batch%state, batch%state%slots(k), this, batch%state%log, status, refusal)
          if (status%has_result()) then
             batch%last = k
             call note_results(batch, this, room, error)
@@ -276,7 +263,7 @@ contains
          associate (row => batch%totals%rows(k))
             if (.not. row%in_files) cycle
             call find_column(batch, row%name, patch == 0, column)
-            if (column > size(room%values, 1)) then
+            if (column > min(size(room%values, 1), most_columns)) then
                call fatal_error(error, "there are more totals than columns for them")
                return
             end if

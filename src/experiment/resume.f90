@@ -5,6 +5,7 @@
 module contact_experiment_resume
    use contact_base_case_status, only : case_status
    use contact_base_choices, only : estimate_choice, kernel_model, time_link
+   use contact_base_case_status, only : case_status
    use contact_base_error, only : error_kind, error_type, fatal_error
    use contact_base_kinds, only : long, wp
    use contact_base_log, only : log_type
@@ -162,6 +163,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(input_case) :: this
       type(log_type) :: quiet
+      type(case_status) :: ended
       integer, allocatable :: first(:)
       integer :: j, k
       character(len=1) :: letter
@@ -181,7 +183,7 @@ contains
          if (j >= first(place_of(k, this%module_number))) then
             if (letter == case_letter%time) this%spec%limits%deadline%seconds = tiny(1.0_wp)
             call this%spec%limits%deadline%start()
-            call solve_one(state, state%slots(k), this, quiet, error)
+            call solve_one(state, state%slots(k), this, quiet, ended, error)
          else if (this%module_number == 1) then
             call open_wheel_rail(state%slots(k)%problem_slot)
             call check_files(state%slots(k)%wheel_rail, this%spec, state%place%folder, quiet, error)

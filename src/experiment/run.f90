@@ -523,20 +523,9 @@ contains
          solving_before = state%solving%wall
          call state%solving%start()
          state%log%level = this%spec%flow_level
-         call solve_one(state, slot, this, state%log, error)
+         call solve_one(state, slot, this, state%log, head%status, error)
          call state%solving%halt()
          head%seconds = state%solving%wall - solving_before
-         if (allocated(error)) then
-            if (error%kind == error_kind%time) then
-               call head%status%run_out_of_time(full_text(error))
-            else
-               call head%status%refuse(full_text(error))
-            end if
-         else if (this%module_number == 1) then
-            head%status = slot%wheel_rail_result%status
-         else
-            head%status = slot%result%status
-         end if
          if (allocated(error) .or. this%spec%solve) call count_case(state, head%status)
          if (allocated(error)) then
             if (state%exports%wanted()) call state%exports%write_failure(head)

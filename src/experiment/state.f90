@@ -1,7 +1,8 @@
 !> What is asked of a run, and everything that it keeps from case to case
 module contact_experiment_state
+   use contact_base_case_status, only : case_status
    use contact_base_choices, only : heat_source
-   use contact_base_error, only : error_type
+   use contact_base_error, only : error_kind, error_type, full_text
    use contact_base_kinds, only : long, wp
    use contact_base_limits, only : case_limits, deadline_type
    use contact_base_log, only : log_type
@@ -150,20 +151,30 @@ contains
    end subroutine find_slot
 
    !> Solve a case of either module
-   subroutine solve_one(state, slot, this, log, error)
+   subroutine solve_one(state, slot, this, log, status, error)
       type(experiment_state), intent(in) :: state
       !> Contact problem of the case
       type(numbered_slot), intent(inout) :: slot
       type(input_case), intent(in) :: this
       type(log_type), intent(inout) :: log
+      !> How it ended
+      type(case_status), intent(inout) :: status
       type(error_type), allocatable, intent(out) :: error
 
       if (this%module_number == 1) then
          call open_wheel_rail(slot%problem_slot)
          call solve_wheel_rail_case(slot%wheel_rail, this%spec, state%place%folder, log, slot%wheel_rail_result, error)
+         if (.not. allocated(error)) status = slot%wheel_rail_result%status
       else
          call open_contact(slot%problem_slot)
          call solve_case(slot%session, this%spec, log, slot%result, error, state%place%folder)
+         if (.not. allocated(error)) status = slot%result%status
+      end if
+      if (.not. allocated(error)) return
+      if (error%kind == error_kind%time) then
+         call status%run_out_of_time(full_text(error))
+      else
+         call status%refuse(full_text(error))
       end if
    end subroutine solve_one
 

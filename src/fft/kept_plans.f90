@@ -5,10 +5,11 @@
 !> long as the process; what has no room is its owner's. All of this happens in the critical region of the planner.
 module contact_fft_kept_plans
    use, intrinsic :: iso_c_binding, only : c_null_ptr, c_ptr
+   use contact_fft_library, only : destroy
    implicit none (type, external)
    private
 
-   public :: plan_kind, plans_per_size, take_plans, keep_plans
+   public :: plan_kind, plan_set
 
    type :: plan_kind_list
       !> Real transforms of one field, complex ones of two fields, and a whole period of a kernel
@@ -17,8 +18,24 @@ module contact_fft_kept_plans
    !> What the plans of a size are for
    type(plan_kind_list), parameter :: plan_kind = plan_kind_list()
 
-   !> Plans of one size: rows and columns, forward and backward
+   !> Rows forward, rows backward, columns forward, columns backward; what a kind of transform does not need is null
    integer, parameter :: plans_per_size = 4
+   integer, parameter, public :: row_forward = 1, row_backward = 2, column_forward = 3, column_backward = 4
+
+   !> Plans of one size
+   type :: plan_set
+      type(c_ptr) :: plan(plans_per_size) = c_null_ptr
+      !> Are they those of all windows of this size, which nobody frees?
+      logical :: is_kept = .false.
+   contains
+      !> Take those of a size, if they are kept; in the critical region
+      procedure :: take
+      !> Keep new ones, if there is room; in the critical region
+      procedure :: keep
+      !> Free them, unless they are kept
+      procedure :: release
+   end type plan_set
+
    !> Sizes that are kept, and elements of a padded window at most: plans of large ones take memory
    integer, parameter :: most = 256, largest = 16384
 
@@ -32,41 +49,52 @@ module contact_fft_kept_plans
 
 contains
 
-   !> Plans of a size, if they are kept
-   subroutine take_plans(kind, my, px, py, plan, found)
+   subroutine take(self, kind, my, px, py)
+      !> Empty where they are not kept
+      class(plan_set), intent(inout) :: self
       !> Member of plan_kind
       integer, intent(in) :: kind
       !> Rows of the window, and size of the padded window
       integer, intent(in) :: my, px, py
-      !> Unchanged where they are not found
-      type(c_ptr), intent(inout) :: plan(plans_per_size)
-      !> Are they kept?
-      logical, intent(out) :: found
       integer :: k
 
-      found = .false.
+      self%plan = c_null_ptr
+      self%is_kept = .false.
       do k = 1, n_kept
          if (kept(k)%px /= px .or. kept(k)%py /= py .or. kept(k)%my /= my .or. kept(k)%kind /= kind) cycle
-         plan = kept(k)%plan
-         found = .true.
+         self%plan = kept(k)%plan
+         self%is_kept = .true.
          return
       end do
-   end subroutine take_plans
+   end subroutine take
 
-   !> Keep new plans, which from then on nobody frees
-   subroutine keep_plans(kind, my, px, py, plan, is_kept)
+   subroutine keep(self, kind, my, px, py)
+      !> The caller's own where there is no room
+      class(plan_set), intent(inout) :: self
       !> Member of plan_kind
       integer, intent(in) :: kind
       !> Rows of the window, and size of the padded window
       integer, intent(in) :: my, px, py
-      !> Of the caller
-      type(c_ptr), intent(in) :: plan(plans_per_size)
-      !> False: there is no room, the plans are the caller's
-      logical, intent(out) :: is_kept
 
-      is_kept = n_kept < most .and. px*py <= largest
-      if (.not. is_kept) return
+      if (n_kept == most .or. px*py > largest) return
+      self%is_kept = .true.
       n_kept = n_kept + 1
-      kept(n_kept) = kept_type(kind, my, px, py, plan)
-   end subroutine keep_plans
+      kept(n_kept) = kept_type(kind, my, px, py, self%plan)
+   end subroutine keep
+
+   subroutine release(self)
+      class(plan_set), intent(inout) :: self
+      integer :: k
+
+      if (self%is_kept) then
+         self%is_kept = .false.
+      else
+         !$omp critical (contact_fft_planner)
+         do k = 1, size(self%plan)
+            call destroy(self%plan(k))
+         end do
+         !$omp end critical (contact_fft_planner)
+      end if
+      self%plan = c_null_ptr
+   end subroutine release
 end module contact_fft_kept_plans

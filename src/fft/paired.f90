@@ -4,10 +4,10 @@
 !> FFTW has vector code for complex transforms only. Both passes go from one array to another, so
 !> that nothing is copied, and the padding of the forward arrays stays zero for ever.
 module contact_fft_paired
-   use, intrinsic :: iso_c_binding, only : c_associated, c_null_ptr, c_ptr
+   use, intrinsic :: iso_c_binding, only : c_associated
    use contact_base_kinds, only : wp
-   use contact_fft_library, only : backwards, destroy, execute_complex, forwards, plan_complex
-   use contact_fft_kept_plans, only : keep_plans, plan_kind, plans_per_size, take_plans
+   use contact_fft_library, only : backwards, execute_complex, forwards, plan_complex
+   use contact_fft_kept_plans, only : column_backward, column_forward, plan_kind, plan_set, row_backward, row_forward
    implicit none (type, external)
    private
 
@@ -23,10 +23,7 @@ module contact_fft_paired
       complex(wp), allocatable :: spectrum(:, :)
       !> Rows after the transform in x, transposed and padded in y, shape (py, px)
       complex(wp), allocatable, private :: columns(:, :), columns_back(:, :)
-      type(c_ptr), private :: row_forward = c_null_ptr, row_backward = c_null_ptr
-      type(c_ptr), private :: column_forward = c_null_ptr, column_backward = c_null_ptr
-      !> Are the plans those of all windows of this size?
-      logical, private :: shared = .false.
+      type(plan_set), private :: plans
    contains
       !> Make plans for a window; keeps them when the sizes are the same
       procedure :: prepare
@@ -44,10 +41,9 @@ contains
       class(paired_plan), intent(inout) :: self
       !> Window and padded window; px >= mx, py >= my
       integer, intent(in) :: mx, my, px, py
-      type(c_ptr) :: plan(plans_per_size)
 
       if (self%mx == mx .and. self%my == my .and. self%px == px .and. self%py == py &
-         & .and. c_associated(self%row_forward)) return
+         & .and. c_associated(self%plans%plan(row_forward))) return
       call self%release()
       self%mx = mx
       self%my = my
@@ -57,19 +53,15 @@ contains
       allocate(self%rows_back(px, my), self%columns_back(py, px), self%spectrum(py, px))
       ! the planner of FFTW is not thread-safe; estimated plans make results reproducible
       !$omp critical (contact_fft_planner)
-      call take_plans(plan_kind%paired, my, px, py, plan, self%shared)
-      if (.not. self%shared) then
-         plan = [plan_complex(px, my, self%rows, 1, px, self%columns, py, 1, forwards), &
+      call self%plans%take(plan_kind%paired, my, px, py)
+      if (.not. self%plans%is_kept) then
+         self%plans%plan = [plan_complex(px, my, self%rows, 1, px, self%columns, py, 1, forwards), &
             & plan_complex(px, my, self%columns_back, py, 1, self%rows_back, 1, px, backwards), &
             & plan_complex(py, px, self%columns, 1, py, self%spectrum, 1, py, forwards), &
             & plan_complex(py, px, self%spectrum, 1, py, self%columns_back, 1, py, backwards)]
-         call keep_plans(plan_kind%paired, my, px, py, plan, self%shared)
+         call self%plans%keep(plan_kind%paired, my, px, py)
       end if
       !$omp end critical (contact_fft_planner)
-      self%row_forward = plan(1)
-      self%row_backward = plan(2)
-      self%column_forward = plan(3)
-      self%column_backward = plan(4)
    end subroutine prepare
 
    subroutine forward(self, fields, ahead)
@@ -102,8 +94,8 @@ contains
             end do
          end if
       end do
-      call execute_complex(self%row_forward, self%rows, self%columns)
-      call execute_complex(self%column_forward, self%columns, self%spectrum)
+      call execute_complex(self%plans%plan(row_forward), self%rows, self%columns)
+      call execute_complex(self%plans%plan(column_forward), self%columns, self%spectrum)
    end subroutine forward
 
    subroutine backward(self, fields)
@@ -112,8 +104,8 @@ contains
       real(wp), contiguous, intent(inout) :: fields(:, :, :)
       integer :: ix, iy
 
-      call execute_complex(self%column_backward, self%spectrum, self%columns_back)
-      call execute_complex(self%row_backward, self%columns_back, self%rows_back)
+      call execute_complex(self%plans%plan(column_backward), self%spectrum, self%columns_back)
+      call execute_complex(self%plans%plan(row_backward), self%columns_back, self%rows_back)
       do iy = 1, self%my
          do ix = 1, self%mx
             fields(ix, iy, 1) = real(self%rows_back(ix, iy))
@@ -125,19 +117,7 @@ contains
    subroutine release(self)
       class(paired_plan), intent(inout) :: self
 
-      if (self%shared) then
-         self%row_forward = c_null_ptr
-         self%row_backward = c_null_ptr
-         self%column_forward = c_null_ptr
-         self%column_backward = c_null_ptr
-         self%shared = .false.
-      end if
-      !$omp critical (contact_fft_planner)
-      call destroy(self%row_forward)
-      call destroy(self%row_backward)
-      call destroy(self%column_forward)
-      call destroy(self%column_backward)
-      !$omp end critical (contact_fft_planner)
+      call self%plans%release()
       self%mx = 0
       if (allocated(self%rows)) deallocate(self%rows, self%rows_back, self%columns, self%columns_back, self%spectrum)
    end subroutine release

@@ -6,11 +6,11 @@
 !> shape (py, kx), so that the second pass runs along contiguous memory: one column after the other into a
 !> buffer and back, which is faster than transforms in place, and asks for no memory.
 module contact_fft_plan
-   use, intrinsic :: iso_c_binding, only : c_associated, c_null_ptr, c_ptr
+   use, intrinsic :: iso_c_binding, only : c_associated
    use contact_base_kinds, only : wp
-   use contact_fft_library, only : backwards, destroy, execute_backward, execute_complex, execute_forward, forwards, &
+   use contact_fft_library, only : backwards, execute_backward, execute_complex, execute_forward, forwards, &
       & plan_backward, plan_complex, plan_forward, plan_plane
-   use contact_fft_kept_plans, only : keep_plans, plan_kind, plans_per_size, take_plans
+   use contact_fft_kept_plans, only : column_backward, column_forward, plan_kind, plan_set, row_backward, row_forward
    implicit none (type, external)
    private
 
@@ -34,10 +34,7 @@ module contact_fft_plan
       real(wp), allocatable, private :: rows(:, :, :)
       !> A transformed column of the spectrum, one for each of two concurrent transforms, shape (py, 2)
       complex(wp), allocatable, private :: column(:, :)
-      type(c_ptr), private :: row_forward = c_null_ptr, row_backward = c_null_ptr
-      type(c_ptr), private :: column_forward = c_null_ptr, column_backward = c_null_ptr
-      !> Are the plans those of all windows of this size?
-      logical, private :: shared = .false.
+      type(plan_set), private :: plans
    contains
       !> Make plans for a window; keeps them when the size is the same
       procedure :: prepare => prepare_plan
@@ -87,10 +84,9 @@ contains
       !> Window and padded window; px even or 1, px >= mx, py >= my
       integer, intent(in) :: mx, my, px, py
       complex(wp), allocatable :: spectrum(:, :)
-      type(c_ptr) :: plan(plans_per_size)
 
       if (self%mx == mx .and. self%my == my .and. self%px == px .and. self%py == py &
-         & .and. c_associated(self%row_forward)) return
+         & .and. c_associated(self%plans%plan(row_forward))) return
       call self%release()
       self%mx = mx
       self%my = my
@@ -101,20 +97,16 @@ contains
       allocate(self%column(py, 2), source=(0.0_wp, 0.0_wp))
       ! the planner of FFTW is not thread-safe; estimated plans make results reproducible
       !$omp critical (contact_fft_planner)
-      call take_plans(plan_kind%single, my, px, py, plan, self%shared)
-      if (.not. self%shared) then
+      call self%plans%take(plan_kind%single, my, px, py)
+      if (.not. self%plans%is_kept) then
          allocate(spectrum(py, self%kx), source=(0.0_wp, 0.0_wp))
-         plan = [plan_forward(px, my, self%rows, 1, px, spectrum, py, 1), &
+         self%plans%plan = [plan_forward(px, my, self%rows, 1, px, spectrum, py, 1), &
             & plan_backward(px, my, spectrum, py, 1, self%rows, 1, px), &
             & plan_complex(py, 1, spectrum, 1, py, self%column, 1, py, forwards), &
             & plan_complex(py, 1, spectrum, 1, py, self%column, 1, py, backwards)]
-         call keep_plans(plan_kind%single, my, px, py, plan, self%shared)
+         call self%plans%keep(plan_kind%single, my, px, py)
       end if
       !$omp end critical (contact_fft_planner)
-      self%row_forward = plan(1)
-      self%row_backward = plan(2)
-      self%column_forward = plan(3)
-      self%column_backward = plan(4)
    end subroutine prepare_plan
 
    subroutine transform_forward(self, field, spectrum, channel)
@@ -133,11 +125,11 @@ contains
          self%rows(1:self%mx, iy, c) = field(:, iy)
          self%rows(self%mx + 1:, iy, c) = 0.0_wp
       end do
-      call execute_forward(self%row_forward, self%rows(:, :, c), spectrum)
+      call execute_forward(self%plans%plan(row_forward), self%rows(:, :, c), spectrum)
       if (self%py == 1) return
       do k = 1, self%kx
          spectrum(self%my + 1:, k) = (0.0_wp, 0.0_wp)
-         call execute_complex(self%column_forward, spectrum(:, k), self%column(:, c))
+         call execute_complex(self%plans%plan(column_forward), spectrum(:, k), self%column(:, c))
          spectrum(:, k) = self%column(:, c)
       end do
    end subroutine transform_forward
@@ -156,11 +148,11 @@ contains
       if (present(channel)) c = channel
       if (self%py > 1) then
          do k = 1, self%kx
-            call execute_complex(self%column_backward, spectrum(:, k), self%column(:, c))
+            call execute_complex(self%plans%plan(column_backward), spectrum(:, k), self%column(:, c))
             spectrum(:self%my, k) = self%column(:self%my, c)
          end do
       end if
-      call execute_backward(self%row_backward, spectrum, self%rows(:, :, c))
+      call execute_backward(self%plans%plan(row_backward), spectrum, self%rows(:, :, c))
       do iy = 1, self%my
          field(:, iy) = self%rows(1:self%mx, iy, c)
       end do
@@ -172,43 +164,26 @@ contains
       real(wp), contiguous, intent(inout) :: period(:, :)
       !> Spectrum, shape (py, px/2 + 1)
       complex(wp), contiguous, intent(inout) :: spectrum(:, :)
-      type(c_ptr) :: plan(plans_per_size)
+      type(plan_set) :: plans
       complex(wp), allocatable :: by_rows(:, :)
-      logical :: shared
 
       allocate(by_rows(size(spectrum, 2), size(period, 2)))
       !$omp critical (contact_fft_planner)
-      plan = c_null_ptr
-      call take_plans(plan_kind%kernel, 0, size(period, 1), size(period, 2), plan, shared)
-      if (.not. shared) then
-         plan(1) = plan_plane(size(period, 2), size(period, 1), period, by_rows)
-         call keep_plans(plan_kind%kernel, 0, size(period, 1), size(period, 2), plan, shared)
+      call plans%take(plan_kind%kernel, 0, size(period, 1), size(period, 2))
+      if (.not. plans%is_kept) then
+         plans%plan(row_forward) = plan_plane(size(period, 2), size(period, 1), period, by_rows)
+         call plans%keep(plan_kind%kernel, 0, size(period, 1), size(period, 2))
       end if
       !$omp end critical (contact_fft_planner)
-      call execute_forward(plan(1), period, by_rows)
+      call execute_forward(plans%plan(row_forward), period, by_rows)
       spectrum = transpose(by_rows)
-      if (shared) return
-      !$omp critical (contact_fft_planner)
-      call destroy(plan(1))
-      !$omp end critical (contact_fft_planner)
+      call plans%release()
    end subroutine kernel_spectrum
 
    subroutine release_plan(self)
       class(fft_plan), intent(inout) :: self
 
-      if (self%shared) then
-         self%row_forward = c_null_ptr
-         self%row_backward = c_null_ptr
-         self%column_forward = c_null_ptr
-         self%column_backward = c_null_ptr
-         self%shared = .false.
-      end if
-      !$omp critical (contact_fft_planner)
-      call destroy(self%row_forward)
-      call destroy(self%row_backward)
-      call destroy(self%column_forward)
-      call destroy(self%column_backward)
-      !$omp end critical (contact_fft_planner)
+      call self%plans%release()
       self%mx = 0
       if (allocated(self%rows)) deallocate(self%rows, self%column)
    end subroutine release_plan

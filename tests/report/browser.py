@@ -63,7 +63,8 @@ NEXT = """3
 def many_cases(path, count, elements):
     """Write an input with cases of elements x elements"""
     with open(path, "w") as file:
-        file.writelines((MANY if k == 0 else NEXT).format(creep=-4e-6 * k, n=elements, size=5.0 / elements) for k in range(count))
+        file.writelines((MANY if k == 0 else NEXT).format(creep=-4e-6 * (k % 400), n=elements, size=5.0 / elements)
+                        for k in range(count))
         file.write("0\n")
 
 

@@ -8,6 +8,8 @@ import unittest
 from browser import COLOURS, DESKTOP, EXAMPLES, PATIENCE, PHONE, SETTLED, Page, many_cases
 from contact.report.server import Server
 
+# Number of cases of the run that does not end by itself
+LONG = 4000
 STATE = "text => document.getElementById('state').textContent.includes(text)"
 
 
@@ -17,8 +19,8 @@ class Start(Page):
         shutil.copytree(os.path.join(EXAMPLES, "profiles"), os.path.join(self.folder, "study", "profiles"))
         shutil.copy(os.path.join(EXAMPLES, "cattaneo.inp"), self.folder)
         shutil.copy(os.path.join(EXAMPLES, "cattaneo.toml"), os.path.join(self.folder, "study"))
-        # minutes on a fast machine, of which the test takes a second
-        many_cases(os.path.join(self.folder, "long.inp"), 400, 150)
+        # minutes on a fast machine, of which the test takes some seconds
+        many_cases(os.path.join(self.folder, "long.inp"), LONG, 300)
         server = Server(self.folder, 0)
         threading.Thread(target=server.serve_forever, daemon=True).start()
         self.addCleanup(server.server_close)
@@ -56,9 +58,9 @@ class Start(Page):
     def test_a_run_survives_reloading(self):
         page = self.start(viewport=DESKTOP)
         page.click("tr[data-name=long] button:has-text('run')")
-        page.wait_for_function(STATE, arg="of 400")
+        page.wait_for_function(STATE, arg=f"of {LONG}")
         page.reload()
-        page.wait_for_function(STATE, arg="of 400")
+        page.wait_for_function(STATE, arg=f"of {LONG}")
         self.assertEqual(page.inner_text("#what"), "Run of long")
         self.assertIn("Case     1", page.inner_text("#messages"))
         self.assertGreaterEqual(page.evaluate("document.getElementById('progress').value"), 1)
@@ -66,7 +68,7 @@ class Start(Page):
         page.click("#stop")
         page.wait_for_function(STATE, arg="stopped")
         page.wait_for_selector("tr[data-name=long] .warn")
-        self.assertRegex(page.inner_text("tr[data-name=long] .warn"), r"not complete: \d+ of 400 cases")
+        self.assertRegex(page.inner_text("tr[data-name=long] .warn"), r"not complete: \d+ of %d cases" % LONG)
         self.assertTrue(page.is_disabled("#stop"))
         # of a run that has ended the messages stay, too
         page.reload()
