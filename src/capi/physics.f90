@@ -184,8 +184,8 @@ contains
       law = choice_of("L", merge(4, digit, digit == polach), problem%module_number)
       friction%memdst = problem%spec%friction%memdst
       friction%mem_s0 = problem%spec%friction%mem_s0
-      ! a number of points without their values must not cost memory
-      allocate(friction%sets(min(n, size(a%numbers(1)%v))))
+      ! a number of points without their values must not cost memory; values are looked for in one at least
+      allocate(friction%sets(min(n, max(1, size(a%numbers(1)%v)))))
       friction%sets = friction_set(sabsh1=10000.0_wp, sabsh2=10000.0_wp)
       do while (a%next_pass())
          if (varies /= variation%none .and. digit /= keep) call a%skip(optional=.false.)

@@ -28,6 +28,7 @@ contains
       integer :: iy
 
       if (allocated(problem%friction)) deallocate(problem%friction)
+      if (allocated(problem%static_mu)) deallocate(problem%static_mu)
       problem%remembers_friction = .false.
       problem%mu = 0.0_wp
       ! there are none behind a case that was to give them and was refused

@@ -75,3 +75,13 @@ if(CONTACT_SANITIZE MATCHES address)
   endforeach()
   list(JOIN CONTACT_INSTRUMENTS " " CONTACT_INSTRUMENTS)
 endif()
+
+# contact_library_test(<name> ...): the same for a script that loads the library, which CONTACT_LIBRARY names
+function(contact_library_test name)
+  contact_python_test(${name} ${ARGN})
+  set_property(TEST ${name} APPEND PROPERTY ENVIRONMENT "CONTACT_LIBRARY=$<TARGET_FILE:contact>")
+  if(CONTACT_INSTRUMENTS)
+    set_property(TEST ${name} APPEND PROPERTY ENVIRONMENT
+      "LD_PRELOAD=${CONTACT_INSTRUMENTS}" "ASAN_OPTIONS=detect_leaks=0:allocator_may_return_null=1")
+  endif()
+endfunction()
