@@ -19,7 +19,8 @@ suppress_warnings = ["myst.header", "misc.highlighting_failure"]
 
 #: Pages in the order of the menu; those that are missing here come last
 MENU = {
-    "Start": ["user/first_wheel", "user/tutorials", "user/studies", "user/running", "user/plots"],
+    "Start": ["user/first_wheel", "user/first_call", "user/tutorials", "user/choosing", "user/how_exact",
+              "user/running", "user/studies", "user/plots"],
     "Reference": ["user/signs", "user/wheel_rail", "user/wheel_rail_results", "user/input", "user/output", "user/profiles",
                   "user/readable", "user/results", "user/python", "user/matlab", "user/library", "user/routines"],
     "Differences": ["user/differences", "user/guide_sections", "changes"],

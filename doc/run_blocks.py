@@ -10,7 +10,8 @@ above a block says what it is:
     <!-- shows: NAME -->    or in a file that it wrote
 
 Words have to be the same, `...` is any word, and numbers are the same to two units of their last figure. The program is that of
-the environment variable CONTACT_PROGRAM where there is one, the Python package that of this checkout.
+the environment variable CONTACT_PROGRAM where there is one, the Python package that of this checkout. A page that says pkg-config
+finds the library installed from the build folder of that program.
 """
 import contextlib
 import io
@@ -99,6 +100,20 @@ class Page:
                     self.fail(f"not shown any more: {line}\n" + ("" if name else f"but:\n{self.printed}"))
 
 
+def installed(folder):
+    """The library, installed as a page tells its readers"""
+    program = os.environ.get("CONTACT_PROGRAM")
+    if not program or not shutil.which("pkg-config"):
+        print("skipped: no built program, or no pkg-config")
+        sys.exit(77)
+    prefix = folder / "installed"
+    build = pathlib.Path(program).parents[1]
+    subprocess.run(["cmake", "--install", str(build), "--prefix", str(prefix)], check=True, stdout=subprocess.DEVNULL)
+    package = next(prefix.rglob("contact.pc"))
+    os.environ["PKG_CONFIG_PATH"] = str(package.parent)
+    os.environ["LD_LIBRARY_PATH"] = str(package.parents[1])
+
+
 def main():
     """All pages that are named; how many blocks each has"""
     program = os.environ.get("CONTACT_PROGRAM")
@@ -117,6 +132,8 @@ def main():
             shutil.copytree(TOP / "examples/profiles", pathlib.Path(folder) / "profiles")
             (pathlib.Path(folder) / "examples").symlink_to(TOP / "examples")
             os.chdir(folder)
+            if "pkg-config" in path.read_text():
+                installed(pathlib.Path(folder))
             page = Page(path, folder)
             page.follow()
             os.chdir(TOP)

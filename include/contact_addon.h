@@ -113,8 +113,8 @@ void cntc_settimestep(const int *ire, const int *icp, const double *dt);
 
 /* Set rolling direction and step.
  *   chi: rolling direction [A], basic contact
- *   dq: rolling step: in basic contact [L], for wheel and rail relative to the size of elements
- *       [-] */
+ *   dq: rolling step: in basic contact [L], 2 mm until it is set, for wheel and rail relative to
+ *       the size of elements [-] */
 void cntc_setrollingstepsize(const int *ire, const int *icp, const double *chi, const double *dq);
 
 /* Set the friction law, imeth = 10 V + L.

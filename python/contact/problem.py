@@ -153,7 +153,11 @@ class Problem(Element):
         self._do(cntc.settangentialforces, self.number, 1, fx, 0.0 if fy is None else fy)
 
     def set_rolling(self, velocity: float, step: float | None = None, direction: float = 0.0) -> None:
-        """Rolling velocity [V], step dq [L] (default that of the library) and direction [A]."""
+        """Rolling velocity [V], step dq [L] and direction [A].
+
+        In transient rolling give the step: the size of an element, or some. Without one it is that of the library, 2 mm, which
+        is longer than many a contact. Steady rolling goes by steps of one element anyway.
+        """
         self._do(cntc.setreferencevelocity, self.number, 1, velocity)
         if step is not None:
             self._do(cntc.setrollingstepsize, self.number, 1, direction, step)

@@ -33,9 +33,9 @@ done
 
 doc=$root/usr/share/doc/contact
 mkdir -p "$doc" "$root/usr/share/man/man1" "$root/usr/share/bash-completion/completions" "$root/DEBIAN"
-cp -R "$top/doc/user" "$top/doc/theory" "$top/doc/index.md" "$doc"
+cp -R "$top/doc/user" "$top/doc/theory" "$top/doc/validation" "$top/doc/index.md" "$top/doc/changes.md" "$doc"
 cp -R "$top/examples" "$doc/examples"
-find "$doc" -name '*.py' -path '*/figures/*' -exec rm {} +
+find "$doc" -name '*.py' \( -path '*/figures/*' -o -path '*/validation/*' \) -exec rm {} +
 find "$doc" -type f -exec chmod 644 {} +
 python3 "$top/src/packaging/man.py" "$build/bin/contact" | gzip -9n > "$root/usr/share/man/man1/contact.1.gz"
 cp "$top/src/packaging/contact.bash" "$root/usr/share/bash-completion/completions/contact"

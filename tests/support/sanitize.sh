@@ -20,7 +20,7 @@ reason_of() {
   case $1 in
     memcheck_*) echo "is run by valgrind" ;;
     capi_host_* | faults_* | confine_without_openat2) echo "limits the memory or replaces calls of the system, which the sanitizers do too" ;;
-    capi_statics | capi_consumer) echo "looks at the library as it is installed, without instruments" ;;
+    capi_statics | capi_consumer | manual_first_call) echo "looks at the library as it is installed, without instruments" ;;
     capi_memory | capi_many_rounds) echo "measures memory, of which the sanitizers keep what was freed" ;;
     performance*) echo "judges times and requests for memory" ;;
     octave_*) echo "Octave is not instrumented and cannot load the library; its scripts read files that other tests write too" ;;
