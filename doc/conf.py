@@ -2,6 +2,7 @@
 import pathlib
 import re
 
+from latex2mathml.converter import convert
 from sphinx.util import logging
 
 HERE = pathlib.Path(__file__).resolve().parent
@@ -24,7 +25,8 @@ MENU = {
     "Reference": ["user/signs", "user/wheel_rail", "user/wheel_rail_results", "user/input", "user/output", "user/profiles",
                   "user/readable", "user/results", "user/python", "user/matlab", "user/library", "user/routines"],
     "Differences": ["user/differences", "user/guide_sections", "changes"],
-    "Theory": ["theory/*"],
+    "Theory": ["theory/index"] + [f"theory/{page}" for page in re.findall(r"^\| \[[^\]]*\]\((\w+)\.md\)",
+                                                                         (HERE / "theory/index.md").read_text(), re.MULTILINE)],
     "Validation": ["validation/*"],
     "Development": ["develop/*"],
 }
@@ -48,9 +50,21 @@ def plain_links(page, text):
     return LINK.sub(told, text)
 
 
+def plain_formulae(text):
+    """Formulae as MathML, which browsers show by themselves; code is left alone"""
+    def told(match):
+        if match[1]:
+            return match[0]
+        block, inline = match[2], match[3]
+        return convert(" ".join((block or inline).split()), display="block" if block else "inline")
+    return re.sub(r"(^```.*?^```|`[^`\n]*`)|\$\$(.+?)\$\$|\$([^$]+?)\$", told, text, flags=re.MULTILINE | re.DOTALL)
+
+
 def read(app, page, source):
     """Each page as Sphinx shall see it"""
     text = plain_links(page, source[0])
+    if "$$" in text:
+        text = plain_formulae(text)
     if page == root_doc:
         placed, menu = set(), ""
         for title, names in MENU.items():
