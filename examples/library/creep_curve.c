@@ -14,10 +14,10 @@
 
 static const int element = 1;
 
-/* What both problems share: mm, N; steady rolling */
+/* What both problems share: mm, N; steady rolling of second order in the size of elements */
 static void set_up(const int *icp) {
-  cntc_setflags(&element, icp, INT(4), INTS(CNTC_if_units, CNTC_ic_tang, CNTC_ic_output, CNTC_ic_flow),
-                INTS(CNTC_un_cntc, 3, 0, 0));
+  cntc_setflags(&element, icp, INT(5), INTS(CNTC_if_units, CNTC_ic_tang, CNTC_own_order, CNTC_ic_output, CNTC_ic_flow),
+                INTS(CNTC_un_cntc, 3, 2, 0, 0));
   cntc_setfrictionmethod(&element, icp, INT(0), INT(2), REALS(0.35, 0.35));
   cntc_setreferencevelocity(&element, icp, REAL(25000.0));
   cntc_sethertzcontact(&element, icp, INT(-3), INT(5), REALS(25.0, 25.0, 6.5, 5.0, 1.2));

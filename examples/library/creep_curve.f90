@@ -47,8 +47,8 @@ contains
    subroutine set_up(icp)
       integer, intent(in) :: icp
 
-      call cntc_setflags(element, icp, 4, [CNTC_if_units, CNTC_ic_tang, CNTC_ic_output, CNTC_ic_flow], &
-         & [CNTC_un_cntc, 3, 0, 0])
+      call cntc_setflags(element, icp, 5, [CNTC_if_units, CNTC_ic_tang, CNTC_own_order, CNTC_ic_output, CNTC_ic_flow], &
+         & [CNTC_un_cntc, 3, 2, 0, 0])
       call cntc_setfrictionmethod(element, icp, 0, 2, [0.35_wp, 0.35_wp])
       call cntc_setreferencevelocity(element, icp, 25000.0_wp)
       call cntc_sethertzcontact(element, icp, -3, 5, [25.0_wp, 25.0_wp, 6.5_wp, 5.0_wp, 1.2_wp])

@@ -7,7 +7,7 @@ CNTC = cntc_initlibrary();
 materials = {0, [0.28 0.28 82000 82000]; 4, [0.28 0.28 82000 82000, 100 0.02 0 0]};
 cntc_initialize(1, 3);
 for icp = 1 : 2
-   cntc_setflags(1, icp, [CNTC.if_units, CNTC.ic_tang], [CNTC.un_cntc, 3]);
+   cntc_setflags(1, icp, [CNTC.if_units, CNTC.ic_tang, CNTC.own_order], [CNTC.un_cntc, 3, 2]);
    cntc_setsolverflags(1, icp, 0, [999 100 30 1], 1e-6);
    cntc_setmaterialparameters(1, icp, materials{icp,:});
    cntc_setfrictionmethod(1, icp, 0, [0.35 0.35]);

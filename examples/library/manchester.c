@@ -35,9 +35,9 @@ int main(int argc, char **argv) {
     return 1;
   }
   /* mm, N; right rail; steady rolling */
-  cntc_setflags(&element, &whole, INT(5),
-                INTS(CNTC_if_units, CNTC_ic_config, CNTC_ic_tang, CNTC_ic_output, CNTC_ic_flow),
-                INTS(CNTC_un_cntc, 1, 3, 0, 0));
+  cntc_setflags(&element, &whole, INT(6),
+                INTS(CNTC_if_units, CNTC_ic_config, CNTC_ic_tang, CNTC_own_order, CNTC_ic_output, CNTC_ic_flow),
+                INTS(CNTC_un_cntc, 1, 3, 2, 0, 0));
   cntc_setmaterialparameters(&element, &whole, INT(0), INT(4), REALS(0.28, 0.28, 82000.0, 82000.0));
   cntc_setfrictionmethod(&element, &whole, INT(0), INT(2), REALS(0.3, 0.3));
   cntc_setsolverflags(&element, &whole, INT(0), INT(4), INTS(999, 100, 30, 1), INT(1), REAL(1e-5));

@@ -25,8 +25,8 @@ program manchester
       error stop 1
    end if
    ! mm, N; right rail; steady rolling
-   call cntc_setflags(element, whole, 5, [CNTC_if_units, CNTC_ic_config, CNTC_ic_tang, CNTC_ic_output, CNTC_ic_flow], &
-      & [CNTC_un_cntc, 1, 3, 0, 0])
+   call cntc_setflags(element, whole, 6, [CNTC_if_units, CNTC_ic_config, CNTC_ic_tang, CNTC_own_order, CNTC_ic_output, &
+      & CNTC_ic_flow], [CNTC_un_cntc, 1, 3, 2, 0, 0])
    call cntc_setmaterialparameters(element, whole, 0, 4, [0.28_wp, 0.28_wp, 82000.0_wp, 82000.0_wp])
    call cntc_setfrictionmethod(element, whole, 0, 2, [0.3_wp, 0.3_wp])
    call cntc_setsolverflags(element, whole, 0, 4, [999, 100, 30, 1], 1, [1.0e-5_wp])

@@ -6,7 +6,7 @@
 folder = fullfile(fileparts(mfilename('fullpath')), '..', 'profiles');
 CNTC = cntc_initlibrary();
 cntc_initialize(1, 1);
-cntc_setflags(1, -1, [CNTC.if_units, CNTC.ic_config, CNTC.ic_tang], [CNTC.un_cntc, 1, 3]);
+cntc_setflags(1, -1, [CNTC.if_units, CNTC.ic_config, CNTC.ic_tang, CNTC.own_order], [CNTC.un_cntc, 1, 3, 2]);
 cntc_setsolverflags(1, -1, 0, [999 100 30 1], 1e-5);
 cntc_setmaterialparameters(1, -1, 0, [0.28 0.28 82000 82000]);
 cntc_setfrictionmethod(1, -1, 0, [0.3 0.3]);

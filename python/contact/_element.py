@@ -396,7 +396,7 @@ class Element:
         self.units = units
         self.motion = motion
         self.set_flags(if_units=CNTC[_UNITS[units]], ic_tang=_MOTIONS[motion], ic_pvtime=2, ic_output=0, ic_flow=0,
-                       own_heat=_SOURCES["moving"])
+                       own_heat=_SOURCES["moving"], own_order=2)
 
     def __enter__(self: _Self) -> _Self:
         return self
@@ -490,7 +490,7 @@ class Element:
                  [bulk, *first, bulk if bulk2 is None else bulk2, *second, plastic_share])
 
     def set_solver(self, eps: float = 1e-5, maxgs: int = 999, maxin: int = 100, maxnr: int = 30,
-                   maxout: int = 1, order: int = 1) -> None:
+                   maxout: int = 1, order: int = 2) -> None:
         """Tolerance [-] and limits of the iterations of the default solver (G = 0), and order of the discretisation.
 
         Parameters
@@ -498,8 +498,8 @@ class Element:
         eps, maxgs, maxin, maxnr, maxout
             Relative tolerance of the equations [-], and limits of iterations.
         order
-            Discretisation of steady rolling: 1, the established one, or 2, whose errors fall with the square of the
-            size of elements (doc/theory/second_order.md).
+            Discretisation of steady rolling: 2, whose errors fall with the square of the size of elements, where it is
+            made for the case (doc/theory/second_order.md), or 1, the established one of ``.inp`` files and ``cntc``.
         """
         if order not in (1, 2):
             raise ValueError(f"order = {order!r} is none of 1, 2")

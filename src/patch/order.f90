@@ -17,6 +17,9 @@ module contact_patch_order
 
    !> Rigid slip of the second order is that in the middle of the step [steps]
    real(wp), parameter :: middle = 0.5_wp
+   !> Passes between pressures and tractions after which the turns of slip stay what they are; the next passes converge to a
+   !> solution of one set of equations. Chosen: their change is below 1e-3 of the friction bound by then
+   integer, parameter :: turning_passes = 3
 
 contains
 
@@ -82,13 +85,15 @@ contains
    end function spin_offset_of
 
    !> Edge terms of the tangential problem, from the pressures
-   subroutine set_second_order(problem, state, box, report, workspace)
+   subroutine set_second_order(problem, state, box, pass, report, workspace)
       !> Elasticity
       type(patch_problem), intent(in) :: problem
       !> Pressures of the present step
       type(patch_state), intent(in) :: state
       !> Part of the grid of the tangential problem
       type(bounding_box), intent(in) :: box
+      !> Number of the pass between pressures and tractions
+      integer, intent(in) :: pass
       !> Order that acts
       type(solve_report), intent(in) :: report
       !> Compliance of the box; its tangential problem gets the terms, or loses them
@@ -102,7 +107,7 @@ contains
          if (.not. allocated(t%second)) allocate(t%second)
          workspace%box_pn = state%now%pn(box%ix0:box%ix1, box%iy0:box%iy1)
          call find_edge_terms(t%contact, workspace%box_pn, t%dx, t%dy, t%direction, problem%model%material%nu, &
-            & problem%model%material%gg, workspace%box%diagonal(2), t%second)
+            & problem%model%material%gg, workspace%box%diagonal(2), t%second, pass > turning_passes)
       end associate
    end subroutine set_second_order
 end module contact_patch_order

@@ -101,7 +101,8 @@ contains
       call start_values(problem, operator, system, solution, workspace, residual)
       previous = residual
       history = 0.0_wp
-      turns = merge(0, most_turns, allocated(problem%second))
+      turns = most_turns
+      if (allocated(problem%second)) turns = merge(most_turns, 0, problem%second%keeps_turns)
       since = 0
       do step = 0, max_steps
          if (turns < most_turns .and. (residual < turn_below .or. step > late)) then

@@ -27,6 +27,8 @@ module contact_tangential_second_order
       logical, allocatable :: stiff(:)
       !> Weight of a row of the equations times cosine and sine of its turn [-], shape (mx, my, 2)
       real(wp), allocatable :: row(:, :, :)
+      !> Are the turns those of a former solution, to be kept?
+      logical :: keeps_turns = .false.
    contains
       !> u := u + kappa p
       procedure :: add_terms
@@ -63,7 +65,7 @@ module contact_tangential_second_order
 contains
 
    !> Find the leading elements of all rows, where the edge of contact lies by the pressures, and the terms that move it there
-   subroutine find_edge_terms(contact, pn, dx, dy, direction, nu, gg, diagonal, second)
+   subroutine find_edge_terms(contact, pn, dx, dy, direction, nu, gg, diagonal, second, keeps_turns)
       !> Elements in contact, shape (mx, my)
       logical, intent(in) :: contact(:, :)
       !> Their pressures [N/mm2], a solution of the contact conditions with piecewise constant pressures, shape (mx, my)
@@ -76,14 +78,19 @@ contains
       real(wp), intent(in) :: nu, gg
       !> Compliance of an element A_xx(0) [mm/(N/mm2)]
       real(wp), intent(in) :: diagonal
-      !> Gets terms and weights, without turns
+      !> Gets terms and weights
       type(second_order), intent(inout) :: second
+      !> Keep the turns as they are, for a problem that is solved again with other pressures; without them otherwise
+      logical, intent(in), optional :: keeps_turns
       !> Row, element and place of each edge, in elements ahead of the first column; term relative to that of the kernel
       integer, allocatable :: at(:, :), first(:)
       real(wp), allocatable :: place(:), share(:)
       real(wp) :: slope, nx, ny, scale, mean
       integer :: ix, iy, k, n, last
+      logical :: keeps
 
+      keeps = .false.
+      if (present(keeps_turns)) keeps = keeps_turns
       n = count_edges(contact, direction)
       allocate(at(2, n), first(size(contact, 2) + 1), place(n), share(n))
       n = 0
@@ -110,7 +117,7 @@ contains
       end do
       first(size(contact, 2) + 1) = n + 1
 
-      call fit(second, size(contact, 1), size(contact, 2), n)
+      call fit(second, size(contact, 1), size(contact, 2), n, keeps)
       second%at = at
       do k = 1, n
          iy = at(2, k)
@@ -121,14 +128,18 @@ contains
          second%kappa(:, k) = scale*[1.0_wp - nu*nx**2, 1.0_wp - nu*ny**2, -nu*direction*nx*ny]
          mean = sum(second%kappa(1:2, k))/2
          second%stiff(k) = mean > stiff_share*diagonal
-         second%row(at(1, k), iy, 1) = diagonal/(diagonal + max(mean, 0.0_wp))
+         second%row(at(1, k), iy, :) = second%row(at(1, k), iy, :)*(diagonal/(diagonal + max(mean, 0.0_wp)))
       end do
    end subroutine find_edge_terms
 
-   !> Arrays for so many terms; weights of 1, no turns
-   subroutine fit(second, mx, my, n)
+   !> Arrays for so many terms; weights of 1, no turns, or those that are there already
+   subroutine fit(second, mx, my, n, keeps_turns)
       type(second_order), intent(inout) :: second
       integer, intent(in) :: mx, my, n
+      !> See find_edge_terms
+      logical, intent(in) :: keeps_turns
+      real(wp) :: length
+      integer :: ix, iy
 
       if (allocated(second%at)) then
          if (size(second%stiff) /= n) deallocate(second%at, second%kappa, second%stiff)
@@ -137,9 +148,19 @@ contains
       if (allocated(second%row)) then
          if (any(shape(second%row) /= [mx, my, 2])) deallocate(second%row)
       end if
+      second%keeps_turns = keeps_turns .and. allocated(second%row)
       if (.not. allocated(second%row)) allocate(second%row(mx, my, 2))
-      second%row(:, :, 1) = 1.0_wp
-      second%row(:, :, 2) = 0.0_wp
+      if (.not. second%keeps_turns) then
+         second%row(:, :, 1) = 1.0_wp
+         second%row(:, :, 2) = 0.0_wp
+         return
+      end if
+      do iy = 1, my
+         do ix = 1, mx
+            length = hypot(second%row(ix, iy, 1), second%row(ix, iy, 2))
+            second%row(ix, iy, :) = second%row(ix, iy, :)/length
+         end do
+      end do
    end subroutine fit
 
    !> Rows may have several stretches of contact, each with an edge

@@ -101,12 +101,13 @@ def judge(program, seed, count, kinds, limits, folder, options):
     return rows
 
 
-def judge_wheels(program, seed, count, folder):
+def judge_wheels(program, seed, count, folder, options):
     """The same for wheels on rails: forces in track coordinates and heights, and more of single patches."""
     source = random.Random(seed)
     wheels = [wheel(source) for _ in range(count)]
     profiles = Path(__file__).resolve().parents[2] / "examples" / "profiles"
-    grids = {f: run(program, folder, f"wheels{f}", [wheel_text(c, f, profiles) for c in wheels], f == 1) for f in (1, *FINER)}
+    grids = {f: run(program, folder, f"wheels{f}", [wheel_text(c, f, profiles) for c in wheels], f == 1, options)
+             for f in (1, *FINER)}
     rows = []
     for number, c in enumerate(wheels, 1):
         records = [grids[f].get(number, {}) for f in (1, *FINER)]
@@ -186,7 +187,8 @@ def main():
     parser.add_argument("--sizes", default="16,45", help="least and largest number of elements along each side")
     parser.add_argument("--check", action="store_true", help="36 contacts on small grids; fail where bounds are missed")
     parser.add_argument("--wheels", type=int, default=0, help="number of wheels on rails besides")
-    parser.add_argument("--order", type=lambda n: ("--order", n), default=(), help="order of the discretisation, 1 or 2")
+    parser.add_argument("--order", type=lambda n: ("--order", n), default=("--order", "1"),
+                        help="order of the discretisation, 1 or 2")
     parser.add_argument("--list", action="store_true", help="name the contacts whose estimates miss the bounds")
     asked = parser.parse_args()
     if asked.check:
@@ -197,7 +199,7 @@ def main():
         program = os.environ["CONTACT_PROGRAM"]
         rows = judge(program, asked.seed, asked.count, kinds, limits, Path(name), asked.order) if asked.count else []
         if asked.wheels:
-            rows += judge_wheels(program, asked.seed, asked.wheels, Path(name))
+            rows += judge_wheels(program, asked.seed, asked.wheels, Path(name), asked.order)
     by_total, by_kind = {}, {}
     for c, n, values in rows:
         if values is None:

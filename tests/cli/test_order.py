@@ -15,13 +15,24 @@ import unittest
 PROGRAM = os.environ["CONTACT_PROGRAM"]
 
 
-def rolling(motion=3, bound=0, force=0, friction=0, influence=2, material=0, solver=0, layer="", extra=""):
+#: Kinds that the second order is not made for: reason, and the choices that make them
+RELAXATION = "1 1 0 0.5 OMEGAH OMEGAS INISLP OMGSLP"
+OTHERS = (("shift", "order 2 is for steady rolling", {"motion": 1}),
+          ("transient", "order 2 is for steady rolling", {"motion": 2}),
+          ("bilinear", "bilinear tractions", {"influence": 3}),
+          ("formula", "pressures by formula", {"bound": 3}),
+          ("gauss", "order 2 is for the default solver", {"solver": 3, "extra": RELAXATION}),
+          ("layer", "elastic layer", {"material": 4, "layer": "1000 0.02 0 0 GG3 LAYTHK TAU_C0 K_TAU"}))
+
+
+def rolling(motion=3, bound=0, force=0, friction=0, influence=2, material=0, solver=0, layer="", extra="", eps="1e-6", maxout=1,
+            stiffer=1.0):
     """A case of an ellipse in an input file; fields that are blank are absent"""
     rows = ["3 MODULE", f"2{bound}{motion}1{force}0 PBTNFS", f"{friction}2{influence}{material}20 LDCMZE",
             f"0{solver}00111 HGIAOWR",
-            "999 100 30 1 1e-6 MAXGS MAXIN MAXNR MAXOUT EPS", extra,
+            f"999 100 30 {maxout} {eps} MAXGS MAXIN MAXNR MAXOUT EPS", extra,
             "30000 0.0005 0.0002 0.0003 FN CKSI CETA CPHI", "0.3 0.3 FSTAT FKIN",
-            "0 0.5 30000 CHI DQ VELOC" if motion > 1 else "", "0.28 0.28 82000 82000 POISS GG", layer,
+            "0 0.5 30000 CHI DQ VELOC" if motion > 1 else "", f"0.28 0.28 82000 {82000 * stiffer} POISS GG", layer,
             "-3 IPOTCN", "14 14 3 5 1.2 MX MY AA BB SCALE"]
     return "\n".join(row for row in rows if row) + "\n"
 
@@ -64,14 +75,7 @@ class Order(unittest.TestCase):
 
     def test_left_at_order_1(self):
         """What the second order is not made for is solved as before, and the report says why"""
-        relaxation = "1 1 0 0.5 OMEGAH OMEGAS INISLP OMGSLP"
-        layer = "1000 0.02 0 0 GG3 LAYTHK TAU_C0 K_TAU"
-        for name, reason, choice in (("shift", "order 2 is for steady rolling", {"motion": 1}),
-                                     ("transient", "order 2 is for steady rolling", {"motion": 2}),
-                                     ("bilinear", "bilinear tractions", {"influence": 3}),
-                                     ("formula", "pressures by formula", {"bound": 3}),
-                                     ("gauss", "order 2 is for the default solver", {"solver": 3, "extra": relaxation}),
-                                     ("layer", "elastic layer", {"material": 4, "layer": layer})):
+        for name, reason, choice in OTHERS:
             with self.subTest(name):
                 text = rolling(**choice)
                 options = ["--classical"] if name == "gauss" else []
@@ -103,6 +107,32 @@ class Order(unittest.TestCase):
         self.assertIn("order 2", self.run_program("explain", "c.toml"))
         said = self.run_program("convert", "c.toml")
         self.assertIn("--order 2", said)
+
+    def test_usual_order_of_the_readable_format(self):
+        """2 where nobody says anything and it is made for the case, otherwise 1 without an error; converted files say 1"""
+        for name, reason, choice in (("plain", "", {}), *OTHERS):
+            with self.subTest(name):
+                options = ["--classical"] if name == "gauss" else []
+                _, one = self.solve(name + ".inp", rolling(**choice), *options)
+                self.run_program("convert", name + ".inp")
+                text = (self.folder / (name + ".toml")).read_text()
+                self.assertEqual(text.count("order = 1 "), 1)
+                (self.folder / (name + ".inp")).unlink()
+                _, converted = self.solve(name + ".toml", "", *options)
+                self.assertEqual(one["totals"], converted["totals"])
+                self.assertNotIn("tangential_order", converted["solver"])
+                words, usual = self.solve("usual.toml", re.sub(r"order = 1 .*\n", "", text), *options)
+                self.assertTrue(words.endswith(f" of order 1 ({reason})" if reason else " of order 2"), words)
+                self.assertEqual(usual["totals"] == one["totals"], name != "plain")
+
+    def test_unlike_bodies_converge(self):
+        """Passes between pressures and tractions end at a small tolerance, and are as many as with the first order"""
+        passes = {}
+        for order in "1", "2":
+            _, found = self.solve("unlike.inp", rolling(stiffer=4.0, eps="1e-8", maxout=15), "--order", order)
+            self.assertLess(found["solver"]["coupled_residual"], 1e-8)
+            passes[order] = found["solver"]["outer_iterations"]
+        self.assertLessEqual(passes["2"], passes["1"] + 1)
 
     def test_refused(self):
         (self.folder / "a.inp").write_text(rolling() + " 0 MODULE\n")

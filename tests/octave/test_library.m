@@ -35,7 +35,7 @@ second = {'3 MODULE','203100','000000','0000231','999 100 30 1 1e-6','70000 0.1 
 f = fopen('curve.inp', 'w');
 fprintf(f, "%s\n", text{:}, second{:}, '0 MODULE');
 fclose(f);
-[status, output] = system(sprintf('"%s" --quiet 2 curve 2>&1', getenv('CONTACT_PROGRAM')));
+[status, output] = system(sprintf('"%s" --quiet --order 2 2 curve 2>&1', getenv('CONTACT_PROGRAM')));
 check(status==0, ['the program ran: ' output]);
 out = parse_out3('curve');
 check_near(70000*ratio([3 11],1)', out.force.fx_true, 5e-4*max(abs(out.force.fx_true)), 'forces of the traction curve');
@@ -181,7 +181,7 @@ second = {'1 MODULE','1203100','0111002','0001201','999 100 30 1 1e-5','0 6 1000
 f = fopen('bench.inp', 'w');
 fprintf(f, "%s\n", text{:}, second{:}, '0 MODULE');
 fclose(f);
-[status, output] = system(sprintf('"%s" --quiet 2 bench 2>&1', getenv('CONTACT_PROGRAM')));
+[status, output] = system(sprintf('"%s" --quiet --order 2 2 bench 2>&1', getenv('CONTACT_PROGRAM')));
 check(status==0, ['the program ran: ' output]);
 out = parse_out1('bench');
 check_near(forces([1 7],2)', out.tot_forc.fy_tr, 5e-4*max(abs(forces(:,2))), 'lateral forces');

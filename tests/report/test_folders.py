@@ -146,8 +146,10 @@ class Folders(unittest.TestCase):
                 self.assertEqual(json.loads(told)["name"], name)
                 self.assertEqual([os.path.isfile(os.path.join(self.folder, name + "." + f)) for f in ("inp", "toml")],
                                  [f == form for f in ("inp", "toml")])
-                run = subprocess.run([PROGRAM, "--json=-", "2", os.path.join(self.folder, name)], capture_output=True, text=True,
-                                     stdin=subprocess.DEVNULL, timeout=120)
+                # the readable format has the second order of steady rolling, the other one where it is asked for
+                order = ["--order", "2"] if form == "inp" else []
+                run = subprocess.run([PROGRAM, "--json=-", *order, "2", os.path.join(self.folder, name)], capture_output=True,
+                                     text=True, stdin=subprocess.DEVNULL, timeout=120)
                 cases = [json.loads(line) for line in run.stdout.splitlines()][:-1]
                 self.assertEqual([case["status"] for case in cases], ["solved"]*3)
                 totals[form] = [case["patches"][0]["totals"] for case in cases]

@@ -22,16 +22,20 @@ def test_t_gamma_of_full_sliding(sliding):
 
 
 def test_t_gamma_is_what_refinement_finds():
-    """In steady rolling nothing but friction takes energy: with half the elements half the gap to the power of the slip"""
-    gaps = []
-    for n in (21, 41):
-        base = rolling(n)
-        base["kinematics"].update(cksi=0.0005, ceta=0.0008, cphi=0.0002)
-        found = contact.Study(base).run(workers=1)
-        # all three terms have the same sign here
-        told = wear.t_gamma(found.fx, found.fy, 0.0005, 0.0008, found.mz, 0.0002)
-        gaps.append(float(told + 1e3 * found.friction_power / VELOC) / float(told))
-    assert 0.0 < gaps[1] < 0.15 and 0.4 < gaps[1] / gaps[0] < 0.65, gaps
+    """In steady rolling nothing but friction takes energy: with half the elements half the gap to the power of the slip,
+    and a quarter of it with the second order"""
+    gaps = {}
+    for order in (1, 2):
+        for n in (21, 41):
+            base = rolling(n)
+            base["iteration"] = {"order": order}
+            base["kinematics"].update(cksi=0.0005, ceta=0.0008, cphi=0.0002)
+            found = contact.Study(base).run(workers=1)
+            # all three terms have the same sign here
+            told = wear.t_gamma(found.fx, found.fy, 0.0005, 0.0008, found.mz, 0.0002)
+            gaps[order, n] = float(told + 1e3 * found.friction_power / VELOC) / float(told)
+    assert 0.0 < gaps[1, 41] < 0.15 and 0.4 < gaps[1, 41] / gaps[1, 21] < 0.65, gaps
+    assert 0.0 < gaps[2, 41] < 0.01 and gaps[2, 41] / gaps[2, 21] < 0.3, gaps
 
 
 def test_power_density_adds_up(sliding):
