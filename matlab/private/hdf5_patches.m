@@ -66,13 +66,16 @@ function [ s ] = patch_struct( c, p, ipatch, npatch )
    reference = [0 0];
    if (wheel_rail)
       s.config  = double(d.c1);
-      d_digit   = double(c.inputs.search.location);
+      d_digit   = 1 + find(strcmp(char(c.inputs.search.location), {'locus','locus_extended','conformal','grid','steep_grid'}));
       reference = [g.x_elem g.y_elem];
       s.meta    = pair_meta(c, p, ipatch, npatch, s.config);
       veloc     = g.veloc;
    else
-      s.meta    = plain_meta(c.inputs.rolling);
-      veloc     = c.inputs.rolling.veloc;
+      s.meta    = plain_meta(c.inputs.kinematics);
+      veloc     = 1;
+      if (rolling)
+         veloc  = g.veloc;
+      end
    end
    s.mater  = materials(c.inputs.material, double(d.m), p);
    s.fric   = friction(c.inputs.friction);
@@ -108,7 +111,7 @@ end % function patch_struct
 
 %------------------------------------------------------------------------------------------------------
 
-function [ meta ] = plain_meta( rolling )
+function [ meta ] = plain_meta( kinematics )
 % Positions of a contact problem of module 3
 
    names = {'tim','s_ws','th_ws','y_r','z_r','roll_r','rnom_rol','x_w','y_w','z_w','roll_w','yaw_w','rnom_whl', ...
@@ -116,8 +119,8 @@ function [ meta ] = plain_meta( rolling )
    for i = 1 : numel(names)
       meta.(names{i}) = 0;
    end
-   meta.spinxo = rolling.spinxo;
-   meta.spinyo = rolling.spinyo;
+   meta.spinxo = kinematics.spinxo;
+   meta.spinyo = kinematics.spinyo;
    meta.ynom_whl = 0;
    meta.format = 2410;
 
@@ -131,15 +134,15 @@ function [ meta ] = pair_meta( c, p, ipatch, npatch, config )
    t = p.totals;
    m = c.markers;
    roller = (config>=4);
-   meta = struct('tim',0, 's_ws',0, 'th_ws',c.inputs.wheelset.pitch, 'y_r',m.y_r, 'z_r',m.z_r, 'roll_r',m.roll_r, ...
+   meta = struct('tim',0, 's_ws',0, 'th_ws',c.inputs.position.pitch, 'y_r',m.y_r, 'z_r',m.z_r, 'roll_r',m.roll_r, ...
                  'rnom_rol',0, 'x_w',m.x_w, 'y_w',m.y_w, 'z_w',m.z_w, 'roll_w',m.roll_w, 'yaw_w',m.yaw_w, ...
-                 'rnom_whl',c.inputs.wheelset_dimensions.nomradw, 'xcp_r',t.xcp_tr, 'ycp_r',t.ycp_r, 'zcp_r',t.zcp_r, ...
+                 'rnom_whl',c.inputs.wheel_dimensions.nomradw, 'xcp_r',t.xcp_tr, 'ycp_r',t.ycp_r, 'zcp_r',t.zcp_r, ...
                  'deltcp_r',t.deltcp_r, 'xcp_w',t.xcp_w, 'ycp_w',t.ycp_w, 'zcp_w',t.zcp_w, 'npatch',npatch, ...
                  'ipatch',ipatch, 'spinxo',p.grid.x_elem, 'spinyo',p.grid.y_elem, 'ynom_whl',m.ynom_whl, 'format',2410);
    if (roller)
       meta.rnom_rol = c.inputs.track.nomradr;
    else
-      meta.s_ws = c.inputs.wheelset.s;
+      meta.s_ws = c.inputs.position.s_ws;
    end
 
 end % function pair_meta
@@ -169,7 +172,8 @@ end % function materials
 function [ fric ] = friction( f )
 % Friction law and the first set of parameters
 
-   law  = double(f.law);
+   names = {'coulomb','','linear','rational','exponential','','temperature'};
+   law  = find(strcmp(char(f.law), names)) - 1;
    fric = struct('frclaw',law);
    if (law==0)
       fric = chosen(f, {'fstat','fkin'}, fric);
@@ -179,9 +183,9 @@ function [ fric ] = friction( f )
       coef = {'flin','frat','fexp'};
       c = coef{law-1};
       fric.fkin = f.fkin(1);
-      fric.([c '1']) = f.coef1(1);
+      fric.([c '1']) = f.([c '1'])(1);
       fric.sabsh1    = f.sabsh1(1);
-      fric.([c '2']) = f.coef2(1);
+      fric.([c '2']) = f.([c '2'])(1);
       fric = chosen(f, {'sabsh2','memdst','mem_s0'}, fric);
    end
 

@@ -14,11 +14,13 @@ module contact_cases_archive
    implicit none (type, external)
    private
 
-   public :: archive_item, case_archive, item_kind, text_variable
+   public :: archive_item, case_archive, is_pair, item_kind, text_variable
 
    !> Most numbers on a line, and length of a number with its name
    integer, parameter :: max_items = 12
    integer, parameter, public :: shown_length = 64
+   !> Lengths of lists, which the lists tell in formats with names
+   character(len=6), parameter, public :: lengths(*) = [character(len=6) :: "NN", "NP", "NVF", "NX", "NY", "NZ", "PRFOPT"]
 
    type :: item_kind_list
       integer :: real = 1, angle = 2, integer = 3, text = 4
@@ -260,6 +262,21 @@ contains
       end do
       k = 0
    end function place_of
+
+   !> Do an item and the next one belong to the bodies 1 and 2? Then they are one list
+   pure logical function is_pair(items, k)
+      !> The line
+      type(archive_item), intent(in) :: items(:)
+      !> Place of the first item
+      integer, intent(in) :: k
+      integer :: n
+
+      is_pair = .false.
+      if (k >= size(items)) return
+      n = len_trim(items(k)%name)
+      if (items(k)%name(n:n) /= "1" .or. len_trim(items(k + 1)%name) /= n) return
+      is_pair = items(k + 1)%name == items(k)%name(:n - 1) // "2"
+   end function is_pair
 
    !> The line in hand is done
    pure subroutine finish_line(self)

@@ -256,7 +256,7 @@ contains
       where (form_table%name /= name) words = ""
    end function form_words
 
-   !> Key under which such a number stands in its group, blank for other numbers
+   !> Key under which such a number, or a list of groups of numbers, stands in its group; blank for others
    pure function form_key(name) result(key)
       !> As the manual has it, in capital letters
       character(len=*), intent(in) :: name
@@ -266,6 +266,8 @@ contains
       case ("IPOTCN", "IBASE"); key = "form"
       case ("IPLAN"); key = "planform"
       case ("ISUBS"); key = "points"
+      case ("Y,ALPHA"); key = "inclinations"
+      case ("XL,XH,YL,YH"); key = "rectangles"
       case default; key = ""
       end select
    end function form_key

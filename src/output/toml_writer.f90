@@ -5,7 +5,7 @@
 module contact_output_toml_writer
    use contact_base_constants, only : pi
    use contact_base_kinds, only : wp
-   use contact_cases_archive, only : archive_item, case_archive, item_kind
+   use contact_cases_archive, only : archive_item, case_archive, is_pair, item_kind, lengths
    use contact_control_digits, only : case_digits, digit_text, digit_value
    use contact_control_words, only : form_key, form_table, form_title, form_word, key_length, key_of_item, key_table, &
       & tell_in_words, usual_order, word_of_digit
@@ -21,8 +21,6 @@ module contact_output_toml_writer
    !> Column of remarks, and width of lines of long lists
    integer, parameter :: remark_column = 34, line_width = 100
    character(len=*), parameter :: line_feed = achar(10)
-   !> Lengths of lists, which the lists tell
-   character(len=6), parameter :: lengths(*) = [character(len=6) :: "NN", "NP", "NVF", "NX", "NY", "NZ", "PRFOPT"]
 
    !> Texts of values by "group.key"
    type :: remembered_texts
@@ -157,7 +155,7 @@ contains
          k = k + 1
          if (any(lengths == self%items(k)%name) .or. self%items(k)%name == "ISUBS") cycle
          call text_of_item(self%items(k), text)
-         if (is_pair(self, k)) then
+         if (is_pair(self%items(:self%count), k)) then
             call put_pair(self, k, text)
             k = k + 1
          else
@@ -182,19 +180,6 @@ contains
             & trim(form_word("ISUBS", self%items(1)%i)) // '"' // line_feed
       end if
    end subroutine begin_part
-
-   !> Do this item and the next one belong to the bodies 1 and 2?
-   pure logical function is_pair(self, k)
-      class(toml_writer), intent(in) :: self
-      integer, intent(in) :: k
-      integer :: n
-
-      is_pair = .false.
-      if (k >= self%count) return
-      n = len_trim(self%items(k)%name)
-      if (self%items(k)%name(n:n) /= "1" .or. len_trim(self%items(k + 1)%name) /= n) return
-      is_pair = self%items(k + 1)%name == self%items(k)%name(:n - 1) // "2"
-   end function is_pair
 
    !> key = [first, second]
    subroutine put_pair(self, k, first)
@@ -359,11 +344,10 @@ contains
       if (self%is_recording .or. n == 0) return
       associate (have_units => present(units), have_bounds => present(bounds))
          group = 1
-         key = trim(small(name))
+         key = trim(form_key(name))
+         if (key == "") key = small(name)
          if (name == "Y,ALPHA" .or. name == "EXRHS") group = 2
          if (name == "XL,XH,YL,YH") group = 4
-         if (name == "Y,ALPHA") key = "inclinations"
-         if (name == "XL,XH,YL,YH") key = "rectangles"
       end associate
       ! written into a text that is long enough, so that time grows with the length only
       allocate(character(len=n*27 + 64) :: text)

@@ -11,6 +11,7 @@ import subprocess
 import sys
 import tempfile
 import time
+import tomllib
 import unittest
 
 try:
@@ -22,6 +23,9 @@ except ImportError as reason:
 
 PROGRAM = os.environ["CONTACT_PROGRAM"]
 SOURCE = os.environ["CONTACT_SOURCE"]
+EXAMPLES = os.path.join(SOURCE, "examples")
+# Keys and groups that are not among the inputs of a case: they tell which problem it belongs to, or points below the surface
+ELSEWHERE = ("module", "result_element", "contact_patch", "stress_output", "stress_points")
 
 FIRST = """3
 203100
@@ -139,7 +143,7 @@ class Hdf5(unittest.TestCase):
             np.testing.assert_array_equal(patch["fields/pn"].dims[0][0], patch["grid/y"])
             np.testing.assert_array_equal(patch["fields/pn"].dims[1][0], patch["grid/x"])
             self.assertEqual(patch["totals/fx"].attrs["units"], b"N")
-            self.assertEqual("rolling" in file["case_0001/inputs"], name == "subsurface")
+            self.assertEqual("kinematics" in file["case_0001/inputs"], name == "subsurface")
             with open(os.path.join(SOURCE, "examples", name + ".inp"), "rb") as source:
                 text = source.read()
             origin = file["provenance"]
@@ -197,7 +201,7 @@ class Hdf5(unittest.TestCase):
                 if not name.startswith("case_"):
                     continue
                 case = file[name]
-                left = bool(case["inputs/search/left"][()])
+                left = case["inputs/choices/configuration"][()].startswith(b"left")
                 lefts, rights = lefts + left, rights + (not left)
                 total = case["totals/fx_tr"][()]
                 fields = case["patch_1/fields"]
@@ -247,6 +251,51 @@ class Hdf5(unittest.TestCase):
                 np.testing.assert_allclose(np.arctan2(np.diff(z), np.diff(y)), middle, atol=2e-3)
             self.assertGreater(found, 0)
 
+    def test_inputs_by_names_of_the_readable_format(self):
+        """What the first case of an example gives in its .toml is found under the same names, values of all sets in one list"""
+        compared = 0
+        shutil.copytree(os.path.join(EXAMPLES, "profiles"), self.path("profiles"))
+        for path in sorted(os.listdir(EXAMPLES)):
+            name, suffix = os.path.splitext(path)
+            if suffix != ".toml":
+                continue
+            with open(os.path.join(EXAMPLES, path), encoding="utf-8") as file:
+                first = "\n[[case]]".join(file.read().split("\n[[case]]")[:2])
+            with open(self.path(path), "w", encoding="utf-8") as file:
+                file.write(first)
+            given = tomllib.loads(first)["case"][0]
+            choices = {key: value for key, value in given.items() if not isinstance(value, (dict, list))}
+            groups = {"choices": choices} | {key: value for key, value in given.items() if isinstance(value, dict)}
+            self.run_program("--hdf5", "2", name)
+            with h5py.File(self.path(name + ".h5")) as file:
+                inputs = next(file[key]["inputs"] for key in file if "case_0001" in key)
+                for group, values in groups.items():
+                    for key, value in values.items():
+                        if key in ELSEWHERE or group in ELSEWHERE:
+                            continue
+                        with self.subTest(example=name, group=group, key=key):
+                            compared += self.same_input(inputs[group], key, value)
+        self.assertGreater(compared, 600)
+
+    def same_input(self, group, key, value):
+        """The value of a key, or the values of sets of friction; how many were compared"""
+        if key == "set":
+            names = {name for one in value for name in one}
+            return sum(self.same_input(group, name, [one.get(name) for one in value]) for name in names)
+        found = group[key][()]
+        if isinstance(found, bytes):
+            self.assertEqual(found.decode(), value)
+        elif isinstance(value, str):
+            number, unit = value.split()
+            self.assertIn(unit, ("deg", "deg/s"))
+            self.assertIn(group[key].attrs["units"], (b"rad", b"rad/s"))
+            self.assertAlmostEqual(found, np.deg2rad(float(number)), delta=1e-12)
+        elif isinstance(value, list) and isinstance(value[0], str):
+            np.testing.assert_allclose(found, np.deg2rad([float(one.split()[0]) for one in value]), rtol=1e-12)
+        else:
+            np.testing.assert_allclose(np.ravel(found), np.ravel(value), rtol=1e-14)
+        return 1
+
     def test_inputs_of_each_case(self):
         """Groups that two cases have in common are written once: each case still has the inputs it has in a file of its own"""
         texts = [FIRST.format(creep=-1e-5)]
@@ -278,7 +327,7 @@ class Hdf5(unittest.TestCase):
             alone = inputs("one.h5", 1)
             self.assertEqual(inputs("all.h5", k), alone, k)
             seen.append(alone)
-        self.assertEqual([k for k, other in enumerate(seen[1:-1], 1) if other == seen[0]], [6, 7], "windows stand with the patches")
+        self.assertNotIn(seen[0], seen[1:-1])
         self.assertEqual(seen[0], seen[-1])
 
     def test_case_without_result(self):

@@ -233,9 +233,9 @@ def _problem_of(head: dict[str, Any]) -> str:
 
 def _side_of(case: Any, module: int) -> str:
     """Which wheel of the wheelset a case of wheel and rail is about"""
-    if module != 1 or "inputs/search/left" not in case:
+    if module != 1 or "inputs/choices/configuration" not in case:
         return ""
-    return "left" if case["inputs/search/left"][()] else "right"
+    return "left" if _plain(case["inputs/choices/configuration"][()]).startswith("left") else "right"
 
 
 def _case_name(head: dict[str, Any]) -> str:
