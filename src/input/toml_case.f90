@@ -35,7 +35,7 @@ module contact_input_toml_case
    character(len=8), parameter :: renewable(3) = [character(len=8) :: "grid", "geometry", "material"]
    !> Keys of a case that are no choices
    character(len=14), parameter :: plain_keys(*) = [character(len=14) :: "module", "result_element", "contact_patch", "title", &
-      & "solve", "gap_weight", "renew"]
+      & "solve", "errors", "gap_weight", "renew"]
 
 contains
 
@@ -89,6 +89,7 @@ contains
          digits = words%digits
          call take_heat_source(a, spec)
          call take_order(a, has_previous, spec)
+         call take_errors(a, spec)
          if (spec%motion == motion%none .and. .not. has_previous) a%lenient_group = "friction"
          call visit_case(a, spec)
          if (a%is_good) then
@@ -441,6 +442,23 @@ contains
          end if
       end associate
    end subroutine take_order
+
+   !> Are errors of the totals estimated? Kept from case to case
+   subroutine take_errors(a, spec)
+      type(toml_reader), intent(inout) :: a
+      type(case_spec), intent(inout) :: spec
+      integer :: node
+
+      node = a%document%child(a%case_node, "errors")
+      if (node == 0) return
+      associate (value => a%document%nodes(node))
+         if (value%kind == toml_kind%logical) then
+            spec%estimates_errors = value%l
+         else
+            call a%add_problem(severity%error, node, "errors must be true or false")
+         end if
+      end associate
+   end subroutine take_errors
 
    !> How temperatures are computed: with moving sources, unless a case asks for those of the established program
    subroutine take_heat_source(a, spec)

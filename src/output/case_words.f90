@@ -49,6 +49,7 @@ contains
          call say("Friction: " // trim(digit("L", spec%friction_law)) // "; " // trim(digit("V", spec%variation)))
          call say("Solver: " // trim(digit("G", spec%solver)) // merge("; order 2", "         ", spec%iteration%order == 2))
       end if
+      if (spec%estimates_errors) call say("Errors of the totals are estimated.")
       call say("Material: " // trim(digit("M", spec%material_model)))
       if (.not. is_simplified(spec%material_model)) call say("Elasticity: " // trim(digit("C", spec%kernel)))
       if (module_number == 1) then

@@ -175,6 +175,8 @@ contains
          end associate
       end do
       if (.not. spec%solve) a%case_text = a%case_text // "solve = false" // line_feed
+      if (is_first .and. .not. spec%estimates_errors) call a%memory%keep(".errors", "false")
+      call a%put_choice("errors", trim(merge("true ", "false", spec%estimates_errors)), "")
       if (module_number == 1) then
          if (is_first .and. spec%wheel_rail%search%gap_weight == 0) call a%memory%keep(".gap_weight", "0")
          call a%put_choice("gap_weight", integer_text(spec%wheel_rail%search%gap_weight), "")

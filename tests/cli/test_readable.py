@@ -3,6 +3,7 @@
 
 The environment tells CONTACT_PROGRAM and CONTACT_SOURCE.
 """
+import json
 import os
 import pathlib
 import re
@@ -85,6 +86,20 @@ class Readable(unittest.TestCase):
         self.assertEqual(self.run_program("2", "a", "--quiet", "--json", "--confine")[0], 0)
         forces = re.findall(r'"fn":{"value":([0-9.]+)', (self.folder / "a.jsonl").read_text())
         self.assertEqual({round(float(force)) for force in forces}, {1000})
+
+    def test_errors_of_some_cases(self):
+        """errors = true holds from its case on, as --errors does for all; conversion keeps it as far as it can"""
+        case = "[[case]]\n{}[case.kinematics]\ncksi = 0.002\n"
+        text = HEAD + REST + case.format("errors = true\n") + case.format("") + case.format("errors = false\n")
+        self.assertEqual(self.check(text)[0], 0)
+        self.assertEqual(self.run_program("2", "a", "--quiet", "--json")[0], 0)
+        records = [json.loads(line) for line in (self.folder / "a.jsonl").read_text().splitlines()]
+        groups = [record["patches"][0].get("errors") for record in records if record.get("patches")]
+        self.assertEqual([group is not None for group in groups], [False, True, True, False])
+        self.assertGreater(groups[1]["fx_error"]["value"], 0.0)
+        self.assertIn("Errors of the totals are estimated.", self.run_program("explain", "a.toml")[1])
+        self.assertIn("needs --errors", "".join(self.run_program("convert", "a.toml")[1:]))
+        self.assertIn("errors must be true or false", self.complaints(HEAD + REST + case.format("errors = 1\n")))
 
     def test_places_and_nearest_words(self):
         errors = self.complaints(HEAD.replace("shift", "shfit") + REST)

@@ -10,5 +10,5 @@ void fuzz_begin(void) {}
 void fuzz_text(const char *text, size_t length)
 {
   fuzz_write("fuzz.inp", text, length);
-  run_experiment(CONTACT_CHECK);
+  run_experiment(CONTACT_CHECK, 0);
 }

@@ -31,5 +31,5 @@ void fuzz_text(const char *text, size_t length)
   file++;
   fuzz_write("fuzz.txt", file, length - (size_t)(file - text));
   fuzz_write("fuzz.inp", cases[choice], strlen(cases[choice]));
-  run_experiment(CONTACT_RUN);
+  run_experiment(CONTACT_RUN, 0);
 }

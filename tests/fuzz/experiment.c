@@ -17,14 +17,14 @@ static int names_a_place(const char *message)
   return colon && memchr(message, '.', (size_t)(colon - message)) && (isdigit((unsigned char)colon[1]) || colon[1] == ' ');
 }
 
-int run_experiment(int mode)
+int run_experiment(int mode, int extra)
 {
   static char message[4000];
   int status;
   message[0] = '\0';
   /* half a second, 200 MB and 2500 elements a case */
-  status = contact_run_limited("fuzz", mode, NULL, 1, mode == CONTACT_RUN ? CONTACT_WRITE_JSON : 0, 0, 0.5, 200.0, 2500.0,
-    message, sizeof message);
+  status = contact_run_limited("fuzz", mode, NULL, 1, (mode == CONTACT_RUN ? CONTACT_WRITE_JSON : 0) + extra, 0, 0.5, 200.0,
+    2500.0, message, sizeof message);
   fuzz_tell("status %d: %s", status, message);
   if (status == 1) fuzz_fail("the call is refused: %s", message);
   if (status != 0) fuzz_judge_message(message, "the run fails");

@@ -3,7 +3,7 @@
 #define EXPERIMENT_H
 
 /* Read fuzz.inp or fuzz.toml with a mode of contact.h, under limits that keep a case within milliseconds, and judge message and
- * report. Returns the status of the call. */
-int run_experiment(int mode);
+ * report. extra is 0, or choices of contact_run_with. Returns the status of the call. */
+int run_experiment(int mode, int extra);
 
 #endif
