@@ -2,7 +2,7 @@
 # Fuzzing by the branches taken: sh tests/fuzz/run.sh [--minutes N] [--target NAME]... [--sanitize] [--minimise]
 #
 #   --minutes N   of all targets together, 60 unless given
-#   --target      one of check run readable profile coefficients calls resume; all of them unless given
+#   --target      one of check run readable profile coefficients calls batch resume; all of them unless given
 #   --sanitize    with the sanitizers (preset fuzz), a tenth of the speed; else with checks of bounds (preset fuzz-fast)
 #   --minimise    no fuzzing; keep the smallest set of texts that takes the same branches
 #
@@ -27,7 +27,7 @@ while [ $# -gt 0 ]; do
   esac
   shift
 done
-[ -n "$targets" ] || targets="check run readable profile coefficients calls resume"
+[ -n "$targets" ] || targets="check run readable profile coefficients calls batch resume"
 case $minutes in '' | *[!0-9]*) fail "--minutes takes a whole number" ;; esac
 
 install_missing
