@@ -172,6 +172,56 @@ int contact_batch_field(contact_batch *batch, int patch, const char *name, int *
                         int length);
 int contact_batch_field_values(contact_batch *batch, int patch, const char *name, int room, double *values);
 
+/* Creep forces from a table: steady rolling of an elliptic contact, or of two half ellipses, in less than a microsecond.
+ *
+ * `contact table FILE` makes a table (doc/user/tables.md). Forces are once continuously differentiable and never above mu * fn.
+ * Any number of threads may look into the same table at the same time. A look-up asks for no memory and opens no file. */
+typedef struct contact_table contact_table;
+
+/* A contact. Units are free but consistent: N, mm, N/mm2 and 1/mm, or N, m, N/m2 and 1/m */
+typedef struct {
+  double fn, mu, gg;     /* normal force, coefficient of friction, modulus of rigidity */
+  double aa, bneg, bpos; /* semi-axis along x, the rolling direction; extents towards negative and positive y from the widest row,
+                            equal in an ellipse. y of the creepages and of the moment is 0 in the middle of both ends */
+} contact_table_patch;
+
+/* What contact_table_force answers with */
+enum {
+  CONTACT_TABLE_INSIDE = 0,  /* forces of the table */
+  CONTACT_TABLE_OUTSIDE = 1, /* the table has no such shape or spin: forces for those at its border */
+  CONTACT_TABLE_WRONG = 2    /* no table, something is no number, or a length is not positive: no forces */
+};
+
+/* What a table is */
+typedef struct {
+  int has_offset;        /* 1: of two half ellipses, 0: of ellipses */
+  int elements, order;   /* elements a side of the results it is made of, and the order of their discretisation */
+  double poisson;        /* Poisson ratio of the bodies */
+  double ratio[2];       /* smallest and largest a/b, b = (bneg + bpos)/2 */
+  double offset;         /* largest |bpos - bneg|/(bpos + bneg) */
+  double spin;           /* largest gg*a*b*c*KP*|phi|/(mu*fn), c = sqrt(a*b), KP of doc/theory/tables.md; infinite: all */
+  double asked;          /* error that was asked for, relative to mu * fn */
+  double error[2];       /* largest error found: of the forces relative to mu * fn, of the moment to mu * fn * sqrt(a * b) */
+  double points;         /* random points at which it was looked for, of which the table was not made */
+  double grid_error[2];  /* largest difference of these results to those with three times as many elements a side */
+  double bytes;          /* memory that the table takes */
+} contact_table_facts;
+
+/* Read a table. NULL when it cannot be used; message (NULL if not wanted) receives "" or the reason, cut to message_length */
+contact_table *contact_table_open(const char *file, char *message, int message_length);
+void contact_table_close(contact_table *table);
+/* Returns 0, or 1 without a table */
+int contact_table_about(const contact_table *table, contact_table_facts *facts);
+
+/* Forces on body 1 for creepages xi, eta and spin phi, with the signs of basic contact: Fx, Fy and the moment Mz; derivatives[i][j] of
+ * force i by creepage j. contact_table_forces does many contacts: creepages and forces [count][3], derivatives [count][3][3] and the
+ * answers [count], the last two NULL where not wanted; it returns the worst answer. */
+int contact_table_force(const contact_table *table, const contact_table_patch *patch, const double creepage[3], double force[3]);
+int contact_table_force_derivatives(const contact_table *table, const contact_table_patch *patch, const double creepage[3],
+                                    double force[3], double derivatives[3][3]);
+int contact_table_forces(const contact_table *table, int count, const contact_table_patch *patches, const double *creepages,
+                         double *forces, double *derivatives, int *answers);
+
 #ifdef __cplusplus
 }
 #endif

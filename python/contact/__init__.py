@@ -10,7 +10,7 @@ from ._signatures import VERSION as __version__
 from .errors import ContactError, ContactWarning, NotConvergedWarning
 
 if TYPE_CHECKING:
-    from . import cntc, study, wear
+    from . import cntc, study, table, wear
     from ._element import Patch, Stresses, output_to
     from ._experiment import convert, explain, read
     from ._load import Case, Experiment, StoredPatch, load
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Case", "ContactError", "ContactWarning", "Experiment", "Forces", "NotConvergedWarning", "Patch", "Problem", "Result",
            "StoredPatch", "Stresses", "Study", "WheelRail", "WheelRailPatch", "WheelRailResult", "Wrench", "cntc", "convert",
-           "explain", "load", "output_to", "read", "study", "wear"]
+           "explain", "load", "output_to", "read", "study", "table", "wear"]
 
 _HOMES = {"Patch": "_element", "Stresses": "_element", "output_to": "_element", "Problem": "problem",
           "Result": "problem", "WheelRail": "wheel_rail", "WheelRailPatch": "wheel_rail",
@@ -34,6 +34,6 @@ def __getattr__(name: str) -> Any:
     import importlib
     if name in _HOMES:
         return getattr(importlib.import_module(f".{_HOMES[name]}", __name__), name)
-    if name in ("cntc", "study", "wear"):
+    if name in ("cntc", "study", "table", "wear"):
         return importlib.import_module(f".{name}", __name__)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

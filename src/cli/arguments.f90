@@ -345,7 +345,7 @@ contains
       asked%mode = to_number(word)
       if (is_mode(asked%mode)) return
       call fatal_error(error, "the first argument, '" // word // "', is not a mode; the modes are 1, 2 and 3, and there are " // &
-         & "the commands convert, explain, report and study")
+         & "the commands convert, explain, report, study and table")
    end subroutine take_mode
 
    !> Is there such a mode?
@@ -422,6 +422,7 @@ contains
          & "       contact explain EXPNAM", &
          & "       contact report EXPNAM | --serve [FOLDER]", &
          & "       contact study STUDY.toml [--explain] [--workers N] [--scheduler ADDRESS]", &
+         & "       contact table FILE [--tolerance E] [--ratio LOW HIGH] [--about]", &
          & "", &
          & "Rolling and sliding contact with friction.", &
          & "", &
@@ -434,6 +435,7 @@ contains
          & "convert writes an experiment in the other format; explain tells its cases in words", &
          & "report  makes one HTML page of the results of --hdf5, or serves a folder to a browser on this machine", &
          & "study   computes many cases from one description, on this machine or many; contact study --help", &
+         & "table   makes a table of creep forces, for look-ups of less than a microsecond; contact table --help", &
          & "", &
          & "Options", &
          & "  --output-dir DIR  write the results to this folder instead of that of the input", &

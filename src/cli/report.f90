@@ -1,4 +1,4 @@
-!> contact report and contact study: finds Python and the package that does it, and hands the rest of the command line to it
+!> contact report, study and table: finds Python and the package that does it, and hands the rest of the command line to it
 module contact_cli_report
    use, intrinsic :: iso_c_binding, only : c_char, c_null_char, c_size_t
    use, intrinsic :: iso_fortran_env, only : error_unit
@@ -13,7 +13,7 @@ module contact_cli_report
    character(len=*), parameter :: variable = "CONTACT_PYTHON"
    character(len=*), parameter :: package_file = "/contact/__init__.py"
    !> Commands that Python does, by the part of the package with their name
-   character(len=8), parameter :: commands(2) = [character(len=8) :: "report", "study"]
+   character(len=8), parameter :: commands(3) = [character(len=8) :: "report", "study", "table"]
    !> From the folder of the program: installed, and in the build folder of a checkout
    character(len=*), parameter :: usual_places(3) = [character(len=26) :: "/../share/contact/python", "/../../../python", &
       & "/../../python"]
@@ -56,7 +56,7 @@ contains
       is_report = any(word == commands)
    end function is_report
 
-   !> Do what `contact report ...` or `contact study ...` asks for: Python takes the place of this program, so that whoever ends it
+   !> Do what `contact report ...` and others ask for: Python takes the place of this program, so that whoever ends it
    !> ends the page server.
    !> Returns an exit status only when there is no Python
    integer function run_report() result(status)

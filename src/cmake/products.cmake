@@ -77,7 +77,8 @@ endif()
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/python/contact ${PROJECT_SOURCE_DIR}/python/python_intfc DESTINATION ${CMAKE_INSTALL_DATADIR}/contact/python
   FILES_MATCHING PATTERN "*.py" PATTERN "*.html" PATTERN "*.js" PATTERN "__pycache__" EXCLUDE)
 
-set(headers contact.h contact_addon.h caddon_flags.h caddon_flags.inc contact_addon.ifc contact_addon.f90)
+set(headers contact.h contact_addon.h caddon_flags.h caddon_flags.inc contact_addon.ifc contact_addon.f90
+  contact_table.f90)
 list(TRANSFORM headers PREPEND ${PROJECT_SOURCE_DIR}/include/)
 install(FILES ${headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(TARGETS contact EXPORT contact LIBRARY ARCHIVE)

@@ -21,7 +21,7 @@ _contact() {
       ;;
     *)
       if [ "$COMP_CWORD" -eq 1 ]; then
-        mapfile -t COMPREPLY < <(compgen -W "2 3 convert explain report study" -- "$word")
+        mapfile -t COMPREPLY < <(compgen -W "2 3 convert explain report study table" -- "$word")
       else
         mapfile -t COMPREPLY < <(compgen -f -X '!*.@(inp|toml)' -- "$word")
         mapfile -t -O "${#COMPREPLY[@]}" COMPREPLY < <(compgen -d -- "$word")

@@ -11,7 +11,7 @@ import sys
 
 #: The rooms that are looked at
 ROOMS = ("fft", "numeric", "grid", "elastic", "normal", "friction", "temperature", "subsurface", "tangential", "simplified",
-         "profile", "patch", "wheelrail")
+         "tables", "profile", "patch", "wheelrail")
 NUMBER = re.compile(r"(?<![\w.])(\d+\.\d*(?:[eE][-+]?\d+)?|\d+[eE][-+]?\d+)_wp")
 #: What formulas and units have
 ALLOWED = {0.125, 0.25, 0.5, 0.75, 1.5, 180.0, 1000.0}

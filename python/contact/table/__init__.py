@@ -1,0 +1,17 @@
+"""Creep forces from tables: a microsecond in place of a solution; see doc/user/tables.md."""
+from typing import TYPE_CHECKING, Any
+
+from ._look_up import Facts, Table
+
+if TYPE_CHECKING:
+    from ._build import Plan, build
+
+__all__ = ["Facts", "Plan", "Table", "build"]
+
+
+def __getattr__(name: str) -> Any:
+    """Import on demand: who looks up needs no scipy"""
+    if name in ("Plan", "build"):
+        from . import _build
+        return getattr(_build, name)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -1,0 +1,66 @@
+"""The file of a table of creep forces; its layout is in doc/theory/tables.md, its reader src/tables/table_file.f90."""
+from __future__ import annotations
+
+import hashlib
+import struct
+from pathlib import Path
+
+import numpy as np
+
+from ._look_up import Facts, Numbers
+
+#: First bytes of a file, and bytes before the knots
+_MAGIC, _HEAD = b"CONTACT table 1\n", 128
+#: Signs of Fx, Fy, Mz at the mirror image of x, and of y, z and all signs; the offset turns over with both
+_X_SIGNS, _Z_SIGNS = np.array([-1.0, 1.0, 1.0]), np.array([1.0, -1.0, -1.0])
+
+
+def write(path: Path, nodes: list[Numbers], values: Numbers, facts: Facts) -> None:
+    """Write a table.
+
+    Parameters
+    ----------
+    path
+        Its path.
+    nodes
+        Along log(a/b), offset, x, y, z; x and z from 0 on, offset and y symmetric. One offset: ellipses.
+    values
+        Forces and moment at the nodes, relative to mu Fn and mu Fn sqrt(a b), shape (shape, offset, x, y, z, 3).
+    facts
+        What is told about it.
+    """
+    # a mirror image that is the node itself has the same values, to the last bit
+    values = values.copy()
+    values[:, :, 0] = 0.5 * (values[:, :, 0] + _X_SIGNS * values[:, ::-1, 0])
+    values[..., 0, :] = 0.5 * (values[..., 0, :] + _Z_SIGNS * values[:, ::-1, :, ::-1, 0, :])
+    whole = np.concatenate([(values * _X_SIGNS)[:, ::-1, :0:-1], values], axis=2)
+    whole = np.concatenate([(whole * _Z_SIGNS)[:, ::-1, :, ::-1, :0:-1], whole], axis=4)
+    axes = [nodes[0], nodes[1], np.concatenate([-nodes[2][:0:-1], nodes[2]]), nodes[3],
+            np.concatenate([-nodes[4][:0:-1], nodes[4]])]
+    knots: list[Numbers] = []
+    for number, places in enumerate(axes):
+        if len(places) == 1:
+            knots.append(np.zeros(0))
+            continue
+        made, whole = _spline(places, whole, number)
+        if number in (2, 4):
+            # the half that is not its mirror image
+            first = int(np.argmin(np.abs(made))) - 3
+            made = made[first:]
+            whole = np.take(whole, range(first, whole.shape[number]), axis=number)
+        knots.append(made)
+    body = b"".join(part.astype("<f8").tobytes() for part in knots) + whole.astype("<f4").tobytes()
+    size = _HEAD + len(body) + 64
+    head = _MAGIC + struct.pack("<8i", 2 if facts.has_offset else 1, *whole.shape[:5], facts.elements, facts.order)
+    # forces near the bound are led to it within the tolerance
+    head += struct.pack("<q9d", size, facts.poisson, facts.asked, *facts.error, facts.points, min(0.5, facts.asked),
+                        *facts.grid_error, 0.0)
+    content = head + body
+    path.write_bytes(content + hashlib.sha256(content).hexdigest().encode())
+
+
+def _spline(places: Numbers, values: Numbers, axis: int) -> tuple[Numbers, Numbers]:
+    """Knots and coefficients of the cubic spline through values along an axis"""
+    from scipy.interpolate import make_interp_spline
+    made = make_interp_spline(places, values, k=3, axis=axis)
+    return np.asarray(made.t), np.moveaxis(made.c, 0, axis)

@@ -1,0 +1,205 @@
+"""Look-up in a table of creep forces: include/contact.h, contact_table_*."""
+from __future__ import annotations
+
+import ctypes
+import os
+from dataclasses import dataclass
+from types import TracebackType
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .._library import library
+from ..errors import ContactError
+
+Numbers = NDArray[np.float64]
+
+#: Outside of the shapes of the table, of contact_table_forces
+_OUTSIDE, _WRONG = 1, 2
+
+
+class _Facts(ctypes.Structure):
+    """contact_table_facts"""
+    _fields_ = [("has_offset", ctypes.c_int), ("elements", ctypes.c_int), ("order", ctypes.c_int), ("poisson", ctypes.c_double),
+                ("ratio", 2 * ctypes.c_double), ("offset", ctypes.c_double), ("spin", ctypes.c_double), ("asked", ctypes.c_double),
+                ("error", 2 * ctypes.c_double), ("points", ctypes.c_double), ("grid_error", 2 * ctypes.c_double),
+                ("bytes", ctypes.c_double)]
+
+
+@dataclass(frozen=True)
+class Facts:
+    """What a table is.
+
+    Attributes
+    ----------
+    has_offset
+        Of two half ellipses, and not of ellipses?
+    elements, order
+        Elements a side of the results that it is made of, and the order of their discretisation.
+    poisson
+        Poisson ratio of the bodies [-].
+    ratio
+        Smallest and largest a/b [-].
+    offset
+        Largest ``abs(bpos - bneg) / (bpos + bneg)`` [-].
+    spin
+        Largest spin, as ``G a b c KP abs(phi) / (mu Fn)`` with ``c = sqrt(a b)`` and KP of about Kalker's C23 [-]; infinite: all.
+    asked
+        Error that was asked for, relative to mu Fn [-].
+    error
+        Largest errors that were found: of the forces relative to mu Fn, of the moment relative to mu Fn sqrt(a b) [-].
+    points
+        Random points at which errors were looked for; the table was not made of them.
+    grid_error
+        Largest differences of results with this many elements to those with three times as many a side, as `error`.
+    bytes
+        Memory that the table takes.
+    """
+
+    has_offset: bool
+    elements: int
+    order: int
+    poisson: float
+    ratio: tuple[float, float]
+    offset: float
+    spin: float
+    asked: float
+    error: tuple[float, float]
+    points: int
+    grid_error: tuple[float, float]
+    bytes: int
+
+    def __str__(self) -> str:
+        kind = f"two half ellipses, offset up to {self.offset:.3g}" if self.has_offset else "ellipses"
+        spin = "all spins" if np.isinf(self.spin) else f"spins up to {self.spin:.3g} mu Fn/(G a b c KP)"
+        return (f"{kind}, a/b from {self.ratio[0]:.3g} to {self.ratio[1]:.3g}, {spin}, Poisson ratio {self.poisson:.3g}\n"
+                f"largest error at {self.points} random points: forces {100 * self.error[0]:.3g} % of mu Fn, "
+                f"moment {100 * self.error[1]:.3g} % of mu Fn sqrt(a b); asked for {100 * self.asked:.3g} %\n"
+                f"made of results with {self.elements} x {self.elements} elements of order {self.order}; against three times "
+                f"as many: {100 * self.grid_error[0]:.3g} and {100 * self.grid_error[1]:.3g} %\n"
+                f"{self.bytes / 1e6:.3g} MB of memory")
+
+
+def _prototypes() -> ctypes.CDLL:
+    """The library with the types of arguments"""
+    loaded = library()
+    if not hasattr(loaded, "contact_table_open"):
+        raise ContactError("The library is older than tables; build it anew, or set CONTACT_LIBRARY to a newer one")
+    loaded.contact_table_open.argtypes = [ctypes.c_char_p, ctypes.c_char_p, ctypes.c_int]
+    loaded.contact_table_open.restype = ctypes.c_void_p
+    loaded.contact_table_close.argtypes = [ctypes.c_void_p]
+    loaded.contact_table_close.restype = None
+    loaded.contact_table_about.argtypes = [ctypes.c_void_p, ctypes.POINTER(_Facts)]
+    loaded.contact_table_forces.argtypes = [ctypes.c_void_p, ctypes.c_int, *5 * [ctypes.c_void_p]]
+    return loaded
+
+
+class Table:
+    """A table of creep forces, made by ``contact table`` or :func:`build`. Several threads may use it at the same time.
+
+    Parameters
+    ----------
+    file
+        Its path.
+
+    Raises
+    ------
+    ContactError
+        If it cannot be used; the text tells why.
+
+    Examples
+    --------
+    >>> with contact.table.Table("steel.table") as table:
+    ...     force = table.force(fn=70e3, mu=0.3, gg=82e3, aa=6.0, bb=5.0, cksi=0.001)
+    """
+
+    def __init__(self, file: str | os.PathLike[str]) -> None:
+        self._library = _prototypes()
+        message = ctypes.create_string_buffer(1000)
+        self._handle: Any = self._library.contact_table_open(os.fsencode(file), message, len(message))
+        if not self._handle:
+            raise ContactError(message.value.decode("utf-8", errors="replace"))
+
+    def close(self) -> None:
+        """Free its memory."""
+        handle, self._handle = self._handle, None
+        if handle:
+            self._library.contact_table_close(handle)
+
+    def __enter__(self) -> Table:
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None) -> None:
+        self.close()
+
+    def __del__(self) -> None:
+        if getattr(self, "_handle", None):
+            self.close()
+
+    @property
+    def facts(self) -> Facts:
+        """What the table is."""
+        told = _Facts()
+        if self._library.contact_table_about(self._handle, ctypes.byref(told)) != 0:
+            raise ContactError("the table is closed")
+        return Facts(bool(told.has_offset), told.elements, told.order, told.poisson, (told.ratio[0], told.ratio[1]), told.offset,
+                     told.spin, told.asked, (told.error[0], told.error[1]), int(told.points),
+                     (told.grid_error[0], told.grid_error[1]), int(told.bytes))
+
+    def force(self, fn: ArrayLike, mu: ArrayLike, gg: ArrayLike, aa: ArrayLike, bb: ArrayLike, cksi: ArrayLike = 0.0,
+              ceta: ArrayLike = 0.0, cphi: ArrayLike = 0.0, offset: ArrayLike = 0.0, *, outside: bool = False) -> Numbers:
+        """Creep forces on body 1, with the signs of results of basic contact.
+
+        Parameters
+        ----------
+        fn, mu, gg
+            Normal force [N], coefficient of friction [-], modulus of rigidity [N/mm2].
+        aa, bb
+            Semi-axes along and across the rolling direction [mm]; bb the mean of both extents of half ellipses.
+        cksi, ceta, cphi
+            Creepages [-] and spin [rad/mm].
+        offset
+            Of half ellipses: ``(bpos - bneg) / (bpos + bneg)`` [-].
+        outside
+            Take the shape and the spin at the border of the table for those that it has not?
+
+        Returns
+        -------
+        Fx, Fy [N] and Mz [N mm] in the last dimension; those before are of the arguments, which fit each other.
+
+        Raises
+        ------
+        ContactError
+            If the table has no such shape or spin, or a value is no number or no length.
+        """
+        return self._ask((fn, mu, gg, aa, bb, cksi, ceta, cphi, offset), outside, False)[0]
+
+    def derivatives(self, fn: ArrayLike, mu: ArrayLike, gg: ArrayLike, aa: ArrayLike, bb: ArrayLike, cksi: ArrayLike = 0.0,
+                    ceta: ArrayLike = 0.0, cphi: ArrayLike = 0.0, offset: ArrayLike = 0.0, *,
+                    outside: bool = False) -> tuple[Numbers, Numbers]:
+        """Forces as :meth:`force`, and their derivatives: of Fx, Fy, Mz (last but one dimension) by cksi, ceta, cphi (last)."""
+        return self._ask((fn, mu, gg, aa, bb, cksi, ceta, cphi, offset), outside, True)
+
+    def _ask(self, given: tuple[ArrayLike, ...], outside: bool, slopes: bool) -> tuple[Numbers, Numbers]:
+        """Look up many at once"""
+        if not self._handle:
+            raise ContactError("the table is closed")
+        fn, mu, gg, aa, bb, cksi, ceta, cphi, offset = np.broadcast_arrays(*(np.asarray(value, dtype=float) for value in given))
+        shape = fn.shape
+        patches = np.ascontiguousarray(np.stack([fn, mu, gg, aa, bb * (1.0 - offset), bb * (1.0 + offset)], axis=-1))
+        creepages = np.ascontiguousarray(np.stack([cksi, ceta, cphi], axis=-1))
+        forces = np.empty((*shape, 3))
+        derivatives = np.empty((*shape, 3, 3) if slopes else 0)
+        answers = np.empty(shape, dtype=np.intc)
+        worst = self._library.contact_table_forces(self._handle, fn.size, patches.ctypes.data, creepages.ctypes.data,
+                                                   forces.ctypes.data, derivatives.ctypes.data if slopes else None,
+                                                   answers.ctypes.data)
+        if worst == _WRONG:
+            raise ContactError("a value is no number, or a length or the modulus of rigidity is not positive")
+        if worst == _OUTSIDE and not outside:
+            facts = self.facts
+            raise ContactError(f"the table has no such contact: it has a/b from {facts.ratio[0]:.3g} to {facts.ratio[1]:.3g}"
+                               + (f" and offsets up to {facts.offset:.3g}" if facts.has_offset else " and no offset")
+                               + ("" if np.isinf(facts.spin) else f", and spins up to {facts.spin:.3g} mu Fn/(G a b c KP)"))
+        return forces, derivatives

@@ -1,0 +1,196 @@
+!> The C interface: creep forces from tables; see include/contact.h
+module contact_capi_table
+   use, intrinsic :: ieee_arithmetic, only : ieee_positive_inf, ieee_value
+   use, intrinsic :: iso_c_binding, only : c_associated, c_double, c_f_pointer, c_int, c_loc, c_null_ptr, c_ptr
+   use contact_base_error, only : error_type
+   use contact_base_guard, only : do_guarded, end_text, free_left_blocks, guard_end, new_owner
+   use contact_capi_arguments, only : give_message, take_text
+   use contact_tables_creep_table, only : answer, creep_table, find_creep_force, most_spin
+   use contact_tables_table_file, only : read_table
+   implicit none (type, external)
+   private
+
+   public :: contact_table_open, contact_table_close, contact_table_about, contact_table_force, &
+      & contact_table_force_derivatives, contact_table_forces
+
+   !> A contact, contact_table_patch of the header
+   type, bind(c) :: patch_type
+      real(c_double) :: fn, mu, gg, aa, bneg, bpos
+   end type patch_type
+
+   !> What a table is, contact_table_facts of the header
+   type, bind(c) :: facts_type
+      integer(c_int) :: has_offset, elements, order
+      real(c_double) :: poisson, ratio(2), offset, spin, asked, error(2), points, grid_error(2), bytes
+   end type facts_type
+
+   !> A call as guarded work sees it
+   type :: request_type
+      type(c_ptr) :: file = c_null_ptr
+      type(creep_table), pointer :: table => null()
+      type(error_type), allocatable :: error
+   end type request_type
+
+contains
+
+   !> Read a table, null when it cannot be used
+   function contact_table_open(file, message, length) result(handle) bind(c, name="contact_table_open")
+      !> Its path, null-terminated
+      type(c_ptr), value :: file
+      !> Buffer of the reason of a failure, null if not wanted
+      type(c_ptr), value :: message
+      !> Size of the buffer
+      integer(c_int), value :: length
+      type(c_ptr) :: handle
+      type(request_type), target :: request
+      integer :: cause, owner
+
+      handle = c_null_ptr
+      call give_message("", message, length)
+      request%file = file
+      owner = new_owner()
+      call do_guarded(read_inside, c_loc(request), owner, cause)
+      if (cause /= guard_end%done) then
+         call free_left_blocks(owner)
+         call give_message(trim(end_text(cause)) // " for the table", message, length)
+      else if (allocated(request%error)) then
+         call give_message(request%error%message, message, length)
+      else
+         handle = c_loc(request%table)
+      end if
+   end function contact_table_open
+
+   !> Read it
+   subroutine read_inside(data) bind(c)
+      !> A request_type
+      type(c_ptr), value :: data
+      type(request_type), pointer :: request
+      character(len=:), allocatable :: file
+
+      call c_f_pointer(data, request)
+      call take_text(request%file, file)
+      allocate(request%table)
+      call read_table(file, request%table, request%error)
+      if (allocated(request%error)) deallocate(request%table)
+   end subroutine read_inside
+
+   !> Free a table; nothing for null
+   subroutine contact_table_close(handle) bind(c, name="contact_table_close")
+      !> From contact_table_open
+      type(c_ptr), value :: handle
+      type(creep_table), pointer :: table
+
+      if (.not. c_associated(handle)) return
+      call c_f_pointer(handle, table)
+      deallocate(table)
+   end subroutine contact_table_close
+
+   !> What a table is
+   function contact_table_about(handle, facts) result(status) bind(c, name="contact_table_about")
+      !> From contact_table_open
+      type(c_ptr), value :: handle
+      !> Receives it
+      type(facts_type), intent(out) :: facts
+      !> 0, or 1 without a table
+      integer(c_int) :: status
+      type(creep_table), pointer :: table
+
+      status = 1_c_int
+      if (.not. c_associated(handle)) return
+      call c_f_pointer(handle, table)
+      facts%has_offset = merge(1_c_int, 0_c_int, table%has_offset)
+      facts%elements = int(table%elements, c_int)
+      facts%order = int(table%discretisation, c_int)
+      facts%poisson = table%nu
+      facts%ratio = exp([table%shape%low, table%shape%high])
+      facts%offset = table%offset%high
+      facts%spin = most_spin(table)
+      if (facts%spin >= huge(facts%spin)) facts%spin = ieee_value(facts%spin, ieee_positive_inf)
+      facts%asked = table%asked
+      facts%error = [table%error_force, table%error_moment]
+      facts%points = table%checked
+      facts%grid_error = [table%grid_force, table%grid_moment]
+      facts%bytes = real(storage_size(table%coefficients)/8*size(table%coefficients, kind=8), c_double)
+      status = 0_c_int
+   end function contact_table_about
+
+   !> Forces of a contact
+   function contact_table_force(handle, patch, creepage, force) result(status) bind(c, name="contact_table_force")
+      !> From contact_table_open
+      type(c_ptr), value :: handle
+      !> The contact
+      type(patch_type), intent(in) :: patch
+      !> Longitudinal, lateral [-], spin [rad per length]
+      real(c_double), intent(in) :: creepage(3)
+      !> Fx, Fy, Mz
+      real(c_double), intent(out) :: force(3)
+      !> CONTACT_TABLE_INSIDE, _OUTSIDE, _WRONG
+      integer(c_int) :: status
+      real(c_double) :: derivatives(3, 3)
+
+      status = contact_table_force_derivatives(handle, patch, creepage, force, derivatives)
+   end function contact_table_force
+
+   !> Forces of a contact and their derivatives by the creepages
+   function contact_table_force_derivatives(handle, patch, creepage, force, derivatives) result(status) &
+      & bind(c, name="contact_table_force_derivatives")
+      !> From contact_table_open
+      type(c_ptr), value :: handle
+      !> The contact
+      type(patch_type), intent(in) :: patch
+      !> Longitudinal, lateral [-], spin [rad per length]
+      real(c_double), intent(in) :: creepage(3)
+      !> Fx, Fy, Mz
+      real(c_double), intent(out) :: force(3)
+      !> Of each force (second index) by each creepage
+      real(c_double), intent(out) :: derivatives(3, 3)
+      !> CONTACT_TABLE_INSIDE, _OUTSIDE, _WRONG
+      integer(c_int) :: status
+      type(creep_table), pointer :: table
+      real(c_double) :: slopes(3, 3)
+      integer :: found
+
+      force = 0.0_c_double
+      derivatives = 0.0_c_double
+      status = int(answer%wrong, c_int)
+      if (.not. c_associated(handle)) return
+      call c_f_pointer(handle, table)
+      call find_creep_force(table, patch%fn, patch%mu, patch%gg, patch%aa, patch%bneg, patch%bpos, creepage, force, slopes, found)
+      derivatives = transpose(slopes)
+      status = int(found, c_int)
+   end function contact_table_force_derivatives
+
+   !> Forces of many contacts
+   function contact_table_forces(handle, count, patches, creepages, forces, derivatives, answers) result(worst) &
+      & bind(c, name="contact_table_forces")
+      !> From contact_table_open
+      type(c_ptr), value :: handle
+      !> How many they are
+      integer(c_int), value :: count
+      !> The contacts
+      type(patch_type), intent(in) :: patches(*)
+      !> Of each contact, shape (3, count)
+      real(c_double), intent(in) :: creepages(3, *)
+      !> Fx, Fy, Mz of each, shape (3, count)
+      real(c_double), intent(inout) :: forces(3, *)
+      !> Of each force by each creepage, shape (3, 3, count), and what each look-up ended with; null where not wanted
+      type(c_ptr), value :: derivatives, answers
+      !> The largest of CONTACT_TABLE_INSIDE, _OUTSIDE, _WRONG
+      integer(c_int) :: worst
+      real(c_double), pointer :: slopes(:, :, :)
+      integer(c_int), pointer :: endings(:)
+      real(c_double) :: one(3, 3)
+      integer(c_int) :: ended
+      integer :: k
+
+      worst = int(answer%inside, c_int)
+      if (c_associated(derivatives)) call c_f_pointer(derivatives, slopes, [3, 3, int(count)])
+      if (c_associated(answers)) call c_f_pointer(answers, endings, [int(count)])
+      do k = 1, count
+         ended = contact_table_force_derivatives(handle, patches(k), creepages(:, k), forces(:, k), one)
+         if (c_associated(derivatives)) slopes(:, :, k) = one
+         if (c_associated(answers)) endings(k) = ended
+         worst = max(worst, ended)
+      end do
+   end function contact_table_forces
+end module contact_capi_table

@@ -1,0 +1,111 @@
+!> One axis of a table: cubic B-splines over knots that need not be equidistant, as polynomials that are ready to be evaluated
+module contact_tables_axis
+   use contact_base_kinds, only : wp
+   use contact_numeric_b_spline, only : basis_values
+   implicit none (type, external)
+   private
+
+   public :: spline_axis, make_axis, find_basis
+
+   !> Basis functions that are not zero in an interval
+   integer, parameter, public :: order = 4
+   !> Buckets for each interval, through which the interval of an argument is found; chosen, one or two steps are left
+   integer, parameter :: buckets_per_interval = 4
+
+   !> An axis. With one coefficient nothing varies along it
+   type :: spline_axis
+      !> Coefficients along the axis
+      integer :: count = 1
+      !> Range of the argument
+      real(wp) :: low = 0.0_wp, high = 0.0_wp
+      !> Buckets for each unit of the argument, and the interval in which each of them begins
+      real(wp), private :: buckets_per_unit = 0.0_wp
+      integer, allocatable, private :: bucket(:)
+      !> Where intervals begin; the last value is where the last one ends
+      real(wp), allocatable, private :: start(:)
+      !> Basis functions of each interval by powers of the distance from its beginning, shape (functions, powers, intervals)
+      real(wp), allocatable, private :: powers(:, :, :)
+   end type spline_axis
+
+contains
+
+   !> Prepare an axis; `is_good` is false when knots are no numbers that increase
+   subroutine make_axis(axis, count, knots, is_good)
+      !> Gets range, intervals and their polynomials
+      type(spline_axis), intent(inout) :: axis
+      !> Coefficients along the axis; 1, or at least 4
+      integer, intent(in) :: count
+      !> Knots, 4 more than coefficients; not looked at for one coefficient
+      real(wp), intent(in) :: knots(:)
+      !> Can the axis be used?
+      logical, intent(out) :: is_good
+      real(wp), dimension(order) :: bend, bend_at_end, value, slope
+      real(wp) :: width
+      integer :: intervals, j, k
+
+      axis%count = count
+      is_good = count == 1
+      if (is_good .or. count < order .or. size(knots) /= count + order) return
+      intervals = count - order + 1
+      axis%start = knots(order:count + 1)
+      is_good = all(knots(2:) >= knots(:size(knots) - 1)) .and. all(axis%start(2:) > axis%start(:intervals))
+      is_good = is_good .and. maxval(abs(knots)) < huge(width)
+      if (.not. is_good) return
+      axis%low = axis%start(1)
+      axis%high = axis%start(intervals + 1)
+      allocate(axis%powers(order, order, intervals))
+      do j = 1, intervals
+         width = axis%start(j + 1) - axis%start(j)
+         call basis_values(knots, j + order - 1, axis%start(j + 1), value, slope, bend_at_end)
+         call basis_values(knots, j + order - 1, axis%start(j), value, slope, bend)
+         axis%powers(:, 1, j) = value
+         axis%powers(:, 2, j) = slope
+         axis%powers(:, 3, j) = 0.5_wp*bend
+         axis%powers(:, 4, j) = (bend_at_end - bend)/(6.0_wp*width)
+      end do
+      allocate(axis%bucket(buckets_per_interval*intervals))
+      axis%buckets_per_unit = size(axis%bucket)/(axis%high - axis%low)
+      j = 1
+      do k = 1, size(axis%bucket)
+         do while (axis%start(j + 1) <= axis%low + (k - 1)/axis%buckets_per_unit .and. j < intervals)
+            j = j + 1
+         end do
+         axis%bucket(k) = j
+      end do
+   end subroutine make_axis
+
+   !> Basis functions at a place and their slopes, zero but for the first one where the axis has a single coefficient
+   pure subroutine find_basis(axis, place, first, value, slope)
+      !> From make_axis
+      type(spline_axis), intent(in) :: axis
+      !> Argument; beyond the ends of the axis its ends
+      real(wp), intent(in) :: place
+      !> Coefficient that belongs to the first function
+      integer, intent(out) :: first
+      !> Functions and their slopes
+      real(wp), intent(out) :: value(order), slope(order)
+      real(wp) :: at, d
+      integer :: k
+
+      if (axis%count == 1) then
+         first = 1
+         value = 0.0_wp
+         value(1) = 1.0_wp
+         slope = 0.0_wp
+         return
+      end if
+      at = min(max(place, axis%low), axis%high)
+      k = min(int((at - axis%low)*axis%buckets_per_unit) + 1, size(axis%bucket))
+      first = axis%bucket(k)
+      do while (at >= axis%start(first + 1) .and. first < size(axis%start) - 1)
+         first = first + 1
+      end do
+      ! rounding of the place of a bucket
+      if (at < axis%start(first) .and. first > 1) first = first - 1
+      d = at - axis%start(first)
+      associate (p => axis%powers(:, :, first))
+         value = p(:, 1) + d*(p(:, 2) + d*(p(:, 3) + d*p(:, 4)))
+         slope = p(:, 2) + d*(2.0_wp*p(:, 3) + 3.0_wp*d*p(:, 4))
+      end associate
+   end subroutine find_basis
+end module contact_tables_axis

@@ -1,0 +1,274 @@
+!> Creep forces from a table: cubic splines over shape and creepages, once continuously differentiable and never above mu Fn
+!>
+!> Half-spaces of one material with a Hertzian pressure have forces that depend on few numbers (Kalker 1967; 1996). With
+!> semi-axes a along rolling and b across, g = a/b, c = sqrt(a b), q = G a b/(mu Fn),
+!>
+!>     Fx, Fy, Mz/c = mu Fn f(u, g),   u = q (KX xi, KY eta, c KP phi),
+!>
+!> where KX, KY, KP are about C11/3, C22/3, C23 of Kalker's linear theory: u1 of 1 is where the creep curve of Vermeulen and
+!> Johnson, 1 - (1 - u1)**3, ends. All creepages up to infinite ones fit into
+!>
+!>     x = u1/(r + s),  y = u2/(r + s),  z = u3/(1 + |u3|),   r = (u1**4 + u2**4)**(1/4),  s = sqrt(1 + u3**2):
+!>
+!> in which that curve begins without a quadratic term. r without end is sliding without spin, z = 1 spin without end, where
+!> sliding depends on u1/u3 and u2/u3, which x and y keep. Strips of a contact leave adhesion at u3 of about 1 (Kalker's strip
+!> theory), where forces bend sharply: near a plane of constant z.
+!>
+!> f is a spline for u1 >= 0 and u3 >= 0. The rest follows from two symmetries: all creepages and forces change sign together;
+!> and the mirror image y -> -y turns over eta, phi, Fy, Mz and the offset of half ellipses.
+module contact_tables_creep_table
+   use, intrinsic :: iso_fortran_env, only : real32
+   use contact_base_kinds, only : wp
+   use contact_tables_axis, only : find_basis, order, spline_axis
+   implicit none (type, external)
+   private
+
+   public :: creep_table, find_creep_force, most_spin, scaled_creepages
+
+   !> Values for each node: Fx, Fy, Mz and an unused one, which lets nodes lie at multiples of 16 bytes
+   integer, parameter, public :: values_per_node = 4
+   !> Values of one stretch of nodes along z
+   integer, parameter :: stretch = values_per_node*order
+   !> Scaled creepages beyond this are as good as infinite, and their fourth powers are numbers [-]
+   real(wp), parameter :: endless = 1.0e15_wp
+   !> A shape that is this little beyond the border of a table is on it: rounding of ratios [-]
+   real(wp), parameter :: edge = 1.0e-9_wp
+   !> KX, KY and KP by powers of g: Kalker's C11/3, C22/3 and C23 for a Poisson ratio of 1/4 to some per cent for 0.1 <= g <= 10.
+   !> They are scales only, and part of the format of files
+   real(wp), parameter :: scale_x(3) = [1.0964_wp, 0.325_wp, -0.004_wp], scale_y(3) = [0.8005_wp, 0.4393_wp, -0.0067_wp], &
+      & scale_spin(4) = [0.4147_wp, 1.0184_wp, 0.0565_wp, -0.0013_wp]
+
+   !> What a look-up ends with
+   type :: answer_list
+      !> Within the table; beyond its shapes, where those at its border act; numbers without meaning, no forces
+      integer :: inside = 0, outside = 1, wrong = 2
+   end type answer_list
+   !> Members of answer_list
+   type(answer_list), parameter, public :: answer = answer_list()
+
+   !> A table
+   type :: creep_table
+      !> Of two half ellipses, and not of ellipses?
+      logical :: has_offset = .false.
+      !> Poisson ratio of the bodies [-]
+      real(wp) :: nu = 0.0_wp
+      !> Forces up to 1 - band are as in the spline, those above are led to 1, in units of mu Fn [-]
+      real(wp) :: band = 0.0_wp
+      !> Largest errors that were asked for, and found at points that the table was not made of: of the forces relative to mu Fn,
+      !> of the moment to mu Fn c [-]; the number of these points
+      real(wp) :: asked = 0.0_wp, error_force = 0.0_wp, error_moment = 0.0_wp, checked = 0.0_wp
+      !> Largest difference to results with three times as many elements a side, forces and moment [-]
+      real(wp) :: grid_force = 0.0_wp, grid_moment = 0.0_wp
+      !> Elements a side, and the order of their discretisation
+      integer :: elements = 0, discretisation = 0
+      !> log(g), offset (bpos - bneg)/(bpos + bneg), x, y, z
+      type(spline_axis) :: shape, offset, x, y, z
+      !> Coefficients: values of a node first, then along z, y, x, offset, shape
+      real(real32), allocatable :: coefficients(:)
+   end type creep_table
+
+contains
+
+   !> Forces on body 1 in steady rolling towards positive x
+   pure subroutine find_creep_force(table, fn, mu, gg, aa, bneg, bpos, creep, force, slopes, status)
+      !> Splines over all axes, from read_table
+      type(creep_table), intent(in) :: table
+      !> Normal force [N], coefficient of friction [-], modulus of rigidity [N/mm2]; without force or friction there is nothing
+      real(wp), intent(in) :: fn, mu, gg
+      !> Semi-axis along x, extents towards negative and positive y from the widest row [mm]
+      real(wp), intent(in) :: aa, bneg, bpos
+      !> Longitudinal and lateral creepage [-], spin [rad/mm]
+      real(wp), intent(in) :: creep(3)
+      !> Fx, Fy [N], Mz [N mm]
+      real(wp), intent(out) :: force(3)
+      !> Derivatives of each force (first index) by each creepage
+      real(wp), intent(out) :: slopes(3, 3)
+      !> Member of answer
+      integer, intent(out) :: status
+      real(wp) :: bb, c, offset, factor(3), u(3), f(3), df(3, 3), unit(3), sizes(4), sign_x, sign_s
+      logical :: is_beyond
+      integer :: j
+
+      force = 0.0_wp
+      slopes = 0.0_wp
+      status = answer%wrong
+      sizes = [gg, aa, bneg, bpos]
+      if (.not. (all(abs([fn, mu, creep]) <= huge(fn)) .and. all(sizes > 0.0_wp .and. sizes <= huge(fn)))) return
+      status = answer%inside
+      if (fn <= 0.0_wp .or. mu <= 0.0_wp) return
+      bb = 0.5_wp*(bneg + bpos)
+      c = sqrt(aa*bb)
+      offset = (bpos - bneg)/(bpos + bneg)
+      factor = scaled_creepages(aa/bb)*(gg*aa*bb/(mu*fn))
+      factor(3) = factor(3)*c
+      u = min(max(factor*creep, -endless), endless)
+      ! into the part that the table has
+      sign_x = sign(1.0_wp, u(1))
+      sign_s = sign(1.0_wp, u(3))
+      u = u*[sign_x, sign_s, sign_s]
+      ! a table up to some spin: beyond it forces do not change with spin
+      is_beyond = u(3) > most_spin(table)
+      if (is_beyond) u(3) = most_spin(table)
+      call evaluate(table, log(aa/bb), sign_x*sign_s*offset, u, f, df, status)
+      if (is_beyond) then
+         status = answer%outside
+         df(:, 3) = 0.0_wp
+      end if
+      call keep_below_friction(table%band, f, df)
+      unit = mu*fn*[sign_x, sign_s, sign_s*c]
+      force = unit*f
+      factor = factor*[sign_x, sign_s, sign_s]
+      do j = 1, 3
+         slopes(:, j) = unit*df(:, j)*factor(j)
+      end do
+   end subroutine find_creep_force
+
+   !> Largest scaled spin of a table [-], huge where it has all
+   pure real(wp) function most_spin(table)
+      !> Splines over all axes, from read_table
+      type(creep_table), intent(in) :: table
+
+      most_spin = huge(most_spin)
+      if (table%z%high < 1.0_wp) most_spin = table%z%high/(1.0_wp - table%z%high)
+   end function most_spin
+
+   !> KX, KY and KP for a ratio of the semi-axes [-]
+   pure function scaled_creepages(g) result(scales)
+      !> a/b [-]
+      real(wp), intent(in) :: g
+      real(wp) :: scales(3), inside
+      real(wp), parameter :: narrowest = 0.05_wp, widest = 20.0_wp
+
+      ! where the polynomials are what they stand for
+      inside = min(max(g, narrowest), widest)
+      scales(1) = scale_x(1) + inside*(scale_x(2) + inside*scale_x(3))
+      scales(2) = scale_y(1) + inside*(scale_y(2) + inside*scale_y(3))
+      scales(3) = scale_spin(1) + inside*(scale_spin(2) + inside*(scale_spin(3) + inside*scale_spin(4)))
+   end function scaled_creepages
+
+   !> The spline and its derivatives by the scaled creepages
+   pure subroutine evaluate(table, shape, offset, u, f, df, status)
+      type(creep_table), intent(in) :: table
+      !> log(g), offset, scaled creepages of which the first and third are not negative
+      real(wp), intent(in) :: shape, offset, u(3)
+      !> Values, and derivatives of each value (first index) by each scaled creepage
+      real(wp), intent(out) :: f(3), df(3, 3)
+      integer, intent(inout) :: status
+      real(wp) :: r, r1, r2, s, whole, largest, place(3), inner(3, 3)
+      real(wp), dimension(values_per_node) :: value, by_x, by_y, by_z
+      real(wp), dimension(order, 5) :: basis, slope
+      integer :: first(5)
+
+      if (shape < table%shape%low - edge .or. shape > table%shape%high + edge) status = answer%outside
+      if (abs(offset) > table%offset%high + edge) status = answer%outside
+      largest = max(u(1), abs(u(2)))
+      r = 0.0_wp
+      r1 = 0.0_wp
+      r2 = 0.0_wp
+      if (largest > 0.0_wp) then
+         r = sqrt(sqrt((u(1)/largest)**4 + (u(2)/largest)**4))
+         r1 = (u(1)/largest/r)**3
+         r2 = (u(2)/largest/r)**3
+         r = r*largest
+      end if
+      s = sqrt(1.0_wp + u(3)**2)
+      whole = r + s
+      place = [u(1)/whole, u(2)/whole, u(3)/(1.0_wp + u(3))]
+      ! derivatives of the place (first index) by u
+      inner = reshape([(1.0_wp - place(1)*r1)/whole, -place(2)*r1/whole, 0.0_wp, -place(1)*r2/whole, &
+         & (1.0_wp - place(2)*r2)/whole, 0.0_wp, -place(1)*(u(3)/s)/whole, -place(2)*(u(3)/s)/whole, &
+         & 1.0_wp/(1.0_wp + u(3))**2], [3, 3])
+      call find_basis(table%shape, shape, first(1), basis(:, 1), slope(:, 1))
+      call find_basis(table%offset, offset, first(2), basis(:, 2), slope(:, 2))
+      call find_basis(table%x, place(1), first(3), basis(:, 3), slope(:, 3))
+      call find_basis(table%y, place(2), first(4), basis(:, 4), slope(:, 4))
+      call find_basis(table%z, place(3), first(5), basis(:, 5), slope(:, 5))
+      call contract(table, first, basis, slope, value, by_x, by_y, by_z)
+      f = value(:3)
+      df = matmul(reshape([by_x(:3), by_y(:3), by_z(:3)], [3, 3]), inner)
+   end subroutine evaluate
+
+   !> Sums over the nodes around a place: shape and offset first, whose derivatives are not wanted
+   pure subroutine contract(table, first, basis, slope, value, by_x, by_y, by_z)
+      type(creep_table), intent(in) :: table
+      !> First coefficient along shape, offset, x, y, z
+      integer, intent(in) :: first(5)
+      !> Basis functions and slopes along these
+      real(wp), intent(in) :: basis(order, 5), slope(order, 5)
+      !> Of all values: the spline and its derivatives by x, y, z
+      real(wp), dimension(values_per_node), intent(out) :: value, by_x, by_y, by_z
+      real(wp) :: near(stretch, order, order), weight
+      real(wp), dimension(values_per_node) :: a, b, along_y, along_z
+      integer :: i, j, k, l, m, n, start, row, plane, block
+
+      row = values_per_node*table%z%count
+      plane = row*table%y%count
+      block = plane*table%x%count
+      near = 0.0_wp
+      do l = 1, min(order, table%shape%count)
+         do m = 1, min(order, table%offset%count)
+            weight = basis(l, 1)*basis(m, 2)
+            start = ((first(1) + l - 2)*table%offset%count + first(2) + m - 2)*block + (first(3) - 1)*plane &
+               & + (first(4) - 1)*row + (first(5) - 1)*values_per_node
+            do i = 1, order
+               do j = 1, order
+                  n = start + (i - 1)*plane + (j - 1)*row
+                  do k = 1, stretch
+                     near(k, j, i) = near(k, j, i) + weight*table%coefficients(n + k)
+                  end do
+               end do
+            end do
+         end do
+      end do
+      value = 0.0_wp
+      by_x = 0.0_wp
+      by_y = 0.0_wp
+      by_z = 0.0_wp
+      do i = 1, order
+         a = 0.0_wp
+         along_y = 0.0_wp
+         along_z = 0.0_wp
+         do j = 1, order
+            b = 0.0_wp
+            do k = 1, order
+               n = values_per_node*(k - 1)
+               b = b + basis(k, 5)*near(n + 1:n + values_per_node, j, i)
+               along_z = along_z + (basis(j, 4)*slope(k, 5))*near(n + 1:n + values_per_node, j, i)
+            end do
+            a = a + basis(j, 4)*b
+            along_y = along_y + slope(j, 4)*b
+         end do
+         value = value + basis(i, 3)*a
+         by_x = by_x + slope(i, 3)*a
+         by_y = by_y + basis(i, 3)*along_y
+         by_z = by_z + basis(i, 3)*along_z
+      end do
+   end subroutine contract
+
+   !> Lead forces above 1 - band to 1, with a continuous slope
+   pure subroutine keep_below_friction(band, f, df)
+      real(wp), intent(in) :: band
+      real(wp), intent(inout) :: f(3), df(3, 3)
+      real(wp) :: size_, ratio, change, grows(3)
+      integer :: j
+
+      size_ = norm2(f(:2))
+      if (size_ <= 1.0_wp - band) return
+      if (size_ < 1.0_wp + band) then
+         ratio = (size_ - (size_ - 1.0_wp + band)**2/(4.0_wp*band))/size_
+         ! derivative of the ratio by the size
+         change = ((1.0_wp - (size_ - 1.0_wp + band)/(2.0_wp*band)) - ratio)/size_
+      else
+         ratio = 1.0_wp/size_
+         change = -ratio/size_
+      end if
+      grows = (f(1)*df(1, :) + f(2)*df(2, :))/size_
+      do j = 1, 3
+         df(:2, j) = ratio*df(:2, j) + f(:2)*(change*grows(j))
+      end do
+      f(:2) = ratio*f(:2)
+      ! rounding
+      size_ = norm2(f(:2))
+      if (size_ > 1.0_wp) f(:2) = f(:2)*((1.0_wp - epsilon(size_))/size_)
+   end subroutine keep_below_friction
+end module contact_tables_creep_table

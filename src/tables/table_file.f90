@@ -1,0 +1,152 @@
+!> The file of a table of creep forces; its layout is in doc/theory/tables.md
+module contact_tables_table_file
+   use, intrinsic :: iso_c_binding, only : c_int
+   use, intrinsic :: iso_fortran_env, only : int32, int64, real32, real64
+   use contact_base_error, only : error_kind, error_type, fatal_error
+   use contact_base_kinds, only : long, wp
+   use contact_base_system, only : close_descriptor, open_input, read_input
+   use contact_tables_axis, only : make_axis, order, spline_axis
+   use contact_tables_creep_table, only : creep_table, values_per_node
+   use contact_text_sha256, only : sha256
+   use contact_text_words, only : integer_text
+   implicit none (type, external)
+   private
+
+   public :: read_table
+
+   !> First bytes of a file, and how its end is made
+   character(len=*), parameter :: magic = "CONTACT table 1" // new_line("a")
+   integer, parameter :: digits = 64
+   !> Bytes before the knots; whole numbers and real ones in them
+   integer, parameter :: head_bytes = 128, wholes = 8, reals = 9
+   !> Values of a node in a file, bytes of numbers
+   integer, parameter :: stored = 3, real_bytes = 8, short_bytes = 4
+   !> Longest file [bytes], most coefficients along an axis: what 32-bit numbers of coefficients allow
+   integer(long), parameter :: longest = 2000000000_long
+   integer, parameter :: most_along = 10000
+
+contains
+
+   !> Read a table
+   subroutine read_table(file, table, error)
+      !> Its path
+      character(len=*), intent(in) :: file
+      !> Splines over all axes, as the file has them
+      type(creep_table), intent(out) :: table
+      type(error_type), allocatable, intent(out) :: error
+      character(len=:), allocatable :: text, reason
+      integer(c_int) :: descriptor
+      integer(long) :: length, done
+
+      call open_input(file, descriptor, length, reason)
+      if (allocated(reason)) then
+         call fatal_error(error, "the table " // file // " cannot be opened: " // reason, kind=error_kind%file)
+         return
+      end if
+      if (length > longest) then
+         reason = "it is longer than 2 GB"
+      else
+         allocate(character(len=length) :: text)
+         call read_input(descriptor, text, done, reason)
+         if (.not. allocated(reason) .and. done < length) reason = "it ended while it was read"
+      end if
+      call close_descriptor(descriptor)
+      if (.not. allocated(reason)) call take_table(text, table, reason)
+      if (allocated(reason)) call fatal_error(error, "the table " // file // " cannot be used: " // reason, kind=error_kind%file)
+   end subroutine read_table
+
+   !> Take the bytes of a file
+   subroutine take_table(text, table, reason)
+      character(len=*), intent(in) :: text
+      type(creep_table), intent(inout) :: table
+      !> What is wrong; unallocated when nothing is
+      character(len=:), allocatable, intent(out) :: reason
+      integer(int32) :: whole(wholes)
+      integer(int64) :: length
+      real(real64) :: number(reals)
+      integer(long) :: place
+      logical :: is_good(5)
+
+      if (len(text) < head_bytes + digits) then
+         reason = "it is too short to be a table"
+      else if (text(:len(magic)) /= magic) then
+         reason = "it does not begin as a table of this version, 'CONTACT table 1'"
+      else
+         length = transfer(text(49:56), length)
+         if (length /= len(text)) then
+            reason = "it is damaged: it has " // integer_text(len(text)) // " bytes and not as many as it says"
+         else if (sha256(text(:len(text) - digits)) /= text(len(text) - digits + 1:)) then
+            reason = "it is damaged: its checksum is not that of its content"
+         end if
+      end if
+      if (allocated(reason)) return
+      whole = transfer(text(17:48), whole)
+      number = transfer(text(57:head_bytes), number)
+      table%has_offset = whole(1) == 2
+      table%elements = whole(7)
+      table%discretisation = whole(8)
+      table%nu = number(1)
+      table%asked = number(2)
+      table%error_force = number(3)
+      table%error_moment = number(4)
+      table%checked = number(5)
+      table%band = number(6)
+      table%grid_force = number(7)
+      table%grid_moment = number(8)
+      reason = "its content has no meaning; it was made by something else"
+      if (any(whole(2:6) < 1 .or. whole(2:6) > most_along)) return
+      if (.not. all(abs(number) <= huge(number)) .or. table%band <= 0.0_wp .or. table%band >= 1.0_wp) return
+      place = head_bytes
+      call take_axis(text, place, whole(2), table%shape, is_good(1))
+      call take_axis(text, place, whole(3), table%offset, is_good(2))
+      call take_axis(text, place, whole(4), table%x, is_good(3))
+      call take_axis(text, place, whole(5), table%y, is_good(4))
+      call take_axis(text, place, whole(6), table%z, is_good(5))
+      if (.not. all(is_good) .or. any(whole(4:6) < order)) return
+      length = stored*product(int(whole(2:6), long))
+      if (place + short_bytes*length + digits /= len(text, long)) return
+      call take_coefficients(text, place, length, table, is_good(1))
+      if (is_good(1)) deallocate(reason)
+   end subroutine take_table
+
+   !> The knots of an axis
+   subroutine take_axis(text, place, count, axis, is_good)
+      character(len=*), intent(in) :: text
+      !> Bytes that were taken before; grows
+      integer(long), intent(inout) :: place
+      integer(int32), intent(in) :: count
+      type(spline_axis), intent(inout) :: axis
+      logical, intent(out) :: is_good
+      real(real64) :: knots(count + order)
+      integer(long) :: length
+
+      length = 0
+      if (count > 1) length = real_bytes*int(count + order, long)
+      is_good = place + length + digits <= len(text, long)
+      if (.not. is_good) return
+      if (count > 1) knots = transfer(text(place + 1:place + length), knots)
+      call make_axis(axis, int(count), knots, is_good)
+      place = place + length
+   end subroutine take_axis
+
+   !> The coefficients, with a place that is not used behind those of each node
+   subroutine take_coefficients(text, place, length, table, is_good)
+      character(len=*), intent(in) :: text
+      integer(long), intent(in) :: place, length
+      type(creep_table), intent(inout) :: table
+      !> Are all of them numbers?
+      logical, intent(out) :: is_good
+      real(real32) :: node(stored)
+      integer(long) :: k, from, bytes
+
+      allocate(table%coefficients(values_per_node*(length/stored)), source=0.0_real32)
+      is_good = .true.
+      bytes = short_bytes*stored
+      do k = 0, length/stored - 1
+         from = place + k*bytes
+         node = transfer(text(from + 1:from + bytes), node)
+         is_good = is_good .and. all(abs(node) <= huge(node))
+         table%coefficients(values_per_node*k + 1:values_per_node*k + stored) = node
+      end do
+   end subroutine take_coefficients
+end module contact_tables_table_file
