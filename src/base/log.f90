@@ -49,6 +49,8 @@ module contact_base_log
       type(told_warning), private :: said(max_told)
       !> Warnings that wait for `speak`, one a line; allocated while they are held back
       character(len=:), allocatable, private :: held
+      !> Warnings of a solution that may be made anew, one a line; allocated while they are noted in place of being written
+      character(len=:), allocatable, private :: noted
    contains
       !> Write a line to both sinks
       procedure :: line => log_line
@@ -68,6 +70,10 @@ module contact_base_log
       procedure :: hold => log_hold
       !> Write the warnings that are held, and all later ones at once
       procedure :: speak => log_speak
+      !> From now on note warnings in place of writing them, and forget those that are noted; trials inside may hold and speak
+      procedure :: note => log_note
+      !> Write the warnings that are noted, each one once, and all later ones at once
+      procedure :: publish => log_publish
       !> Is anything written at this flow-trace level?
       procedure :: shows => log_shows
    end type log_type
@@ -106,6 +112,8 @@ contains
 
       if (allocated(self%held)) then
          self%held = self%held // text // new_line(text)
+      else if (allocated(self%noted)) then
+         self%noted = self%noted // text // new_line(text)
       else if (associated(self%terms)) then
          call self%terms(text, told)
          call write_warning(self, told)
@@ -201,17 +209,42 @@ contains
    subroutine log_speak(self)
       class(log_type), intent(inout) :: self
       character(len=:), allocatable :: held
-      integer :: first, length
 
       if (.not. allocated(self%held)) return
       call move_alloc(self%held, held)
+      call warn_of_lines(self, held)
+   end subroutine log_speak
+
+   subroutine log_note(self)
+      class(log_type), intent(inout) :: self
+      self%noted = ""
+   end subroutine log_note
+
+   subroutine log_publish(self)
+      class(log_type), intent(inout) :: self
+      character(len=:), allocatable :: noted
+
+      if (.not. allocated(self%noted)) return
+      call move_alloc(self%noted, noted)
+      call self%begin_case()
+      call warn_of_lines(self, noted)
+      call self%end_case()
+   end subroutine log_publish
+
+   !> A warning for each line
+   subroutine warn_of_lines(self, text)
+      class(log_type), intent(inout) :: self
+      !> Each line ends with a new_line
+      character(len=*), intent(in) :: text
+      integer :: first, length
+
       first = 1
-      do while (first <= len(held))
-         length = index(held(first:), new_line(held)) - 1
-         call self%warning(held(first:first + length - 1))
+      do while (first <= len(text))
+         length = index(text(first:), new_line(text)) - 1
+         call self%warning(text(first:first + length - 1))
          first = first + length + 1
       end do
-   end subroutine log_speak
+   end subroutine warn_of_lines
 
    pure logical function log_shows(self, level) result(shows)
       class(log_type), intent(in) :: self

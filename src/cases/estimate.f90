@@ -15,7 +15,7 @@ module contact_cases_estimate
    implicit none (type, external)
    private
 
-   public :: case_cost, cost_text, estimate_cost
+   public :: case_cost, cost_text, estimate_cost, typical_half_side
 
    !> Cost of a case
    type :: case_cost
@@ -110,7 +110,6 @@ contains
    subroutine guess_patch(spec, cost)
       type(case_spec), intent(in) :: spec
       type(case_cost), intent(inout) :: cost
-      type(combined_material) :: material
       real(wp) :: a, n
 
       cost%elements = spec%iteration%npot_max
@@ -118,14 +117,25 @@ contains
       if (spec%motion == motion%shift .or. spec%motion == motion%transient_rolling) &
          & cost%elements = hopeless*int(spec%iteration%npot_max, long)
       if (spec%normal /= normal_control%force) return
-      material = combine(spec%material%poiss, spec%material%gg)
-      a = (0.75_wp*max(0.0_wp, spec%wheel_rail%wheelset%fz)*typical_radius*(1.0_wp - material%nu)/material%gg)**(1.0_wp/3.0_wp)
+      a = typical_half_side(spec, spec%wheel_rail%wheelset%fz)
       n = (2.0_wp*margin*a)**2/(spec%wheel_rail%search%dx*spec%wheel_rail%search%ds)
       cost%beyond_most = cost%elements > spec%iteration%npot_max .and. n > real(spec%iteration%npot_max, wp)
       if (n >= real(cost%elements, wp)) return
       cost%elements = nint(n, long)
       cost%at_most = .false.
    end subroutine guess_patch
+
+   !> Half of a side of a wheel's contact, by Hertz for a ball [mm]
+   pure real(wp) function typical_half_side(spec, fz) result(a)
+      !> Materials
+      type(case_spec), intent(in) :: spec
+      !> Vertical force [N]
+      real(wp), intent(in) :: fz
+      type(combined_material) :: material
+
+      material = combine(spec%material%poiss, spec%material%gg)
+      a = (0.75_wp*max(0.0_wp, fz)*typical_radius*(1.0_wp - material%nu)/material%gg)**(1.0_wp/3.0_wp)
+   end function typical_half_side
 
    !> A cost in words, with blanks behind
    pure function cost_text(cost) result(text)

@@ -48,6 +48,8 @@ module contact_cases_spec
       !> Start and relaxation of the friction iteration
       integer :: inislp = 0
       real(wp) :: omgslp = 0.5_wp
+      !> Largest relative error of the forces that is asked for [-]; 0: grid and tolerance are those of the case
+      real(wp) :: accuracy = 0.0_wp
    end type iteration_spec
 
    !> Prescribed approach or normal force, creepages or tangential forces

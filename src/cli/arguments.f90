@@ -10,6 +10,7 @@ module contact_cli_arguments
    use contact_cli_process, only : exit_status_of_signal, forget_signals, stop_by_signal, watch_signals
    use contact_cli_report, only : is_report, run_report
    use contact_cli_versions, only : contact_version, write_versions
+   use contact_cases_accuracy_plan, only : largest_accuracy, smallest_accuracy
    use contact_experiment_progress, only : is_terminal
    use contact_experiment_run, only : as_input_says, run_experiment, run_settings
    use contact_text_words, only : replaced
@@ -59,6 +60,8 @@ module contact_cli_arguments
       integer :: heat_source = as_input_says
       !> Order of the discretisation of steady rolling, or as_input_says
       integer :: order = as_input_says
+      !> Largest relative error of the forces, or 0 where none is asked for
+      real(wp) :: accuracy = 0.0_wp
       !> Contact angles as in the established program?
       logical :: angle_below_axle = .true.
       !> Run the classical solvers that cases name?
@@ -149,6 +152,7 @@ contains
       settings%exports%vtk = asked%vtk
       settings%heat_source = asked%heat_source
       settings%order = asked%order
+      settings%accuracy = asked%accuracy
       settings%angle_below_axle = asked%angle_below_axle
       settings%classical = asked%classical
       settings%errors = asked%errors
@@ -251,6 +255,9 @@ contains
          if (all(asked%order /= [1, 2])) call fatal_error(error, "the order of the discretisation, '" // value // &
             & "', is not known; 1 and 2 are")
          return
+      case ("--accuracy")
+         call take_accuracy()
+         return
       case ("--contact-angle")
          call take_value("where contact angles are taken: established or contact")
          if (allocated(error)) return
@@ -285,24 +292,31 @@ contains
          return
       case default
          call fatal_error(error, "there is no option '" // name // &
-            & "'; the options are --help, --version, --output-dir DIR, --threads N, --heat NAME, --order N, --errors, --hdf5, " // &
-            & "--json, --vtk, --confine, --limit-time S, --limit-run-time S, --limit-memory MB, --limit-elements N, " // &
-            & "--limit-output MB, --resume, --strict and --quiet")
+            & "'; the options are --help, --version, --output-dir DIR, --threads N, --heat NAME, --order N, --accuracy TOL, " // &
+            & "--errors, --hdf5, --json, --vtk, --confine, --limit-time S, --limit-run-time S, --limit-memory MB, " // &
+            & "--limit-elements N, --limit-output MB, --resume, --strict and --quiet")
          return
       end select
       if (equals > 0) call fatal_error(error, "the option " // name // " takes no value")
 
    contains
 
+      !> A relative error
+      subroutine take_accuracy()
+         call take_value("the largest relative error of the forces, 1e-6 to 0.1")
+         if (allocated(error)) return
+         asked%accuracy = to_real(value)
+         if (.not. (asked%accuracy >= smallest_accuracy .and. asked%accuracy <= largest_accuracy)) &
+            & call fatal_error(error, "the accuracy, '" // value // "', is not a number from 1e-6 to 0.1")
+      end subroutine take_accuracy
+
       !> A limit, a positive number
       subroutine take_limit()
          real(wp) :: number
-         integer :: status
 
          call take_value("a positive number")
          if (allocated(error)) return
-         number = -1.0_wp
-         if (verify(value, "0123456789.eE+-") == 0) read(value, *, iostat=status) number
+         number = to_real(value)
          if (.not. (number > 0.0_wp .and. number < 1.0e12_wp)) then
             call fatal_error(error, "the value of " // name // ", '" // value // "', is not a positive number below 1e12")
             return
@@ -414,6 +428,17 @@ contains
       if (status /= 0) number = -1
    end function to_number
 
+   !> A number, -1 when the word is none
+   real(wp) function to_real(word) result(number)
+      character(len=*), intent(in) :: word
+      integer :: status
+
+      number = -1.0_wp
+      if (verify(word, "0123456789.eE+-") /= 0) return
+      read(word, *, iostat=status) number
+      if (status /= 0) number = -1.0_wp
+   end function to_real
+
    !> Answer to --help
    subroutine write_help()
       write(output_unit, "(A)") &
@@ -444,6 +469,8 @@ contains
          & "                    moving-source, without counting the heat of an element twice at its centre", &
          & "  --order N         discretisation of steady rolling: 1, the established one, or 2, whose errors fall with the", &
          & "                    square of the size of elements; default is 1 for .inp, and what a case says for .toml", &
+         & "  --accuracy TOL    choose grid, order and EPS of each case such that the estimated error of the forces, relative to", &
+         & "                    the friction bound or to FN, is at most TOL, 1e-6 to 0.1", &
          & "  --contact-angle NAME  on rails that vary along the track: established, of the section below the axle", &
          & "                    (default), or contact, of wheel and rail where they touch", &
          & "  --classical       run the solvers that G names; without, the faster default solver acts in their place", &

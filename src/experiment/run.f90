@@ -486,7 +486,7 @@ contains
    !> Check, solve and write one case
    subroutine compute_case(state, this, go_on)
       type(experiment_state), intent(inout) :: state
-      type(input_case), intent(in) :: this
+      type(input_case), intent(inout) :: this
       !> Can the next case be read?
       logical, intent(out) :: go_on
       type(error_type), allocatable :: error

@@ -6,9 +6,9 @@ module contact_experiment_state
    use contact_base_kinds, only : long, wp
    use contact_base_limits, only : case_limits, deadline_type
    use contact_base_log, only : log_type
-   use contact_cases_wheel_rail_session, only : solve_wheel_rail_case
-   use contact_cases_session, only : solve_case
+   use contact_cases_accuracy, only : solve_contact_case
    use contact_cases_slot, only : open_contact, open_wheel_rail, problem_slot
+   use contact_cases_wheel_rail_accuracy, only : solve_wheel_on_rail
    use contact_experiment_exports, only : export_files, export_request
    use contact_experiment_journal, only : journal_file
    use contact_experiment_lock, only : experiment_lock
@@ -71,6 +71,8 @@ module contact_experiment_state
       integer :: heat_source = as_input_says
       !> Order of the discretisation of steady rolling, 1 or 2, or as_input_says
       integer :: order = as_input_says
+      !> Largest relative error of the forces that is asked for, or 0 for what the input says
+      real(wp) :: accuracy = 0.0_wp
       !> Contact angles on rails that vary along the track: of the section below the axle, as in the established program?
       logical :: angle_below_axle = .true.
       !> Do the classical solvers run that cases name?
@@ -155,7 +157,8 @@ contains
       type(experiment_state), intent(in) :: state
       !> Contact problem of the case
       type(numbered_slot), intent(inout) :: slot
-      type(input_case), intent(in) :: this
+      !> On return with the grid that its accuracy needs, where one is asked for
+      type(input_case), intent(inout) :: this
       type(log_type), intent(inout) :: log
       !> How it ended
       type(case_status), intent(inout) :: status
@@ -163,11 +166,11 @@ contains
 
       if (this%module_number == 1) then
          call open_wheel_rail(slot%problem_slot)
-         call solve_wheel_rail_case(slot%wheel_rail, this%spec, state%place%folder, log, slot%wheel_rail_result, error)
+         call solve_wheel_on_rail(slot%wheel_rail, this%spec, state%place%folder, log, slot%wheel_rail_result, error)
          if (.not. allocated(error)) status = slot%wheel_rail_result%status
       else
          call open_contact(slot%problem_slot)
-         call solve_case(slot%session, this%spec, log, slot%result, error, state%place%folder)
+         call solve_contact_case(slot%session, this%spec, log, slot%result, error, state%place%folder)
          if (.not. allocated(error)) status = slot%result%status
       end if
       if (.not. allocated(error)) return
@@ -186,6 +189,7 @@ contains
 
       if (asked%heat_source /= as_input_says) this%spec%heat%source = asked%heat_source
       if (asked%order /= as_input_says) this%spec%iteration%order = asked%order
+      if (asked%accuracy > 0.0_wp) this%spec%iteration%accuracy = asked%accuracy
       if (allocated(this%spec%wheel_rail)) this%spec%wheel_rail%search%angle_below_axle = asked%angle_below_axle
       this%spec%classical = asked%classical
       if (asked%errors) this%spec%estimates_errors = .true.

@@ -4,6 +4,7 @@
 !> kept group is formed anew where the rest of the case demands it, or as the key `renew` says.
 module contact_input_toml_case
    use contact_base_choices, only : heat_source, motion, slip_source
+   use contact_cases_accuracy_plan, only : is_accuracy
    use contact_cases_continuation, only : frame_of
    use contact_cases_spec, only : case_spec, grid_spec
    use contact_cases_whole_case, only : visit_case
@@ -90,6 +91,7 @@ contains
          call take_heat_source(a, spec)
          call take_order(a, has_previous, spec)
          call take_errors(a, spec)
+         call take_accuracy(a, spec)
          if (spec%motion == motion%none .and. .not. has_previous) a%lenient_group = "friction"
          call visit_case(a, spec)
          if (a%is_good) then
@@ -459,6 +461,28 @@ contains
          end if
       end associate
    end subroutine take_errors
+
+   !> The accuracy that is asked for, 0 for none; kept from case to case
+   subroutine take_accuracy(a, spec)
+      type(toml_reader), intent(inout) :: a
+      type(case_spec), intent(inout) :: spec
+      integer :: node, table
+
+      table = a%document%child(a%case_node, "iteration")
+      if (table == 0) return
+      if (a%document%nodes(table)%kind /= toml_kind%table) return
+      call a%note_key("iteration", "accuracy")
+      node = a%document%child(table, "accuracy")
+      if (node == 0) return
+      a%used(node) = .true.
+      associate (value => a%document%nodes(node))
+         if ((value%kind == toml_kind%real .or. value%kind == toml_kind%integer) .and. is_accuracy(value%r)) then
+            spec%iteration%accuracy = value%r
+         else
+            call a%add_problem(severity%error, node, "accuracy must be a number from 1e-6 to 0.1, or 0 for none")
+         end if
+      end associate
+   end subroutine take_accuracy
 
    !> How temperatures are computed: with moving sources, unless a case asks for those of the established program
    subroutine take_heat_source(a, spec)

@@ -3,6 +3,7 @@
 !> Values are unfiltered, unlike those of the .out file.
 module contact_output_case_record
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
+   use contact_base_accuracy_report, only : accuracy_report
    use contact_base_case_status, only : case_state, case_status
    use contact_base_choices, only : motion
    use contact_base_kinds, only : wp
@@ -131,6 +132,7 @@ contains
       call pair%totals(spec%wheel_rail, totals)
       call describe_list(record, "totals", totals)
       if (allocated(pair%errors)) call describe_errors(record, pair%errors, totals, "")
+      if (allocated(pair%accuracy)) call describe_accuracy(record, pair%accuracy)
       if (pair%beside%depth > 0.0_wp) call record%text("beside", "another place along the track where wheel and rail &
          &overlap, which carries no load here", trim(beside_words(spec, pair%beside)))
       if (.not. any(pair%buried%depth > 0.0_wp)) return
@@ -158,6 +160,7 @@ contains
       end if
       call describe_list(record, "totals", totals)
       if (allocated(contact%errors)) call describe_errors(record, contact%errors%value, totals, trim(contact%errors%reason))
+      if (allocated(contact%accuracy)) call describe_accuracy(record, contact%accuracy)
       call describe_border(record, spec, contact)
       call describe_resolution(record, contact)
       call describe_solution(record, spec, contact)
@@ -214,6 +217,30 @@ contains
       if (reason /= "") call record%text("reason", "why there is no estimate", reason)
       call record%close_group()
    end subroutine describe_errors
+
+   !> What became of the accuracy that was asked for
+   subroutine describe_accuracy(record, report)
+      class(record_writer), intent(inout) :: record
+      !> Of the case
+      type(accuracy_report), intent(in) :: report
+
+      call record%open_group("accuracy", columns=.true.)
+      call record%number("asked", "-", "largest relative error of the forces that was asked for", report%asked)
+      if (report%estimated >= 0.0_wp) call record%number("estimated", "-", "estimated relative error of the forces", &
+         & report%estimated)
+      call record%flag("reached", "is the estimate within what was asked?", report%is_met)
+      if (report%elements(1) > 0) call record%count("mx", "elements along x that were chosen", report%elements(1))
+      if (report%elements(1) > 0) call record%count("my", "elements along y that were chosen", report%elements(2))
+      call record%number("dx", "mm", "side of elements along x that was chosen", report%sides(1))
+      call record%number("dy", "mm", "side of elements along y that was chosen", report%sides(2))
+      if (report%order > 0) call record%count("order", "order of the discretisation of steady rolling", report%order)
+      call record%number("eps", "-", "tolerance of the solvers that was chosen", report%eps)
+      call record%count("grids", "grids that were solved", report%levels)
+      call record%number("seconds_of_grids", "s", "elapsed time of all grids", report%seconds)
+      call record%number("seconds_of_last", "s", "elapsed time of the grid that was kept", report%last_seconds)
+      if (.not. report%is_met) call record%text("reason", "why it was not reached", trim(report%reason))
+      call record%close_group()
+   end subroutine describe_accuracy
 
    !> Where contact is cut off by the border of the potential contact or the end of a profile; nothing where it is not
    subroutine describe_border(record, spec, contact)

@@ -7,6 +7,7 @@ module contact_output_report
    use contact_output_formats, only : fixed, whole
    use contact_grid_picture, only : write_picture
    use contact_output_report_input, only : write_input
+   use contact_output_accuracy_statement, only : write_accuracy
    use contact_output_report_result, only : write_errors, write_sensitivities, write_solution_line, write_statistics, write_totals
    use contact_output_report_subsurface, only : write_subsurface
    use contact_patch_quantities, only : total_list
@@ -92,6 +93,7 @@ contains
             call result%totals(totals)
             call write_errors(log, result%errors%value, totals, trim(result%errors%reason))
          end if
+         if (allocated(result%accuracy)) call write_accuracy(log, result%accuracy)
          call write_solution_line(log, spec, result, result%status)
       end if
       if (spec%output_level < 3 .or. .not. allocated(result%division)) return

@@ -11,6 +11,7 @@ module contact_output_report_wheel_rail
    use contact_base_log, only : log_type
    use contact_cases_spec, only : case_spec
    use contact_grid_element_division, only : bounding_box, contact_box
+   use contact_output_accuracy_statement, only : write_accuracy
    use contact_output_element_table, only : write_element_table
    use contact_output_formats, only : fixed, fixeds, generals, heading, smart, smarts, whole
    use contact_grid_picture, only : write_picture
@@ -83,6 +84,7 @@ contains
       call log%result("     FX(TR)      FY(TR)      FZ(TR)      FX(WS)      FY(WS)      FZ(WS)")
       call log%result(smarts(totals%of(["fx_tr", "fy_tr", "fz_tr", "fx_ws", "fy_ws", "fz_ws"])))
       if (allocated(result%errors)) call write_errors(log, result%errors, totals, "")
+      if (allocated(result%accuracy)) call write_accuracy(log, result%accuracy)
       if (spec%output_level < 4) return
       call log%result("")
       call log%result("     MX@R(TR)    MY@R(TR)    MZ@R(TR)    MX@W(WS)    MY@W(WS)    MZ@W(WS)")

@@ -49,6 +49,8 @@ module contact_output_toml_writer
       logical :: has_moving_heat = .false.
       !> Order of the discretisation
       integer :: order = 1
+      !> Accuracy that is asked for, 0 for none [-]
+      real(wp) :: accuracy = 0.0_wp
       !> Are preset numbers being noted? Then nothing is written
       logical :: is_recording = .false.
       !> Has each row of the grid a friction of its own?
@@ -111,6 +113,8 @@ contains
       call put_group_choices(self)
       if (text == "iteration" .and. (self%order /= usual_order .or. any(self%memory%names == "iteration.order"))) &
          & call self%put("order", integer_text(self%order), remark="discretisation of steady rolling")
+      if (text == "iteration" .and. (self%accuracy > 0.0_wp .or. any(self%memory%names == "iteration.accuracy"))) &
+         & call self%put("accuracy", exact_text(self%accuracy), remark="largest relative error of the forces")
       if (text == "heat") call self%put("source", trim(merge('"moving"     ', '"established"', self%has_moving_heat)))
    end subroutine open_table
 

@@ -22,7 +22,8 @@ module contact_patch_error_estimate
    implicit none (type, external)
    private
 
-   public :: coarse_level, compare_levels, estimate_errors, normal_stiffness, release_coarse_level, solve_coarse_level
+   public :: coarse_level, compare_levels, error_of_forces, estimate_errors, normal_stiffness, release_coarse_level, &
+      & solve_coarse_level
 
    !> The coarse level, kept from case to case for its arrays and spectra
    type :: coarse_level
@@ -242,6 +243,31 @@ contains
          given = .false.
       end select
    end function is_given
+
+   !> Largest estimated error of the normal force or the approach, of the tangential forces, their moment, and creepages that are
+   !> found, each relative to its scale [-]; negative where there is no estimate
+   pure real(wp) function error_of_forces(problem, result) result(e)
+      !> The problem that was solved
+      type(patch_problem), intent(in) :: problem
+      !> Solved, with errors
+      type(patch_result), intent(in) :: result
+      type(total_list) :: list
+      type(scale_type) :: scale
+      integer :: k
+
+      e = -1.0_wp
+      if (.not. allocated(result%errors)) return
+      if (result%errors%reason /= "") return
+      call result%totals(list)
+      scale = scales(problem, max(1, result%tangential%order), result)
+      do k = 1, list%length
+         if (all(list%rows(k)%law /= [error_law%normal, error_law%friction, error_law%creepage])) cycle
+         ! NaN, where there is no estimate of one of them, is no maximum
+         if (.not. (result%errors%value(k) >= 0.0_wp .and. scale_of(list%rows(k), scale) > 0.0_wp)) cycle
+         ! relative forces are forces a second time, with a scale of 1
+         e = max(e, result%errors%value(k)/scale_of(list%rows(k), scale))
+      end do
+   end function error_of_forces
 
    !> What totals are compared with
    pure function scales(problem, order, result) result(scale)

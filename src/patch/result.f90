@@ -1,6 +1,7 @@
 !> What is known of one contact patch after the solution
 module contact_patch_result
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
+   use contact_base_accuracy_report, only : accuracy_report
    use contact_base_case_status, only : case_status
    use contact_base_choices, only : is_rolling, motion_choice => motion
    use contact_base_kinds, only : wp
@@ -134,6 +135,8 @@ module contact_patch_result
       type(subsurface_result), allocatable :: subsurface(:)
       !> Estimated errors of the totals; unallocated when not asked for
       type(error_estimate), allocatable :: errors
+      !> What became of the accuracy that was asked for; unallocated when none was
+      type(accuracy_report), allocatable :: accuracy
    contains
       !> Area of the elements in contact [mm2]
       procedure :: contact_area

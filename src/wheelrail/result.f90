@@ -4,6 +4,7 @@
 !> image, and output mirrors it back. Track coordinates: x along the track, y to the right, z down.
 module contact_wheelrail_result
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
+   use contact_base_accuracy_report, only : accuracy_report
    use contact_base_case_status, only : case_status
    use contact_base_kinds, only : wp
    use contact_friction_law, only : friction_set
@@ -103,6 +104,8 @@ module contact_wheelrail_result
       real(wp) :: force_error = 0.0_wp
       !> Estimated error of each row of `totals` in its unit, NaN without an estimate; unallocated when not asked for
       real(wp), allocatable :: errors(:)
+      !> What became of the accuracy that was asked for; unallocated when none was
+      type(accuracy_report), allocatable :: accuracy
    contains
       !> All totals, for outputs
       procedure :: totals => wheel_rail_totals

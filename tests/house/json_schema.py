@@ -68,11 +68,12 @@ def schema():
     solver, _ = members("describe_solution")
     solver.update(members("describe_report", PROBLEMS)[0])
     patch_totals = {**listed("patch/result.f90", "totals"), **listed("wheelrail/result.f90", "patch_totals")}
+    accuracy = group(*members("describe_accuracy"), "with --accuracy")
     border, coarse = members("describe_border"), members("describe_resolution")
     run, run_always = members("describe_run")
     patch = group({"patch": {"description": "number of the patch in its case", **KINDS["count"]},
                    "effects": {"description": "effects that acted", **KINDS["text"]}, "totals": group(patch_totals, ["fn", "pen"]),
-                   "errors": errors(patch_totals),
+                   "errors": errors(patch_totals), "accuracy": accuracy,
                    "border": group(border[0], border[0], "where contact is cut off"),
                    "coarse": group(coarse[0], coarse[0], "how few elements wide contact is"), "solver": group(solver)},
                   ["patch", "totals", "solver"])
@@ -80,7 +81,7 @@ def schema():
     case = group({**head, "cases_planned": {"description": "cases of the input", **KINDS["count"]},
                   "side": {"description": "side of the track", "enum": WORDS["side"]},
                   "totals": group(pair_totals, (), "forces and position of wheel and rail"), "errors": errors(pair_totals),
-                  **members("describe_wheel_rail")[0],
+                  "accuracy": accuracy, **members("describe_wheel_rail")[0],
                   "buried": group({end: {"description": "an end of the wheel profile within the rail", **KINDS["text"]}
                                    for end in ("inner", "outer")}),
                   "patches": {"type": "array", "items": patch}}, [*always, "cases_planned", "patches"], "one case")

@@ -1,0 +1,213 @@
+!> How an accuracy that was asked for is sought: what stands against it, the first grid, the next one, and the tolerance
+!>
+!> Sizes are counted in elements across the contact. An error that goes as C n^-p asks for n = (C/error)^(1/p); C of the first
+!> grid is a typical value, later ones are what the estimate of the grid before says. See doc/theory/accuracy.md.
+module contact_cases_accuracy_plan
+   use contact_base_choices, only : is_simplified, kernel_model, material_model, motion, pressure_model, slip_source, &
+      & time_link, variation
+   use contact_base_error, only : error_kind, error_type, fatal_error
+   use contact_base_kinds, only : long, wp
+   use contact_base_limits, only : case_limits
+   use contact_base_memory, only : bytes_per_element
+   use contact_cases_grid_inputs, only : largest_grid
+   use contact_cases_spec, only : case_spec
+   use contact_subsurface_points, only : point_selection
+   implicit none (type, external)
+   private
+
+   public :: accuracy_law, expected_law, finer_across, first_across, is_accuracy, is_near_enough, largest_accuracy, most_elements, &
+      & most_levels, refuse_case, shorten_aspect, smallest_accuracy, solver_tolerance, time_is_left
+
+   !> Accuracies that can be asked for
+   real(wp), parameter :: smallest_accuracy = 1.0e-6_wp, largest_accuracy = 0.1_wp
+   !> Most grids that are tried
+   integer, parameter :: most_levels = 8
+   !> Most elements of a grid where no limit is given: some seconds, and 0.4 GB; chosen
+   integer(long), parameter :: usual_limit = 250000_long
+   !> Factor of the number of elements across where a grid has no estimate, because contact is too few elements wide or was missed
+   real(wp), parameter :: without_estimate = 2.5_wp
+
+   !> Typical error of n elements across the contact: factor times n^-order
+   type :: accuracy_law
+      real(wp) :: factor = 0.0_wp, order = 2.0_wp
+   end type accuracy_law
+   !> Forces in steady rolling by the first and by the second order, and all else; of tests/accuracy: upper quartiles of estimates
+   type(accuracy_law), parameter :: first_order = accuracy_law(0.25_wp, 1.0_wp), second_order = accuracy_law(0.6_wp, 1.8_wp), &
+      & normal_order = accuracy_law(0.25_wp, 2.0_wp)
+
+   !> Elements across of the first grid: least, and most. Fewer tell nothing of the error; a first grid of more may waste more time
+   real(wp), parameter :: least_across = 11.0_wp, most_across = 90.0_wp, most_across_first_order = 45.0_wp
+   !> Elements across of the first grid relative to those that are expected to do, chosen for the sum of both times; below so many
+   !> elements across time does not depend on their number
+   real(wp), parameter :: first_share = 0.6_wp, quick_across = 24.0_wp
+   !> Part of the accuracy that the next grid aims at; and the part at which it is taken as reached: estimates may be too small
+   real(wp), parameter :: aim = 0.5_wp, enough = 0.7_wp
+   !> Least and largest factor of the number of elements across from one grid to the next; chosen
+   real(wp), parameter :: least_factor = 1.25_wp, largest_factor = 5.0_wp
+   !> The error that the grid before lets expect counts with this part: differences of levels may be small by accident
+   real(wp), parameter :: share_before = 0.4_wp
+   !> Tolerance of the solvers relative to the accuracy, of which 0.3 shows in forces; its bounds
+   real(wp), parameter :: eps_share = 0.1_wp, largest_eps = 1.0e-3_wp, smallest_eps = 1.0e-8_wp
+   !> Time grows with this power of the number of elements, times a reserve: is there time for another grid?
+   real(wp), parameter :: time_power = 1.1_wp, reserve = 1.2_wp
+   !> Largest ratio of the sides of elements
+   real(wp), parameter :: largest_aspect = 6.0_wp
+
+contains
+
+   !> Refuse a case whose accuracy cannot be chosen, by name
+   subroutine refuse_case(spec, error)
+      !> With an accuracy
+      type(case_spec), intent(in) :: spec
+      !> Allocated when it does not go
+      type(error_type), allocatable, intent(out) :: error
+      character(len=:), allocatable :: why
+      character(len=12) :: text
+
+      if (.not. is_accuracy(spec%iteration%accuracy)) then
+         write(text, "(ES9.2)") spec%iteration%accuracy
+         call fatal_error(error, "the accuracy that is asked for, " // trim(adjustl(text)) // ", is not between 1e-6 and 0.1", &
+            & error_kind%input)
+         return
+      end if
+      why = ""
+      if (spec%motion == motion%transient_rolling) then
+         why = "transient rolling: its steps have errors that no refinement of elements tells"
+      else if (spec%motion == motion%shift .and. spec%link /= time_link%initiate) then
+         why = "a shift that continues the case before: its history stands on the elements of that case"
+      else if (spec%kernel == kernel_model%tabulated) then
+         why = "influence coefficients of a file: they belong to one size of elements"
+      else if (is_simplified(spec%material_model) .and. spec%motion /= motion%none) then
+         why = "simplified theory: its own error is not known"
+      else if (all(spec%pressure /= [pressure_model%full, pressure_model%thin_sheet])) then
+         why = "pressures by formula: their own error is not known"
+      else if (spec%has_plasticity()) then
+         why = "a layer that yields"
+      else if (spec%has_damping) then
+         why = "damping: it needs the forces of the case before"
+      else if (spec%slip_source == slip_source%given .and. spec%motion /= motion%none) then
+         why = "rigid slip that is given element by element"
+      else if (spec%variation == variation%by_row .and. .not. allocated(spec%wheel_rail) .and. spec%motion /= motion%none) then
+         why = "friction that is given row by row"
+      else if (spec%has_stress .and. allocated(spec%subsurface%blocks)) then
+         if (any(spec%subsurface%blocks%selection == point_selection%ranges &
+            & .or. spec%subsurface%blocks%selection == point_selection%lists)) why = &
+            & "stresses below columns and rows of the grid: coordinates, or all elements, do"
+      end if
+      if (why /= "") call fatal_error(error, "an accuracy was asked for, but the grid cannot be chosen with " // why, &
+         & error_kind%unsupported)
+   end subroutine refuse_case
+
+   !> Can a number be asked for, or is it 0 for none?
+   pure logical function is_accuracy(number)
+      !> [-]
+      real(wp), intent(in) :: number
+
+      is_accuracy = abs(number) <= 0.0_wp .or. (number >= smallest_accuracy .and. number <= largest_accuracy)
+   end function is_accuracy
+
+   !> Typical error of a case before anything of it is known
+   pure type(accuracy_law) function expected_law(spec) result(law)
+      type(case_spec), intent(in) :: spec
+
+      law = normal_order
+      if (spec%motion /= motion%steady_rolling) return
+      law = first_order
+      if (spec%kernel == kernel_model%piecewise_constant .and. any(spec%material_model == [material_model%elastic, &
+         & material_model%viscoelastic]) .and. spec%pressure == pressure_model%full) law = second_order
+   end function expected_law
+
+   !> Elements across the contact of the first grid
+   pure real(wp) function first_across(law, asked) result(across)
+      !> What is expected
+      type(accuracy_law), intent(in) :: law
+      !> Accuracy [-]
+      real(wp), intent(in) :: asked
+
+      across = (law%factor/asked)**(1.0_wp/law%order)
+      across = min(across, max(quick_across, first_share*across), merge(most_across, most_across_first_order, law%order > 1.0_wp))
+      across = usual_number(max(least_across, across))
+   end function first_across
+
+   !> Is an estimate small enough?
+   pure logical function is_near_enough(estimated, expected, asked)
+      !> Estimate of this grid, negative for none; and what the one before has let expect, 0 for none [-]
+      real(wp), intent(in) :: estimated, expected
+      !> Accuracy [-]
+      real(wp), intent(in) :: asked
+
+      is_near_enough = estimated >= 0.0_wp .and. max(estimated, share_before*expected) <= enough*asked
+   end function is_near_enough
+
+   !> Elements across the contact that are expected to do
+   pure real(wp) function finer_across(across, estimated, asked, order) result(finer)
+      !> Elements across of the present grid
+      real(wp), intent(in) :: across
+      !> Its estimate, negative for none [-]
+      real(wp), intent(in) :: estimated
+      !> Accuracy [-]
+      real(wp), intent(in) :: asked
+      !> Of the error
+      real(wp), intent(in) :: order
+
+      finer = without_estimate
+      if (estimated >= 0.0_wp) finer = min(largest_factor, max(least_factor, (estimated/(aim*asked))**(1.0_wp/order)))
+      finer = usual_number(finer*across)
+   end function finer_across
+
+   !> The next number of a series with a fixed ratio: cases that are alike share the plans of their transforms, which take longer
+   !> to make than a solution on less than 60 x 60 elements
+   pure real(wp) function usual_number(number) result(usual)
+      !> Positive
+      real(wp), intent(in) :: number
+      !> A number of the series, and how many of them lie between it and its double
+      real(wp), parameter :: first = 10.0_wp, in_octave = 4.0_wp
+      !> What counts as equal
+      real(wp), parameter :: slack = 0.02_wp
+
+      usual = anint(first*2.0_wp**(ceiling(in_octave*log(number/first)/log(2.0_wp) - slack)/in_octave))
+   end function usual_number
+
+   !> Most elements that the grid of a case may have
+   pure real(wp) function most_elements(limits) result(most)
+      !> Of the case
+      type(case_limits), intent(in) :: limits
+
+      most = real(usual_limit, wp)
+      if (limits%elements < huge(1_long)) most = real(min(int(largest_grid, long), limits%elements), wp)
+      most = min(most, real(limits%bytes, wp)/real(bytes_per_element, wp))
+   end function most_elements
+
+   !> Is there time for a grid of more elements?
+   logical function time_is_left(limits, seconds, ratio)
+      !> Of the case
+      type(case_limits), intent(in) :: limits
+      !> Time of the present grid [s]
+      real(wp), intent(in) :: seconds
+      !> Elements of the next grid over those of the present one
+      real(wp), intent(in) :: ratio
+
+      time_is_left = reserve*seconds*ratio**time_power <= limits%deadline%left()
+   end function time_is_left
+
+   !> Tolerance of the solvers for an accuracy
+   pure real(wp) function solver_tolerance(asked) result(eps)
+      !> [-]
+      real(wp), intent(in) :: asked
+
+      eps = min(largest_eps, max(smallest_eps, eps_share*asked))
+   end function solver_tolerance
+
+   !> Sides of elements for as many elements along both sides of the contact, where these are not too unlike
+   pure subroutine shorten_aspect(lengths, across, sides)
+      !> Sides of the contact [mm]
+      real(wp), intent(in) :: lengths(2)
+      !> Elements across
+      real(wp), intent(in) :: across
+      !> Of the elements [mm]
+      real(wp), intent(out) :: sides(2)
+
+      sides = lengths/across
+      sides = min(sides, largest_aspect*minval(sides))
+   end subroutine shorten_aspect
+end module contact_cases_accuracy_plan

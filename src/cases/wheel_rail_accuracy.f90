@@ -1,0 +1,249 @@
+!> A wheel on a rail to an accuracy that was asked for: smaller elements from one solution to the next
+!>
+!> As contact_cases_accuracy; what changes are the sides of the elements, DX and DS, since windows follow from the geometry.
+module contact_cases_wheel_rail_accuracy
+   use contact_base_accuracy_report, only : accuracy_report
+   use contact_base_choices, only : estimate_choice, motion, normal_control, time_link
+   use contact_base_error, only : error_kind, error_type
+   use contact_base_kinds, only : wp
+   use contact_base_limits, only : wall_clock
+   use contact_base_log, only : log_type
+   use contact_cases_accuracy_plan, only : accuracy_law, expected_law, finer_across, first_across, is_near_enough, &
+      & most_elements, most_levels, refuse_case, shorten_aspect, solver_tolerance, time_is_left
+   use contact_cases_estimate, only : typical_half_side
+   use contact_cases_spec, only : case_spec
+   use contact_cases_subsurface, only : subsurface_stresses, warn_of_steps
+   use contact_cases_wheel_rail_session, only : solve_wheel_rail_case, wheel_rail_session
+   use contact_grid_element_division, only : bounding_box, contact_box
+   use contact_patch_error_estimate, only : error_of_forces
+   use contact_text_words, only : real_text
+   use contact_wheelrail_memory, only : wheel_rail_memory
+   use contact_wheelrail_result, only : wheel_rail_result
+   implicit none (type, external)
+   private
+
+   public :: solve_wheel_on_rail
+
+   !> Vertical force that the first size of elements is for, where none is prescribed [N]
+   real(wp), parameter :: usual_force = 6.0e4_wp
+   !> Relative error of a patch of too few elements for an estimate
+   real(wp), parameter :: error_of_few = 0.3_wp
+   !> Elements that are smaller by less than this factor bring nothing
+   real(wp), parameter :: worth = 1.15_wp
+
+contains
+
+   !> Solve one case: as it is, or with the elements that its accuracy needs
+   subroutine solve_wheel_on_rail(session, spec, folder, log, result, error)
+      type(wheel_rail_session), intent(inout) :: session
+      !> Complete specification of a case of module 1; where an accuracy is asked for, on return with DX, DS, the order and EPS
+      !> that were chosen
+      type(case_spec), intent(inout) :: spec
+      !> Folder to which names of profile files are relative, "" for the current one
+      character(len=*), intent(in) :: folder
+      type(log_type), intent(inout) :: log
+      !> Gets `accuracy` where one was asked for
+      type(wheel_rail_result), intent(inout) :: result
+      type(error_type), allocatable, intent(out) :: error
+      integer :: k
+
+      if (.not. (abs(spec%iteration%accuracy) > 0.0_wp .and. spec%solve)) then
+         if (allocated(result%accuracy)) deallocate(result%accuracy)
+         call solve_wheel_rail_case(session, spec, folder, log, result, error)
+         return
+      end if
+      call refuse_case(spec, error)
+      if (allocated(error)) return
+      call log%note()
+      call refine(session, spec, folder, log, result, error)
+      if (.not. allocated(error) .and. spec%has_stress) then
+         do k = 1, size(result%patches)
+            call subsurface_stresses(spec, result%patches(k)%contact, error, spec%wheel_rail%left)
+            if (allocated(error)) exit
+            call warn_of_steps(result%patches(k)%contact, log)
+         end do
+      end if
+      call log%publish()
+      ! solutions on these elements are no estimates for the elements of the next case
+      if (allocated(session%memory%slot)) session%memory%slot%state%started = .false.
+   end subroutine solve_wheel_on_rail
+
+   !> Smaller and smaller elements until the estimate is small enough, or no finer ones can be had
+   subroutine refine(session, spec, folder, log, result, error)
+      type(wheel_rail_session), intent(inout) :: session
+      type(case_spec), intent(inout) :: spec
+      character(len=*), intent(in) :: folder
+      type(log_type), intent(inout) :: log
+      type(wheel_rail_result), intent(inout) :: result
+      type(error_type), allocatable, intent(out) :: error
+      type(accuracy_report) :: report
+      type(wheel_rail_result), allocatable :: best
+      type(case_spec) :: level
+      type(accuracy_law) :: law
+      real(wp) :: sides(2), next(2), expected, before, began, force
+
+      report%asked = spec%iteration%accuracy
+      report%eps = solver_tolerance(report%asked)
+      law = expected_law(spec)
+      level = spec
+      call prepare_level(report%eps, level)
+      force = usual_force
+      if (spec%normal == normal_control%force) force = spec%wheel_rail%wheelset%fz
+      sides = 2.0_wp*typical_half_side(spec, force)/first_across(law, report%asked)
+      if (.not. sides(1) > 0.0_wp) sides = [spec%wheel_rail%search%dx, spec%wheel_rail%search%ds]
+      expected = 0.0_wp
+      before = -1.0_wp
+      do while (report%levels < most_levels)
+         began = wall_clock()
+         level%wheel_rail%search%dx = sides(1)
+         level%wheel_rail%search%ds = sides(2)
+         if (allocated(session%memory%slot)) session%memory%slot%state%started = .false.
+         call log%note()
+         call solve_wheel_rail_case(session, level, folder, log, result, error)
+         if (allocated(error)) then
+            if (.not. (error%kind == error_kind%time .and. allocated(best))) return
+            report%reason = "the time limit was reached with elements of " // real_text(sides(1)) // " x " // &
+               & real_text(sides(2)) // " mm"
+            report%estimated = -1.0_wp
+            deallocate(error)
+            exit
+         end if
+         report%levels = report%levels + 1
+         report%last_seconds = wall_clock() - began
+         report%seconds = report%seconds + report%last_seconds
+         if (.not. result%status%has_result()) exit
+         report%estimated = error_of_pair(session%memory)
+         report%order = order_of(session%memory)
+         report%sides = sides
+         if (is_near_enough(report%estimated, expected, report%asked)) exit
+         if (spec%motion == motion%steady_rolling .and. report%order /= 2) law%order = min(law%order, 1.0_wp)
+         call next_sides(spec, session%memory, report, law%order, sides, next)
+         if (.not. product(sides/next) >= worth**2) then
+            report%reason = "smaller elements would be more than NPOT_MAX or the limits allow"
+            exit
+         end if
+         if (.not. time_is_left(spec%limits, report%last_seconds, product(sides/next))) then
+            report%reason = "there is no time left for elements of " // real_text(next(1)) // " x " // real_text(next(2)) // " mm"
+            exit
+         end if
+         expected = 0.0_wp
+         if (report%estimated >= 0.0_wp) expected = report%estimated*maxval(next/sides)**law%order
+         before = report%estimated
+         best = result
+         sides = next
+      end do
+      if (len_trim(report%reason) > 0 .and. before >= 0.0_wp) then
+         if (report%estimated < 0.0_wp .or. report%estimated > before) then
+            result = best
+            report%estimated = before
+         end if
+      end if
+      call tell_report(spec, sides, result, report, log)
+   end subroutine refine
+
+   !> What every solution has in common
+   subroutine prepare_level(eps, level)
+      !> Tolerance of the solvers
+      real(wp), intent(in) :: eps
+      type(case_spec), intent(inout) :: level
+
+      level%iteration%accuracy = 0.0_wp
+      level%iteration%eps = eps
+      level%iteration%order = 2
+      level%estimates_errors = .true.
+      level%has_stress = .false.
+      ! each solution stands for itself
+      level%link = time_link%initiate
+      level%estimate = estimate_choice%fresh
+   end subroutine prepare_level
+
+   !> Estimated relative error of all patches together, each weighted by its load; negative without contact
+   pure real(wp) function error_of_pair(memory) result(e)
+      !> Patches are solved, with errors
+      type(wheel_rail_memory), intent(in) :: memory
+      real(wp) :: load, part
+      integer :: k
+
+      load = sum(memory%slot(:memory%used)%result%fn)
+      e = -1.0_wp
+      if (.not. load > 0.0_wp) return
+      e = 0.0_wp
+      do k = 1, memory%used
+         part = error_of_forces(memory%slot(k)%problem, memory%slot(k)%result)
+         if (part < 0.0_wp) part = error_of_few
+         e = e + part*memory%slot(k)%result%fn/load
+      end do
+   end function error_of_pair
+
+   !> Lowest order of the discretisation of the patches
+   pure integer function order_of(memory) result(order)
+      type(wheel_rail_memory), intent(in) :: memory
+
+      order = 0
+      if (memory%used > 0) order = minval(memory%slot(:memory%used)%result%tangential%order)
+   end function order_of
+
+   !> Sides of the next elements, from the patch that bears most
+   pure subroutine next_sides(spec, memory, report, order, sides, next)
+      !> With its limits
+      type(case_spec), intent(in) :: spec
+      type(wheel_rail_memory), intent(in) :: memory
+      !> Estimate, and what is asked
+      type(accuracy_report), intent(in) :: report
+      !> Of the error
+      real(wp), intent(in) :: order
+      !> Present ones [mm]
+      real(wp), intent(in) :: sides(2)
+      !> [mm]
+      real(wp), intent(out) :: next(2)
+      type(bounding_box) :: box
+      real(wp) :: across(2), most, elements
+      integer :: k
+
+      next = 0.4_wp*sides
+      if (memory%used == 0) return
+      k = maxloc(memory%slot(:memory%used)%result%fn, dim=1)
+      next = sides
+      most = min(most_elements(spec%limits), real(spec%iteration%npot_max, wp))
+      associate (result => memory%slot(k)%result)
+         if (result%ncon == 0) return
+         box = contact_box(result%division)
+         across = real([box%ix1 - box%ix0 + 1, box%iy1 - box%iy0 + 1], wp)
+         call shorten_aspect(across*[result%grid%dx, result%grid%dy], finer_across(minval(across), report%estimated, &
+            & report%asked, order), next)
+         next = min(next, sides)
+      end associate
+      do k = 1, memory%used
+         associate (grid => memory%slot(k)%result%grid)
+            elements = real(grid%npot(), wp)*product([grid%dx, grid%dy]/next)
+            if (elements > most) next = min(sides, next*sqrt(elements/most))
+         end associate
+      end do
+   end subroutine next_sides
+
+   !> Put what was chosen into specification and result; a warning where the accuracy was not reached
+   subroutine tell_report(spec, sides, result, report, log)
+      type(case_spec), intent(inout) :: spec
+      !> Of the last elements [mm]
+      real(wp), intent(in) :: sides(2)
+      type(wheel_rail_result), intent(inout) :: result
+      type(accuracy_report), intent(inout) :: report
+      type(log_type), intent(inout) :: log
+
+      report%is_met = report%estimated >= 0.0_wp .and. report%estimated <= report%asked
+      if (size(result%patches) == 0) report%reason = "wheel and rail do not touch"
+      if (report%is_met) then
+         report%reason = ""
+      else if (report%reason == "") then
+         report%reason = "smaller elements did not help"
+      end if
+      if (.not. report%sides(1) > 0.0_wp) report%sides = sides
+      spec%wheel_rail%search%dx = report%sides(1)
+      spec%wheel_rail%search%ds = report%sides(2)
+      spec%iteration%eps = report%eps
+      spec%iteration%order = 2
+      spec%estimates_errors = .true.
+      result%accuracy = report
+      if (.not. report%is_met) call log%warning("the accuracy that was asked for was not reached: " // trim(report%reason))
+   end subroutine tell_report
+end module contact_cases_wheel_rail_accuracy

@@ -1,0 +1,159 @@
+#!/usr/bin/env python3
+"""An accuracy that is asked for: what is chosen, what is said of it, what it costs, where it ends, what is refused
+
+The environment tells CONTACT_PROGRAM and CONTACT_SOURCE.
+"""
+import json
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+PROGRAM = os.environ["CONTACT_PROGRAM"]
+SOURCE = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "accuracy"))
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+
+from error_cases import wheel_text
+from test_order import rolling
+
+WHEEL = {"dx": 0.4, "mu": 0.3, "cant": 0.025, "y": 0.0, "yaw": 0.0, "fz": 60000.0, "vs": 20000.0, "vpitch": -43.5}
+#: Forms of the grid with the same window: mm, corner and sides, corners, centre and sides, centres
+WINDOWS = ("1 IPOTCN\n20 20 -3.6 -6 0.36 0.6 MX MY XL YL DX DY", "2 IPOTCN\n20 20 -3.6 -6 3.6 6 MX MY XL YL XH YH",
+           "3 IPOTCN\n20 20 -3.42 -5.7 0.36 0.6 MX MY XC1 YC1 DX DY", "4 IPOTCN\n20 20 -3.42 -5.7 3.42 5.7 MX MY XC1 YC1 XCM YCM")
+
+
+class Accuracy(unittest.TestCase):
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp())
+        self.addCleanup(shutil.rmtree, self.folder)
+
+    def run_program(self, *words, status=0):
+        done = subprocess.run([PROGRAM, *words], cwd=self.folder, capture_output=True, text=True, timeout=120)
+        self.assertEqual(done.returncode, status, done.stdout + done.stderr)
+        return done.stdout + done.stderr
+
+    def solve(self, name, text, *options):
+        """The report, and the record of the first case with plain values"""
+        if text:
+            (self.folder / name).write_text(text + (" 0 MODULE\n" if name.endswith(".inp") else ""))
+        self.run_program("--json", *options, "2", name)
+        stem = name.split(".")[0]
+        record = json.loads((self.folder / (stem + ".jsonl")).read_text().split("\n")[0])
+        return (self.folder / (stem + ".out")).read_text(), plain(record)
+
+    def test_reached(self):
+        """The error against a grid of 160 x 160 is below what was asked for; the grid, not that of the file, is told"""
+        _, fine = self.solve("fine.inp", rolling().replace("14 14", "160 160"), "--order", "2")
+        fine = fine["patches"][0]["totals"]
+        before = 0
+        for asked in (1e-2, 1e-3, 2e-4):
+            with self.subTest(asked):
+                words, record = self.solve("a.inp", rolling(), "--accuracy", str(asked))
+                patch = record["patches"][0]
+                told, totals = patch["accuracy"], patch["totals"]
+                self.assertTrue(told["reached"])
+                self.assertLessEqual(told["estimated"], asked)
+                error = max(abs(totals[name] - fine[name]) for name in ("fx_rel", "fy_rel"))
+                self.assertLess(max(error, abs(totals["pen"] / fine["pen"] - 1.0)), asked)
+                self.assertGreater(told["mx"], before)
+                before = told["mx"]
+                self.assertEqual((told["order"], told["eps"]), (2, min(1e-3, 0.1 * asked)))
+                self.assertIn("OF THE FORCES, REACHED\n", words)
+                self.assertIn(f"elements {told['mx']} x {told['my']} of ", words)
+                self.assertIn("_error", "".join(patch["errors"]))
+
+    def test_windows(self):
+        """All forms of a window are refined within the same sides, and the result is that of a case with the chosen numbers"""
+        geometry = "\n1 1 IBASE IPLAN\n0.005 0 0.0022 0 0 0 B\n"
+        results = []
+        for number, window in enumerate(WINDOWS):
+            text = rolling().replace("-3 IPOTCN", window + geometry.rstrip()).replace("14 14 3 5 1.2 MX MY AA BB SCALE\n", "")
+            _, record = self.solve(f"w{number}.inp", text, "--accuracy=2e-3")
+            told = record["patches"][0]["accuracy"]
+            results.append((told["mx"], told["my"], round(told["dx"], 9), round(record["patches"][0]["totals"]["fx"], 3)))
+            if number:
+                continue
+            size = f"{told['mx']} {told['my']} -3.6 -6 {told['dx']!r} {told['dy']!r} MX"
+            text = text.replace("20 20 -3.6 -6 0.36 0.6 MX", size).replace("1e-6 MAXGS", "2e-4 MAXGS")
+            text = text.replace("0 0.5 30000 CHI", f"0 {told['dx']!r} 30000 CHI")
+            _, same = self.solve("same.inp", text, "--order", "2")
+            self.assertEqual(same["patches"][0]["totals"]["fx"], record["patches"][0]["totals"]["fx"])
+        self.assertEqual(len(set(results)), 1, results)
+        self.assertLess(abs(results[0][0] * results[0][2] - 7.2), 1e-7)
+
+    def test_wheel(self):
+        """A wheel on a rail: DX and DS follow, the estimate is met, and the forces are those of a finer one"""
+        _, fine = self.solve("f.toml", wheel_text(WHEEL, 4, SOURCE / "examples" / "profiles"), "--order", "2")
+        text = wheel_text(WHEEL, 0.5, SOURCE / "examples" / "profiles").replace("output_level = 0", "output_level = 2")
+        words, record = self.solve("w.toml", text, "--accuracy", "1e-3")
+        told = record["accuracy"]
+        self.assertTrue(told["reached"] and told["estimated"] <= 1e-3)
+        self.assertNotIn("mx", told)
+        bound = 0.3 * sum(p["totals"]["fn"] for p in fine["patches"])
+        for name in ("fx_tr", "fy_tr"):
+            self.assertLess(abs(record["totals"][name] - fine["totals"][name]), 1e-3 * bound)
+        self.assertIn("OF THE FORCES, REACHED\n", words)
+
+    def test_limits(self):
+        """Where limits end the search the best result stands there, with its error and the reason"""
+        for option, reason in (("--limit-elements=1000", "elements are not allowed"), ("--limit-memory=1.5", "elements are not allowed")):
+            words, record = self.solve("a.inp", rolling(), "--accuracy", "1e-5", option)
+            told = record["patches"][0]["accuracy"]
+            self.assertFalse(told["reached"])
+            self.assertTrue(1e-5 < told["estimated"] < 5e-3)
+            self.assertTrue(record["converged"])
+            self.assertLessEqual(told["mx"] * told["my"], 1000)
+            self.assertIn("NOT REACHED: more than ", words)
+            self.assertIn(reason, told["reason"])
+            self.assertIn("Warning: the accuracy that was asked for was not reached", words)
+        told = self.solve("a.inp", rolling(material=4, layer="1000 0.02 0 0 GG3 LAYTHK TAU_C0 K_TAU"), "--accuracy", "1e-4",
+                          "--limit-time=0.3")[1]["patches"][0]["accuracy"]
+        self.assertRegex(told["reason"], "no time left|time limit")
+
+    def test_refused(self):
+        """Values out of range, and cases whose grid cannot be chosen"""
+        (self.folder / "a.inp").write_text(rolling() + " 0 MODULE\n")
+        for word in ("0", "1", "1e-7", "x", "-1e-3", "nan"):
+            self.assertIn("is not a number from 1e-6 to 0.1", self.run_program(f"--accuracy={word}", "2", "a", status=1))
+        self.assertIn("needs", self.run_program("--accuracy", status=1))
+        layer = "1000 0.02 100 10 GG3 LAYTHK TAU_C0 K_TAU"
+        for name, why, choice in (("transient", "transient rolling", {"motion": 2}), ("formula", "pressures by formula", {"bound": 3}),
+                                  ("yield", "a layer that yields", {"material": 4, "layer": layer})):
+            (self.folder / (name + ".inp")).write_text(rolling(**choice) + " 0 MODULE\n")
+            said = self.run_program("--accuracy", "1e-3", "2", name, status=1)
+            self.assertIn("the grid cannot be chosen with " + why, said)
+        oblique = rolling().replace("0 0.5 30000 CHI", "1.57 0.5 30000 CHI")
+        (self.folder / "oblique.inp").write_text(oblique + " 0 MODULE\n")
+        self.assertIn("not along x", self.run_program("--accuracy", "1e-3", "2", "oblique", status=1))
+
+    def test_resume(self):
+        """The accuracy is one of the options that a run was made with"""
+        text = rolling() + rolling().replace("0.0005", "0.0004")
+        (self.folder / "r.inp").write_text(text + "3 MODULE\nx\n")
+        self.run_program("--accuracy", "1e-2", "--json", "2", "r", status=1)
+        (self.folder / "r.inp").write_text(text + rolling().replace("0.0005", "0.0003") + " 0 MODULE\n")
+        self.assertIn("another accuracy", self.run_program("--resume", "--accuracy", "1e-3", "2", "r", status=1))
+        self.run_program("--resume", "2", "r")
+        records = [plain(json.loads(line)) for line in (self.folder / "r.jsonl").read_text().splitlines()]
+        self.assertEqual([r["patches"][0]["accuracy"]["asked"] for r in records if r["patches"]], [1e-2] * 3)
+
+    def test_next_case(self):
+        """A case that keeps the grid of one with an accuracy has the grid of the file, and asks for none where it says so"""
+        words, _ = self.solve("a.inp", rolling() + rolling(), "--accuracy", "1e-2")
+        self.assertEqual(len(re.findall("ACCURACY ASKED FOR", words)), 2)
+
+
+def plain(value):
+    """Without units and meanings."""
+    if isinstance(value, dict):
+        return value["value"] if "value" in value else {k: plain(v) for k, v in value.items()}
+    return [plain(v) for v in value] if isinstance(value, list) else value
+
+
+if __name__ == "__main__":
+    unittest.main()
