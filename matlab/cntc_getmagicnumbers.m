@@ -62,6 +62,8 @@ function [ CNTC ] = cntc_getmagicnumbers( )
 %   CNTC.own_classical solvers that G names: 0 the default solver acts in their place, to a residual as small, where it can; 1 they run
 %   CNTC.own_order    discretisation of steady rolling: 1 the established one, 2 of second order in the size of elements
 %   CNTC.own_errors   errors of the totals are estimated by each calculation: 0 no, 1 yes, see cntc_geterrors
+%   CNTC.own_accuracy accuracy of the forces that is asked for in place of a grid: 10 to 1000000, one part in so many; 0 none: the grid is the caller's
+%   CNTC.own_reached  read only, has the last calculation reached the accuracy that was asked for? 0 no, or none was, 1 yes
 %
 % Data that go along into the .mat files
 %
@@ -165,6 +167,8 @@ function [ CNTC ] = cntc_getmagicnumbers( )
    CNTC.own_classical = 9006;
    CNTC.own_order = 9007;
    CNTC.own_errors = 9008;
+   CNTC.own_accuracy = 9009;
+   CNTC.own_reached = 9010;
    CNTC.mt_tim = 2011;
    CNTC.mt_xr = 2012;
    CNTC.mt_yr = 2013;

@@ -137,7 +137,7 @@ class Patch(View):
         As of the problem: ``"mm"``, ``"si"`` or ``"simpack"``; ``"steady"``, ``"transient"``, ``"shift"`` or ``"frictionless"``.
     errors
         Estimated errors of totals by their names in files and in the units of these, ``errors["fx"]``; without what is given or
-        has no estimate. None without :meth:`Problem.set_errors`.
+        has no estimate. None without :meth:`Problem.set_errors` or an accuracy.
     """
 
     x: Field
@@ -218,7 +218,8 @@ def read_patch(ire: int, icp: int, units: str = "mm", motion: str = "steady") ->
     mx, my, x, y, dx, dy = cntc.getpotcontact(ire, icp)
     fn, fx, fy, mz = cntc.getcontactforces(ire, icp)
     areas = cntc.getcontactpatchareas(ire, icp)
-    heat, border, wants_errors = cntc.getflags(ire, icp, [CNTC["ic_heat"], CNTC["own_border"], CNTC["own_errors"]])
+    heat, border, *wants_errors = cntc.getflags(ire, icp, [CNTC[name] for name in ("ic_heat", "own_border", "own_errors",
+                                                                                   "own_accuracy")])
     temperatures = None
     if heat:
         temperatures = np.stack([cntc.getfielddata(ire, icp, CNTC[name]) for name in ("fld_temp1", "fld_temp2")])
@@ -230,7 +231,7 @@ def read_patch(ire: int, icp: int, units: str = "mm", motion: str = "steady") ->
                  cntc.getelementdivision(ire, icp), pn, px, py, un, ux, uy, sx, sy,
                  cntc.getfielddata(ire, icp, CNTC["fld_h"]), cntc.getfielddata(ire, icp, CNTC["fld_mu"]), temperatures,
                  tuple(name for bit, name in enumerate(_SIDES) if border >> bit & 1), units, motion,
-                 _errors(ire, icp, motion) if wants_errors else None)
+                 _errors(ire, icp, motion) if any(wants_errors) else None)
 
 
 def _errors(ire: int, icp: int, motion: str) -> dict[str, float]:
@@ -490,7 +491,7 @@ class Element:
                  [bulk, *first, bulk if bulk2 is None else bulk2, *second, plastic_share])
 
     def set_solver(self, eps: float = 1e-5, maxgs: int = 999, maxin: int = 100, maxnr: int = 30,
-                   maxout: int = 1, order: int = 2) -> None:
+                   maxout: int = 1, order: int = 2, accuracy: float = 0.0) -> None:
         """Tolerance [-] and limits of the iterations of the default solver (G = 0), and order of the discretisation.
 
         Parameters
@@ -500,10 +501,15 @@ class Element:
         order
             Discretisation of steady rolling: 2, whose errors fall with the square of the size of elements, where it is
             made for the case (doc/theory/second_order.md), or 1, the established one of ``.inp`` files and ``cntc``.
+        accuracy
+            Largest relative error of the forces [-], 1e-6 to 0.1, that is asked for in place of a grid: the numbers of elements
+            of a grid tell its window only, eps and order are chosen (doc/user/running.md). 0: none is asked for.
         """
         if order not in (1, 2):
             raise ValueError(f"order = {order!r} is none of 1, 2")
-        self.set_flags(own_order=order)
+        if accuracy != 0.0 and not 1e-6 <= accuracy <= 0.1:
+            raise ValueError(f"accuracy = {accuracy!r} is neither 0 nor between 1e-6 and 0.1")
+        self.set_flags(own_order=order, own_accuracy=round(1.0 / accuracy) if accuracy else 0)
         self._do(cntc.setsolverflags, self.number, self._icp, 0, [maxgs, maxin, maxnr, maxout], [eps])
 
     def add_block(self, x: ArrayLike | None, y: ArrayLike | None, z: ArrayLike, block: int = 1) -> None:
@@ -535,4 +541,8 @@ class Element:
             raise ContactError(f"The problem was not solved: {reason}", code, self._status)
         if self._status != "solved":
             warnings.warn(f"The problem is {self._status}: {self._reason}", NotConvergedWarning, stacklevel=3)
+        asked, reached = cntc.getflags(self.number, self._icp, [CNTC["own_accuracy"], CNTC["own_reached"]])
+        if asked and not reached:
+            warnings.warn("The accuracy that was asked for was not reached; errors of the result tell what is left", ContactWarning,
+                          stacklevel=3)
         return int(code)

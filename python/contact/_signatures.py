@@ -146,6 +146,8 @@ MAGIC_NUMBERS = {
     "own_classical": 9006,  # solvers that G names: 0 the default solver acts in their place, to a residual as small, where it can; 1 they run
     "own_order": 9007,  # discretisation of steady rolling: 1 the established one, 2 of second order in the size of elements
     "own_errors": 9008,  # errors of the totals are estimated by each calculation: 0 no, 1 yes, see cntc_geterrors
+    "own_accuracy": 9009,  # accuracy of the forces that is asked for in place of a grid: 10 to 1000000, one part in so many; 0 none: the grid is the caller's
+    "own_reached": 9010,  # read only, has the last calculation reached the accuracy that was asked for? 0 no, or none was, 1 yes
     # Data that go along into the .mat files
     "mt_tim": 2011,  # time [s]
     "mt_xr": 2012,  # contact point on the rail, x [L]

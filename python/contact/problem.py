@@ -120,7 +120,8 @@ class Problem(Element):
         Parameters
         ----------
         distance
-            Array of shape (my, mx), or a function of x (1, mx) and y (my, 1) that gives it.
+            Array of shape (my, mx), or a function of x (1, mx) and y (my, 1) that gives it. It belongs to the elements of
+            the grid: ``set_solver(accuracy=...)`` goes with :meth:`set_hertz` only.
         """
         if self._grid is None:
             raise ValueError("set_distance needs set_grid first")

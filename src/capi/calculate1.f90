@@ -10,7 +10,7 @@ module contact_capi_calculate1
    use contact_capi_messages, only : complain, say
    use contact_capi_problem, only : library_problem, max_patches
    use contact_cases_continuation, only : describe_search
-   use contact_cases_wheel_rail_session, only : solve_wheel_rail_case
+   use contact_cases_wheel_rail_accuracy, only : solve_wheel_on_rail
    use contact_cases_spec, only : case_spec
    use contact_control_digits, only : case_digits, digit_names, digit_value, is_known
    use contact_control_library_codes, only : code_of_wheel_rail, library_code
@@ -59,7 +59,13 @@ contains
       call find_working_folder(folder)
       ! callers step through time; programs of cases read each one as if it stood alone
       problem%wheel_rail%problem%in_loop = .true.
-      call solve_wheel_rail_case(problem%wheel_rail, problem%spec, folder, log, problem%wheel_rail_result, error)
+      if (allocated(problem%solved)) deallocate(problem%solved)
+      if (problem%spec%iteration%accuracy > 0.0_wp) then
+         allocate(problem%solved, source=problem%spec)
+         call solve_wheel_on_rail(problem%wheel_rail, problem%solved, folder, log, problem%wheel_rail_result, error)
+      else
+         call solve_wheel_on_rail(problem%wheel_rail, problem%spec, folder, log, problem%wheel_rail_result, error)
+      end if
    end subroutine solve_wheel_rail
 
    !> What was found becomes what is stored, and goes into print and files
@@ -84,7 +90,11 @@ contains
                code = code_of_wheel_rail(status, size(result%patches))
                call complain(this, status%reason, code)
             end if
-            call write_results(this, problem, log)
+            if (allocated(problem%solved)) then
+               call write_results(this, problem, problem%solved, log)
+            else
+               call write_results(this, problem, problem%spec, log)
+            end if
          end if
          if (size(result%patches) == 0) call say(1, this, "wheel and rail do not touch")
          if (size(result%patches) > max_patches) call say(0, this, "more than " // integer_text(max_patches) // &
@@ -173,18 +183,20 @@ contains
    end subroutine check_settings
 
    !> Printed output and the files with all elements
-   subroutine write_results(this, problem, log)
+   subroutine write_results(this, problem, spec, log)
       type(entry_type), intent(in) :: this
       type(library_problem), intent(in) :: problem
+      !> The case as it was solved
+      type(case_spec), intent(in) :: spec
       type(log_type), intent(inout) :: log
       type(error_type), allocatable :: error
       character(len=:), allocatable :: path
 
       !$omp critical (contact_printing)
-      call write_wheel_rail(log, problem%spec, problem%wheel_rail_result)
+      call write_wheel_rail(log, spec, problem%wheel_rail_result)
       !$omp end critical (contact_printing)
       call find_result_file("caddon", path)
-      call write_wheel_rail_files(path, problem%cases, problem%ire, problem%spec, problem%wheel_rail_result, error, &
+      call write_wheel_rail_files(path, problem%cases, problem%ire, spec, problem%wheel_rail_result, error, &
          & problem%metadata%time)
       if (allocated(error)) call complain(this, full_text(error))
    end subroutine write_results

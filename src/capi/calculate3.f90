@@ -10,8 +10,8 @@ module contact_capi_calculate3
    use contact_capi_library, only : entry_type
    use contact_capi_messages, only : complain
    use contact_capi_problem, only : library_problem
+   use contact_cases_accuracy, only : solve_contact_case
    use contact_cases_continuation, only : describe_coefficients, frame_of
-   use contact_cases_session, only : solve_case
    use contact_cases_spec, only : case_spec
    use contact_control_digits, only : case_digits
    use contact_control_library_codes, only : code_of_contact, library_code
@@ -52,7 +52,13 @@ contains
       call check_coefficients(digits%c == 0, problem%spec, problem%coefficients, error)
       if (allocated(error)) return
       call find_working_folder(folder)
-      call solve_case(problem%session, problem%spec, log, problem%result, error, folder)
+      if (allocated(problem%solved)) deallocate(problem%solved)
+      if (problem%spec%iteration%accuracy > 0.0_wp) then
+         allocate(problem%solved, source=problem%spec)
+         call solve_contact_case(problem%session, problem%solved, log, problem%result, error, folder)
+      else
+         call solve_contact_case(problem%session, problem%spec, log, problem%result, error, folder)
+      end if
       code = library_code%other
       if (.not. allocated(error)) return
       if (.not. continues(problem)) code = library_code%discretisation
@@ -74,6 +80,7 @@ contains
          call keep_solution(problem)
          ! rolling direction and step are told as they acted
          told = problem%spec
+         if (allocated(problem%solved)) told = problem%solved
          told%rolling = problem%stored%rolling
          call write_results(this, problem, told, log)
          call dump_contact_case(problem, told)

@@ -11,6 +11,7 @@ module contact_capi_flags
    use contact_capi_registry, only : enter, leave, scope
    use contact_capi_setter, only : setter
    use contact_capi_timers, only : set_timer_level
+   use contact_cases_accuracy_plan, only : largest_accuracy
    use contact_control_digits, only : choice_of, digit_value, put_digit
    use contact_control_flags, only : accepted_value, flag, flag_table, highest_of, row_of_flag
    use contact_control_units, only : convention_code, find_convention, inward, quantity
@@ -167,6 +168,14 @@ contains
             spec%classical = number /= 0
          case (flag%own_errors)
             spec%estimates_errors = number /= 0
+         case (flag%own_accuracy)
+            if (number > 0 .and. number*largest_accuracy < 1.0_wp) then
+               call complain(this, "an accuracy of one part in " // integer_text(number) // " is too rough; nothing is stored. " &
+                  & // "10 to 1000000 are accepted, and 0 for none")
+            else
+               spec%iteration%accuracy = 0.0_wp
+               if (number > 0) spec%iteration%accuracy = 1.0_wp/number
+            end if
          case (flag%timers)
             call set_timer_level(number)
          case (flag%ncase)
@@ -260,6 +269,10 @@ contains
             if (is_wheel_rail) number = merge(0, 1, spec%wheel_rail%search%angle_below_axle)
          case (flag%own_classical); number = merge(1, 0, spec%classical)
          case (flag%own_errors); number = merge(1, 0, spec%estimates_errors)
+         case (flag%own_accuracy)
+            number = 0
+            if (spec%iteration%accuracy > 0.0_wp) number = nint(1.0_wp/spec%iteration%accuracy)
+         case (flag%own_reached); number = merge(1, 0, has_reached(problem))
          case (flag%own_border); call look_at_patches(problem, icp, number, other(1), other(2))
          case (flag%own_stepped); call look_at_patches(problem, icp, other(1), number, other(2))
          case (flag%own_across); call look_at_patches(problem, icp, other(1), other(2), number)
@@ -275,6 +288,19 @@ contains
          end select
       end associate
    end function flag_value
+
+   !> Has the last calculation reached its accuracy?
+   pure logical function has_reached(problem)
+      type(library_problem), intent(in) :: problem
+
+      has_reached = .false.
+      if (.not. problem%has_result) return
+      if (problem%module_number == 1) then
+         if (allocated(problem%wheel_rail_result%accuracy)) has_reached = problem%wheel_rail_result%accuracy%is_met
+      else
+         if (allocated(problem%result%accuracy)) has_reached = problem%result%accuracy%is_met
+      end if
+   end function has_reached
 
    !> Of one patch or of all of them: where contact is cut off, a sum of bits, see border_code; the points of the last
    !> subs_calculate near the surface and off the centres of elements; elements across where contact is narrowest, 0 without contact

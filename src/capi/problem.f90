@@ -86,6 +86,8 @@ module contact_capi_problem
       !> The input of the next calculation, but for the values that are stored beside it
       type(case_spec) :: spec
       type(stored_values) :: stored
+      !> The case as it was solved last, where its accuracy has chosen the grid; unallocated otherwise
+      type(case_spec), allocatable :: solved
       !> Profiles of module 1
       type(given_profile) :: rail, wheel
       !> Grid for which influence coefficients were last asked for (C of 1 and above); mx = 0 before

@@ -23,7 +23,7 @@ module contact_cases_accuracy
    implicit none (type, external)
    private
 
-   public :: refuse_contact, set_elements, solve_contact_case, sides_of_window
+   public :: solve_contact_case
 
    !> Part of a given window, along each side, that contact takes before anything is known of it
    real(wp), parameter :: usual_share = 0.75_wp
@@ -51,7 +51,7 @@ contains
          call solve_case(session, spec, log, result, error, folder)
          return
       end if
-      call refuse_contact(spec, error)
+      call refuse_contact(session, spec, error)
       if (allocated(error)) return
       call log%note()
       call refine(session, spec, log, result, error, folder)
@@ -60,12 +60,16 @@ contains
          if (.not. allocated(error)) call warn_of_steps(result, log)
       end if
       call log%publish()
+      session%curvatures = 0.0_wp
+      if (allocated(session%problem%hertz)) session%curvatures = [session%problem%hertz%a1, session%problem%hertz%b1]
       ! the next case lays out its own grid
       session%problem%has_geometry = .false.
    end subroutine solve_contact_case
 
    !> Refuse a case whose grid cannot be chosen, by name
-   subroutine refuse_contact(spec, error)
+   subroutine refuse_contact(session, spec, error)
+      !> With what the case before has left
+      type(contact_session), intent(in) :: session
       !> Of module 3, with an accuracy
       type(case_spec), intent(in) :: spec
       !> Allocated when it does not go
@@ -78,14 +82,31 @@ contains
       if (allocated(error)) return
       if (spec%grid%needs_geometry() .and. spec%geometry%form == distance_form%elementwise) then
          call fatal_error(error, cannot // "undeformed distances that are given element by element", error_kind%unsupported)
-      else if (any(spec%grid%form == [grid_form%hertz_axes, grid_form%hertz_line]) .and. spec%parts%grid == part_source%kept &
-         & .and. .not. spec%parts%geometry == part_source%given) then
-         call fatal_error(error, cannot // "the semi-axes of a case before: its load may have been another one. Curvatures do, or &
-            &semi-axes that are given again", error_kind%unsupported)
+      else if (keeps_axes(spec) .and. .not. maxval(session%curvatures) > 0.0_wp) then
+         call fatal_error(error, cannot // "the semi-axes of a case without an accuracy. Curvatures do, or semi-axes that are &
+            &given again", error_kind%unsupported)
       else if (spec%motion == motion%steady_rolling .and. abs(sin(spec%rolling%chi)) > along_x) then
          call fatal_error(error, cannot // "rolling that is not along x", error_kind%unsupported)
       end if
    end subroutine refuse_contact
+
+   !> Are there semi-axes that belong to the load of a case before? The curvatures that followed from them are kept
+   pure logical function keeps_axes(spec)
+      type(case_spec), intent(in) :: spec
+
+      keeps_axes = any(spec%grid%form == [grid_form%hertz_axes, grid_form%hertz_line]) .and. .not. spec%has_new_geometry()
+   end function keeps_axes
+
+   !> Curvatures in place of semi-axes
+   pure subroutine take_curvatures(curvatures, grid)
+      !> Of x**2 and y**2 [1/mm]
+      real(wp), intent(in) :: curvatures(2)
+      type(grid_spec), intent(inout) :: grid
+
+      grid%a1 = curvatures(1)
+      grid%b1 = curvatures(2)
+      grid%form = merge(grid_form%hertz_line_curvature, grid_form%hertz_curvatures, grid%is_line_contact())
+   end subroutine take_curvatures
 
    !> From grid to grid until the estimate is small enough, or no finer one can be had
    subroutine refine(session, spec, log, result, error, folder)
@@ -107,6 +128,7 @@ contains
       law = expected_law(spec)
       level = spec
       call prepare_level(report%eps, level)
+      if (keeps_axes(spec)) call take_curvatures(session%curvatures, level%grid)
       fixed = merge([spec%grid%mx, spec%grid%my], 0, [spec%grid%mx, spec%grid%my] <= no_direction)
       call first_counts(spec%grid, first_across(law, report%asked), lengths, counts)
       where (fixed > 0) counts = fixed
@@ -177,6 +199,7 @@ contains
 
    !> Sides of a window that is given; 0 where it follows from Hertz's solution
    pure function sides_of_window(grid) result(lengths)
+      !> As the case describes it
       type(grid_spec), intent(in) :: grid
       !> [mm]
       real(wp) :: lengths(2)

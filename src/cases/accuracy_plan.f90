@@ -100,7 +100,7 @@ contains
 
    !> Can a number be asked for, or is it 0 for none?
    pure logical function is_accuracy(number)
-      !> [-]
+      !> Largest relative error of the forces [-]
       real(wp), intent(in) :: number
 
       is_accuracy = abs(number) <= 0.0_wp .or. (number >= smallest_accuracy .and. number <= largest_accuracy)
@@ -170,7 +170,7 @@ contains
 
    !> Most elements that the grid of a case may have
    pure real(wp) function most_elements(limits) result(most)
-      !> Of the case
+      !> What the case may take: elements, memory, time
       type(case_limits), intent(in) :: limits
 
       most = real(usual_limit, wp)
@@ -180,7 +180,7 @@ contains
 
    !> Is there time for a grid of more elements?
    logical function time_is_left(limits, seconds, ratio)
-      !> Of the case
+      !> What the case may take: elements, memory, time
       type(case_limits), intent(in) :: limits
       !> Time of the present grid [s]
       real(wp), intent(in) :: seconds
@@ -192,7 +192,7 @@ contains
 
    !> Tolerance of the solvers for an accuracy
    pure real(wp) function solver_tolerance(asked) result(eps)
-      !> [-]
+      !> Largest relative error of the forces [-]
       real(wp), intent(in) :: asked
 
       eps = min(largest_eps, max(smallest_eps, eps_share*asked))

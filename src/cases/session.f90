@@ -34,6 +34,8 @@ module contact_cases_session
       type(coarse_level), allocatable :: coarse
       !> The grid for which a warning has named a larger one
       type(potential_contact) :: advised
+      !> Curvatures of the Hertzian contact whose grid was chosen for an accuracy [1/mm]; 0 for none
+      real(wp) :: curvatures(2) = 0.0_wp
    end type contact_session
 
 contains

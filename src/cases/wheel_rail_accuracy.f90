@@ -45,6 +45,7 @@ contains
       !> Gets `accuracy` where one was asked for
       type(wheel_rail_result), intent(inout) :: result
       type(error_type), allocatable, intent(out) :: error
+      real(wp) :: asked(2)
       integer :: k
 
       if (.not. (abs(spec%iteration%accuracy) > 0.0_wp .and. spec%solve)) then
@@ -55,7 +56,11 @@ contains
       call refuse_case(spec, error)
       if (allocated(error)) return
       call log%note()
+      asked = [spec%wheel_rail%search%dx, spec%wheel_rail%search%ds]
       call refine(session, spec, folder, log, result, error)
+      ! the next case is compared with what was asked for
+      session%problem%spec%search%dx = asked(1)
+      session%problem%spec%search%ds = asked(2)
       if (.not. allocated(error) .and. spec%has_stress) then
          do k = 1, size(result%patches)
             call subsurface_stresses(spec, result%patches(k)%contact, error, spec%wheel_rail%left)

@@ -2,6 +2,7 @@
 module contact_experiment_convert
    use contact_base_choices, only : heat_source, motion
    use contact_base_error, only : add_context, error_kind, error_type, fatal_error
+   use contact_base_kinds, only : wp
    use contact_base_output_file, only : output_file, remove_file
    use contact_experiment_place, only : choose_input, experiment_place, input_suffix, locate_experiment, readable_suffix
    use contact_input_experiment_file, only : experiment_reader, input_case

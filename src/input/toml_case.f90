@@ -3,19 +3,19 @@
 !> A choice that a case does not name is that of the case before. A group that it does not give is kept; what is derived from a
 !> kept group is formed anew where the rest of the case demands it, or as the key `renew` says.
 module contact_input_toml_case
-   use contact_base_choices, only : heat_source, motion, slip_source
-   use contact_cases_accuracy_plan, only : is_accuracy
+   use contact_base_choices, only : motion, slip_source
    use contact_cases_continuation, only : frame_of
    use contact_cases_spec, only : case_spec, grid_spec
    use contact_cases_whole_case, only : visit_case
    use contact_control_digits, only : case_digits, digit_names, digit_of, digit_table, put_digit, word_length
    use contact_control_translation, only : digits_of, take_digits
    use contact_control_words, only : choice_words, digit_of_word, form_value, is_choice, key_of, key_table, tell_in_words, &
-      & usual_order, words_of
+      & words_of
    use contact_input_control, only : check_digits, control_words, refuse_unbuilt_digits
    use contact_grid_potential_contact, only : potential_contact
    use contact_input_checks, only : check_case
    use contact_input_problems, only : problem_list, severity
+   use contact_input_toml_own_keys, only : take_accuracy, take_errors, take_heat_source, take_order
    use contact_input_toml_reader, only : new_toml_reader, toml_reader
    use contact_input_toml_tables, only : toml_memory
    use contact_text_lexer, only : printable
@@ -420,93 +420,4 @@ contains
          end associate
       end do
    end subroutine take_plain_keys
-
-   !> Order of the discretisation of steady rolling, kept from case to case
-   subroutine take_order(a, has_previous, spec)
-      type(toml_reader), intent(inout) :: a
-      logical, intent(in) :: has_previous
-      type(case_spec), intent(inout) :: spec
-      integer :: node, table
-
-      if (.not. has_previous) spec%iteration%order = usual_order
-      table = a%document%child(a%case_node, "iteration")
-      if (table == 0) return
-      if (a%document%nodes(table)%kind /= toml_kind%table) return
-      call a%note_key("iteration", "order")
-      node = a%document%child(table, "order")
-      if (node == 0) return
-      a%used(node) = .true.
-      associate (value => a%document%nodes(node))
-         if (value%kind == toml_kind%integer .and. any(value%i == [1, 2])) then
-            spec%iteration%order = int(value%i)
-         else
-            call a%add_problem(severity%error, node, "order must be 1 or 2")
-         end if
-      end associate
-   end subroutine take_order
-
-   !> Are errors of the totals estimated? Kept from case to case
-   subroutine take_errors(a, spec)
-      type(toml_reader), intent(inout) :: a
-      type(case_spec), intent(inout) :: spec
-      integer :: node
-
-      node = a%document%child(a%case_node, "errors")
-      if (node == 0) return
-      associate (value => a%document%nodes(node))
-         if (value%kind == toml_kind%logical) then
-            spec%estimates_errors = value%l
-         else
-            call a%add_problem(severity%error, node, "errors must be true or false")
-         end if
-      end associate
-   end subroutine take_errors
-
-   !> The accuracy that is asked for, 0 for none; kept from case to case
-   subroutine take_accuracy(a, spec)
-      type(toml_reader), intent(inout) :: a
-      type(case_spec), intent(inout) :: spec
-      integer :: node, table
-
-      table = a%document%child(a%case_node, "iteration")
-      if (table == 0) return
-      if (a%document%nodes(table)%kind /= toml_kind%table) return
-      call a%note_key("iteration", "accuracy")
-      node = a%document%child(table, "accuracy")
-      if (node == 0) return
-      a%used(node) = .true.
-      associate (value => a%document%nodes(node))
-         if ((value%kind == toml_kind%real .or. value%kind == toml_kind%integer) .and. is_accuracy(value%r)) then
-            spec%iteration%accuracy = value%r
-         else
-            call a%add_problem(severity%error, node, "accuracy must be a number from 1e-6 to 0.1, or 0 for none")
-         end if
-      end associate
-   end subroutine take_accuracy
-
-   !> How temperatures are computed: with moving sources, unless a case asks for those of the established program
-   subroutine take_heat_source(a, spec)
-      type(toml_reader), intent(inout) :: a
-      type(case_spec), intent(inout) :: spec
-      integer :: node, table
-
-      table = a%document%child(a%case_node, "heat")
-      if (table == 0) return
-      if (a%document%nodes(table)%kind /= toml_kind%table) return
-      call a%note_key("heat", "source")
-      node = a%document%child(table, "source")
-      if (node > 0) then
-         call a%memory%remember("heat.source", node)
-         a%used(node) = .true.
-      else
-         node = a%memory%recall("heat.source")
-      end if
-      spec%heat%source = heat_source%moving
-      if (node == 0) return
-      if (a%document%text_of(node) == "established" .and. a%document%nodes(node)%kind == toml_kind%string) then
-         spec%heat%source = heat_source%established
-      else if (a%document%text_of(node) /= "moving" .or. a%document%nodes(node)%kind /= toml_kind%string) then
-         call a%add_problem(severity%error, node, 'source must be "moving" or "established"')
-      end if
-   end subroutine take_heat_source
 end module contact_input_toml_case

@@ -1,6 +1,7 @@
 !> A case in words: what is simulated, what is not, how, and what it is expected to cost
 module contact_output_case_words
    use contact_base_choices, only : heat_source, is_simplified, motion, slip_source, variation
+   use contact_base_kinds, only : wp
    use contact_cases_estimate, only : case_cost, cost_text, estimate_cost
    use contact_cases_spec, only : case_spec
    use contact_control_digits, only : case_digits, digit_of, digit_text
@@ -50,6 +51,8 @@ contains
          call say("Solver: " // trim(digit("G", spec%solver)) // merge("; order 2", "         ", spec%iteration%order == 2))
       end if
       if (spec%estimates_errors) call say("Errors of the totals are estimated.")
+      if (spec%iteration%accuracy > 0.0_wp) call say("Accuracy: the forces to " // real_text(spec%iteration%accuracy) // &
+         & "; elements, order and EPS are chosen")
       call say("Material: " // trim(digit("M", spec%material_model)))
       if (.not. is_simplified(spec%material_model)) call say("Elasticity: " // trim(digit("C", spec%kernel)))
       if (module_number == 1) then

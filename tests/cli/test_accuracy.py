@@ -70,12 +70,13 @@ class Accuracy(unittest.TestCase):
     def test_windows(self):
         """All forms of a window are refined within the same sides, and the result is that of a case with the chosen numbers"""
         geometry = "\n1 1 IBASE IPLAN\n0.005 0 0.0022 0 0 0 B\n"
-        results = []
+        results, forces = [], []
         for number, window in enumerate(WINDOWS):
             text = rolling().replace("-3 IPOTCN", window + geometry.rstrip()).replace("14 14 3 5 1.2 MX MY AA BB SCALE\n", "")
             _, record = self.solve(f"w{number}.inp", text, "--accuracy=2e-3")
             told = record["patches"][0]["accuracy"]
-            results.append((told["mx"], told["my"], round(told["dx"], 9), round(record["patches"][0]["totals"]["fx"], 3)))
+            results.append((told["mx"], told["my"], round(told["dx"], 9)))
+            forces.append(record["patches"][0]["totals"]["fx"])
             if number:
                 continue
             size = f"{told['mx']} {told['my']} -3.6 -6 {told['dx']!r} {told['dy']!r} MX"
@@ -84,6 +85,8 @@ class Accuracy(unittest.TestCase):
             _, same = self.solve("same.inp", text, "--order", "2")
             self.assertEqual(same["patches"][0]["totals"]["fx"], record["patches"][0]["totals"]["fx"])
         self.assertEqual(len(set(results)), 1, results)
+        # within EPS: elements whose centres lie on the edge may be in contact or not
+        self.assertLess(max(forces) - min(forces), 2e-4 * abs(forces[0]))
         self.assertLess(abs(results[0][0] * results[0][2] - 7.2), 1e-7)
 
     def test_wheel(self):
@@ -101,7 +104,7 @@ class Accuracy(unittest.TestCase):
 
     def test_limits(self):
         """Where limits end the search the best result stands there, with its error and the reason"""
-        for option, reason in (("--limit-elements=1000", "elements are not allowed"), ("--limit-memory=1.5", "elements are not allowed")):
+        for option in ("--limit-elements=1000", "--limit-memory=1.5"):
             words, record = self.solve("a.inp", rolling(), "--accuracy", "1e-5", option)
             told = record["patches"][0]["accuracy"]
             self.assertFalse(told["reached"])
@@ -109,7 +112,7 @@ class Accuracy(unittest.TestCase):
             self.assertTrue(record["converged"])
             self.assertLessEqual(told["mx"] * told["my"], 1000)
             self.assertIn("NOT REACHED: more than ", words)
-            self.assertIn(reason, told["reason"])
+            self.assertIn("elements are not allowed", told["reason"])
             self.assertIn("Warning: the accuracy that was asked for was not reached", words)
         told = self.solve("a.inp", rolling(material=4, layer="1000 0.02 0 0 GG3 LAYTHK TAU_C0 K_TAU"), "--accuracy", "1e-4",
                           "--limit-time=0.3")[1]["patches"][0]["accuracy"]
@@ -122,7 +125,8 @@ class Accuracy(unittest.TestCase):
             self.assertIn("is not a number from 1e-6 to 0.1", self.run_program(f"--accuracy={word}", "2", "a", status=1))
         self.assertIn("needs", self.run_program("--accuracy", status=1))
         layer = "1000 0.02 100 10 GG3 LAYTHK TAU_C0 K_TAU"
-        for name, why, choice in (("transient", "transient rolling", {"motion": 2}), ("formula", "pressures by formula", {"bound": 3}),
+        for name, why, choice in (("transient", "transient rolling", {"motion": 2}),
+                                  ("formula", "pressures by formula", {"bound": 3}),
                                   ("yield", "a layer that yields", {"material": 4, "layer": layer})):
             (self.folder / (name + ".inp")).write_text(rolling(**choice) + " 0 MODULE\n")
             said = self.run_program("--accuracy", "1e-3", "2", name, status=1)
@@ -141,6 +145,23 @@ class Accuracy(unittest.TestCase):
         self.run_program("--resume", "2", "r")
         records = [plain(json.loads(line)) for line in (self.folder / "r.jsonl").read_text().splitlines()]
         self.assertEqual([r["patches"][0]["accuracy"]["asked"] for r in records if r["patches"]], [1e-2] * 3)
+
+    def test_readable_format(self):
+        """The accuracy stands in the file, is kept from case to case, ends with 0, and is told of by conversion"""
+        (self.folder / "a.inp").write_text(rolling() + " 0 MODULE\n")
+        self.run_program("convert", "a.inp")
+        (self.folder / "a.inp").unlink()
+        text = (self.folder / "a.toml").read_text().replace("[case.iteration]\n", "[case.iteration]\naccuracy = 5e-3\n")
+        more = "\n[[case]]\n[case.kinematics]\ncphi = 0.0004\n\n[[case]]\n[case.iteration]\naccuracy = 0\n"
+        self.solve("b.toml", text + more)
+        records = [plain(json.loads(line)) for line in (self.folder / "b.jsonl").read_text().splitlines()]
+        asked = [r["patches"][0].get("accuracy", {}).get("asked") for r in records if r["patches"]]
+        self.assertEqual(asked, [5e-3, 5e-3, None])
+        self.assertIn("--accuracy", self.run_program("convert", "b.toml"))
+        self.assertIn("Accuracy", self.run_program("explain", "b.toml"))
+        for word in ("0.5", '"1e-3"', "-1e-3", "1e-7"):
+            (self.folder / "d.toml").write_text(text.replace("5e-3", word))
+            self.assertIn("accuracy must be a number from 1e-6 to 0.1", self.run_program("3", "d.toml", status=1))
 
     def test_next_case(self):
         """A case that keeps the grid of one with an accuracy has the grid of the file, and asks for none where it says so"""

@@ -18,7 +18,7 @@ FLAGS = {"ic_config": (0, 5, "near"), "ic_pvtime": (0, 3, "near"), "ic_bound": (
          "ic_matfil": (0, 2, "zero"), "ic_sens": (0, 3, "near"), "ic_ifmeth": (0, 1, "near"), "ic_ifvari": (1, 4, "near"),
          "ic_sbsout": (0, 4, "near"), "ic_sbsfil": (0, 2, "zero"), "ic_npomax": (100, 1000000, "near"), "if_wrtinp": (0, 2, "keep"),
          "own_heat": (0, 1, "keep"), "own_angle": (0, 1, "keep"), "own_classical": (0, 1, "keep"), "own_order": (1, 2, "keep"),
-         "own_errors": (0, 1, "keep")}
+         "own_errors": (0, 1, "keep"), "own_accuracy": (0, 1000000, "keep")}
 # Flags that belong to wheel and rail: module 3 does not store them
 OF_PAIRS = {"ic_config", "ic_discns", "own_angle"}
 # Values within the range that no digit has, and that are not available, where they are stored
@@ -70,6 +70,8 @@ def ranges():
                 if name == "ic_sbsout" and expected == 3:
                     expected = 2
                 if (module == 3 and name in OF_PAIRS) or (module == 1 and name == "ic_force" and expected == 2):
+                    expected = stored
+                if name == "own_accuracy" and 0 < value < 10:
                     expected = stored
                 if module == 3 and name == "ic_npomax":
                     expected = 0
