@@ -78,7 +78,7 @@ function [ s ] = patch_struct( c, p, ipatch, npatch )
       end
    end
    s.mater  = materials(c.inputs.material, double(d.m), p);
-   s.fric   = friction(c.inputs.friction);
+   s.fric   = friction(c.inputs.friction, double(d.l));
    s.kincns = struct('t_digit',double(d.t), 'chi',chi, 'dq',dq, 'veloc',veloc);
    s.mx = double(g.mx);   s.my = double(g.my);
    s.xl = g.xl + reference(1);   s.yl = g.yl + reference(2);
@@ -169,25 +169,20 @@ end % function materials
 
 %------------------------------------------------------------------------------------------------------
 
-function [ fric ] = friction( f )
-% Friction law and the first set of parameters
+function [ fric ] = friction( f, digit )
+% Friction law, by the digit of the case where its word is none of these, and the first set of parameters
 
    names = {'coulomb','','linear','rational','exponential','','temperature'};
-   law  = find(strcmp(char(f.law), names)) - 1;
-   fric = struct('frclaw',law);
-   if (law==0)
-      fric = chosen(f, {'fstat','fkin'}, fric);
-   elseif (law==6)
-      fric = chosen(f, {'fref','tref','dfheat','dtheat','memdst','mem_s0'}, fric);
-   elseif (any(law==[2 3 4]))
-      coef = {'flin','frat','fexp'};
-      c = coef{law-1};
-      fric.fkin = f.fkin(1);
-      fric.([c '1']) = f.([c '1'])(1);
-      fric.sabsh1    = f.sabsh1(1);
-      fric.([c '2']) = f.([c '2'])(1);
-      fric = chosen(f, {'sabsh2','memdst','mem_s0'}, fric);
+   order = {'fstat','fkin','flin1','frat1','fexp1','sabsh1','flin2','frat2','fexp2','sabsh2','fref','tref','dfheat','dtheat', ...
+            'memdst','mem_s0'};
+   law   = find(strcmp(char(f.law), names)) - 1;
+   if (isempty(law))
+      law = digit;
    end
+   % known ones in the order of the input, what a new law has behind them
+   there = setdiff(fieldnames(f)', {'law','variation','alpha','svf'});
+   known = order(ismember(order, there));
+   fric = chosen(f, [known, setdiff(there, order)], struct('frclaw',law));
 
 end % function friction
 
