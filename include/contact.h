@@ -126,6 +126,44 @@ enum {
  * Returns CONTACT_SOLVED, CONTACT_NOT_CONVERGED, CONTACT_REFUSED or CONTACT_NOT_CALCULATED. */
 int contact_case_status(int ire, int icp, int *iteration, char *message, int message_length);
 
+/* Derivatives of wheel and rail: what changes (rows), and with what (columns) */
+enum {
+  CONTACT_FX_TRACK, CONTACT_FY_TRACK, CONTACT_FZ_TRACK, /* force in the directions of the track [F] */
+  CONTACT_MX_RAIL, CONTACT_MY_RAIL, CONTACT_MZ_RAIL,    /* moment about the rail marker in these directions [F L] */
+  CONTACT_FX_SET, CONTACT_FY_SET, CONTACT_FZ_SET,       /* force in the directions of the wheelset [F] */
+  CONTACT_MX_WHEEL, CONTACT_MY_WHEEL, CONTACT_MZ_WHEEL, /* moment about the wheel marker in these directions [F L] */
+  CONTACT_Z_SET,                                        /* height of the wheelset [L] */
+  CONTACT_JACOBIAN_ROWS
+};
+enum {
+  CONTACT_BY_Y, CONTACT_BY_Z, CONTACT_BY_ROLL, CONTACT_BY_YAW,                                /* position [L], [A] */
+  CONTACT_BY_VS, CONTACT_BY_VY, CONTACT_BY_VROLL, CONTACT_BY_VYAW, CONTACT_BY_VPITCH,         /* velocity [V], [A/T] */
+  CONTACT_BY_FZ,                                                                              /* vertical force [F] */
+  CONTACT_JACOBIAN_COLUMNS
+};
+
+/* What the derivatives are */
+enum {
+  CONTACT_DERIVATIVE_EXACT = 0,     /* those of the discrete equations, contact area and element division kept */
+  CONTACT_DERIVATIVE_ONE_SIDED = 1, /* a patch, or a part of one, appears or vanishes here: derivatives to the other side */
+  CONTACT_DERIVATIVE_NONE = 2       /* there are none, and the message tells why */
+};
+
+/* Derivatives of the forces and moments of cntc_getglobalforces, and of the height, at the last calculation of a wheel on a rail.
+ *
+ * With a prescribed vertical force (N = 1) the height follows from the other inputs: the column of z is 0. With a prescribed height
+ * (N = 0) the column of FZ is 0. Nothing is calculated before it is asked for, and nothing is changed by it.
+ *
+ * ire             result element
+ * values          receives the rows one after the other, [CONTACT_JACOBIAN_ROWS][CONTACT_JACOBIAN_COLUMNS], in the units and with
+ *                 the signs of the element; keeps its values where there are no derivatives
+ * room            number of values that there is room for
+ * message         receives "" or the reason of a state other than 0, cut to fit; NULL if not wanted
+ * message_length  size of message in bytes, the final null included
+ *
+ * Returns CONTACT_DERIVATIVE_..., or a negative number when nothing was calculated. */
+int contact_wheel_rail_jacobian(int ire, double *values, int room, char *message, int message_length);
+
 /* Many cases of a text in one call, without files: the heart of studies, see doc/user/studies.md.
  *
  * A batch keeps what calculations share from call to call. One thread at a time may use it; different batches may be used

@@ -13,18 +13,19 @@ if TYPE_CHECKING:
     from . import cntc, study, table, wear
     from ._element import Patch, Stresses, output_to
     from ._experiment import convert, explain, read
+    from ._jacobian import Jacobian
     from ._load import Case, Experiment, StoredPatch, load
     from .problem import Problem, Result
     from .study import Study
     from .wheel_rail import Forces, WheelRail, WheelRailPatch, WheelRailResult, Wrench
 
-__all__ = ["Case", "ContactError", "ContactWarning", "Experiment", "Forces", "NotConvergedWarning", "Patch", "Problem", "Result",
-           "StoredPatch", "Stresses", "Study", "WheelRail", "WheelRailPatch", "WheelRailResult", "Wrench", "cntc", "convert",
-           "explain", "load", "output_to", "read", "study", "table", "wear"]
+__all__ = ["Case", "ContactError", "ContactWarning", "Experiment", "Forces", "Jacobian", "NotConvergedWarning", "Patch", "Problem",
+           "Result", "StoredPatch", "Stresses", "Study", "WheelRail", "WheelRailPatch", "WheelRailResult", "Wrench", "cntc",
+           "convert", "explain", "load", "output_to", "read", "study", "table", "wear"]
 
 _HOMES = {"Patch": "_element", "Stresses": "_element", "output_to": "_element", "Problem": "problem",
           "Result": "problem", "WheelRail": "wheel_rail", "WheelRailPatch": "wheel_rail",
-          "WheelRailResult": "wheel_rail", "Forces": "wheel_rail", "Wrench": "wheel_rail",
+          "WheelRailResult": "wheel_rail", "Forces": "wheel_rail", "Jacobian": "_jacobian", "Wrench": "wheel_rail",
           "Study": "study", "convert": "_experiment", "explain": "_experiment", "read": "_experiment",
           "Case": "_load", "Experiment": "_load", "StoredPatch": "_load", "load": "_load"}
 

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 from . import cntc
 from ._element import (Element, Field, Patch, Stresses, buried_ends, fail_if, read_patch, read_stresses, warn_of_border,
                        warn_of_few_elements)
+from ._jacobian import Jacobian, read_jacobian
 from ._view import CONVENTIONS, meaning_of, optional, plot_patches, tree
 from .errors import ContactWarning
 
@@ -309,6 +310,19 @@ class WheelRail(Element):
                           stacklevel=2)
         return WheelRailResult(patches, forces, cntc.getwheelsetposition(number), cntc.getwheelsetvelocity(number),
                                self._status, self._reason, buried, border, self.units)
+
+    def jacobian(self) -> Jacobian:
+        """Derivatives of forces, moments and height at the last solution to position, velocities and vertical force.
+
+        The linear systems of the derivatives are solved when this is called; nothing is calculated without it. The discretisation
+        has to be that of first order, ``set_solver(order=1)``.
+
+        Raises
+        ------
+        ContactError
+            If nothing was solved, or if the derivatives do not exist or are not built for the settings; the text tells which.
+        """
+        return read_jacobian(self.number)
 
     def _patch(self, icp: int) -> WheelRailPatch:
         """Results of one patch, copied"""

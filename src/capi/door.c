@@ -104,3 +104,15 @@ int contact_case_status(int ire, int icp, int *iteration, char *message, int len
   if (contact_guard(ask_status, &question, 0) != 0 && message != NULL && length > 0) message[0] = 0;
   return question.answer;
 }
+
+/* Derivatives are handed out by a routine of its own kind: all arguments are addresses, the answer is one of them */
+void inside_contact_wheel_rail_jacobian(void);
+
+int contact_wheel_rail_jacobian(int ire, double *values, int room, char *message, int length) {
+  static const struct door door = {"contact_wheel_rail_jacobian", inside_contact_wheel_rail_jacobian, NULL, NULL, 6, 0, -1, 3};
+  int state = other_error;
+  void *arguments[] = {&ire, &room, values, &state, message, &length};
+  if (message != NULL && length > 0) message[0] = 0;
+  contact_call(&door, arguments);
+  return state;
+}

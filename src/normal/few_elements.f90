@@ -42,6 +42,8 @@ module contact_normal_few_elements
       procedure, private :: substitute
       !> Derivative of the pressures to the approach
       procedure :: pressure_derivative
+      !> Derivatives of the pressures to changes of the distance
+      procedure :: pressure_responses
    end type area_factor
 
 contains
@@ -252,4 +254,35 @@ contains
          q(self%place(1, k), self%place(2, k)) = self%x(k)
       end do
    end subroutine pressure_derivative
+
+   !> Pressures that bring about displacements while the area is kept, where a factor of the area suits
+   subroutine pressure_responses(self, operator, p, displacement, response, found)
+      class(area_factor), intent(inout) :: self
+      !> Prepared for the window
+      class(compliance), intent(in) :: operator
+      !> Pressures of the last solution [N/mm2], shape (mx, my)
+      real(wp), contiguous, intent(in) :: p(:, :)
+      !> Wanted on the area [mm per unit], shape (mx, my, cases)
+      real(wp), contiguous, intent(in) :: displacement(:, :, :)
+      !> [N/mm2 per unit], of the same shape; zero outside of the area
+      real(wp), contiguous, intent(inout) :: response(:, :, :)
+      !> Unchanged where it is not found
+      logical, intent(out) :: found
+      integer :: j, k
+
+      found = .false.
+      if (.not. is_plain(operator)) return
+      call self%fit(operator, p, found)
+      if (.not. found) return
+      response = 0.0_wp
+      do j = 1, size(displacement, 3)
+         do k = 1, self%n
+            self%x(k) = displacement(self%place(1, k), self%place(2, k), j)
+         end do
+         call self%substitute()
+         do k = 1, self%n
+            response(self%place(1, k), self%place(2, k), j) = self%x(k)
+         end do
+      end do
+   end subroutine pressure_responses
 end module contact_normal_few_elements

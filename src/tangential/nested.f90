@@ -12,13 +12,14 @@ module contact_tangential_nested
    use contact_elastic_new_compliance, only : new_compliance
    use contact_grid_coarsening, only : coarse_neighbours, coarse_size, coarsening_factor, shortest_side
    use contact_tangential_local_estimate, only : estimate_locally
+   use contact_tangential_newton_adjoint, only : newton_adjoint
    use contact_tangential_newton, only : newton_derivative, newton_outcome, newton_solve, newton_workspace
    use contact_tangential_problem, only : prepare_solution, residual_scale, settle, slip_of, &
       & tangential_problem, tangential_solution, true_residual
    implicit none (type, external)
    private
 
-   public :: nested_workspace, release_nested, solve_newton_krylov, traction_derivative
+   public :: nested_workspace, release_nested, solve_newton_krylov, traction_adjoint, traction_derivative
 
    !> Scratch of one level
    type :: level_type
@@ -116,6 +117,31 @@ contains
       if (.not. allocated(workspace%level)) allocate(workspace%level(levels))
       call newton_derivative(problem, operator, tolerance, workspace%level(1)%newton, solution, shift, bound, derivative, reached)
    end subroutine traction_derivative
+
+   !> Derivatives of weighted sums of tractions at a solution, whatever method found it; see newton_adjoint
+   subroutine traction_adjoint(problem, operator, tolerance, workspace, solution, weight, by_slip, by_bound, reached)
+      !> The problem that was solved
+      type(tangential_problem), intent(in) :: problem
+      !> Prepared for the window and the rolling direction of the problem
+      class(compliance), intent(inout) :: operator
+      !> Of the linear systems, relative to their right-hand sides [-]
+      real(wp), intent(in) :: tolerance
+      !> That of the solution, or any other: only its scratch is used
+      type(nested_workspace), intent(inout) :: workspace
+      !> Where the derivatives are taken
+      type(tangential_solution), intent(in) :: solution
+      !> Weights of the sums, shape (mx, my, 2, sums)
+      real(wp), contiguous, intent(in) :: weight(:, :, :, :)
+      !> Derivatives to the slip per step, shape (mx, my, 2, sums)
+      real(wp), contiguous, intent(inout) :: by_slip(:, :, :, :)
+      !> Derivatives to the traction bound, shape (mx, my, sums)
+      real(wp), contiguous, intent(inout) :: by_bound(:, :, :)
+      !> Largest relative residual that was reached [-]
+      real(wp), intent(out) :: reached
+
+      if (.not. allocated(workspace%level)) allocate(workspace%level(levels))
+      call newton_adjoint(problem, operator, tolerance, workspace%level(1)%newton, solution, weight, by_slip, by_bound, reached)
+   end subroutine traction_adjoint
 
    !> Free the plans of all levels
    subroutine release_nested(workspace)

@@ -10,7 +10,7 @@ module contact_tangential_newton_linear
    implicit none (type, external)
    private
 
-   public :: solve_linear
+   public :: precondition_field, solve_linear
 
    !> Restarts; chosen
    integer, parameter :: max_cycles = 4
@@ -151,11 +151,17 @@ contains
 
    !> u := (D C^-1 D / r + 1 - D) v for traction fields
    subroutine precondition_field(problem, operator, system, workspace, v, u)
+      !> Steady rolling or a step in time decides about the operator
       type(tangential_problem), intent(in) :: problem
+      !> Prepared for the window and the rolling direction of the problem
       class(compliance), intent(inout) :: operator
+      !> Scale of the slip
       type(linear_system), intent(in) :: system
+      !> Weights and directions, from `linearise`; its scratch is overwritten
       type(newton_workspace), intent(inout) :: workspace
+      !> Shape (mx, my, 2)
       real(wp), contiguous, intent(in) :: v(:, :, :)
+      !> Of the same shape
       real(wp), contiguous, intent(inout) :: u(:, :, :)
       real(wp), allocatable :: whole(:, :, :)
       integer :: ix, iy

@@ -1,12 +1,15 @@
 /* A vehicle of four wheelsets that runs over a straight track: one call of the library per wheel and time step.
  *
- * usage: vehicle FOLDER_OF_PROFILES [--check] [STEPS]
+ * usage: vehicle FOLDER_OF_PROFILES [--check] [--derivatives] [STEPS]
+ *
+ * With --derivatives the derivatives of the forces are asked for after each call, and their time is told beside that of the call.
  *
  * Tells the distribution of the processor time of calls, with the goals of doc/validation/performance.md. With --check it judges
  * what does not depend on the machine: forces do not depend on the calls before beyond the tolerance, they are smooth, and no
  * call fails. */
 #define _POSIX_C_SOURCE 200809L
 #include <caddon_flags.h>
+#include <contact.h>
 #include <contact_addon.h>
 #include <math.h>
 #include <stdio.h>
@@ -197,12 +200,41 @@ static void judge_smoothness(double side, double y0) {
   printf(" FZ of noise\n");
 }
 
+/* The same way with the derivatives of the forces: their time beside that of the calls, of which some are in the middle of a jump */
+static void differentiate(double side, int steps) {
+  double *time = malloc(sizeof(double) * (size_t)(2 * wheels * steps)), force[6], from, sum[2] = {0.0, 0.0};
+  double values[CONTACT_JACOBIAN_ROWS * CONTACT_JACOBIAN_COLUMNS];
+  int k, wheel, n = wheels * steps, kinks = 0, i, state;
+  if (time == NULL) exit(1);
+  for (wheel = 0; wheel < wheels; wheel++) set_up(wheel + 1, wheel % 2, side, 2);
+  for (k = 0; k < steps; k++)
+    for (wheel = 0; wheel < wheels; wheel++) {
+      from = seconds();
+      check(step(wheel + 1, on_the_way(wheel, k), force) == 0, "a call fails at step", k);
+      time[wheels * k + wheel] = 1e3 * (seconds() - from);
+      from = seconds();
+      state = contact_wheel_rail_jacobian(wheel + 1, values, (int)(sizeof values / sizeof values[0]), NULL, 0);
+      time[n + wheels * k + wheel] = 1e3 * (seconds() - from);
+      check(state == CONTACT_DERIVATIVE_EXACT || state == CONTACT_DERIVATIVE_ONE_SIDED, "there are no derivatives at step", k);
+      kinks += state == CONTACT_DERIVATIVE_ONE_SIDED;
+    }
+  for (wheel = 1; wheel <= wheels; wheel++) cntc_finalize(&wheel);
+  for (i = 0; i < 2; i++) {
+    for (k = 0; k < n; k++) sum[i] += time[i * n + k];
+    qsort(time + i * n, (size_t)n, sizeof(double), compare);
+  }
+  printf("| %.1f | %d | %.2f | %.2f | %.2f | %.2f | %.2f | %.2f | %d |\n", side, n, sum[0] / n, time[n / 2], sum[1] / n,
+         time[n + n / 2], time[n + 99 * n / 100], (sum[0] + sum[1]) / sum[0], kinks);
+  free(time);
+}
+
 int main(int count, char **word) {
-  int version, error, steps = 500, judges = 0, i;
+  int version, error, steps = 500, judges = 0, derivatives = 0, i;
   if (count < 2) return 2;
   folder = word[1];
   for (i = 2; i < count; i++) {
     if (strcmp(word[i], "--check") == 0) judges = 1;
+    else if (strcmp(word[i], "--derivatives") == 0) derivatives = 1;
     else steps = atoi(word[i]);
   }
   if (steps < 1) return 2;
@@ -215,6 +247,11 @@ int main(int count, char **word) {
     judge_smoothness(1.0, 1.3);
     judge_smoothness(0.5, 1.3);
     judge_smoothness(0.5, 5.3);
+  } else if (derivatives) {
+    printf("| DX = DS, mm | calls | call: mean, ms | median | derivatives: mean | median | 99 %% | both/call | one-sided |\n"
+           "|---|---|---|---|---|---|---|---|---|\n");
+    differentiate(1.0, steps);
+    differentiate(0.5, steps);
   } else {
     printf("| DX = DS, mm | calls | mean, ms | median | 90 %% | 99 %% | largest | goal: median | 99 %% |\n|---|---|---|---|---|---|---|---|---|\n");
     drive(1.0, steps, 0.6, 1.0);

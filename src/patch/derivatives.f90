@@ -1,0 +1,173 @@
+!> Derivatives of the forces and moments of a patch to the distance of the bodies, to creepages and to friction
+!>
+!> Exact derivatives of the discrete solution as in `contact_patch_sensitivities`: contact area and element division are kept.
+!> Pressures respond to changes of the distance, one linear system for each; sums of tractions have one adjoint system each,
+!> whatever number of inputs there is.
+module contact_patch_derivatives
+   use contact_base_choices, only : motion
+   use contact_base_kinds, only : wp
+   use contact_grid_element_division, only : bounding_box, contact_box, element
+   use contact_normal_responses, only : pressure_responses
+   use contact_patch_problem, only : patch_problem
+   use contact_patch_result, only : patch_result
+   use contact_patch_workspace, only : patch_workspace, prepare_box, prepare_window
+   use contact_tangential_nested, only : traction_adjoint
+   implicit none (type, external)
+   private
+
+   public :: patch_derivatives, differentiate_patch, obstacle_to_derivatives
+
+   !> Rows: forces Fx, Fy, Fn [N] and moments Mx, My, Mz about the origin of the grid [N mm]
+   integer, parameter :: fx = 1, fy = 2, fn = 3, mx_ = 4, my_ = 5, mz = 6
+
+   !> What the forces and moments change by, per unit of an input
+   type :: patch_derivatives
+      !> To the inputs that change the distance, with creepages and friction kept, shape (6, inputs)
+      real(wp), allocatable :: by_distance(:, :)
+      !> To the creepages [N, N mm] and the spin [N mm, N mm2]
+      real(wp) :: by_creepage(6, 3) = 0.0_wp
+      !> To the coefficient of friction
+      real(wp) :: by_friction(6) = 0.0_wp
+      !> Largest relative residual of the linear systems
+      real(wp) :: reached = 0.0_wp
+   end type patch_derivatives
+
+   !> Of the residuals, relative to the right-hand sides. With a prescribed vertical force pressures by displacements and by the
+   !> height cancel for the most part, so that they have to be found more sharply; measured for four figures
+   real(wp), parameter :: for_pressures = 1.0e-7_wp, for_tractions = 1.0e-5_wp
+   !> Products for one system of the normal problem at most; chosen
+   integer, parameter :: most_products = 100
+
+contains
+
+   !> What in the settings of a patch the derivatives do not hold for, blank for nothing
+   pure subroutine obstacle_to_derivatives(problem, reason)
+      !> Method, friction and bodies of the patch
+      type(patch_problem), intent(in) :: problem
+      !> In words that follow "not built for"
+      character(len=:), allocatable, intent(out) :: reason
+
+      reason = ""
+      if (.not. problem%solves_for_pressure()) then
+         reason = "pressures that are given or approximate"
+      else if (problem%motion == motion%shift .or. problem%motion == motion%transient_rolling) then
+         reason = "shifts and transient rolling"
+      else if (problem%motion == motion%none) then
+         return
+      else if (allocated(problem%simplified)) then
+         reason = "simplified theory"
+      else if (allocated(problem%friction)) then
+         reason = "friction that changes with slip or temperature, or from row to row"
+      else if (problem%remembers_yield) then
+         reason = "a surface that yields"
+      else if (allocated(problem%model%memory)) then
+         reason = "viscoelastic bodies"
+      else if (.not. problem%model%is_flat()) then
+         reason = "conformal and tabulated influence coefficients"
+      else if (allocated(problem%damping)) then
+         reason = "damping"
+      else if (problem%settings%order == 2) then
+         reason = "the discretisation of second order; that of order 1 has them"
+      else if (problem%couples()) then
+         reason = "pressures that follow the tractions of bodies that differ"
+      else if (problem%general_step) then
+         reason = "steps that are not one element long"
+      end if
+   end subroutine obstacle_to_derivatives
+
+   !> Derivatives at the solution of a patch
+   subroutine differentiate_patch(problem, distance, workspace, result, derivatives)
+      !> What was solved, without obstacle
+      type(patch_problem), intent(in) :: problem
+      !> Changes of the undeformed distance, approach taken off, by each input [mm per unit], shape (mx, my, inputs); only values
+      !> in contact count
+      real(wp), contiguous, intent(in) :: distance(:, :, :)
+      !> That of the solution
+      type(patch_workspace), intent(inout) :: workspace
+      !> Solution
+      type(patch_result), intent(in) :: result
+      !> Gets all of them
+      type(patch_derivatives), intent(out) :: derivatives
+      real(wp), allocatable :: response(:, :, :)
+      real(wp) :: area
+      integer :: ix, iy, k
+
+      allocate(derivatives%by_distance(6, size(distance, 3)), source=0.0_wp)
+      if (result%ncon == 0) return
+      allocate(response, mold=distance)
+      call prepare_window(problem, workspace)
+      call pressure_responses(workspace%window, workspace%normal_work%factor, problem%parts, result%pn, -distance, for_pressures, &
+         & most_products, response, derivatives%reached)
+      area = problem%grid%dx*problem%grid%dy
+      do k = 1, size(distance, 3)
+         associate (d => derivatives%by_distance(:, k))
+            do iy = 1, problem%grid%my
+               do ix = 1, problem%grid%mx
+                  d(fn) = d(fn) + area*response(ix, iy, k)
+                  d(mx_) = d(mx_) + area*response(ix, iy, k)*problem%grid%y(iy)
+                  d(my_) = d(my_) - area*response(ix, iy, k)*problem%grid%x(ix)
+               end do
+            end do
+         end associate
+      end do
+      if (problem%motion /= motion%none) call differentiate_tractions(problem, response, workspace, result, derivatives)
+   end subroutine differentiate_patch
+
+   !> Fx, Fy and Mz
+   subroutine differentiate_tractions(problem, response, workspace, result, derivatives)
+      type(patch_problem), intent(in) :: problem
+      !> Changes of the pressures, shape (mx, my, inputs)
+      real(wp), contiguous, intent(in) :: response(:, :, :)
+      type(patch_workspace), intent(inout) :: workspace
+      type(patch_result), intent(in) :: result
+      type(patch_derivatives), intent(inout) :: derivatives
+      !> The sums of tractions
+      integer, parameter :: row(3) = [fx, fy, mz]
+      type(bounding_box) :: box
+      real(wp), allocatable :: weight(:, :, :, :), by_slip(:, :, :, :), by_bound(:, :, :), pressure(:, :)
+      real(wp) :: area, x0, y0, x, y, reached
+      integer :: j, k, ix, iy
+
+      box = contact_box(result%division)
+      call prepare_box(problem, box, workspace)
+      area = problem%grid%dx*problem%grid%dy
+      x0 = problem%spin_centre(1) - problem%spin_offset*problem%dq*cos(problem%chi)
+      y0 = problem%spin_centre(2) - problem%spin_offset*problem%dq*sin(problem%chi)
+      associate (t => workspace%tangential, solution => workspace%solution)
+         allocate(weight(t%mx, t%my, 2, 3), source=0.0_wp)
+         allocate(by_slip(t%mx, t%my, 2, 3), by_bound(t%mx, t%my, 3), pressure(t%mx, t%my))
+         weight(:, :, 1, 1) = area
+         weight(:, :, 2, 2) = area
+         do iy = 1, t%my
+            do ix = 1, t%mx
+               weight(ix, iy, 1, 3) = -area*problem%grid%y(box%iy0 + iy - 1)
+               weight(ix, iy, 2, 3) = area*problem%grid%x(box%ix0 + ix - 1)
+            end do
+         end do
+         call traction_adjoint(t, workspace%box, for_tractions, workspace%tangential_work, solution, weight, by_slip, by_bound, &
+            & reached)
+         derivatives%reached = max(derivatives%reached, reached)
+         do j = 1, 3
+            do iy = 1, t%my
+               y = problem%grid%y(box%iy0 + iy - 1) - y0
+               do ix = 1, t%mx
+                  x = problem%grid%x(box%ix0 + ix - 1) - x0
+                  associate (c => derivatives%by_creepage(row(j), :), s => problem%dq*by_slip(ix, iy, :, j))
+                     c(1:2) = c(1:2) + s
+                     c(3) = c(3) + problem%spin_weight(2)*x*s(2) - problem%spin_weight(1)*y*s(1)
+                  end associate
+               end do
+            end do
+            pressure = result%pn(box%ix0:box%ix1, box%iy0:box%iy1)
+            derivatives%by_friction(row(j)) = sum(by_bound(:, :, j)*pressure)
+         end do
+         do k = 1, size(response, 3)
+            pressure = response(box%ix0:box%ix1, box%iy0:box%iy1, k)
+            do j = 1, 3
+               derivatives%by_distance(row(j), k) = problem%mu*sum(by_bound(:, :, j)*pressure, &
+                  & mask=solution%division /= element%plastic)
+            end do
+         end do
+      end associate
+   end subroutine differentiate_tractions
+end module contact_patch_derivatives

@@ -1,0 +1,375 @@
+!> Derivatives of the forces of the wheel on the rail to position and velocity of the wheelset
+!>
+!> What changes with the position, and by what it is differentiated:
+!>
+!>    place and angle of the references    the search repeated on changed gaps    contact_wheelrail_reference_motion
+!>    undeformed distance                  in closed form                         contact_wheelrail_distance_motion
+!>    creepages                            central differences of their formula   here
+!>    pressures and tractions              linear systems                         contact_patch_derivatives
+!>    axes and levers of the forces        in closed form                         here
+!>
+!> Contact areas and element divisions stay. With a prescribed vertical force the height follows from the others.
+module contact_wheelrail_jacobian
+   use contact_base_choices, only : force_control, motion, variation
+   use contact_base_kinds, only : wp
+   use contact_patch_derivatives, only : differentiate_patch, obstacle_to_derivatives, patch_derivatives
+   use contact_wheelrail_creepage, only : contact_motion, flat_creepage
+   use contact_wheelrail_displacements, only : coordinate, displaced, displacement_at, turn_of
+   use contact_wheelrail_distance_motion, only : differentiate_distance
+   use contact_wheelrail_frame, only : cross, frame, roll_axes
+   use contact_wheelrail_memory, only : patch_slot, wheel_rail_memory
+   use contact_wheelrail_placement, only : rail_motion, side_sign, wheel_motion, wheel_rail_placement
+   use contact_wheelrail_problem, only : follows_surface, parameters_at, wheel_rail_problem
+   use contact_wheelrail_reference_motion, only : find_reference_motions, reference_motion
+   use contact_wheelrail_result, only : wheel_rail_result
+   use contact_wheelrail_spec, only : wheel_rail_spec
+   implicit none (type, external)
+   private
+
+   public :: differentiate_wheel_rail, jacobian_input, jacobian_row, jacobian_state, wheel_rail_jacobian
+
+   type :: input_list
+      !> Position of the wheelset [mm], [rad]
+      integer :: y = 1, z = 2, roll = 3, yaw = 4
+      !> Velocities [mm/s], [rad/s]; on a roller `vs` is its pitch rate [rad/s]
+      integer :: vs = 5, vy = 6, vroll = 7, vyaw = 8, vpitch = 9
+      !> Vertical force [N]
+      integer :: fz = 10
+      !> Their number
+      integer :: count = 10
+   end type input_list
+   !> Columns
+   type(input_list), parameter :: jacobian_input = input_list()
+
+   type :: row_list
+      !> First of the forces on the rail and their moment about the rail marker, track axes
+      integer :: on_rail = 1
+      !> First of the same about the wheel marker, wheelset axes
+      integer :: on_wheel = 7
+      !> Height of the wheelset
+      integer :: z = 13
+      !> Their number
+      integer :: count = 13
+   end type row_list
+   !> Rows
+   type(row_list), parameter :: jacobian_row = row_list()
+
+   type :: state_list
+      !> The derivative; a derivative to one side, as a patch appears or vanishes here; there is none
+      integer :: exact = 0, one_sided = 1, none = 2
+   end type state_list
+   !> What the derivative is
+   type(state_list), parameter :: jacobian_state = state_list()
+
+   !> Derivatives of a case
+   type :: wheel_rail_jacobian
+      !> Member of jacobian_state, with the reason where it is not exact
+      integer :: state = 2
+      character(len=:), allocatable :: reason
+      !> Right-hand pair, with velocities as they were given: rows of jacobian_row [N], [N mm], [mm] per unit of the columns
+      !> of jacobian_input
+      real(wp) :: values(13, 10) = 0.0_wp
+      !> Largest relative residual of the linear systems
+      real(wp) :: reached = 0.0_wp
+   end type wheel_rail_jacobian
+
+   !> Residual up to which derivatives count as found
+   real(wp), parameter :: good = 1.0e-4_wp
+   !> Steps of the central differences of creepages: displacements [mm], turns [rad], and velocities relative to that of
+   !> rolling; the formula is so smooth that errors are those of rounding, 1e-8 of the derivatives
+   real(wp), parameter :: creepage_step(4) = [1.0e-4_wp, 1.0e-4_wp, 1.0e-7_wp, 1.0e-7_wp], velocity_step = 1.0e-4_wp
+   !> Step of the contact angle for friction that depends on it [rad]
+   real(wp), parameter :: angle_step = 1.0e-6_wp
+   !> A vertical stiffness below this one is none [N/mm]
+   real(wp), parameter :: no_stiffness = 1.0e-9_wp
+
+contains
+
+   !> Derivatives at the last solution
+   subroutine differentiate_wheel_rail(problem, memory, result, jacobian)
+      !> What was solved
+      type(wheel_rail_problem), intent(in) :: problem
+      !> With that solution; scratch of its patches is used
+      type(wheel_rail_memory), intent(inout) :: memory
+      !> Forces, height and status of that solution
+      type(wheel_rail_result), intent(in) :: result
+      !> Gets the derivatives, or the reason why there are none
+      type(wheel_rail_jacobian), intent(inout) :: jacobian
+      type(reference_motion), allocatable :: motions(:, :)
+      real(wp) :: slope
+      integer :: k
+      logical :: is_smooth
+
+      jacobian%values = 0.0_wp
+      jacobian%reached = 0.0_wp
+      jacobian%state = jacobian_state%none
+      call find_obstacle(problem, memory, result, jacobian%reason)
+      if (len(jacobian%reason) > 0) return
+      call find_reference_motions(problem, memory%geometry, result%z_ws, motions, is_smooth)
+      if (size(motions, 1) /= memory%used) then
+         jacobian%reason = "the number of contact patches or of their parts changes with every motion of the wheelset"
+         return
+      end if
+      do k = 1, memory%used
+         call add_patch(problem, memory, k, motions(k, :), jacobian)
+      end do
+      call add_place_of_wheel(memory, result, jacobian%values)
+      jacobian%values(jacobian_row%z, jacobian_input%z) = 1.0_wp
+      ! angles and lateral positions of the left side count the other way
+      associate (v => jacobian%values, input => jacobian_input)
+         v(:, [input%y, input%roll, input%yaw]) = side_sign(problem%spec)*v(:, [input%y, input%roll, input%yaw])
+         if (problem%force_prescribed) then
+            slope = v(jacobian_row%on_rail + 2, input%z)
+            if (.not. abs(slope) > no_stiffness) then
+               jacobian%reason = "the vertical force does not change with the height"
+               return
+            end if
+            v(jacobian_row%on_rail + 2, input%fz) = -1.0_wp
+            v = v - matmul(v(:, input%z:input%z), v(jacobian_row%on_rail + 2:jacobian_row%on_rail + 2, :))/slope
+            v(:, input%z) = 0.0_wp
+            ! this force is what is prescribed
+            v(jacobian_row%on_rail + 2, :) = 0.0_wp
+            v(jacobian_row%on_rail + 2, input%fz) = 1.0_wp
+         end if
+      end associate
+      jacobian%state = jacobian_state%exact
+      if (.not. is_smooth) then
+         jacobian%state = jacobian_state%one_sided
+         jacobian%reason = "a contact patch, or a part of one, appears or vanishes here: derivatives are those to one side"
+      else if (jacobian%reached > good) then
+         jacobian%state = jacobian_state%none
+         jacobian%reason = "the linear systems were not solved"
+      end if
+   end subroutine differentiate_wheel_rail
+
+   !> Why there are no derivatives, blank for nothing
+   subroutine find_obstacle(problem, memory, result, reason)
+      type(wheel_rail_problem), intent(in) :: problem
+      type(wheel_rail_memory), intent(in) :: memory
+      type(wheel_rail_result), intent(in) :: result
+      character(len=:), allocatable, intent(out) :: reason
+
+      reason = ""
+      if (problem%geometry_only) then
+         reason = "only the places of contact were sought"
+      else if (.not. result%status%is_solved()) then
+         reason = "the calculation did not end with a solution"
+      else if (problem%force /= force_control%creepages) then
+         reason = "derivatives are not built for a prescribed longitudinal force and a rail on springs"
+      else if (memory%geometry%searches_table .or. follows_surface(problem)) then
+         reason = "derivatives are not built for bodies that vary, for curved patches, and for slip along the locus"
+      else if (problem%variation == variation%by_angle .and. memory%used > 0) then
+         if (allocated(memory%slot(1)%problem%friction)) reason = "derivatives are not built for friction laws that vary"
+      end if
+      if (len(reason) > 0) return
+      if (memory%used == 0) then
+         reason = "wheel and rail do not touch"
+         return
+      end if
+      call obstacle_to_derivatives(memory%slot(1)%problem, reason)
+      if (len(reason) > 0) reason = "derivatives are not built for " // reason
+   end subroutine find_obstacle
+
+   !> Part of one patch
+   subroutine add_patch(problem, memory, number, motions, jacobian)
+      type(wheel_rail_problem), intent(in) :: problem
+      type(wheel_rail_memory), target, intent(inout) :: memory
+      integer, intent(in) :: number
+      !> Of its reference
+      type(reference_motion), intent(in) :: motions(:)
+      type(wheel_rail_jacobian), intent(inout) :: jacobian
+      type(patch_derivatives) :: d
+      real(wp), allocatable :: distance(:, :, :)
+      real(wp) :: approach(4), creepage(3, 10), force(3), moment(3), change(6), turn(3), friction, lever(3)
+      integer :: k
+
+      associate (slot => memory%slot(number), geometry => memory%geometry)
+         allocate(distance(slot%problem%grid%mx, slot%problem%grid%my, coordinate%count))
+         call differentiate_distance(problem, geometry, slot, motions, distance, approach)
+         call add_interactions(slot, motions, distance)
+         call differentiate_patch(slot%problem, distance, slot%workspace, slot%result, d)
+         jacobian%reached = max(jacobian%reached, d%reached)
+         creepage = 0.0_wp
+         if (slot%problem%motion == motion%steady_rolling) &
+            & call differentiate_creepages(problem, memory, slot, motions, approach, creepage)
+         friction = 0.0_wp
+         if (problem%variation == variation%by_angle .and. slot%problem%motion /= motion%none) &
+            & friction = (friction_at(slot%plane%roll() + angle_step) - friction_at(slot%plane%roll() - angle_step)) &
+            & /(2.0_wp*angle_step)
+         force = matmul(slot%plane%axes, slot%force)
+         moment = matmul(slot%plane%axes, slot%moment)
+         do k = 1, jacobian_input%vpitch
+            change = matmul(d%by_creepage, creepage(:, k))
+            turn = 0.0_wp
+            lever = 0.0_wp
+            if (k <= coordinate%count) then
+               change = change + d%by_distance(:, k) + d%by_friction*friction*motions(k)%angle
+               turn(1) = motions(k)%angle
+               lever = motions(k)%origin
+            end if
+            call add_column(geometry%placement, slot%plane, matmul(slot%plane%axes, change(1:3)) + cross(turn, force), &
+               & matmul(slot%plane%axes, change(4:6)) + cross(turn, moment), force, lever, jacobian%values(:, k))
+         end do
+      end associate
+
+   contains
+
+      !> Coefficient of friction at a contact angle
+      real(wp) function friction_at(angle) result(mu)
+         !> [rad]
+         real(wp), intent(in) :: angle
+
+         associate (set => parameters_at(problem, angle))
+            mu = set%fstat
+         end associate
+      end function friction_at
+   end subroutine add_patch
+
+   !> Displacements by pressures change where factors between parts do
+   subroutine add_interactions(slot, motions, distance)
+      type(patch_slot), intent(inout) :: slot
+      type(reference_motion), intent(in) :: motions(:)
+      !> What has the same effect is added
+      real(wp), contiguous, intent(inout) :: distance(:, :, :)
+      real(wp), allocatable :: kept(:, :), u(:, :)
+      integer :: k
+
+      if (.not. allocated(slot%problem%parts)) return
+      kept = slot%problem%parts%interaction
+      allocate(u, mold=slot%result%pn)
+      do k = 1, coordinate%count
+         slot%problem%parts%interaction = motions(k)%interaction
+         call slot%problem%parts%displacement(slot%workspace%window, slot%result%pn, u)
+         distance(:, :, k) = distance(:, :, k) + u
+      end do
+      slot%problem%parts%interaction = kept
+   end subroutine add_interactions
+
+   !> Changes of force and moment of a patch, in the track, become those of the rows
+   subroutine add_column(placement, plane, force, moment, old_force, shift, column)
+      type(wheel_rail_placement), intent(in) :: placement
+      type(frame), intent(in) :: plane
+      !> Changes of force and moment about the reference [N, N mm per unit]
+      real(wp), intent(in) :: force(3), moment(3)
+      !> Force of the patch [N], and how its reference moves [mm per unit]
+      real(wp), intent(in) :: old_force(3), shift(3)
+      real(wp), intent(inout) :: column(:)
+      real(wp) :: about(3)
+
+      associate (rail => jacobian_row%on_rail, wheel => jacobian_row%on_wheel)
+         column(rail:rail + 2) = column(rail:rail + 2) + force
+         about = moment + cross(shift, old_force) + cross(plane%origin - placement%rail%origin, force)
+         column(rail + 3:rail + 5) = column(rail + 3:rail + 5) + about
+         about = moment + cross(shift, old_force) + cross(plane%origin - placement%wheel%origin, force)
+         column(wheel:wheel + 2) = column(wheel:wheel + 2) + matmul(force, placement%wheelset%axes)
+         column(wheel + 3:wheel + 5) = column(wheel + 3:wheel + 5) + matmul(about, placement%wheelset%axes)
+      end associate
+   end subroutine add_column
+
+   !> Rows of the wheel: its marker moves, and the axes of the wheelset turn
+   subroutine add_place_of_wheel(memory, result, values)
+      type(wheel_rail_memory), intent(in) :: memory
+      type(wheel_rail_result), intent(in) :: result
+      real(wp), intent(inout) :: values(:, :)
+      real(wp) :: force(3), moment(3), turn(3), marker(3)
+      integer :: k
+
+      associate (placement => memory%geometry%placement, row => jacobian_row%on_wheel)
+         force = result%force_track
+         moment = matmul(placement%wheelset%axes, result%moment_wheel)
+         do k = 1, coordinate%count
+            turn = turn_of(placement, k)
+            marker = displacement_at(placement, k, placement%wheel%origin)
+            ! of a vector with components v'A those change by v'(w x A) = (v x w)'A
+            values(row:row + 2, k) = values(row:row + 2, k) + matmul(cross(force, turn), placement%wheelset%axes)
+            values(row + 3:row + 5, k) = values(row + 3:row + 5, k) &
+               & + matmul(cross(moment, turn) - cross(marker, force), placement%wheelset%axes)
+         end do
+      end associate
+   end subroutine add_place_of_wheel
+
+   !> Changes of creepages and spin with position and velocities
+   subroutine differentiate_creepages(problem, memory, slot, motions, approach, creepage)
+      type(wheel_rail_problem), intent(in) :: problem
+      type(wheel_rail_memory), intent(in) :: memory
+      type(patch_slot), intent(in) :: slot
+      type(reference_motion), intent(in) :: motions(:)
+      !> Changes of the approach [mm per unit]
+      real(wp), intent(in) :: approach(:)
+      !> Shape (3, inputs)
+      real(wp), intent(inout) :: creepage(:, :)
+      type(wheel_rail_spec), allocatable :: spec
+      real(wp) :: step, pitch_rate
+      integer :: k
+
+      allocate(spec, source=problem%spec)
+      pitch_rate = memory%geometry%pitch_rate
+      do k = 1, coordinate%count
+         step = creepage_step(k)
+         creepage(:, k) = (creepages_at(k, step) - creepages_at(k, -step))/(2.0_wp*step)
+      end do
+      do k = jacobian_input%vs, jacobian_input%vpitch
+         step = velocity_step*max(slot%motion%veloc, 1.0_wp)
+         if (k >= jacobian_input%vroll .or. (k == jacobian_input%vs .and. spec%roller)) &
+            & step = step/memory%geometry%placement%wheel_radius
+         creepage(:, k) = (creepages_with(k, step) - creepages_with(k, -step))/(2.0_wp*step)
+      end do
+
+   contains
+
+      !> After a displacement
+      function creepages_at(number, step) result(values)
+         integer, intent(in) :: number
+         real(wp), intent(in) :: step
+         real(wp) :: values(3)
+         type(frame) :: plane
+
+         associate (motion => motions(number))
+            plane%origin = slot%plane%origin + step*motion%origin
+            plane%axes = matmul(roll_axes(step*motion%angle), slot%plane%axes)
+            values = creepages(displaced(memory%geometry%placement, number, step), plane, &
+               & slot%problem%pen + step*approach(number))
+         end associate
+      end function creepages_at
+
+      !> With another velocity
+      function creepages_with(number, step) result(values)
+         integer, intent(in) :: number
+         real(wp), intent(in) :: step
+         real(wp) :: values(3)
+
+         associate (w => spec%wheelset, old => problem%spec%wheelset, input => jacobian_input)
+            if (number == input%vs .and. spec%roller) then
+               w%rpitch = old%rpitch + step
+            else if (number == input%vs) then
+               w%vs = old%vs + step
+            end if
+            if (number == input%vy) w%vy = old%vy + step
+            if (number == input%vroll) w%vroll = old%vroll + step
+            if (number == input%vyaw) w%vyaw = old%vyaw + step
+            if (number == input%vpitch) pitch_rate = memory%geometry%pitch_rate + step
+            values = creepages(memory%geometry%placement, slot%plane, slot%problem%pen)
+            w%vs = old%vs
+            w%rpitch = old%rpitch
+            w%vy = old%vy
+            w%vroll = old%vroll
+            w%vyaw = old%vyaw
+            pitch_rate = memory%geometry%pitch_rate
+         end associate
+      end function creepages_with
+
+      !> As `set_motion` of contact_wheelrail_patch_inputs
+      function creepages(placement, plane, approach) result(values)
+         type(wheel_rail_placement), intent(in) :: placement
+         type(frame), intent(in) :: plane
+         real(wp), intent(in) :: approach
+         real(wp) :: values(3)
+         type(contact_motion) :: motion
+
+         motion = flat_creepage(rail_motion(spec, placement), wheel_motion(spec, placement, pitch_rate), &
+            & placement%wheelset%axes(:, 2), pitch_rate, plane%origin, plane%origin + approach*plane%axes(:, 3), plane%roll(), &
+            & spec%roller)
+         values = [motion%cksi, motion%ceta, motion%cphi]
+      end function creepages
+   end subroutine differentiate_creepages
+end module contact_wheelrail_jacobian
