@@ -4,7 +4,7 @@ function [ varargout ] = loadcase( expnam, icase, ipatch )
 %   s = loadcase( expnam )                 case 1
 %   s = loadcase( expnam, icase )          all patches of a wheel-rail case, in an array of structs
 %   s = loadcase( expnam, icase, ipatch )  one patch
-%   [s1, s2, ...] = loadcase( expnam, icase, -1 )  one struct for each patch, [] where there is none
+%   [s1, s2, ...] = loadcase( expnam, icase, -1 )  one struct for each patch, [] where there is none; -1 may be left out
 %
 %   expnam   experiment name, with a folder if need be, without extension. Cases without .mat files are read from
 %            expnam.h5 (contact --hdf5), which the name with this extension asks for in any case
@@ -15,7 +15,8 @@ function [ varargout ] = loadcase( expnam, icase, ipatch )
 %
 %   config            module 1: configuration, 0/1 wheel on rail, 4/5 on roller, left/right; module 3: 0
 %   h_digit, d_digit  control digits HEAT and, in module 1, DISCNS
-%   meta, mater, fric, kincns   structs of positions, materials, friction and kinematics
+%   meta, mater, fric, kincns   structs of positions, materials, friction and kinematics; mater.ga, .si, .ak are the
+%                     combined modulus, Poisson ratio and difference parameter, fric.fstat the coefficient at rest
 %   meta.status       how the case ended: 'solved' or 'not converged'; '' in files of other programs
 %   meta.reason       which iteration missed its tolerance, and by how much; '' for solved cases
 %   mx, my            numbers of elements along and across the rolling direction
@@ -43,7 +44,7 @@ function [ varargout ] = loadcase( expnam, icase, ipatch )
    if (nargin<3 || isempty(ipatch))
       ipatch = 0;
    end
-   separate = (ipatch==-1);
+   separate = (ipatch==-1 || (nargout>1 && ipatch<=0));
 
    patches = {};
    if (isempty(regexp(expnam, '\.h5$', 'once')))

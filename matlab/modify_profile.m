@@ -1,4 +1,4 @@
-function [ p ] = modify_profile( p, is_wheel, mirror_y, mirror_z, scale_yz, inversion )
+function [ p ] = modify_profile( p, is_wheel, mirror_y, mirror_z, scale_yz, varargin )
 % MODIFY_PROFILE  Mirror, scale and order the points of a profile.
 %
 %   p = modify_profile( p, is_wheel, mirror_y, mirror_z, scale_yz, inversion )
@@ -11,6 +11,20 @@ function [ p ] = modify_profile( p, is_wheel, mirror_y, mirror_z, scale_yz, inve
 %   inversion  1: reverse the list of points; 0: keep it; [] (default): find out
 %
 %   p          the struct with new ProfileY, ProfileZ, ProfileS and is_wheel
+%
+% As established scripts call it, with seven arguments or more, or with a y_tape that is neither 0 nor 1:
+%
+%   p = modify_profile( p, is_wheel, mirror_y, mirror_z, scale_yz, y_tape, reverse_order, point_dist_min, delete_foldback, make_plot )
+%
+%   mirror_z         1: change the sign of z; nothing is found out, and the order is not looked at
+%   y_tape           a wheel is moved such that z = 0 at this y; [] (default): it is not
+%   reverse_order    1: reverse the list of points
+%   point_dist_min   points that follow the last one kept by less than this along the profile are left out (default: none)
+%   delete_foldback  points at which y turns back, seen from the top of a rail or the tip of a flange: 1: p.Mask is 0 there; 2: they
+%                    are left out; 0 (default): they stay
+%   make_plot        number of a figure in which both profiles are drawn; 0 (default): none
+%
+%   p then has ProfileAngle, ProfileCurvature, ProfileData with these four columns, OrigData, XYPoints and Mask, too
 %
 % See also: read_profile.
 
@@ -26,8 +40,12 @@ function [ p ] = modify_profile( p, is_wheel, mirror_y, mirror_z, scale_yz, inve
    if (nargin<5 || isempty(scale_yz))
       scale_yz = 1;
    end
-   if (nargin<6)
-      inversion = [];
+   inversion = [];
+   if (nargin>6 || (nargin==6 && ~isempty(varargin{1}) && ~any(varargin{1}==[0 1])))
+      p = as_established(p, is_wheel, mirror_y, mirror_z, scale_yz, varargin);
+      return
+   elseif (nargin==6)
+      inversion = varargin{1};
    end
 
    y = p.ProfileY(:);
@@ -61,6 +79,112 @@ function [ p ] = modify_profile( p, is_wheel, mirror_y, mirror_z, scale_yz, inve
    p.is_wheel = is_wheel;
 
 end % function modify_profile
+
+%------------------------------------------------------------------------------------------------------
+
+function [ p ] = as_established( p, is_wheel, mirror_y, mirror_z, scale_yz, more )
+% The list of arguments of established scripts: y_tape, reverse_order, point_dist_min, delete_foldback, make_plot, idebug
+
+   defaults = {[], 0, -1, 0, 0, 0};
+   for i = 1 : min(numel(more), numel(defaults))
+      if (~isempty(more{i}))
+         defaults{i} = more{i};
+      end
+   end
+   [y_tape, reverse_order, point_dist_min, delete_foldback, make_plot] = defaults{1:5};
+
+   data = [p.ProfileY(:), p.ProfileZ(:), zeros(numel(p.ProfileY), 2)];
+   columns = {'ProfileY','ProfileZ','ProfileAngle','ProfileCurvature'};
+   for i = 3 : 4
+      if (isfield(p, columns{i}) && numel(p.(columns{i}))==size(data,1))
+         data(:,i) = p.(columns{i})(:);
+      end
+   end
+   p.OrigData = data;
+   if (mirror_y>=1)
+      data(:,[1 3]) = -data(:,[1 3]);
+   end
+   if (mirror_z>=1)
+      data(:,2:3) = -data(:,2:3);
+   end
+   data = data .* [scale_yz, scale_yz, 1, 1/scale_yz];
+   if (is_wheel && ~isempty(y_tape))
+      % the profile near the place, where y is a coordinate of it
+      near = find(abs(data(:,1)-y_tape) < 5);
+      if (numel(near)<2)
+         error('modify_profile: there is no profile at y_tape = %g.', y_tape);
+      end
+      data(:,2) = data(:,2) - interp1(data(near,1), data(near,2), y_tape);
+   end
+   if (reverse_order)
+      data = flipud(data);
+   end
+   if (point_dist_min>0)
+      data = data(far_apart(data(:,1), data(:,2), point_dist_min), :);
+   end
+   mask = true(size(data,1), 1);
+   if (delete_foldback)
+      mask = goes_on(data(:,1), data(:,2), is_wheel);
+   end
+   if (delete_foldback>1)
+      data = data(mask,:);
+      mask = mask(mask);
+   end
+
+   for i = 1 : 4
+      p.(columns{i}) = data(:,i);
+   end
+   p.ProfileData = data;
+   p.XYPoints = size(data,1);
+   p.Mask     = double(mask);
+   p.ProfileS = chord_sums(data(:,1), data(:,2));
+   p.is_wheel = is_wheel;
+   if (make_plot)
+      figure(make_plot);
+      clf
+      plot(p.OrigData(:,1), p.OrigData(:,2), '-*', data(:,1), data(:,2), '-o');
+      grid on
+      set(gca, 'ydir','reverse');
+      xlabel('y [mm]');
+      ylabel('z [mm]');
+   end
+
+end % function as_established
+
+%------------------------------------------------------------------------------------------------------
+
+function [ keep ] = far_apart( y, z, least )
+% Numbers of points that follow the last one kept by at least a distance along the profile
+
+   along = [0; cumsum(hypot(diff(y), diff(z)))];
+   keep  = 1;
+   for i = 2 : numel(along)
+      if (along(i)-along(keep(end)) >= least)
+         keep(end+1) = i; %#ok<AGROW>
+      end
+   end
+
+end % function far_apart
+
+%------------------------------------------------------------------------------------------------------
+
+function [ yes ] = goes_on( y, z, is_wheel )
+% Points at which y goes farther from the top of a rail, or the tip of a flange, than all points before, seen from there
+
+   if (is_wheel)
+      y = -y;
+      z = -z;
+   end
+   least = 1e-6 * (max(y)-min(y));
+   [~, top] = min(z);
+   yes  = false(size(y));
+   yes(top) = true;
+   right = cummax(y(top:end));
+   yes(top+1:end) = y(top+1:end) >= right(1:end-1) + least;
+   left = cummin(y(top:-1:1));
+   yes(top-1:-1:1) = y(top-1:-1:1) <= left(1:end-1) - least;
+
+end % function goes_on
 
 %------------------------------------------------------------------------------------------------------
 

@@ -2,6 +2,7 @@ function [ opt ] = plot2d( sol, opt )
 % PLOT2D  Plot tangential tractions and the traction bound along rows or columns of the contact area.
 %
 %   opt = plot2d         the options with their default values
+%   opt = plot2d( [], opt )   those of opt, completed
 %   plot2d( sol )        plot with the default options
 %   plot2d( sol, opt )
 %
@@ -33,6 +34,11 @@ function [ opt ] = plot2d( sol, opt )
       opt = [];
    end
    opt = with_defaults(opt, defaults, 'plot2d');
+   if (isnumeric(sol) && isempty(sol) && nargout>0)
+      % nothing to plot: the options, completed, without those that are unknown
+      opt = rmfield(opt, setdiff(fieldnames(opt), fieldnames(defaults)));
+      return
+   end
    if (numel(sol)~=1)
       error('plot2d: the solution must hold one contact patch, it holds %d.', numel(sol));
    end

@@ -1,7 +1,7 @@
 function [ opt ] = plot3d( sol, opt, prr, prw )
 % PLOT3D  Plot one quantity for the whole contact area, flat, on the rail or wheel surface, or in rear or side view.
 %
-%   opt = plot3d              the options with their default values
+%   opt = plot3d              the options with their default values; opt = plot3d( [], opt ): completed
 %   plot3d( sol )             plot with the default options
 %   plot3d( sol, opt )
 %   plot3d( sol, opt, prr, prw )
@@ -79,6 +79,11 @@ function [ opt ] = plot3d( sol, opt, prr, prw )
       opt = rmfield(opt, 'rw_surfc');
    end
    opt = with_defaults(opt, defaults, 'plot3d');
+   if (isnumeric(sol) && isempty(sol) && nargout>0)
+      % nothing to plot: the options, completed, without those that are unknown
+      opt = rmfield(opt, setdiff(fieldnames(opt), fieldnames(defaults)));
+      return
+   end
    one_of(opt.rw_surf, {'none','prr','prw','both'}, 'rw_surf');
    one_of(opt.typplot, {'surf','contourf','rw_rear','rw_side'}, 'typplot');
    if (isempty(sol))

@@ -1,7 +1,7 @@
 function [ opt ] = plotstrs( sol, opt )
 % PLOTSTRS  Plot displacements or stresses below the surface in a slice through a block of points.
 %
-%   opt = plotstrs       the options with their default values
+%   opt = plotstrs       the options with their default values; opt = plotstrs( [], opt ): completed
 %   plotstrs( sol )      plot with the default options
 %   plotstrs( sol, opt )
 %
@@ -36,6 +36,11 @@ function [ opt ] = plotstrs( sol, opt )
       opt = [];
    end
    opt = with_defaults(opt, defaults, 'plotstrs');
+   if (isnumeric(sol) && isempty(sol) && nargout>0)
+      % nothing to plot: the options, completed, without those that are unknown
+      opt = rmfield(opt, setdiff(fieldnames(opt), fieldnames(defaults)));
+      return
+   end
 
    [val, name, unit] = field_of_block(sol, opt.field);
    [a, b, val, labels, at] = take_slice(sol, opt, val);

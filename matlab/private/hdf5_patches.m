@@ -164,6 +164,7 @@ function [ mater ] = materials( m, m_digit, p )
       mater.flx   = p.simplified.flx(:)';
       mater = chosen(m, {'k0_mf','alfamf','betamf'}, mater);
    end
+   mater = add_combined(mater);
 
 end % function materials
 
@@ -183,6 +184,7 @@ function [ fric ] = friction( f, digit )
    there = setdiff(fieldnames(f)', {'law','variation','alpha','svf'});
    known = order(ismember(order, there));
    fric = chosen(f, [known, setdiff(there, order)], struct('frclaw',law));
+   fric = add_static(fric);
 
 end % function friction
 

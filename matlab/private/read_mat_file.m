@@ -85,6 +85,7 @@ function [ mater ] = read_material( row )
       mater.flx   = row(6:8);
       mater = named(row(9:11), {'k0_mf','alfamf','betamf'}, mater);
    end
+   mater = add_combined(mater);
 
 end % function read_material
 
@@ -105,6 +106,7 @@ function [ fric ] = read_friction( row )
       c = coef{law-1};
       fric = named(row(4:10), {'fkin',[c '1'],'sabsh1',[c '2'],'sabsh2','memdst','mem_s0'}, fric);
    end
+   fric = add_static(fric);
 
 end % function read_friction
 

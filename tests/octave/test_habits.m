@@ -20,8 +20,30 @@ run_example('subsurface');
 t = parse_out3('subsurface');
 check_near(subs(:,:,2), [t.subs.sigvm.val(1,:,1); t.subs.sigvm.x(1,:,1); t.subs.sigvm.y(1,:,1); t.subs.sigvm.z(1,:,1)]', 0, ...
            'largest stresses as an array');
+% combined constants, friction at rest, one output for each patch
+text = {'3 MODULE', '203100', '0322020', '0001101', '100 100 30 10 1e-5', '0 0.001 0 0', '0.2 0.08 500 0.04 2000', '0.001 1', ...
+         '0d 0.2 1000', '0.42 0.28 200 1000', '1', '20 20 -2 -2 0.2 0.2', '1 1', '0.01 0 0.01 0 0 0', '0 END', ''};
+run_input('unlike', strjoin(text, "\n"), '--hdf5');
+s = loadcase('unlike', 1);
+g = s.mater.gg;   nu = s.mater.poiss;
+check(isequal(g, [200 1000]), 'the bodies');
+check_near([1/s.mater.ga s.mater.si/s.mater.ga], [mean(1./g) mean(nu./g)], 1e-15, 'means of 1/G and nu/G');
+check_near(s.mater.ak/s.mater.ga, ((1-2*nu(1))/g(1) - (1-2*nu(2))/g(2))/4, 1e-15, 'difference parameter');
+check_near(s.fric.fstat, 0.2 + 0.08 + 0.04, 1e-12, 'friction at rest');
+t = loadcase('unlike.h5', 1);
+check_near([t.mater.ga t.mater.si t.mater.ak t.fric.fstat], [s.mater.ga s.mater.si s.mater.ak s.fric.fstat], 1e-6, 'the same in HDF5');
 [b{1:9}] = loadstrs('subsurface', 1);
 check(isstruct(b{1}) && isempty(b{9}), 'more blocks are asked for than there are');
+
+% --- options completed
+o = plot2d([], struct('yslc',1));
+check(o.yslc==1 && isfield(o,'pxory'), 'plot2d([], opt)');
+o = plot3d([], struct('field','py'));
+check(strcmp(o.field,'py') && isfield(o,'view'), 'plot3d([], opt)');
+warning('off', 'all');
+o = plotstrs([], struct('field','ux', 'other',1));
+warning('on', 'all');
+check(strcmp(o.field,'ux') && ~isfield(o,'other'), 'plotstrs([], opt), without options that are unknown');
 
 % --- overall results of module 1
 run_example('manchester', 'profiles/60E1.prr', 'profiles/S1002.prw');
@@ -54,6 +76,26 @@ write_simpack([y z], 'ours.prr', 'a comment');
 check(isequal(fileread('ours.prr'), fileread('habit.prr')), 'the same in our order');
 q = read_profile('habit.prr', [], -1, -1, 1, 1, 0, 0, 0);
 check_near(q.ProfileY, y, 1e-9, 'read_profile with 9 arguments');
+% modify_profile with the arguments of established scripts; whatever is not asked for stays
+wheel = read_profile(fullfile(folder,'S1002.prw'));
+p = modify_profile(wheel, 1, 0, 0, 1, 20, 0);
+check_near(interp1(p.ProfileY, p.ProfileZ, 20), 0, 1e-12, 'y_tape: the height is measured from there');
+check_near(diff(p.ProfileZ), diff(wheel.ProfileZ), 1e-12, 'and the shape stays');
+q = modify_profile(wheel, 1, 0, 0, 1, 20);
+check_near(q.ProfileZ, p.ProfileZ, 0, 'y_tape alone');
+p = modify_profile(wheel, 1, 0, 1, 2, [], 1);
+check_near(p.ProfileData(:,1:2), 2*[flipud(wheel.ProfileY) -flipud(wheel.ProfileZ)], 1e-12, 'reverse_order, mirror_z = 1');
+check_near(p.OrigData(:,1:2), [wheel.ProfileY wheel.ProfileZ], 0, 'OrigData');
+check(p.XYPoints==numel(wheel.ProfileY), 'XYPoints');
+fold = struct('ProfileY',[-3;-2;-2.5;-1;0;0.1;1;2;2;3], 'ProfileZ',[5;4;3;1;0;0;1;2;3;5], 'ProfileAngle',(1:10)');
+p = modify_profile(fold, 0, 0, 0, 1, [], 0, 0.5);
+check_near(p.ProfileY, fold.ProfileY([1:5 7:10]), 0, 'point_dist_min');
+p = modify_profile(fold, 0, 0, 0, 1, [], 0, [], 1);
+check_near(p.Mask, [1 0 1 1 1 1 1 1 0 1]', 0, 'delete_foldback = 1 marks where y turns back or stands');
+check(numel(p.ProfileY)==10, 'and keeps all points');
+p = modify_profile(fold, 0, 1, 0, 1, [], 1, [], 2);
+check_near([p.ProfileY p.ProfileAngle], [-flipud(fold.ProfileY([1 3:8 10])) -flipud([1 3:8 10]')], 0, 'delete_foldback = 2 leaves them out');
+check_error(@() modify_profile(wheel, 1, 0, 0, 1, 500, 0), 'no profile at y_tape');
 f = fopen('habit.slcs', 'w');
 fprintf(f, '0 1 %% offset, scale\n3 %% slices\n0 0 0 %% features\n1 %% interpolation\n');
 fprintf(f, '%d ''habit.prr''\n', [0; 100; 200]);

@@ -1,0 +1,16 @@
+function [ fric ] = add_static( fric )
+% ADD_STATIC  Coefficients of friction at rest and far from it for laws that do not give them, as established scripts name them.
+
+   if (isfield(fric, 'fref'))
+      fric.fstat = fric.fref;
+      fric.fkin  = fric.fref + fric.dfheat;
+      return
+   end
+   for law = {'flin','frat','fexp'}
+      first = [law{1} '1'];
+      if (isfield(fric, first))
+         fric.fstat = fric.fkin + fric.(first) + fric.([law{1} '2']);
+      end
+   end
+
+end % function add_static
