@@ -20,7 +20,7 @@ suppress_warnings = ["myst.header", "misc.highlighting_failure"]
 
 #: Pages in the order of the menu; those that are missing here come last
 MENU = {
-    "Start": ["user/first_wheel", "user/first_call", "user/tutorials", "user/choosing", "user/how_exact",
+    "Start": ["user/install", "user/first_wheel", "user/first_call", "user/tutorials", "user/choosing", "user/how_exact",
               "user/running", "user/studies", "user/plots"],
     "Reference": ["user/signs", "user/wheel_rail", "user/wheel_rail_results", "user/input", "user/output", "user/profiles",
                   "user/readable", "user/results", "user/python", "user/matlab", "user/library", "user/routines"],
@@ -65,6 +65,10 @@ def read(app, page, source):
     text = plain_links(page, source[0])
     if "$$" in text:
         text = plain_formulae(text)
+    if page == "user/tutorials":
+        # made by build.sh where the program is built
+        link = '<a href="../notebooks/tutorials.ipynb" download>The same as an executed notebook</a>'
+        text = text.replace("\n\n", f"\n\n{link}\n\n", 1)
     if page == root_doc:
         placed, menu = set(), ""
         for title, names in MENU.items():

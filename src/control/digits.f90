@@ -79,8 +79,10 @@ module contact_control_digits
       & digit_row("T", 1, motion%shift, both, .true., "shift, or rolling with material-fixed coordinates", "shift"), &
       & digit_row("T", 2, motion%transient_rolling, both, .true., "transient rolling, moving coordinates", "transient_rolling"), &
       & digit_row("T", 3, motion%steady_rolling, both, .true., "steady rolling, direct method", "steady_rolling"), &
-      & digit_row("N", 0, normal_control%approach, both, .true., "approach PEN prescribed", "approach"), &
-      & digit_row("N", 1, normal_control%force, both, .true., "normal force FN prescribed", "force"), &
+      & digit_row("N", 0, normal_control%approach, module_3, .true., "approach PEN prescribed", "approach"), &
+      & digit_row("N", 1, normal_control%force, module_3, .true., "normal force FN prescribed", "force"), &
+      & digit_row("N", 0, normal_control%approach, module_1, .true., "height Z_WS of the wheelset prescribed", "approach"), &
+      & digit_row("N", 1, normal_control%force, module_1, .true., "vertical force FZ prescribed", "force"), &
       & digit_row("F", 0, force_control%creepages, module_3, .true., "creepages CKSI and CETA prescribed", "creepages"), &
       & digit_row("F", 1, force_control%fx_and_ceta, module_3, .true., "force FX and creepage CETA prescribed", "fx_and_ceta"), &
       & digit_row("F", 2, force_control%fx_and_fy, module_3, .true., "forces FX and FY prescribed", "fx_and_fy"), &

@@ -37,13 +37,14 @@ contains
       type(point_list) :: points
       character(len=:), allocatable :: line, key, value, columns
       real(wp) :: row(max_columns)
-      integer :: n, skipped, header_end
+      integer :: n, skipped, header_end, numberlike
       logical :: assigned, blank_seen, header_seen, extra_seen, text_seen, text_follows
 
       columns = ""
       header_end = 0
       text_seen = .false.
       skipped = 0
+      numberlike = 0
       blank_seen = .false.
       header_seen = .false.
       extra_seen = .false.
@@ -67,6 +68,7 @@ contains
                call take_key()
             end if
          else if (points%n == 0 .and. (n == 0 .or. text_follows .and. n < 2)) then
+            if (numberlike == 0 .and. scan(adjustl(line), "+-.0123456789") == 1) numberlike = place%line
             call find_header_end()
          else
             if (points%n == 0 .and. header_seen .and. .not. blank_seen) call log%warning(text%file // ", line " // &
@@ -76,6 +78,12 @@ contains
          if (allocated(error)) return
       end do
       if (skipped > max_messages) call log%warning(text%file // ": " // integer_text(skipped) // " rows were skipped.")
+      if (points%n == 0 .and. numberlike > 0) then
+         line = text%line_text(numberlike)
+         call fatal_error(error, "no point was found; """ // printable(trim(line)) // """ is not one: expected two numbers y z &
+            &with decimal points, separated by blanks, tabs or a comma", file=text%file, line=numberlike)
+         return
+      end if
       call points%take(profile%y, profile%z, profile%line)
 
    contains

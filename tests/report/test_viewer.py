@@ -354,6 +354,19 @@ class Viewer(Page):
         place = page.evaluate("""() => { const p = contactReport.data.cases[3].patches[0], g = p.grid;
           const iy = Math.floor(-g.yl / g.dy); return contactReport.plots.scene.place(p, 0, iy, -g.yl / g.dy - iy - .5); }""")
         np.testing.assert_allclose(place, [totals["xcp_tr"], totals["ycp_tr"], totals["zcp_tr"]], atol=1e-4)
+        # the wheel goes through its own contact reference, which it shares with the rail, and can be left out
+        for index in (3, 8):
+            place = page.evaluate("""k => { const c = contactReport.data.cases[k], t = c.patches[0].totals;
+              const angle = Math.asin(t.xcp_w / (c.radius + t.zcp_w));
+              return contactReport.plots.scene.wheelPoint(c, [t.ycp_w, t.zcp_w], angle); }""", index)
+            _, _, there = self.fields("wheel_on_rail", index + 1)
+            np.testing.assert_allclose(place, [there["xcp_tr"], there["ycp_tr"], there["zcp_tr"]], atol=1e-2)
+        inked = "() => { const c = document.getElementById('plot-scene'); return c.toDataURL(); }"
+        with_wheel = page.evaluate(inked)
+        page.uncheck("#scene-wheel")
+        page.wait_for_function("before => document.getElementById('plot-scene').toDataURL() !== before", arg=with_wheel)
+        page.check("#scene-wheel")
+        page.wait_for_function("before => document.getElementById('plot-scene').toDataURL() === before", arg=with_wheel)
         x, y, z = np.array(page.evaluate("""() => { const project = contactReport.plots.scene.project, o = project([0, 0, 0]);
           return [[1, 0, 0], [0, 1, 0], [0, 0, 1]].map(e => project(e).map((v, k) => v - o[k])); }"""))
         # on the screen right, down, away from the eye: a right-handed system
@@ -450,6 +463,38 @@ class Compared(Page):
         page.set_input_files("#compare-file", other)
         page.wait_for_selector("#compared", state="visible")
         self.judge(page)
+
+    def deep(self, name, friction, depth):
+        """Stresses below a sliding ball in two blocks, the second at a depth of its own"""
+        path = os.path.join(self.scratch.name, name + ".inp")
+        with open(path, "w") as file:
+            file.write(f"3 MODULE\n 203103\n0022020\n0000101\n 100 100 30 1 1e-5\n 9.2 0.01 0 0\n {friction} {friction}\n"
+                       " 0d 0.1 1000\n 0.42 0.42 200 200\n 1\n 24 24 -1.2 -1.2 0.1 0.1\n 1 1\n 0.01 0 0.01 0 0 0\n 2 0\n"
+                       f" 1\n 6 0.1 0.2\n 1\n 2 {depth} 0.1\n 0\n0 END\n")
+        with h5py.File(self.results_of(name, path)) as file:
+            return file["case_0001/patch_1/subsurface/block_1/sigvm"][()].ravel()
+
+    def test_below_the_surface(self):
+        mine, other = self.deep("deep", 0.4, 0.5), self.deep("deeper", 0.2, 0.7)
+        page = self.open(self.page_of("deep", other="deeper"))
+        page.select_option("#stress", "sigvm")
+        for show, wanted, title in (("this", mine, "Below the surface"), ("other", other, "other run"),
+                                    ("difference", mine - other, "this minus other"), ("side", mine - other, "this minus other")):
+            page.select_option("#show", show)
+            page.wait_for_function("t => document.querySelector('#card-block h2 .name').textContent.includes(t)", arg=title)
+            page.wait_for_function("m => contactReport.state.block.mode === m", arg={"side": "difference"}.get(show, show))
+            shown = np.array(page.evaluate("[...contactReport.state.block.values]"))
+            np.testing.assert_allclose(shown, wanted, atol=2e-6 * mine.max())
+            self.assertGreater(page.evaluate(COLOURS, "map-block"), 30)
+        self.assertGreater(abs(mine - other).max(), 0.05 * mine.max())
+        self.assertIn("this minus other", page.get_attribute("#map-block", "aria-label"))
+        # blocks of other points are not compared
+        page.select_option("#block", "1")
+        page.wait_for_function("() => contactReport.state.block.values === null")
+        page.wait_for_function("() => document.getElementById('map-block').getAttribute('aria-label').includes('no block')")
+        page.select_option("#show", "this")
+        page.wait_for_function("() => contactReport.state.block.values !== null")
+        self.assertEqual(self.troubles, [])
 
     def test_cases_that_the_other_run_lacks(self):
         path = os.path.join(self.scratch.name, "many.inp")

@@ -17,13 +17,15 @@ const STRESSES = {
   uy: "displacement uy",
   uz: "displacement uz",
 };
+const WHOSE = { this: "", other: " of the other run", difference: ", this minus other," };
 const stressUnit = name => (name.startsWith("u") ? "mm" : "N/mm\u00b2");
 class Plane extends Frame {
   constructor(id) {
     super(id, { right: 78 });
   }
   get key() {
-    return "block " + (state.block ? state.block.name : "");
+    const b = state.block;
+    return (b && b.mode === "difference" ? "difference " : "") + "block " + (b ? b.name : "");
   }
   // Number of a point, from its numbers along the two axes of the plane
   at(block, i, j) {
@@ -35,6 +37,7 @@ class Plane extends Frame {
   draw() {
     const b = state.block;
     if (!b) return;
+    if (!b.values) return this.blank("the other run has no block with these points");
     const [across, along] = PLANES[b.plane].map(axis => b[axis]);
     const values = Array.from({ length: along.length }, (_, j) => across.map((_, i) => b.values[this.at(b, i, j)])),
       flat = values.flat();
@@ -99,7 +102,7 @@ class Plane extends Frame {
   describe(b, flat) {
     const [low, high] = rangeOf(flat);
     this.tell(
-      `${STRESSES[b.name]} in ${b.plane} = ${figures(b[b.plane][b.place])} mm, ` +
+      `${STRESSES[b.name]}${WHOSE[b.mode]} in ${b.plane} = ${figures(b[b.plane][b.place])} mm, ` +
         `from ${figures(low)} to ${figures(high)} ${stressUnit(b.name)}`,
     );
   }
@@ -129,7 +132,7 @@ class Plane extends Frame {
   point(u, v) {
     const b = state.block,
       nearest = (list, p) => list.reduce((best, q, i) => (Math.abs(q - p) < Math.abs(list[best] - p) ? i : best), 0);
-    if (!b) return;
+    if (!b || !b.values) return;
     const [across, along] = PLANES[b.plane].map(axis => b[axis]);
     const one = across.length < 2,
       i = one ? 0 : nearest(across, u),
@@ -142,8 +145,17 @@ class Plane extends Frame {
     ]);
   }
 }
-// The chosen block, stress and plane of the patch; keeps what was chosen where it can
-async function chosenBlock(p) {
+// Values of the same points in the other run; null where it has none. Blocks agree in all their coordinates
+async function otherBlock(other, number, block, name) {
+  const there = other && other.patch && other.patch.blocks && other.patch.blocks[number];
+  const same = axis =>
+    there[axis].length === block[axis].length &&
+    there[axis].every((v, i) => Math.abs(v - block[axis][i]) <= 1e-5 * Math.max(1, Math.abs(v)));
+  return there && name in there.fields && ["x", "y", "z"].every(same) ? load(other.run, there.fields[name]) : null;
+}
+// The chosen block, stress and plane of the patch; keeps what was chosen where it can. One picture cannot show both runs side by
+// side: it shows their difference then
+async function chosenBlock(p, other) {
   const blocks = p && p.blocks ? p.blocks : [];
   byId("card-block").hidden = !blocks.length;
   if (!blocks.length) return null;
@@ -155,16 +167,14 @@ async function chosenBlock(p) {
     select.value = values.includes(keep) ? keep : fallback;
     return select.value;
   };
-  const block =
-    blocks[
-      Number(
-        offer(
-          "block",
-          blocks.map((b, k) => [String(k), `block ${k + 1}`]),
-          "0",
-        ),
-      )
-    ];
+  const number = Number(
+      offer(
+        "block",
+        blocks.map((b, k) => [String(k), `block ${k + 1}`]),
+        "0",
+      ),
+    ),
+    block = blocks[number];
   byId("block").hidden = blocks.length < 2;
   const name = offer(
     "stress",
@@ -196,5 +206,14 @@ async function chosenBlock(p) {
   const place = Number(slider.value);
   byId("depth-text").textContent = `${plane} = ${figures(block[plane][place])} mm`;
   slider.setAttribute("aria-valuetext", byId("depth-text").textContent);
-  return { ...block, name, plane, place, values: await load(runs[0], block.fields[name]) };
+  const mode = !runs[1] ? "this" : sideBySide() ? "difference" : byId("show").value;
+  let values = await load(runs[0], block.fields[name]);
+  if (mode !== "this") {
+    const theirs = await otherBlock(other, number, block, name);
+    if (mode === "difference") values = theirs && values.map((v, i) => v - theirs[i]);
+    else values = theirs;
+  }
+  byId("card-block").querySelector("h2 .name").textContent =
+    "Below the surface" + { this: "", other: ", other run", difference: ", this minus other" }[mode];
+  return { ...block, name, plane, place, mode, values };
 }

@@ -97,6 +97,7 @@ function csvOfCurve() {
 function csvOfBlock() {
   const b = state.block,
     rows = [["x [mm]", "y [mm]", "z [mm]", `${b.name} [${b.name.startsWith("u") ? "mm" : "N/mm2"}]`]];
+  if (!b.values) return rows;
   b.z.forEach((z, k) =>
     b.y.forEach((y, j) =>
       b.x.forEach((x, i) => rows.push([x, y, z, +b.values[i + b.x.length * (j + b.y.length * k)].toPrecision(7)])),

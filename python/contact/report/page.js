@@ -80,7 +80,7 @@ async function go(index, patch = 0) {
   if (other && other.patch) Object.assign(other, { fields: await fieldsOf(other.run, other.patch), differences: new Map() });
   for (const body of ["rail", "wheel"])
     if (c.profiles && body in c.profiles) profiles[body] = await load(runs[0], c.profiles[body]);
-  const block = await chosenBlock(p);
+  const block = await chosenBlock(p, other);
   if (mine !== turn) return; // a later step was faster
   await prepareRail(c);
   if (mine !== turn) return;
@@ -295,7 +295,7 @@ function listen() {
   for (const id of ["block", "stress", "plane", "depth"])
     byId(id).addEventListener("input", async () => {
       if (id === "block" || id === "plane") plots.block.own = null;
-      state.block = await chosenBlock(nowPatch());
+      state.block = await chosenBlock(nowPatch(), state.other);
       draw();
     });
   byId("previous").onclick = () => go(state.index - 1, state.patch);
@@ -307,12 +307,14 @@ function listen() {
   byId("slider").oninput = event => go(Number(event.target.value), state.patch);
   byId("play").onclick = () => play(playing === null);
   for (const id of ["quantity", "scene-field", "scale", "show"])
-    byId(id).addEventListener("change", () => {
+    byId(id).addEventListener("change", async () => {
+      if (id === "show") state.block = await chosenBlock(nowPatch(), state.other);
       for (const bar of document.querySelectorAll(".tools:not([hidden])")) if (bar.refresh) bar.refresh();
       byId("card-pt").hidden = !!state.fields && !state.fields.pt && !sideBySide();
       nameMaps();
       draw();
     });
+  byId("scene-wheel").onchange = () => draw();
   byId("direction").onchange = () => {
     plots.section.own = null;
     draw();

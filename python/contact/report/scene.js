@@ -1,4 +1,5 @@
-// The rail as a body, with the patches on it in their colours and the tractions as arrows; turned by dragging, from above only.
+// The rail as a body, with the patches on it in their colours, the tractions as arrows and the wheel as a net of lines; turned by
+// dragging, from above only.
 const LIGHT = [0.35, -0.45, -0.82];
 class Scene extends Picture {
   constructor(id) {
@@ -50,6 +51,7 @@ class Scene extends Picture {
       middle[0] - reach,
       middle[0] + reach,
     );
+    if (byId("scene-wheel").checked) this.wheel(c, c0, middle, reach);
     const inContact = c0.patches.flatMap(p => {
       const f = p.shown;
       return f && f[name] ? [...f[name]].filter((_, i) => f.eldiv[i] > 0) : [];
@@ -110,6 +112,45 @@ class Scene extends Picture {
     const depth = q => q.corners.reduce((sum, p) => sum + p[2], 0);
     for (const q of quads.sort((a, b) => depth(b) - depth(a))) this.polygon(c, q.corners, q.colour, true);
     end(ends[1]);
+  }
+  // A point of the wheel's profile at an angle around the axle from the lowest place, in track coordinates
+  wheelPoint(c0, [y, z], angle) {
+    const m = c0.markers,
+      radius = c0.radius + z,
+      along = radius * Math.sin(angle),
+      down = radius * Math.cos(angle) - c0.radius;
+    const across = y * Math.cos(m.roll_w) - down * Math.sin(m.roll_w);
+    return [
+      m.x_w + along * Math.cos(m.yaw_w) - across * Math.sin(m.yaw_w),
+      m.y_w + along * Math.sin(m.yaw_w) + across * Math.cos(m.yaw_w),
+      m.z_w + y * Math.sin(m.roll_w) + down * Math.cos(m.roll_w),
+    ];
+  }
+  // Circles through some points of the profile, and the profile at some angles: one sees through to the patches
+  wheel(c, c0, middle, reach) {
+    const profile = state.profiles.wheel;
+    if (!profile || !c0.radius) return;
+    const points = [];
+    for (let i = 0; i < profile.length; i += 2) {
+      const at = this.wheelPoint(c0, [profile[i], profile[i + 1]], 0);
+      if (Math.abs(at[1] - middle[1]) < 2.2 * reach) points.push([profile[i], profile[i + 1]]);
+    }
+    const most = Math.asin(Math.min(0.9, reach / c0.radius)),
+      first = Math.asin(Math.max(-0.9, Math.min(0.9, (middle[0] - c0.markers.x_w) / c0.radius)));
+    const angles = Array.from({ length: 17 }, (_, k) => first + (most * (k - 8)) / 8),
+      step = Math.max(1, Math.floor(points.length / 28));
+    const line = list => {
+      c.beginPath();
+      list.map(this.project).forEach(([u, v], i) => {
+        if (i) c.lineTo(u, v);
+        else c.moveTo(u, v);
+      });
+      c.stroke();
+    };
+    c.strokeStyle = "rgba(31,95,168,.35)";
+    c.lineWidth = 1;
+    for (let i = 0; i < points.length; i += step) line(angles.map(a => this.wheelPoint(c0, points[i], a)));
+    for (let k = 0; k < angles.length; k += 4) line(points.map(p => this.wheelPoint(c0, p, angles[k])));
   }
   polygon(c, corners, colour, edge) {
     c.beginPath();

@@ -413,6 +413,7 @@ contains
 
       request = rail_request("bad.txt")
       call refused(suite, request, "", "there are 0 different points", 0, "an empty file")
+      call refused(suite, request, "y;z" // nl // "-3,5;1,5" // nl // "4;1", "no point was found", 2, "columns with semicolons")
       call refused(suite, request, "5 5", "there are 1 different points", 0, "one point")
       call refused(suite, request, "5 5" // nl // "5 5" // nl // "5 5", "there are 1 different points", 0, "one point three times")
       call refused(suite, request, "0 0" // nl // "1 NaN", '"NaN" is not a finite number', 2, "NaN")
