@@ -12,7 +12,6 @@ import tempfile
 
 import nbformat
 from nbclient import NotebookClient
-from traitlets.config import Config
 
 TOP = pathlib.Path(__file__).resolve().parents[1]
 BLOCK = re.compile(r"<!-- (run|shows|file)(?:: [^\n]*?)? -->\n+```(\w*)\n(.*?)\n```\n?", re.DOTALL)
@@ -50,7 +49,7 @@ def main():
         with tempfile.TemporaryDirectory() as scratch:
             (pathlib.Path(scratch) / "examples").symlink_to(TOP / "examples")
             NotebookClient(book, timeout=LONGEST, kernel_name="python3", resources={"metadata": {"path": scratch}},
-                           config=Config({"KernelManager": {"transport": "ipc"}})).execute()
+                           extra_arguments=["--log-level=40"]).execute()
         nbformat.write(book, folder / f"{page.stem}.ipynb")
 
 

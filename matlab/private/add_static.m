@@ -8,7 +8,7 @@ function [ fric ] = add_static( fric )
    end
    for law = {'flin','frat','fexp'}
       first = [law{1} '1'];
-      if (isfield(fric, first))
+      if (all(isfield(fric, {'fkin', first, [law{1} '2']})))
          fric.fstat = fric.fkin + fric.(first) + fric.([law{1} '2']);
       end
    end
