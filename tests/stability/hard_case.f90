@@ -18,6 +18,7 @@ module hard_case
    use contact_grid_element_division, only : element
    use contact_patch_result, only : patch_result
    use contact_test_harness, only : test_suite
+   use judged_estimate, only : judge_estimate
    implicit none (type, external)
    private
 
@@ -154,7 +155,7 @@ contains
    end subroutine release
 
    !> The case must converge, and its result must satisfy the contact conditions
-   subroutine expect_solution(suite, run, spec, name, slack, silent)
+   subroutine expect_solution(suite, run, spec, name, slack, silent, sampled)
       type(test_suite), intent(inout) :: suite
       type(hard_run), intent(inout) :: run
       type(case_spec), intent(in) :: spec
@@ -163,12 +164,16 @@ contains
       real(wp), intent(in), optional :: slack
       !> Without a line in the table; default no
       logical, intent(in), optional :: silent
+      !> Are distances so rough that every third one is another surface, which no estimate can be judged by? Default no
+      logical, intent(in), optional :: sampled
       type(findings) :: found
       real(wp) :: allowed, gap_allowed
-      logical :: row
+      logical :: row, is_judged
 
       row = .true.
       if (present(silent)) row = .not. silent
+      is_judged = .true.
+      if (present(sampled)) is_judged = .not. sampled
       call run_case(run, spec)
       if (allocated(run%error)) then
          call suite%check(.false., name // ": error " // full_text(run%error))
@@ -197,6 +202,7 @@ contains
       call suite%close_to(found%forces, 0.0_wp, allowed, name // ": prescribed forces")
       call suite%close_to(found%slip, 0.0_wp, 1.0e-9_wp, name // ": slip of the result")
       call suite%close_to(found%totals, 0.0_wp, 1.05_wp*spec%iteration%eps + 1.0e-10_wp, name // ": totals of the result")
+      if (is_judged .and. .not. run%linked) call judge_estimate(suite, run%session%problem, run%session%state, run%result, name)
    end subroutine expect_solution
 
    !> The case must end: with a right answer, or with a report and a message that say otherwise

@@ -39,11 +39,11 @@ contains
                spec%kinematics%ceta = 0.3_wp*spec%kinematics%cksi
                spec%kinematics%cphi = 1.0e-4_wp
                write(label, "(a, i0, a, i0, a, i0)") "seed ", seeds(draw), ", kind ", kind, ", T=", t
-               call expect_solution(suite, run, spec, trim(label))
+               call expect_solution(suite, run, spec, trim(label), sampled=.true.)
                if (draw == 1) write(*, "(a, i0, a)") "   ", islands(run%result%division), " islands"
                spec%normal = normal_control%approach
                spec%kinematics%pen = 0.8_wp*run%result%pen + 0.2_wp*minval(run%result%h)
-               call expect_solution(suite, run, spec, trim(label) // ", N=0")
+               call expect_solution(suite, run, spec, trim(label) // ", N=0", sampled=.true.)
                if (t == motion%none) cycle
                do tangential = 1, 2
                   spec%normal = normal_control%force
@@ -51,7 +51,7 @@ contains
                   spec%kinematics%fx = -0.7_wp
                   spec%kinematics%fy = 0.5_wp
                   write(label, "(a, i0, a, i0, a, i0, a, i0)") "seed ", seeds(draw), ", kind ", kind, ", T=", t, ", F=", tangential
-                  call expect_solution(suite, run, spec, trim(label))
+                  call expect_solution(suite, run, spec, trim(label), sampled=.true.)
                end do
             end do
          end do
