@@ -13,8 +13,11 @@ if ! "$python" -c "import sphinx, myst_parser, furo, latex2mathml, nbformat, nbc
   python=$tools/bin/python3
 fi
 rm -rf "$out"
-"$python" -m sphinx -q -W --keep-going -b html -d "$(mktemp -d)" "$top/doc" "$out"
 if [ -x "${CONTACT_PROGRAM:-$top/build/release/bin/contact}" ]; then
+  export CONTACT_NOTEBOOKS=yes
+fi
+"$python" -m sphinx -q -W --keep-going -b html -d "$(mktemp -d)" "$top/doc" "$out"
+if [ -n "${CONTACT_NOTEBOOKS:-}" ]; then
   "$python" "$top/doc/notebooks.py" "$out/notebooks" doc/user/tutorials.md
 else
   echo "No notebooks: build/release has no program" >&2
