@@ -1,0 +1,297 @@
+"""Wear of a wheel over a distance, with its profile changing: contacts at many positions, depth per revolution, a new profile.
+
+The profile is in the coordinates of Simpack files: y to the field side with the flange at negative y, z downwards, in mm.
+"""
+from __future__ import annotations
+
+import copy
+import math
+import os
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Callable
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .errors import ContactError
+
+Numbers = NDArray[np.float64]
+
+#: Depth that one revolution wears off each row of elements [mm], from pn, px, py [N/mm2], sx, sy [-], with x along the last axis,
+#: and dx [mm]; such as :func:`contact.wear.braghin_depth`
+Law = Callable[[Numbers, Numbers, Numbers, Numbers, Numbers, float], Any]
+
+#: Of a step from 0 and the profile then, what the journey consists of: inputs by name, the part of the distance of each case
+Journey = Callable[[int, "Profile"], "tuple[Mapping[str, Any], ArrayLike]"]
+
+#: Element fields that wear is made of
+_FIELDS = ("pn", "px", "py", "sx", "sy")
+
+
+@dataclass(frozen=True)
+class Profile:
+    """A wheel's profile.
+
+    Attributes
+    ----------
+    y, z
+        Points [mm], from the field side or from the flange, one behind the other along the surface.
+    """
+
+    y: Numbers
+    z: Numbers
+
+    @staticmethod
+    def read(file: str | os.PathLike[str]) -> Profile:
+        """Read a file of Simpack, ``.prw``. Raises ContactError when it is none, OSError when it cannot be read."""
+        path = Path(file)
+        if path.suffix.lower() != ".prw":
+            raise ContactError(f"{path}: only profiles of Simpack, .prw, can wear")
+        text = path.read_text(encoding="utf-8", errors="replace")
+        if "point.begin" not in text or "point.end" not in text:
+            raise ContactError(f"{path} has no points between point.begin and point.end")
+        rows = text.split("point.begin", 1)[1].split("point.end", 1)[0].splitlines()
+        try:
+            points = np.array([[float(word) for word in row.split()[:2]] for row in rows if row.strip()])
+        except ValueError as reason:
+            raise ContactError(f"{path}: a point is no pair of numbers: {reason}") from reason
+        if points.ndim != 2 or points.shape[0] < 4 or points.shape[1] != 2:
+            raise ContactError(f"{path} has fewer than 4 points")
+        return Profile(points[:, 0], points[:, 1])
+
+    def write(self, file: str | os.PathLike[str], comment: str = "worn") -> None:
+        """Write a file of Simpack, in mm."""
+        rows = "".join(f"    {y:15.9f} {z:15.9f}\n" for y, z in zip(self.y, self.z))
+        Path(file).write_text("! Coordinates in mm\nheader.begin\n  version = 1\n  type    = 1\nheader.end\nspline.begin\n"
+                              f"  comment     = '{comment}'\n  units.len.f = 1000.\n  inversion   = 0\n  point.begin\n{rows}"
+                              "  point.end\nspline.end\n", encoding="utf-8")
+
+    def lengths(self) -> Numbers:
+        """Length along the surface up to each point, growing to the field side, 0 at the first one [mm]."""
+        steps = np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(self.y), np.diff(self.z)))])
+        return steps if self.y[-1] > self.y[0] else -steps
+
+    def length_at(self, y: ArrayLike) -> Numbers:
+        """Length along the surface at lateral places of tread and flange face [mm]."""
+        face = self._face()
+        order = np.argsort(self.y[face])
+        return np.asarray(np.interp(np.asarray(y, dtype=float), self.y[face][order], self.lengths()[face][order]))
+
+    def height_at(self, y: ArrayLike) -> Numbers:
+        """z at lateral places of tread and flange face [mm]: by which the radius exceeds that of the datum of the new wheel."""
+        face = self._face()
+        return np.asarray(np.interp(np.asarray(y, dtype=float), *_sorted(self.y[face], self.z[face])))
+
+    def _face(self) -> NDArray[np.bool_]:
+        """Points from the tip of the flange to the field side: y grows there along the surface"""
+        tip = int(np.argmax(self.z))
+        ahead = np.arange(len(self.y)) >= tip
+        return ahead if self.y[-1] > self.y[0] else ~ahead | (np.arange(len(self.y)) == tip)
+
+    def worn(self, depth: Numbers) -> Profile:
+        """The profile with a depth [mm] taken off at each point, square to the surface."""
+        along = np.gradient(np.column_stack([self.y, self.z]), self.lengths(), axis=0)
+        along /= np.hypot(along[:, 0], along[:, 1])[:, None]
+        # outwards is downwards on the tread
+        return Profile(self.y + along[:, 1] * depth, self.z - along[:, 0] * depth)
+
+    def meshed(self, spacing: float) -> Profile:
+        """The profile with points at equal distances along its surface, on a cubic spline through the old ones."""
+        from scipy.interpolate import CubicSpline
+        at = np.abs(self.lengths())
+        places = np.linspace(0.0, at[-1], max(4, round(at[-1] / spacing) + 1))
+        points = CubicSpline(at, np.column_stack([self.y, self.z]))(places)
+        return Profile(points[:, 0], points[:, 1])
+
+    def flange(self) -> tuple[float, float, float]:
+        """Height Sh, thickness Sd and slope qR of the flange [mm], the tread datum at y = 0, the back 70 mm from it (EN 15313)."""
+        face = self._face()
+        tread = float(self.height_at(0.0))
+        tip = float(self.z.max())
+        flank = face & (self.y < 0.0)
+        lower, upper = (float(np.interp(z, *_sorted(self.z[flank], self.y[flank]))) for z in (tip - 2.0, tread + 10.0))
+        return tip - tread, upper + 70.0, upper - lower
+
+
+def _sorted(x: Numbers, y: Numbers) -> tuple[Numbers, Numbers]:
+    """Both, by the first one"""
+    order = np.argsort(x)
+    return x[order], y[order]
+
+
+@dataclass(frozen=True)
+class State:
+    """A wheel after a distance.
+
+    Attributes
+    ----------
+    distance
+        In km.
+    profile
+        The worn one.
+    depth
+        What was worn off since the beginning, at the points of the profile [mm].
+    rate
+        What is worn off now, at the points of the profile [mm/km]; of the last state that of the step before.
+    area
+        Worn area of the section [mm2].
+    """
+
+    distance: float
+    profile: Profile
+    depth: Numbers
+    rate: Numbers
+    area: float
+
+
+def smoothed(values: Numbers, spacing: float, width: float) -> Numbers:
+    """Values at equal distances, averaged with weights of Gauss; their sum stays the same.
+
+    Parameters
+    ----------
+    values
+        At points `spacing` apart [mm]; continued by zeros.
+    spacing
+        In mm.
+    width
+        Standard deviation of the weights [mm]; 0 for none.
+    """
+    if width <= 0.0:
+        return values
+    reach = math.ceil(4.0 * width / spacing)
+    weights = np.exp(-0.5 * (np.arange(-reach, reach + 1) * spacing / width)**2)
+    weights /= weights.sum()
+    whole = np.convolve(values, weights)
+    # what would leave the ends stays at them
+    kept = whole[reach:len(whole) - reach].copy()
+    kept[0] += whole[:reach].sum()
+    kept[-1] += whole[len(whole) - reach:].sum()
+    return kept
+
+
+def depth_per_revolution(results: Any, law: Law, profile: Profile, weights: ArrayLike) -> Numbers:
+    """Mean depth that a revolution wears off a profile.
+
+    Parameters
+    ----------
+    results
+        Dataset of a study over one dimension, of a right wheel, with the fields pn, px, py, sx, sy.
+    law
+        Depth of a patch from its fields.
+    profile
+        Of the wheel that the study had.
+    weights
+        Part of the distance that each case stands for, one for each case; their sum is 1.
+
+    Returns
+    -------
+    Depth at each point of the profile [mm]. Each row of elements gives its depth to the points of its width; what is worn off in
+    all, depth times width, is that of the rows.
+    """
+    places = np.abs(profile.lengths())
+    middles = 0.5 * (places[1:] + places[:-1])
+    edges = np.concatenate([[places[0]], middles, [places[-1]]])
+    direction = 1.0 if profile.y[-1] > profile.y[0] else -1.0
+    total = np.zeros_like(places)
+    point = results["pn"].dims[0]
+    for case, weight in enumerate(np.asarray(weights, dtype=float)):
+        one = results.isel({point: case})
+        for patch in range(one.sizes["patch"]):
+            found = one.isel(patch=patch)
+            if not np.isfinite(float(found["fn"])) or not np.isfinite(found["pn"].values).any():
+                continue
+            pn, px, py, sx, sy = (np.nan_to_num(found[name].values) for name in _FIELDS)
+            depth = np.asarray(law(pn, px, py, sx, sy, float(found["dx"])), dtype=float)
+            width = float(found["dy"])
+            rows = float(found["y_first"]) + width * np.arange(len(depth))
+            centres = direction * (float(profile.length_at(float(found["ycp_w"]))) + rows)
+            worn = np.concatenate([[0.0], np.cumsum(depth * width)])
+            borders = centres[0] + direction * width * (np.arange(len(depth) + 1) - 0.5)
+            if direction < 0.0:
+                borders, worn = borders[::-1], worn[-1] - worn[::-1]
+            total += weight * np.diff(np.interp(edges, borders, worn)) / np.diff(edges)
+    return total
+
+
+def wear_of_wheel(base: Mapping[str, Any], journey: Journey, distance: float, law: Law, *, folder: str | os.PathLike[str],
+                  base_folder: str | os.PathLike[str], largest_step: float = 0.05, spacing: float = 0.25, width: float = 2.5,
+                  workers: int | None = None, stop: Callable[[], bool] = lambda: False) -> Iterator[State]:
+    """A wheel that wears.
+
+    Parameters
+    ----------
+    base
+        A case of wheel and rail, a right wheel, in the words of the readable format.
+    journey
+        Gives the cases of a step: inputs such as ``"position.y_ws"`` and ``"velocity.vpitch"``, a list for each, and weights.
+        Positions that differ from step to step leave no traces of their own; a wheel that rolls freely turns faster when worn.
+    distance
+        Of the journey [km].
+    law
+        Depth of a patch from its fields.
+    folder
+        For worn profiles and what was computed: the same journey goes on there after it was ended.
+    base_folder
+        To which names of files of the base are relative.
+    largest_step
+        Depth after which contacts are computed anew [mm].
+    spacing
+        Distance of points of the profile [mm].
+    width
+        Standard deviation of the average over the depth [mm]: positions of a journey are no list, and hollows between two of
+        them would grow.
+    workers
+        As for :meth:`contact.Study.run`.
+    stop
+        Asked between steps: shall the journey end?
+
+    Yields
+    ------
+    The wheel at the start and after each step.
+
+    Raises
+    ------
+    ContactError
+        If a contact of the journey has no result, or the law gives a depth that is negative or no number.
+    """
+    from .study import Study, table
+    home = Path(folder).resolve()
+    home.mkdir(parents=True, exist_ok=True)
+    case = copy.deepcopy(dict(base))
+    profile = Profile.read(Path(base_folder) / case["wheel_profile"]["file"]).meshed(spacing)
+    radius = float(case["wheel_dimensions"]["nomradw"])
+    done, area = 0.0, 0.0
+    depth = np.zeros_like(profile.y)
+    number = 0
+    while True:
+        name = home / f"wheel_{number:04d}.prw"
+        profile.write(name, f"{done:.0f} km")
+        case["wheel_profile"] = {**case["wheel_profile"], "file": str(name)}
+        cases, weights = journey(number, profile)
+        shares = np.asarray(weights, dtype=float)
+        shares = shares / shares.sum()
+        study = Study(case, table(dict(cases)), fields=list(_FIELDS), folder=home / "cases", base_folder=base_folder)
+        results = study.run(workers, progress=False)
+        failed = study.failures(results)
+        if (results["status"].values == 2).any():
+            raise ContactError(f"after {done:.0f} km: {failed}")
+        per_km = depth_per_revolution(results, law, profile, shares) * 1e6 / (2.0 * math.pi * radius)
+        if not np.isfinite(per_km).all() or (per_km < 0.0).any():
+            raise ContactError("the law of wear gives a depth that is negative or no number")
+        rate = smoothed(per_km, spacing, width)
+        yield State(done, profile, depth, rate, area)
+        if done >= distance or stop():
+            return
+        largest = float(rate.max())
+        step = min(distance - done, largest_step / largest if largest > 0.0 else distance)
+        done = distance if step >= distance - done else done + step
+        widths = np.gradient(np.abs(profile.lengths()))
+        area += float((rate * widths).sum() * step)
+        worn = profile.worn(rate * step)
+        profile = worn.meshed(spacing)
+        # depths go along with the points; both lengths differ by what chords miss
+        new, old = np.abs(profile.lengths()), np.abs(worn.lengths())
+        depth = np.interp(new, old * (new[-1] / old[-1]), depth + rate * step)
+        number += 1
