@@ -9,7 +9,7 @@ module contact_cases_accuracy
    use contact_base_kinds, only : wp
    use contact_base_limits, only : wall_clock
    use contact_base_log, only : log_type
-   use contact_cases_accuracy_plan, only : accuracy_law, expected_law, finer_across, first_across, is_near_enough, &
+   use contact_cases_accuracy_plan, only : accuracy_law, caution, expected_law, finer_across, first_across, is_near_enough, &
       & most_elements, most_levels, refuse_case, shorten_aspect, solver_tolerance, &
       & time_is_left
    use contact_cases_distance, only : distance_form
@@ -155,7 +155,7 @@ contains
          report%seconds = report%seconds + report%last_seconds
          if (.not. result%status%has_result()) exit
          acting = result%tangential%order
-         report%estimated = error_of_forces(session%problem, result)
+         report%estimated = caution(spec)*error_of_forces(session%problem, result)
          if (result%ncon == 0 .and. report%levels > 1) report%estimated = 0.0_wp
          lengths = [result%grid%mx*result%grid%dx, result%grid%my*result%grid%dy]
          if (is_near_enough(report%estimated, expected, report%asked)) exit
@@ -175,7 +175,7 @@ contains
          best = result
          counts = next
       end do
-      if (len_trim(report%reason) > 0 .and. allocated(best)) call keep_better(session, best, report, result)
+      if (len_trim(report%reason) > 0 .and. allocated(best)) call keep_better(session, caution(spec), best, report, result)
       call tell_report(spec, level, result, report, log)
    end subroutine refine
 
@@ -321,8 +321,10 @@ contains
    end subroutine set_elements
 
    !> Of the grids of a search that ended too early keep the one with the smaller estimate
-   subroutine keep_better(session, best, report, result)
+   subroutine keep_better(session, factor, best, report, result)
       type(contact_session), intent(in) :: session
+      !> Of estimates
+      real(wp), intent(in) :: factor
       !> The grid before the last
       type(patch_result), intent(in) :: best
       type(accuracy_report), intent(inout) :: report
@@ -330,7 +332,7 @@ contains
       type(patch_result), intent(inout) :: result
       real(wp) :: before
 
-      before = error_of_forces(session%problem, best)
+      before = factor*error_of_forces(session%problem, best)
       if (before < 0.0_wp) return
       if (report%estimated >= 0.0_wp .and. report%estimated <= before .and. allocated(result%errors)) return
       result = best

@@ -11,12 +11,14 @@ module contact_cases_accuracy_plan
    use contact_base_memory, only : bytes_per_element
    use contact_cases_grid_inputs, only : largest_grid
    use contact_cases_spec, only : case_spec
+   use contact_elastic_material, only : combine, combined_material
    use contact_subsurface_points, only : point_selection
    implicit none (type, external)
    private
 
-   public :: accuracy_law, expected_law, finer_across, first_across, is_accuracy, is_near_enough, largest_accuracy, most_elements, &
-      & most_levels, refuse_case, shorten_aspect, smallest_accuracy, solver_tolerance, time_is_left
+   public :: accuracy_law, caution, expected_across, expected_law, finer_across, first_across, is_accuracy, is_near_enough, &
+      & largest_accuracy, most_elements, most_levels, refuse_case, shorten_aspect, smallest_accuracy, solver_tolerance, &
+      & time_is_left
 
    !> Accuracies that can be asked for
    real(wp), parameter :: smallest_accuracy = 1.0e-6_wp, largest_accuracy = 0.1_wp
@@ -50,6 +52,8 @@ module contact_cases_accuracy_plan
    real(wp), parameter :: eps_share = 0.1_wp, largest_eps = 1.0e-3_wp, smallest_eps = 1.0e-8_wp
    !> Time grows with this power of the number of elements, times a reserve: is there time for another grid?
    real(wp), parameter :: time_power = 1.1_wp, reserve = 1.2_wp
+   !> Factor of estimates that take an order of 1.6 where it may be 1: (3**1.6 - 1)/(3 - 1)
+   real(wp), parameter :: unclear_order = 2.4_wp
    !> Largest ratio of the sides of elements
    real(wp), parameter :: largest_aspect = 6.0_wp
 
@@ -106,6 +110,19 @@ contains
       is_accuracy = abs(number) <= 0.0_wp .or. (number >= smallest_accuracy .and. number <= largest_accuracy)
    end function is_accuracy
 
+   !> Factor of estimates, where the second order does not show its order: bodies that remember, or are unlike
+   !>
+   !> The estimate divides the difference of levels with a ratio of three by 3**1.6 - 1; what is of first order asks for 3 - 1.
+   pure real(wp) function caution(spec) result(factor)
+      type(case_spec), intent(in) :: spec
+      type(combined_material) :: material
+
+      factor = 1.0_wp
+      if (spec%motion /= motion%steady_rolling) return
+      material = combine(spec%material%poiss, spec%material%gg)
+      if (material%coupled() .or. spec%material_model == material_model%viscoelastic) factor = unclear_order
+   end function caution
+
    !> Typical error of a case before anything of it is known
    pure type(accuracy_law) function expected_law(spec) result(law)
       type(case_spec), intent(in) :: spec
@@ -128,6 +145,19 @@ contains
       across = min(across, max(quick_across, first_share*across), merge(most_across, most_across_first_order, law%order > 1.0_wp))
       across = usual_number(max(least_across, across))
    end function first_across
+
+   !> Elements across the contact of the grid that is expected to do
+   pure real(wp) function expected_across(law, asked) result(across)
+      !> What is expected
+      type(accuracy_law), intent(in) :: law
+      !> Accuracy [-]
+      real(wp), intent(in) :: asked
+
+      across = first_across(law, asked)
+      ! those of the second order have a first grid that does more often than not
+      if (law%order <= 1.0_wp .or. law%order >= normal_order%order) across = max(across, &
+         & (law%factor/(aim*asked))**(1.0_wp/law%order))
+   end function expected_across
 
    !> Is an estimate small enough?
    pure logical function is_near_enough(estimated, expected, asked)

@@ -2,11 +2,14 @@
 !>
 !> Times are rough, to tell seconds from hours. They were measured for a ball on a plane, half of the potential contact
 !> area in contact, EPS 1e-5, grids of 20 x 20 to 400 x 400 elements, at commit f1ba010 on one core of a server of 2022.
-!> Stresses below the surface count for memory only.
+!> Stresses below the surface count for memory only. Accuracies that are asked for were measured with random contacts and wheels
+!> of tests/accuracy at commit 2c823fb, the first of its size in a process, which makes plans of transforms, on a like machine.
 module contact_cases_estimate
    use contact_base_choices, only : force_control, motion, normal_control, solver_choice
    use contact_base_kinds, only : long, wp
    use contact_base_memory, only : bytes_per_element
+   use contact_cases_accuracy_plan, only : expected_across, expected_law, most_elements
+   use contact_cases_distance, only : distance_form
    use contact_cases_spec, only : case_spec
    use contact_cases_subsurface, only : stress_memory
    use contact_elastic_material, only : combine, combined_material
@@ -40,6 +43,14 @@ module contact_cases_estimate
    integer, parameter :: turns = 8
    !> Times NPOT_MAX that are refused where elements are not enlarged; see check_size of contact_wheelrail_patch_inputs
    integer(long), parameter :: hopeless = 10_long
+   !> All grids of a case with an accuracy, per element of the usual last one [s]: pressures; with tractions of shifts; of rolling;
+   !> of a wheel, whose height is sought. Elements of that grid over those of the first one, since some contacts need a second
+   real(wp), parameter :: accurate_pressures = 2.5e-6_wp, accurate_shift = 4.5e-6_wp, accurate_rolling = 6.5e-6_wp, &
+      & accurate_wheel = 1.2e-5_wp, accurate_case = 1.0e-3_wp, more_elements = 1.4_wp
+   !> Factors: turns of pressures and tractions; elements of profiles, which are bumpy or touch in two places
+   real(wp), parameter :: accurate_turns = 1.3_wp, bumpy = 2.5_wp
+   !> Part of a window along each side that contact takes
+   real(wp), parameter :: usual_share = 0.75_wp
    !> Typical radius of curvature in wheel-rail contact [mm], and the side of the grid relative to the contact
    real(wp), parameter :: typical_radius = 400.0_wp, margin = 1.25_wp
 
@@ -56,6 +67,10 @@ contains
 
       cost%seconds = every_case
       if (.not. spec%solve) return
+      if (spec%iteration%accuracy > 0.0_wp) then
+         call estimate_accurate(spec, cost)
+         return
+      end if
       if (allocated(spec%wheel_rail)) then
          call guess_patch(spec, cost)
       else
@@ -96,6 +111,31 @@ contains
       material = combine(spec%material%poiss, spec%material%gg)
       if (material%coupled()) cost%seconds = cost%seconds + trials*tangential
    end subroutine estimate_cost
+
+   !> A case with an accuracy, by the errors of contacts in general: single ones take half or twice of it, bumpy ones more
+   subroutine estimate_accurate(spec, cost)
+      type(case_spec), intent(in) :: spec
+      type(case_cost), intent(inout) :: cost
+      type(potential_contact) :: grid
+      real(wp) :: n, most, rate
+
+      n = (expected_across(expected_law(spec), spec%iteration%accuracy)/usual_share)**2*more_elements
+      if (spec%grid%needs_geometry() .and. spec%geometry%form == distance_form%profile) n = bumpy*n
+      most = most_elements(spec%limits)
+      if (allocated(spec%wheel_rail)) most = min(most, real(spec%iteration%npot_max, wp))
+      cost%at_most = n > most
+      n = min(n, most)
+      cost%elements = nint(n, long)
+      grid%mx = nint(sqrt(n))
+      grid%my = grid%mx
+      cost%bytes = n*bytes_per_element + real(stress_memory(spec, grid), wp)
+      rate = accurate_shift
+      if (spec%motion == motion%none) rate = accurate_pressures
+      if (spec%motion == motion%steady_rolling) rate = accurate_rolling
+      if (allocated(spec%wheel_rail)) rate = accurate_wheel
+      if (is_dissimilar(spec)) rate = accurate_turns*rate
+      cost%seconds = accurate_case + rate*n
+   end subroutine estimate_accurate
 
    !> Does the outer iteration turn?
    pure logical function is_dissimilar(spec)
