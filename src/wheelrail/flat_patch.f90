@@ -175,7 +175,9 @@ contains
       end if
       if (.not. allocated(h)) allocate(h(grid%mx, grid%my))
       delta = plane%roll()
-      section = rail%seen_from(plane%origin(2:3) - [0.0_wp, roller_lift()], delta, around=places)
+      associate (origin => plane%origin(2:3) - [0.0_wp, roller_lift()])
+         section = rail%seen_from(origin, delta, stretch_over(rail, origin, delta, places, grid), places)
+      end associate
       ! the plane seen from the wheel
       seen = placement%wheel%seen_from_here(plane)
       start = [wheel%s_at(seen%origin(2)), 0.0_wp]
@@ -211,6 +213,49 @@ contains
          end if
       end function rail_height
    end subroutine undeformed_distance
+
+   !> Part of the rail's profile that a patch is above: from its places on until the width of the grid is passed [mm]
+   pure function stretch_over(rail, origin, delta, places, grid) result(range)
+      !> The rail in track coordinates
+      type(profile_curve), intent(in) :: rail
+      !> Origin [mm] and roll angle [rad] of the section
+      real(wp), intent(in) :: origin(2), delta
+      !> See `undeformed_distance`
+      real(wp), intent(in) :: places(:)
+      !> Elements in the axes of the section
+      type(potential_contact), intent(in) :: grid
+      real(wp) :: range(2)
+      integer :: first, last
+
+      associate (nodes => rail%y%s)
+         range = [nodes(1), nodes(size(nodes))]
+         ! what was joined of several regions may have several stretches one above the other
+         if (size(places) > 2) return
+         first = piece_of(nodes, minval(places))
+         do while (first > 1)
+            if (is_beside(first)) exit
+            first = first - 1
+         end do
+         last = piece_of(nodes, maxval(places)) + 1
+         do while (last < size(nodes))
+            if (is_beside(last)) exit
+            last = last + 1
+         end do
+         range = [nodes(first), nodes(last)]
+      end associate
+
+   contains
+
+      !> Does a node lie beside the grid?
+      pure logical function is_beside(node)
+         integer, intent(in) :: node
+         real(wp) :: across
+
+         across = huge(across)
+         if (node < size(rail%y%s)) across = cos(delta)*(rail%y%c(0, node) - origin(1)) + sin(delta)*(rail%z%c(0, node) - origin(2))
+         is_beside = across < grid%yl - grid%dy .or. across > grid%yl + (grid%my + 1)*grid%dy
+      end function is_beside
+   end function stretch_over
 
    !> Height of a roller's surface over the plane: fixed point of n = distance to the surface below the track point
    subroutine roller_height(plane, rail, radius, x, s, n)

@@ -38,6 +38,8 @@ module contact_wheelrail_gap
       real(wp) :: depth = huge(1.0_wp)
       !> The mesh point of another curve whose surroundings this one shows on a finer mesh; 0: it shows all of the rail
       integer :: shows = 0
+      !> Is the rail there at a mesh point?
+      logical, allocatable, private :: on_rail(:)
    end type gap_curve
 
    !> Mesh width relative to the elements
@@ -79,17 +81,19 @@ contains
    !>
    !> On a track the normal of the surface of revolution is perpendicular to the track there; on a roller wheel and
    !> roller fall alike along it. See doc/theory/wheel_rail.md.
-   function locus_point(wheel, placement, s, rail) result(point)
+   function locus_point(wheel, placement, piece, place, rail) result(point)
       !> Profile of a round wheel in its own coordinates
       type(profile_curve), intent(in) :: wheel
       !> Where the bodies are
       type(wheel_rail_placement), intent(in) :: placement
-      !> Place on the profile [mm]
-      real(wp), intent(in) :: s
+      !> Piece of the profile
+      integer, intent(in) :: piece
+      !> Place in the piece, from its beginning [mm]
+      real(wp), intent(in) :: place
       !> The profile of a roller in track coordinates; not looked at on a track
       type(profile_curve), intent(in) :: rail
       real(wp) :: point(3)
-      real(wp) :: radius, lean, x, y, z, across, before, fall
+      real(wp) :: radius, lean, x, y, z, across, before, fall, drop
       logical :: on_roller
       integer :: step
       !> A profile that is steeper than this counts as vertical [-]
@@ -98,19 +102,23 @@ contains
       real(wp), parameter :: tolerance = 1.0e-13_wp
 
       on_roller = placement%roller_radius > 0.0_wp
-      call wheel%point(s, y, z, across, lean)
+      call wheel%y%in_piece(piece, place, y, across)
+      call wheel%z%in_piece(piece, place, z, lean)
       radius = placement%wheel_radius + z
       lean = radius*(lean/min(steepest, across))
       associate (axes => placement%wheel%axes)
          x = 0.0_wp
          do step = 1, 20
             before = x
-            point = placement%wheel%to_parent([x, y, depth(x) - placement%wheel_radius])
+            drop = depth(x)
             fall = 0.0_wp
-            if (on_roller) fall = roller_slope(placement, point(1), rail%height(point(2)))
+            if (on_roller) then
+               point = placement%wheel%to_parent([x, y, drop - placement%wheel_radius])
+               fall = roller_slope(placement, point(1), rail%height(point(2)))
+            end if
             ! the normal (x, -lean, depth) in the track has no part along (1, 0, fall)
-            x = ((axes(1, 2) + fall*axes(3, 2))*lean - (axes(1, 3) + fall*axes(3, 3))*depth(x))/(axes(1, 1) + fall*axes(3, 1))
-            if (on_roller) x = before + (x - before)/(1.0_wp + depth(before)/axle_depth(point))
+            x = ((axes(1, 2) + fall*axes(3, 2))*lean - (axes(1, 3) + fall*axes(3, 3))*drop)/(axes(1, 1) + fall*axes(3, 1))
+            if (on_roller) x = before + (x - before)/(1.0_wp + drop/axle_depth(point))
             x = max(-furthest*placement%wheel_radius, min(furthest*placement%wheel_radius, x))
             ! the depth does not matter to a wheel that stands upright on a track
             if (.not. (on_roller .or. abs(axes(1, 3)) > 0.0_wp)) exit
@@ -160,7 +168,7 @@ contains
    end function roller_drop
 
    !> Gap between a rail and a wheel in their present places
-   subroutine measure_gap(rail, wheel, placement, ds, gap, closer)
+   subroutine measure_gap(rail, wheel, placement, ds, gap, closer, keeps_rail)
       !> The rail in track coordinates
       type(profile_curve), intent(in) :: rail
       !> The wheel in its own coordinates
@@ -172,8 +180,11 @@ contains
       !> Gets mesh and gap; its arrays are kept when they have the right size
       type(gap_curve), intent(inout) :: gap
       !> Where the mesh is too coarse for a smallest gap: its surroundings on finer meshes
-      type(gap_curve), allocatable, intent(out), optional :: closer(:)
+      type(gap_curve), allocatable, intent(inout), optional :: closer(:)
+      !> Are rail and elements those that `gap` was measured for last? Default no
+      logical, intent(in), optional :: keeps_rail
       type(gap_curve) :: probe
+      logical :: keeps
       real(wp), allocatable :: lateral(:)
       real(wp) :: range(2), dy, y, lowest
       integer :: i, n, first, last
@@ -181,76 +192,99 @@ contains
       if (allocated(gap%table)) deallocate(gap%table)
       if (allocated(gap%unweighed)) deallocate(gap%unweighed)
       range = rail%y_range()
-      lateral = lateral_positions(wheel, placement, rail, wheel%y%s)
       dy = max(mesh_share*ds, min_mesh)
       n = ceiling((range(2) - range(1))/dy) + 1
-      call fill_gap(rail, wheel, placement, lateral, range(1), dy, n, gap)
+      allocate(lateral(size(wheel%y%s)))
+      call lateral_positions(wheel, placement, rail, [range(1), range(1) + n*dy], lateral)
+      keeps = .false.
+      if (present(keeps_rail)) keeps = keeps_rail
+      if (.not. keeps) call lay_mesh(rail, range(1), dy, n, gap)
+      call fill_gap(rail, wheel, placement, lateral, gap)
       if (.not. present(closer)) return
+      if (allocated(closer)) deallocate(closer)
       allocate(closer(0))
       do i = 2, gap%n - 1
          if (gap%gap(i) > gap%gap(i - 1) .or. gap%gap(i) > gap%gap(i + 1)) cycle
          if (maxval(gap%gap(i - 1:i + 1)) >= no_surface .or. gap%gap(i) > minval(gap%gap) + looked_at) cycle
          call smallest_in_row(gap%y(i - 1:i + 1), gap%gap(i - 1:i + 1), y, lowest)
-         call fill_gap(rail, wheel, placement, lateral, y, dy, 1, probe)
+         call lay_mesh(rail, y, dy, 1, probe)
+         call fill_gap(rail, wheel, placement, lateral, probe)
          if (abs(probe%gap(1) - lowest) <= right_share*(maxval(gap%gap(i - 1:i + 1)) - gap%gap(i))) cycle
          first = max(1, i - shown)
          last = min(gap%n, i + shown)
-         call fill_gap(rail, wheel, placement, lateral, gap%y(first), dy/finer, (last - first)*finer + 1, probe)
+         call lay_mesh(rail, gap%y(first), dy/finer, (last - first)*finer + 1, probe)
+         call fill_gap(rail, wheel, placement, lateral, probe)
          probe%shows = i
          closer = [closer, probe]
       end do
    end subroutine measure_gap
 
-   !> Gap at lateral positions at even distances
-   subroutine fill_gap(rail, wheel, placement, lateral, start, dy, n, gap)
+   !> Lateral positions at even distances, and the rail there
+   subroutine lay_mesh(rail, start, dy, n, gap)
+      !> In track coordinates
+      type(profile_curve), intent(in) :: rail
+      !> The first lateral position, their distance [mm] and number
+      real(wp), intent(in) :: start, dy
+      integer, intent(in) :: n
+      !> Gets the mesh, heights and inclinations; its arrays are kept when they have the right size
+      type(gap_curve), intent(inout) :: gap
+      real(wp) :: s
+      integer :: i
+
+      gap%dy = dy
+      gap%n = n
+      if (allocated(gap%y)) then
+         if (size(gap%y) /= n .or. .not. allocated(gap%on_rail)) deallocate(gap%y, gap%x, gap%gap, gap%z, gap%alpha)
+      end if
+      if (.not. allocated(gap%y)) then
+         if (allocated(gap%on_rail)) deallocate(gap%on_rail)
+         allocate(gap%y(n), gap%x(n), gap%gap(n), gap%z(n), gap%alpha(n), gap%on_rail(n))
+      end if
+      gap%z = 0.0_wp
+      gap%alpha = 0.0_wp
+      do i = 1, n
+         gap%y(i) = start + (i - 1)*dy
+         call rail%find(gap%y(i), s, gap%on_rail(i))
+         if (.not. gap%on_rail(i)) cycle
+         gap%z(i) = rail%z%value(s)
+         gap%alpha(i) = rail%inclination(s)
+      end do
+   end subroutine lay_mesh
+
+   !> Gap at the points of a mesh
+   subroutine fill_gap(rail, wheel, placement, lateral, gap)
       !> As in `measure_gap`
       type(profile_curve), intent(in) :: rail, wheel
       type(wheel_rail_placement), intent(in) :: placement
       !> Lateral positions in the track of the nodes of the wheel's profile [mm]
       real(wp), intent(in) :: lateral(:)
-      !> The first lateral position, their distance [mm] and number
-      real(wp), intent(in) :: start, dy
-      integer, intent(in) :: n
+      !> Has the mesh, see `lay_mesh`; gets the gap and its place
       type(gap_curve), intent(inout) :: gap
-      logical, allocatable :: on_rail(:)
-      real(wp) :: s
-      integer :: i, k
+      real(wp) :: start
+      integer :: k
 
       gap%far = no_surface
       gap%depth = huge(gap%depth)
-      gap%dy = dy
-      gap%n = n
-      if (allocated(gap%y)) then
-         if (size(gap%y) /= gap%n) deallocate(gap%y, gap%x, gap%gap, gap%z, gap%alpha)
-      end if
-      if (.not. allocated(gap%y)) allocate(gap%y(gap%n), gap%x(gap%n), gap%gap(gap%n), gap%z(gap%n), gap%alpha(gap%n))
       gap%kappa = 0.5_wp/placement%wheel_radius
       if (placement%roller_radius > 0.0_wp) gap%kappa = gap%kappa + 0.5_wp/placement%roller_radius
       gap%x = 0.0_wp
       gap%gap = no_surface
-      gap%z = 0.0_wp
-      gap%alpha = 0.0_wp
-      allocate(on_rail(gap%n))
-      do i = 1, gap%n
-         gap%y(i) = start + (i - 1)*gap%dy
-         call rail%find(gap%y(i), s, on_rail(i))
-         if (.not. on_rail(i)) cycle
-         gap%z(i) = rail%z%value(s)
-         gap%alpha(i) = rail%inclination(s)
-      end do
+      start = gap%y(1)
       associate (nodes => wheel%y%s)
          do k = 1, size(nodes) - 1
             ! the surface faces the rail where places run with falling y
-            if (lateral(k) > lateral(k + 1)) call add_piece(nodes(k:k + 1), lateral(k:k + 1))
+            if (lateral(k) > lateral(k + 1)) call add_piece(k, lateral(k:k + 1))
          end do
       end associate
 
    contains
 
       !> A piece of the wheel's profile; where the locus of a rough profile folds, the lowest piece counts
-      subroutine add_piece(places, lateral)
-         !> Its ends on the profile, and their falling lateral positions [mm]
-         real(wp), intent(in) :: places(2), lateral(2)
+      subroutine add_piece(piece, lateral)
+         !> Its number
+         integer, intent(in) :: piece
+         !> Falling lateral positions of its ends [mm]
+         real(wp), intent(in) :: lateral(2)
          !> Of the mesh width, so that no point is lost between two pieces
          real(wp), parameter :: tiny_part = 1.0e-9_wp
          real(wp) :: point(3), vertical
@@ -258,8 +292,8 @@ contains
 
          do i = max(1, ceiling((lateral(2) - start)/gap%dy - tiny_part) + 1), &
             & min(gap%n, floor((lateral(1) - start)/gap%dy + tiny_part) + 1)
-            if (.not. on_rail(i)) cycle
-            point = locus_at(wheel, placement, rail, gap%y(i), places(1), places(2), lateral(1), lateral(2))
+            if (.not. gap%on_rail(i)) cycle
+            point = locus_at(wheel, placement, rail, gap%y(i), piece, lateral(1), lateral(2))
             vertical = gap%z(i) + roller_drop(placement, point(1), gap%z(i)) - point(3)
             if (vertical >= gap%gap(i)) cycle
             gap%x(i) = point(1)
@@ -289,40 +323,69 @@ contains
       lowest = lowest - 0.5_wp*bend*shift**2
    end subroutine smallest_in_row
 
-   !> Lateral positions in the track of the locus at places of the wheel's profile [mm]
-   function lateral_positions(wheel, placement, rail, places) result(lateral)
+   !> Lateral positions in the track of the locus at the nodes of the wheel's profile [mm]
+   !>
+   !> Those of pieces that do not come near the rail are only estimated.
+   subroutine lateral_positions(wheel, placement, rail, range, lateral)
       type(profile_curve), intent(in) :: wheel
       type(wheel_rail_placement), intent(in) :: placement
       !> See `locus_point`
       type(profile_curve), intent(in) :: rail
-      !> [mm]
-      real(wp), intent(in) :: places(:)
-      real(wp) :: lateral(size(places))
-      real(wp) :: point(3)
-      integer :: i
+      !> What is near [mm]
+      real(wp), intent(in) :: range(2)
+      !> One per node
+      real(wp), intent(out) :: lateral(:)
+      !> The locus is at most this part of the radius above the lowest point of its circle
+      real(wp), parameter :: highest = 0.2_wp
+      real(wp) :: margin, point(3), y, z, slope
+      integer :: beside(size(lateral))
+      integer :: i, n
 
-      do i = 1, size(places)
-         point = locus_point(wheel, placement, places(i), rail)
+      n = size(lateral)
+      associate (axes => placement%wheel%axes)
+         do i = 1, n
+            call wheel%y%in_piece(min(i, n - 1), start_of(i), y, slope)
+            call wheel%z%in_piece(min(i, n - 1), start_of(i), z, slope)
+            lateral(i) = placement%wheel%origin(2) + axes(2, 2)*y + axes(2, 3)*z
+            margin = (placement%wheel_radius + abs(z))*(furthest*abs(axes(2, 1)) + highest*abs(axes(2, 3)))
+            beside(i) = 0
+            if (lateral(i) + margin < range(1)) beside(i) = -1
+            if (lateral(i) - margin > range(2)) beside(i) = 1
+         end do
+      end associate
+      do i = 1, n
+         if (beside(i) /= 0 .and. all(beside(max(1, i - 1):min(n, i + 1)) == beside(i))) cycle
+         point = locus_point(wheel, placement, min(i, n - 1), start_of(i), rail)
          lateral(i) = point(2)
       end do
-   end function lateral_positions
 
-   !> Point of the locus with a given lateral position between two places, by the Illinois method
-   function locus_at(wheel, placement, rail, y, s_high, s_low, y_high, y_low) result(point)
+   contains
+
+      !> Place of a node in its piece: at the beginning, but for the last one [mm]
+      pure real(wp) function start_of(node)
+         integer, intent(in) :: node
+
+         start_of = merge(wheel%y%s(n) - wheel%y%s(n - 1), 0.0_wp, node == n)
+      end function start_of
+   end subroutine lateral_positions
+
+   !> Point of the locus with a given lateral position on a piece of the profile, by the Illinois method
+   function locus_at(wheel, placement, rail, y, piece, y_high, y_low) result(point)
       type(profile_curve), intent(in) :: wheel
       type(wheel_rail_placement), intent(in) :: placement
       !> See `locus_point`
       type(profile_curve), intent(in) :: rail
       real(wp), intent(in) :: y
-      !> Places and their lateral positions, y_low <= y <= y_high
-      real(wp), intent(in) :: s_high, s_low, y_high, y_low
+      !> Number of the piece, and the lateral positions of its ends, y_low <= y <= y_high
+      integer, intent(in) :: piece
+      real(wp), intent(in) :: y_high, y_low
       real(wp) :: point(3)
       real(wp) :: a, b, fa, fb, s, f
-      integer :: step, side
+      integer :: step, side, here
       real(wp), parameter :: tolerance = 1.0e-11_wp
 
-      a = s_high
-      b = s_low
+      a = wheel%y%s(piece)
+      b = wheel%y%s(piece + 1)
       fa = y_high - y
       fb = y_low - y
       side = 0
@@ -330,7 +393,10 @@ contains
       if (abs(fb) < abs(fa)) s = b
       do step = 1, 60
          if (abs(fa - fb) > 0.0_wp) s = (a*fb - b*fa)/(fb - fa)
-         point = locus_point(wheel, placement, s, rail)
+         ! the end of a piece belongs to the next one
+         here = piece
+         if (s >= wheel%y%s(piece + 1)) here = min(piece + 1, size(wheel%y%s) - 1)
+         point = locus_point(wheel, placement, here, s - wheel%y%s(here), rail)
          f = point(2) - y
          if (abs(f) <= tolerance) exit
          if ((f > 0.0_wp) .eqv. (fa > 0.0_wp)) then

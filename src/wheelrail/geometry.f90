@@ -6,6 +6,7 @@ module contact_wheelrail_geometry
    use contact_profile_surface, only : surface_cut
    use contact_wheelrail_bodies, only : wheel_rail_bodies, place_bodies, rail_section
    use contact_wheelrail_carry_over, only : carried_step, lattice_box
+   use contact_wheelrail_frame, only : frame
    use contact_wheelrail_gap, only : gap_curve, measure_gap, rail_in_track
    use contact_wheelrail_placement, only : wheel_rail_placement, place_wheel_rail
    use contact_wheelrail_problem, only : follows_surface, wheel_rail_problem
@@ -64,7 +65,11 @@ module contact_wheelrail_geometry
       !> Top of the canted rail and its gauge point [mm], and what they were found for: cant [rad], height of the gauge point [mm]
       real(wp) :: top_z = 0.0_wp, gauge_y = 0.0_wp
       real(wp) :: gauged_cant = 0.0_wp, gauged_height = 0.0_wp
-      type(profile_curve) :: gauged
+      !> The profile of the rail in the last case, and what `rail_in_track` and the mesh of `gap` were made for: its place, and
+      !> size of elements [mm], 0 where they are of no use
+      type(profile_curve) :: known
+      type(frame) :: known_place
+      real(wp) :: known_ds = 0.0_wp
       !> Where the tractions of the previous time step are
       type(carried_step) :: before
       !> Position of the wheelset along the rail [mm], and the arc length of the rail's profile at its origin [mm]
@@ -112,9 +117,15 @@ contains
       real(wp), intent(in) :: z
       !> See `measure_variable_gap`
       real(wp), intent(in), optional :: depth
+      logical :: keeps_rail
 
       call place(problem, geometry, z)
-      geometry%rail_in_track = rail_at(problem, geometry%placement, 0.0_wp)
+      associate (now => geometry%placement%rail, before => geometry%known_place, ds => problem%spec%search%ds)
+         keeps_rail = abs(geometry%known_ds - ds) <= 0.0_wp .and. all(abs(now%origin - before%origin) <= 0.0_wp) &
+            & .and. all(abs(now%axes - before%axes) <= 0.0_wp) .and. .not. allocated(problem%rail_surface)
+      end associate
+      if (.not. keeps_rail) geometry%rail_in_track = rail_at(problem, geometry%placement, 0.0_wp)
+      geometry%known_ds = 0.0_wp
       ! the length along a prismatic rail is counted from its origin; sections of a variable one have other ends each
       geometry%profile_origin = 0.0_wp
       if (allocated(problem%rail_surface)) geometry%profile_origin = geometry%rail_in_track%s_at(geometry%placement%rail%origin(2))
@@ -128,13 +139,15 @@ contains
          call place_bodies(geometry%bodies, problem%spec%wheelset%s, problem%spec%wheelset%pitch, &
             & problem%spec%search%dx, problem%rail_surface, problem%wheel_surface)
       end if
-      if (allocated(geometry%closer)) deallocate(geometry%closer)
       if (geometry%searches_table) then
+         if (allocated(geometry%closer)) deallocate(geometry%closer)
          call measure_variable_gap(geometry%bodies, problem%spec%search%ds, allocated(problem%wheel_surface) &
             & .or. any(problem%spec%search%location == [contact_location%grid, contact_location%steep_grid]), geometry%gap, depth)
       else
          call measure_gap(geometry%rail_in_track, problem%wheel, geometry%placement, problem%spec%search%ds, geometry%gap, &
-            & geometry%closer)
+            & geometry%closer, keeps_rail)
+         geometry%known_ds = problem%spec%search%ds
+         geometry%known_place = geometry%placement%rail
       end if
       geometry%gap_height = z
       geometry%touch = z + smallest_gap(geometry%gap, geometry%closer)

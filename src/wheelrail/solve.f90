@@ -57,6 +57,7 @@ contains
       end if
       if (problem%force /= force_control%massless_rail) memory%geometry%deflection = 0.0_wp
       if (problem%force /= force_control%longitudinal_force) memory%geometry%pitch_rate = problem%spec%wheelset%vpitch
+      call note_rail(problem, memory%geometry)
       if (problem%spec%track%gaught > 0.0_wp) call find_gauge_point(problem, memory%geometry)
       if (problem%geometry_only .or. problem%force == force_control%creepages) then
          call settle(problem, memory, z, log, result, error)
@@ -105,19 +106,27 @@ contains
       call gather(problem, memory, result)
    end subroutine solve_wheel_rail
 
+   !> What was found for the rail of the last case is of no use for another one
+   subroutine note_rail(problem, geometry)
+      type(wheel_rail_problem), intent(in) :: problem
+      type(wheel_rail_geometry), intent(inout) :: geometry
+
+      if (problem%rail%same_as(geometry%known)) return
+      geometry%known = problem%rail
+      geometry%known_ds = 0.0_wp
+      geometry%gauged_height = 0.0_wp
+   end subroutine note_rail
+
    !> The gauge point of the rail, unless it is that of the last case
    subroutine find_gauge_point(problem, geometry)
       type(wheel_rail_problem), intent(in) :: problem
       type(wheel_rail_geometry), intent(inout) :: geometry
 
       associate (cant => problem%spec%track%cant, height => problem%spec%track%gaught)
-         if (abs(geometry%gauged_cant - cant) <= 0.0_wp .and. abs(geometry%gauged_height - height) <= 0.0_wp) then
-            if (problem%rail%same_as(geometry%gauged)) return
-         end if
+         if (abs(geometry%gauged_cant - cant) <= 0.0_wp .and. abs(geometry%gauged_height - height) <= 0.0_wp) return
          call gauge_point(problem%rail, cant, height, geometry%top_z, geometry%gauge_y)
          geometry%gauged_cant = cant
          geometry%gauged_height = height
-         geometry%gauged = problem%rail
       end associate
    end subroutine find_gauge_point
 
