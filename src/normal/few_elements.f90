@@ -3,7 +3,8 @@
 !> Influence coefficients depend on offsets only, so that the matrix of the elements in contact is the same wherever they are. In a
 !> loop over time the area is often that of the last solution; then two triangles solve for the pressures, or their derivative to
 !> the approach, to the last figure. Elements under tension are left out, elements that overlap are taken in, until nothing
-!> changes. Where that does not end soon, conjugate gradients go on from there.
+!> changes. Where that does not end soon, conjugate gradients go on from there. The elements of a factor stand in the order of
+!> falling pressures, so that those at the border, which come and go, are the last ones: columns before the first that changes stay.
 module contact_normal_few_elements
    use contact_base_constants, only : excluded_threshold
    use contact_base_kinds, only : wp
@@ -21,13 +22,21 @@ module contact_normal_few_elements
    integer, parameter :: most = 200
    !> Changes of the area before conjugate gradients take over, and elements at least
    integer, parameter :: max_changes = 12, least = 4
+   !> Elements are put into a new order where less than this part of the factor stays
+   real(wp), parameter :: worth_keeping = 0.5_wp
 
    !> The factor of a contact area, and scratch; not of meaning where `n` is 0
    type :: area_factor
       !> Elements in contact
       integer, private :: n = 0
-      !> Their places in the window, those of the factor, shape (2, most)
+      !> Their places in the window, those of the factor in the window that it was made in, shape (2, most)
       integer, allocatable, private :: place(:, :), known(:, :)
+      !> First and last element of the factor with known(:, k), shape (2, 2)
+      integer, private :: box(2, 2) = 0
+      !> Rows of the factor that new rows were, 0 for new elements, shape (most)
+      integer, allocatable, private :: row(:)
+      !> Is an element of the window in the factor? At least as many as the window has
+      logical, allocatable, private :: taken(:)
       !> Lower triangle, shape (most, most), and a vector, shape (most)
       real(wp), allocatable, private :: lower(:, :), x(:)
       !> Displacements and residuals on the window [mm], shape (mx, my)
@@ -136,60 +145,220 @@ contains
       real(wp), contiguous, intent(in) :: p(:, :)
       !> Are there neither too many elements nor too few?
       logical, intent(out) :: fits
-      integer :: ix, iy, j, k, n
-      logical :: same
+      integer :: box(2, 2), shift(2), n, kept
+      logical :: is_for_others
 
       fits = .false.
-      n = count(p > 0.0_wp)
+      call find_box(p, n, box)
       if (n > most .or. n < least) return
-      if (.not. allocated(self%lower)) allocate(self%lower(most, most), self%x(most), self%place(2, most), self%known(2, most))
+      if (.not. allocated(self%lower)) allocate(self%lower(most, most), self%x(most), self%place(2, most), self%known(2, most), &
+         & self%row(most))
+      is_for_others = abs(self%dx - operator%dx) > 0.0_wp .or. abs(self%dy - operator%dy) > 0.0_wp
+      if (.not. is_for_others) is_for_others = .not. self%model%same_as(operator%model)
+      if (is_for_others) then
+         self%n = 0
+         self%dx = operator%dx
+         self%dy = operator%dy
+         self%model = operator%model
+      end if
+      call find_shift(self, p, box, shift, kept)
+      if (kept == n .and. self%n == n) then
+         self%place(1, :n) = self%known(1, :n) + shift(1)
+         self%place(2, :n) = self%known(2, :n) + shift(2)
+         fits = .true.
+         return
+      end if
+      if (kept < worth_keeping*n) then
+         kept = 0
+         call put_in_order(p, self%place)
+         self%row(:n) = 0
+      else
+         call keep_order(self, p, shift, kept)
+      end if
+      self%n = 0
+      call extend(self, operator, n, kept, fits)
+      if (.not. fits) return
+      self%n = n
+      self%known(:, :n) = self%place(:, :n)
+      self%box = box
+   end subroutine fit
+
+   !> Number of elements with pressure, and the window around them
+   pure subroutine find_box(p, n, box)
+      !> [N/mm2]
+      real(wp), contiguous, intent(in) :: p(:, :)
+      integer, intent(out) :: n
+      !> First and last column, first and last row
+      integer, intent(out) :: box(2, 2)
+      integer :: ix, iy
+
+      n = 0
+      box(:, 1) = [size(p, 1), 1]
+      box(:, 2) = [size(p, 2), 1]
+      do iy = 1, size(p, 2)
+         do ix = 1, size(p, 1)
+            if (.not. p(ix, iy) > 0.0_wp) cycle
+            n = n + 1
+            box(1, 1) = min(box(1, 1), ix)
+            box(2, 1) = max(box(2, 1), ix)
+            box(1, 2) = min(box(1, 2), iy)
+            box(2, 2) = max(box(2, 2), iy)
+         end do
+      end do
+   end subroutine find_box
+
+   !> Where the elements of the factor are in this window: the first or the last ones stay where they were in the area, or all do
+   !> in the window
+   pure subroutine find_shift(self, p, box, shift, kept)
+      type(area_factor), intent(in) :: self
+      !> [N/mm2]
+      real(wp), contiguous, intent(in) :: p(:, :)
+      !> See `find_box`
+      integer, intent(in) :: box(2, 2)
+      !> To be added to places in the window of the factor
+      integer, intent(out) :: shift(2)
+      !> Elements of the factor before the first one that is not in contact
+      integer, intent(out) :: kept
+      integer :: candidate(2, 3), c, k
+
+      candidate(:, 1) = box(1, :) - self%box(1, :)
+      candidate(:, 2) = box(2, :) - self%box(2, :)
+      candidate(:, 3) = 0
+      kept = 0
+      shift = 0
+      do c = 1, size(candidate, 2)
+         k = 0
+         do while (k < self%n)
+            if (.not. in_contact(p, self%known(:, k + 1) + candidate(:, c))) exit
+            k = k + 1
+         end do
+         if (k <= kept) cycle
+         kept = k
+         shift = candidate(:, c)
+         if (kept == self%n) return
+      end do
+   end subroutine find_shift
+
+   !> Does an element have pressure? None has beyond the window
+   pure logical function in_contact(p, place)
+      !> [N/mm2]
+      real(wp), contiguous, intent(in) :: p(:, :)
+      integer, intent(in) :: place(2)
+
+      in_contact = place(1) >= 1 .and. place(1) <= size(p, 1) .and. place(2) >= 1 .and. place(2) <= size(p, 2)
+      if (in_contact) in_contact = p(place(1), place(2)) > 0.0_wp
+   end function in_contact
+
+   !> Elements with pressure, the highest ones first
+   pure subroutine put_in_order(p, place)
+      !> [N/mm2]
+      real(wp), contiguous, intent(in) :: p(:, :)
+      !> Column and row in the first places
+      integer, contiguous, intent(inout) :: place(:, :)
+      integer :: ix, iy, j, k
+
       k = 0
       do iy = 1, size(p, 2)
          do ix = 1, size(p, 1)
             if (.not. p(ix, iy) > 0.0_wp) cycle
             k = k + 1
-            self%place(:, k) = [ix, iy]
+            j = k
+            do while (j > 1)
+               if (p(place(1, j - 1), place(2, j - 1)) >= p(ix, iy)) exit
+               place(:, j) = place(:, j - 1)
+               j = j - 1
+            end do
+            place(:, j) = [ix, iy]
          end do
       end do
-      same = self%n == n .and. abs(self%dx - operator%dx) <= 0.0_wp .and. abs(self%dy - operator%dy) <= 0.0_wp
-      if (same) same = self%model%same_as(operator%model)
-      if (same) then
-         do k = 2, n
-            same = all(self%place(:, k) - self%place(:, 1) == self%known(:, k) - self%known(:, 1))
-            if (.not. same) exit
-         end do
+   end subroutine put_in_order
+
+   !> Elements of the factor that are still in contact in their order, and new ones behind them
+   subroutine keep_order(self, p, shift, kept)
+      type(area_factor), intent(inout) :: self
+      !> [N/mm2]
+      real(wp), contiguous, intent(in) :: p(:, :)
+      !> See `find_shift`
+      integer, intent(in) :: shift(2), kept
+      integer :: ix, iy, k, n, here(2)
+
+      if (allocated(self%taken)) then
+         if (size(self%taken) < size(p)) deallocate(self%taken)
       end if
-      if (.not. same) then
-         self%n = 0
-         do j = 1, n
+      if (.not. allocated(self%taken)) allocate(self%taken(2*size(p)))
+      self%taken(:size(p)) = .false.
+      n = 0
+      do k = 1, self%n
+         here = self%known(:, k) + shift
+         if (k > kept) then
+            if (.not. in_contact(p, here)) cycle
+         end if
+         n = n + 1
+         self%place(:, n) = here
+         self%row(n) = k
+         self%taken(here(1) + size(p, 1)*(here(2) - 1)) = .true.
+      end do
+      do iy = 1, size(p, 2)
+         do ix = 1, size(p, 1)
+            if (.not. p(ix, iy) > 0.0_wp .or. self%taken(ix + size(p, 1)*(iy - 1))) cycle
+            n = n + 1
+            self%place(:, n) = [ix, iy]
+            self%row(n) = 0
+         end do
+      end do
+   end subroutine keep_order
+
+   !> The factor of the elements in `place`, whose first columns are those of the last one
+   subroutine extend(self, operator, n, kept, fits)
+      type(area_factor), intent(inout) :: self
+      !> Its table has the coefficients
+      class(compliance), intent(in) :: operator
+      !> Elements, and columns that are kept
+      integer, intent(in) :: n, kept
+      !> Is the matrix positive definite?
+      logical, intent(out) :: fits
+      integer :: i, j, k
+
+      associate (lower => self%lower, x => self%x, place => self%place, nn => operator%table%nn)
+         do k = kept + 1, n
+            if (self%row(k) > 0) then
+               ! rows only move up
+               lower(k, :kept) = lower(self%row(k), :kept)
+               cycle
+            end if
+            do j = 1, kept
+               x(j) = nn(place(1, k) - place(1, j), place(2, k) - place(2, j))
+            end do
+            do j = 1, kept
+               x(j) = x(j)/lower(j, j)
+               do i = j + 1, kept
+                  x(i) = x(i) - x(j)*lower(i, j)
+               end do
+            end do
+            lower(k, :kept) = x(:kept)
+         end do
+         do j = kept + 1, n
             do k = j, n
-               self%lower(k, j) = operator%table%nn(self%place(1, k) - self%place(1, j), self%place(2, k) - self%place(2, j))
+               lower(k, j) = nn(place(1, k) - place(1, j), place(2, k) - place(2, j))
             end do
          end do
-         call factorize(self%lower, n, fits)
-         if (.not. fits) return
-         self%n = n
-         self%known(:, :n) = self%place(:, :n)
-         self%dx = operator%dx
-         self%dy = operator%dy
-         if (.not. self%model%same_as(operator%model)) self%model = operator%model
-      end if
-      fits = .true.
-   end subroutine fit
+      end associate
+      call factorize(self%lower, n, kept + 1, fits)
+   end subroutine extend
 
    !> Cholesky factor in place, four columns taken off at a time
-   pure subroutine factorize(a, n, is_positive)
+   pure subroutine factorize(a, n, first, is_positive)
       !> Lower triangle of a symmetric matrix on entry, of its factor on exit
       real(wp), contiguous, intent(inout) :: a(:, :)
-      !> Size of the matrix
-      integer, intent(in) :: n
+      !> Size of the matrix, and the first column that is not that of the factor on entry
+      integer, intent(in) :: n, first
       !> Is the matrix positive definite?
       logical, intent(out) :: is_positive
       real(wp) :: t(4)
       integer :: i, j, k
 
       is_positive = .false.
-      do j = 1, n
+      do j = first, n
          do k = 1, j - 4, 4
             t = a(j, k:k + 3)
             do i = j, n
