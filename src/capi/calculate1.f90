@@ -158,14 +158,14 @@ contains
       type(problem_list) :: problems
       type(control_words) :: words
       type(file_reader) :: nowhere
-      character(len=:), allocatable :: name
+      character(len=len(digit_names)) :: name
       integer :: k, digit
 
       do k = 1, size(digit_names)
-         name = trim(digit_names(k))
+         name = digit_names(k)
          digit = digit_value(digits, name)
          if (.not. is_known(name, digit, 1)) then
-            call fatal_error(error, name // " = " // integer_text(digit) // " is not a known digit of wheel-rail contact")
+            call fatal_error(error, trim(name) // " = " // integer_text(digit) // " is not a known digit of wheel-rail contact")
             return
          end if
       end do

@@ -29,7 +29,14 @@ module contact_elastic_halfspace
       real(wp), allocatable :: nn(:, :), xx(:, :), yy(:, :), xy(:, :)
       !> Tangential displacements by pressures; unallocated when uncoupled
       real(wp), allocatable :: xn(:, :), yn(:, :)
+      !> Corner functions of the last table without shift, for tables of other sizes, shape (5, -1:..., -1:...); what they are for
+      real(wp), allocatable, private :: corner(:, :, :)
+      real(wp), private :: corner_sides(2) = 0.0_wp
+      logical, private :: corner_coupled = .false.
    end type kernel_table
+
+   !> Corner functions of larger tables are not kept: windows of that size do not change from case to case
+   integer, parameter :: largest_kept = 20000
 
    !> Ratio of two coordinates at which a term x asinh(y/|x|) no longer counts, and y/|x| might overflow for smaller ones
    real(wp), parameter :: on_axis = 1.0e-14_wp
@@ -47,22 +54,16 @@ contains
       !> Largest offsets in elements
       integer, intent(in) :: nx, ny
       integer :: k, l
-      real(wp) :: v(6)
-      real(wp), allocatable :: corner(:, :, :)
+      real(wp) :: v(6), d(5)
 
       call shape_table(table, material, dx, dy, nx, ny)
       table%shift_x = 0.0_wp
       table%shift_y = 0.0_wp
-      allocate(corner(5, -1:nx, -1:ny))
-      !$omp parallel do private(k) if (nx*ny > 20000)
-      do l = -1, ny
-         do k = -1, nx
-            corner(:, k, l) = corner_functions((k + 0.5_wp)*dx, (l + 0.5_wp)*dy, material%coupled())
-         end do
-      end do
+      call find_corners(table, dx, dy, nx, ny, material%coupled())
       do l = 0, ny
          do k = 0, nx
-            v = combine_corners(corner(:, k, l) - corner(:, k - 1, l) - corner(:, k, l - 1) + corner(:, k - 1, l - 1), material)
+            d = table%corner(:, k, l) - table%corner(:, k - 1, l) - table%corner(:, k, l - 1) + table%corner(:, k - 1, l - 1)
+            v = combine_corners(d, material)
             ! a coefficient that is odd in an offset vanishes exactly at offset 0
             if (k == 0 .or. l == 0) v(4) = 0.0_wp
             table%nn(k, l) = v(1)
@@ -78,10 +79,47 @@ contains
       call mirror(table%xx, nx, ny, 1, 1)
       call mirror(table%yy, nx, ny, 1, 1)
       call mirror(table%xy, nx, ny, -1, -1)
+      if (nx*ny > largest_kept) deallocate(table%corner)
       if (.not. allocated(table%xn)) return
       call mirror(table%xn, nx, ny, -1, 1)
       call mirror(table%yn, nx, ny, 1, -1)
    end subroutine fill_table
+
+   !> Corner functions up to the largest offsets; those that are known from other sizes are kept
+   subroutine find_corners(table, dx, dy, nx, ny, coupled)
+      !> Its `corner` has all that are needed on exit
+      type(kernel_table), intent(inout) :: table
+      !> Sides of the elements [mm]
+      real(wp), intent(in) :: dx, dy
+      !> Largest offsets in elements
+      integer, intent(in) :: nx, ny
+      !> Are all five of them wanted?
+      logical, intent(in) :: coupled
+      real(wp), allocatable :: wider(:, :, :)
+      integer :: k, l, known(2), wanted(2)
+
+      known = -2
+      if (allocated(table%corner)) then
+         if (all(abs(table%corner_sides - [dx, dy]) <= 0.0_wp) .and. (table%corner_coupled .eqv. coupled)) &
+            & known = [ubound(table%corner, 2), ubound(table%corner, 3)]
+      end if
+      if (all(known >= [nx, ny])) return
+      wanted = max(known, [nx, ny])
+      allocate(wider(5, -1:wanted(1), -1:wanted(2)))
+      !$omp parallel do private(k) if (nx*ny > largest_kept)
+      do l = -1, wanted(2)
+         do k = -1, wanted(1)
+            if (k <= known(1) .and. l <= known(2)) then
+               wider(:, k, l) = table%corner(:, k, l)
+            else
+               wider(:, k, l) = corner_functions((k + 0.5_wp)*dx, (l + 0.5_wp)*dy, coupled)
+            end if
+         end do
+      end do
+      call move_alloc(wider, table%corner)
+      table%corner_sides = [dx, dy]
+      table%corner_coupled = coupled
+   end subroutine find_corners
 
    !> The other three quadrants of a kernel that is even (+1) or odd (-1) in each offset
    pure subroutine mirror(kernel, nx, ny, sign_x, sign_y)

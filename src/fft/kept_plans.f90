@@ -37,7 +37,7 @@ module contact_fft_kept_plans
    end type plan_set
 
    !> Sizes that are kept, and elements of a padded window at most: plans of large ones take memory
-   integer, parameter :: most = 256, largest = 16384
+   integer, parameter :: most = 256, largest = 65536
 
    type :: kept_type
       integer :: kind = 0, my = 0, px = 0, py = 0

@@ -298,17 +298,19 @@ contains
       integer, intent(in) :: module_number
       type(case_spec), intent(in) :: spec
       type(problem_list), intent(inout) :: problems
-      character(len=:), allocatable :: name, text
+      character(len=len(digit_names)) :: name
+      character(len=:), allocatable :: text
       integer :: digit, k
 
       do k = 1, size(digit_names)
-         name = trim(digit_names(k))
+         name = digit_names(k)
          if (module_number == 3 .and. name == "C1") cycle
          digit = kept_digit(words%digits, spec, name, module_number)
          if (is_built(name, digit, module_number) .or. .not. is_known(name, digit, module_number)) cycle
          text = trim(digit_text(name, digit, module_number)) // ", is known but not built in this version"
          if (module_number == 1) text = text // " for wheel on rail" // trim(alternative(spec, name))
-         call add_for_digit(problems, words, severity%unsupported, name, name // " = " // integer_text(digit) // ", " // text)
+         call add_for_digit(problems, words, severity%unsupported, trim(name), trim(name) // " = " // integer_text(digit) // ", " &
+            & // text)
       end do
    end subroutine refuse_unbuilt_digits
 

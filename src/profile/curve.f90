@@ -7,7 +7,7 @@ module contact_profile_curve
    use contact_numeric_polynomial, only : quadratic_roots
    use contact_numeric_spline, only : cubic_spline, piece_of
    use contact_profile_request, only : profile_side
-   use contact_profile_stretches, only : find_turns, piece_in_stretch, place_in_piece, place_in_stretch, sorted, stretch, &
+   use contact_profile_stretches, only : find_turns, holds, piece_in_stretch, place_in_piece, place_in_stretch, sorted, stretch, &
       & stretch_between
    implicit none (type, external)
    private
@@ -256,8 +256,8 @@ contains
       class(profile_curve), intent(in) :: self
       !> Lateral coordinate [mm]
       real(wp), intent(in) :: y
-      !> 0 when there is none
-      integer, intent(out) :: piece
+      !> The one that is looked at first, or 0; unchanged when there is no point
+      integer, intent(inout) :: piece
       !> From the beginning of the piece [mm]
       real(wp), intent(out) :: place
       !> Is there a visible point?
@@ -266,10 +266,9 @@ contains
 
       part = part_of(self, y)
       found = part > 0
-      piece = 0
       place = 0.0_wp
       if (.not. found) return
-      piece = piece_in_stretch(self%y, self%parts(part)%along, y)
+      if (.not. holds(self%y, self%parts(part)%along, piece, y)) piece = piece_in_stretch(self%y, self%parts(part)%along, y)
       place = place_in_piece(self%y, self%parts(part)%along, piece, y)
    end subroutine locate
 

@@ -6,7 +6,7 @@ module contact_profile_stretches
    implicit none (type, external)
    private
 
-   public :: find_turns, piece_in_stretch, place_in_piece, place_in_stretch, sorted, stretch, stretch_between
+   public :: find_turns, holds, piece_in_stretch, place_in_piece, place_in_stretch, sorted, stretch, stretch_between
 
    !> A range of s in which y rises or falls throughout
    type :: stretch
@@ -106,6 +106,22 @@ contains
          end if
       end do
    end function piece_in_stretch
+
+   !> Does a piece of a stretch hold a value of y, as `piece_in_stretch` would find?
+   pure logical function holds(y, along, piece, target)
+      !> y as a function of s [mm]
+      type(cubic_spline), intent(in) :: y
+      !> Where y is monotone
+      type(stretch), intent(in) :: along
+      !> Any number
+      integer, intent(in) :: piece
+      !> Value of y that is looked for [mm]
+      real(wp), intent(in) :: target
+
+      holds = piece >= along%first .and. piece <= along%last
+      if (holds .and. piece > along%first) holds = y%c(0, piece) < target .eqv. along%rises
+      if (holds .and. piece < along%last) holds = .not. (y%c(0, piece + 1) < target .eqv. along%rises)
+   end function holds
 
    !> Place with a given y in a piece of a stretch, from the beginning of the piece
    pure real(wp) function place_in_piece(y, along, piece, target) result(place)

@@ -443,7 +443,7 @@ contains
    end subroutine on_line
 
    !> Height z of the visible point at y, dz/dy and dz/du
-   pure subroutine at(self, y, z, z_y, z_u, found)
+   pure subroutine at(self, y, z, z_y, z_u, found, piece)
       class(surface_cut), intent(in) :: self
       !> Lateral coordinate [mm]
       real(wp), intent(in) :: y
@@ -451,22 +451,23 @@ contains
       real(wp), intent(out) :: z, z_y, z_u
       !> False where the section has no point with this y
       logical, intent(out) :: found
+      !> Piece of the section that is looked at first, and the one that holds the point
+      integer, intent(inout) :: piece
       real(wp) :: across, along, y_u, bend, t
-      integer :: j
 
       z = 0.0_wp
       z_y = 0.0_wp
       z_u = 0.0_wp
       found = self%present
-      if (found) call self%curve%locate(y, j, t, found)
+      if (found) call self%curve%locate(y, piece, t, found)
       if (.not. found) return
       ! all four functions have the same pieces
-      call self%curve%y%in_piece(j, t, along, across)
-      call self%curve%z%in_piece(j, t, z, z_y)
+      call self%curve%y%in_piece(piece, t, along, across)
+      call self%curve%z%in_piece(piece, t, z, z_y)
       across = sign(max(abs(across), vertical), across)
       z_y = z_y/across
-      call self%z_u%in_piece(j, t, z_u, bend)
-      call self%y_u%in_piece(j, t, y_u, bend)
+      call self%z_u%in_piece(piece, t, z_u, bend)
+      call self%y_u%in_piece(piece, t, y_u, bend)
       z_u = z_u - z_y*y_u
    end subroutine at
 
@@ -477,7 +478,9 @@ contains
       real(wp), intent(in) :: y
       real(wp) :: z, z_y
       logical :: found
+      integer :: piece
 
-      call self%at(y, z, z_y, slope, found)
+      piece = 0
+      call self%at(y, z, z_y, slope, found, piece)
    end function slope_along
 end module contact_profile_surface

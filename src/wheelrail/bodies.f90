@@ -24,6 +24,8 @@ module contact_wheelrail_bodies
       !> Those that are made, and which ones are
       type(surface_cut), allocatable :: sections(:)
       logical, allocatable :: made(:)
+      !> Piece of each section that held the last point
+      integer, allocatable :: piece(:)
       !> What they are sections of, the position u on it of place 0, and the axes they are seen from (see `cut`)
       type(profile_surface) :: surface
       real(wp) :: origin = 0.0_wp, axes(3) = 0.0_wp
@@ -132,6 +134,7 @@ contains
       along%step = step
       allocate(along%sections(2*n + 1))
       allocate(along%made(2*n + 1), source=.false.)
+      allocate(along%piece(2*n + 1), source=0)
    end subroutine lay_out
 
    !> Make a section if it is not there yet
@@ -238,7 +241,7 @@ contains
          t = 0.0_wp
       end if
       call self%need(k)
-      call self%sections(k)%at(y, low, low_y, low_u, found)
+      call self%sections(k)%at(y, low, low_y, low_u, found, self%piece(k))
       if (.not. found) return
       if (t <= rounding) then
          z = low
@@ -246,7 +249,7 @@ contains
          return
       end if
       call self%need(k + 1)
-      call self%sections(k + 1)%at(y, high, high_y, high_u, found)
+      call self%sections(k + 1)%at(y, high, high_y, high_u, found, self%piece(k + 1))
       if (.not. found) return
       z = low*(1.0_wp + 2.0_wp*t)*(1.0_wp - t)**2 + high*t**2*(3.0_wp - 2.0_wp*t) &
          & + self%step*t*(1.0_wp - t)*(low_u*(1.0_wp - t) - high_u*t)

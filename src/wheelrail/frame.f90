@@ -38,9 +38,12 @@ contains
       !> [rad]
       real(wp), intent(in) :: roll, yaw
       type(frame) :: new
+      real(wp) :: rolled(3, 3), yawed(3, 3)
 
+      rolled = roll_axes(roll)
+      yawed = yaw_axes(yaw)
       new%origin = origin
-      new%axes = matmul(roll_axes(roll), yaw_axes(yaw))
+      new%axes = matmul(rolled, yawed)
    end function new_frame
 
    !> Axes that are rolled by an angle

@@ -43,12 +43,27 @@ contains
       type(patch_slot), intent(inout) :: slot
       !> Allocated when the grid would be too large
       type(error_type), allocatable, intent(out) :: error
-      type(profile_curve) :: rail
+
+      if (allocated(problem%rail_surface)) then
+         call set_up_over(rail_at(problem, geometry%placement, slot%region%x), problem, geometry, number, slot, error)
+      else
+         call set_up_over(geometry%rail_in_track, problem, geometry, number, slot, error)
+      end if
+   end subroutine set_up_patch
+
+   !> The same, over a section of the rail
+   subroutine set_up_over(rail, problem, geometry, number, slot, error)
+      !> In track coordinates, at the reference; may be that of `geometry`, where it is not changed
+      type(profile_curve), intent(in) :: rail
+      type(wheel_rail_problem), intent(in) :: problem
+      type(wheel_rail_geometry), intent(inout) :: geometry
+      !> Number of the patch
+      integer, intent(in) :: number
+      type(patch_slot), intent(inout) :: slot
+      type(error_type), allocatable, intent(out) :: error
       real(wp), allocatable :: h(:, :)
       real(wp) :: approach
 
-      rail = geometry%rail_in_track
-      if (allocated(problem%rail_surface)) rail = rail_at(problem, geometry%placement, slot%region%x)
       slot%plane = patch_frame(rail, geometry%placement, slot%region)
       call move_alloc(slot%problem%h, h)
       slot%problem = problem%template
@@ -89,7 +104,7 @@ contains
       call set_patch_friction(problem, slot, error)
       if (allocated(error)) return
       call set_motion(problem, geometry, slot, approach)
-   end subroutine set_up_patch
+   end subroutine set_up_over
 
    !> Refuse a grid beyond the limits of the case, and one that makes a transient case hopeless
    !>
