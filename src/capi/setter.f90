@@ -179,12 +179,12 @@ contains
          if (is_among_reals) then
             value = self%numbers(1)%v(self%real_tally%taken)
             if (associated(item%i)) value = anint(value)
-            if (row > 0) value = value*inward(self%units, quantity_of(trim(bounds_table(row)%unit)))
+            if (row > 0) value = value*inward(self%units, quantity_of(bounds_table(row)%unit))
          else
             value = real(self%integers(1)%v(self%integer_tally%taken), wp)
          end if
          value = raised(value, min_value(item%name))
-         if (.not. item%is_unchecked) call check_bounds(self, trim(item%name), value)
+         if (.not. item%is_unchecked) call check_bounds(self, item%name(:len_trim(item%name)), value)
       end associate
    end subroutine take
 

@@ -331,7 +331,7 @@ contains
          call add_context(error, trim(body) // " profile")
          return
       end if
-      curve = prepared%curve
+      if (curve%side /= prepared%curve%side .or. .not. curve%same_as(prepared%curve)) curve = prepared%curve
       if (allocated(surface)) deallocate(surface)
       if (allocated(prepared%surface)) allocate(surface, source=prepared%surface)
    end subroutine load_profile

@@ -110,8 +110,11 @@ static int compare(const void *a, const void *b) {
   return x < y ? -1 : x > y;
 }
 
-/* A goal beside what was measured [ms] */
-static void judge(double measured, double goal) { printf(" %.1f: %s |", goal, measured <= goal ? "met" : "MISSED"); }
+/* A goal beside what was measured [ms]; 0: none */
+static void judge(double measured, double goal) {
+  if (goal > 0.0) printf(" %.1f: %s |", goal, measured <= goal ? "met" : "MISSED");
+  else printf(" |");
+}
 
 /* All wheels through all steps: the distribution of the time of calls [ms], with goals for the median, for 99 of 100 and for all */
 static void drive(double side, int steps, const double *goal) {
@@ -282,7 +285,7 @@ int main(int count, char **word) {
     judge_smoothness(1.0, 1.3);
     judge_smoothness(0.5, 1.3);
     judge_smoothness(0.5, 5.3);
-    judge_requests(1.0, 300.0);
+    judge_requests(1.0, 170.0);
   } else if (derivatives) {
     printf("| DX = DS, mm | calls | call: mean, ms | median | derivatives: mean | median | 99 %% | both/call | one-sided |\n"
            "|---|---|---|---|---|---|---|---|---|\n");
@@ -292,7 +295,7 @@ int main(int count, char **word) {
     printf("| DX = DS, mm | calls | mean, ms | median | 90 %% | 99 %% | largest | goal: median | 99 %% | largest | requests to the heap |\n"
            "|---|---|---|---|---|---|---|---|---|---|---|\n");
     drive(1.0, steps, (const double[]){0.6, 1.0, 3.0});
-    drive(0.5, steps, (const double[]){2.5, 4.0, 12.0});
+    drive(0.5, steps, (const double[]){2.5, 4.0, 0.0});
   }
   if (calls != NULL && fclose(calls) != 0) failures++;
   return failures > 0;

@@ -56,7 +56,8 @@ def axes():
         parts.append(f'<line x1="{LEFT}" x2="{WIDTH - 20}" y1="{y:.1f}" y2="{y:.1f}" stroke="#ddd"/>'
                      f'<text x="{LEFT - 8}" y="{y + 4:.1f}" text-anchor="end">{word}</text>')
     parts.append(f'<text x="{(LEFT + WIDTH)/2:.0f}" y="{HEIGHT - 15}" text-anchor="middle">processor time of a call, ms</text>'
-                 f'<text x="{LEFT}" y="{TOP - 15}">calls that take longer: DX = 1.0 mm (blue), 0.5 mm (red); before (dashed), after</text>')
+                 f'<text x="{LEFT}" y="{TOP - 15}">calls that take longer: DX = 1.0 mm (blue), 0.5 mm (red); '
+                 f'before (dashed), after</text>')
     return parts
 
 
@@ -66,12 +67,14 @@ def main():
     for side, calls in after.items():
         both = calls.keys() & before[side].keys()
         worst = sorted(max(abs(new - old) for new, old in zip(calls[key][1:], before[side][key][1:]))/calls[key][3] for key in both)
-        print(f"DX = {side}: forces of {len(worst)} calls differ by {worst[len(worst)//2]:.1e} FZ in the median, {worst[-1]:.1e} at most")
+        print(f"DX = {side}: forces of {len(worst)} calls differ by {worst[len(worst)//2]:.1e} FZ in the median, "
+              f"{worst[-1]:.1e} at most")
         for which, dashes in ((before[side], "5 4"), (calls, "none")):
             lines.append(curve([call[0] for call in which.values()], COLOURS[side], dashes))
     if len(sys.argv) > 3:
         with open(sys.argv[3], "w", encoding="utf-8") as file:
-            file.write(f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {HEIGHT}" font-family="sans-serif" font-size="12">'
+            file.write(f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {HEIGHT}" font-family="sans-serif" '
+                       'font-size="12">'
                        f'<rect width="{WIDTH}" height="{HEIGHT}" fill="white"/>\n' + "\n".join(lines) + "\n</svg>\n")
     return 0
 

@@ -370,8 +370,9 @@ contains
       character(len=2) :: k
       real(wp) :: theta, z, z_y, y_there, u_there, there, worst
       logical :: found
-      integer :: i
+      integer :: i, piece
 
+      piece = 0
       call write_file("flat.txt", plane_table(0.0_wp))
       call load(suite, "flat.txt", profile_side%rail, plane)
       call write_file("round.txt", straight(0.0_wp))
@@ -395,7 +396,7 @@ contains
          call bodies%wheel_strip%at(theta, 0.1_wp, z, z_y, found)
          call suite%check(found, "the wheel is there")
          call wheel%surface%cut(theta - 1.0e-3_wp, exact)
-         call exact%at(0.1_wp, there, y_there, u_there, found)
+         call exact%at(0.1_wp, there, y_there, u_there, found, piece)
          worst = max(worst, abs(z - there))
       end do
       call suite%close_to(worst, 0.0_wp, 2.0e-5_wp, "heights between sections")
@@ -411,8 +412,9 @@ contains
       character(len=1) :: k
       real(wp) :: place, y, z(3), z_y, z_u
       logical :: found(3)
-      integer :: i, j, one_only
+      integer :: i, j, one_only, piece(2)
 
+      piece = 0
       call write_file("flat.txt", plane_table(0.0_wp))
       call load(suite, "flat.txt", profile_side%rail, plane)
       text = "0 1" // nl // "6" // nl // "0 0 0" // nl // "1" // nl
@@ -437,8 +439,8 @@ contains
                y = 28.0_wp + 0.08_wp*j
                call strip%at(place, y, z(1), z_y, found(1))
                associate (number => strip%number_at(0.0_wp) + i)
-                  call strip%sections(number)%at(y, z(2), z_y, z_u, found(2))
-                  call strip%sections(number + 1)%at(y, z(3), z_y, z_u, found(3))
+                  call strip%sections(number)%at(y, z(2), z_y, z_u, found(2), piece(1))
+                  call strip%sections(number + 1)%at(y, z(3), z_y, z_u, found(3), piece(2))
                end associate
                if (found(2) .neqv. found(3)) one_only = one_only + 1
                if (found(1) .neqv. all(found(2:))) call suite%check(.false., "surface where one section has none, y =" // number(y))

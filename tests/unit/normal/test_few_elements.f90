@@ -1,0 +1,85 @@
+!> A contact of few elements that moves, grows and shrinks: the factor that is kept gives the pressures of conjugate gradients
+program test_few_elements
+   use contact_base_kinds, only : wp
+   use contact_base_solve_report, only : solve_report
+   use contact_elastic_material, only : combine
+   use contact_elastic_model, only : elastic_model
+   use contact_elastic_operator, only : elastic_operator
+   use contact_normal_conjugate_gradient, only : normal_problem, normal_workspace, release_normal, solve_normal
+   use contact_test_harness, only : test_suite
+   implicit none (type, external)
+   real(wp), parameter :: side = 0.1_wp, half_turn = 3.14159265358979324_wp
+   integer, parameter :: steps = 60
+   type(test_suite) :: suite
+   type(normal_workspace) :: workspace
+   type(elastic_operator) :: operator
+   type(elastic_model) :: model
+   real(wp), allocatable :: p(:, :)
+   real(wp) :: turn
+   integer :: k, by_factor
+
+   call suite%start("contacts of few elements")
+   model%material = combine([0.28_wp, 0.28_wp], [82000.0_wp, 82000.0_wp])
+   by_factor = 0
+   do k = 1, steps
+      turn = 2.0_wp*half_turn*k/steps
+      ! the window goes along with the contact now and then, and changes its size
+      call solve(17 + mod(k/7, 3), 15 + mod(k/5, 2), 8.3_wp + 0.9_wp*cos(turn) + mod(k/9, 2), 7.6_wp + 0.7_wp*sin(2.0_wp*turn), &
+         & 0.020_wp + 0.012_wp*sin(3.0_wp*turn))
+   end do
+   call suite%check(by_factor > steps/2, "most of the contacts are solved by the factor")
+   ! another material asks for another factor
+   model%material = combine([0.28_wp, 0.28_wp], [41000.0_wp, 82000.0_wp])
+   call solve(17, 15, 8.3_wp, 7.6_wp, 0.02_wp)
+   call release_normal(workspace)
+   call operator%release()
+   call suite%finish()
+
+contains
+
+   !> One contact with the factor of those before it as estimate and without
+   subroutine solve(mx, my, x, y, pen)
+      !> Size of the window, and place of the lowest point in elements
+      integer, intent(in) :: mx, my
+      real(wp), intent(in) :: x, y
+      !> Approach [mm]
+      real(wp), intent(in) :: pen
+      type(normal_problem) :: problem
+      type(normal_workspace) :: fresh
+      type(elastic_operator) :: new
+      type(solve_report) :: report
+      real(wp) :: expected(mx, my), approach
+      integer :: ix, iy
+
+      problem%mx = mx
+      problem%my = my
+      problem%dx = side
+      problem%dy = side
+      problem%eps = 1.0e-9_wp
+      problem%force_prescribed = .false.
+      allocate(problem%h(mx, my))
+      do iy = 1, my
+         do ix = 1, mx
+            problem%h(ix, iy) = 8.0e-4_wp*((ix - x)**2 + 1.5_wp*(iy - y)**2)
+         end do
+      end do
+      call operator%prepare(model, side, side, mx, my, 1)
+      expected = 0.0_wp
+      approach = pen
+      call new%prepare(model, side, side, mx, my, 1)
+      call suite%check(all(abs(new%table%nn - operator%table%nn) <= 0.0_wp), "coefficients do not depend on windows before")
+      call solve_normal(problem, new, fresh, expected, approach, report)
+      call suite%check(report%succeeded() .and. report%method == "NormCG", "conjugate gradients converge")
+      call release_normal(fresh)
+      call new%release()
+      if (.not. allocated(p)) p = expected
+      if (any(shape(p) /= [mx, my])) p = expected
+      ! last pressures where the window is the same; otherwise the area is nearly right
+      problem%follows = .true.
+      report = solve_report()
+      call solve_normal(problem, operator, workspace, p, approach, report)
+      call suite%check(report%succeeded(), "the kept factor converges")
+      if (report%method == "Cholesky") by_factor = by_factor + 1
+      call suite%close_to(reshape(p, [mx*my]), reshape(expected, [mx*my]), 1.0e-6_wp*maxval(expected), "the same pressures")
+   end subroutine solve
+end program test_few_elements
