@@ -81,7 +81,7 @@ contains
    !>
    !> On a track the normal of the surface of revolution is perpendicular to the track there; on a roller wheel and
    !> roller fall alike along it. See doc/theory/wheel_rail.md.
-   function locus_point(wheel, placement, piece, place, rail) result(point)
+   function locus_in_piece(wheel, placement, piece, place, rail) result(point)
       !> Profile of a round wheel in its own coordinates
       type(profile_curve), intent(in) :: wheel
       !> Where the bodies are
@@ -140,6 +140,24 @@ contains
          real(wp), intent(in) :: point(3)
          axle_depth = max(lowest_on_roller*placement%roller_radius, placement%roller_radius - point(3))
       end function axle_depth
+   end function locus_in_piece
+
+   !> The same at any place of the profile
+   function locus_point(wheel, placement, s, rail) result(point)
+      !> Profile of a round wheel in its own coordinates
+      type(profile_curve), intent(in) :: wheel
+      !> Where the bodies are
+      type(wheel_rail_placement), intent(in) :: placement
+      !> Place on the profile [mm]
+      real(wp), intent(in) :: s
+      !> As for `locus_in_piece`
+      type(profile_curve), intent(in) :: rail
+      real(wp) :: point(3)
+      real(wp) :: place
+      integer :: piece
+
+      call wheel%y%place(s, piece, place)
+      point = locus_in_piece(wheel, placement, piece, place, rail)
    end function locus_point
 
    !> Slope of a roller's surface along the track: dz/dx at a distance from its top
@@ -329,7 +347,7 @@ contains
    subroutine lateral_positions(wheel, placement, rail, range, lateral)
       type(profile_curve), intent(in) :: wheel
       type(wheel_rail_placement), intent(in) :: placement
-      !> See `locus_point`
+      !> See `locus_in_piece`
       type(profile_curve), intent(in) :: rail
       !> What is near [mm]
       real(wp), intent(in) :: range(2)
@@ -355,7 +373,7 @@ contains
       end associate
       do i = 1, n
          if (beside(i) /= 0 .and. all(beside(max(1, i - 1):min(n, i + 1)) == beside(i))) cycle
-         point = locus_point(wheel, placement, min(i, n - 1), start_of(i), rail)
+         point = locus_in_piece(wheel, placement, min(i, n - 1), start_of(i), rail)
          lateral(i) = point(2)
       end do
 
@@ -373,7 +391,7 @@ contains
    function locus_at(wheel, placement, rail, y, piece, y_high, y_low) result(point)
       type(profile_curve), intent(in) :: wheel
       type(wheel_rail_placement), intent(in) :: placement
-      !> See `locus_point`
+      !> See `locus_in_piece`
       type(profile_curve), intent(in) :: rail
       real(wp), intent(in) :: y
       !> Number of the piece, and the lateral positions of its ends, y_low <= y <= y_high
@@ -396,7 +414,7 @@ contains
          ! the end of a piece belongs to the next one
          here = piece
          if (s >= wheel%y%s(piece + 1)) here = min(piece + 1, size(wheel%y%s) - 1)
-         point = locus_point(wheel, placement, here, s - wheel%y%s(here), rail)
+         point = locus_in_piece(wheel, placement, here, s - wheel%y%s(here), rail)
          f = point(2) - y
          if (abs(f) <= tolerance) exit
          if ((f > 0.0_wp) .eqv. (fa > 0.0_wp)) then
