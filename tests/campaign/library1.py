@@ -26,7 +26,8 @@ def settings(pair, scene):
     digits = scene["digits"]
     pair.set_flags(if_wrtinp=1, ic_bound=digits["B"], ic_discns=digits["D"], ic_inflcf=digits["C"], ic_norm=digits["N"],
                    ic_force=digits["F"])
-    pair.set_solver(eps=scene1.EPS, maxgs=999, maxin=100, maxnr=scene1.TRIALS,
+    # of order 1, as the program solves an .inp file
+    pair.set_solver(eps=scene1.EPS, order=1, maxgs=999, maxin=100, maxnr=scene1.TRIALS,
                     maxout=20 if scene1.coupled(scene) else 1)
     nu1, nu2, g1, g2 = scene["materials"]
     pair.set_material(g1, nu1, g2, nu2, digits["M"], MATERIAL[digits["M"]])

@@ -63,6 +63,9 @@ void fuzz_text(const char *text, size_t length)
     return;
   }
   if (rename("fuzz.jsonl", "first.jsonl") != 0 || remove("fuzz.toml") != 0) fuzz_fail("the run left no totals");
-  if (run_experiment(CONTACT_RUN, CONTACT_SECOND_ORDER) != 0) fuzz_fail("what runs in one format fails in the other");
+  status = run_experiment(CONTACT_RUN, CONTACT_SECOND_ORDER);
+  /* the clock may end one of two equal runs */
+  if (status == status_time) return;
+  if (status != 0) fuzz_fail("what runs in one format fails in the other");
   compare_totals("first.jsonl", "fuzz.jsonl");
 }
