@@ -24,22 +24,23 @@ contains
       type(patch_problem), intent(inout) :: problem
       type(error_type), allocatable, intent(out) :: error
       class(friction_law), allocatable :: law
-      logical :: by_row
+      logical :: by_row, has_law
       integer :: iy
 
       if (allocated(problem%friction)) deallocate(problem%friction)
-      if (allocated(problem%static_mu)) deallocate(problem%static_mu)
       problem%remembers_friction = .false.
       problem%mu = 0.0_wp
       ! there are none behind a case that was to give them and was refused
       if (allocated(spec%friction%sets)) problem%mu = spec%friction%sets(1)%fstat
-      if (spec%motion == motion%none) return
-      if (.not. allocated(spec%friction%sets)) then
-         call fatal_error(error, "no coefficient of friction has been given")
-         return
-      end if
       by_row = spec%variation == variation%by_row
-      if (.not. is_varying_law(spec%friction_law) .and. size(spec%friction%sets) == 1 .and. .not. by_row) return
+      has_law = .false.
+      if (spec%motion /= motion%none .and. allocated(spec%friction%sets)) &
+         & has_law = is_varying_law(spec%friction_law) .or. size(spec%friction%sets) /= 1 .or. by_row
+      ! a case with a law takes over the room of the one before
+      if (.not. has_law .and. allocated(problem%static_mu)) deallocate(problem%static_mu)
+      if (spec%motion /= motion%none .and. .not. allocated(spec%friction%sets)) &
+         & call fatal_error(error, "no coefficient of friction has been given")
+      if (.not. has_law) return
       if (size(spec%friction%sets) /= 1 .and. size(spec%friction%sets) /= problem%grid%my) then
          call fatal_error(error, "friction parameters per row were given for another number of rows")
          return

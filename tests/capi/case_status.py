@@ -212,7 +212,8 @@ def settle(problem, name):
     problem.set_normal_force(fn)
     problem.set_rolling(rolling, 0.1)
     problem.set_creepages(*motion)
-    problem.set_solver(**limits)
+    # of order 1, as the program solves an .inp file
+    problem.set_solver(**limits, order=1)
     if name == "tangential":
         problem.set_flags(own_classical=1)
         problem._do(cntc.setsolverflags, problem.number, 1, 2, [9, 100, 30, 1, 0], [1e-7, 0.9, 1.0, 0.5])

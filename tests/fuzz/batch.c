@@ -14,7 +14,7 @@
 
 const char fuzz_name[] = "batch";
 
-enum { most_values = 12, most_names = 4, most_room = 200, name_room = 400, longest_side = 60, out_of_time = 5 };
+enum { most_values = 12, most_names = 4, most_room = 200, name_room = 400, longest_side = 60, last_missed = 5, out_of_time = 5 };
 /* What the arrays hold before a call */
 static const double unset = -7.77e77;
 
@@ -127,7 +127,9 @@ static void judge(const contact_batch_job *job)
     if (job->values[k] != unset) fuzz_fail("a value behind the last row was changed");
   for (k = 0; k < job->cases; k++) {
     const char *reason = job->reasons + (size_t)k * positive(job->reason_length);
-    if (job->states[2 * k] < 0 || job->states[2 * k] > out_of_time) fuzz_fail("case %d has state %d", k + 1, job->states[2 * k]);
+    if (job->states[2 * k] < CONTACT_SOLVED || job->states[2 * k] > CONTACT_REFUSED || job->states[2 * k + 1] < 0
+        || job->states[2 * k + 1] > last_missed)
+      fuzz_fail("case %d has state %d, missed %d", k + 1, job->states[2 * k], job->states[2 * k + 1]);
     if (job->states[2 * k] == CONTACT_SOLVED || job->reason_length < 1) continue;
     if (!memchr(reason, '\0', (size_t)job->reason_length)) continue;
     if (job->reason_length > 1 && !*reason) fuzz_fail("no reason for state %d of case %d", job->states[2 * k], k + 1);
@@ -165,7 +167,7 @@ static void compare(const contact_batch_job *first, const contact_batch_job *sec
 {
   int k;
   for (k = 0; k < first->cases && k < second->cases; k++)
-    if (first->states[2 * k] == out_of_time || second->states[2 * k] == out_of_time) return;
+    if (first->states[2 * k + 1] == out_of_time || second->states[2 * k + 1] == out_of_time) return;
   if (first->rows != second->rows || first->cases != second->cases) fuzz_fail("%s has other rows or cases", what);
   if (memcmp(first->states, second->states, sizeof(int) * 2 * (size_t)first->cases) != 0) fuzz_fail("%s has other states", what);
   if (memcmp(first->values, second->values, sizeof(double) * (size_t)first->rows * positive(first->room_columns)) != 0)

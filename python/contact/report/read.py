@@ -329,9 +329,9 @@ def _read(file: Any, path: str) -> tuple[dict[str, Any], list[dict[str, str]]]:
             case.update(status="not converged", reason="look at the residuals before using this case")
         if "markers" in group:
             case["markers"] = reader.values(group["markers"])
-            for place in ("inputs/wheel_dimensions/nomradw", "inputs/wheelset/nomradw"):  # the second in files of earlier versions
-                if place in group:
-                    case["radius"] = float(group[place][()])
+            for radius in ("inputs/wheel_dimensions/nomradw", "inputs/wheelset_dimensions/nomradw"):  # the second in earlier files
+                if radius in group:
+                    case["radius"] = float(group[radius][()])
             case["profiles"] = {body: reader.blobs.add(np.stack([reader.data(item["y"]), reader.data(item["z"])], axis=1))
                                 for body, item in group["profiles"].items()}
         for place in rows_of.get((ident["result_element"], ident["contact_problem"], ident["case"]), []):

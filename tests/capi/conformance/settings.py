@@ -192,13 +192,10 @@ def program_cases(name):
         return [case for case in map(json.loads, file) if case["case"] > 0]
 
 
-# Names of rows of numbers of the record that differ from those of the input
-RECORD = {"FLIN1": "coef1", "FRAT1": "coef1", "FEXP1": "coef1", "FLIN2": "coef2", "FRAT2": "coef2", "FEXP2": "coef2",
-          "CURV": "curvature",
-          "YAW": "yaw"}
 # Values of both bodies in the HDF5 file
 OF_BODIES = {"M = 1": {"poiss": [0.28, 0.31], "gg": [82e3, 75e3], "fg": [0.3, 0.4], "tc": [1e-4, 2e-4]},
-             "L = 6": {"bktemp": [15, 95], "heatcp": [450, 460], "lambda": [0.051, 0.052], "dens": [7.8e-6, 7.9e-6]}}
+             "L = 6": {f"{name}{body + 1}": values[body] for body in range(2) for name, values in {
+                 "bktemp": [15, 95], "heatcp": [450, 460], "lambda": [0.051, 0.052], "dens": [7.8e-6, 7.9e-6]}.items()}}
 told = set()
 
 
@@ -243,8 +240,9 @@ def compare_results(name, expected, label):
                 # rail and wheel have the same names
                 nearest = min(printed[key], key=lambda number: abs(number - value))
                 close(nearest, value, 6e-4 * abs(value) + 1e-9, f"{label}: {key} in the .out file")
-            key = RECORD.get(key, key.lower())
-            if key in recorded and len(names.split()) > 2:
+            key = key.lower()
+            # a library writes the window that it has made for itself
+            if key in recorded and len(names.split()) > 2 and not label.startswith("window by"):
                 told.add("h5 " + key)
                 found = np.atleast_1d(recorded[key])
                 close(found[-1] if label.startswith("friction") else found[0], value, 1e-9 * abs(value),
