@@ -3,7 +3,7 @@
 !> Times are rough, to tell seconds from hours. They were measured for a ball on a plane, half of the potential contact
 !> area in contact, EPS 1e-5, grids of 20 x 20 to 400 x 400 elements, at commit f1ba010 on one core of a server of 2022.
 !> Stresses below the surface count for memory only. Accuracies that are asked for were measured with random contacts and wheels
-!> of tests/accuracy at commit 2c823fb, the first of its size in a process, which makes plans of transforms, on a like machine.
+!> of tests/accuracy at commit e5cd3e8, the first of its size in a process, which makes plans of transforms, on a like machine.
 module contact_cases_estimate
    use contact_base_choices, only : force_control, motion, normal_control, solver_choice
    use contact_base_kinds, only : long, wp
