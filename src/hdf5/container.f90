@@ -47,6 +47,8 @@ module contact_hdf5_container
       logical :: is_open = .false.
       !> Has anything gone wrong since the file was opened?
       logical :: failed = .false.
+      !> What the file lacks that is no result; unallocated: nothing
+      character(len=:), allocatable :: lacking
       !> Identifier of the file
       integer(hid_t) :: file = -1
       !> Creation properties of datasets in the header of their object, with room for attributes or without
@@ -141,6 +143,7 @@ contains
       integer :: status
 
       self%name = name
+      if (allocated(self%lacking)) deallocate(self%lacking)
       call leave_exit_alone()
       call h5open_f(status)
       call h5eset_auto_f(0, status)
@@ -252,7 +255,10 @@ contains
       call self%check(status)
       self%is_open = .false.
       if (.not. self%failed) call self%check(-abs(move_file(self%name // unfinished, self%name)))
-      if (.not. self%failed) return
+      if (.not. self%failed) then
+         if (allocated(self%lacking)) call fatal_error(error, self%lacking, error_kind%file, self%name)
+         return
+      end if
       ! what stands under the name is the last copy that was complete
       call remove_file(self%name // unfinished)
       call fatal_error(error, "cases are missing, because a write failed; is the disk full?", &

@@ -76,7 +76,10 @@ contains
       character(len=:), allocatable :: text
 
       call lexer%open_file(input, error, below)
-      if (allocated(error)) return
+      if (allocated(error)) then
+         container%lacking = "all results are there, but not the copy of the input: " // error%message
+         return
+      end if
       call lexer%get_text(text)
       call describe(container, group, "input_", input(index(input, "/", back=.true.) + 1:), text)
       call write_copy(container, group, text)
@@ -203,7 +206,10 @@ contains
       else
          call lexer%open_file(path, error)
       end if
-      if (allocated(error)) return
+      if (allocated(error)) then
+         container%lacking = "all results are there, but not the hash of " // name // ": " // error%message
+         return
+      end if
       call lexer%get_text(text)
       self%profiles = self%profiles + 1
       call container%new_group(self%group, profile_name // integer_text(self%profiles), group)

@@ -116,6 +116,10 @@ def after_failure(good, folder, code, text):
     return bad
 
 
+#: Calls of which every place is tried: the renewed HDF5 file takes its name, of which nothing else tells, and files are read again
+ALWAYS = (("rename", "wheel on rail, HDF5"), ("open", "wheel on rail, HDF5"))
+
+
 def main():
     """All kinds, all faults"""
     preload, step, first = sys.argv[1], *(int(word) for word in (sys.argv[2:] + ["37", "0"][len(sys.argv) - 2:])[:2])
@@ -129,8 +133,7 @@ def main():
             row = table.setdefault((kind, call), [count, 0, 0, 0])
             for place in range(1, count + 1):
                 turn += 1
-                # when the renewed HDF5 file cannot take its name, nothing else tells
-                if turn % step != first and (call, kind) != ("rename", "wheel on rail, HDF5"):
+                if turn % step != first and (call, kind) not in ALWAYS:
                     continue
                 code, text = run(folder, kind, preload, INJECT_CALL=call, INJECT_AT=place, INJECT_ERROR=error,
                                  INJECT_FOR_EVER=1 if for_ever else None)
