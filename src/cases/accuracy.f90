@@ -4,14 +4,13 @@
 !> tolerance that are chosen go into the specification, so that outputs tell what was solved.
 module contact_cases_accuracy
    use contact_base_accuracy_report, only : accuracy_report
-   use contact_base_choices, only : estimate_choice, grid_form, motion, time_link
+   use contact_base_choices, only : grid_form, motion
    use contact_base_error, only : error_kind, error_type, fatal_error
    use contact_base_kinds, only : wp
    use contact_base_limits, only : wall_clock
    use contact_base_log, only : log_type
    use contact_cases_accuracy_plan, only : accuracy_law, caution, expected_law, finer_across, first_across, is_near_enough, &
-      & most_elements, most_levels, refuse_case, shorten_aspect, solver_tolerance, &
-      & time_is_left
+      & most_elements, most_levels, prepare_level, refuse_case, shorten_aspect, solver_tolerance, time_is_left
    use contact_cases_distance, only : distance_form
    use contact_cases_session, only : contact_session, solve_case
    use contact_cases_spec, only : case_spec, grid_spec, part_source
@@ -128,6 +127,8 @@ contains
       law = expected_law(spec)
       level = spec
       call prepare_level(report%eps, level)
+      level%parts%grid = part_source%given
+      level%parts%geometry = part_source%given
       if (keeps_axes(spec)) call take_curvatures(session%curvatures, level%grid)
       fixed = merge([spec%grid%mx, spec%grid%my], 0, [spec%grid%mx, spec%grid%my] <= no_direction)
       call first_counts(spec%grid, first_across(law, report%asked), lengths, counts)
@@ -178,24 +179,6 @@ contains
       if (len_trim(report%reason) > 0 .and. allocated(best)) call keep_better(session, caution(spec), best, report, result)
       call tell_report(spec, level, result, report, log)
    end subroutine refine
-
-   !> What every grid is solved with
-   subroutine prepare_level(eps, level)
-      !> Tolerance of the solvers
-      real(wp), intent(in) :: eps
-      type(case_spec), intent(inout) :: level
-
-      level%iteration%accuracy = 0.0_wp
-      level%iteration%eps = eps
-      level%iteration%order = 2
-      level%estimates_errors = .true.
-      level%has_stress = .false.
-      ! each grid stands for itself
-      level%link = time_link%initiate
-      level%estimate = estimate_choice%fresh
-      level%parts%grid = part_source%given
-      level%parts%geometry = part_source%given
-   end subroutine prepare_level
 
    !> Sides of a window that is given; 0 where it follows from Hertz's solution
    pure function sides_of_window(grid) result(lengths)

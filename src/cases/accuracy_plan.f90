@@ -3,8 +3,8 @@
 !> Sizes are counted in elements across the contact. An error that goes as C n^-p asks for n = (C/error)^(1/p); C of the first
 !> grid is a typical value, later ones are what the estimate of the grid before says. See doc/theory/accuracy.md.
 module contact_cases_accuracy_plan
-   use contact_base_choices, only : is_simplified, kernel_model, material_model, motion, pressure_model, slip_source, &
-      & time_link, variation
+   use contact_base_choices, only : estimate_choice, is_simplified, kernel_model, material_model, motion, pressure_model, &
+      & slip_source, time_link, variation
    use contact_base_error, only : error_kind, error_type, fatal_error
    use contact_base_kinds, only : long, wp
    use contact_base_limits, only : case_limits
@@ -17,8 +17,8 @@ module contact_cases_accuracy_plan
    private
 
    public :: accuracy_law, caution, expected_across, expected_law, finer_across, first_across, is_accuracy, is_near_enough, &
-      & largest_accuracy, most_elements, most_levels, refuse_case, shorten_aspect, smallest_accuracy, solver_tolerance, &
-      & time_is_left
+      & largest_accuracy, most_elements, most_levels, prepare_level, refuse_case, shorten_aspect, smallest_accuracy, &
+      & solver_tolerance, time_is_left
 
    !> Accuracies that can be asked for
    real(wp), parameter :: smallest_accuracy = 1.0e-6_wp, largest_accuracy = 0.1_wp
@@ -122,6 +122,23 @@ contains
       material = combine(spec%material%poiss, spec%material%gg)
       if (material%coupled() .or. spec%material_model == material_model%viscoelastic) factor = unclear_order
    end function caution
+
+   !> What every level is solved with
+   pure subroutine prepare_level(eps, level)
+      !> Tolerance of the solvers
+      real(wp), intent(in) :: eps
+      !> On entry the case; its elements are chosen by the caller
+      type(case_spec), intent(inout) :: level
+
+      level%iteration%accuracy = 0.0_wp
+      level%iteration%eps = eps
+      level%iteration%order = 2
+      level%estimates_errors = .true.
+      level%has_stress = .false.
+      ! each level stands for itself
+      level%link = time_link%initiate
+      level%estimate = estimate_choice%fresh
+   end subroutine prepare_level
 
    !> Typical error of a case before anything of it is known
    pure type(accuracy_law) function expected_law(spec) result(law)

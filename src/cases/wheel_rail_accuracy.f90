@@ -3,13 +3,13 @@
 !> As contact_cases_accuracy; what changes are the sides of the elements, DX and DS, since windows follow from the geometry.
 module contact_cases_wheel_rail_accuracy
    use contact_base_accuracy_report, only : accuracy_report
-   use contact_base_choices, only : estimate_choice, motion, normal_control, time_link
+   use contact_base_choices, only : motion, normal_control
    use contact_base_error, only : error_kind, error_type
    use contact_base_kinds, only : wp
    use contact_base_limits, only : wall_clock
    use contact_base_log, only : log_type
    use contact_cases_accuracy_plan, only : accuracy_law, caution, expected_law, finer_across, first_across, is_near_enough, &
-      & most_elements, most_levels, refuse_case, shorten_aspect, solver_tolerance, time_is_left
+      & most_elements, most_levels, prepare_level, refuse_case, shorten_aspect, solver_tolerance, time_is_left
    use contact_cases_estimate, only : typical_half_side
    use contact_cases_spec, only : case_spec
    use contact_cases_subsurface, only : subsurface_stresses, warn_of_steps
@@ -145,22 +145,6 @@ contains
       end if
       call tell_report(spec, sides, result, report, log)
    end subroutine refine
-
-   !> What every solution has in common
-   subroutine prepare_level(eps, level)
-      !> Tolerance of the solvers
-      real(wp), intent(in) :: eps
-      type(case_spec), intent(inout) :: level
-
-      level%iteration%accuracy = 0.0_wp
-      level%iteration%eps = eps
-      level%iteration%order = 2
-      level%estimates_errors = .true.
-      level%has_stress = .false.
-      ! each solution stands for itself
-      level%link = time_link%initiate
-      level%estimate = estimate_choice%fresh
-   end subroutine prepare_level
 
    !> Estimated relative error of all patches together, each weighted by its load; negative without contact
    pure real(wp) function error_of_pair(memory) result(e)

@@ -7,10 +7,7 @@ import json
 import os
 import pathlib
 import re
-import shutil
-import subprocess
 import sys
-import tempfile
 import unittest
 
 PROGRAM = os.environ["CONTACT_PROGRAM"]
@@ -19,7 +16,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "accuracy")
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 
 from error_cases import wheel_text
-from test_order import rolling
+from test_order import Runs, rolling
 
 WHEEL = {"dx": 0.4, "mu": 0.3, "cant": 0.025, "y": 0.0, "yaw": 0.0, "fz": 60000.0, "vs": 20000.0, "vpitch": -43.5}
 #: Forms of the grid with the same window: mm, corner and sides, corners, centre and sides, centres
@@ -27,24 +24,11 @@ WINDOWS = ("1 IPOTCN\n20 20 -3.6 -6 0.36 0.6 MX MY XL YL DX DY", "2 IPOTCN\n20 2
            "3 IPOTCN\n20 20 -3.42 -5.7 0.36 0.6 MX MY XC1 YC1 DX DY", "4 IPOTCN\n20 20 -3.42 -5.7 3.42 5.7 MX MY XC1 YC1 XCM YCM")
 
 
-class Accuracy(unittest.TestCase):
-    def setUp(self):
-        self.folder = pathlib.Path(tempfile.mkdtemp())
-        self.addCleanup(shutil.rmtree, self.folder)
-
-    def run_program(self, *words, status=0):
-        done = subprocess.run([PROGRAM, *words], cwd=self.folder, capture_output=True, text=True, timeout=120)
-        self.assertEqual(done.returncode, status, done.stdout + done.stderr)
-        return done.stdout + done.stderr
-
+class Accuracy(Runs):
     def solve(self, name, text, *options):
         """The report, and the record of the first case with plain values"""
-        if text:
-            (self.folder / name).write_text(text + (" 0 MODULE\n" if name.endswith(".inp") else ""))
-        self.run_program("--json", *options, "2", name)
-        stem = name.split(".")[0]
-        record = json.loads((self.folder / (stem + ".jsonl")).read_text().split("\n")[0])
-        return (self.folder / (stem + ".out")).read_text(), plain(record)
+        report, record = self.run_first(name, text, *options)
+        return report, plain(record)
 
     def test_reached(self):
         """The error against a grid of 160 x 160 is below what was asked for; the grid, not that of the file, is told"""

@@ -37,7 +37,9 @@ def rolling(motion=3, bound=0, force=0, friction=0, influence=2, material=0, sol
     return "\n".join(row for row in rows if row) + "\n"
 
 
-class Order(unittest.TestCase):
+class Runs(unittest.TestCase):
+    """Runs of the program in a folder of their own"""
+
     def setUp(self):
         self.folder = pathlib.Path(tempfile.mkdtemp())
         self.addCleanup(shutil.rmtree, self.folder)
@@ -47,15 +49,21 @@ class Order(unittest.TestCase):
         self.assertEqual(done.returncode, status, done.stdout + done.stderr)
         return done.stdout + done.stderr
 
-    def solve(self, name, text, *options):
-        """Words on the solver in the report, and the record of the first patch"""
+    def run_first(self, name, text, *options):
+        """The report, and the record of the first case"""
         if text:
             (self.folder / name).write_text(text + (" 0 MODULE\n" if name.endswith(".inp") else ""))
         self.run_program("--json", *options, "2", name)
         stem = name.split(".")[0]
-        words = re.search(r"SOLVER: (.*?); RESIDUAL", (self.folder / (stem + ".out")).read_text()).group(1)
-        record = json.loads((self.folder / (stem + ".jsonl")).read_text().split("\n")[0])["patches"][0]
-        return words, record
+        return ((self.folder / (stem + ".out")).read_text(),
+                json.loads((self.folder / (stem + ".jsonl")).read_text().split("\n")[0]))
+
+
+class Order(Runs):
+    def solve(self, name, text, *options):
+        """Words on the solver in the report, and the record of the first patch"""
+        report, record = self.run_first(name, text, *options)
+        return re.search(r"SOLVER: (.*?); RESIDUAL", report).group(1), record["patches"][0]
 
     def test_asked_for(self):
         plain, one = self.solve("a.inp", rolling())

@@ -5,12 +5,11 @@ import ctypes
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass
-from types import TracebackType
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from .._handle import Handle
 from .._library import library
 from ..errors import ContactError
 
@@ -103,7 +102,7 @@ def _prototypes() -> ctypes.CDLL:
     return loaded
 
 
-class Batch:
+class Batch(Handle):
     """What the library keeps from call to call; one thread at a time may use it.
 
     Parameters
@@ -114,28 +113,14 @@ class Batch:
         What each case may take [s]; 0 without limit.
     """
 
+    _closer = "contact_batch_close"
+
     def __init__(self, threads: int = 1, seconds: float = 0.0) -> None:
         self._library = _prototypes()
-        self._handle: Any = self._library.contact_batch_open(threads, seconds)
+        self._handle = self._library.contact_batch_open(threads, seconds)
         if not self._handle:
             raise ContactError("there is no memory for a batch")
         self._columns: list[Column] = []
-
-    def close(self) -> None:
-        """Free what the library holds."""
-        handle, self._handle = self._handle, None
-        if handle:
-            self._library.contact_batch_close(handle)
-
-    def __enter__(self) -> Batch:
-        return self
-
-    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None) -> None:
-        self.close()
-
-    def __del__(self) -> None:
-        if getattr(self, "_handle", None):
-            self.close()
 
     def solve(self, text: str, folder: str | os.PathLike[str] = "", names: Sequence[str] = (), given: Numbers | None = None,
               *, cases: int = 1, patches: int = 1) -> Solved:

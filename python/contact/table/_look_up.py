@@ -4,12 +4,11 @@ from __future__ import annotations
 import ctypes
 import os
 from dataclasses import dataclass
-from types import TracebackType
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .._handle import Handle
 from .._library import library
 from ..errors import ContactError
 
@@ -95,7 +94,7 @@ def _prototypes() -> ctypes.CDLL:
     return loaded
 
 
-class Table:
+class Table(Handle):
     """A table of creep forces, made by ``contact table`` or :func:`build`. Several threads may use it at the same time.
 
     Parameters
@@ -114,28 +113,14 @@ class Table:
     ...     force = table.force(fn=70e3, mu=0.3, gg=82e3, aa=6.0, bb=5.0, cksi=0.001)
     """
 
+    _closer = "contact_table_close"
+
     def __init__(self, file: str | os.PathLike[str]) -> None:
         self._library = _prototypes()
         message = ctypes.create_string_buffer(1000)
-        self._handle: Any = self._library.contact_table_open(os.fsencode(file), message, len(message))
+        self._handle = self._library.contact_table_open(os.fsencode(file), message, len(message))
         if not self._handle:
             raise ContactError(message.value.decode("utf-8", errors="replace"))
-
-    def close(self) -> None:
-        """Free its memory."""
-        handle, self._handle = self._handle, None
-        if handle:
-            self._library.contact_table_close(handle)
-
-    def __enter__(self) -> Table:
-        return self
-
-    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None) -> None:
-        self.close()
-
-    def __del__(self) -> None:
-        if getattr(self, "_handle", None):
-            self.close()
 
     @property
     def facts(self) -> Facts:

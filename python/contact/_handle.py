@@ -1,0 +1,31 @@
+"""What the library holds for an object, and when it is freed."""
+from __future__ import annotations
+
+from types import TracebackType
+from typing import Any, TypeVar
+
+_Self = TypeVar("_Self", bound="Handle")
+
+
+class Handle:
+    """An object whose memory is the library's: it is freed by `close`, at the end of a `with`, or with the object"""
+
+    #: Name of the routine of the library that frees it
+    _closer = ""
+    _library: Any
+    _handle: Any = None
+
+    def close(self) -> None:
+        """Free what the library holds."""
+        handle, self._handle = self._handle, None
+        if handle:
+            getattr(self._library, self._closer)(handle)
+
+    def __enter__(self: _Self) -> _Self:
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None) -> None:
+        self.close()
+
+    def __del__(self) -> None:
+        self.close()
