@@ -339,6 +339,8 @@ contains
             if (.not. slips(ix, iy)) cycle
             mean = mean_slip(contact, slips, direction, slip, ix, iy)
             associate (s => slip(ix, iy, :))
+               ! where slip reverses, within an element or two, its mean tells nothing
+               if (s(1)*mean(1) + s(2)*mean(2) <= 0.0_wp) cycle
                angle = atan2(s(1)*mean(2) - s(2)*mean(1), s(1)*mean(1) + s(2)*mean(2))
             end associate
             angle = max(-largest_turn, min(largest_turn, angle))

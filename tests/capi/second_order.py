@@ -193,10 +193,29 @@ def admissible():
         check(second < 1.5 * first + 1e-3, f"{creep}: no checkerboard, {first:.1e} to {second:.1e}")
 
 
+def turning_round():
+    """Rollers of aluminium and steel that nearly slide: slip turns round between two elements, tractions stay along x"""
+    for n in (38, 75, 150):
+        for place in (0.0, 0.3, 0.6):
+            dx = 0.2016 / n
+            with contact.Problem() as problem:
+                problem.set_material(g=23000, nu=0.31, g2=82000, nu2=0.28)
+                problem.set_friction(1e-4)
+                problem.set_grid(n + 2, 1, dx, 1000, -(n / 2 + 1 - place) * dx, -500)
+                problem.set_distance(lambda x, y: 0.02 * x**2 + 0 * y)
+                problem.set_normal_force(16201.9)
+                problem.set_creepages(5.2e-4)
+                problem.set_rolling(1000, dx, np.pi)
+                problem.set_solver(eps=1e-6, order=2)
+                result = problem.solve()
+            check(abs(result.fy) < 1e-9 * 1e-4 * result.fn, f"{n} elements, place {place}: FY = {result.fy:.1e} along a cylinder")
+
+
 constants()
 carter()
 ellipses()
 mirrored()
+turning_round()
 admissible()
 if LONG:
     random_contacts()

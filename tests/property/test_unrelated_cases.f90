@@ -34,6 +34,7 @@ program test_unrelated_cases
          call compare(first, second)
       end do
    end do
+   deallocate(folder)
    call suite%finish()
 
 contains

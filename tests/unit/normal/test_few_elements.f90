@@ -33,6 +33,7 @@ program test_few_elements
    call solve(17, 15, 8.3_wp, 7.6_wp, 0.02_wp)
    call release_normal(workspace)
    call operator%release()
+   deallocate(p)
    call suite%finish()
 
 contains
