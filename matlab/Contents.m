@@ -15,6 +15,7 @@
 %   plot3d          - all kinds of results for the whole contact area, also on rails and wheels.
 %   plotstrs        - displacements and stresses below the surface.
 %   plot_2dspline   - the surface of a profile that varies along the rail or around the wheel.
+%   plot_update     - two profiles and their difference, magnified.
 %   plot_arrow      - an arrow in two or three dimensions.
 %   plot_cm         - the sign of a centre of mass.
 %   matlab_color    - colours of lines by their numbers.
@@ -28,6 +29,9 @@
 %   read_vampire    - read a Vampire file (rai, whe).
 %   smooth_profile  - smooth a profile by a cubic spline.
 %   make_spline     - cubic smoothing spline through the points of a curve.
+%   eval_spline     - points on such a spline, at given positions or given y.
+%   eval_spline_deriv - its derivatives and curvature.
+%   make_arclength  - positions of the points of a profile along it.
 %   modify_profile  - mirror, scale and order the points of a profile.
 %   resample_slices - corresponding points on the slices of a varying profile.
 %   write_simpack   - write a Simpack file.

@@ -15,9 +15,10 @@ function [ spl ] = make_spline( s, y, z, lambda, wgt, ikinks, iaccel, use_bsplin
 % (use_deriv = 3) are not built and are refused.
 %
 %   spl      struct with s, y, z of the points on the spline, ikinks, and for each piece, with d = s - s(i):
-%            y = a0y(i) + a1y(i) d + a2y(i) d^2 + a3y(i) d^3, the same with a0z ... a3z
+%            y = a0y(i) + a1y(i) d + a2y(i) d^2 + a3y(i) d^3, the same with a0z ... a3z; also as
+%            ay0 ... az3, as other scripts have them
 %
-% See also: smooth_profile, read_profile.
+% See also: eval_spline, smooth_profile, read_profile.
 
    if (nargin<3), z = []; end
    if (nargin<4 || isempty(lambda)), lambda = 0; end
@@ -64,6 +65,7 @@ function [ spl ] = make_spline( s, y, z, lambda, wgt, ikinks, iaccel, use_bsplin
       [spl.(name), a] = pieces(s, spl.(name), lambda, wgt, [1; ikinks(:); n]);
       for k = 0 : 3
          spl.(sprintf('a%d%s', k, name)) = a(:,k+1);
+         spl.(sprintf('a%s%d', name, k)) = a(:,k+1);
       end
    end
 

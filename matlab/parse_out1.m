@@ -75,6 +75,8 @@ function [ sol ] = other_names( sol )
       sol.tot_forc.(['m' axis '_ws']) = sol.tot_forc.(['m' axis '_w_ws']);
    end
    sol.cp_pos.delt_tr = sol.cp_pos.delttr;
+   sol.cp_pos = copied(sol.cp_pos, sol.cp_pos, {'xcp_tr','ycp_tr','zcp_tr','ycp_r','zcp_r','xcp_w','ycp_w','zcp_w'}, ...
+         {'xtr','ytr','ztr','yr','zr','xw','yw','zw'});
    for name = {'ncon','nadh','nslip','nplast'}
       sol.cp_pos.(name{1}) = sol.cp_stat.(name{1});
    end
@@ -89,7 +91,7 @@ end % function other_names
 function [ to ] = copied( to, from, names, others )
 % Values under other names, where there are any
 
-   if (all(isnan(from.(names{1}))))
+   if (all(isnan(from.(names{1})(:))))
       return
    end
    for i = 1 : numel(names)

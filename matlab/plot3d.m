@@ -1,4 +1,4 @@
-function [ opt ] = plot3d( sol, opt, prr, prw )
+function [ opt ] = plot3d( sol, opt, prr, prw, subs )
 % PLOT3D  Plot one quantity for the whole contact area, flat, on the rail or wheel surface, or in rear or side view.
 %
 %   opt = plot3d              the options with their default values; opt = plot3d( [], opt ): completed
@@ -29,8 +29,10 @@ function [ opt ] = plot3d( sol, opt, prr, prw )
 %              'default'                'ptabs+vec', without friction 'pn'
 %   exterval   value at elements out of contact; NaN (default): not drawn; []: as stored in sol
 %              any other array of the struct, by its name
-%   rw_surf    (also: rw_surfc) 'none' (default): flat; 'prr': on the rail surface; 'prw': on the wheel surface; 'both': on
-%              the rail with the wheel added
+%   rw_surf    'none' (default): flat; 'prr': on the rail surface; 'prw': on the wheel surface; 'both': on the rail with the
+%              wheel added, in rail coordinates
+%   rw_surfc   the same as other scripts call it; 'both' in rear and side view is then in track coordinates. A profile that is
+%              not given is left out, with a warning
 %   typplot    'surf' (default), 'contourf', or with profiles 'rw_rear', 'rw_side': rear and side view; the
 %              largest value of each row or column is then drawn as a bar along the surface normal
 %
@@ -41,7 +43,7 @@ function [ opt ] = plot3d( sol, opt, prr, prw )
 %   xrange     range of x [mm] of the surfaces and of the side view (default: the contact and its surroundings)
 %   xysteps    distance of thin lines on surfaces [mm], dxy or [dx dy] (default: found from their size)
 %   zrange     range of the values for heights and colours
-%   ixrange, iyrange   numbers of the first and last element to be shown; 'auto' (default): the
+%   ixrange, iyrange   numbers of the first and last element to be shown; 'auto' (default) or 'tight': the
 %              contact area and one element more; 'all': the whole grid
 %   numvecx, numvecy   largest number of arrows in x- and y-direction (default 15)
 %   xstretch   factor of lengths in x-direction against those in y-direction; 1 (default): to scale. A single row or
@@ -50,9 +52,9 @@ function [ opt ] = plot3d( sol, opt, prr, prw )
 %   veccolor   their colour (default 'b' for 'ptvec' and bars, else 'k'), vecwidth their line width
 %   addeldiv   1: lines around the contact area and the areas of slip and plasticity; 0: none; [] (default):
 %              with arrows on colours only. In pictures from above
-%   eldivcol   colours of these lines, 3 x 3 array; eldivwid their line width
+%   eldivcol   colours of these lines, 3 x 3 array or 3 letters; eldivwid their line width
 %   colormap   name or array; 'none' or 'black': black lines on white
-%   addplot    1: do not clear the figure, draw into the current axes; 0 (default)
+%   addplot    1: do not clear the figure, draw into the current axes; -1: clear these axes only; 0 (default)
 %
 % See also: loadcase, plot2d, read_profile.
 
@@ -73,8 +75,11 @@ function [ opt ] = plot3d( sol, opt, prr, prw )
    if (nargin<4)
       prw = [];
    end
-   if (isstruct(opt) && isfield(opt, 'rw_surfc'))
-      % the name in other scripts
+   if (nargin>4 && ~isempty(subs))
+      error('plot3d: stresses below the surface are not drawn into the contact; plotstrs shows them.');
+   end
+   other_script = (isstruct(opt) && isfield(opt, 'rw_surfc'));
+   if (other_script)
       opt.rw_surf = opt.rw_surfc;
       opt = rmfield(opt, 'rw_surfc');
    end
@@ -87,8 +92,15 @@ function [ opt ] = plot3d( sol, opt, prr, prw )
    one_of(opt.rw_surf, {'none','prr','prw','both'}, 'rw_surf');
    one_of(opt.typplot, {'surf','contourf','rw_rear','rw_side'}, 'typplot');
    if (isempty(sol))
-      error('plot3d: there is no contact patch to be plotted.');
+      warning('plot3d: there is no contact patch to be plotted.');
+      return
    end
+   sol = completed(sol);
+   opt.field = strrep(opt.field, '_vec', '+vec');
+   if (other_script)
+      opt.rw_surf = surface_at_hand(sol, opt.rw_surf, prr, prw);
+   end
+   opt.in_track = (other_script && strcmp(opt.rw_surf, 'both'));
 
    with_profiles = ~strcmp(opt.rw_surf, 'none');
    if (any(strcmp(opt.typplot, {'rw_rear','rw_side'})) && ~with_profiles)
@@ -100,6 +112,8 @@ function [ opt ] = plot3d( sol, opt, prr, prw )
 
    if (~opt.addplot)
       clf
+   elseif (opt.addplot==-1)
+      cla
    end
    hold on
    switch (opt.typplot)
@@ -118,9 +132,50 @@ function [ opt ] = plot3d( sol, opt, prr, prw )
    end
    if (nargout<1)
       clear opt
+   else
+      opt = rmfield(opt, 'in_track');
    end
 
 end % function plot3d
+
+%------------------------------------------------------------------------------------------------------
+
+function [ sol ] = completed( sol )
+% What a struct that was put together by hand from results of the library may lack
+
+   if (~isfield(sol,'x_offset'))
+      [sol.x_offset] = deal([]);
+   end
+   if (~isfield(sol,'y_offset'))
+      [sol.y_offset] = deal([]);
+   end
+   if (~isfield(sol,'x') || ~isfield(sol,'y'))
+      for i = 1 : numel(sol)
+         sol(i).x = sol(i).xl + ((1:sol(i).mx) - 0.5) * sol(i).dx;
+         sol(i).y = sol(i).yl + ((1:sol(i).my) - 0.5) * sol(i).dy;
+      end
+   end
+   if (~isfield(sol,'kincns'))
+      [sol.kincns] = deal(struct('t_digit',3));
+   end
+
+end % function completed
+
+%------------------------------------------------------------------------------------------------------
+
+function [ surface ] = surface_at_hand( sol, surface, prr, prw )
+% The surface that other scripts ask for, without profiles that are not there
+
+   bodies = {'prr','prw'};
+   there  = [~isempty(prr) || isfield(sol,'prr'), ~isempty(prw) || isfield(sol,'prw')];
+   asked  = strcmp(surface, 'both') | strcmp(surface, bodies);
+   if (any(asked & ~there))
+      warning('plot3d: rw_surfc = ''%s'' without the profile; it is left out.', surface);
+      left = [bodies(asked & there), {'none'}];
+      surface = left{1};
+   end
+
+end % function surface_at_hand
 
 %------------------------------------------------------------------------------------------------------
 

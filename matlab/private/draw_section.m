@@ -1,7 +1,7 @@
 function draw_section( sol, opt, prr, prw, which )
 % DRAW_SECTION  Rear view (y,z) or side view (x,z) of PLOT3D: outlines of rail and wheel, with bars for the values.
 %
-% Rail coordinates are used, for rw_surf = 'prw' wheel coordinates. Each row of elements (side view: column) gives
+% Rail coordinates are used, for rw_surf = 'prw' wheel coordinates, with opt.in_track those of the track. Each row of elements (side view: column) gives
 % the value of largest magnitude, drawn from the surface along the normal of the contact into the body.
 
    body = 'r';
@@ -9,6 +9,7 @@ function draw_section( sol, opt, prr, prw, which )
       body = 'w';
    end
    rear = strcmp(which, 'rear');
+   before = get(gca, 'children');
    if (~rear)
       xrange = shown_range(sol, opt.xrange, 1, 0.5);
       if (isempty(opt.xrange))
@@ -52,6 +53,11 @@ function draw_section( sol, opt, prr, prw, which )
       end
    end
 
+   named = body;
+   if (opt.in_track)
+      to_track(setdiff(get(gca, 'children'), before), sol(1).meta, rear, c.y);
+      named = 'tr';
+   end
    f = field_values(sol(1), opt.field);
    set(gca, 'ydir','reverse');
    axis equal
@@ -64,12 +70,29 @@ function draw_section( sol, opt, prr, prw, which )
    box on
    grid on
    horizontal = 'xy';
-   xlabel(sprintf('%s_{%s} [mm]', horizontal(1+rear), body));
-   ylabel(sprintf('z_{%s} [mm]', body));
+   xlabel(sprintf('%s_{%s} [mm]', horizontal(1+rear), named));
+   ylabel(sprintf('z_{%s} [mm]', named));
    views = {'side view','rear view'};
    title(sprintf('%s [%s], %s', f.title, f.unit, views{1+rear}));
 
 end % function draw_section
+
+%------------------------------------------------------------------------------------------------------
+
+function to_track( lines, m, rear, y )
+% Moves what was drawn in rail coordinates to those of the track; in a side view at the lateral position of the contact
+
+   for h = lines(:)'
+      a = get(h, 'xdata');
+      b = get(h, 'ydata');
+      if (rear)
+         y = a;
+         set(h, 'xdata', m.y_r + cos(m.roll_r)*y - sin(m.roll_r)*b);
+      end
+      set(h, 'ydata', m.z_r + sin(m.roll_r)*y + cos(m.roll_r)*b);
+   end
+
+end % function to_track
 
 %------------------------------------------------------------------------------------------------------
 

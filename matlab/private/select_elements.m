@@ -14,7 +14,7 @@ function [ list ] = one_range( range, used, name )
    n = numel(used);
    if (isempty(range) || strcmp(range,'all'))
       list = 1 : n;
-   elseif (strcmp(range,'auto'))
+   elseif (any(strcmp(range,{'auto','tight'})))
       list = max(1,find(used,1)-1) : min(n,find(used,1,'last')+1);
       if (isempty(list))
          list = 1 : n;

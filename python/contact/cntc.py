@@ -18,7 +18,7 @@ from typing import Any, Union
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._library import call, text
+from ._library import call, library, text
 from ._signatures import MAGIC_NUMBERS
 
 Number = Union[int, Sequence[int], None]
@@ -370,6 +370,38 @@ def settrackdimensions(ire: Number, ztrack: int, params: ArrayLike | None = None
     rail; 3 both; 32, 33 springs."""
     reals = _reals(params if ztrack != 0 else None)
     call("cntc_settrackdimensions", _element(ire), ztrack, reals.size, reals)
+
+
+def settrackdimensions_new(ire: Number, ztrack: int, params: ArrayLike | None = None) -> None:
+    """An older name of settrackdimensions."""
+    settrackdimensions(ire, ztrack, params)
+
+
+def settrackdimensions_old(ire: Number, ztrack: int, params: ArrayLike) -> None:
+    """Track by an older order of values.
+
+    Parameters
+    ----------
+    ztrack
+        1 dimensions, 2 deviations of the rail, 3 both.
+    params
+        For 1 gaugwd, gaught [L], cant [angle], nomrad [L]; for 2 dyrail, dzrail [L], drollr [angle], vyrail, vzrail [L/T],
+        vrollr [angle/T]; for 3 both lists.
+
+    Raises
+    ------
+    ValueError
+        If ztrack or the number of values is something else.
+    """
+    reals = _reals(params)
+    if {1: 4, 2: 6, 3: 10}.get(ztrack) != reals.size:
+        raise ValueError(f"settrackdimensions_old with ztrack = {ztrack} and {reals.size} values; known are 1 with 4, 2 with 6, "
+                         "3 with 10")
+    if ztrack != 2:
+        width, height, cant, radius = reals[:4]
+        # measured at a height, no second point; the curvature of the track is not known to this routine
+        reals = np.concatenate(([height, 0.0, width, cant, radius], reals[4:]))
+    settrackdimensions(ire, ztrack, reals)
 
 
 def setwheelsetdimensions(ire: Number, ewheel: int, params: ArrayLike | None = None) -> None:
@@ -742,7 +774,9 @@ def subs_getresults(ire: Number, icp: Number, iblk: Number, icol: ArrayLike) -> 
 
 
 def __getattr__(name: str) -> Any:
-    """Names with cntc_ as in the library"""
+    """Names with cntc_ as in the library; cntc_dll, the library as ctypes has it"""
+    if name == "cntc_dll":
+        return library()
     if name.startswith("cntc_") and name[5:] in globals():
         return globals()[name[5:]]
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -13,6 +13,7 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "con
 from checks import SOURCE, check, close, finish, same
 import contact
 import numpy as np
+import python_intfc
 from contact import _signatures, cntc
 from contact._view import meaning_of
 
@@ -51,8 +52,8 @@ def solved(units="mm", motion="steady"):
         return problem.solve(), problem.stresses()
 
 
-def wheel():
-    """A wheel on a rail"""
+def wheel(track=None):
+    """A wheel on a rail; track replaces how the track is given"""
     with contact.WheelRail() as pair:
         pair.set_material(g=82000.0, nu=0.28)
         pair.set_friction(0.3)
@@ -61,6 +62,8 @@ def wheel():
         pair.set_wheelset(flange_back=1360.0, flange_back_position=-70.0, radius=460.0)
         pair.set_rail(os.path.join(SOURCE, "examples/profiles/60E1.prr"))
         pair.set_wheel(os.path.join(SOURCE, "examples/profiles/S1002.prw"))
+        if track:
+            track(pair.number)
         pair.set_position(y=2.0, yaw=0.0048)
         pair.set_velocity(2000.0, pitch=-2000.0 / 460.0)
         pair.set_vertical_force(10e3)
@@ -218,6 +221,17 @@ def layer():
         raises(ValueError, lambda: cntc.setinterfaciallayer(number, 1, 4, [1.0]), "4 with 4")
 
 
+def track(expected):
+    """Older routines for the track, which scripts of others still call, and the library itself"""
+    by_old = wheel(lambda number: python_intfc.settrackdimensions_old(number, 3, [1435.0, 14.0, 0.025, 0.0] + 6 * [0.0]))
+    same(by_old.forces.track.force.tolist(), expected.forces.track.force.tolist(), "gauge width and height in the older order")
+    by_new = wheel(lambda number: python_intfc.cntc_settrackdimensions_new(number, 1, [14.0, 0.0, 1435.0, 0.02, 0.0]))
+    check(abs(by_new.forces.track.force[1] - expected.forces.track.force[1]) > 1.0, "another cant by the older name")
+    raises(ValueError, lambda: python_intfc.settrackdimensions_old(1, 1, [1435.0]), "1 with 4")
+    check(python_intfc.cntc_dll.cntc_initialize is not None, "the library as ctypes has it")
+    raises(AttributeError, lambda: python_intfc.cntc_nothing, "cntc_nothing")
+
+
 if __name__ == "__main__":
     everything = (*solved(), wheel())
     printed(*everything)
@@ -226,4 +240,5 @@ if __name__ == "__main__":
     data_sets(*everything)
     loaded(sys.argv[1])
     layer()
+    track(everything[-1])
     finish()

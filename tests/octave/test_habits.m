@@ -150,3 +150,25 @@ check_error(@() make_spline(x, x(2:end), [], 0), 'same number of points');
 
 % --- colours
 check(isequal(size(matlab_color([1 2 8])), [3 3]) && isequal(matlab_color(8), matlab_color(1)), 'colours in turn');
+
+% --- curves: points, derivatives, positions along a profile
+t = linspace(0, pi, 400)';
+arc = make_spline([], 10*cos(t), 10*sin(t));
+[~, yy, zz] = eval_spline(arc, [5; 15.7; 100]);
+check_near(hypot(yy, zz), [10; 10; 10], 1e-5, 'points on a circle, the last one at its end');
+check_near(yy(3), -10, 1e-6, 'behind the end');
+[ss, yy, zz] = eval_spline(arc, [], [7; 0; -3]);
+check_near([zz ss], [sqrt(100-[7;0;-3].^2) 10*acos([0.7;0;-0.3])], 1e-3, 'positions of given y');
+check(isnan(eval_spline(arc, [], 11)), 'there is none');
+[dy, ~, dz, ~, kappa, r] = eval_spline_deriv(arc, [3; 8; 20]);
+check_near(hypot(dy, dz), [1; 1; 1], 1e-5, 'unit tangents');
+check_near([kappa r], [0.1 10; 0.1 10; 0.1 10], 1e-2, 'curvature of the circle and its radius');
+check_near(arc.ay1, arc.a1y, 0, 'coefficients by both names');
+check_near(make_arclength([-3;0;3], [4;0;4]), [-5;0;5], 1e-12, 'zero where y is zero');
+check_error(@() eval_spline(arc), 'either positions');
+
+% --- names of contact positions that other scripts read
+sol = parse_out1('manchester');
+check(isequaln([sol.cp_pos.xtr sol.cp_pos.ytr sol.cp_pos.ztr sol.cp_pos.yr sol.cp_pos.zr sol.cp_pos.xw sol.cp_pos.yw sol.cp_pos.zw], ...
+               [sol.cp_pos.xcp_tr sol.cp_pos.ycp_tr sol.cp_pos.zcp_tr sol.cp_pos.ycp_r sol.cp_pos.zcp_r sol.cp_pos.xcp_w ...
+                sol.cp_pos.ycp_w sol.cp_pos.zcp_w]), 'xtr ... zw');

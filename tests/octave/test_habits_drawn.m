@@ -88,3 +88,56 @@ plot_2dspline([], slcs, opt);
 h = findobj(gca, 'type','surface');
 check(isempty(setdiff(unique(get(h(1), 'cdata')), [0 1])), 'stripes');
 check_error(@() plot_2dspline(slcs, struct('typplot','sphere')), 'is none of');
+
+% rear view of both profiles: track coordinates, as scripts set their axes there
+opt = plot3d;
+opt.rw_surfc = 'both';
+opt.typplot  = 'rw_rear';
+opt.field    = 'pn';
+figure(6);   plot3d(s, opt, prr, prw);
+h = findobj(gca, 'marker','o');
+out = parse_out1('manchester');
+check_near([get(h(1), 'xdata') get(h(1), 'ydata')], [out.cp_pos.ytr(1) out.cp_pos.ztr(1)], 2e-3, 'the contact is where the .out file has it');
+check(strcmp(get(get(gca,'xlabel'),'string'), 'y_{tr} [mm]'), 'its axis');
+opt = rmfield(opt, 'rw_surfc');
+opt.rw_surf = 'both';
+plot3d(s, opt, prr, prw);
+h = findobj(gca, 'marker','o');
+check_near([get(h(1), 'xdata') get(h(1), 'ydata')], [out.cp_pos.yr(1) out.cp_pos.zr(1)], 2e-3, 'rail coordinates by our name');
+
+% what is not there is left out
+opt = plot3d;
+opt.rw_surfc = 'both';
+lastwarn('');
+figure(7);   plot3d(s, opt, prr);
+check(~isempty(strfind(lastwarn(), 'left out')), 'no wheel');
+plot3d([], opt);
+check(~isempty(strfind(lastwarn(), 'no contact patch')), 'no contact');
+check_error(@() plot3d(s, plot3d, prr, prw, struct('x',0)), 'plotstrs');
+
+% names, letters, axes, and a struct put together by hand
+hand = rmfield(s, {'x','y','x_offset','y_offset','kincns'});
+opt = plot3d;
+opt.field    = 'srel_vec';
+opt.eldivcol = ['b';'m';'g'];
+opt.ixrange  = 'tight';
+opt.view     = [0 90];
+hand.kincns  = struct('t_digit',3, 'veloc',1);
+figure(8);   subplot(1,2,1);   plot(1:2);   subplot(1,2,2);   plot(1:2);
+opt.addplot  = -1;
+plot3d(hand, opt);
+check(numel(findobj(gcf, 'type','axes'))>=2 && ~isempty(findobj(gca, 'color',[0 0 1])), 'one of two axes is drawn anew');
+check_near(hand.xl + hand.dx/2, s.x(1), 1e-12, 'the grid of a struct without x');
+
+% a profile and what was worn off
+worn = prr;
+worn.ProfileZ = prr.ProfileZ + 1e-3*(abs(prr.ProfileY)<20);
+figure(9);   [most, l, n] = plot_update(prr, worn, 500, 10);
+check(most<=1e-3+1e-12 && most>0.99e-3 && numel(l)==3 && ~isempty(n), 'largest difference along the normal');
+z = get(l(3), 'ydata');
+k = find(abs(prr.ProfileY)==min(abs(prr.ProfileY)), 1);
+check_near(z(k) - prr.ProfileZ(k), 0.5, 1e-3, 'magnified');
+every = worn;
+every.ProfileY = worn.ProfileY(1:2:end);
+every.ProfileZ = worn.ProfileZ(1:2:end);
+check_near(plot_update(prr, every, 500), most, 1e-5, 'profiles with other points');

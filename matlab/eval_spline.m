@@ -1,0 +1,59 @@
+function [ s, y, z ] = eval_spline( spl, s_in, y_in, idebug )
+% EVAL_SPLINE  Points on a spline of MAKE_SPLINE, at given positions or at given y.
+%
+%   [s, y, z] = eval_spline( spl, s_in )
+%   [s, y, z] = eval_spline( spl, [], y_in )
+%
+%   spl      struct of make_spline
+%   s_in     positions along the curve; before and behind its ends the ends are taken
+%   y_in     values of y; the first position from the start of the spline is taken that has them, NaN where there is none
+%   idebug   for scripts that give it; nothing is printed
+%
+%   s, y, z  arrays like the input; z is [] for a spline without
+%
+% See also: make_spline, eval_spline_deriv.
+
+   if (nargin<2), s_in = []; end
+   if (nargin<3), y_in = []; end
+   if (isempty(s_in) == isempty(y_in))
+      error('eval_spline: either positions s_in or values y_in are needed.');
+   end
+   s = s_in;
+   if (isempty(s))
+      s = reshape(arrayfun(@(v) position_of(spl, v), y_in), size(y_in));
+   end
+   y = y_in;
+   if (isempty(y))
+      y = spline_values(spl, 'y', s, 0);
+   end
+   z = [];
+   if (~isempty(spl.z))
+      z = spline_values(spl, 'z', s, 0);
+   end
+
+end % function eval_spline
+
+%------------------------------------------------------------------------------------------------------
+
+function [ s ] = position_of( spl, v )
+% The first root of y(s) = v
+
+   s = NaN;
+   h = diff(spl.s);
+   n = numel(h);
+   a = [spl.a0y(1:n)-v, spl.a1y(1:n), spl.a2y(1:n), spl.a3y(1:n)];
+   for i = 1 : n
+      % a cubic stays within the hull of its Bernstein coefficients
+      b = [a(i,1), a(i,1)+a(i,2)*h(i)/3, a(i,1)+2*a(i,2)*h(i)/3+a(i,3)*h(i)^2/3, a(i,:)*h(i).^(0:3)'];
+      if (min(b)<=0 && max(b)>=0)
+         d = roots(a(i,end:-1:1));
+         d = real(d(abs(imag(d))<=1e-9*max(1,abs(d))));
+         d = d(d>=-1e-9*h(i) & d<=(1+1e-9)*h(i));
+         if (~isempty(d))
+            s = spl.s(i) + min(max(min(d), 0), h(i));
+            return
+         end
+      end
+   end
+
+end % function position_of

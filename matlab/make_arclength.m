@@ -1,0 +1,18 @@
+function [ s ] = make_arclength( y, z )
+% MAKE_ARCLENGTH  Positions of the points of a profile along it: sums of chords, zero where y is zero.
+%
+%   s = make_arclength( y, z )
+%
+%   y, z     coordinates of the points
+%   s        column of positions; they start at zero where y has no zero, or several
+%
+% See also: make_spline, eval_spline.
+
+   y = y(:);
+   s = chord_sums(y, z);
+   i = find(y(1:end-1)<=0 & y(2:end)>0 | y(1:end-1)>=0 & y(2:end)<0);
+   if (numel(i)==1)
+      s = s - interp1(y([i i+1]), s([i i+1]), 0);
+   end
+
+end % function make_arclength
