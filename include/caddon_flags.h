@@ -54,6 +54,7 @@ enum caddon_flags {
   CNTC_own_classical = 9006, /* solvers that G names: 0 the default solver acts in their place, to a residual as small, where it can; 1 they run */
   CNTC_own_order = 9007, /* discretisation of steady rolling: 1 the established one, 2 of second order in the size of elements */
   CNTC_own_errors = 9008, /* errors of the totals are estimated by each calculation: 0 no, 1 yes, see cntc_geterrors */
+  CNTC_own_wear = 9011, /* wear and fatigue are told: 0 no, 1 yes, see cntc_setwear and cntc_getwear */
   CNTC_own_accuracy = 9009, /* accuracy of the forces that is asked for in place of a grid: 10 to 1000000, one part in so many; 0 none: the grid is the caller's */
   CNTC_own_reached = 9010, /* read only, has the last calculation reached the accuracy that was asked for? 0 no, or none was, 1 yes */
   /* Data that go along into the .mat files */
@@ -84,6 +85,8 @@ enum caddon_flags {
   CNTC_fld_temp2 = 21, /* surface temperature of body 2 [degC] */
   CNTC_fld_wx = 22, /* longitudinal rigid slip, relative [-]; longitudinal rigid shift [mm] */
   CNTC_fld_wy = 23, /* lateral rigid slip, relative [-]; lateral rigid shift [mm] */
+  CNTC_fld_power = 25, /* density of frictional power [W/mm2] */
+  CNTC_fld_wear = 26, /* depth that a passage or a shift wears off [L] */
   /* Kinds of input files of cntc_readinpfile */
   CNTC_inp_vamp = 1984, /* not available */
   CNTC_inp_modul1 = 1988, /* input of wheel/rail contact */

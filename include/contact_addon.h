@@ -107,6 +107,11 @@ void cntc_setmaterialparameters(const int *ire, const int *icp, const int *imeth
 void cntc_settemperaturedata(const int *ire, const int *icp, const int *imeth, const int *nparam,
                              const double *params);
 
+/* Set numbers of wear and fatigue, and the flag CNTC_own_wear.
+ *   params: Archard's wear coefficient [-], hardness of the softer body [F/L2], which it needs,
+ *       and yield stress in cyclic shear [F/L2]; 0: not given */
+void cntc_setwear(const int *ire, const int *icp, const int *nparam, const double *params);
+
 /* Set the time step of shifts.
  *   dt: time step [T] */
 void cntc_settimestep(const int *ire, const int *icp, const double *dt);
@@ -402,6 +407,15 @@ void cntc_getmaximumtemperature(const int *ire, const int *icp, double *t1max, d
  *       energy [J], the highest temperature of body 1 [degC]; not negative, -1 for what is given
  *       or has no estimate */
 void cntc_geterrors(const int *ire, const int *icp, const int *lenarr, double *rvalues);
+
+/* Get totals of wear and fatigue of a patch, after a calculation with the flag CNTC_own_wear =
+ * 1.
+ *   rvalues: T-gamma [F], wear index [F/L2], largest density of frictional power [W/mm2],
+ *       largest depth [L] and area of the section [L2] that a passage wears off, tangential over
+ *       normal force [-], largest pressure over yield stress in shear [-], the same over its
+ *       shakedown limit [-], surface fatigue index [-], largest von Mises and Tresca stress at
+ *       points below the surface [F/L2]; 0 for what the case has not */
+void cntc_getwear(const int *ire, const int *icp, const int *lenarr, double *rvalues);
 
 /* Get one field for each element.
  *   ifld: CNTC_fld_*

@@ -56,6 +56,7 @@
 %   cntc_setsolverflags         - set solution methods and their parameters by the G digit.
 %   cntc_setmaterialparameters  - set the material by the M digit, or damping by 10 + the M2 digit.
 %   cntc_settemperaturedata     - set thermal data by the H digit.
+%   cntc_setwear                - set numbers of wear and fatigue, and the flag CNTC_own_wear.
 %   cntc_settimestep            - set the time step of shifts.
 %   cntc_setrollingstepsize     - set rolling direction and step.
 %   cntc_setfrictionmethod      - set the friction law, imeth = 10 V + L.
@@ -113,6 +114,7 @@
 %   cntc_getmaximumtraction     - get the largest tangential traction.
 %   cntc_getmaximumtemperature  - get the largest surface temperatures.
 %   cntc_geterrors              - get the estimated errors of the totals of a patch, after a calculation with the flag CNTC_own_errors = 1.
+%   cntc_getwear                - get totals of wear and fatigue of a patch, after a calculation with the flag CNTC_own_wear = 1.
 %   cntc_getfielddata           - get one field for each element.
 %   cntc_gettractions           - get the tractions of each element.
 %   cntc_getmicroslip           - get the slip of each element.

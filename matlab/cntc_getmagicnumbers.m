@@ -62,6 +62,7 @@ function [ CNTC ] = cntc_getmagicnumbers( )
 %   CNTC.own_classical solvers that G names: 0 the default solver acts in their place, to a residual as small, where it can; 1 they run
 %   CNTC.own_order    discretisation of steady rolling: 1 the established one, 2 of second order in the size of elements
 %   CNTC.own_errors   errors of the totals are estimated by each calculation: 0 no, 1 yes, see cntc_geterrors
+%   CNTC.own_wear     wear and fatigue are told: 0 no, 1 yes, see cntc_setwear and cntc_getwear
 %   CNTC.own_accuracy accuracy of the forces that is asked for in place of a grid: 10 to 1000000, one part in so many; 0 none: the grid is the caller's
 %   CNTC.own_reached  read only, has the last calculation reached the accuracy that was asked for? 0 no, or none was, 1 yes
 %
@@ -96,6 +97,8 @@ function [ CNTC ] = cntc_getmagicnumbers( )
 %   CNTC.fld_temp2    surface temperature of body 2 [degC]
 %   CNTC.fld_wx       longitudinal rigid slip, relative [-]; longitudinal rigid shift [mm]
 %   CNTC.fld_wy       lateral rigid slip, relative [-]; lateral rigid shift [mm]
+%   CNTC.fld_power    density of frictional power [W/mm2]
+%   CNTC.fld_wear     depth that a passage or a shift wears off [L]
 %
 % Kinds of input files of cntc_readinpfile
 %
@@ -167,6 +170,7 @@ function [ CNTC ] = cntc_getmagicnumbers( )
    CNTC.own_classical = 9006;
    CNTC.own_order = 9007;
    CNTC.own_errors = 9008;
+   CNTC.own_wear = 9011;
    CNTC.own_accuracy = 9009;
    CNTC.own_reached = 9010;
    CNTC.mt_tim = 2011;
@@ -195,6 +199,8 @@ function [ CNTC ] = cntc_getmagicnumbers( )
    CNTC.fld_temp2 = 21;
    CNTC.fld_wx = 22;
    CNTC.fld_wy = 23;
+   CNTC.fld_power = 25;
+   CNTC.fld_wear = 26;
    CNTC.inp_vamp = 1984;
    CNTC.inp_modul1 = 1988;
    CNTC.inp_spck = 1990;

@@ -138,6 +138,12 @@ class Patch(View):
     errors
         Estimated errors of totals by their names in files and in the units of these, ``errors["fx"]``; without what is given or
         has no estimate. None without :meth:`Problem.set_errors` or an accuracy.
+    wear
+        Totals of wear and fatigue by their names in files, ``wear["t_gamma"]``, see doc/user/studies.md; 0 for what the case has
+        not. None without :meth:`Problem.set_wear`.
+    power, wear_depth
+        Density of frictional power in rolling [W/mm2], not negative but for rounding; depth that a passage of the contact, or a
+        shift, wears off in each element [L]. None without them, and where nothing is worn off.
     """
 
     x: Field
@@ -171,6 +177,9 @@ class Patch(View):
     units: str
     motion: str
     errors: dict[str, float] | None
+    wear: dict[str, float] | None
+    power: Field | None
+    wear_depth: Field | None
 
     def fields(self) -> dict[str, Any]:
         """Element fields of shape (my, mx) by names in files: ``eldiv`` is the state, ``h`` the distance, ``mu`` the friction."""
@@ -179,6 +188,10 @@ class Patch(View):
             found.update(px=self.px, py=self.py, ux=self.ux, uy=self.uy, sx=self.sx, sy=self.sy)
         if self.temperatures is not None:
             found.update(temp1=self.temperatures[0], temp2=self.temperatures[1])
+        if self.power is not None:
+            found["power"] = self.power
+        if self.wear_depth is not None:
+            found["wear"] = self.wear_depth
         return found
 
     def totals(self) -> dict[str, float]:
@@ -187,6 +200,7 @@ class Patch(View):
         motion = {"shift": ("shift_x", "shift_y", "rotation"), "frictionless": ()}.get(self.motion, ("cksi", "ceta", "cphi"))
         found.update(zip(motion, (self.cksi, self.ceta, self.cphi)))
         found["contact_area"] = self.contact_area
+        found.update(self.wear or {})
         counts = {"ncon": self.state > 0, "nadh": self.state == 1, "nslip": self.state == 2, "nplast": self.state == 3}
         found.update({name: int(np.count_nonzero(where)) for name, where in counts.items() if name != "nplast" or where.any()})
         return found
@@ -218,8 +232,8 @@ def read_patch(ire: int, icp: int, units: str = "mm", motion: str = "steady") ->
     mx, my, x, y, dx, dy = cntc.getpotcontact(ire, icp)
     fn, fx, fy, mz = cntc.getcontactforces(ire, icp)
     areas = cntc.getcontactpatchareas(ire, icp)
-    heat, border, *wants_errors = cntc.getflags(ire, icp, [CNTC[name] for name in ("ic_heat", "own_border", "own_errors",
-                                                                                   "own_accuracy")])
+    heat, border, wants_wear, *wants_errors = cntc.getflags(ire, icp, [CNTC[name] for name in (
+        "ic_heat", "own_border", "own_wear", "own_errors", "own_accuracy")])
     temperatures = None
     if heat:
         temperatures = np.stack([cntc.getfielddata(ire, icp, CNTC[name]) for name in ("fld_temp1", "fld_temp2")])
@@ -231,7 +245,7 @@ def read_patch(ire: int, icp: int, units: str = "mm", motion: str = "steady") ->
                  cntc.getelementdivision(ire, icp), pn, px, py, un, ux, uy, sx, sy,
                  cntc.getfielddata(ire, icp, CNTC["fld_h"]), cntc.getfielddata(ire, icp, CNTC["fld_mu"]), temperatures,
                  tuple(name for bit, name in enumerate(_SIDES) if border >> bit & 1), units, motion,
-                 _errors(ire, icp, motion) if any(wants_errors) else None)
+                 _errors(ire, icp, motion) if any(wants_errors) else None, *_wear(ire, icp, motion, bool(wants_wear)))
 
 
 def _errors(ire: int, icp: int, motion: str) -> dict[str, float]:
@@ -239,6 +253,17 @@ def _errors(ire: int, icp: int, motion: str) -> dict[str, float]:
     moved = ("shift_x", "shift_y", "friction_work") if motion == "shift" else ("cksi", "ceta", "friction_power")
     names = ("fn", "fx", "fy", "mz", "pen", "pmax", "contact_area", *moved, "elastic_energy", "max_temp1")
     return {name: float(error) for name, error in zip(names, cntc.geterrors(ire, icp)) if error >= 0.0}
+
+
+def _wear(ire: int, icp: int, motion: str, wanted: bool) -> tuple[dict[str, float] | None, Field | None, Field | None]:
+    """Totals of wear and fatigue by their names, density of power, depth"""
+    if not wanted:
+        return None, None, None
+    names = ("t_gamma", "wear_index", "max_power", "max_wear", "worn_section", "traction", "shakedown_load", "shakedown",
+             "fatigue_index", "max_mises", "max_tresca")
+    found = {name: float(value) for name, value in zip(names, cntc.getwear(ire, icp))}
+    return (found, cntc.getfielddata(ire, icp, CNTC["fld_power"]) if motion in ("steady", "transient") else None,
+            cntc.getfielddata(ire, icp, CNTC["fld_wear"]) if found["max_wear"] > 0.0 else None)
 
 
 def buried_ends(ire: int) -> tuple[str, ...]:
@@ -436,6 +461,20 @@ class Element:
     def set_errors(self, wanted: bool = True) -> None:
         """Estimate the errors of the totals in each solution, for 5 to 30 % more time; see ``errors`` of the results."""
         self.set_flags(own_errors=int(wanted))
+
+    def set_wear(self, archard: float = 0.0, hardness: float = 0.0, shear_yield: float = 0.0) -> None:
+        """Tell wear and fatigue with each solution, see ``wear``, ``power`` and ``wear_depth`` of the results.
+
+        Parameters
+        ----------
+        archard
+            Archard's wear coefficient, of the user's materials and conditions [-]; 0: no depths.
+        hardness
+            Of the softer body [F/L2], which the coefficient needs.
+        shear_yield
+            Yield stress in cyclic shear [F/L2]; 0: no shakedown, no fatigue index.
+        """
+        self._do(cntc.setwear, self.number, self._icp, [archard, hardness, shear_yield])
 
     def set_material(self, g: float, nu: float, g2: float | None = None, nu2: float | None = None,
                      model: int = 0, parameters: Sequence[float] = ()) -> None:

@@ -26,6 +26,7 @@ SIGNATURES = {
     "cntc_setsolverflags": "ire:i icp:i gdigit:i nints:i iparam:I nreals:i rparam:D",
     "cntc_setmaterialparameters": "ire:i icp:i imeth:i nparam:i rparam:D",
     "cntc_settemperaturedata": "ire:i icp:i imeth:i nparam:i params:D",
+    "cntc_setwear": "ire:i icp:i nparam:i params:D",
     "cntc_settimestep": "ire:i icp:i dt:d",
     "cntc_setrollingstepsize": "ire:i icp:i chi:d dq:d",
     "cntc_setfrictionmethod": "ire:i icp:i imeth:i nparam:i params:D",
@@ -77,6 +78,7 @@ SIGNATURES = {
     "cntc_getmaximumtraction": "ire:i icp:i ptmax:>d",
     "cntc_getmaximumtemperature": "ire:i icp:i t1max:>d t2max:>d",
     "cntc_geterrors": "ire:i icp:i lenarr:i rvalues:>D",
+    "cntc_getwear": "ire:i icp:i lenarr:i rvalues:>D",
     "cntc_getfielddata": "ire:i icp:i ifld:i lenarr:i fld:>D",
     "cntc_gettractions": "ire:i icp:i lenarr:i pn:>D px:>D py:>D",
     "cntc_getmicroslip": "ire:i icp:i lenarr:i sx:>D sy:>D",
@@ -146,6 +148,7 @@ MAGIC_NUMBERS = {
     "own_classical": 9006,  # solvers that G names: 0 the default solver acts in their place, to a residual as small, where it can; 1 they run
     "own_order": 9007,  # discretisation of steady rolling: 1 the established one, 2 of second order in the size of elements
     "own_errors": 9008,  # errors of the totals are estimated by each calculation: 0 no, 1 yes, see cntc_geterrors
+    "own_wear": 9011,  # wear and fatigue are told: 0 no, 1 yes, see cntc_setwear and cntc_getwear
     "own_accuracy": 9009,  # accuracy of the forces that is asked for in place of a grid: 10 to 1000000, one part in so many; 0 none: the grid is the caller's
     "own_reached": 9010,  # read only, has the last calculation reached the accuracy that was asked for? 0 no, or none was, 1 yes
     # Data that go along into the .mat files
@@ -176,6 +179,8 @@ MAGIC_NUMBERS = {
     "fld_temp2": 21,  # surface temperature of body 2 [degC]
     "fld_wx": 22,  # longitudinal rigid slip, relative [-]; longitudinal rigid shift [mm]
     "fld_wy": 23,  # lateral rigid slip, relative [-]; lateral rigid shift [mm]
+    "fld_power": 25,  # density of frictional power [W/mm2]
+    "fld_wear": 26,  # depth that a passage or a shift wears off [L]
     # Kinds of input files of cntc_readinpfile
     "inp_vamp": 1984,  # not available
     "inp_modul1": 1988,  # input of wheel/rail contact
@@ -202,6 +207,7 @@ FIELDS = {
     "h": (("mm", "undeformed distance, approach not subtracted"),),
     "mu": (("-", "coefficient of friction"),),
     "pn": (("N/mm2", "pressure"),),
+    "power": (("W/mm2", "density of frictional power"),),
     "px": (("N/mm2", "longitudinal traction on body 1"),),
     "py": (("N/mm2", "lateral traction on body 1"),),
     "sx": (("-", "longitudinal slip, relative"), ("mm", "longitudinal slip distance"),),
@@ -214,6 +220,7 @@ FIELDS = {
     "uplsy": (("mm", "lateral plastic displacement"),),
     "ux": (("mm", "longitudinal displacement difference"),),
     "uy": (("mm", "lateral displacement difference"),),
+    "wear": (("mm", "depth that a passage or a shift wears off"),),
     "wx": (("-", "longitudinal rigid slip, relative"), ("mm", "longitudinal rigid shift"),),
     "wy": (("-", "lateral rigid slip, relative"), ("mm", "lateral rigid shift"),),
 }
@@ -234,6 +241,7 @@ TOTALS = {
     "dy_defl": ("mm", "lateral deflection of the rail"),
     "dz_defl": ("mm", "vertical deflection of the rail"),
     "elastic_energy": ("J", "elastic energy"),
+    "fatigue_index": ("-", "surface fatigue index, above 0: fatigue of the surface is expected"),
     "fn": ("N", "normal force"),
     "fn_damp": ("N", "normal damping force, not part of FN"),
     "force_trials": ("", "heights tried in a search for the vertical force, at most"),
@@ -251,9 +259,13 @@ TOTALS = {
     "fy_ws": ("N", "lateral force on the rail in wheelset coordinates"),
     "fz_tr": ("N", "vertical force on the rail in track coordinates"),
     "fz_ws": ("N", "vertical force on the rail in wheelset coordinates"),
+    "max_mises": ("N/mm2", "largest von Mises stress at the points below the surface"),
+    "max_power": ("W/mm2", "largest density of frictional power"),
     "max_temp": ("degC", "highest surface temperature"),
     "max_temp1": ("degC", "highest surface temperature of body 1"),
     "max_temp2": ("degC", "highest surface temperature of body 2"),
+    "max_tresca": ("N/mm2", "largest Tresca stress at the points below the surface"),
+    "max_wear": ("mm", "largest depth that a passage of the contact, or a shift, wears off"),
     "mu_scal": ("-", "friction coefficient of the relative forces"),
     "mx_r_tr": ("N mm", "roll moment about the rail marker, track axes"),
     "mx_w_ws": ("N mm", "roll moment about the wheel marker, wheelset axes"),
@@ -274,10 +286,16 @@ TOTALS = {
     "roll_ws": ("rad", "roll angle of the wheelset"),
     "rotation": ("rad", "rotation"),
     "s_ws": ("mm", "position of the wheelset along the track"),
+    "shakedown": ("-", "largest pressure over its shakedown limit, above 1: plastic strain goes on"),
+    "shakedown_load": ("-", "largest pressure over yield stress in shear"),
     "shift_x": ("mm", "longitudinal shift, given or found"),
     "shift_y": ("mm", "lateral shift, given or found"),
     "smallest_gap": ("mm", "smallest vertical gap, negative: overlap"),
+    "t_gamma": ("N", "forces times creepages, moment times spin: energy per distance rolled"),
+    "traction": ("-", "tangential over normal force"),
     "vpitch_ws": ("rad/s", "pitch rate of the wheelset, given or found"),
+    "wear_index": ("N/mm2", "T-gamma over the contact area"),
+    "worn_section": ("mm2", "area of the section that a passage of the contact wears off"),
     "x_elem": ("mm", "contact reference in the coordinates of the elements"),
     "x_w": ("mm", "wheel marker, longitudinal"),
     "xcp_tr": ("mm", "contact reference along the track"),

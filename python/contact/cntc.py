@@ -252,6 +252,13 @@ def settemperaturedata(ire: Number, icp: Number, imeth: int, params: ArrayLike |
     call("cntc_settemperaturedata", _element(ire), _problem(icp), imeth, reals.size, reals)
 
 
+def setwear(ire: Number, icp: Number, params: ArrayLike) -> None:
+    """Numbers of wear and fatigue, which are told from then on: Archard's wear coefficient [-], hardness of the softer body,
+    yield stress in cyclic shear [F/L2]; 0 for what is not given."""
+    reals = _reals(params)
+    call("cntc_setwear", _element(ire), _problem(icp), reals.size, reals)
+
+
 def settimestep(ire: Number, icp: Number, dt: float) -> None:
     """Time step [T] of shifts."""
     call("cntc_settimestep", _element(ire), _problem(icp, 1), dt)
@@ -639,6 +646,13 @@ def geterrors(ire: Number = 1, icp: Number = 1) -> Field:
     """Estimated errors of normal force, tangential forces, spin moment, approach, largest pressure, contact area, both creepages,
     frictional power, elastic energy and the highest temperature of body 1; -1 for none. Shape (12,)."""
     return _list_of("cntc_geterrors", 12, _element(ire), _patch(icp))
+
+
+def getwear(ire: Number = 1, icp: Number = 1) -> Field:
+    """T-gamma, wear index, largest density of frictional power, largest depth and area of the section of a passage, tangential
+    over normal force, largest pressure over yield stress and over its shakedown limit, surface fatigue index, largest von Mises
+    and Tresca stress; 0 for what the case has not. Shape (11,)."""
+    return _list_of("cntc_getwear", 11, _element(ire), _patch(icp))
 
 
 def _fields(routine: str, count: int, ire: Number, icp: Number, *more: int, dtype: Any = np.float64) -> list[Any]:

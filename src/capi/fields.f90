@@ -16,7 +16,7 @@ module contact_capi_fields
    private
 
    public :: cntc_getfielddata, cntc_gettractions, cntc_getmicroslip, cntc_getdisplacements, cntc_getelementdivision
-   public :: cntc_getmaximumpressure, cntc_getmaximumtraction, cntc_getmaximumtemperature, cntc_geterrors
+   public :: cntc_getmaximumpressure, cntc_getmaximumtraction, cntc_getmaximumtemperature, cntc_geterrors, cntc_getwear
 
 contains
 
@@ -148,6 +148,25 @@ contains
       call give_list(view%errors(names), lenarr, rvalues)
       call leave(problem)
    end subroutine cntc_geterrors
+
+   !> Totals of wear and fatigue of a patch; 0 for those that the case has not
+   subroutine cntc_getwear(ire, icp, lenarr, rvalues) bind(c, name="inside_cntc_getwear")
+      integer(c_int), intent(in), optional :: ire, icp, lenarr
+      real(c_double), intent(inout), optional :: rvalues(*)
+      type(library_problem), pointer :: problem
+      type(entry_type) :: this
+      type(result_view) :: view
+      character(len=16), parameter :: names(11) = [character(len=16) :: "t_gamma", "wear_index", "max_power", "max_wear", &
+         & "worn_section", "traction", "shakedown_load", "shakedown", "fatigue_index", "max_mises", "max_tresca"]
+
+      this = entry_type("cntc_getWear", integer_of(ire), integer_of(icp))
+      call enter_result(this, problem, view)
+      if (.not. associated(problem)) return
+      if (.not. allocated(view%patch%wear)) &
+         & call complain(this, "there is no wear: set the flag CNTC_own_wear, or call cntc_setwear, before the calculation")
+      call give_list(view%totals(names), lenarr, rvalues)
+      call leave(problem)
+   end subroutine cntc_getwear
 
    !> Largest pressure
    subroutine cntc_getmaximumpressure(ire, icp, pnmax) bind(c, name="inside_cntc_getmaximumpressure")

@@ -168,6 +168,8 @@ contains
             spec%classical = number /= 0
          case (flag%own_errors)
             spec%estimates_errors = number /= 0
+         case (flag%own_wear)
+            spec%has_wear = number /= 0
          case (flag%own_accuracy)
             if (number > 0 .and. number*largest_accuracy < 1.0_wp) then
                call complain(this, "an accuracy of one part in " // integer_text(number) // " is too rough; nothing is stored. " &
@@ -269,6 +271,7 @@ contains
             if (is_wheel_rail) number = merge(0, 1, spec%wheel_rail%search%angle_below_axle)
          case (flag%own_classical); number = merge(1, 0, spec%classical)
          case (flag%own_errors); number = merge(1, 0, spec%estimates_errors)
+         case (flag%own_wear); number = merge(1, 0, spec%has_wear)
          case (flag%own_accuracy)
             number = 0
             if (spec%iteration%accuracy > 0.0_wp) number = nint(1.0_wp/spec%iteration%accuracy)

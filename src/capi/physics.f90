@@ -6,8 +6,8 @@ module contact_capi_physics
    use contact_capi_problem, only : library_problem
    use contact_capi_setter, only : min_value, setter
    use contact_cases_inputs, only : visit_damping, visit_elastic, visit_friction_memory, visit_friction_set, visit_heat, &
-      & visit_iteration, visit_material_model, visit_sheet
-   use contact_cases_spec, only : damping_spec, friction_set, friction_spec, heat_spec, iteration_spec, material_spec
+      & visit_iteration, visit_material_model, visit_sheet, visit_wear
+   use contact_cases_spec, only : damping_spec, friction_set, friction_spec, heat_spec, iteration_spec, material_spec, wear_spec
    use contact_cases_whole_case, only : difference_parameter, quasi_identical
    use contact_control_digits, only : choice_of, digit_of
    use contact_friction_new_law, only : friction_model, is_friction_law
@@ -15,7 +15,7 @@ module contact_capi_physics
    implicit none (type, external)
    private
 
-   public :: set_friction, set_heat, set_materials, set_rolling_step, set_solver, set_tangential_forces, set_time_step
+   public :: set_friction, set_heat, set_materials, set_rolling_step, set_solver, set_tangential_forces, set_time_step, set_wear
 
    !> Prescribed tangential forces by the friction bound are shortened to this, because the bound itself is
    !> reached by infinite creepage only
@@ -133,6 +133,20 @@ contains
          problem%spec%heat = heat
       end associate
    end subroutine set_heat
+
+   !> Numbers of wear and fatigue, which are asked for by them
+   subroutine set_wear(a, problem)
+      type(setter), intent(inout) :: a
+      type(library_problem), intent(inout) :: problem
+      type(wear_spec), target :: wear
+
+      do while (a%next_pass())
+         call visit_wear(a, wear)
+      end do
+      if (.not. a%is_good) return
+      problem%spec%wear = wear
+      problem%spec%has_wear = .true.
+   end subroutine set_wear
 
    !> Time step; every solution derives its own from step and velocity
    subroutine set_time_step(a)

@@ -11,7 +11,7 @@ module contact_capi_settings
    use contact_capi_wheel_rail_settings, only : set_dimensions, set_flexibility, set_position, set_track, set_vertical_force, &
       & set_wheelset_velocity
    use contact_capi_physics, only : set_friction, set_heat, set_materials, set_rolling_step, set_solver, set_tangential_forces, &
-      & set_time_step
+      & set_time_step, set_wear
    use contact_capi_problem, only : library_problem
    use contact_capi_profiles, only : set_profile
    use contact_capi_registry, only : enter, leave, scope, scope_type
@@ -54,6 +54,7 @@ contains
       case ("cntc_setSolverFlags"); call set_solver(a, problem)
       case ("cntc_setMaterialParameters"); call set_materials(a, problem)
       case ("cntc_setTemperatureData"); call set_heat(a, problem)
+      case ("cntc_setWear"); call set_wear(a, problem)
       case ("cntc_setTimeStep"); call set_time_step(a)
       case ("cntc_setRollingStepsize"); call set_rolling_step(a, problem)
       case ("cntc_setFrictionMethod"); call set_friction(a, problem)

@@ -67,10 +67,10 @@ contains
       if (.not. associated(view%patch)) call leave(problem)
    end subroutine enter_result
 
-   !> Totals by their names, in the units and with the signs of the caller
+   !> Totals by their names, in the units and with the signs of the caller; 0 for those that the case does not have
    pure function totals(self, names) result(values)
       class(result_view), intent(in) :: self
-      !> As the list of totals has them
+      !> As the list of totals has them; the patch may be without them
       character(len=*), intent(in) :: names(:)
       real(wp) :: values(size(names))
       type(total_list) :: list
@@ -79,7 +79,8 @@ contains
       call self%patch%totals(list)
       do k = 1, size(names)
          associate (row => list%rows(list%place_of(names(k))))
-            values(k) = row%value*outward(self%units, quantity_of(row%unit), row%along, self%left)
+            values(k) = 0.0_wp
+            if (row%name == names(k)) values(k) = row%value*outward(self%units, quantity_of(row%unit), row%along, self%left)
          end associate
       end do
    end function totals

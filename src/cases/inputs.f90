@@ -7,7 +7,7 @@ module contact_cases_inputs
    use contact_base_kinds, only : wp
    use contact_cases_archive, only : case_archive, shown_length, text_variable
    use contact_cases_spec, only : damping_spec, friction_spec, heat_spec, iteration_spec, kinematics_spec, &
-      & largest_yield_limit, material_spec, rolling_spec
+      & largest_yield_limit, material_spec, rolling_spec, wear_spec
    use contact_friction_law, only : friction_set
    use contact_friction_new_law, only : friction_model, is_friction_law, is_varying_law
    use contact_text_words, only : integer_text, real_text
@@ -17,7 +17,7 @@ module contact_cases_inputs
    public :: visit_iteration, visit_kinematics, visit_rolling
    public :: visit_friction, visit_friction_rows, visit_friction_set, visit_friction_memory
    public :: visit_elastic, visit_sheet, visit_material_model, visit_conformal, visit_inclinations, visit_coefficient_file
-   public :: visit_damping, visit_heat
+   public :: visit_damping, visit_heat, visit_wear
 
    !> Bounds of the largest number of elements of a patch of wheel and rail
    integer, parameter :: fewest_elements = 100, max_elements = 1000000
@@ -144,7 +144,6 @@ contains
       integer, intent(in) :: model
       !> What counts as along x [rad]
       real(wp), parameter :: along_x = 0.01_wp
-
       call a%real("CHI", rolling%chi)
       call a%real("DQ", rolling%dq)
       call a%real("VELOC", rolling%veloc)
@@ -425,4 +424,18 @@ contains
       call a%real("BETAPL", heat%betapl)
       call a%end_line()
    end subroutine visit_heat
+
+   !> What wear and fatigue need of the user
+   subroutine visit_wear(a, wear)
+      class(case_archive), intent(inout) :: a
+      !> Stresses in N/mm2, 0 for what is not given
+      type(wear_spec), intent(inout), target :: wear
+
+      call a%real("ARCHARD", wear%archard)
+      call a%real("HARDNESS", wear%hardness)
+      call a%real("SHEAR_YIELD", wear%shear_yield)
+      call a%end_line()
+      if (a%is_reading .and. wear%archard > 0.0_wp .and. .not. wear%hardness > 0.0_wp) call a%refuse( &
+         & "HARDNESS", " is not given, which ARCHARD needs")
+   end subroutine visit_wear
 end module contact_cases_inputs

@@ -1,6 +1,6 @@
 !> One contact problem through its cases: specification in, result out
 module contact_cases_session
-   use contact_base_choices, only : estimate_choice, motion, pressure_model
+   use contact_base_choices, only : estimate_choice, is_rolling, motion, pressure_model
    use contact_base_error, only : error_kind, error_type, fatal_error
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
@@ -19,6 +19,7 @@ module contact_cases_session
    use contact_patch_problem, only : patch_problem, patch_state
    use contact_patch_result, only : patch_result
    use contact_patch_solve, only : check_problem, solve_patch
+   use contact_patch_wear, only : derive_wear
    use contact_patch_workspace, only : patch_workspace, release_workspace
    implicit none (type, external)
    private
@@ -82,12 +83,18 @@ contains
          return
       end if
       call choose_estimate(session, spec)
-      if (.not. spec%solve) return
+      if (spec%has_wear) call refuse_direction(spec, error)
+      if (allocated(error) .or. .not. spec%solve) return
       call solve_patch(session%problem, session%state, session%workspace, log, result, error)
       if (allocated(error)) then
          ! what was left half done is no previous time step
          if (error%kind == error_kind%time) call forget(session, result)
          return
+      end if
+      if (spec%has_wear) then
+         call derive_wear(spec%wear, session%problem%spin_centre, result)
+      else if (allocated(result%wear)) then
+         deallocate(result%wear, result%power, result%wear_depth)
       end if
       if (.not. result%has_finite_totals()) then
          call refuse_nonsense(error)
@@ -114,6 +121,20 @@ contains
       call subsurface_stresses(spec, result, error)
       if (.not. allocated(error)) call warn_of_steps(result, log)
    end subroutine solve_in_folder
+
+   !> Depths of a passage add up along rows of elements
+   subroutine refuse_direction(spec, error)
+      type(case_spec), intent(in) :: spec
+      !> Allocated where rolling is not along them
+      type(error_type), allocatable, intent(out) :: error
+      !> What counts as along x [rad]
+      real(wp), parameter :: along_x = 0.01_wp
+
+      if (.not. (is_rolling(spec%motion) .and. spec%wear%archard > 0.0_wp)) return
+      if (abs(sin(spec%rolling%chi)) > along_x) call fatal_error(error, "wear by Archard's coefficient, ARCHARD, needs rolling &
+         &along x, CHI of 0 or 180 degrees within 0.01 rad: the depth of a passage is a sum over rows of elements", &
+         & error_kind%input)
+   end subroutine refuse_direction
 
    !> The Hertz solution of the geometry is a result as well, also of a case that is not solved
    subroutine tell_hertz(problem, result)

@@ -9,13 +9,14 @@ module contact_cases_spec
    use contact_base_limits, only : case_limits
    use contact_base_solver_settings, only : solver_settings
    use contact_friction_law, only : friction_set
+   use contact_patch_wear, only : wear_spec
    use contact_wheelrail_spec, only : wheel_rail_spec
    use contact_subsurface_points, only : point_block
    implicit none (type, external)
    private
 
    public :: case_spec, iteration_spec, kinematics_spec, friction_set, friction_spec
-   public :: rolling_spec, material_spec, damping_spec, heat_spec, grid_spec, geometry_spec
+   public :: rolling_spec, material_spec, damping_spec, heat_spec, wear_spec, grid_spec, geometry_spec
    public :: subsurface_spec, largest_yield_limit
    public :: case_parts, part_source
 
@@ -176,6 +177,8 @@ module contact_cases_spec
       type(case_limits) :: limits
       !> Shall the errors of the totals be estimated? Not part of the input file
       logical :: estimates_errors = .false.
+      !> Are wear and fatigue asked for? Not part of the input file
+      logical :: has_wear = .false.
       !> Solve the case, or only store its input? Is it the last one of its module in a row?
       logical :: solve = .true., ends_module = .false.
       type(iteration_spec) :: iteration
@@ -185,6 +188,7 @@ module contact_cases_spec
       type(material_spec) :: material
       type(damping_spec) :: damping
       type(heat_spec) :: heat
+      type(wear_spec) :: wear
       type(grid_spec) :: grid
       type(geometry_spec) :: geometry
       !> Extra rigid slip, x and y per element, shape (2, npot); unallocated when never given

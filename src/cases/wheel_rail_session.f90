@@ -19,6 +19,7 @@ module contact_cases_wheel_rail_session
    use contact_elastic_model, only : influence_table
    use contact_grid_potential_contact, only : potential_contact
    use contact_patch_damping, only : damping_law
+   use contact_patch_wear, only : derive_wear
    use contact_profile_curve, only : profile_curve
    use contact_profile_request, only : profile_request, profile_side
    use contact_profile_store, only : prepared_profile, profile_store
@@ -100,6 +101,7 @@ contains
                & real_text(search%ds) // " mm, because there are at most NPOT_MAX = " // &
                & integer_text(spec%iteration%npot_max))
             if (spec%solve) call warn_of_small_table(session%problem%template%model%tabulated, contact%grid, k, log)
+            if (spec%has_wear .and. spec%solve) call derive_wear(spec%wear, [0.0_wp, 0.0_wp], contact)
             if (allocated(contact%subsurface)) deallocate(contact%subsurface)
             if (spec%has_stress) &
                & call subsurface_stresses(spec, contact, error, spec%wheel_rail%left)

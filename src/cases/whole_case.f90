@@ -7,7 +7,7 @@ module contact_cases_whole_case
    use contact_cases_grid_inputs, only : largest_grid, visit_grid, visit_planform
    use contact_cases_inputs, only : visit_coefficient_file, visit_conformal, visit_damping, visit_elastic, visit_friction, &
       & visit_friction_rows, visit_heat, visit_inclinations, visit_iteration, visit_kinematics, visit_material_model, &
-      & visit_rolling, visit_sheet
+      & visit_rolling, visit_sheet, visit_wear
    use contact_cases_rail_inputs, only : visit_deviations, visit_dimensions, visit_flexibility, visit_position, visit_profile, &
       & visit_search, visit_springs, visit_track, visit_velocity
    use contact_cases_spec, only : case_spec, damping_spec, geometry_spec, grid_spec, material_spec, part_source
@@ -58,6 +58,11 @@ contains
             call a%open_group("heat")
             if (spec%heat%source == heat_source%moving) call a%comment("temperatures as with --heat moving-source")
             call visit_heat(a, spec%heat, with_plastic_work=spec%material_model == material_model%interfacial_layer)
+            call a%close_group()
+         end if
+         if (spec%has_wear) then
+            call a%open_group("wear")
+            call visit_wear(a, spec%wear)
             call a%close_group()
          end if
          if (is_wheel_rail) then

@@ -162,13 +162,14 @@ contains
       type(experiment_reader) :: reader
       type(input_case) :: this
       character(len=:), allocatable :: remarks
-      logical :: begins_module, is_moving, is_second, has_errors, asks_accuracy
+      logical :: begins_module, is_moving, is_second, has_errors, asks_accuracy, has_wear
 
       cases = 0
       begins_module = .true.
       is_moving = .false.
       is_second = .false.
       has_errors = .false.
+      has_wear = .false.
       asks_accuracy = .false.
       call reader%open_file(input, error)
       do while (.not. allocated(error))
@@ -183,6 +184,7 @@ contains
          if (this%spec%has_heat .and. this%spec%heat%source == heat_source%moving) is_moving = .true.
          if (this%spec%motion == motion%steady_rolling .and. this%spec%iteration%order == 2) is_second = .true.
          if (this%spec%estimates_errors) has_errors = .true.
+         if (this%spec%has_wear) has_wear = .true.
          if (this%spec%iteration%accuracy > 0.0_wp) asks_accuracy = .true.
          call write_input_case(file, this%spec)
       end do
@@ -192,6 +194,7 @@ contains
          & "--heat moving-source to have them")
       if (is_second) call told%add_line(" Steady rolling of " // input // " is of order 2; the new file needs --order 2 for that")
       if (has_errors) call told%add_line(" Errors of " // input // " are estimated; the new file needs --errors for that")
+      if (has_wear) call told%add_line(" Wear and fatigue of " // input // " are told; the new file has no place to ask for them")
       if (asks_accuracy) call told%add_line(" Accuracies of " // input // " are asked for; the new file needs --accuracy for that")
    end subroutine write_established
 

@@ -15,7 +15,7 @@ module contact_input_toml_case
    use contact_grid_potential_contact, only : potential_contact
    use contact_input_checks, only : check_case
    use contact_input_problems, only : problem_list, severity
-   use contact_input_toml_own_keys, only : take_accuracy, take_errors, take_heat_source, take_order
+   use contact_input_toml_own_keys, only : take_accuracy, take_errors, take_heat_source, take_order, take_wear
    use contact_input_toml_reader, only : new_toml_reader, toml_reader
    use contact_input_toml_tables, only : toml_memory
    use contact_text_lexer, only : printable
@@ -29,7 +29,7 @@ module contact_input_toml_case
 
    !> Groups in the order of the input files, see contact_cases_whole_case
    character(len=16), parameter :: group_names(*) = [character(len=16) :: "iteration", "kinematics", "friction", "rolling", &
-      & "influence", "material", "damping", "heat", "search", "track", "rail_profile", "deviations", "springs", &
+      & "influence", "material", "damping", "heat", "wear", "search", "track", "rail_profile", "deviations", "springs", &
       & "wheel_dimensions", "wheel_profile", "position", "velocity", "flexibility", "grid", "geometry", "extra_slip", &
       & "stress_output", "stress_points"]
    !> Groups from which something is derived that can be formed anew
@@ -92,6 +92,7 @@ contains
          call take_order(a, has_previous, spec)
          call take_errors(a, spec)
          call take_accuracy(a, spec)
+         call take_wear(a, spec)
          if (spec%motion == motion%none .and. .not. has_previous) a%lenient_group = "friction"
          call visit_case(a, spec)
          if (a%is_good) then

@@ -1,4 +1,4 @@
-!> Keys of a case that belong to no number of the input files: order, errors, accuracy, source of heat
+!> Keys of a case that belong to no number of the input files: order, errors, accuracy, source of heat, wear
 module contact_input_toml_own_keys
    use contact_base_choices, only : heat_source
    use contact_cases_accuracy_plan, only : is_accuracy
@@ -10,7 +10,7 @@ module contact_input_toml_own_keys
    implicit none (type, external)
    private
 
-   public :: take_accuracy, take_errors, take_heat_source, take_order
+   public :: take_accuracy, take_errors, take_heat_source, take_order, take_wear
 
 contains
 
@@ -71,6 +71,25 @@ contains
          end if
       end associate
    end subroutine take_errors
+
+   !> Are wear and fatigue asked for? By a table of them, as long as no case ends them
+   subroutine take_wear(a, spec)
+      !> Document and its case in hand
+      type(toml_reader), intent(inout) :: a
+      type(case_spec), intent(inout) :: spec
+      integer :: node
+
+      if (a%has_group("wear")) spec%has_wear = .true.
+      call find_key(a, "wear", "model", node)
+      if (node == 0) return
+      if (a%document%nodes(node)%kind /= toml_kind%string .or. all(a%document%text_of(node) /= ["archard", "none   "])) then
+         call a%add_problem(severity%error, node, 'model must be "archard" or "none"')
+      else
+         spec%has_wear = a%document%text_of(node) == "archard"
+         ! the table of a case that ends them is visited by nobody
+         a%used(a%document%child(a%case_node, "wear")) = .true.
+      end if
+   end subroutine take_wear
 
    !> The accuracy that is asked for, 0 for none; kept from case to case
    subroutine take_accuracy(a, spec)

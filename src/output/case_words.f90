@@ -72,6 +72,7 @@ contains
       if (spec%has_heat) call say("Surface temperatures: flash heating" // &
          & trim(merge(", moving sources               ", ", as in the established program", &
          & spec%heat%source == heat_source%moving)))
+      if (spec%has_wear) call say("Wear and fatigue are told.")
       if (spec%has_damping) call say("Damping: proportional to the rates of the forces")
       if (spec%has_stress .and. allocated(spec%subsurface%blocks)) call say("Stresses below the surface: " // &
          & integer_text(size(spec%subsurface%blocks)) // " blocks of points")

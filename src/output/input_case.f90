@@ -30,6 +30,8 @@ contains
 
       a%file => file
       written = spec
+      ! the format does not know them
+      written%has_wear = .false.
       call put_words(a, digits_of(spec), module_number=merge(1, 3, allocated(spec%wheel_rail)))
       call visit_case(a, written)
    end subroutine write_input_case

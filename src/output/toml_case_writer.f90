@@ -105,6 +105,7 @@ contains
       preset%material%if_meth = fresh%material%if_meth
       preset%material%variant = fresh%material%variant
       preset%heat = fresh%heat
+      preset%wear = fresh%wear
       preset%friction%memdst = fresh%friction%memdst
       preset%friction%mem_s0 = fresh%friction%mem_s0
       if (allocated(preset%friction%sets)) preset%friction%sets(:)%fkin = usual%fkin
@@ -232,6 +233,7 @@ contains
       if (is_first) return
       if (old%has_damping .and. .not. spec%has_damping) call end_group("damping")
       if (old%has_heat .and. .not. spec%has_heat) call end_group("heat")
+      if (old%has_wear .and. .not. spec%has_wear) call end_group("wear")
 
    contains
 

@@ -12,7 +12,7 @@ module contact_patch_result
    implicit none (type, external)
    private
 
-   public :: border_contact, error_estimate, mirrored, patch_result, hertz_result, reason_length, subsurface_result
+   public :: border_contact, error_estimate, mirrored, patch_result, hertz_result, reason_length, subsurface_result, wear_result
 
    !> Room for the reason why there is no estimate
    integer, parameter :: reason_length = 96
@@ -67,6 +67,18 @@ module contact_patch_result
       !> Elements in contact of the coarse level
       integer :: ncon = 0
    end type error_estimate
+
+   !> Wear and fatigue of a patch, see contact_patch_wear
+   type :: wear_result
+      !> Was Archard's coefficient given, and the yield stress?
+      logical :: has_archard = .false., has_yield = .false.
+      !> Dissipation per distance rolled [N], that over the contact area [N/mm2], largest density of frictional power [W/mm2]
+      real(wp) :: t_gamma = 0.0_wp, wear_index = 0.0_wp, max_power = 0.0_wp
+      !> Largest depth that a passage, or a shift, wears off [mm]; section that a passage wears off [mm2]
+      real(wp) :: depth = 0.0_wp, section = 0.0_wp
+      !> Tangential over normal force, largest pressure over yield stress, the same over its limit, surface fatigue index [-]
+      real(wp) :: traction = 0.0_wp, load = 0.0_wp, shakedown = 0.0_wp, fatigue = 0.0_wp
+   end type wear_result
 
    !> Totals, fields and reports of a solved patch; what of them goes to outputs is listed in `totals` and `fields`
    type :: patch_result
@@ -131,6 +143,11 @@ module contact_patch_result
       real(wp), allocatable :: tau_c(:, :), uplx(:, :), uply(:, :)
       !> Surface temperatures of bodies 1 and 2 [degC], shape (mx, my); unallocated when not asked for
       real(wp), allocatable :: temp1(:, :), temp2(:, :)
+      !> Density of frictional power, dissipation positive [W/mm2], and depth that a passage or shift wears off in each element
+      !> [mm], shape (mx, my); unallocated when not asked for
+      real(wp), allocatable :: power(:, :), wear_depth(:, :)
+      !> Their totals; unallocated when not asked for
+      type(wear_result), allocatable :: wear
       !> Subsurface blocks; unallocated when not asked for
       type(subsurface_result), allocatable :: subsurface(:)
       !> Estimated errors of the totals; unallocated when not asked for
@@ -205,7 +222,45 @@ contains
       call list%count("nadh", "elements in adhesion", self%nadh)
       call list%count("nslip", "slipping elements", self%nslip)
       if (allocated(self%tau_c)) call list%count("nplast", "yielding elements", self%nplast)
+      if (allocated(self%wear)) call add_wear(self, self%wear, list)
    end subroutine totals
+
+   !> Totals of wear and fatigue
+   pure subroutine add_wear(contact, wear, list)
+      !> Solved
+      type(patch_result), intent(in) :: contact
+      type(wear_result), intent(in) :: wear
+      type(total_list), intent(inout) :: list
+      real(wp) :: highest(2)
+      integer :: k
+
+      if (is_rolling(contact%motion)) then
+         call list%add("t_gamma", "N", "forces times creepages, moment times spin: energy per distance rolled", wear%t_gamma)
+         call list%add("wear_index", "N/mm2", "T-gamma over the contact area", wear%wear_index)
+         call list%add("max_power", "W/mm2", "largest density of frictional power", wear%max_power)
+      end if
+      if (wear%has_archard .and. contact%motion /= motion_choice%none) then
+         call list%add("max_wear", "mm", "largest depth that a passage of the contact, or a shift, wears off", wear%depth)
+         if (is_rolling(contact%motion)) call list%add("worn_section", "mm2", "area of the section that a passage of the contact &
+            &wears off", wear%section)
+      end if
+      if (contact%ncon > 0) then
+         call list%add("traction", "-", "tangential over normal force", wear%traction)
+         if (wear%has_yield) then
+            call list%add("shakedown_load", "-", "largest pressure over yield stress in shear", wear%load)
+            call list%add("shakedown", "-", "largest pressure over its shakedown limit, above 1: plastic strain goes on", &
+               & wear%shakedown)
+            call list%add("fatigue_index", "-", "surface fatigue index, above 0: fatigue of the surface is expected", wear%fatigue)
+         end if
+      end if
+      if (.not. allocated(contact%subsurface)) return
+      highest = 0.0_wp
+      do k = 1, size(contact%subsurface)
+         highest = max(highest, [maxval(contact%subsurface(k)%sigvm), maxval(contact%subsurface(k)%sigtr)])
+      end do
+      call list%add("max_mises", "N/mm2", "largest von Mises stress at the points below the surface", highest(1))
+      call list%add("max_tresca", "N/mm2", "largest Tresca stress at the points below the surface", highest(2))
+   end subroutine add_wear
 
    !> Highest temperature in contact; anywhere without contact [degC]
    pure real(wp) function highest_in_contact(contact, temperature) result(highest)
@@ -253,6 +308,8 @@ contains
       call add(13, "uplsy", "mm", "lateral plastic displacement", self%uply, orientation%side, label="uplsy")
       call add(20, "temp1", "degC", "surface temperature of body 1", self%temp1, label="temperature 1", figures=4)
       call add(21, "temp2", "degC", "surface temperature of body 2", self%temp2, label="temperature 2", figures=4)
+      call add(25, "power", "W/mm2", "density of frictional power", self%power, label="frictional power density")
+      call add(26, "wear", "mm", "depth that a passage or a shift wears off", self%wear_depth, label="wear")
 
    contains
 

@@ -207,6 +207,12 @@ module contact_text_bounds
       & 1.0e-5_wp, 1.0e10_wp, .false., "foam has 3e-5, diamond 2"), &
       & number_bounds("DENS", "kg/mm3", "density", &
       & 1.0e-12_wp, 1.0e3_wp, .false., "far below any gas, far above any solid"), &
+      & number_bounds("ARCHARD", "-", "wear coefficient of Archard", &
+      & 0.0_wp, 1.0_wp, .false., "wear adds nothing; at 1 all that slides is worn off at once", .true.), &
+      & number_bounds("HARDNESS", "N/mm2", "hardness of the softer body", &
+      & 0.0_wp, rigid, .false., "a pressure", .true.), &
+      & number_bounds("SHEAR_YIELD", "N/mm2", "yield stress in cyclic shear", &
+      & 0.0_wp, rigid, .false., "a stress", .true.), &
       & number_bounds("BETAPL", "-", "part of plastic work that becomes heat", &
       & 0.0_wp, 1.0_wp, .false., "a part of the plastic work", .true.)]
 

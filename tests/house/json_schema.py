@@ -72,7 +72,8 @@ def schema():
     border, coarse = members("describe_border"), members("describe_resolution")
     run, run_always = members("describe_run")
     patch = group({"patch": {"description": "number of the patch in its case", **KINDS["count"]},
-                   "effects": {"description": "effects that acted", **KINDS["text"]}, "totals": group(patch_totals, ["fn", "pen"]),
+                   "effects": {"description": "effects that acted", **KINDS["text"]},
+                   "totals": group({**patch_totals, **listed("patch/result.f90", "add_wear")}, ["fn", "pen"]),
                    "errors": errors(patch_totals), "accuracy": accuracy,
                    "border": group(border[0], border[0], "where contact is cut off"),
                    "coarse": group(coarse[0], coarse[0], "how few elements wide contact is"), "solver": group(solver)},

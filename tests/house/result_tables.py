@@ -14,7 +14,9 @@ PAGE = TOP / "doc/user/results.md"
 START, END = "<!-- results: made by tests/house/result_tables.py --write -->", "<!-- end of results -->"
 #: What a condition of the sources means to a reader
 WHEN = {"is_rolling": "rolling", "motion_choice%shift": "shift", "%damping": "damping", "%temp1": "temperatures",
-        "%tau_c": "yield limit", "%shift .or.": "steps (T = 1, 2)", ".not. allocated(self%curve)": "conformal contact"}
+        "%tau_c": "yield limit", "%shift .or.": "steps (T = 1, 2)", ".not. allocated(self%curve)": "conformal contact",
+        "%has_archard": "Archard's coefficient", "%has_yield": "yield stress", "%ncon > 0": "contact",
+        ".not. allocated(contact%subsurface)": "points below the surface"}
 SIGNS = {"along": "body", "across": "body and side", "side": "side"}
 
 
@@ -75,6 +77,8 @@ def tables():
 
     return ("Totals of a contact patch:\n\n" + head + rows(totals("patch/result.f90", "totals"))
             + "\nand in module 1\n\n" + head + rows(totals("wheelrail/result.f90", "patch_totals"))
+            + "\nand where wear and fatigue are asked for, by the table `wear`\n\n" + head
+            + rows(totals("patch/result.f90", "add_wear"))
             + "\nTotals of wheel and rail:\n\n" + head + rows(totals("wheelrail/result.f90", "wheel_rail_totals"))
             + "\nElement fields; the number is that of `cntc_getfielddata`, CNTC_fld_NAME:\n\n"
             + "| name | unit | meaning | changes with | number | in VTK files |\n|---|---|---|---|---|---|\n" + rows(fields()))

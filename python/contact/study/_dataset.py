@@ -167,12 +167,12 @@ def _add_fields(data: dict[str, Any], kept: dict[str, dict[tuple[int, int], Any]
         for (point, patch), (values, frame) in found.items():
             whole[point, patch, :values.shape[0], :values.shape[1]] = values
             frames[point, patch] = frame
-        data[name] = (dims + end_dims + ("row_of_elements", "column_of_elements"), whole[inverse].reshape(*shape, *end, my, mx),
+        data[name] = (dims + end_dims + ("row_of_elements", "column_of_elements"), whole[inverse].reshape((*shape, *end, my, mx)),
                       {"units": _units(units.get(name, ""))})
     for k, (name, what) in enumerate((("x_first", "x of the centres of the first column of elements"),
                                       ("y_first", "y of the centres of the first row of elements"),
                                       ("dx", "side of an element along x"), ("dy", "side of an element along y"))):
-        data[name] = (dims + end_dims, frames[..., k][inverse].reshape(*shape, *end), {"units": "mm", "long_name": what})
+        data[name] = (dims + end_dims, frames[..., k][inverse].reshape((*shape, *end)), {"units": "mm", "long_name": what})
 
 
 def save(data: xarray.Dataset, file: str | os.PathLike[str]) -> None:

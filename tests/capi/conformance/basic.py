@@ -760,7 +760,7 @@ def names():
     for name in SIGNATURES:
         for variant in (name, name + "_"):
             check(hasattr(loaded, variant), f"symbol {variant}")
-    same(len(SIGNATURES), 71, "number of routines")
+    same(len(SIGNATURES), 73, "number of routines")
     check(cntc.getmaxnumthreads() >= 1, "getmaxnumthreads")
 
 

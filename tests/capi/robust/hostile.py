@@ -197,8 +197,8 @@ def main():
     threads = int(sys.argv[3]) if len(sys.argv) > 3 else 1
     generator = random.Random(seed)
     sizes = [0]
-    if len(ROUTINES) != 71:
-        sys.exit(f"{len(ROUTINES)} routines are known, not 71")
+    if len(ROUTINES) != 73:
+        sys.exit(f"{len(ROUTINES)} routines are known, not 73")
     print(f"seed {seed}")
     names = sorted(ROUTINES)
     # all arguments null, in the virgin state and after it

@@ -135,7 +135,7 @@ program test_description
    use contact_cases_grid_inputs, only : visit_grid, visit_planform
    use contact_cases_inputs, only : visit_coefficient_file, visit_conformal, visit_damping, visit_elastic, visit_friction, &
       & visit_friction_rows, visit_heat, visit_inclinations, visit_iteration, visit_kinematics, visit_material_model, &
-      & visit_rolling, visit_sheet
+      & visit_rolling, visit_sheet, visit_wear
    use contact_cases_rail_inputs, only : visit_deviations, visit_dimensions, visit_flexibility, visit_position, visit_profile, &
       & visit_search, visit_springs, visit_track, visit_velocity
    use contact_cases_spec, only : case_spec, friction_set
@@ -152,7 +152,7 @@ program test_description
    use contact_friction_new_law, only : friction_model
    implicit none (type, external)
    !> Forms of the groups
-   integer, parameter :: forms = 71
+   integer, parameter :: forms = 72
    type(test_suite) :: suite
    logical :: met(size(bounds_table))
    integer :: form, k
@@ -248,6 +248,8 @@ contains
             call visit_velocity(a, pair%wheelset, form == 68, with_force=form == 69)
          case (70:71)
             call visit_profile(a, trim(merge("RFNAME", "WFNAME", form == 70)), pair%rail_profile)
+         case (72)
+            call visit_wear(a, spec%wear)
          end select
       end associate
    end subroutine visit

@@ -1,0 +1,24 @@
+function [ rvalues ] = cntc_getwear( ire, icp )
+% CNTC_GETWEAR  Get totals of wear and fatigue of a patch, after a calculation with the flag CNTC.own_wear = 1.
+%
+%   rvalues = cntc_getwear( ire, icp )
+%
+%   ire, icp  result element and contact patch or problem (default 1, 1)
+%   rvalues   T-gamma [F], wear index [F/L2], largest density of frictional power [W/mm2], largest depth [L] and area
+%             of the section [L2] that a passage wears off, tangential over normal force [-], largest pressure over
+%             yield stress in shear [-], the same over its shakedown limit [-], surface fatigue index [-], largest von
+%             Mises and Tresca stress at points below the surface [F/L2]; 0 for what the case has not
+%
+% Made by src/capi/make_interface.py from src/capi/interface.txt; change those.
+
+   if (nargin<1)
+      ire = [];
+   end
+   if (nargin<2)
+      icp = [];
+   end
+   [ire, icp] = cntc_ids(ire, icp, 'patch', 'cntc_getwear');
+   rvalues = cntc_call('cntc_getwear', ire, icp, 11, zeros(11,1));
+   cntc_tell('cntc_getwear', ire, icp);
+
+end % function cntc_getwear
