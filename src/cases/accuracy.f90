@@ -10,7 +10,7 @@ module contact_cases_accuracy
    use contact_base_limits, only : wall_clock
    use contact_base_log, only : log_type
    use contact_cases_accuracy_plan, only : accuracy_law, caution, expected_law, finer_across, first_across, is_near_enough, &
-      & most_elements, most_levels, prepare_level, refuse_case, shorten_aspect, solver_tolerance, time_is_left
+      & most_elements, most_levels, not_converged, prepare_level, refuse_case, shorten_aspect, solver_tolerance, time_is_left
    use contact_cases_distance, only : distance_form
    use contact_cases_session, only : contact_session, solve_case
    use contact_cases_spec, only : case_spec, grid_spec, part_source
@@ -156,10 +156,12 @@ contains
          report%seconds = report%seconds + report%last_seconds
          if (.not. result%status%has_result()) exit
          acting = result%tangential%order
-         report%estimated = caution(spec)*error_of_forces(session%problem, result)
+         report%estimated = -1.0_wp
+         if (result%status%is_solved()) report%estimated = caution(spec)*error_of_forces(session%problem, result)
          if (result%ncon == 0 .and. report%levels > 1) report%estimated = 0.0_wp
          lengths = [result%grid%mx*result%grid%dx, result%grid%my*result%grid%dy]
          if (is_near_enough(report%estimated, expected, report%asked)) exit
+         if (report%levels > 1 .and. .not. result%status%is_solved()) exit
          if (spec%motion == motion%steady_rolling) law%order = merge(law%order, 1.0_wp, acting == 2)
          call next_counts(result, report, law%order, fixed, next)
          call stay_below(most_elements(spec%limits), fixed, next)
@@ -176,6 +178,7 @@ contains
          best = result
          counts = next
       end do
+      if (report%reason == "" .and. .not. result%status%is_solved()) report%reason = not_converged
       if (len_trim(report%reason) > 0 .and. allocated(best)) call keep_better(session, caution(spec), best, report, result)
       call tell_report(spec, level, result, report, log)
    end subroutine refine
@@ -315,7 +318,8 @@ contains
       type(patch_result), intent(inout) :: result
       real(wp) :: before
 
-      before = factor*error_of_forces(session%problem, best)
+      before = -1.0_wp
+      if (best%status%is_solved()) before = factor*error_of_forces(session%problem, best)
       if (before < 0.0_wp) return
       if (report%estimated >= 0.0_wp .and. report%estimated <= before .and. allocated(result%errors)) return
       result = best

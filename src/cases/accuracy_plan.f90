@@ -17,11 +17,13 @@ module contact_cases_accuracy_plan
    private
 
    public :: accuracy_law, caution, expected_across, expected_law, finer_across, first_across, is_accuracy, is_near_enough, &
-      & largest_accuracy, most_elements, most_levels, prepare_level, refuse_case, shorten_aspect, smallest_accuracy, &
-      & solver_tolerance, time_is_left
+      & largest_accuracy, most_elements, most_levels, not_converged, prepare_level, refuse_case, shorten_aspect, &
+      & smallest_accuracy, solver_tolerance, time_is_left
 
    !> Accuracies that can be asked for
    real(wp), parameter :: smallest_accuracy = 1.0e-6_wp, largest_accuracy = 0.1_wp
+   !> Why an accuracy is not reached where solvers end before their tolerance, on two grids
+   character(len=*), parameter :: not_converged = "iterations did not converge"
    !> Most grids that are tried
    integer, parameter :: most_levels = 8
    !> Most elements of a grid where no limit is given: some seconds, and 0.4 GB; chosen
@@ -43,7 +45,7 @@ module contact_cases_accuracy_plan
    !> elements across time does not depend on their number
    real(wp), parameter :: first_share = 0.6_wp, quick_across = 24.0_wp
    !> Part of the accuracy that the next grid aims at; and the part at which it is taken as reached: estimates may be too small
-   real(wp), parameter :: aim = 0.5_wp, enough = 0.7_wp
+   real(wp), parameter :: aim = 0.4_wp, enough = 0.5_wp
    !> Least and largest factor of the number of elements across from one grid to the next; chosen
    real(wp), parameter :: least_factor = 1.25_wp, largest_factor = 5.0_wp
    !> The error that the grid before lets expect counts with this part: differences of levels may be small by accident

@@ -9,7 +9,7 @@ module contact_cases_wheel_rail_accuracy
    use contact_base_limits, only : wall_clock
    use contact_base_log, only : log_type
    use contact_cases_accuracy_plan, only : accuracy_law, caution, expected_law, finer_across, first_across, is_near_enough, &
-      & most_elements, most_levels, prepare_level, refuse_case, shorten_aspect, solver_tolerance, time_is_left
+      & most_elements, most_levels, not_converged, prepare_level, refuse_case, shorten_aspect, solver_tolerance, time_is_left
    use contact_cases_estimate, only : typical_half_side
    use contact_cases_spec, only : case_spec
    use contact_cases_subsurface, only : subsurface_stresses, warn_of_steps
@@ -117,10 +117,12 @@ contains
          report%last_seconds = wall_clock() - began
          report%seconds = report%seconds + report%last_seconds
          if (.not. result%status%has_result()) exit
-         report%estimated = caution(spec)*error_of_pair(session%memory)
+         report%estimated = -1.0_wp
+         if (result%status%is_solved()) report%estimated = caution(spec)*error_of_pair(session%memory)
          report%order = order_of(session%memory)
          report%sides = sides
          if (is_near_enough(report%estimated, expected, report%asked)) exit
+         if (report%levels > 1 .and. .not. result%status%is_solved()) exit
          if (spec%motion == motion%steady_rolling .and. report%order /= 2) law%order = min(law%order, 1.0_wp)
          call next_sides(spec, session%memory, report, law%order, sides, next)
          if (.not. product(sides/next) >= worth**2) then
@@ -137,6 +139,7 @@ contains
          best = result
          sides = next
       end do
+      if (report%reason == "" .and. .not. result%status%is_solved()) report%reason = not_converged
       if (len_trim(report%reason) > 0 .and. before >= 0.0_wp) then
          if (report%estimated < 0.0_wp .or. report%estimated > before) then
             result = best

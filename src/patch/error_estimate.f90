@@ -8,15 +8,14 @@
 module contact_patch_error_estimate
    use, intrinsic :: ieee_arithmetic, only : ieee_quiet_nan, ieee_value
    use contact_base_choices, only : motion
-   use contact_base_constants, only : excluded_threshold, nmm_per_joule, pi
    use contact_base_error, only : error_kind, error_type
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
-   use contact_grid_element_division, only : bounding_box, contact_box, element
-   use contact_patch_coarse_level, only : coarsen_patch, coarsening
+   use contact_patch_coarse_level, only : coarsen_patch
+   use contact_patch_level_errors, only : energies, error_of, error_of_peak, peak_of, residual_share, scale_of, scale_type, scales
    use contact_patch_problem, only : patch_problem, patch_state
    use contact_patch_quantities, only : error_law, total, total_list
-   use contact_patch_result, only : error_estimate, patch_result
+   use contact_patch_result, only : patch_result
    use contact_patch_solve, only : solve_patch
    use contact_patch_workspace, only : patch_workspace, release_workspace
    implicit none (type, external)
@@ -35,55 +34,8 @@ module contact_patch_error_estimate
       type(log_type) :: log
    end type coarse_level
 
-   !> What is common to all totals of a patch
-   type :: scale_type
-      !> Elements across the contact in the direction that has fewest
-      real(wp) :: across = 1.0_wp
-      !> Force and moment that friction bears at most [N, N mm]
-      real(wp) :: force = 0.0_wp, moment = 0.0_wp
-      !> Larger one of the two creepages; power, or work, if all of the contact slid with it [W, J]
-      real(wp) :: creep = 0.0_wp, power = 0.0_wp
-      !> Part of the elements in contact that does not slip [-]
-      real(wp) :: adhesion = 0.0_wp
-      !> Differences of the levels in tangential forces, relative to the largest one [-]
-      real(wp) :: friction = 0.0_wp
-      !> Order of the tangential problem; is it clean, so that levels may be extrapolated?
-      real(wp) :: order = 1.0_wp
-      logical :: clean = .true.
-      !> Difference parameter K of unlike bodies [-]
-      real(wp) :: coupling = 0.0_wp
-      !> Parts of the elastic energy, of pressures and of tractions, and what the levels differ by in them [J]
-      real(wp) :: energy(2) = 0.0_wp, energy_change(2) = 0.0_wp
-   end type scale_type
-
    !> Why there is no estimate after a failure of the coarse level
    character(len=*), parameter :: no_solution = "the coarser level has no solution"
-   !> Order of the normal problem, of the highest temperature, and of what jumps with single elements
-   real(wp), parameter :: normal_order = 2.0_wp, peak_order = 1.5_wp, jump_order = 1.0_wp
-   !> Of frictional power with the first order: its error falls to 1/(1 + 1.65) with elements of a third; median of tests/accuracy
-   real(wp), parameter :: power_order = 0.89_wp
-   !> The same with the second order: factor of n^-2 that power is not estimated below; median of tests/accuracy
-   real(wp), parameter :: rolling_power_floor = 0.4_wp
-   !> Contact of fewer elements across is not resolved, and in that direction not coarsened either: any total is off by this times
-   !> n^-2; of the hard cases of tests/stability
-   real(wp), parameter :: resolved = 6.0_wp, unresolved_floor = 0.5_wp
-   !> Tractions of unlike bodies pull pressures up where elements do not see it: factor of the difference parameter K times n^-2 in
-   !> the largest pressure; of the hard cases
-   real(wp), parameter :: coupled_floor = 4.0_wp
-   !> Few rows of elements stand for plane strain where they are longer than the contact by this factor; chosen
-   real(wp), parameter :: plane = 4.0_wp
-   !> A peak of pressures bends by 4 n^-2 of itself over an element of a contact of n; what it bends beyond this multiple is a peak
-   !> that elements do not resolve, and off by this part of the bend; chosen with the hard cases of tests/stability
-   real(wp), parameter :: smooth_bend = 12.0_wp, unresolved = 0.15_wp
-   !> Of forces in steady rolling by both schemes; the second one shows this order from 15 to 45 elements on, with its jitter
-   real(wp), parameter :: first_order = 1.0_wp, second_order = 1.6_wp
-   !> Errors of tangential forces and moment are at least this part of the largest of them
-   real(wp), parameter :: other_component = 0.2_wp
-   !> Errors in general, of n elements across: factor of n^-order. Medians of tests/accuracy over random contacts
-   real(wp), parameter :: normal_floor = 0.15_wp, friction_floor(2) = [0.05_wp, 0.05_wp], rolling_floor = 0.15_wp, &
-      & power_floor = 0.1_wp, peak_floor = 0.3_wp, area_floor = 0.2_wp, energy_floor(2) = [0.2_wp, 0.3_wp]
-   !> Part of a residual that shows in forces; measured between tolerances of 1e-2 and 1e-4
-   real(wp), parameter :: residual_share = 0.3_wp
 
 contains
 
@@ -289,178 +241,6 @@ contains
          e = max(e, result%errors%value(k)/scale_of(list%rows(k), scale))
       end do
    end function error_of_forces
-
-   !> What totals are compared with
-   pure function scales(problem, order, result) result(scale)
-      type(patch_problem), intent(in) :: problem
-      integer, intent(in) :: order
-      type(patch_result), intent(in) :: result
-      type(scale_type) :: scale
-      type(bounding_box) :: box
-      real(wp) :: extent(2)
-      integer :: across(2)
-
-      box = contact_box(result%division)
-      across = [box%ix1 - box%ix0 + 1, box%iy1 - box%iy0 + 1]
-      scale%across = minval(across)
-      extent = across*[result%grid%dx, result%grid%dy]
-      if (result%grid%my < 3 .and. extent(2) > plane*extent(1)) scale%across = across(1)
-      if (result%grid%mx < 3 .and. extent(1) > plane*extent(2)) scale%across = across(2)
-      scale%force = result%grid%dx*result%grid%dy*sum(result%mu*result%pn)
-      scale%moment = scale%force*sqrt(result%contact_area()/pi)
-      scale%creep = max(abs(result%cksi), abs(result%ceta))
-      scale%power = scale%force*hypot(result%cksi, result%ceta)*result%dq/(nmm_per_joule*result%dt)
-      scale%adhesion = real(result%nadh, wp)/result%ncon
-      scale%order = normal_order
-      if (problem%motion == motion%steady_rolling) scale%order = merge(second_order, first_order, order == 2)
-      if (problem%motion == motion%transient_rolling) scale%order = 1.0_wp
-      ! a step in time is longer than some elements and shorter than others; a layer adds a length of its own
-      scale%clean = problem%motion /= motion%transient_rolling .and. .not. problem%model%layer > 0.0_wp
-      ! tractions are singular at edges that are given
-      if (problem%motion == motion%shift) scale%clean = .not. any(problem%h > excluded_threshold)
-      if (problem%model%coupled()) scale%coupling = abs(problem%model%material%ak)
-   end function scales
-
-   !> What the error of a total is relative to, in its unit
-   pure real(wp) function scale_of(row, scale) result(unit)
-      type(total), intent(in) :: row
-      type(scale_type), intent(in) :: scale
-
-      unit = abs(row%value)
-      if (row%law == error_law%creepage) unit = scale%creep
-      if (row%law /= error_law%friction) return
-      unit = 1.0_wp
-      if (row%unit == "N") unit = scale%force
-      if (row%unit == "N mm") unit = scale%moment
-   end function scale_of
-
-   !> Error of one total in its unit
-   pure real(wp) function error_of(row, difference, scale, errors) result(e)
-      type(total), intent(in) :: row
-      !> Between the levels
-      real(wp), intent(in) :: difference
-      type(scale_type), intent(in) :: scale
-      !> Its relative parts
-      type(error_estimate), intent(in) :: errors
-      real(wp) :: floor, order, part, stopping
-      integer :: power
-
-      stopping = maxval(errors%stopping)
-      part = 1.0_wp
-      select case (row%law)
-      case (error_law%normal)
-         part = 1.0_wp/(coarsening**normal_order - 1.0_wp)
-         floor = normal_floor/scale%across**2
-         stopping = errors%stopping(1)
-      case (error_law%friction, error_law%power, error_law%creepage)
-         order = scale%order
-         power = nint(order)
-         floor = friction_floor(power)
-         if (order < normal_order .and. power == 2) floor = rolling_floor
-         if (row%law == error_law%power) floor = merge(rolling_power_floor, power_floor, order < normal_order .and. power == 2) &
-            & *max(scale%power, abs(row%value))/max(abs(row%value), tiny(floor))
-         floor = floor*sqrt(scale%adhesion)/scale%across**power
-         if (row%law == error_law%power .and. power == 1) order = power_order
-         if (scale%clean) part = 1.0_wp/(coarsening**order - 1.0_wp)
-         if (row%law == error_law%friction) floor = max(floor, other_component*part*scale%friction)
-      case (error_law%energy)
-         e = error_of_energy(scale) + (stopping + errors%window)*scale_of(row, scale)
-         return
-      case (error_law%peak)
-         part = 1.0_wp/(coarsening**peak_order - 1.0_wp)
-         floor = 0.0_wp
-      case default
-         part = 1.0_wp/(coarsening**jump_order - 1.0_wp)
-         floor = area_floor/scale%across
-      end select
-      if (scale%across < resolved) floor = max(floor, unresolved_floor/scale%across**2)
-      e = max(part*difference, floor*scale_of(row, scale)) &
-         & + (stopping + errors%window)*scale_of(row, scale)
-   end function error_of
-
-   !> Error of the elastic energy without that of solvers and window [J]: those of its parts, whose signs differ from case to case
-   pure real(wp) function error_of_energy(scale) result(e)
-      type(scale_type), intent(in) :: scale
-      real(wp) :: part
-
-      part = 1.0_wp
-      if (scale%clean) part = 1.0_wp/(coarsening**scale%order - 1.0_wp)
-      e = hypot(scale%energy_change(1)/(coarsening**normal_order - 1.0_wp), part*scale%energy_change(2))
-      e = max(e, energy_floor(1)*abs(scale%energy(1))/scale%across**2 &
-         & + energy_floor(2)*sqrt(scale%adhesion)*abs(scale%energy(2))/scale%across**scale%order)
-   end function error_of_energy
-
-   !> Parts of the elastic energy [J]: of pressures, and of tractions
-   pure function energies(result) result(energy)
-      type(patch_result), intent(in) :: result
-      real(wp) :: energy(2)
-
-      energy(1) = result%grid%dx*result%grid%dy/(2.0_wp*nmm_per_joule)*sum(result%pn*result%un)
-      energy(2) = result%elastic_energy - energy(1)
-   end function energies
-
-   !> Error of the largest pressure: it is taken at a centre of an element, below the peak, and pressures have an error of their own
-   pure real(wp) function error_of_peak(result, scale, coarse_peak) result(e)
-      !> Solved, with the parts of the error
-      type(patch_result), intent(in) :: result
-      type(scale_type), intent(in) :: scale
-      !> Peak of the pressures of the coarse level [N/mm2]
-      real(wp), intent(in) :: coarse_peak
-      real(wp) :: peak, floor
-
-      peak = peak_of(result%pn)
-      floor = coupled_floor*scale%coupling/scale%across**2
-      if (scale%across < resolved) floor = floor + unresolved_floor/scale%across**2
-      e = max(abs(peak - result%pmax + (peak - coarse_peak)/(coarsening**normal_order - 1.0_wp)), &
-         & peak_floor*(peak - result%pmax), floor*result%pmax, &
-         & unresolved*(largest_bend(result%pn) - smooth_bend*result%pmax/scale%across**2)) &
-         & + (result%errors%stopping(1) + result%errors%window)*result%pmax
-   end function error_of_peak
-
-   !> Peak of the parabolas through the largest value and its neighbours
-   pure real(wp) function peak_of(field) result(peak)
-      !> Shape (mx, my)
-      real(wp), intent(in) :: field(:, :)
-      integer :: at(2)
-
-      at = maxloc(field)
-      peak = field(at(1), at(2))
-      if (at(1) > 1 .and. at(1) < size(field, 1)) peak = peak + rise(field(at(1) - 1:at(1) + 1, at(2)))
-      if (at(2) > 1 .and. at(2) < size(field, 2)) peak = peak + rise(field(at(1), at(2) - 1:at(2) + 1))
-   end function peak_of
-
-   !> How much the largest value is above the mean of its neighbours, twice, in the direction where that is more
-   pure real(wp) function largest_bend(field) result(bend)
-      !> Shape (mx, my); zero is ahead of the first and behind the last value
-      real(wp), intent(in) :: field(:, :)
-      integer :: at(2)
-
-      at = maxloc(field)
-      bend = 0.0_wp
-      if (size(field, 1) >= 3) bend = 2.0_wp*field(at(1), at(2)) - beside_of(field(:, at(2)), at(1))
-      if (size(field, 2) >= 3) bend = max(bend, 2.0_wp*field(at(1), at(2)) - beside_of(field(at(1), :), at(2)))
-   end function largest_bend
-
-   !> Sum of the values on both sides of a place
-   pure real(wp) function beside_of(line, i) result(sum_beside)
-      real(wp), intent(in) :: line(:)
-      integer, intent(in) :: i
-
-      sum_beside = 0.0_wp
-      if (i > 1) sum_beside = line(i - 1)
-      if (i < size(line)) sum_beside = sum_beside + line(i + 1)
-   end function beside_of
-
-   !> How far the parabola through three values rises above the one in the middle
-   pure real(wp) function rise(value)
-      !> The largest in the middle
-      real(wp), intent(in) :: value(3)
-      real(wp) :: bend
-
-      bend = 2.0_wp*value(2) - value(1) - value(3)
-      rise = 0.0_wp
-      if (bend > 0.0_wp) rise = (value(3) - value(1))**2/(8.0_wp*bend)
-   end function rise
 
    !> Part of the load that contact beyond the window would carry
    pure real(wp) function cut_off(problem, result) result(part)

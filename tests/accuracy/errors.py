@@ -87,7 +87,8 @@ def judge(program, seed, count, kinds, limits, folder, options):
         if None in patches or "errors" not in patches[0]:
             rows.append((c, n, None))
             continue
-        ratio = (FINER[1] / FINER[0]) ** (2 if "2" in options else c["order"])
+        second = "2" in options and c["kind"] != "layer"
+        ratio = (FINER[1] / FINER[0]) ** (2 if second else c["order"])
         values = {}
         for key, estimate in patches[0]["errors"].items():
             if not key.endswith("_error"):
