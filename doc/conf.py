@@ -21,8 +21,9 @@ suppress_warnings = ["myst.header", "misc.highlighting_failure"]
 
 #: Pages in the order of the menu; those that are missing here come last
 MENU = {
-    "Start": ["user/install", "user/first_wheel", "user/first_call", "user/tutorials", "user/choosing", "user/how_exact",
-              "user/running", "user/studies", "user/plots"],
+    "Start": ["user/install", "user/first_wheel", "user/first_call", "user/tutorials",
+              *(f"user/{page}" for page in re.findall(r"\((tutorials/\w+)\.md\)", (HERE / "user/tutorials.md").read_text())),
+              "user/choosing", "user/how_exact", "user/running", "user/studies", "user/plots"],
     "Reference": ["user/signs", "user/wheel_rail", "user/wheel_rail_results", "user/input", "user/output", "user/profiles",
                   "user/readable", "user/results", "user/python", "user/matlab", "user/library", "user/routines",
                   "user/vehicle", "user/tables"],
@@ -32,6 +33,11 @@ MENU = {
     "Validation": ["validation/*"],
     "Development": ["develop/*"],
 }
+#: Folder `notebooks` with the executed tutorials and their pictures, which build.sh has made, or nothing
+NOTEBOOKS = os.environ.get("CONTACT_NOTEBOOKS")
+if NOTEBOOKS:
+    html_extra_path = [str(pathlib.Path(NOTEBOOKS).parent)]
+DRAWING = re.compile(r"<!-- draw -->\n+```python\n.*?\n```\n", re.DOTALL)
 LINK = re.compile(r"(?<!!)\[([^\]]*)\]\(([^)#\s]+)(#[^)\s]*)?\)")
 
 
@@ -62,15 +68,29 @@ def plain_formulae(text):
     return re.sub(r"(^```.*?^```|`[^`\n]*`)|\$\$(.+?)\$\$|\$([^$]+?)\$", told, text, flags=re.MULTILINE | re.DOTALL)
 
 
+def with_notebook(name, text):
+    """A tutorial with a link to its notebook, and below each block that draws its picture"""
+    link = f'<a href="../../notebooks/{name}.ipynb" download>The same as an executed notebook</a>'
+    text = text.replace("\n\n", f"\n\n{link}\n\n", 1)
+    number = 0
+
+    def drawn(block):
+        nonlocal number
+        number += 1
+        file = f"{name}_{number}.png"
+        if not (pathlib.Path(NOTEBOOKS) / file).exists():
+            return block[0]
+        return f'{block[0]}\n<img src="../../notebooks/{file}" alt="What this block draws">\n'
+    return DRAWING.sub(drawn, text)
+
+
 def read(app, page, source):
     """Each page as Sphinx shall see it"""
     text = plain_links(page, source[0])
     if "$$" in text:
         text = plain_formulae(text)
-    if page == "user/tutorials" and "CONTACT_NOTEBOOKS" in os.environ:
-        # made by build.sh, which says so
-        link = '<a href="../notebooks/tutorials.ipynb" download>The same as an executed notebook</a>'
-        text = text.replace("\n\n", f"\n\n{link}\n\n", 1)
+    if NOTEBOOKS and page.startswith("user/tutorials/"):
+        text = with_notebook(pathlib.PurePath(page).name, text)
     if page == root_doc:
         placed, menu = set(), ""
         for title, names in MENU.items():

@@ -6,6 +6,8 @@ above a block says what it is:
 
     <!-- file: NAME -->     the block is put into a file
     <!-- run -->            a block of sh or python is run; blocks of python of one page share their variables
+    <!-- draw -->           the same of python where matplotlib and xarray are there
+    <!-- octave -->         a block for Octave is run where that is there, with the folder matlab on its path
     <!-- shows -->          lines of the block stand in this order in what the last run printed
     <!-- shows: NAME -->    or in a file that it wrote
 
@@ -14,6 +16,7 @@ the environment variable CONTACT_PROGRAM where there is one, the Python package 
 finds the library installed from the build folder of that program.
 """
 import contextlib
+import importlib.util
 import io
 import os
 import pathlib
@@ -24,7 +27,7 @@ import sys
 import tempfile
 
 TOP = pathlib.Path(__file__).resolve().parents[1]
-BLOCK = re.compile(r"<!-- (file|run|shows)(?:: ([^\n]*?))? -->\n+```(\w*)\n(.*?)\n```", re.DOTALL)
+BLOCK = re.compile(r"<!-- (file|run|draw|octave|shows)(?:: ([^\n]*?))? -->\n+```(\w*)\n(.*?)\n```", re.DOTALL)
 NUMBER = re.compile(r"[-+]?\d+(?:\.\d*)?(?:[eE][-+]?\d+)?")
 #: Seconds for one block
 LONGEST = 120
@@ -51,6 +54,11 @@ def same_line(shown, found):
     return all(same_number(*pair) for pair in zip(NUMBER.findall(shown), NUMBER.findall(found)))
 
 
+def has(*modules):
+    """Are optional modules there?"""
+    return all(importlib.util.find_spec(module) for module in modules)
+
+
 def missing(shown, text):
     """First line of a block that does not stand in the text in its turn; None when all are there"""
     lines = iter(text.split("\n"))
@@ -68,6 +76,17 @@ class Page:
 
     def fail(self, text):
         sys.exit(f"FAILED {self.path}: {text}")
+
+    def octave(self, code):
+        """A block for Octave; False where there is none"""
+        if not shutil.which("octave-cli"):
+            return False
+        command = ["octave-cli", "--quiet", "--norc", "--path", str(TOP / "matlab"), "--eval", code]
+        done = subprocess.run(command, capture_output=True, text=True, timeout=LONGEST)
+        self.printed = done.stdout
+        if done.returncode:
+            self.fail(f"status {done.returncode} of\n{code}\n{done.stdout}{done.stderr}")
+        return True
 
     def run(self, language, code):
         if language == "sh":
@@ -88,13 +107,16 @@ class Page:
 
     def follow(self):
         """All blocks in their order"""
+        left_out = False
         for kind, name, language, text in BLOCK.findall(self.path.read_text()):
             self.count += 1
             if kind == "file":
                 pathlib.Path(name).write_text(text + "\n")
-            elif kind == "run":
-                self.run(language, text)
-            else:
+            elif kind != "shows":
+                left_out = (kind == "draw" and not has("matplotlib", "xarray")) or (kind == "octave" and not self.octave(text))
+                if kind != "octave" and not left_out:
+                    self.run(language, text)
+            elif not left_out:
                 line = missing(text, pathlib.Path(name).read_text() if name else self.printed)
                 if line:
                     self.fail(f"not shown any more: {line}\n" + ("" if name else f"but:\n{self.printed}"))
@@ -121,10 +143,9 @@ def main():
         os.environ["PATH"] = os.pathsep.join((os.path.dirname(program), os.environ["PATH"]))
         os.environ.setdefault("CONTACT_LIBRARY", str(pathlib.Path(program).parents[1] / "lib/libcontact.so"))
     sys.path.insert(0, str(TOP / "python"))
-    try:
-        import numpy  # noqa: F401
-    except ImportError:
-        print("skipped: Python has no numpy")
+    os.environ.setdefault("MPLBACKEND", "agg")
+    if not has("numpy", "h5py"):
+        print("skipped: Python has no numpy or no h5py")
         sys.exit(77)
     for name in sys.argv[1:]:
         path = (pathlib.Path(name) if pathlib.Path(name).is_absolute() else TOP / name).resolve()
