@@ -3,7 +3,7 @@
 
 Text becomes cells of text, the blocks below `<!-- run -->` and `<!-- draw -->` cells of code, with what they print and draw; blocks
 of what is to be seen are left out, as it stands below the code, and pictures of the repository, as those of the cells are there.
-The picture of the n-th cell that draws is kept as PAGE_n.png beside the notebook, for the site. Needs nbformat, nbclient, ipykernel,
+The picture of the n-th cell that draws is kept as PAGE_n.png beside the notebook. Needs nbformat, nbclient, ipykernel,
 matplotlib, xarray, h5py, the program and the package of this checkout; blocks for Octave are run where that is installed.
 """
 import base64
