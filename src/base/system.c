@@ -20,6 +20,7 @@ enum { REFUSED = -1, OF_ANOTHER_KIND = -2, OUTSIDE = -3, HELD = -4, LINK = -5 };
 
 int contact_open_input(const char *folder, const char *name, int confined, long long *length, int *cause);
 long long contact_read(int file, char *buffer, long long length, int *cause);
+int contact_stamp(const char *name, long long numbers[5], long long *age);
 int contact_open_output(const char *name, int confined, long keep, int *cause);
 void contact_close(int file);
 void contact_explain(int cause, char *text, int length);
@@ -110,6 +111,22 @@ int contact_open_input(const char *folder, const char *name, int confined, long 
   }
   *length = (long long)status.st_size;
   return file;
+}
+
+/* Numbers that a file keeps as long as nobody writes to it, and the time since its last change [ns]; not 0: there is none.
+ * Nobody but the system sets the time of the change of status */
+int contact_stamp(const char *name, long long numbers[5], long long *age) {
+  struct stat status;
+  struct timespec now;
+  if (stat(name, &status) != 0 || clock_gettime(CLOCK_REALTIME, &now) != 0) return REFUSED;
+  const long long second = 1000000000LL;
+  numbers[0] = (long long)status.st_dev;
+  numbers[1] = (long long)status.st_ino;
+  numbers[2] = (long long)status.st_size;
+  numbers[3] = (long long)status.st_mtim.tv_sec * second + status.st_mtim.tv_nsec;
+  numbers[4] = (long long)status.st_ctim.tv_sec * second + status.st_ctim.tv_nsec;
+  *age = (long long)now.tv_sec * second + now.tv_nsec - numbers[4];
+  return 0;
 }
 
 /* Read from a file until the buffer is full or the file ends; tells how much was read, or -1 */

@@ -7,7 +7,18 @@ module contact_base_system
    implicit none (type, external)
    private
 
-   public :: close_descriptor, lock_experiment, lock_state, open_input, open_output, read_input, remove_leftovers, unlock_experiment
+   public :: close_descriptor, file_stamp, lock_experiment, lock_state, open_input, open_output, read_input, remove_leftovers
+   public :: stamp_of, unlock_experiment
+
+   !> What a file has as long as nobody writes to it: device, number on it, length, times of the last changes of content and status
+   type :: file_stamp
+      integer(c_long_long), private :: numbers(5) = 0
+      !> Would another change have another time? Clocks of file systems tick
+      logical, private :: settled = .false.
+   contains
+      !> Is this still the file of an earlier stamp? Never of one that was not settled
+      procedure :: is_still
+   end type file_stamp
 
    !> How the attempt to take a lock ended
    type :: lock_state_list
@@ -54,6 +65,13 @@ module contact_base_system
          integer(c_int), intent(out) :: cause
          integer(c_long_long) :: done
       end function contact_read
+
+      function contact_stamp(name, numbers, age) result(state) bind(c)
+         import :: c_char, c_int, c_long_long
+         character(kind=c_char), intent(in) :: name(*)
+         integer(c_long_long), intent(out) :: numbers(5), age
+         integer(c_int) :: state
+      end function contact_stamp
 
       function contact_open_output(name, confined, keep, cause) result(file) bind(c)
          import :: c_char, c_int, c_long
@@ -142,6 +160,27 @@ contains
          call explain(file, cause, reason)
       end if
    end subroutine open_input
+
+   !> The stamp of a file; one that is never the same where there is none
+   type(file_stamp) function stamp_of(name) result(stamp)
+      !> Path of the file
+      character(len=*), intent(in) :: name
+      !> Longest tick of clocks of file systems [ns]: of those that tell parts of a second, and of the others
+      integer(c_long_long), parameter :: tick = 100000000_c_long_long, coarse_tick = 2000000000_c_long_long
+      integer(c_long_long), parameter :: second = 1000000000_c_long_long
+      integer(c_long_long) :: age
+
+      if (contact_stamp(name // c_null_char, stamp%numbers, age) /= 0) return
+      stamp%settled = age > merge(coarse_tick, tick, modulo(stamp%numbers(5), second) == 0)
+   end function stamp_of
+
+   pure logical function is_still(self, earlier)
+      class(file_stamp), intent(in) :: self
+      !> Taken before the file was read
+      type(file_stamp), intent(in) :: earlier
+
+      is_still = earlier%settled .and. all(self%numbers == earlier%numbers)
+   end function is_still
 
    !> Why a file was not opened
    subroutine explain(file, cause, reason)

@@ -8,7 +8,7 @@ module contact_patch_derived
    use contact_normal_conjugate_gradient, only : approach_scale
    use contact_patch_problem, only : carried, patch_problem, patch_state
    use contact_patch_result, only : patch_result
-   use contact_patch_workspace, only : patch_workspace, prepare_window
+   use contact_patch_workspace, only : patch_workspace, pressure_displacement, prepare_window
    use contact_patch_yield, only : derive_yield
    implicit none (type, external)
    private
@@ -250,6 +250,10 @@ contains
       type(patch_result), intent(inout) :: result
       integer :: ix, iy
 
+      if (problem%motion == motion%none .and. .not. problem%model%coupled()) then
+         call pressure_displacement(problem, workspace, state%now%pn, result%un)
+         return
+      end if
       if (problem%want_exterior .or. problem%motion == motion%none) then
          call prepare_window(problem, workspace)
          call workspace%window%normal(state%now%pn, result%un)

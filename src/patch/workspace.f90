@@ -18,7 +18,10 @@ module contact_patch_workspace
    implicit none (type, external)
    private
 
-   public :: patch_workspace, fit_workspace, prepare_window, prepare_box, release_workspace
+   public :: patch_workspace, fit_workspace, pressure_displacement, prepare_window, prepare_box, release_workspace
+
+   !> Sizes of windows that serve others, in elements: multiples of this one, beyond so many of the next one
+   integer, parameter :: fine_size = 8, few_elements = 64, coarse_size = 16
 
    !> Nothing in here carries meaning from one case to the next
    type :: patch_workspace
@@ -26,6 +29,11 @@ module contact_patch_workspace
       class(compliance), allocatable :: window, box
       !> Those of other windows and boxes that were in use
       type(operator_shelf) :: windows, boxes
+      !> Compliance on a window of a size that serves many, and others of such sizes
+      class(compliance), allocatable :: rounded
+      type(operator_shelf) :: all_rounded
+      !> Pressures and displacements there
+      real(wp), allocatable :: rounded_pn(:, :), rounded_un(:, :)
       type(previous_operator) :: previous
       !> Normal displacements of few elements, for approximate pressures; unallocated where they do not suit the bodies
       type(pressure_sums), allocatable :: sums
@@ -92,6 +100,55 @@ contains
          & rolling_direction(problem), problem%grid%y(1))
    end subroutine prepare_window
 
+   !> Normal displacements of flat half-spaces by the pressures of a window that was solved without its compliance
+   !>
+   !> With zeros beside it the window has a size that many others have too: coefficients, spectra and plans are those of an earlier
+   !> case. An operator that is there for the window itself is taken.
+   subroutine pressure_displacement(problem, workspace, pn, un)
+      !> Elasticity and grid
+      type(patch_problem), intent(in) :: problem
+      !> Its `window` or its `rounded` is used
+      type(patch_workspace), intent(inout) :: workspace
+      !> Pressures [N/mm2], shape (mx, my)
+      real(wp), intent(in) :: pn(:, :)
+      !> Displacement difference [mm], positive where the surfaces move apart, shape (mx, my)
+      real(wp), intent(inout) :: un(:, :)
+      integer :: n(2)
+      logical :: at_hand
+
+      associate (grid => problem%grid)
+         at_hand = allocated(workspace%window)
+         if (at_hand) at_hand = workspace%window%is_for(problem%model, grid%dx, grid%dy, grid%mx, grid%my)
+         if (at_hand .or. .not. workspace%sums%suits(problem%model)) then
+            call prepare_window(problem, workspace)
+            call workspace%window%normal(pn, un)
+            return
+         end if
+         n = [rounded_up(grid%mx), rounded_up(grid%my)]
+         if (allocated(workspace%rounded_pn)) then
+            if (any(shape(workspace%rounded_pn) /= n)) deallocate(workspace%rounded_pn, workspace%rounded_un)
+         end if
+         if (.not. allocated(workspace%rounded_pn)) allocate(workspace%rounded_pn(n(1), n(2)), workspace%rounded_un(n(1), n(2)))
+         call workspace%all_rounded%fetch(problem%model, grid%dx, grid%dy, n(1), n(2), workspace%rounded)
+         call new_compliance(problem%model, workspace%rounded)
+         call workspace%rounded%prepare(problem%model, grid%dx, grid%dy, n(1), n(2), rolling_direction(problem), grid%y(1))
+         workspace%rounded_pn = 0.0_wp
+         workspace%rounded_pn(:grid%mx, :grid%my) = pn
+         call workspace%rounded%normal(workspace%rounded_pn, workspace%rounded_un)
+         un = workspace%rounded_un(:grid%mx, :grid%my)
+      end associate
+   end subroutine pressure_displacement
+
+   !> Size of a window that serves a smaller one
+   pure integer function rounded_up(n)
+      !> In elements
+      integer, intent(in) :: n
+      integer :: step
+
+      step = merge(fine_size, coarse_size, n <= few_elements)
+      rounded_up = ((n + step - 1)/step)*step
+   end function rounded_up
+
    !> Compliance on the bounding box of the contact area
    subroutine prepare_box(problem, box, workspace)
       !> Elasticity, grid and rolling direction
@@ -115,7 +172,9 @@ contains
 
       if (allocated(workspace%window)) call workspace%window%release()
       if (allocated(workspace%box)) call workspace%box%release()
+      if (allocated(workspace%rounded)) call workspace%rounded%release()
       call workspace%windows%release()
+      call workspace%all_rounded%release()
       call workspace%boxes%release()
       call workspace%previous%release()
       call release_normal(workspace%normal_work)

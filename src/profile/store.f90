@@ -2,11 +2,13 @@
 !>
 !> Whoever runs the cases owns one store. A profile stays until the store is released or, when more than
 !> `max_profiles` are in use, until it is the one that was asked for longest ago. A file that has
-!> changed since is read again: the text is compared by its length and a hash, which needs no clock.
+!> changed since is read again: the text is compared by its length and a hash. A file whose number, length and times of change are
+!> those of before, and were older than a tick of its clock when it was read, is not even opened.
 module contact_profile_store
    use contact_base_error, only : add_context, error_type
    use contact_base_kinds, only : long, wp
    use contact_base_log, only : log_type
+   use contact_base_system, only : file_stamp, stamp_of
    use contact_profile_curve, only : profile_curve
    use contact_profile_prepare, only : extension_of, read_profile
    use contact_profile_request, only : profile_request, same_request
@@ -28,11 +30,20 @@ module contact_profile_store
       type(profile_surface), allocatable :: surface
    end type prepared_profile
 
+   !> A file that a profile was read from
+   type :: watched_file
+      character(len=:), allocatable :: name
+      !> Taken before it was read
+      type(file_stamp) :: stamp
+   end type watched_file
+
    type :: store_entry
       !> Owned by the store, stays in its place while the list of entries grows
       type(prepared_profile), pointer :: profile => null()
       integer(long) :: fingerprint = 0
       integer(long) :: last_use = 0
+      !> What the fingerprint was made of; none for a profile that is given by points, or confined to a folder
+      type(watched_file), allocatable :: files(:)
    end type store_entry
 
    type :: profile_store
@@ -42,6 +53,8 @@ module contact_profile_store
       logical :: watches_files = .true.
       !> Files that were read, for tests and timing
       integer :: loads = 0
+      !> Times that the files of a profile were read to compare them, for tests and timing
+      integer :: comparisons = 0
       !> Hash of all files that were read, in their order
       integer(long) :: history = 0
       type(store_entry), allocatable, private :: entries(:)
@@ -65,22 +78,25 @@ contains
       type(log_type), intent(inout) :: log
       !> Names the file and what is wrong with it
       type(error_type), allocatable, intent(out) :: error
+      type(watched_file), allocatable :: files(:)
       integer(long) :: fingerprint
       integer :: k, slot
 
       profile => null()
       if (.not. allocated(self%entries)) allocate(self%entries(max(1, self%max_profiles)))
       self%clock = self%clock + 1
-      if (.not. self%watches_files) then
-         do k = 1, size(self%entries)
-            if (.not. associated(self%entries(k)%profile)) cycle
-            if (.not. same_request(self%entries(k)%profile%request, request)) cycle
-            self%entries(k)%last_use = self%clock
-            profile => self%entries(k)%profile
-            return
-         end do
-      end if
-      call fingerprint_of(request, fingerprint, error)
+      do k = 1, size(self%entries)
+         if (.not. associated(self%entries(k)%profile)) cycle
+         if (.not. same_request(self%entries(k)%profile%request, request)) cycle
+         if (self%watches_files) then
+            if (.not. are_untouched(self%entries(k)%files)) cycle
+         end if
+         self%entries(k)%last_use = self%clock
+         profile => self%entries(k)%profile
+         return
+      end do
+      call fingerprint_of(request, fingerprint, files, error)
+      self%comparisons = self%comparisons + 1
       if (allocated(error)) return
       slot = 0
       do k = 1, size(self%entries)
@@ -88,6 +104,7 @@ contains
          if (.not. same_request(self%entries(k)%profile%request, request)) cycle
          if (self%entries(k)%fingerprint == fingerprint) then
             self%entries(k)%last_use = self%clock
+            call move_alloc(files, self%entries(k)%files)
             profile => self%entries(k)%profile
             return
          end if
@@ -106,6 +123,7 @@ contains
       end if
       self%entries(slot)%profile => profile
       self%entries(slot)%fingerprint = fingerprint
+      call move_alloc(files, self%entries(slot)%files)
       self%entries(slot)%last_use = self%clock
    end subroutine get
 
@@ -232,11 +250,30 @@ contains
       is_slices_file = extension_of(request%file) == "slcs" .or. extension_of(request%file) == "slcw"
    end function is_slices_file
 
+   !> Are all files as they were when they were read, as far as the file system tells?
+   logical function are_untouched(files)
+      !> Unallocated where this is not known
+      type(watched_file), intent(in), allocatable :: files(:)
+      type(file_stamp) :: now
+      integer :: k
+
+      are_untouched = .false.
+      if (.not. allocated(files)) return
+      do k = 1, size(files)
+         now = stamp_of(files(k)%name)
+         if (.not. now%is_still(files(k)%stamp)) return
+      end do
+      are_untouched = .true.
+   end function are_untouched
+
    !> Hash of the file, and of all slices when it names some
-   subroutine fingerprint_of(request, fingerprint, error)
+   subroutine fingerprint_of(request, fingerprint, files, error)
       type(profile_request), intent(in) :: request
       integer(long), intent(out) :: fingerprint
+      !> What was read; unallocated where only reading tells whether it is the same, and on errors
+      type(watched_file), allocatable, intent(out) :: files(:)
       type(error_type), allocatable, intent(out) :: error
+      type(file_stamp) :: stamp
       type(input_lexer) :: text, slice
       type(slices_list) :: list
       integer(long), parameter :: modulus = 2147483647_long
@@ -250,17 +287,25 @@ contains
          end do
          return
       end if
+      stamp = stamp_of(request%file)
       call text%open_file(request%file, error, request%below)
       if (allocated(error)) return
       fingerprint = text%fingerprint()
-      if (.not. is_slices_file(request)) return
-      call read_slices_file(text, request%side, list, error)
+      allocate(list%slices(0))
+      if (is_slices_file(request)) call read_slices_file(text, request%side, list, error)
       if (allocated(error)) return
+      allocate(files(size(list%slices) + 1))
+      files(1)%name = request%file
+      files(1)%stamp = stamp
       do k = 1, size(list%slices)
+         files(k + 1)%name = list%slices(k)%file
+         files(k + 1)%stamp = stamp_of(list%slices(k)%file)
          call slice%open_file(list%slices(k)%file, error, request%below)
          call add_context(error, "slice " // integer_text(k) // " of " // request%file)
          if (allocated(error)) return
          fingerprint = modulo(31_long*fingerprint + slice%fingerprint(), modulus)
       end do
+      ! where a link leads is looked at each time
+      if (allocated(request%below)) deallocate(files)
    end subroutine fingerprint_of
 end module contact_profile_store

@@ -453,7 +453,7 @@ contains
       logical, intent(out) :: found
       !> Piece of the section that is looked at first, and the one that holds the point
       integer, intent(inout) :: piece
-      real(wp) :: across, along, y_u, bend, t
+      real(wp) :: across, y_u, t
 
       z = 0.0_wp
       z_y = 0.0_wp
@@ -462,12 +462,14 @@ contains
       if (found) call self%curve%locate(y, piece, t, found)
       if (.not. found) return
       ! all four functions have the same pieces
-      call self%curve%y%in_piece(piece, t, along, across)
-      call self%curve%z%in_piece(piece, t, z, z_y)
-      across = sign(max(abs(across), vertical), across)
-      z_y = z_y/across
-      call self%z_u%in_piece(piece, t, z_u, bend)
-      call self%y_u%in_piece(piece, t, y_u, bend)
+      associate (cy => self%curve%y%c, cz => self%curve%z%c, cy_u => self%y_u%c, cz_u => self%z_u%c)
+         across = cy(1, piece) + t*(2.0_wp*cy(2, piece) + t*3.0_wp*cy(3, piece))
+         z = cz(0, piece) + t*(cz(1, piece) + t*(cz(2, piece) + t*cz(3, piece)))
+         z_y = cz(1, piece) + t*(2.0_wp*cz(2, piece) + t*3.0_wp*cz(3, piece))
+         z_u = cz_u(0, piece) + t*(cz_u(1, piece) + t*(cz_u(2, piece) + t*cz_u(3, piece)))
+         y_u = cy_u(0, piece) + t*(cy_u(1, piece) + t*(cy_u(2, piece) + t*cy_u(3, piece)))
+      end associate
+      z_y = z_y/sign(max(abs(across), vertical), across)
       z_u = z_u - z_y*y_u
    end subroutine at
 

@@ -8,14 +8,22 @@ module contact_wheelrail_bodies
    use contact_base_kinds, only : wp
    use contact_profile_curve, only : profile_curve
    use contact_profile_surface, only : large_swing, profile_surface, surface_cut
-   use contact_wheelrail_flat_patch, only : wheel_height, wheel_row
    use contact_wheelrail_frame, only : frame
    use contact_wheelrail_placement, only : wheel_rail_placement
+   use contact_wheelrail_wheel_surface, only : wheel_height, wheel_row
    implicit none (type, external)
    private
 
    public :: wheel_rail_bodies, strip, place_bodies, search_reach, widest_reach, rail_section, find_rail, find_wheel
    public :: find_rail_row, find_wheel_row, slice_pair
+
+   !> What was found last on a section: the same place is looked at again in the next step, or by the next point
+   type :: known_point
+      !> Lateral position [mm]; none yet
+      real(wp) :: y = huge(1.0_wp)
+      !> Height [mm], its derivatives across [-] and along the mesh, per mm or rad
+      real(wp) :: z = 0.0_wp, z_y = 0.0_wp, z_u = 0.0_wp
+   end type known_point
 
    !> Sections on an even mesh
    type :: strip
@@ -26,6 +34,7 @@ module contact_wheelrail_bodies
       logical, allocatable :: made(:)
       !> Piece of each section that held the last point
       integer, allocatable :: piece(:)
+      type(known_point), allocatable, private :: known(:)
       !> What they are sections of, the position u on it of place 0, and the axes they are seen from (see `cut`)
       type(profile_surface) :: surface
       real(wp) :: origin = 0.0_wp, axes(3) = 0.0_wp
@@ -135,6 +144,7 @@ contains
       allocate(along%sections(2*n + 1))
       allocate(along%made(2*n + 1), source=.false.)
       allocate(along%piece(2*n + 1), source=0)
+      allocate(along%known(2*n + 1))
    end subroutine lay_out
 
    !> Make a section if it is not there yet
@@ -217,8 +227,8 @@ contains
       call surface%continued(u, section, track_axes(placement))
    end subroutine rail_section
 
-   !> Height and slope across at a place between two sections
-   subroutine strip_at(self, place, y, z, z_y, found)
+   !> Height and slopes at a place between two sections
+   subroutine strip_at(self, place, y, z, z_y, found, z_place)
       class(strip), intent(inout) :: self
       !> Along the mesh, and lateral position [mm]
       real(wp), intent(in) :: place, y
@@ -226,35 +236,67 @@ contains
       real(wp), intent(out) :: z, z_y
       !> Do both sections have this point?
       logical, intent(out) :: found
-      real(wp) :: t, low, low_y, low_u, high, high_y, high_u
+      !> Its derivative along the mesh, per mm or rad
+      real(wp), intent(out), optional :: z_place
+      type(known_point) :: low, high
+      real(wp) :: t
       integer :: k
 
       z = 0.0_wp
       z_y = 0.0_wp
-      k = floor((place - self%first)/self%step) + 1
+      if (present(z_place)) z_place = 0.0_wp
+      t = (place - self%first)/self%step
+      k = floor(t) + 1
       found = k >= 1 .and. k < size(self%sections)
       if (.not. found) return
-      t = (place - self%first)/self%step - (k - 1)
+      t = t - (k - 1)
       ! a place on a section is one, in spite of rounding
       if (t > 1.0_wp - rounding) then
          k = k + 1
          t = 0.0_wp
       end if
-      call self%need(k)
-      call self%sections(k)%at(y, low, low_y, low_u, found, self%piece(k))
+      call find_on_section(self, k, y, low, found)
       if (.not. found) return
       if (t <= rounding) then
-         z = low
-         z_y = low_y
+         z = low%z
+         z_y = low%z_y
+         if (present(z_place)) z_place = low%z_u
          return
       end if
-      call self%need(k + 1)
-      call self%sections(k + 1)%at(y, high, high_y, high_u, found, self%piece(k + 1))
+      call find_on_section(self, k + 1, y, high, found)
       if (.not. found) return
-      z = low*(1.0_wp + 2.0_wp*t)*(1.0_wp - t)**2 + high*t**2*(3.0_wp - 2.0_wp*t) &
-         & + self%step*t*(1.0_wp - t)*(low_u*(1.0_wp - t) - high_u*t)
-      z_y = (1.0_wp - t)*low_y + t*high_y
+      z = low%z*(1.0_wp + 2.0_wp*t)*(1.0_wp - t)**2 + high%z*t**2*(3.0_wp - 2.0_wp*t) &
+         & + self%step*t*(1.0_wp - t)*(low%z_u*(1.0_wp - t) - high%z_u*t)
+      z_y = (1.0_wp - t)*low%z_y + t*high%z_y
+      if (present(z_place)) z_place = 6.0_wp*t*(1.0_wp - t)*(high%z - low%z)/self%step &
+         & + low%z_u*(1.0_wp - t)*(1.0_wp - 3.0_wp*t) - high%z_u*t*(2.0_wp - 3.0_wp*t)
    end subroutine strip_at
+
+   !> The point of a section; very near the one that was found last along its tangent
+   subroutine find_on_section(self, number, y, point, found)
+      type(strip), intent(inout) :: self
+      !> Number of the section, from 1
+      integer, intent(in) :: number
+      !> [mm]
+      real(wp), intent(in) :: y
+      type(known_point), intent(out) :: point
+      !> Is there such a point?
+      logical, intent(out) :: found
+      !> As far as this [mm] a tangent is the curve: what bends leave is a millionth of a millionth of a millimetre
+      real(wp), parameter :: nearness = 2.0e-6_wp
+
+      point = self%known(number)
+      found = abs(y - point%y) <= nearness
+      if (found) then
+         point%z = point%z + (y - point%y)*point%z_y
+         return
+      end if
+      call self%need(number)
+      call self%sections(number)%at(y, point%z, point%z_y, point%z_u, found, self%piece(number))
+      if (.not. found) return
+      point%y = y
+      self%known(number) = point
+   end subroutine find_on_section
 
    !> Height n of the rail over a point (x, s) of a plane; of the track itself when the plane is the default frame
    !>
@@ -325,6 +367,16 @@ contains
 
       recent = 0.0_wp
       known = 0
+      if (size(x) > 1 .and. .not. allocated(bodies%rail_strip) .and. .not. bodies%placement%roller_radius > 0.0_wp &
+         & .and. all(abs(plane%axes(2:3, 1)) <= 0.0_wp)) then
+         ! what does not vary along the track is found once, as well as where each point goes on from the last one
+         n(1) = 0.0_wp
+         call find_rail(bodies, plane, x(1), s, n(1), found(1))
+         if (found(1)) call find_rail(bodies, plane, x(1), s, n(1), found(1))
+         n(2:) = n(1)
+         found(2:) = found(1)
+         return
+      end if
       do i = 1, size(x)
          n(i) = estimate(recent, known)
          call find_rail(bodies, plane, x(i), s, n(i), found(i))
@@ -344,10 +396,10 @@ contains
       real(wp), intent(inout) :: place, n
       !> Does the line along n meet the wheel?
       logical, intent(out) :: found
-      real(wp) :: q(3), k(3), rho, z, z_y, correction
+      real(wp) :: base(3), q(3), k(3), rho, z, z_y, z_around, correction
       integer :: step
-      !> Of a step [mm]: what remains is as much smaller as the surface is round
-      real(wp), parameter :: tolerance = 1.0e-8_wp
+      !> Of a step [mm]: what remains after Newton's method is a thousandth of it at most
+      real(wp), parameter :: tolerance = 1.0e-6_wp
 
       associate (radius => bodies%placement%wheel_radius)
          if (.not. allocated(bodies%wheel_strip)) then
@@ -355,13 +407,14 @@ contains
             return
          end if
          k = seen%axes(:, 3)
+         base = seen%origin + seen%axes(:, 1)*x + seen%axes(:, 2)*s + [0.0_wp, 0.0_wp, radius]
          do step = 1, 30
-            q = seen%to_parent([x, s, n])
-            rho = hypot(q(1), q(3) + radius)
-            call bodies%wheel_strip%at(atan2(q(1), q(3) + radius), q(2), z, z_y, found)
+            q = base + k*n
+            rho = sqrt(q(1)**2 + q(3)**2)
+            call bodies%wheel_strip%at(atan2(q(1), q(3)), q(2), z, z_y, found, z_around)
             if (.not. found) return
-            ! radius + z - rho = 0; the slope around the wheel hardly matters for a step along n
-            correction = (radius + z - rho)/((k(1)*q(1) + k(3)*(q(3) + radius))/rho - z_y*k(2))
+            ! radius + z - rho = 0
+            correction = (radius + z - rho)/((k(1)*q(1) + k(3)*q(3))/rho - z_y*k(2) - z_around*(k(1)*q(3) - k(3)*q(1))/rho**2)
             n = n + correction
             if (abs(correction) <= tolerance) return
          end do

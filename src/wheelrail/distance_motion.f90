@@ -7,12 +7,13 @@ module contact_wheelrail_distance_motion
    use contact_base_kinds, only : wp
    use contact_profile_curve, only : profile_curve
    use contact_wheelrail_displacements, only : coordinate, displacement_at
-   use contact_wheelrail_flat_patch, only : start_places, wheel_height
+   use contact_wheelrail_flat_patch, only : start_places
    use contact_wheelrail_frame, only : cross, frame
    use contact_wheelrail_geometry, only : wheel_rail_geometry
    use contact_wheelrail_memory, only : patch_slot
    use contact_wheelrail_problem, only : wheel_rail_problem
    use contact_wheelrail_reference_motion, only : reference_motion
+   use contact_wheelrail_wheel_surface, only : wheel_height
    implicit none (type, external)
    private
 

@@ -13,10 +13,11 @@ module contact_wheelrail_flat_patch
    use contact_wheelrail_placement, only : wheel_rail_placement
    use contact_wheelrail_region, only : contact_region
    use contact_wheelrail_spec, only : search_spec
+   use contact_wheelrail_wheel_surface, only : wheel_row
    implicit none (type, external)
    private
 
-   public :: patch_frame, patch_grid, undeformed_distance, start_places, settle_distance, wheel_height, wheel_row
+   public :: patch_frame, patch_grid, undeformed_distance, start_places, settle_distance
 
    !> Distance where rail or wheel is missing [mm]
    real(wp), parameter, public :: nothing_there = 999.0_wp
@@ -289,139 +290,4 @@ contains
          end if
       end do
    end subroutine roller_height
-
-   !> Heights n of the wheel's surface over a row of points (x, s) of the plane
-   !>
-   !> Places and heights follow parabolas closely along the track: each point starts from the three before it.
-   pure subroutine wheel_row(wheel, radius, seen, x, s, start, n, found)
-      !> Profile of a round wheel in its own coordinates
-      type(profile_curve), intent(in) :: wheel
-      !> See `wheel_height`
-      real(wp), intent(in) :: radius
-      !> The plane seen from the wheel
-      type(frame), intent(in) :: seen
-      !> At even distances
-      real(wp), intent(in) :: x(:), s
-      !> Place on the profile and height: estimates for the first point, on exit the solution there if it has one
-      real(wp), intent(inout) :: start(2)
-      !> Height over each point [mm]
-      real(wp), intent(out) :: n(:)
-      !> Does the line along n meet the wheel there?
-      logical, intent(out) :: found(:)
-      !> Place and height of the last three points, the last one first
-      real(wp) :: recent(2, 3), estimate(2), point(3)
-      integer :: i, known, piece
-
-      recent(:, 1) = start
-      known = 0
-      piece = 1
-      do i = 1, size(x)
-         estimate = recent(:, 1)
-         if (known == 3) estimate = 3.0_wp*(recent(:, 1) - recent(:, 2)) + recent(:, 3)
-         point = seen%origin + seen%axes(:, 1)*x(i) + seen%axes(:, 2)*s
-         call meet_wheel(wheel, radius, point, seen%axes(:, 3), piece, estimate(1), estimate(2), found(i))
-         n(i) = estimate(2)
-         if (found(i)) then
-            if (i == 1) start = estimate
-            recent(:, 2:3) = recent(:, 1:2)
-            recent(:, 1) = estimate
-            known = min(known + 1, 3)
-         else
-            recent(:, 1) = start
-            known = 0
-         end if
-      end do
-   end subroutine wheel_row
-
-   !> Height n of the wheel's surface over a point (x, s) of the plane
-   pure subroutine wheel_height(wheel, radius, seen, x, s, place, n, found)
-      !> Profile of a round wheel in its own coordinates
-      type(profile_curve), intent(in) :: wheel
-      !> Of the wheel at the origin of its profile [mm]
-      real(wp), intent(in) :: radius
-      !> The plane seen from the wheel
-      type(frame), intent(in) :: seen
-      !> Position in the plane [mm]
-      real(wp), intent(in) :: x, s
-      !> Estimates on entry, solution on exit
-      real(wp), intent(inout) :: place, n
-      !> Does the line along n meet the wheel?
-      logical, intent(out) :: found
-      integer :: piece
-
-      piece = 1
-      call meet_wheel(wheel, radius, seen%origin + seen%axes(:, 1)*x + seen%axes(:, 2)*s, seen%axes(:, 3), piece, place, n, found)
-   end subroutine wheel_height
-
-   !> Where a line meets the surface of the wheel, in the wheel's coordinates
-   !>
-   !> Unknown are the place on the profile and the distance n along the line: the point lies at the profile's lateral
-   !> position, and on the circle that this place describes.
-   pure subroutine meet_wheel(wheel, radius, point, k, piece, place, n, found)
-      type(profile_curve), intent(in) :: wheel
-      !> Of the wheel at the origin of its profile [mm]
-      real(wp), intent(in) :: radius
-      !> A point of the line [mm] and its direction
-      real(wp), intent(in) :: point(3), k(3)
-      !> A piece of the profile to begin with; on exit that of the place
-      integer, intent(inout) :: piece
-      !> Estimates on entry, solution on exit
-      real(wp), intent(inout) :: place, n
-      logical, intent(out) :: found
-      real(wp) :: q(3), y, z, y_s, z_s, r, depth, f(2), j(2, 2), det, step(2), last
-      integer :: iteration, pieces, beyond
-      !> Of a step, relative to the radius: what remains after it is of the order of its square
-      real(wp), parameter :: tolerance = 1.0e-8_wp
-      !> Steps in a row that leave the profile, until the line is taken to miss it
-      integer, parameter :: max_beyond = 4
-
-      found = .false.
-      associate (nodes => wheel%y%s)
-         pieces = size(nodes) - 1
-         last = nodes(pieces + 1)
-         place = min(max(place, nodes(1)), last)
-         beyond = 0
-         do iteration = 1, 30
-            if (place < nodes(piece) .or. place > nodes(piece + 1)) piece = next_piece(nodes, piece, place)
-            q = point + n*k
-            call wheel%y%in_piece(piece, place - nodes(piece), y, y_s)
-            call wheel%z%in_piece(piece, place - nodes(piece), z, z_s)
-            r = radius + z
-            if (abs(q(1)) >= r) return
-            depth = sqrt(r**2 - q(1)**2)
-            f(1) = q(2) - y
-            f(2) = q(3) + radius - depth
-            j(1, 1) = -y_s
-            j(1, 2) = k(2)
-            j(2, 1) = -r*z_s/depth
-            j(2, 2) = k(3) + q(1)*k(1)/depth
-            det = j(1, 1)*j(2, 2) - j(1, 2)*j(2, 1)
-            if (.not. abs(det) > 0.0_wp) return
-            step = [f(1)*j(2, 2) - j(1, 2)*f(2), j(1, 1)*f(2) - f(1)*j(2, 1)]/det
-            ! not further than profiles bend
-            step(1) = min(max(step(1), -5.0_wp), 5.0_wp)
-            place = place - step(1)
-            n = n - step(2)
-            if (place < nodes(1) - 1.0_wp .or. place > last + 1.0_wp) return
-            found = abs(step(1)) + abs(step(2)) <= tolerance*radius
-            beyond = merge(beyond + 1, 0, place < nodes(1) .or. place > last)
-            place = min(max(place, nodes(1)), last)
-            if (found .or. beyond > max_beyond) return
-         end do
-      end associate
-   end subroutine meet_wheel
-
-   !> The piece that holds a place, near another piece or not
-   pure integer function next_piece(nodes, piece, place) result(next)
-      real(wp), intent(in) :: nodes(:), place
-      integer, intent(in) :: piece
-
-      next = piece
-      if (place > nodes(piece + 1)) then
-         next = min(piece + 1, size(nodes) - 1)
-      else if (piece > 1) then
-         next = piece - 1
-      end if
-      if (place < nodes(next) .or. place > nodes(next + 1)) next = piece_of(nodes, place)
-   end function next_piece
 end module contact_wheelrail_flat_patch

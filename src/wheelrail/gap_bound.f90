@@ -37,19 +37,27 @@ module contact_wheelrail_gap_bound
 contains
 
    !> Lower bound of the vertical gap [mm], for each lateral position over each stretch of track
-   subroutine bound_gap(bodies, edges, y, low)
+   !>
+   !> A wheel that varies is bounded first as the round one that it lies within. Where this is far enough away no more is wanted.
+   subroutine bound_gap(bodies, edges, y, far, low)
       !> Sections of rail and wheel, and where they are
       type(wheel_rail_bodies), intent(in) :: bodies
       !> Ends of the stretches, rising, and lateral positions at even distances, in track coordinates [mm]
       real(wp), intent(in) :: edges(:), y(:)
+      !> Whatever is this far away does not matter [mm]
+      real(wp), intent(in) :: far
       !> Shape (stretches, lateral positions); `no_surface` where one body is missing
       real(wp), intent(out) :: low(:, :)
       real(wp) :: rail(size(y)), wheel(size(y)), near, rho(size(y))
-      real(wp), allocatable :: profile(:, :)
+      real(wp), allocatable :: profile(:, :), outline(:, :)
       logical :: found(size(y))
       integer :: i
 
-      if (.not. allocated(bodies%wheel_strip)) call sample(bodies%wheel, profile)
+      if (allocated(bodies%wheel_strip)) then
+         call outline_of(bodies%wheel_strip, outline)
+      else
+         call sample(bodies%wheel, profile)
+      end if
       if (.not. allocated(bodies%rail_strip)) then
          call bodies%rail%heights(y, rail, found)
          where (.not. found) rail = no_surface
@@ -57,10 +65,17 @@ contains
       do i = 1, size(edges) - 1
          if (allocated(bodies%rail_strip)) call rail_above(bodies%rail_strip, edges(i:i + 1), y, rail)
          wheel = no_surface
-         if (allocated(bodies%wheel_strip)) then
+         if (.not. allocated(bodies%wheel_strip)) then
+            call round_wheel_below(bodies, profile, edges(i:i + 1), y, wheel)
+         else if (.not. allocated(outline)) then
             call varying_wheel_below(bodies, edges(i:i + 1), y, wheel)
          else
-            call round_wheel_below(bodies, profile, edges(i:i + 1), y, wheel)
+            call round_wheel_below(bodies, outline, edges(i:i + 1), y, wheel)
+            ! a roller falls away along the track
+            if (any(rail < no_surface .and. rail + wheel - rounding < far)) then
+               wheel = no_surface
+               call varying_wheel_below(bodies, edges(i:i + 1), y, wheel)
+            end if
          end if
          low(i, :) = rail
          if (bodies%placement%roller_radius > 0.0_wp) then
@@ -126,19 +141,50 @@ contains
       end do
    end subroutine rail_above
 
+   !> The round wheel that a varying one lies within: of each line how far it reaches, and its largest radius
+   subroutine outline_of(along, outline)
+      !> Sections of the wheel
+      type(strip), intent(in) :: along
+      !> Points y, z and y, z for each line, shape (lines, 4) [mm]; unallocated where not all lines are there
+      real(wp), allocatable, intent(out) :: outline(:, :)
+      integer :: g, j
+
+      allocate(outline(along%surface%lines, 4))
+      outline(:, 1) = huge(1.0_wp)
+      outline(:, 2) = -huge(1.0_wp)
+      outline(:, 3) = -huge(1.0_wp)
+      ! a spline lies within the hull of its control points
+      do g = 1, size(along%surface%groups)
+         associate (group => along%surface%groups(g))
+            do j = 1, size(group%y, 2)
+               outline(group%first:group%last, 1) = min(outline(group%first:group%last, 1), group%y(:, j))
+               outline(group%first:group%last, 3) = max(outline(group%first:group%last, 3), group%y(:, j))
+               outline(group%first:group%last, 2) = max(outline(group%first:group%last, 2), group%z(:, j))
+            end do
+         end associate
+      end do
+      outline(:, 4) = outline(:, 2)
+      if (any(outline(:, 1) > outline(:, 3))) deallocate(outline)
+   end subroutine outline_of
+
    !> Lowest places of a round wheel over a stretch of track, as the least -z
    subroutine round_wheel_below(bodies, profile, range_x, y, below)
       type(wheel_rail_bodies), intent(in) :: bodies
-      !> Points y, z of its profile, shape (points, 2) [mm]
+      !> Points y, z of its profile [mm], one or several in each row: shape (points, 2) or (points, 4)
       real(wp), intent(in) :: profile(:, :)
       real(wp), intent(in) :: range_x(2), y(:)
       real(wp), intent(inout) :: below(:)
-      real(wp) :: py(size(profile, 1), stations), pz(size(profile, 1), stations), angle(size(profile, 1))
-      integer :: k
+      real(wp), dimension(size(profile, 1), stations*size(profile, 2)/2) :: py, pz
+      real(wp) :: angle(size(profile, 1))
+      integer :: i, k, n
 
-      do k = 1, stations
-         call find_angles(bodies, profile(:, 1), profile(:, 2), station(range_x, k), angle)
-         call on_circles(bodies, profile(:, 1), profile(:, 2), angle, py(:, k), pz(:, k))
+      n = 0
+      do i = 1, size(profile, 2), 2
+         do k = 1, stations
+            n = n + 1
+            call find_angles(bodies, profile(:, i), profile(:, i + 1), station(range_x, k), angle)
+            call on_circles(bodies, profile(:, i), profile(:, i + 1), angle, py(:, n), pz(:, n))
+         end do
       end do
       call lower_envelope(py, -pz, sagitta(bodies, range_x), y, below)
    end subroutine round_wheel_below
@@ -282,49 +328,52 @@ contains
       !> At even distances [mm]
       real(wp), intent(in) :: places(:)
       real(wp), intent(inout) :: low(:)
-      real(wp) :: middle(size(y, 1), 2), bend(size(y, 1)), bulge, slope, least, ends(2), step
-      !> Control points of each point together, and how far they reach
-      real(wp) :: py(size(y, 2), size(y, 1)), pz(size(y, 2), size(y, 1)), reach(2, size(y, 1))
+      real(wp), dimension(size(y, 1)) :: my, mz, bend, left, right, top, slope, least
+      real(wp) :: bulge, ends(2), step
       integer :: i, j, k, n, first, last
 
       n = size(y, 1)
       if (n < 2) return
-      py = transpose(y)
-      pz = transpose(z)
-      do i = 1, n
-         middle(i, :) = [sum(py(:, i)), sum(pz(:, i))]/size(y, 2)
-         reach(:, i) = [minval(py(:, i)), maxval(py(:, i))]
+      my = 0.0_wp
+      mz = 0.0_wp
+      left = y(:, 1)
+      right = y(:, 1)
+      top = z(:, 1)
+      do k = 1, size(y, 2)
+         my = my + y(:, k)
+         mz = mz + z(:, k)
+         left = min(left, y(:, k))
+         right = max(right, y(:, k))
+         top = min(top, z(:, k))
       end do
+      my = my/size(y, 2)
+      mz = mz/size(y, 2)
       bend = 0.0_wp
-      do i = 2, n - 1
-         bend(i) = hypot(middle(i - 1, 1) - 2.0_wp*middle(i, 1) + middle(i + 1, 1), &
-            & middle(i - 1, 2) - 2.0_wp*middle(i, 2) + middle(i + 1, 2))
+      bend(2:n - 1) = sqrt((my(:n - 2) - 2.0_wp*my(2:n - 1) + my(3:))**2 + (mz(:n - 2) - 2.0_wp*mz(2:n - 1) + mz(3:))**2)
+      slope = 0.0_wp
+      where (abs(mz(2:) - mz(:n - 1)) < wall*abs(my(2:) - my(:n - 1))) slope(:n - 1) = (mz(2:) - mz(:n - 1))/(my(2:) - my(:n - 1))
+      least = huge(1.0_wp)
+      do k = 1, size(y, 2)
+         do i = 1, n - 1
+            least(i) = min(least(i), z(i, k) - mz(i) - slope(i)*(y(i, k) - my(i)), &
+               & z(i + 1, k) - mz(i) - slope(i)*(y(i + 1, k) - my(i)))
+         end do
       end do
       step = 1.0_wp
       if (size(places) > 1) step = places(2) - places(1)
       do i = 1, n - 1
          bulge = bulge_share*maxval(bend(max(1, i - neighbours + 1):min(n, i + neighbours)))
-         ends = [minval(reach(1, i:i + 1)) - bulge, maxval(reach(2, i:i + 1)) + bulge]
+         ends = [min(left(i), left(i + 1)) - bulge, max(right(i), right(i + 1)) + bulge]
          first = max(1, ceiling((ends(1) - places(1))/step) + 1)
          last = min(size(places), floor((ends(2) - places(1))/step) + 1)
          if (first > last) cycle
-         associate (rise => middle(i + 1, 2) - middle(i, 2), run => middle(i + 1, 1) - middle(i, 1))
-            if (abs(rise) >= wall*abs(run)) then
-               least = minval(pz(:, i:i + 1)) - bulge - extra
-               low(first:last) = min(low(first:last), least)
-               cycle
-            end if
-            slope = rise/run
-         end associate
-         least = huge(1.0_wp)
-         do j = i, i + 1
-            do k = 1, size(y, 2)
-               least = min(least, pz(k, j) - middle(i, 2) - slope*(py(k, j) - middle(i, 1)))
-            end do
-         end do
-         least = least - bulge*sqrt(1.0_wp + slope**2) - extra
+         if (abs(mz(i + 1) - mz(i)) >= wall*abs(my(i + 1) - my(i))) then
+            low(first:last) = min(low(first:last), min(top(i), top(i + 1)) - bulge - extra)
+            cycle
+         end if
+         least(i) = least(i) - bulge*sqrt(1.0_wp + slope(i)**2) - extra
          do j = first, last
-            low(j) = min(low(j), middle(i, 2) + slope*(places(j) - middle(i, 1)) + least)
+            low(j) = min(low(j), mz(i) + slope(i)*(places(j) - my(i)) + least(i))
          end do
       end do
    end subroutine lower_envelope

@@ -161,7 +161,7 @@ contains
       cells = size(xc) - 1
       step = (xc(2) - xc(1))/coarse
       allocate(low(cells, gap%n))
-      call bound_gap(bodies, xc, gap%y, low)
+      call bound_gap(bodies, xc, gap%y, smallest + gap%depth, low)
       do j = 1, gap%n
          least(j) = minval(low(:, j))
       end do
@@ -201,7 +201,7 @@ contains
             end associate
             if (allocated(beyond)) deallocate(beyond)
             allocate(beyond(n, gap%n))
-            call bound_gap(bodies, edges, gap%y, beyond)
+            call bound_gap(bodies, edges, gap%y, distance, beyond)
             if (minval(beyond) >= distance) return
          end do
          call look_closer(bodies, edges, gap%y, beyond, step, 0.0_wp, enough, distance, place, without_swings=.true.)

@@ -79,7 +79,7 @@ contains
       allocate(lowest(gap%n), source=no_surface)
       cells = floor(search_reach(bodies)/cell)
       allocate(low(2*cells, gap%n))
-      call bound_gap(bodies, bodies%placement%wheel%origin(1) + [(cell*i, i=-cells, cells)], gap%y, low)
+      call bound_gap(bodies, bodies%placement%wheel%origin(1) + [(cell*i, i=-cells, cells)], gap%y, huge(1.0_wp), low)
       over = -huge(over)
       under = -huge(under)
       seen = bodies%placement%wheel%seen_from_here(track)

@@ -2,7 +2,7 @@
 program test_surface
    use contact_base_constants, only : pi
    use contact_base_error, only : error_type, full_text
-   use contact_base_kinds, only : wp
+   use contact_base_kinds, only : long, wp
    use contact_base_log, only : log_type
    use contact_profile_request, only : profile_request, profile_side
    use contact_profile_store, only : load_profile, prepared_profile, profile_store
@@ -428,6 +428,17 @@ contains
       call refused(suite, slices_text(6, 0.9_wp, plain, ""), "range inside", 0, "angles beyond one end", profile_side%wheel)
    end subroutine refusals
 
+   !> Wait until a change of a file has another time than the last one
+   subroutine let_clocks_tick()
+      integer(long) :: start, now, rate
+
+      call system_clock(start, rate)
+      now = start
+      do while (now - start < rate/4)
+         call system_clock(now)
+      end do
+   end subroutine let_clocks_tick
+
    !> Each request is prepared once; a changed file again; the oldest goes when there are too many
    subroutine store(suite)
       type(test_suite), intent(inout) :: suite
@@ -436,6 +447,7 @@ contains
       type(prepared_profile), pointer :: one, two
       type(error_type), allocatable :: error
       type(log_type) :: log
+      integer :: known
 
       call write_slice("slice1.txt", 0.0_wp, 0.0_wp)
       call write_slice("slice2.txt", 0.0_wp, 0.0_wp)
@@ -455,11 +467,23 @@ contains
       call profiles%get(request, one, log, error)
       call suite%close_to(one%curve%height(0.0_wp), 1.0_wp, 1.0e-9_wp, "a changed file is read again")
       call suite%equal(profiles%loads, 3, "three times read so far")
+      call let_clocks_tick()
+      call profiles%get(request, one, log, error)
+      known = profiles%comparisons
+      call profiles%get(request, one, log, error)
+      call suite%equal(profiles%comparisons, known, "a file that nobody touched is not read to see whether it is the same")
+      call write_slice("slice1.txt", 0.0_wp, 2.0_wp)
+      call profiles%get(request, one, log, error)
+      call suite%close_to(one%curve%height(0.0_wp), 2.0_wp, 1.0e-9_wp, "a file that was changed later, of the same length")
+      call write_slice("slice1.txt", 0.0_wp, 3.0_wp)
+      call profiles%get(request, one, log, error)
+      call suite%close_to(one%curve%height(0.0_wp), 3.0_wp, 1.0e-9_wp, "and again at once")
+      call suite%equal(profiles%loads, 5, "five times read so far")
       request%file = "slice2.txt"
       call profiles%get(request, two, log, error)
       request%file = "slice1.txt"
       call profiles%get(request, one, log, error)
-      call suite%equal(profiles%loads, 4, "the one not used for long made room")
+      call suite%equal(profiles%loads, 6, "the one not used for long made room")
       request%file = "is/not/there.txt"
       call profiles%get(request, one, log, error)
       call suite%check(allocated(error) .and. .not. associated(one), "a missing file")
@@ -475,10 +499,10 @@ contains
       request%file = "test.slcs"
       call profiles%get(request, one, log, error)
       call profiles%get(request, one, log, error)
-      call suite%equal(profiles%loads, 6, "slices are prepared once")
+      call suite%equal(profiles%loads, 8, "slices are prepared once")
       call write_slice("slice3.txt", 0.0_wp, 0.1_wp)
       call profiles%get(request, one, log, error)
-      call suite%equal(profiles%loads, 7, "again when one slice has changed")
+      call suite%equal(profiles%loads, 9, "again when one slice has changed")
       call profiles%release()
    end subroutine store
 
