@@ -75,7 +75,7 @@ endif()
 
 # The Python package; the program looks for the pages of `contact report` in this place
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/python/contact ${PROJECT_SOURCE_DIR}/python/python_intfc DESTINATION ${CMAKE_INSTALL_DATADIR}/contact/python
-  FILES_MATCHING PATTERN "*.py" PATTERN "*.html" PATTERN "*.js" PATTERN "__pycache__" EXCLUDE)
+  FILES_MATCHING PATTERN "*.py" PATTERN "*.html" PATTERN "*.js" PATTERN "py.typed" PATTERN "__pycache__" EXCLUDE)
 
 set(headers contact.h contact_addon.h caddon_flags.h caddon_flags.inc contact_addon.ifc contact_addon.f90
   contact_table.f90)

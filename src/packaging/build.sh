@@ -3,6 +3,6 @@
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 sh "$here/wheel.sh" "$@"
-if command -v dpkg-deb > /dev/null; then
+if command -v dpkg-buildpackage > /dev/null; then
   sh "$here/deb.sh" "$@"
 fi

@@ -17,7 +17,7 @@ _contact() {
   esac
   case $word in
     -*)
-      mapfile -t COMPREPLY < <(compgen -W "$(contact --help | grep -o -e "--[a-z][a-z0-9-]*") --serve --port" -- "$word")
+      mapfile -t COMPREPLY < <(compgen -W "$(contact --help | grep -o -e "--[a-z][a-z0-9-]*" | sort -u) --serve --port" -- "$word")
       ;;
     *)
       if [ "$COMP_CWORD" -eq 1 ]; then

@@ -23,6 +23,13 @@ def complaints(options):
     return [f"the completion lacks {option}" for option in sorted(options - set(offered))]
 
 
+def different_extras():
+    """The optional packages of the wheel are those of a checkout"""
+    tables = [re.search(r"^\[project.optional-dependencies\]\n(.*?)\n\n", file.read_text(), re.MULTILINE | re.DOTALL)[1]
+              for file in (FOLDER / "pyproject.toml", TOP / "python/pyproject.toml")]
+    return [] if tables[0] == tables[1] else ["the optional packages of the wheel differ from those of a checkout"]
+
+
 def main():
     """Compares words of the help with those of the files"""
     told = subprocess.run([os.environ["CONTACT_PROGRAM"], "--help"], capture_output=True, text=True, check=True).stdout
@@ -41,6 +48,7 @@ def main():
     numbers = {re.search(pattern, source)["value"], version.split()[1]}
     if len(numbers) > 1:
         bad.append(f"versions differ: {sorted(numbers)}")
+    bad += different_extras()
     for script in FOLDER.glob("*.sh"):
         if subprocess.run(["sh", "-n", str(script)]).returncode:
             bad.append(f"{script.name} is no script of sh")
