@@ -301,6 +301,23 @@ class Viewer(Page):
         self.assertRegex(page.inner_text("#totals"), r"wheel load Q\s*%s" % load)
         self.assertIn("guiding force Y", page.inner_text("#totals"))
 
+    def test_wear_and_fatigue_where_they_were_asked_for(self):
+        path = os.path.join(self.scratch.name, "worn.toml")
+        with open(os.path.join(SOURCE, "examples/falling_friction.toml"), encoding="utf-8") as file:
+            text = file.read()
+        last = text.count("[[case]]") - 1
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(text + "\n[case.wear]\narchard = 1e-4\nhardness = 3000\nshear_yield = 300\n")
+        page = self.open(self.page_of("worn", path[:-5]) + f"#case={last + 1}", last)
+        totals = page.inner_text("#totals")
+        for words in ("T-gamma", "wear_index", "max_wear", "Fatigue", "fatigue_index"):
+            self.assertIn(words, totals)
+        self.assertNotIn("More", totals)
+        page.select_option("#quantity", "wear")
+        self.assertGreater(page.evaluate(COLOURS, "map-more"), 20)
+        self.assertIn("depth worn off", page.inner_text("#quantity"))
+        self.assertEqual(self.troubles, [])
+
     def test_labels_apart_and_wheels_not_joined(self):
         page = self.open(self.page_of("wheel_on_rail"))
         boxes = page.evaluate("""() => { const plot = contactReport.plots.profiles;

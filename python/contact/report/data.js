@@ -29,6 +29,7 @@ const NAMES = {
   gap: "gap",
   use: "use of friction, |pt| / (mu pn)",
   power: "frictional power",
+  wear: "depth worn off",
   temp1: "temperature of body 1",
   temp2: "temperature of body 2",
   taucrt: "yield limit",

@@ -14,7 +14,7 @@ function ramp(name) {
     return stops[k].map((v, c) => Math.round(v + f * (stops[k + 1][c] - v)));
   };
 }
-const kindOf = name => (/^(pn|temp|sigvm|sigtr|power)/.test(name) ? "pressure" : "calm");
+const kindOf = name => (/^(pn|temp|sigvm|sigtr|power|wear)/.test(name) ? "pressure" : "calm");
 function rangeOf(values) {
   let low = Infinity,
     high = -Infinity;

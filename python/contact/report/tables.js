@@ -8,7 +8,13 @@ const GROUPS = [
   ],
   ["Creepages and shifts", ["cksi", "ceta", "cphi", "shift_x", "shift_y", "rotation"]],
   ["Contact", ["pmax", "pen", "contact_area", "smallest_gap"]],
-  ["Wear, energy and heat", ["friction_power", "t_gamma", "friction_work", "elastic_energy", "max_temp1", "max_temp2"]],
+  [
+    "Wear, energy and heat",
+    ["friction_power", "t_gamma", "wear_index", "max_power", "max_wear", "worn_section", "friction_work", "elastic_energy"].concat(
+      ["max_temp1", "max_temp2"],
+    ),
+  ],
+  ["Fatigue", ["traction", "shakedown_load", "shakedown", "fatigue_index", "max_mises", "max_tresca"]],
   ["Where it touches", ["xcp_tr", "ycp_tr", "zcp_tr", "deltcp_tr", "ycp_r", "zcp_r", "deltcp_r", "xcp_w", "ycp_w", "zcp_w"]],
   ["Wheelset and rail", ["s_ws", "y_ws", "z_ws", "roll_ws", "yaw_ws", "vpitch_ws", "dy_defl", "dz_defl"]],
   ["Moments", ["mz", "mz_elem", "bar_mn", "mx_r_tr", "my_r_tr", "mz_r_tr", "mx_w_ws", "my_w_ws", "mz_w_ws"]],
