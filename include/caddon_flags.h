@@ -52,7 +52,7 @@ enum caddon_flags {
   CNTC_own_angle = 9004, /* contact angles on rails that vary along the track: 0 as the established program, of the section below the axle; 1 of wheel and rail where they touch */
   CNTC_own_across = 9005, /* read only, elements across the contact in its narrower direction, 0 without contact; fewer than 5 are a rough result */
   CNTC_own_classical = 9006, /* solvers that G names: 0 the default solver acts in their place, to a residual as small, where it can; 1 they run */
-  CNTC_own_order = 9007, /* discretisation of steady rolling: 1 the established one, 2 of second order in the size of elements */
+  CNTC_own_order = 9007, /* discretisation of rolling: 1 the established one, 2 of second order in the size of elements */
   CNTC_own_errors = 9008, /* errors of the totals are estimated by each calculation: 0 no, 1 yes, see cntc_geterrors */
   CNTC_own_wear = 9011, /* wear and fatigue are told: 0 no, 1 yes, see cntc_setwear and cntc_getwear */
   CNTC_own_accuracy = 9009, /* accuracy of the forces that is asked for in place of a grid: 10 to 1000000, one part in so many; 0 none: the grid is the caller's */

@@ -60,7 +60,7 @@ function [ CNTC ] = cntc_getmagicnumbers( )
 %   CNTC.own_angle    contact angles on rails that vary along the track: 0 as the established program, of the section below the axle; 1 of wheel and rail where they touch
 %   CNTC.own_across   read only, elements across the contact in its narrower direction, 0 without contact; fewer than 5 are a rough result
 %   CNTC.own_classical solvers that G names: 0 the default solver acts in their place, to a residual as small, where it can; 1 they run
-%   CNTC.own_order    discretisation of steady rolling: 1 the established one, 2 of second order in the size of elements
+%   CNTC.own_order    discretisation of rolling: 1 the established one, 2 of second order in the size of elements
 %   CNTC.own_errors   errors of the totals are estimated by each calculation: 0 no, 1 yes, see cntc_geterrors
 %   CNTC.own_wear     wear and fatigue are told: 0 no, 1 yes, see cntc_setwear and cntc_getwear
 %   CNTC.own_accuracy accuracy of the forces that is asked for in place of a grid: 10 to 1000000, one part in so many; 0 none: the grid is the caller's

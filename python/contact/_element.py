@@ -538,7 +538,7 @@ class Element:
         eps, maxgs, maxin, maxnr, maxout
             Relative tolerance of the equations [-], and limits of iterations.
         order
-            Discretisation of steady rolling: 2, whose errors fall with the square of the size of elements, where it is
+            Discretisation of rolling: 2, whose errors fall with the square of the size of elements, where it is
             made for the case (doc/theory/second_order.md), or 1, the established one of ``.inp`` files and ``cntc``.
         accuracy
             Largest relative error of the forces [-], 1e-6 to 0.1, that is asked for in place of a grid: the numbers of elements

@@ -18,7 +18,7 @@ module contact_base_accuracy_report
       !> Elements along x and y, 0 for wheel and rail, whose patches have grids of their own; sides of the elements [mm]
       integer :: elements(2) = 0
       real(wp) :: sides(2) = 0.0_wp
-      !> Order of the discretisation of steady rolling; 0: there is none
+      !> Order of the discretisation of rolling; 0: there is none
       integer :: order = 0
       !> Tolerance of the solvers [-]
       real(wp) :: eps = 0.0_wp

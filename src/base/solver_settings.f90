@@ -11,7 +11,7 @@ module contact_base_solver_settings
       !> Largest numbers of: iterations of a solver, changes of the element division, evaluations for each prescribed force,
       !> outer iterations
       integer :: maxgs = 999, maxin = 20, maxnr = 25, maxout = 1
-      !> Order of the discretisation of steady rolling: 1, the established scheme, or 2
+      !> Order of the discretisation of rolling: 1, the established scheme, or 2
       integer :: order = 1
       !> Relative tolerance [-]
       real(wp) :: eps = 1.0e-5_wp

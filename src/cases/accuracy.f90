@@ -10,7 +10,8 @@ module contact_cases_accuracy
    use contact_base_limits, only : wall_clock
    use contact_base_log, only : log_type
    use contact_cases_accuracy_plan, only : accuracy_law, caution, expected_law, finer_across, first_across, is_near_enough, &
-      & most_elements, most_levels, not_converged, prepare_level, refuse_case, shorten_aspect, solver_tolerance, time_is_left
+      & most_elements, most_levels, not_converged, prepare_level, refuse_case, shorten_aspect, smaller_tolerance, &
+      & solver_tolerance, stopping_share, time_is_left
    use contact_cases_distance, only : distance_form
    use contact_cases_session, only : contact_session, solve_case
    use contact_cases_spec, only : case_spec, grid_spec, part_source
@@ -121,6 +122,7 @@ contains
       type(accuracy_law) :: law
       real(wp) :: lengths(2), began, expected
       integer :: counts(2), next(2), fixed(2), acting
+      logical :: tightened
 
       report%asked = spec%iteration%accuracy
       report%eps = solver_tolerance(report%asked)
@@ -163,9 +165,10 @@ contains
          if (is_near_enough(report%estimated, expected, report%asked)) exit
          if (report%levels > 1 .and. .not. result%status%is_solved()) exit
          if (spec%motion == motion%steady_rolling) law%order = merge(law%order, 1.0_wp, acting == 2)
+         call tighten(spec, result, report, level, tightened)
          call next_counts(result, report, law%order, fixed, next)
          call stay_below(most_elements(spec%limits), fixed, next)
-         if (.not. is_worth(counts, next)) then
+         if (.not. (tightened .or. is_worth(counts, next))) then
             report%reason = "more than " // integer_text(product(next)) // " elements are not allowed"
             exit
          end if
@@ -182,6 +185,29 @@ contains
       if (len_trim(report%reason) > 0 .and. allocated(best)) call keep_better(session, caution(spec), best, report, result)
       call tell_report(spec, level, result, report, log)
    end subroutine refine
+
+   !> A smaller tolerance for the next grid, where iterations stopped too early for what is asked
+   subroutine tighten(spec, result, report, level, tightened)
+      type(case_spec), intent(in) :: spec
+      !> Of the present grid, with its errors
+      type(patch_result), intent(in) :: result
+      !> Gets the tolerance
+      type(accuracy_report), intent(inout) :: report
+      !> The same
+      type(case_spec), intent(inout) :: level
+      !> Is it smaller?
+      logical, intent(out) :: tightened
+      real(wp) :: eps, part
+
+      tightened = .false.
+      if (.not. allocated(result%errors)) return
+      part = caution(spec)*maxval(result%errors%stopping)/report%asked
+      if (part <= stopping_share) return
+      eps = smaller_tolerance(report%eps, stopping_share/part)
+      tightened = eps < report%eps
+      report%eps = eps
+      call prepare_level(eps, level)
+   end subroutine tighten
 
    !> Sides of a window that is given; 0 where it follows from Hertz's solution
    pure function sides_of_window(grid) result(lengths)

@@ -18,7 +18,7 @@ module contact_cases_accuracy_plan
 
    public :: accuracy_law, caution, expected_across, expected_law, finer_across, first_across, is_accuracy, is_near_enough, &
       & largest_accuracy, most_elements, most_levels, not_converged, prepare_level, refuse_case, shorten_aspect, &
-      & smallest_accuracy, solver_tolerance, time_is_left
+      & smallest_accuracy, smaller_tolerance, solver_tolerance, stopping_share, time_is_left
 
    !> Accuracies that can be asked for
    real(wp), parameter :: smallest_accuracy = 1.0e-6_wp, largest_accuracy = 0.1_wp
@@ -52,6 +52,8 @@ module contact_cases_accuracy_plan
    real(wp), parameter :: share_before = 0.4_wp
    !> Tolerance of the solvers relative to the accuracy, of which 0.3 shows in forces; its bounds
    real(wp), parameter :: eps_share = 0.1_wp, largest_eps = 1.0e-3_wp, smallest_eps = 1.0e-8_wp
+   !> Part of the accuracy that iterations may leave by stopping; more asks for a smaller tolerance. Chosen
+   real(wp), parameter :: stopping_share = 0.25_wp
    !> Time grows with this power of the number of elements, times a reserve: is there time for another grid?
    real(wp), parameter :: time_power = 1.1_wp, reserve = 1.2_wp
    !> Factor of estimates that take an order of 1.6 where it may be 1: (3**1.6 - 1)/(3 - 1)
@@ -246,6 +248,14 @@ contains
 
       eps = min(largest_eps, max(smallest_eps, eps_share*asked))
    end function solver_tolerance
+
+   !> A smaller tolerance, but not less than makes sense
+   pure real(wp) function smaller_tolerance(eps, factor) result(smaller)
+      !> Present one, and its factor [-]
+      real(wp), intent(in) :: eps, factor
+
+      smaller = min(eps, max(smallest_eps, factor*eps))
+   end function smaller_tolerance
 
    !> Sides of elements for as many elements along both sides of the contact, where these are not too unlike
    pure subroutine shorten_aspect(lengths, across, sides)

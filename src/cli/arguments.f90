@@ -58,7 +58,7 @@ module contact_cli_arguments
       logical :: vtk = .false.
       !> Member of heat_source, or as_input_says
       integer :: heat_source = as_input_says
-      !> Order of the discretisation of steady rolling, or as_input_says
+      !> Order of the discretisation of rolling, or as_input_says
       integer :: order = as_input_says
       !> Largest relative error of the forces, or 0 where none is asked for
       real(wp) :: accuracy = 0.0_wp
@@ -249,7 +249,7 @@ contains
          end select
          return
       case ("--order")
-         call take_value("the order of the discretisation of steady rolling: 1 or 2")
+         call take_value("the order of the discretisation of rolling: 1 or 2")
          if (allocated(error)) return
          asked%order = to_number(value)
          if (all(asked%order /= [1, 2])) call fatal_error(error, "the order of the discretisation, '" // value // &
@@ -467,7 +467,7 @@ contains
          & "  --threads N       number of threads; default is OMP_NUM_THREADS or all processors", &
          & "  --heat NAME       surface temperatures: established, as the established program (default for .inp), or", &
          & "                    moving-source, without counting the heat of an element twice at its centre", &
-         & "  --order N         discretisation of steady rolling: 1, the established one, or 2, whose errors fall with the", &
+         & "  --order N         discretisation of rolling: 1, the established one, or 2, whose errors fall with the", &
          & "                    square of the size of elements; default is 1 for .inp, and what a case says for .toml", &
          & "  --accuracy TOL    choose grid, order and EPS of each case such that the estimated error of the forces, relative to", &
          & "                    the friction bound or to FN, is at most TOL, 1e-6 to 0.1", &

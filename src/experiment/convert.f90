@@ -1,6 +1,6 @@
 !> Experiments from one format of input to the other
 module contact_experiment_convert
-   use contact_base_choices, only : heat_source, motion
+   use contact_base_choices, only : heat_source, is_rolling
    use contact_base_error, only : add_context, error_kind, error_type, fatal_error
    use contact_base_kinds, only : wp
    use contact_base_output_file, only : output_file, remove_file
@@ -182,7 +182,7 @@ contains
          if (begins_module) call write_module_line(file, this)
          begins_module = this%spec%ends_module
          if (this%spec%has_heat .and. this%spec%heat%source == heat_source%moving) is_moving = .true.
-         if (this%spec%motion == motion%steady_rolling .and. this%spec%iteration%order == 2) is_second = .true.
+         if (is_rolling(this%spec%motion) .and. this%spec%iteration%order == 2) is_second = .true.
          if (this%spec%estimates_errors) has_errors = .true.
          if (this%spec%has_wear) has_wear = .true.
          if (this%spec%iteration%accuracy > 0.0_wp) asks_accuracy = .true.
@@ -192,7 +192,7 @@ contains
       call file%line(" 0   % MODULE: end")
       if (is_moving) call told%add_line(" Temperatures of " // input // " are those of moving sources; the new file needs " // &
          & "--heat moving-source to have them")
-      if (is_second) call told%add_line(" Steady rolling of " // input // " is of order 2; the new file needs --order 2 for that")
+      if (is_second) call told%add_line(" Rolling of " // input // " is of order 2; the new file needs --order 2 for that")
       if (has_errors) call told%add_line(" Errors of " // input // " are estimated; the new file needs --errors for that")
       if (has_wear) call told%add_line(" Wear and fatigue of " // input // " are told; the new file has no place to ask for them")
       if (asks_accuracy) call told%add_line(" Accuracies of " // input // " are asked for; the new file needs --accuracy for that")

@@ -69,7 +69,7 @@ module contact_experiment_state
       type(export_request) :: exports
       !> How temperatures are computed, member of heat_source, or as_input_says
       integer :: heat_source = as_input_says
-      !> Order of the discretisation of steady rolling, 1 or 2, or as_input_says
+      !> Order of the discretisation of rolling, 1 or 2, or as_input_says
       integer :: order = as_input_says
       !> Largest relative error of the forces that is asked for, or 0 for what the input says
       real(wp) :: accuracy = 0.0_wp

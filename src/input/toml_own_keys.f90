@@ -33,7 +33,7 @@ contains
       if (node > 0) a%used(node) = .true.
    end subroutine find_key
 
-   !> Order of the discretisation of steady rolling, kept from case to case
+   !> Order of the discretisation of rolling, kept from case to case
    subroutine take_order(a, has_previous, spec)
       !> Document and its case in hand
       type(toml_reader), intent(inout) :: a

@@ -233,7 +233,7 @@ contains
       if (report%elements(1) > 0) call record%count("my", "elements along y that were chosen", report%elements(2))
       call record%number("dx", "mm", "side of elements along x that was chosen", report%sides(1))
       call record%number("dy", "mm", "side of elements along y that was chosen", report%sides(2))
-      if (report%order > 0) call record%count("order", "order of the discretisation of steady rolling", report%order)
+      if (report%order > 0) call record%count("order", "order of the discretisation of rolling", report%order)
       call record%number("eps", "-", "tolerance of the solvers that was chosen", report%eps)
       call record%count("grids", "grids that were solved", report%levels)
       call record%number("seconds_of_grids", "s", "elapsed time of all grids", report%seconds)

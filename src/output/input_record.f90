@@ -137,7 +137,7 @@ contains
 
       call self%record%open_group(text)
       call describe_choices(self, text)
-      if (text == "iteration") call self%record%count("order", "order of the discretisation in steady rolling", self%order)
+      if (text == "iteration") call self%record%count("order", "order of the discretisation of rolling", self%order)
       if (text == "heat") call self%record%text("source", "how the heat of an element acts on itself", &
          & trim(heat_source_name(self%heat_source)))
       self%n_keys = 0

@@ -112,7 +112,7 @@ contains
       if (self%is_recording) return
       call put_group_choices(self)
       if (text == "iteration" .and. (self%order /= usual_order .or. any(self%memory%names == "iteration.order"))) &
-         & call self%put("order", integer_text(self%order), remark="discretisation of steady rolling")
+         & call self%put("order", integer_text(self%order), remark="discretisation of rolling")
       if (text == "iteration" .and. (self%accuracy > 0.0_wp .or. any(self%memory%names == "iteration.accuracy"))) &
          & call self%put("accuracy", exact_text(self%accuracy), remark="largest relative error of the forces")
       if (text == "heat") call self%put("source", trim(merge('"moving"     ', '"established"', self%has_moving_heat)))

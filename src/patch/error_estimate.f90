@@ -12,7 +12,8 @@ module contact_patch_error_estimate
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
    use contact_patch_coarse_level, only : coarsen_patch
-   use contact_patch_level_errors, only : energies, error_of, error_of_peak, peak_of, residual_share, scale_of, scale_type, scales
+   use contact_patch_level_errors, only : energies, error_of, error_of_peak, irregularity, peak_of, residual_share, &
+      & scale_of, scale_type, scales
    use contact_patch_problem, only : patch_problem, patch_state
    use contact_patch_quantities, only : error_law, total, total_list
    use contact_patch_result, only : patch_result
@@ -141,10 +142,14 @@ contains
       scale = scales(problem, order, result)
       scale%energy = energies(result)
       scale%energy_change = scale%energy - load**(5.0_wp/3.0_wp)*energies(level%result)
+      result%errors%stopping(2) = max(result%errors%stopping(2), scale%gain*result%errors%stopping(1))
       do k = 1, fine%length
+         difference = abs(fine%rows(k)%value - coarse%rows(k)%value)
+         if (fine%rows(k)%law == error_law%normal) scale%irregular = max(scale%irregular, &
+            & irregularity(fine%rows(k), difference, scale))
          if (fine%rows(k)%law /= error_law%friction) cycle
          if (scale_of(fine%rows(k), scale) > 0.0_wp) scale%friction = max(scale%friction, &
-            & abs(fine%rows(k)%value - coarse%rows(k)%value)/scale_of(fine%rows(k), scale))
+            & difference/scale_of(fine%rows(k), scale))
       end do
       do k = 1, fine%length
          if (fine%rows(k)%law == error_law%none .or. is_given(problem, fine%rows(k)%name, present(approach_change))) cycle

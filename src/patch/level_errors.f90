@@ -5,7 +5,7 @@ module contact_patch_level_errors
    use contact_base_choices, only : motion
    use contact_base_constants, only : excluded_threshold, nmm_per_joule, pi
    use contact_base_kinds, only : wp
-   use contact_grid_element_division, only : bounding_box, contact_box
+   use contact_grid_element_division, only : bounding_box, contact_box, element
    use contact_patch_coarse_level, only : coarsening
    use contact_patch_problem, only : patch_problem
    use contact_patch_quantities, only : error_law, total
@@ -13,7 +13,7 @@ module contact_patch_level_errors
    implicit none (type, external)
    private
 
-   public :: energies, error_of, error_of_peak, peak_of, residual_share, scale_of, scale_type, scales
+   public :: energies, error_of, error_of_peak, irregularity, peak_of, residual_share, scale_of, scale_type, scales
 
    !> What is common to all totals of a patch
    type :: scale_type
@@ -25,11 +25,17 @@ module contact_patch_level_errors
       real(wp) :: creep = 0.0_wp, power = 0.0_wp
       !> Part of the elements in contact that does not slip [-]
       real(wp) :: adhesion = 0.0_wp
+      !> Part of the friction bound that elements carry where slip turns round from one to the next [-]
+      real(wp) :: reversal = 0.0_wp
+      !> What an error of stopping of pressures becomes in tangential forces, at least
+      real(wp) :: gain = 0.0_wp
       !> Differences of the levels in tangential forces, relative to the largest one [-]
       real(wp) :: friction = 0.0_wp
       !> Order of the tangential problem; is it clean, so that levels may be extrapolated? Does it go in steps of transient rolling?
       real(wp) :: order = 1.0_wp
       logical :: clean = .true., steps = .false.
+      !> Relative error of the normal problem by the levels, over that of so many elements in general, at least 1
+      real(wp) :: irregular = 1.0_wp
       !> May what the levels tell be a rare sample of an error that jumps with the offset of the grid?
       logical :: jumps = .false.
       !> Length of an element over that of relaxation of viscoelastic bodies, at most 1; 0: elastic
@@ -62,6 +68,12 @@ module contact_patch_level_errors
    real(wp), parameter :: smooth_bend = 12.0_wp, unresolved = 0.15_wp
    !> Errors of tangential forces and moment are at least this part of the largest of them
    real(wp), parameter :: other_component = 0.2_wp
+   !> Where slip turns round without adhesion in between, elements do not see where: forces are off by this part of what an
+   !> element carries there. Root of the mean square over positions of the grid, two rollers of aluminium and steel
+   real(wp), parameter :: reversal_share = 0.7_wp
+   !> Of unlike bodies, pressures decide where that is: what an error of stopping of pressures becomes in forces then, also with
+   !> adhesion over this part of the contact in between. Measured with the same rollers, EPS from 1e-2 to 1e-5
+   real(wp), parameter :: reversal_gain = 130.0_wp, narrow = 0.05_wp
    !> Errors in general, of n elements across: factor of n^-order, by order; of random contacts of tests/accuracy. Forces of steady
    !> rolling; of shifts; of transient rolling
    real(wp), parameter :: rolling_floor(2) = [0.05_wp, 0.24_wp], shift_floor = 0.15_wp, step_floor = 0.25_wp
@@ -104,23 +116,58 @@ contains
       scale%power = max(scale%force*hypot(result%cksi, result%ceta), scale%moment*abs(result%cphi))*result%dq/ &
          & (nmm_per_joule*result%dt)
       scale%adhesion = max(least_adhesion, real(result%nadh, wp)/result%ncon)
+      if (problem%model%coupled()) scale%coupling = abs(problem%model%material%ak)
+      if (scale%force > 0.0_wp) then
+         scale%reversal = result%grid%dx*result%grid%dy*turned_round(result, 0)/scale%force
+         if (scale%coupling > 0.0_wp) scale%gain = reversal_gain*min(1.0_wp, scale%across*result%grid%dx*result%grid%dy &
+            & *turned_round(result, ceiling(narrow*scale%across))/scale%force)
+      end if
       scale%order = normal_order
       if (problem%motion == motion%steady_rolling) scale%order = merge(second_order, first_order, order == 2)
       scale%steps = problem%motion == motion%transient_rolling
-      if (scale%steps) scale%order = first_order
+      if (scale%steps) scale%order = merge(second_order, first_order, order == 2)
       ! a step in time is longer than some elements and shorter than others; a layer adds a length of its own
-      scale%clean = problem%motion /= motion%transient_rolling .and. .not. problem%model%layer > 0.0_wp
+      scale%clean = (problem%motion /= motion%transient_rolling .or. order == 2) .and. .not. problem%model%layer > 0.0_wp
       ! tractions are singular at edges that are given
       if (problem%motion == motion%shift) scale%clean = .not. any(problem%h > excluded_threshold)
-      scale%jumps = scale%clean .and. scale%order > first_order
+      scale%jumps = scale%clean .and. scale%order > first_order .and. .not. scale%steps
       if (allocated(problem%model%memory)) then
          associate (memory => problem%model%memory)
             if (any(memory%length > 0.0_wp)) scale%relaxation = min(1.0_wp, result%grid%dx/minval(memory%length, &
                & mask=memory%length > 0.0_wp))
          end associate
       end if
-      if (problem%model%coupled()) scale%coupling = abs(problem%model%material%ak)
    end function scales
+
+   !> Half the differences of tractions of elements that slip, in directions more than a right angle apart, with no others or
+   !> elements in adhesion between them [N/mm2]
+   pure real(wp) function turned_round(result, most_between) result(total_change)
+      !> Solved
+      type(patch_result), intent(in) :: result
+      !> So many elements in adhesion at the most
+      integer, intent(in) :: most_between
+      integer :: ix, iy, jx, jy, side, step(2), n
+
+      total_change = 0.0_wp
+      if (result%nslip < 2) return
+      do iy = 1, result%grid%my
+         do ix = 1, result%grid%mx
+            if (result%division(ix, iy) /= element%slip) cycle
+            do side = 1, 2
+               step = merge([1, 0], [0, 1], side == 1)
+               do n = 1, most_between + 1
+                  jx = min(result%grid%mx, ix + n*step(1))
+                  jy = min(result%grid%my, iy + n*step(2))
+                  if (result%division(jx, jy) /= element%adhesion) exit
+               end do
+               if (result%division(jx, jy) /= element%slip) cycle
+               if (result%px(ix, iy)*result%px(jx, jy) + result%py(ix, iy)*result%py(jx, jy) >= 0.0_wp) cycle
+               total_change = total_change + 0.5_wp*hypot(result%px(ix, iy) - result%px(jx, jy), &
+                  & result%py(ix, iy) - result%py(jx, jy))
+            end do
+         end do
+      end do
+   end function turned_round
 
    !> What the error of a total is relative to, in its unit
    pure real(wp) function scale_of(row, scale) result(unit)
@@ -158,14 +205,17 @@ contains
          stopping = errors%stopping(1)
       case (error_law%friction, error_law%creepage)
          part = part_of(scale, scale%order)
+         if (is_unseen(scale)) part = 0.0_wp
          e = part*difference
          if (row%law == error_law%friction) e = max(e, other_component*part*scale%friction*unit)
          floor = friction_floor(scale)
          if (scale%jumps) e = unit*trusted(e/max(unit, tiny(unit)), floor, trust)
+         if (row%law == error_law%friction) floor = max(floor, reversal_share*scale%reversal)
       case (error_law%power)
          e = part_of(scale, merge(power_order, scale%order, scale%order <= first_order))*difference
+         if (is_unseen(scale)) e = 0.0_wp
          floor = power_floor*sqrt(scale%adhesion)/scale%across**nint(scale%order)
-         if (scale%order < normal_order .and. .not. scale%steps) floor = floor + adhesive_power_floor*scale%adhesion/scale%across**2
+         if (scale%order < normal_order .and. scale%clean) floor = floor + adhesive_power_floor*scale%adhesion/scale%across**2
          floor = floor*max(scale%power, unit)/max(unit, tiny(unit))
          if (scale%jumps) e = unit*trusted(e/max(unit, tiny(unit)), floor, trust)
       case (error_law%energy)
@@ -203,8 +253,29 @@ contains
       end if
       ! elements that do not resolve the relaxation have the first order
       floor = sqrt(scale%adhesion)*max(floor, rolling_floor(1)*scale%relaxation/scale%across)
+      if (is_unseen(scale)) floor = floor*scale%irregular
       if (scale%order < normal_order) floor = max(floor, coupled_friction_floor*scale%coupling/scale%across)
    end function friction_floor
+
+   !> Do the levels tell nothing about tractions? Steps of one element are no steps of one element on a coarser level
+   pure logical function is_unseen(scale)
+      type(scale_type), intent(in) :: scale
+
+      is_unseen = scale%steps .and. scale%order > first_order
+   end function is_unseen
+
+   !> How much larger the error of the normal problem is than that of so many elements in general, at least 1
+   pure real(wp) function irregularity(row, difference, scale) result(ratio)
+      !> Normal force or approach of the finer level
+      type(total), intent(in) :: row
+      !> Between the levels
+      real(wp), intent(in) :: difference
+      !> See scales
+      type(scale_type), intent(in) :: scale
+
+      ratio = max(1.0_wp, difference/(coarsening**normal_order - 1.0_wp)*scale%across**2 &
+         & /(normal_floor*max(abs(row%value), tiny(ratio))))
+   end function irregularity
 
    !> What differences of levels tell, and the error of so many elements in general, together
    pure real(wp) function trusted(told, floor, power) result(e)
@@ -223,6 +294,7 @@ contains
       real(wp) :: parts(2)
 
       parts = abs([scale%energy_change(1)/(coarsening**normal_order - 1.0_wp), part_of(scale, scale%order)*scale%energy_change(2)])
+      if (is_unseen(scale)) parts(2) = 0.0_wp
       e = hypot(parts(1), parts(2))
       if (scale%clean .and. parts(2) > 0.0_wp) e = max(opposite*e, abs(parts(1) - parts(2)))
       e = max(e, energy_floor(1)*abs(scale%energy(1))/scale%across**2 &

@@ -1,7 +1,8 @@
 !> The order of discretisation that a patch is solved with, and what that needs
 !>
-!> The second order is for steady rolling with the default solver, where pressures are a solution on half-spaces: they tell where
-!> the edge of contact lies. Elsewhere the established scheme acts, and the report says why.
+!> The second order is for rolling, steady or in steps of one element along x, with the default solver, where pressures are a
+!> solution on half-spaces: they tell where the edge of contact lies. Elsewhere the established scheme acts, and the report says
+!> why.
 module contact_patch_order
    use contact_base_choices, only : is_classical, kernel_model, motion, pressure_model
    use contact_base_kinds, only : wp
@@ -17,6 +18,8 @@ module contact_patch_order
 
    !> Rigid slip of the second order is that in the middle of the step [steps]
    real(wp), parameter :: middle = 0.5_wp
+   !> Steps that differ by less than this part of an element are one element long: the edge is off by that part of it; chosen
+   real(wp), parameter :: step_slack = 0.01_wp
    !> Passes between pressures and tractions after which the turns of slip stay what they are; the next passes converge to a
    !> solution of one set of equations. Chosen: their change is below 1e-3 of the friction bound by then
    integer, parameter :: turning_passes = 3
@@ -41,8 +44,10 @@ contains
       character(len=reason_length) :: reason
 
       reason = ""
-      if (problem%motion /= motion%steady_rolling) then
-         reason = "order 2 is for steady rolling"
+      if (problem%motion == motion%shift) then
+         reason = "order 2 is for rolling"
+      else if (problem%motion == motion%transient_rolling .and. .not. is_one_element(problem)) then
+         reason = "order 2 has steps of one element along x"
       else if (allocated(problem%simplified)) then
          reason = "simplified theory"
       else if (problem%general_step .or. (problem%classical .and. is_classical(problem%solver))) then
@@ -61,6 +66,14 @@ contains
          reason = "coefficients of curved or tabulated surfaces"
       end if
    end function obstacle
+
+   !> Does a step of transient rolling take particles from element to element?
+   pure logical function is_one_element(problem)
+      type(patch_problem), intent(in) :: problem
+
+      is_one_element = abs(problem%dq - problem%grid%dx) <= step_slack*problem%grid%dx &
+         & .and. abs(sin(problem%chi)) <= step_slack
+   end function is_one_element
 
    !> Fall back to the first order
    pure subroutine lower_order(reason, report)

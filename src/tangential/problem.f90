@@ -127,10 +127,10 @@ contains
 
       if (problem%steady) then
          call operator%steady(p, u)
-         if (allocated(problem%second)) call problem%second%add_terms(p, u)
       else
          call operator%tangential(p, u)
       end if
+      if (allocated(problem%second)) call problem%second%add_terms(p, u)
    end subroutine apply_operator
 
    !> Slip per step S = W + dq c + B p [mm], on the whole window

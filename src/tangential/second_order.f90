@@ -1,4 +1,4 @@
-!> What steady rolling needs to be of second order in the size of the elements
+!> What rolling needs to be of second order in the size of the elements
 !>
 !> Three things make the plain scheme one of first order: the tractions begin at the discrete edge of contact, which lies ahead of
 !> the true one by some part of an element; the rigid slip and the slip belong to the middle of a step, half an element ahead of

@@ -51,6 +51,39 @@ class Accuracy(Runs):
                 self.assertIn(f"elements {told['mx']} x {told['my']} of ", words)
                 self.assertIn("_error", "".join(patch["errors"]))
 
+    def test_slip_that_turns_round(self):
+        """Rollers of aluminium and steel that nearly slide: FX comes from where slip turns round, which one element decides
+
+        The limit is that of 2400 and 4800 elements, at three places of the grid each, within 3e-5.
+        """
+        limit, force = 0.05474, 1e-4 * 16201.9
+        case = """3 MODULE
+            203100 PBTNFS
+            022020 LDCMZE
+            0000111 HGIAOWR
+            500 100 30 1 {eps} MAXGS MAXIN MAXNR MAXOUT EPS
+            16201.9 0.00052 0 0 FN CKSI CETA CPHI
+            1e-4 1e-4 FSTAT FKIN
+            180d {dx} 1000 CHI DQ VELOC
+            0.31 0.28 23000 82000 POISS GG
+            1 IPOTCN
+            {n} 1 -0.108 -500 {dx} 1000 MX MY XL YL DX DY
+            1 1 IBASE IPLAN
+            0.02 0 0 0 0 0 B
+            """
+        for asked in (3e-2, 1e-2, 3e-3, 1e-3):
+            with self.subTest(asked):
+                _, record = self.solve("a.inp", case.format(eps=1e-6, n=216, dx=0.001), "--accuracy", str(asked))
+                patch = record["patches"][0]
+                self.assertTrue(patch["accuracy"]["reached"])
+                self.assertLess(abs(patch["totals"]["fx_rel"] - limit), asked)
+        for n, eps in ((40, 1e-6), (170, 1e-3), (686, 1e-3), (686, 3e-4), (1639, 3e-3), (1639, 1e-4)):
+            with self.subTest(n=n, eps=eps):
+                _, record = self.solve("a.inp", case.format(eps=eps, n=n, dx=0.216 / n), "--errors", "--order", "2")
+                patch = record["patches"][0]
+                error = abs(patch["totals"]["fx_rel"] - limit)
+                self.assertGreater(patch["errors"]["fx_error"] / force, 0.3 * error)
+
     def test_windows(self):
         """All forms of a window are refined within the same sides, and the result is that of a case with the chosen numbers"""
         geometry = "\n1 1 IBASE IPLAN\n0.005 0 0.0022 0 0 0 B\n"

@@ -17,8 +17,8 @@ PROGRAM = os.environ["CONTACT_PROGRAM"]
 
 #: Kinds that the second order is not made for: reason, and the choices that make them
 RELAXATION = "1 1 0 0.5 OMEGAH OMEGAS INISLP OMGSLP"
-OTHERS = (("shift", "order 2 is for steady rolling", {"motion": 1}),
-          ("transient", "order 2 is for steady rolling", {"motion": 2}),
+OTHERS = (("shift", "order 2 is for rolling", {"motion": 1}),
+          ("long_step", "order 2 has steps of one element along x", {"motion": 2}),
           ("bilinear", "bilinear tractions", {"influence": 3}),
           ("formula", "pressures by formula", {"bound": 3}),
           ("gauss", "order 2 is for the default solver", {"solver": 3, "extra": RELAXATION}),
@@ -132,6 +132,55 @@ class Order(Runs):
                 words, usual = self.solve("usual.toml", re.sub(r"order = 1 .*\n", "", text), *options)
                 self.assertTrue(words.endswith(f" of order 1 ({reason})" if reason else " of order 2"), words)
                 self.assertEqual(usual["totals"] == one["totals"], name != "plain")
+
+    def roll(self, order, n, offset, *options, distance=6.6, chi=0.0, motion=2):
+        """Relative FX and FY, and MZ over the bound, behind a quarter, a half and all of a distance in steps of one element
+
+        Estimated errors where the options ask for them, in their place.
+        """
+        half = (3.3, 5.5)
+        dx, dy = (2 * side / n for side in half)
+        steps = round(distance / dx) if motion == 2 else 1
+        rows = ["3", f"20{motion}100", "022020", "0000111", "999 100 30 1 1e-6", "30000 0.0005 -0.0002 0.0003", "0.3 0.3",
+                f"{chi}d {dx:.15g} 30000", "0.28 0.28 82000 82000", "1",
+                f"{n + 2} {n + 2} {-half[0] - (1 - offset) * dx:.15g} {-half[1] - (1 - offset) * dy:.15g} {dx:.15g} {dy:.15g}",
+                "1 1", "0.002436996253160624 0 0.001130294718810031 0 0 0"]
+        again = ["3", f"00{motion}100", "111010", "0101111", "30000 0.0005 -0.0002 0.0003"]
+        (self.folder / "r.inp").write_text("\n".join(rows + (steps - 1) * again + ["0", ""]))
+        self.run_program("--json", *options, "--order", str(order), "2", "r")
+        records = map(json.loads, (self.folder / "r.jsonl").read_text().splitlines())
+        patches = [record["patches"][0] for record in records if record.get("patches")]
+        self.assertEqual(len(patches), steps)
+        self.assertEqual({patch["solver"].get("tangential_order", 1) for patch in patches}, {order})
+        part, end = ("errors", "_error") if "--errors" in options else ("totals", "")
+        found = [[patch[part][name + end]["value"] for name in ("fx_rel", "fy_rel")]
+                 + [patch[part]["mz" + end]["value"] / (9000 * 15**0.5)] for patch in patches]
+        return [found[round(steps * share) - 1] for share in (0.25, 0.5, 1.0)]
+
+    def test_transient_rolling(self):
+        """From no tractions on: errors at the same distances fall with the square of the size of elements, in both directions"""
+        limit = {}
+        for chi in 0.0, 180.0:
+            fine, half = (self.roll(2, n, 0.3, chi=chi) for n in (80, 40))
+            limit[chi] = [[f + (f - h) / 3 for f, h in zip(*rows)] for rows in zip(fine, half)]
+            error = {}
+            for order, n in (1, 20), (1, 40), (2, 20), (2, 40):
+                found = self.roll(order, n, 0.3, chi=chi)
+                error[order, n] = max(abs(f - r) for rows in zip(found, limit[chi]) for f, r in zip(*rows))
+            self.assertLess(error[2, 20], 1.2e-3, error)
+            self.assertLess(error[2, 40], 0.4 * error[2, 20], error)
+            for n in 20, 40:
+                self.assertGreater(error[1, n], 5 * error[2, n], error)
+                estimated = max(map(max, self.roll(2, n, 0.3, "--errors", chi=chi)))
+                self.assertTrue(0.3 < estimated / error[2, n] < 5.0, (n, estimated, error))
+
+    def test_transient_rolling_becomes_steady(self):
+        """Ten contact lengths behind the start nothing is left of it but turns of slip that were set from another start"""
+        for order, bound in (1, 1e-5), (2, 2e-4):
+            rolled = self.roll(order, 12, 0.2, distance=66.0)[-1]
+            steady = self.roll(order, 12, 0.2, motion=3)[-1]
+            away = max(abs(r - s) for r, s in zip(rolled, steady))
+            self.assertLess(away, bound, (order, rolled, steady))
 
     def test_unlike_bodies_converge(self):
         """Passes between pressures and tractions end at a small tolerance, and are as many as with the first order"""
