@@ -31,6 +31,9 @@
 %   make_spline     - cubic smoothing spline through the points of a curve.
 %   eval_spline     - points on such a spline, at given positions or given y.
 %   eval_spline_deriv - its derivatives and curvature.
+%   make_2dspline   - surface of cubic splines, for profiles in slices.
+%   eval_2dspline   - points on it, at given u and v or given u and y.
+%   eval_2dspline_deriv - its first derivatives.
 %   make_arclength  - positions of the points of a profile along it.
 %   modify_profile  - mirror, scale and order the points of a profile.
 %   resample_slices - corresponding points on the slices of a varying profile.

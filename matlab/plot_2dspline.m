@@ -21,9 +21,9 @@ function [ opt ] = plot_2dspline( sol, slcs, opt )
 %   addplot    1: draw into the current axes; 0 (default): clear the figure
 %
 % Between slices with corresponding points the surface is drawn as RESAMPLE_SLICES joins them; the program's own spline through
-% the slices is smoother. Slice directions (field, eval_2dspline) are not built.
+% the slices is smoother: EVAL_2DSPLINE. Slice directions (field) are not built.
 %
-% See also: read_slices, resample_slices, plot3d.
+% See also: read_slices, resample_slices, eval_2dspline, plot3d.
 
    defaults = struct('typplot','surf', 'urange',[], 'vrange',[], 'xysteps',[], 'show_slc',[], 'slc_color','r', 'show_feat',[], ...
                      'feat_color','r', 'refl_avec',[0 1 0], 'refl_dth',30, 'zoom',[1 1 1], 'view',[110 20], 'addplot',0);

@@ -172,3 +172,43 @@ sol = parse_out1('manchester');
 check(isequaln([sol.cp_pos.xtr sol.cp_pos.ytr sol.cp_pos.ztr sol.cp_pos.yr sol.cp_pos.zr sol.cp_pos.xw sol.cp_pos.yw sol.cp_pos.zw], ...
                [sol.cp_pos.xcp_tr sol.cp_pos.ycp_tr sol.cp_pos.zcp_tr sol.cp_pos.ycp_r sol.cp_pos.zcp_r sol.cp_pos.xcp_w ...
                 sol.cp_pos.ycp_w sol.cp_pos.zcp_w]), 'xtr ... zw');
+
+% --- surfaces of splines: polynomials of third order come back, as do their derivatives
+u = [0 1 2.5 4 6 7]';
+v = linspace(-1, 2, 9);
+[uu, vv] = ndgrid(u, v);
+height = @(a, b) 1 + a.^2.*b - 0.1*a.^3 + b.^3;
+s = make_2dspline(u, v, [], 3*vv + 0.2*uu, height(uu,vv), [], 0);
+[~, x, y, z] = eval_2dspline(s, [0.3 3 7], [-0.9 0.1 2]);
+check_near([x; y; z], [0.3 3 7; 3*[-0.9 0.1 2]+0.2*[0.3 3 7]; height([0.3 3 7],[-0.9 0.1 2])], 1e-11, 'points one by one');
+[~, x, ~, z] = eval_2dspline(s, [0.3 3 7], [-0.9 0.1]);
+check_near([x z], [[0.3;3;7]*[1 1], height([0.3;3;7]*[1 1], ones(3,1)*[-0.9 0.1])], 1e-11, 'all with all');
+place = eval_2dspline(s, [0.5 3], [], [1.3 -1]);
+check_near(place, ([1.3 -1]-0.2*[0.5 3])/3, 1e-9, 'v of given y');
+place = eval_2dspline(s, [0.5 3], [], [1.3 -1 2]);
+check_near(place, (ones(2,1)*[1.3 -1 2]-0.2*[0.5;3]*ones(1,3))/3, 1e-9, 'the same, all with all');
+check(isnan(eval_2dspline(s, 3, [], 99)), 'no v has it');
+[dx, dy, dz] = eval_2dspline_deriv(s, 3, 0.4, 1);
+check_near([dx dy dz], [1 0.2 2*3*0.4-0.3*9], 1e-10, 'derivatives to u');
+[dx, dy, dz] = eval_2dspline_deriv(s, 3, 0.4, 2);
+check_near([dx dy dz], [0 3 9+3*0.16], 1e-10, 'derivatives to v');
+t = make_2dspline(u, v, 2*uu, vv, height(uu,vv), ones(6,9), 0);
+[~, x] = eval_2dspline(t, 3, 0.4);
+check_near(x, 6, 1e-11, 'x of its own');
+t = make_2dspline((0:5)', v, ones(6,1)*v, ((0:5)==2)'*ones(1,9));
+[~, ~, ~, z] = eval_2dspline(t, [1 2 3 4], 0.2*[1 1 1 1]);
+check_near(z, [1 4 1 0]/6, 1e-12, 'control points: one sixth, four sixths');
+[~, ~, ~, z] = eval_2dspline(t, 9, 0.2);
+check(isnan(z), 'beside the surface');
+check_error(@() make_2dspline(u(1:3), v, vv(1:3,:), vv(1:3,:)), '4 values');
+check_error(@() make_2dspline(u, v, [], vv, NaN*vv, [], 0), 'lack points');
+for i = 1 : 5
+   write_simpack(sprintf('slice%d.prr', i), '', (-10:10)', (-10:10)'.^2/600 + i^2);
+end
+f = fopen('five.slcs', 'w');
+fprintf(f, '0 1\n5\n0 0 0\n1\n');
+fprintf(f, '%d ''slice%d.prr''\n', [100*(1:5); 1:5]);
+fclose(f);
+[~, ~, y, z] = eval_2dspline(read_slices('five.slcs', 0, -1), 250, [0 0.25 0.5]);
+% chords of 1 mm along the slices
+check_near([y; z - 2.5^2], [-10 -5 0; [100 25 0]/600], 1e-3, 'a section between slices that are read');
