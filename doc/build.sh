@@ -7,9 +7,9 @@ top=$(cd "$(dirname "$0")/.." && pwd)
 out=${1:-$top/build/site}
 tools=$top/build/site-tools
 python=${CONTACT_SITE_PYTHON:-$tools/bin/python3}
-if ! "$python" -c "import sphinx, myst_parser, furo, latex2mathml, nbformat, nbclient, ipykernel, numpy, h5py, matplotlib, xarray" 2> /dev/null; then
+if ! "$python" -c "import sphinx, myst_parser, furo, latex2mathml, nbformat, nbclient, ipykernel, numpy, h5py, matplotlib, xarray, scipy" 2> /dev/null; then
   python3 -m venv "$tools"
-  "$tools/bin/pip" -q install "sphinx>=7" "myst-parser>=3" furo latex2mathml nbformat nbclient ipykernel numpy h5py matplotlib xarray
+  "$tools/bin/pip" -q install "sphinx>=7" "myst-parser>=3" furo latex2mathml nbformat nbclient ipykernel numpy h5py matplotlib xarray scipy
   python=$tools/bin/python3
 fi
 rm -rf "$out"

@@ -3,6 +3,8 @@ from __future__ import annotations
 
 import ctypes
 import ctypes.util
+import functools
+import hashlib
 import os
 import sys
 from pathlib import Path
@@ -67,6 +69,26 @@ def library() -> ctypes.CDLL:
         return loaded
     raise ContactError("The library of CONTACT is not found; build it, or set CONTACT_LIBRARY to its path. Tried:\n"
                        + "\n".join(reasons))
+
+
+@functools.lru_cache(maxsize=4)
+def _digest(path: str, size: int, time: int) -> str:
+    """Hash of a file, read once as long as it stays the same"""
+    found = hashlib.blake2b(digest_size=16)
+    with open(path, "rb") as file:
+        for portion in iter(lambda: file.read(1 << 20), b""):
+            found.update(portion)
+    return found.hexdigest()
+
+
+def fingerprint() -> str:
+    """Hash of the file of the library that is loaded; its name where the system found it elsewhere."""
+    name = str(library()._name)
+    try:
+        about = os.stat(name)
+    except OSError:
+        return name
+    return _digest(name, about.st_size, about.st_mtime_ns)
 
 
 def _arguments(name: str) -> list[tuple[str, bool, str]]:

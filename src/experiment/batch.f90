@@ -153,12 +153,12 @@ contains
       do k = 1, size(sets, 2)
          if (allocated(error)) exit
          call reader%read_variation(sets(:, k), this)
-         call solve_next(batch, this, room, error)
+         call solve_next(batch, this, room, error, is_alone=.true.)
       end do
    end subroutine solve_variations
 
    !> Solve a case and note its results
-   subroutine solve_next(batch, this, room, error)
+   subroutine solve_next(batch, this, room, error, is_alone)
       !> What is kept from call to call
       type(case_batch), intent(inout) :: batch
       type(input_case), intent(inout) :: this
@@ -166,6 +166,8 @@ contains
       type(batch_room), intent(inout) :: room
       !> There is no room; what a case does not do is in the room
       type(error_type), allocatable, intent(out) :: error
+      !> Shall nothing be kept of the cases before, a Hertzian geometry that another load has laid out included? Default no
+      logical, intent(in), optional :: is_alone
       type(error_type), allocatable :: refusal
       type(case_status) :: status
       integer :: k
@@ -187,6 +189,8 @@ contains
          this%spec%output_level = 0
          call complete_spec(batch%state, batch%settings, this)
          call find_slot(batch%state, this%reid, this%cpid, k)
+         if (present(is_alone) .and. associated(batch%state%slots(k)%problem_slot%session)) &
+            & batch%state%slots(k)%problem_slot%session%problem%has_geometry = .false.
          call solve_one(batch%state, batch%state%slots(k), this, batch%state%log, status, refusal)
          if (status%has_result()) then
             batch%last = k

@@ -1,6 +1,9 @@
-"""A cluster of Dask on this machine: its processes are killed, stopped, added and refused memory while a study runs."""
+"""A cluster of Dask on this machine: its processes are killed, started again, added, slowed and refused memory while a study runs.
+ACTS in the environment: how often at random."""
 import os
+import random
 import re
+import resource
 import signal
 import subprocess
 import sys
@@ -13,6 +16,7 @@ import pytest
 from bases import rolling
 
 POINTS = 600
+ACTS = int(os.environ.get("ACTS", "3"))
 
 
 class Cluster:
@@ -112,6 +116,74 @@ def test_workers_come_and_go(cluster, tmp_path, monkeypatch):
     keys = store.keys()
     store.close()
     assert len(np.unique(keys, axis=0)) == len(keys) == POINTS
+
+
+def taken(process):
+    """Addresses that a process has taken [bytes]"""
+    with open(f"/proc/{process.pid}/statm") as file:
+        return int(file.read().split()[0]) * resource.getpagesize()
+
+
+@pytest.mark.skipif(not hasattr(resource, "prlimit"), reason="limits of other processes")
+def test_whatever_happens_to_workers(cluster, tmp_path, monkeypatch):
+    """Acts at random, until there were enough of them; every case is there once, and the same to the last bit"""
+    points = 400 + 150 * ACTS
+    inputs = {"kinematics.cksi": contact.study.span(-0.01, 0.01, points // 2), "friction.coefficient": [0.2, 0.4]}
+    study = contact.Study(rolling(7), inputs, folder=tmp_path / "s")
+    draw = random.Random(ACTS)
+    workers = [cluster.worker(), cluster.worker()]
+    told = dict.fromkeys(("killed and started again", "stopped for a while", "slow", "added", "left", "without memory"), 0)
+
+    def stop(worker, seconds):
+        worker.send_signal(signal.SIGSTOP)
+        time.sleep(seconds)
+        worker.send_signal(signal.SIGCONT)
+
+    def act(words):
+        if sum(told.values()) >= ACTS:
+            return
+        few = len(told) >= ACTS
+        kind = list(told)[sum(told.values())] if few else draw.choice(list(told))
+        told[kind] += 1
+        place = draw.randrange(len(workers))
+        if kind == "killed and started again":
+            workers.pop(place).kill()
+            workers.append(cluster.worker())
+        elif kind == "stopped for a while":
+            threading.Thread(target=stop, args=(workers[place], draw.uniform(0.2, 1.0))).start()
+        elif kind == "slow":
+            os.setpriority(os.PRIO_PROCESS, workers[place].pid, 19)
+        elif kind == "added":
+            workers.append(cluster.worker())
+        elif kind == "left" and len(workers) > 1:
+            workers.pop(place).send_signal(signal.SIGTERM)
+        else:
+            # what it asks for from now on it does not get
+            enough = taken(workers[place]) + (1 << 20)
+            resource.prlimit(workers[place].pid, resource.RLIMIT_AS, (enough, enough))
+            workers.append(cluster.worker())
+        if len(workers) > 4:
+            workers.pop(0).kill()
+
+    shown = contact.study._study.Progress
+    original = shown.add
+
+    def add(self, count, failed):
+        self._last = 0.0
+        original(self, count, failed)
+
+    monkeypatch.setattr(shown, "add", add)
+    found = study.run(scheduler=cluster.address, progress=act, points_per_task=5)
+    assert sum(told.values()) == ACTS, told
+    serial = contact.Study(rolling(7), inputs).run(workers=1)
+    assert (found.status == 0).all()
+    for name, values in serial.data_vars.items():
+        if values.dtype.kind == "f":
+            assert values.values.tobytes() == found[name].values.tobytes(), name
+    store = contact.study._store.Store(tmp_path / "s")
+    keys = store.keys()
+    store.close()
+    assert len(np.unique(keys, axis=0)) == len(keys) == found.status.size
 
 
 def test_no_scheduler_is_told():

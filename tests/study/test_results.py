@@ -9,6 +9,7 @@ import pandas
 import pytest
 import xarray
 from bases import EXAMPLES, rolling
+from contact import _library
 from contact.study import _engine, _study, sample, save, span
 from contact.study._scene import Scene
 from contact.study._store import FILE, Store
@@ -204,3 +205,38 @@ def test_a_process_that_dies_costs_its_case_only(monkeypatch):
     assert sum(len(one.keys) for one in done) == 4
     dead = [one for one in done if one.states[:, :, 0].any()]
     assert len(dead) == 1 and len(dead[0].keys) == 1 and "several times" in dead[0].reasons["0,0"]
+
+
+def test_another_library_computes_anew(tmp_path, monkeypatch):
+    """What was computed belongs to the library that computed it, known by the hash of its file"""
+    def study():
+        return contact.Study(rolling(), {"kinematics.cksi": [0.001, 0.002]}, folder=tmp_path)
+
+    study().run(workers=1)
+    assert study().explain().there == 2
+    assert _library.fingerprint() == _library.fingerprint() and len(_library.fingerprint()) == 32
+    other = tmp_path / "other.so"
+    other.write_bytes(b"another one")
+    monkeypatch.setattr(_study, "fingerprint", lambda: _library._digest(str(other), 11, 0))
+    assert study().explain().there == 0
+
+
+def test_contacts_of_other_sizes_do_not_know_each_other():
+    """Load, stiffness and shape vary: each case lays out its own geometry, whatever was solved before in the same place"""
+    inputs = {"kinematics.fn": [30e3, 90e3], "material.gg": [40e3, 82e3], "grid.form": ["hertz_axes"]}
+    whole = contact.Study(rolling(), inputs)
+    found = whole.run(workers=1)
+    for workers, points in ((1, 1), (2, 1), (2, 2)):
+        same(found, contact.Study(rolling(), inputs).run(workers=workers, points_per_task=points))
+    turned = contact.Study(rolling(), {path: values[::-1] for path, values in inputs.items()}).run(workers=1)
+    same(found, turned.isel(fn=slice(None, None, -1), gg=slice(None, None, -1)))
+    for fn in inputs["kinematics.fn"]:
+        for gg in inputs["material.gg"]:
+            base = rolling()
+            base["kinematics"]["fn"] = fn
+            base["material"]["gg"] = [gg, gg]
+            alone = contact.Study(base).run(workers=1)
+            one = found.sel(fn=fn, gg=gg).isel(form=0)
+            assert all(alone[name].values.tobytes() == one[name].values.tobytes() for name in ("fx", "pmax", "pen", "contact_area"))
+            # Hertz, whose semi-axes were given
+            assert float(one.pmax) == pytest.approx(1.5 * fn / (np.pi * 30.0), rel=0.02)

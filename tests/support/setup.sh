@@ -141,7 +141,7 @@ install_octave() {
 # What the tests of Python ask for: numpy and h5py to run, pip, setuptools and wheel to install the package, mypy for its types,
 # playwright for the browser, matplotlib, xarray, h5netcdf and jsonschema for results, pytest and the rest for studies. setuptools comes first: it refuses to be imported after the distutils that it replaces
 python_modules="setuptools, numpy, h5py, pip, wheel, mypy, playwright, matplotlib, xarray, h5netcdf, jsonschema"
-study_modules="pytest, scipy, pandas, pyarrow, netCDF4, zarr, distributed"
+study_modules="pytest, scipy, pandas, pyarrow, netCDF4, zarr, distributed, nbclient, ipykernel"
 has_python_packages() { python3 -c "import $python_modules, $study_modules" >/dev/null 2>&1; }
 
 # From the system's packages, or in a folder below build
@@ -165,7 +165,7 @@ install_python_packages() {
   fi
   { [ -x "$top/build/python/bin/python3" ] || python3 -m venv "$top/build/python"; } &&
     "$top/build/python/bin/python3" -m pip install --quiet numpy h5py setuptools wheel mypy playwright matplotlib xarray h5netcdf jsonschema \
-      pytest scipy pandas pyarrow netCDF4 zarr distributed
+      pytest scipy pandas pyarrow netCDF4 zarr distributed nbclient ipykernel
   PATH=$top/build/python/bin:$PATH
   export PATH
   has_python_packages || say "Packages of Python are missing; tests that need them will be skipped"

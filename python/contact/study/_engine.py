@@ -125,11 +125,50 @@ class Engine:
     def _start(self) -> Executor:
         """Whoever takes tasks"""
         if self._client is not None:
-            pool: Executor = self._client.get_executor(pure=False, retries=_RETRIES)
-            return pool
+            return _Cluster(self._client)
         if self._kind == "processes":
             return ProcessPoolExecutor(self._workers, mp_context=get_context("spawn"))
         return ThreadPoolExecutor(self._workers, thread_name_prefix="study")
+
+
+class _Cluster(Executor):
+    """The workers of a client of Dask as an executor.
+
+    That of distributed itself fails where a result is lost between its end and its transfer, with the worker that has it: it looks
+    at the state after the result has been computed again.
+    """
+
+    def __init__(self, client: Any) -> None:
+        self._client = client
+        self._asked: dict[Future[Any], Any] = {}
+
+    def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
+        told: Future[Any] = Future()
+        asked = self._client.submit(fn, *args, pure=False, retries=_RETRIES, **kwargs)
+        self._asked[told] = asked
+
+        async def hand_over() -> None:
+            value, failure = None, None
+            try:
+                value, = await self._client.gather([asked], asynchronous=True)
+            except BaseException as error:  # what cancels a task is no Exception
+                failure = error
+            self._asked.pop(told, None)
+            if not told.set_running_or_notify_cancel():
+                return
+            if failure is None:
+                told.set_result(value)
+            else:
+                told.set_exception(failure)
+
+        self._client.loop.add_callback(hand_over)
+        return told
+
+    def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:
+        left = list(self._asked.values())
+        self._asked.clear()
+        if left:
+            self._client.cancel(left)
 
 
 def _client_of(scheduler: Any) -> Any:

@@ -15,6 +15,7 @@ import numpy as np
 import xarray
 from numpy.typing import NDArray
 
+from .._library import fingerprint
 from .._signatures import VERSION
 from ..errors import ContactError
 from . import _dataset, _failures
@@ -140,12 +141,12 @@ class Study:
     # ---- what there is to do
 
     def keys(self) -> Keys:
-        """A key for each point, shape (points, 2): of its inputs, the base with its files, and the version."""
+        """A key for each point, shape (points, 2): of its inputs, the base with its files, the version and the library."""
         if self._made is not None:
             return self._made
         paths = sorted(self._columns)
         start = hashlib.blake2b(self._scene.digest(), digest_size=16)
-        start.update(json.dumps([VERSION, paths, sorted(self._fields), self._seconds]).encode())
+        start.update(json.dumps([VERSION, fingerprint(), paths, sorted(self._fields), self._seconds]).encode())
         made = np.empty((self._space.count, 2), dtype=np.uint64)
         for first in range(0, len(made), _PORTION):
             portion = slice(first, min(first + _PORTION, len(made)))
