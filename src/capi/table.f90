@@ -126,9 +126,15 @@ contains
       real(c_double), intent(out) :: force(3)
       !> CONTACT_TABLE_INSIDE, _OUTSIDE, _WRONG
       integer(c_int) :: status
-      real(c_double) :: derivatives(3, 3)
+      type(creep_table), pointer :: table
+      integer :: found
 
-      status = contact_table_force_derivatives(handle, patch, creepage, force, derivatives)
+      force = 0.0_c_double
+      status = int(answer%wrong, c_int)
+      if (.not. c_associated(handle)) return
+      call c_f_pointer(handle, table)
+      call find_creep_force(table, patch%fn, patch%mu, patch%gg, patch%aa, patch%bneg, patch%bpos, creepage, force, found)
+      status = int(found, c_int)
    end function contact_table_force
 
    !> Forces of a contact and their derivatives by the creepages
@@ -155,7 +161,8 @@ contains
       status = int(answer%wrong, c_int)
       if (.not. c_associated(handle)) return
       call c_f_pointer(handle, table)
-      call find_creep_force(table, patch%fn, patch%mu, patch%gg, patch%aa, patch%bneg, patch%bpos, creepage, force, slopes, found)
+      call find_creep_force(table, patch%fn, patch%mu, patch%gg, patch%aa, patch%bneg, patch%bpos, creepage, force, found, &
+         & slopes)
       derivatives = transpose(slopes)
       status = int(found, c_int)
    end function contact_table_force_derivatives
@@ -187,8 +194,12 @@ contains
       if (c_associated(derivatives)) call c_f_pointer(derivatives, slopes, [3, 3, int(count)])
       if (c_associated(answers)) call c_f_pointer(answers, endings, [int(count)])
       do k = 1, count
-         ended = contact_table_force_derivatives(handle, patches(k), creepages(:, k), forces(:, k), one)
-         if (c_associated(derivatives)) slopes(:, :, k) = one
+         if (c_associated(derivatives)) then
+            ended = contact_table_force_derivatives(handle, patches(k), creepages(:, k), forces(:, k), one)
+            slopes(:, :, k) = one
+         else
+            ended = contact_table_force(handle, patches(k), creepages(:, k), forces(:, k))
+         end if
          if (c_associated(answers)) endings(k) = ended
          worst = max(worst, ended)
       end do

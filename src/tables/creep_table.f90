@@ -70,7 +70,7 @@ module contact_tables_creep_table
 contains
 
    !> Forces on body 1 in steady rolling towards positive x
-   pure subroutine find_creep_force(table, fn, mu, gg, aa, bneg, bpos, creep, force, slopes, status)
+   pure subroutine find_creep_force(table, fn, mu, gg, aa, bneg, bpos, creep, force, status, slopes)
       !> Splines over all axes, from read_table
       type(creep_table), intent(in) :: table
       !> Normal force [N], coefficient of friction [-], modulus of rigidity [N/mm2]; without force or friction there is nothing
@@ -81,16 +81,16 @@ contains
       real(wp), intent(in) :: creep(3)
       !> Fx, Fy [N], Mz [N mm]
       real(wp), intent(out) :: force(3)
-      !> Derivatives of each force (first index) by each creepage
-      real(wp), intent(out) :: slopes(3, 3)
       !> Member of answer
       integer, intent(out) :: status
+      !> Derivatives of each force (first index) by each creepage; absent: they cost nothing
+      real(wp), intent(out), optional :: slopes(3, 3)
       real(wp) :: bb, c, offset, factor(3), u(3), f(3), df(3, 3), unit(3), sizes(4), sign_x, sign_s
       logical :: is_beyond
       integer :: j
 
       force = 0.0_wp
-      slopes = 0.0_wp
+      if (present(slopes)) slopes = 0.0_wp
       status = answer%wrong
       sizes = [gg, aa, bneg, bpos]
       if (.not. (all(abs([fn, mu, creep]) <= huge(fn)) .and. all(sizes > 0.0_wp .and. sizes <= huge(fn)))) return
@@ -109,14 +109,18 @@ contains
       ! a table up to some spin: beyond it forces do not change with spin
       is_beyond = u(3) > most_spin(table)
       if (is_beyond) u(3) = most_spin(table)
-      call evaluate(table, log(aa/bb), sign_x*sign_s*offset, u, f, df, status)
-      if (is_beyond) then
-         status = answer%outside
-         df(:, 3) = 0.0_wp
-      end if
-      call keep_below_friction(table%band, f, df)
       unit = mu*fn*[sign_x, sign_s, sign_s*c]
+      if (present(slopes)) then
+         call evaluate(table, log(aa/bb), sign_x*sign_s*offset, u, f, status, df)
+         if (is_beyond) df(:, 3) = 0.0_wp
+         call keep_below_friction(table%band, f, df)
+      else
+         call evaluate(table, log(aa/bb), sign_x*sign_s*offset, u, f, status)
+         call keep_below_friction(table%band, f)
+      end if
+      if (is_beyond) status = answer%outside
       force = unit*f
+      if (.not. present(slopes)) return
       factor = factor*[sign_x, sign_s, sign_s]
       do j = 1, 3
          slopes(:, j) = unit*df(:, j)*factor(j)
@@ -146,17 +150,20 @@ contains
       scales(3) = scale_spin(1) + inside*(scale_spin(2) + inside*(scale_spin(3) + inside*scale_spin(4)))
    end function scaled_creepages
 
-   !> The spline and its derivatives by the scaled creepages
-   pure subroutine evaluate(table, shape, offset, u, f, df, status)
+   !> The spline, and its derivatives by the scaled creepages
+   pure subroutine evaluate(table, shape, offset, u, f, status, df)
       type(creep_table), intent(in) :: table
       !> log(g), offset, scaled creepages of which the first and third are not negative
       real(wp), intent(in) :: shape, offset, u(3)
-      !> Values, and derivatives of each value (first index) by each scaled creepage
-      real(wp), intent(out) :: f(3), df(3, 3)
+      !> Values
+      real(wp), intent(out) :: f(3)
       integer, intent(inout) :: status
+      !> Derivatives of each value (first index) by each scaled creepage
+      real(wp), intent(out), optional :: df(3, 3)
       real(wp) :: r, r1, r2, s, whole, largest, place(3), inner(3, 3)
       real(wp), dimension(values_per_node) :: value, by_x, by_y, by_z
       real(wp), dimension(order, 5) :: basis, slope
+      real(wp) :: near(stretch, order, order)
       integer :: first(5)
 
       if (shape < table%shape%low - edge .or. shape > table%shape%high + edge) status = answer%outside
@@ -174,31 +181,36 @@ contains
       s = sqrt(1.0_wp + u(3)**2)
       whole = r + s
       place = [u(1)/whole, u(2)/whole, u(3)/(1.0_wp + u(3))]
-      ! derivatives of the place (first index) by u
-      inner = reshape([(1.0_wp - place(1)*r1)/whole, -place(2)*r1/whole, 0.0_wp, -place(1)*r2/whole, &
-         & (1.0_wp - place(2)*r2)/whole, 0.0_wp, -place(1)*(u(3)/s)/whole, -place(2)*(u(3)/s)/whole, &
-         & 1.0_wp/(1.0_wp + u(3))**2], [3, 3])
       call find_basis(table%shape, shape, first(1), basis(:, 1), slope(:, 1))
       call find_basis(table%offset, offset, first(2), basis(:, 2), slope(:, 2))
       call find_basis(table%x, place(1), first(3), basis(:, 3), slope(:, 3))
       call find_basis(table%y, place(2), first(4), basis(:, 4), slope(:, 4))
       call find_basis(table%z, place(3), first(5), basis(:, 5), slope(:, 5))
-      call contract(table, first, basis, slope, value, by_x, by_y, by_z)
+      call gather_near(table, first, basis(:, 1:2), near)
+      if (.not. present(df)) then
+         call sum_values(near, basis(:, 3:5), value)
+         f = value(:3)
+         return
+      end if
+      call sum_slopes(near, basis(:, 3:5), slope(:, 3:5), value, by_x, by_y, by_z)
       f = value(:3)
+      ! derivatives of the place (first index) by u
+      inner = reshape([(1.0_wp - place(1)*r1)/whole, -place(2)*r1/whole, 0.0_wp, -place(1)*r2/whole, &
+         & (1.0_wp - place(2)*r2)/whole, 0.0_wp, -place(1)*(u(3)/s)/whole, -place(2)*(u(3)/s)/whole, &
+         & 1.0_wp/(1.0_wp + u(3))**2], [3, 3])
       df = matmul(reshape([by_x(:3), by_y(:3), by_z(:3)], [3, 3]), inner)
    end subroutine evaluate
 
-   !> Sums over the nodes around a place: shape and offset first, whose derivatives are not wanted
-   pure subroutine contract(table, first, basis, slope, value, by_x, by_y, by_z)
+   !> Nodes around a place, summed over shape and offset, whose derivatives are not wanted
+   pure subroutine gather_near(table, first, basis, near)
       type(creep_table), intent(in) :: table
       !> First coefficient along shape, offset, x, y, z
       integer, intent(in) :: first(5)
-      !> Basis functions and slopes along these
-      real(wp), intent(in) :: basis(order, 5), slope(order, 5)
-      !> Of all values: the spline and its derivatives by x, y, z
-      real(wp), dimension(values_per_node), intent(out) :: value, by_x, by_y, by_z
-      real(wp) :: near(stretch, order, order), weight
-      real(wp), dimension(values_per_node) :: a, b, along_y, along_z
+      !> Basis functions along shape and offset
+      real(wp), intent(in) :: basis(order, 2)
+      !> Values of the nodes: along z, y, x
+      real(wp), intent(out) :: near(stretch, order, order)
+      real(wp) :: weight
       integer :: i, j, k, l, m, n, start, row, plane, block
 
       row = values_per_node*table%z%count
@@ -220,6 +232,45 @@ contains
             end do
          end do
       end do
+   end subroutine gather_near
+
+   !> The spline from the nodes around a place
+   pure subroutine sum_values(near, basis, value)
+      !> From gather_near
+      real(wp), intent(in) :: near(stretch, order, order)
+      !> Basis functions along x, y, z
+      real(wp), intent(in) :: basis(order, 3)
+      !> Of all values
+      real(wp), intent(out) :: value(values_per_node)
+      real(wp), dimension(values_per_node) :: a, b
+      integer :: i, j, k, n
+
+      value = 0.0_wp
+      do i = 1, order
+         a = 0.0_wp
+         do j = 1, order
+            b = 0.0_wp
+            do k = 1, order
+               n = values_per_node*(k - 1)
+               b = b + basis(k, 3)*near(n + 1:n + values_per_node, j, i)
+            end do
+            a = a + basis(j, 2)*b
+         end do
+         value = value + basis(i, 1)*a
+      end do
+   end subroutine sum_values
+
+   !> The same with its derivatives
+   pure subroutine sum_slopes(near, basis, slope, value, by_x, by_y, by_z)
+      !> From gather_near
+      real(wp), intent(in) :: near(stretch, order, order)
+      !> Basis functions and slopes along x, y, z
+      real(wp), intent(in) :: basis(order, 3), slope(order, 3)
+      !> Of all values: the spline and its derivatives by x, y, z
+      real(wp), dimension(values_per_node), intent(out) :: value, by_x, by_y, by_z
+      real(wp), dimension(values_per_node) :: a, b, along_y, along_z
+      integer :: i, j, k, n
+
       value = 0.0_wp
       by_x = 0.0_wp
       by_y = 0.0_wp
@@ -232,23 +283,25 @@ contains
             b = 0.0_wp
             do k = 1, order
                n = values_per_node*(k - 1)
-               b = b + basis(k, 5)*near(n + 1:n + values_per_node, j, i)
-               along_z = along_z + (basis(j, 4)*slope(k, 5))*near(n + 1:n + values_per_node, j, i)
+               b = b + basis(k, 3)*near(n + 1:n + values_per_node, j, i)
+               along_z = along_z + (basis(j, 2)*slope(k, 3))*near(n + 1:n + values_per_node, j, i)
             end do
-            a = a + basis(j, 4)*b
-            along_y = along_y + slope(j, 4)*b
+            a = a + basis(j, 2)*b
+            along_y = along_y + slope(j, 2)*b
          end do
-         value = value + basis(i, 3)*a
-         by_x = by_x + slope(i, 3)*a
-         by_y = by_y + basis(i, 3)*along_y
-         by_z = by_z + basis(i, 3)*along_z
+         value = value + basis(i, 1)*a
+         by_x = by_x + slope(i, 1)*a
+         by_y = by_y + basis(i, 1)*along_y
+         by_z = by_z + basis(i, 1)*along_z
       end do
-   end subroutine contract
+   end subroutine sum_slopes
 
    !> Lead forces above 1 - band to 1, with a continuous slope
    pure subroutine keep_below_friction(band, f, df)
       real(wp), intent(in) :: band
-      real(wp), intent(inout) :: f(3), df(3, 3)
+      real(wp), intent(inout) :: f(3)
+      !> Absent where nobody wants them
+      real(wp), intent(inout), optional :: df(3, 3)
       real(wp) :: size_, ratio, change, grows(3)
       integer :: j
 
@@ -262,10 +315,12 @@ contains
          ratio = 1.0_wp/size_
          change = -ratio/size_
       end if
-      grows = (f(1)*df(1, :) + f(2)*df(2, :))/size_
-      do j = 1, 3
-         df(:2, j) = ratio*df(:2, j) + f(:2)*(change*grows(j))
-      end do
+      if (present(df)) then
+         grows = (f(1)*df(1, :) + f(2)*df(2, :))/size_
+         do j = 1, 3
+            df(:2, j) = ratio*df(:2, j) + f(:2)*(change*grows(j))
+         end do
+      end if
       f(:2) = ratio*f(:2)
       ! rounding
       size_ = norm2(f(:2))

@@ -1,4 +1,5 @@
 /* Forces of a table for creepages that are read, and the time of a look-up: study_table_c TABLE FN MU GG AA BNEG BPOS < creepages */
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <time.h>
@@ -16,7 +17,7 @@ static double now(void) {
 int main(int count, char **words) {
   char message[500];
   contact_table_patch patch;
-  double creepage[3], force[3], slopes[3][3], sum = 0.0, unit[3], begun;
+  double creepage[3], force[3], other[3], slopes[3][3], sum = 0.0, unit[3], begun;
   contact_table *table;
   int k;
 
@@ -34,6 +35,10 @@ int main(int count, char **words) {
   patch.bpos = atof(words[7]);
   while (scanf("%lf %lf %lf", &creepage[0], &creepage[1], &creepage[2]) == 3) {
     if (contact_table_force(table, &patch, creepage, force) != CONTACT_TABLE_INSIDE) return 3;
+    if (contact_table_force_derivatives(table, &patch, creepage, other, slopes) != CONTACT_TABLE_INSIDE) return 4;
+    for (k = 0; k < 3; k++) {
+      if (!(fabs(force[k] - other[k]) <= 1e-13 * patch.mu * patch.fn * (k == 2 ? patch.aa : 1.0))) return 5;
+    }
     printf("%.17g %.17g %.17g\n", force[0], force[1], force[2]);
   }
   /* creepages of a walk, as a vehicle has them, and ones all over the table */
