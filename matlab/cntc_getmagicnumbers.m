@@ -64,6 +64,7 @@ function [ CNTC ] = cntc_getmagicnumbers( )
 %   CNTC.own_errors   errors of the totals are estimated by each calculation: 0 no, 1 yes, see cntc_geterrors
 %   CNTC.own_wear     wear and fatigue are told: 0 no, 1 yes, see cntc_setwear and cntc_getwear
 %   CNTC.own_accuracy accuracy of the forces that is asked for in place of a grid: 10 to 1000000, one part in so many; 0 none: the grid is the caller's
+%   CNTC.own_approximate where an accuracy is asked for: 0 the full theory, 1 simplified methods too, where their error is known and below that
 %   CNTC.own_reached  read only, has the last calculation reached the accuracy that was asked for? 0 no, or none was, 1 yes
 %
 % Data that go along into the .mat files
@@ -172,6 +173,7 @@ function [ CNTC ] = cntc_getmagicnumbers( )
    CNTC.own_errors = 9008;
    CNTC.own_wear = 9011;
    CNTC.own_accuracy = 9009;
+   CNTC.own_approximate = 9012;
    CNTC.own_reached = 9010;
    CNTC.mt_tim = 2011;
    CNTC.mt_xr = 2012;

@@ -530,7 +530,7 @@ class Element:
                  [bulk, *first, bulk if bulk2 is None else bulk2, *second, plastic_share])
 
     def set_solver(self, eps: float = 1e-5, maxgs: int = 999, maxin: int = 100, maxnr: int = 30,
-                   maxout: int = 1, order: int = 2, accuracy: float = 0.0) -> None:
+                   maxout: int = 1, order: int = 2, accuracy: float = 0.0, allow: str = "nothing") -> None:
         """Tolerance [-] and limits of the iterations of the default solver (G = 0), and order of the discretisation.
 
         Parameters
@@ -543,12 +543,18 @@ class Element:
         accuracy
             Largest relative error of the forces [-], 1e-6 to 0.1, that is asked for in place of a grid: the numbers of elements
             of a grid tell its window only, eps and order are chosen (doc/user/running.md). 0: none is asked for.
+        allow
+            ``"approximate"``: simplified methods may take the place of the full theory, where their error is known and below the
+            accuracy that is asked for. ``"nothing"``: they may not.
         """
+        if allow not in ("nothing", "approximate"):
+            raise ValueError(f"allow = {allow!r} is none of nothing, approximate")
         if order not in (1, 2):
             raise ValueError(f"order = {order!r} is none of 1, 2")
         if accuracy != 0.0 and not 1e-6 <= accuracy <= 0.1:
             raise ValueError(f"accuracy = {accuracy!r} is neither 0 nor between 1e-6 and 0.1")
-        self.set_flags(own_order=order, own_accuracy=round(1.0 / accuracy) if accuracy else 0)
+        self.set_flags(own_order=order, own_accuracy=round(1.0 / accuracy) if accuracy else 0,
+                       own_approximate=int(allow == "approximate"))
         self._do(cntc.setsolverflags, self.number, self._icp, 0, [maxgs, maxin, maxnr, maxout], [eps])
 
     def add_block(self, x: ArrayLike | None, y: ArrayLike | None, z: ArrayLike, block: int = 1) -> None:

@@ -150,6 +150,7 @@ MAGIC_NUMBERS = {
     "own_errors": 9008,  # errors of the totals are estimated by each calculation: 0 no, 1 yes, see cntc_geterrors
     "own_wear": 9011,  # wear and fatigue are told: 0 no, 1 yes, see cntc_setwear and cntc_getwear
     "own_accuracy": 9009,  # accuracy of the forces that is asked for in place of a grid: 10 to 1000000, one part in so many; 0 none: the grid is the caller's
+    "own_approximate": 9012,  # where an accuracy is asked for: 0 the full theory, 1 simplified methods too, where their error is known and below that
     "own_reached": 9010,  # read only, has the last calculation reached the accuracy that was asked for? 0 no, or none was, 1 yes
     # Data that go along into the .mat files
     "mt_tim": 2011,  # time [s]

@@ -4,10 +4,12 @@ module contact_base_accuracy_report
    implicit none (type, external)
    private
 
-   public :: accuracy_report, longest_reason
+   public :: accuracy_report, longest_method, longest_reason
 
    !> Room for the reason why an accuracy was not reached
    integer, parameter :: longest_reason = 160
+   !> Room for what is told of simplified methods
+   integer, parameter :: longest_method = 160
 
    !> An accuracy that was asked for, and how it was sought
    type :: accuracy_report
@@ -27,5 +29,7 @@ module contact_base_accuracy_report
       real(wp) :: seconds = 0.0_wp, last_seconds = 0.0_wp
       !> Why it is not met, with blanks behind; blank: it is
       character(len=longest_reason) :: reason = ""
+      !> Where simplified methods were allowed: the one that was chosen and its error, or why there is none; with blanks behind
+      character(len=longest_method) :: method = ""
    end type accuracy_report
 end module contact_base_accuracy_report

@@ -178,6 +178,8 @@ contains
                spec%iteration%accuracy = 0.0_wp
                if (number > 0) spec%iteration%accuracy = 1.0_wp/number
             end if
+         case (flag%own_approximate)
+            spec%iteration%allows_approximate = number /= 0
          case (flag%timers)
             call set_timer_level(number)
          case (flag%ncase)
@@ -275,6 +277,7 @@ contains
          case (flag%own_accuracy)
             number = 0
             if (spec%iteration%accuracy > 0.0_wp) number = nint(1.0_wp/spec%iteration%accuracy)
+         case (flag%own_approximate); number = merge(1, 0, spec%iteration%allows_approximate)
          case (flag%own_reached); number = merge(1, 0, has_reached(problem))
          case (flag%own_border); call look_at_patches(problem, icp, number, other(1), other(2))
          case (flag%own_stepped); call look_at_patches(problem, icp, other(1), number, other(2))

@@ -3,6 +3,7 @@
 !> The estimate of each grid (contact_patch_error_estimate) tells how many elements the next one needs. Elements, order and
 !> tolerance that are chosen go into the specification, so that outputs tell what was solved.
 module contact_cases_accuracy
+   use, intrinsic :: ieee_arithmetic, only : ieee_quiet_nan, ieee_value
    use contact_base_accuracy_report, only : accuracy_report
    use contact_base_choices, only : grid_form, motion
    use contact_base_error, only : error_kind, error_type, fatal_error
@@ -12,12 +13,14 @@ module contact_cases_accuracy
    use contact_cases_accuracy_plan, only : accuracy_law, caution, expected_law, finer_across, first_across, is_near_enough, &
       & most_elements, most_levels, not_converged, prepare_level, refuse_case, shorten_aspect, smaller_tolerance, &
       & solver_tolerance, stopping_share, time_is_left
+   use contact_cases_approximate_methods, only : approximate_method, choose_method, take_method
    use contact_cases_distance, only : distance_form
    use contact_cases_session, only : contact_session, solve_case
    use contact_cases_spec, only : case_spec, grid_spec, part_source
    use contact_cases_subsurface, only : subsurface_stresses, warn_of_steps
    use contact_grid_element_division, only : bounding_box, contact_box
    use contact_patch_error_estimate, only : error_of_forces
+   use contact_patch_quantities, only : total_list
    use contact_patch_result, only : patch_result
    use contact_text_words, only : integer_text
    implicit none (type, external)
@@ -45,6 +48,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       !> Folder to which names of files are relative; default the current one
       character(len=*), intent(in), optional :: folder
+      type(approximate_method) :: chosen
 
       if (.not. (abs(spec%iteration%accuracy) > 0.0_wp .and. spec%solve)) then
          if (allocated(result%accuracy)) deallocate(result%accuracy)
@@ -54,7 +58,12 @@ contains
       call refuse_contact(session, spec, error)
       if (allocated(error)) return
       call log%note()
-      call refine(session, spec, log, result, error, folder)
+      if (spec%iteration%allows_approximate) call choose_method(spec, chosen)
+      if (chosen%found) then
+         call approximate(session, chosen, spec, log, result, error, folder)
+      else
+         call refine(session, spec, trim(chosen%words), log, result, error, folder)
+      end if
       if (.not. allocated(error) .and. spec%has_stress .and. result%status%has_result()) then
          call subsurface_stresses(spec, result, error)
          if (.not. allocated(error)) call warn_of_steps(result, log)
@@ -108,10 +117,65 @@ contains
       grid%form = merge(grid_form%hertz_line_curvature, grid_form%hertz_curvatures, grid%is_line_contact())
    end subroutine take_curvatures
 
+   !> Solve a case by a simplified method whose error is known
+   subroutine approximate(session, chosen, spec, log, result, error, folder)
+      type(contact_session), intent(inout) :: session
+      !> The method
+      type(approximate_method), intent(in) :: chosen
+      type(case_spec), intent(inout) :: spec
+      type(log_type), intent(inout) :: log
+      type(patch_result), intent(inout) :: result
+      type(error_type), allocatable, intent(out) :: error
+      character(len=*), intent(in), optional :: folder
+      type(accuracy_report) :: report
+      type(case_spec) :: level
+      real(wp) :: began
+
+      report%asked = spec%iteration%accuracy
+      report%eps = solver_tolerance(report%asked)
+      report%method = chosen%words
+      level = spec
+      call prepare_level(report%eps, level)
+      level%parts%grid = part_source%given
+      level%parts%geometry = part_source%given
+      if (keeps_axes(spec)) call take_curvatures(session%curvatures, level%grid)
+      call take_method(chosen, level)
+      level%estimates_errors = .false.
+      began = wall_clock()
+      call solve_case(session, level, log, result, error, folder)
+      if (allocated(error)) return
+      report%levels = 1
+      report%seconds = wall_clock() - began
+      report%last_seconds = report%seconds
+      if (result%status%is_solved()) then
+         report%estimated = chosen%method%error
+      else
+         report%reason = not_converged
+      end if
+      call take_method(chosen, spec)
+      call tell_report(spec, level, result, report, log)
+      result%accuracy%order = 0
+      call leave_errors(result)
+   end subroutine approximate
+
+   !> No total of a simplified method has an estimate: elements would tell of the method's own limit only
+   subroutine leave_errors(result)
+      type(patch_result), intent(inout) :: result
+      type(total_list) :: list
+
+      call result%totals(list)
+      if (allocated(result%errors)) deallocate(result%errors)
+      allocate(result%errors)
+      allocate(result%errors%value(list%length), source=ieee_value(1.0_wp, ieee_quiet_nan))
+      result%errors%reason = "a simplified method was chosen; its error is told with the accuracy"
+   end subroutine leave_errors
+
    !> From grid to grid until the estimate is small enough, or no finer one can be had
-   subroutine refine(session, spec, log, result, error, folder)
+   subroutine refine(session, spec, method, log, result, error, folder)
       type(contact_session), intent(inout) :: session
       type(case_spec), intent(inout) :: spec
+      !> Why no simplified method is chosen, where they are allowed; "" where they are not
+      character(len=*), intent(in) :: method
       type(log_type), intent(inout) :: log
       type(patch_result), intent(inout) :: result
       type(error_type), allocatable, intent(out) :: error
@@ -126,6 +190,7 @@ contains
 
       report%asked = spec%iteration%accuracy
       report%eps = solver_tolerance(report%asked)
+      report%method = method
       law = expected_law(spec)
       level = spec
       call prepare_level(report%eps, level)

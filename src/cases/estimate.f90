@@ -9,6 +9,7 @@ module contact_cases_estimate
    use contact_base_kinds, only : long, wp
    use contact_base_memory, only : bytes_per_element
    use contact_cases_accuracy_plan, only : expected_across, expected_law, most_elements
+   use contact_cases_approximate_methods, only : approximate_method, choose_method
    use contact_cases_distance, only : distance_form
    use contact_cases_spec, only : case_spec
    use contact_cases_subsurface, only : stress_memory
@@ -47,6 +48,8 @@ module contact_cases_estimate
    !> of a wheel, whose height is sought. Elements of that grid over those of the first one, since some contacts need a second
    real(wp), parameter :: accurate_pressures = 2.5e-6_wp, accurate_shift = 4.5e-6_wp, accurate_rolling = 6.5e-6_wp, &
       & accurate_wheel = 1.2e-5_wp, accurate_case = 1.0e-3_wp, more_elements = 1.4_wp
+   !> Simplified methods that were allowed, per element [s]: one march; and marches that find creepages for forces
+   real(wp), parameter :: simplified = 1.5e-7_wp, marches = 20.0_wp
    !> Factors: turns of pressures and tractions; elements of profiles, which are bumpy or touch in two places
    real(wp), parameter :: accurate_turns = 1.3_wp, bumpy = 2.5_wp
    !> Part of a window along each side that contact takes
@@ -117,8 +120,18 @@ contains
       type(case_spec), intent(in) :: spec
       type(case_cost), intent(inout) :: cost
       type(potential_contact) :: grid
+      type(approximate_method) :: chosen
       real(wp) :: n, most, rate
 
+      if (spec%iteration%allows_approximate) call choose_method(spec, chosen)
+      if (chosen%found) then
+         cost%elements = int(chosen%method%elements, long)**2
+         cost%bytes = real(cost%elements, wp)*bytes_per_element
+         cost%seconds = every_case + simplified*real(cost%elements, wp)
+         if (spec%force /= force_control%creepages .and. spec%motion /= motion%none) cost%seconds = cost%seconds + &
+            & marches*simplified*real(cost%elements, wp)
+         return
+      end if
       n = (expected_across(expected_law(spec), spec%iteration%accuracy)/usual_share)**2*more_elements
       if (spec%grid%needs_geometry() .and. spec%geometry%form == distance_form%profile) n = bumpy*n
       most = most_elements(spec%limits)

@@ -51,6 +51,8 @@ module contact_cases_spec
       real(wp) :: omgslp = 0.5_wp
       !> Largest relative error of the forces that is asked for [-]; 0: grid and tolerance are those of the case
       real(wp) :: accuracy = 0.0_wp
+      !> May simplified methods take the place of the full theory, where their error is known and below that?
+      logical :: allows_approximate = .false.
    end type iteration_spec
 
    !> Prescribed approach or normal force, creepages or tangential forces

@@ -10,6 +10,7 @@ module contact_cases_wheel_rail_accuracy
    use contact_base_log, only : log_type
    use contact_cases_accuracy_plan, only : accuracy_law, caution, expected_law, finer_across, first_across, is_near_enough, &
       & most_elements, most_levels, not_converged, prepare_level, refuse_case, shorten_aspect, solver_tolerance, time_is_left
+   use contact_cases_approximate_methods, only : approximate_method, choose_method
    use contact_cases_estimate, only : typical_half_side
    use contact_cases_spec, only : case_spec
    use contact_cases_subsurface, only : subsurface_stresses, warn_of_steps
@@ -85,10 +86,13 @@ contains
       type(wheel_rail_result), allocatable :: best
       type(case_spec) :: level
       type(accuracy_law) :: law
+      type(approximate_method) :: chosen
       real(wp) :: sides(2), next(2), expected, before, began, force
 
       report%asked = spec%iteration%accuracy
       report%eps = solver_tolerance(report%asked)
+      if (spec%iteration%allows_approximate) call choose_method(spec, chosen)
+      report%method = chosen%words
       law = expected_law(spec)
       level = spec
       call prepare_level(report%eps, level)

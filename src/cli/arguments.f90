@@ -10,7 +10,7 @@ module contact_cli_arguments
    use contact_cli_process, only : exit_status_of_signal, forget_signals, stop_by_signal, watch_signals
    use contact_cli_report, only : is_report, run_report
    use contact_cli_versions, only : contact_version, write_versions
-   use contact_cases_accuracy_plan, only : largest_accuracy, smallest_accuracy
+   use contact_cli_accuracy_words, only : read_accuracy, read_permission
    use contact_experiment_progress, only : is_terminal
    use contact_experiment_run, only : as_input_says, run_experiment, run_settings
    use contact_text_words, only : replaced
@@ -62,6 +62,8 @@ module contact_cli_arguments
       integer :: order = as_input_says
       !> Largest relative error of the forces, or 0 where none is asked for
       real(wp) :: accuracy = 0.0_wp
+      !> May simplified methods be chosen for it?
+      logical :: allows_approximate = .false.
       !> Contact angles as in the established program?
       logical :: angle_below_axle = .true.
       !> Run the classical solvers that cases name?
@@ -153,6 +155,7 @@ contains
       settings%heat_source = asked%heat_source
       settings%order = asked%order
       settings%accuracy = asked%accuracy
+      settings%allows_approximate = asked%allows_approximate
       settings%angle_below_axle = asked%angle_below_axle
       settings%classical = asked%classical
       settings%errors = asked%errors
@@ -256,7 +259,14 @@ contains
             & "', is not known; 1 and 2 are")
          return
       case ("--accuracy")
-         call take_accuracy()
+         call take_value("the largest relative error of the forces, 1e-6 to 0.1")
+         if (allocated(error)) return
+         call read_accuracy(value, asked%accuracy, error)
+         return
+      case ("--allow")
+         call take_value("what may take the place of the full theory: approximate")
+         if (allocated(error)) return
+         call read_permission(value, asked%allows_approximate, error)
          return
       case ("--contact-angle")
          call take_value("where contact angles are taken: established or contact")
@@ -293,22 +303,13 @@ contains
       case default
          call fatal_error(error, "there is no option '" // name // &
             & "'; the options are --help, --version, --output-dir DIR, --threads N, --heat NAME, --order N, --accuracy TOL, " // &
-            & "--errors, --hdf5, --json, --vtk, --confine, --limit-time S, --limit-run-time S, --limit-memory MB, " // &
-            & "--limit-elements N, --limit-output MB, --resume, --strict and --quiet")
+            & "--allow approximate, --errors, --hdf5, --json, --vtk, --confine, --limit-time S, --limit-run-time S, " // &
+            & "--limit-memory MB, --limit-elements N, --limit-output MB, --resume, --strict and --quiet")
          return
       end select
       if (equals > 0) call fatal_error(error, "the option " // name // " takes no value")
 
    contains
-
-      !> A relative error
-      subroutine take_accuracy()
-         call take_value("the largest relative error of the forces, 1e-6 to 0.1")
-         if (allocated(error)) return
-         asked%accuracy = to_real(value)
-         if (.not. (asked%accuracy >= smallest_accuracy .and. asked%accuracy <= largest_accuracy)) &
-            & call fatal_error(error, "the accuracy, '" // value // "', is not a number from 1e-6 to 0.1")
-      end subroutine take_accuracy
 
       !> A limit, a positive number
       subroutine take_limit()
@@ -471,6 +472,7 @@ contains
          & "                    square of the size of elements; default is 1 for .inp, and what a case says for .toml", &
          & "  --accuracy TOL    choose grid, order and EPS of each case such that the estimated error of the forces, relative to", &
          & "                    the friction bound or to FN, is at most TOL, 1e-6 to 0.1", &
+         & "  --allow approximate  for that: simplified methods too, where their error is known and below TOL", &
          & "  --contact-angle NAME  on rails that vary along the track: established, of the section below the axle", &
          & "                    (default), or contact, of wheel and rail where they touch", &
          & "  --classical       run the solvers that G names; without, the faster default solver acts in their place", &

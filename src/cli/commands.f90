@@ -2,6 +2,8 @@
 module contact_cli_commands
    use, intrinsic :: iso_fortran_env, only : error_unit, output_unit
    use contact_base_error, only : error_type, fatal_error, full_text
+   use contact_base_kinds, only : wp
+   use contact_cli_accuracy_words, only : read_accuracy, read_permission
    use contact_cli_command_line, only : take_word
    use contact_experiment_convert, only : convert_experiment
    use contact_experiment_explain, only : explain_experiment
@@ -12,7 +14,7 @@ module contact_cli_commands
    public :: is_command, run_command
 
    character(len=*), parameter :: usage = "Usage: contact convert [--force] [--output-dir DIR] [--quiet] EXPNAM.inp|EXPNAM.toml, &
-      &contact explain EXPNAM"
+      &contact explain [--accuracy TOL] [--allow approximate] EXPNAM"
 
 contains
 
@@ -29,11 +31,14 @@ contains
    integer function run_command() result(status)
       type(error_type), allocatable :: error
       type(text_buffer) :: told
-      character(len=:), allocatable :: word, command, experiment, folder, output
+      character(len=:), allocatable :: word, command, experiment, folder, output, value
       integer :: k
-      logical :: force, quiet
+      real(wp) :: accuracy
+      logical :: force, quiet, allows_approximate
 
       call take_word(1, command)
+      accuracy = 0.0_wp
+      allows_approximate = .false.
       force = .false.
       quiet = .false.
       folder = ""
@@ -48,6 +53,12 @@ contains
          else if (word == "--output-dir" .and. command == "convert" .and. k < command_argument_count()) then
             k = k + 1
             call take_word(k, folder)
+         else if (command == "explain" .and. is_option(word, "--accuracy", k)) then
+            call take_option_value(word, k, value)
+            call read_accuracy(value, accuracy, error)
+         else if (command == "explain" .and. is_option(word, "--allow", k)) then
+            call take_option_value(word, k, value)
+            call read_permission(value, allows_approximate, error)
          else if (index(word, "-") == 1 .and. word /= "--") then
             call fatal_error(error, "contact " // command // " has no option '" // word // "', or it lacks its value")
          else if (allocated(experiment)) then
@@ -64,7 +75,7 @@ contains
          return
       end if
       if (command == "explain") then
-         call explain_experiment(experiment, told, error)
+         call explain_experiment(experiment, told, error, accuracy, allows_approximate)
          call tell_lines(output_unit, told)
       else
          call convert_experiment(experiment, folder, force, told, output, error)
@@ -78,6 +89,30 @@ contains
          status = 0
       end if
    end function run_command
+
+   !> Is a word an option, with its value behind "=" or in the next word?
+   pure logical function is_option(word, option, k)
+      character(len=*), intent(in) :: word, option
+      !> Number of the word
+      integer, intent(in) :: k
+
+      is_option = index(word, option // "=") == 1 .or. (word == option .and. k < command_argument_count())
+   end function is_option
+
+   !> Value of an option
+   subroutine take_option_value(word, k, value)
+      character(len=*), intent(in) :: word
+      !> Number of the word; on return that of its value
+      integer, intent(inout) :: k
+      character(len=:), allocatable, intent(inout) :: value
+      integer :: equals
+
+      equals = index(word, "=")
+      value = word(equals + 1:)
+      if (equals > 0) return
+      k = k + 1
+      call take_word(k, value)
+   end subroutine take_option_value
 
    !> Lines of a text
    subroutine tell_lines(unit, told)

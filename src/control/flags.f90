@@ -15,7 +15,7 @@ module contact_control_flags
       !> Flags that the published interface does not have: see CNTC_own_... in interface.txt
       integer :: own_heat = 9001, own_border = 9002, own_stepped = 9003, own_angle = 9004, own_across = 9005
       integer :: own_classical = 9006, own_order = 9007, own_errors = 9008, own_accuracy = 9009, own_reached = 9010
-      integer :: own_wear = 9011
+      integer :: own_wear = 9011, own_approximate = 9012
       integer :: idebug = 2000, licdbg = 2001, wrtinp = 2002, openmp = 2003, timers = 2004, ncase = 2005
    end type flag_list
    !> Codes of the flags
@@ -79,6 +79,7 @@ module contact_control_flags
       & flag_row(flag%own_errors, "  ", 0, 1), &
       & flag_row(flag%own_wear, "  ", 0, 1), &
       & flag_row(flag%own_accuracy, "  ", 0, 1000000), &
+      & flag_row(flag%own_approximate, "  ", 0, 1), &
       & flag_row(flag%own_reached, "  ", 0, 1, out_of_range%refused, .false., .true.), &
       & flag_row(flag%own_border, "  ", 0, 4095, out_of_range%refused, .false., .true.), &
       & flag_row(flag%own_stepped, "  ", 0, huge(1), out_of_range%refused, .false., .true.), &

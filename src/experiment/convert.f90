@@ -162,7 +162,7 @@ contains
       type(experiment_reader) :: reader
       type(input_case) :: this
       character(len=:), allocatable :: remarks
-      logical :: begins_module, is_moving, is_second, has_errors, asks_accuracy, has_wear
+      logical :: begins_module, is_moving, is_second, has_errors, asks_accuracy, allows, has_wear
 
       cases = 0
       begins_module = .true.
@@ -171,6 +171,7 @@ contains
       has_errors = .false.
       has_wear = .false.
       asks_accuracy = .false.
+      allows = .false.
       call reader%open_file(input, error)
       do while (.not. allocated(error))
          call next_good_case(reader, this, told, error)
@@ -186,6 +187,7 @@ contains
          if (this%spec%estimates_errors) has_errors = .true.
          if (this%spec%has_wear) has_wear = .true.
          if (this%spec%iteration%accuracy > 0.0_wp) asks_accuracy = .true.
+         if (this%spec%iteration%allows_approximate) allows = .true.
          call write_input_case(file, this%spec)
       end do
       if (allocated(error)) return
@@ -196,6 +198,7 @@ contains
       if (has_errors) call told%add_line(" Errors of " // input // " are estimated; the new file needs --errors for that")
       if (has_wear) call told%add_line(" Wear and fatigue of " // input // " are told; the new file has no place to ask for them")
       if (asks_accuracy) call told%add_line(" Accuracies of " // input // " are asked for; the new file needs --accuracy for that")
+      if (allows) call told%add_line(" Simplified methods are allowed in " // input // "; the new file needs --allow for that")
    end subroutine write_established
 
    !> MODULE {REID {CPID}}

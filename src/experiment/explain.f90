@@ -1,6 +1,7 @@
 !> What an experiment simulates, in words
 module contact_experiment_explain
    use contact_base_error, only : error_type
+   use contact_base_kinds, only : wp
    use contact_experiment_place, only : choose_input, experiment_place, locate_experiment
    use contact_input_experiment_file, only : experiment_reader, input_case
    use contact_input_problems, only : problem_text, severity
@@ -15,13 +16,17 @@ module contact_experiment_explain
 contains
 
    !> Tell every case in words: what is simulated, what is not, how, and what it is expected to cost
-   subroutine explain_experiment(experiment, told, error)
+   subroutine explain_experiment(experiment, told, error, accuracy, allows_approximate)
       !> Name of the experiment, with suffix or without
       character(len=*), intent(in) :: experiment
       !> The words, line by line
       type(text_buffer), intent(inout) :: told
       !> The input cannot be understood, or a case of it cannot be computed
       type(error_type), allocatable, intent(out) :: error
+      !> Largest relative error of the forces that a run is going to ask for, or 0 and absent for what the input says [-]
+      real(wp), intent(in), optional :: accuracy
+      !> Is it going to allow simplified methods?
+      logical, intent(in), optional :: allows_approximate
       type(experiment_place) :: place
       type(experiment_reader) :: reader
       type(input_case) :: this
@@ -39,6 +44,12 @@ contains
          if (allocated(error) .or. this%module_number == 0) exit
          cases = cases + 1
          call told%add_line("")
+         if (present(accuracy)) then
+            if (accuracy > 0.0_wp) this%spec%iteration%accuracy = accuracy
+         end if
+         if (present(allows_approximate)) then
+            if (allows_approximate) this%spec%iteration%allows_approximate = .true.
+         end if
          if (this%problems%number_of(severity%error) == 0) then
             call tell_case(this%module_number, this%reid, cases, this%first_line, this%spec, this%problems%is_usable(), told)
          else

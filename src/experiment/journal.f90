@@ -46,6 +46,8 @@ module contact_experiment_journal
       integer :: order = 0
       !> Accuracy that was asked for, 0 for none [-]
       real(wp) :: accuracy = 0.0_wp
+      !> Were simplified methods allowed for it?
+      logical :: allows_approximate = .false.
       !> Limits of a case: time [s], memory [bytes], elements
       real(wp) :: seconds = 0.0_wp
       integer(long) :: bytes = 0, elements = 0
@@ -108,9 +110,9 @@ contains
       call self%file%open_file(self%name, reason, confined)
       call self%file%line(heading)
       associate (s => settings)
-         write(text, "(A, 1X, 3(L1, 1X), I0, 3(1X, L1), 1X, I0, 2ES25.16E3, 2(1X, I0))") trim(s%version), s%json, s%hdf5, s%vtk, &
-            & s%heat_source, s%angle_below_axle, s%classical, s%errors, s%order, s%accuracy, s%seconds, s%bytes, &
-            & s%elements
+         write(text, "(A, 1X, 3(L1, 1X), I0, 3(1X, L1), 1X, I0, 2ES25.16E3, 2(1X, I0), 1X, L1)") trim(s%version), &
+            & s%json, s%hdf5, s%vtk, s%heat_source, s%angle_below_axle, s%classical, s%errors, s%order, s%accuracy, &
+            & s%seconds, s%bytes, s%elements, s%allows_approximate
       end associate
       call write_hashed(self%file, text)
       call self%file%flush_now()
@@ -223,7 +225,7 @@ contains
       if (.not. is_whole) return
       associate (s => settings)
          read(body, *, iostat=status) s%version, s%json, s%hdf5, s%vtk, s%heat_source, s%angle_below_axle, s%classical, s%errors, &
-            & s%order, s%accuracy, s%seconds, s%bytes, s%elements
+            & s%order, s%accuracy, s%seconds, s%bytes, s%elements, s%allows_approximate
          if (status /= 0) return
          if (.not. (s%seconds >= 0.0_wp .and. s%bytes >= 0 .and. s%elements >= 0)) return
       end associate

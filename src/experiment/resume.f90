@@ -55,6 +55,7 @@ contains
       settings%errors = asked%errors
       settings%order = asked%order
       settings%accuracy = asked%accuracy
+      settings%allows_approximate = asked%allows_approximate
       if (asked%limits%deadline%seconds < huge(1.0_wp)) settings%seconds = asked%limits%deadline%seconds
       if (asked%limits%bytes < huge(1_long)) settings%bytes = asked%limits%bytes
       if (asked%limits%elements < huge(1_long)) settings%elements = asked%limits%elements
@@ -135,6 +136,7 @@ contains
       if (before%angle_below_axle .and. .not. now%angle_below_axle) what = "with another kind of contact angles (--contact-angle)"
       if (now%classical .and. .not. before%classical) what = "with the default solver (--classical)"
       if (now%accuracy > 0.0_wp .and. abs(now%accuracy - before%accuracy) > 0.0_wp) what = "with another accuracy (--accuracy)"
+      if (now%allows_approximate .and. .not. before%allows_approximate) what = "without --allow approximate"
       if (now%errors .and. .not. before%errors) what = "without --errors"
       if (len(what) > 0) then
          call fatal_error(error, "the run was made " // what // ": it cannot be resumed like this; run it anew without --resume")
@@ -149,6 +151,7 @@ contains
       asked%errors = before%errors
       asked%order = before%order
       asked%accuracy = before%accuracy
+      asked%allows_approximate = before%allows_approximate
       if (before%seconds > 0.0_wp .and. .not. now%seconds > 0.0_wp) asked%limits%deadline%seconds = before%seconds
       if (before%bytes > 0 .and. now%bytes == 0) asked%limits%bytes = before%bytes
       if (before%elements > 0 .and. now%elements == 0) asked%limits%elements = before%elements

@@ -73,6 +73,8 @@ module contact_experiment_state
       integer :: order = as_input_says
       !> Largest relative error of the forces that is asked for, or 0 for what the input says
       real(wp) :: accuracy = 0.0_wp
+      !> May simplified methods be chosen for an accuracy, whatever the input says?
+      logical :: allows_approximate = .false.
       !> Contact angles on rails that vary along the track: of the section below the axle, as in the established program?
       logical :: angle_below_axle = .true.
       !> Do the classical solvers run that cases name?
@@ -190,6 +192,7 @@ contains
       if (asked%heat_source /= as_input_says) this%spec%heat%source = asked%heat_source
       if (asked%order /= as_input_says) this%spec%iteration%order = asked%order
       if (asked%accuracy > 0.0_wp) this%spec%iteration%accuracy = asked%accuracy
+      if (asked%allows_approximate) this%spec%iteration%allows_approximate = .true.
       if (allocated(this%spec%wheel_rail)) this%spec%wheel_rail%search%angle_below_axle = asked%angle_below_axle
       this%spec%classical = asked%classical
       if (asked%errors) this%spec%estimates_errors = .true.

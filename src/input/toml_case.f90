@@ -15,7 +15,7 @@ module contact_input_toml_case
    use contact_grid_potential_contact, only : potential_contact
    use contact_input_checks, only : check_case
    use contact_input_problems, only : problem_list, severity
-   use contact_input_toml_own_keys, only : take_accuracy, take_errors, take_heat_source, take_order, take_wear
+   use contact_input_toml_own_keys, only : take_accuracy, take_errors, take_heat_source, take_order, take_permission, take_wear
    use contact_input_toml_reader, only : new_toml_reader, toml_reader
    use contact_input_toml_tables, only : toml_memory
    use contact_text_lexer, only : printable
@@ -92,6 +92,7 @@ contains
          call take_order(a, has_previous, spec)
          call take_errors(a, spec)
          call take_accuracy(a, spec)
+         call take_permission(a, spec)
          call take_wear(a, spec)
          if (spec%motion == motion%none .and. .not. has_previous) a%lenient_group = "friction"
          call visit_case(a, spec)

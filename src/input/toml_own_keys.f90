@@ -1,7 +1,8 @@
-!> Keys of a case that belong to no number of the input files: order, errors, accuracy, source of heat, wear
+!> Keys of a case that belong to no number of the input files: order, errors, accuracy, permission, source of heat, wear
 module contact_input_toml_own_keys
    use contact_base_choices, only : heat_source
    use contact_cases_accuracy_plan, only : is_accuracy
+   use contact_cases_approximate_methods, only : allowances
    use contact_cases_spec, only : case_spec
    use contact_control_words, only : usual_order
    use contact_input_problems, only : severity
@@ -10,7 +11,7 @@ module contact_input_toml_own_keys
    implicit none (type, external)
    private
 
-   public :: take_accuracy, take_errors, take_heat_source, take_order, take_wear
+   public :: take_accuracy, take_errors, take_heat_source, take_order, take_permission, take_wear
 
 contains
 
@@ -108,6 +109,22 @@ contains
          end if
       end associate
    end subroutine take_accuracy
+
+   !> May simplified methods be chosen for an accuracy? Kept from case to case
+   subroutine take_permission(a, spec)
+      !> Document and its case in hand
+      type(toml_reader), intent(inout) :: a
+      type(case_spec), intent(inout) :: spec
+      integer :: node
+
+      call find_key(a, "iteration", "allow", node)
+      if (node == 0) return
+      if (a%document%nodes(node)%kind == toml_kind%string .and. any(a%document%text_of(node) == allowances)) then
+         spec%iteration%allows_approximate = a%document%text_of(node) == allowances(2)
+      else
+         call a%add_problem(severity%error, node, 'allow must be "approximate" or "nothing"')
+      end if
+   end subroutine take_permission
 
    !> How temperatures are computed: with moving sources, unless a case asks for those of the established program
    subroutine take_heat_source(a, spec)

@@ -39,6 +39,7 @@ contains
       line = line // " of " // real_text(report%sides(1)) // " x " // real_text(report%sides(2)) // " mm"
       if (report%order > 0) line = line // ", order " // integer_text(report%order)
       call log%result(line // ", EPS " // short(report%eps))
+      if (report%method /= "") call log%result("   simplified methods allowed: " // trim(report%method))
       line = "   " // integer_text(report%levels) // " grid"
       if (report%levels /= 1) line = line // "s"
       call log%result(line // ", " // short(report%seconds) // " s, of which the last one " // short(report%last_seconds) // " s")

@@ -238,6 +238,8 @@ contains
       call record%count("grids", "grids that were solved", report%levels)
       call record%number("seconds_of_grids", "s", "elapsed time of all grids", report%seconds)
       call record%number("seconds_of_last", "s", "elapsed time of the grid that was kept", report%last_seconds)
+      if (report%method /= "") call record%text("simplified", "the simplified method that was chosen, or why none", &
+         & trim(report%method))
       if (.not. report%is_met) call record%text("reason", "why it was not reached", trim(report%reason))
       call record%close_group()
    end subroutine describe_accuracy

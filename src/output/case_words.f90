@@ -2,6 +2,7 @@
 module contact_output_case_words
    use contact_base_choices, only : heat_source, is_simplified, motion, slip_source, variation
    use contact_base_kinds, only : wp
+   use contact_cases_approximate_methods, only : approximate_method, choose_method
    use contact_cases_estimate, only : case_cost, cost_text, estimate_cost
    use contact_cases_spec, only : case_spec
    use contact_control_digits, only : case_digits, digit_of, digit_text
@@ -29,6 +30,7 @@ contains
       type(text_buffer), intent(inout) :: told
       character(len=:), allocatable :: title
       type(case_cost) :: cost
+      type(approximate_method) :: chosen
       type(case_digits) :: digits
 
       title = "two bodies in contact"
@@ -53,6 +55,8 @@ contains
       if (spec%estimates_errors) call say("Errors of the totals are estimated.")
       if (spec%iteration%accuracy > 0.0_wp) call say("Accuracy: the forces to " // real_text(spec%iteration%accuracy) // &
          & "; elements, order and EPS are chosen")
+      if (spec%iteration%accuracy > 0.0_wp .and. spec%iteration%allows_approximate) call choose_method(spec, chosen)
+      if (chosen%words /= "") call say("Simplified methods are allowed: " // trim(chosen%words))
       call say("Material: " // trim(digit("M", spec%material_model)))
       if (.not. is_simplified(spec%material_model)) call say("Elasticity: " // trim(digit("C", spec%kernel)))
       if (module_number == 1) then

@@ -72,6 +72,7 @@ contains
          a%has_moving_heat = spec%heat%source == heat_source%moving
          a%order = spec%iteration%order
          a%accuracy = spec%iteration%accuracy
+         a%allows_approximate = spec%iteration%allows_approximate
          a%case_text = line_feed // remarks // "[[case]]" // line_feed
          if (self%text%length == 0) a%case_text = remarks // "[[case]]" // line_feed
          call put_element(self, a, before)

@@ -7,6 +7,7 @@ module contact_output_toml_writer
    use contact_base_kinds, only : wp
    use contact_cases_archive, only : archive_item, case_archive, is_pair, item_kind, lengths
    use contact_control_digits, only : case_digits, digit_text, digit_value
+   use contact_cases_approximate_methods, only : allowances
    use contact_control_words, only : form_key, form_table, form_title, form_word, key_length, key_of_item, key_table, &
       & tell_in_words, usual_order, word_of_digit
    use contact_text_bounds, only : bounds_table
@@ -51,6 +52,8 @@ module contact_output_toml_writer
       integer :: order = 1
       !> Accuracy that is asked for, 0 for none [-]
       real(wp) :: accuracy = 0.0_wp
+      !> May simplified methods be chosen for it?
+      logical :: allows_approximate = .false.
       !> Are preset numbers being noted? Then nothing is written
       logical :: is_recording = .false.
       !> Has each row of the grid a friction of its own?
@@ -115,6 +118,9 @@ contains
          & call self%put("order", integer_text(self%order), remark="discretisation of rolling")
       if (text == "iteration" .and. (self%accuracy > 0.0_wp .or. any(self%memory%names == "iteration.accuracy"))) &
          & call self%put("accuracy", exact_text(self%accuracy), remark="largest relative error of the forces")
+      if (text == "iteration" .and. (self%allows_approximate .or. any(self%memory%names == "iteration.allow"))) &
+         & call self%put("allow", '"' // trim(allowances(merge(2, 1, self%allows_approximate))) // '"', &
+         & remark="what may take the place of the full theory")
       if (text == "heat") call self%put("source", trim(merge('"moving"     ', '"established"', self%has_moving_heat)))
    end subroutine open_table
 

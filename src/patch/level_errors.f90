@@ -77,8 +77,8 @@ module contact_patch_level_errors
    !> Errors in general, of n elements across: factor of n^-order, by order; of random contacts of tests/accuracy. Forces of steady
    !> rolling; of shifts; of transient rolling
    real(wp), parameter :: rolling_floor(2) = [0.05_wp, 0.24_wp], shift_floor = 0.15_wp, step_floor = 0.25_wp
-   !> Power: factor of n^-order of the power of full sliding; and of n^-2 and adhesion in steady rolling
-   real(wp), parameter :: power_floor = 0.1_wp, adhesive_power_floor = 2.5_wp
+   !> Power: factor of n^-order of the power of full sliding; and of n^-2 and adhesion in steady rolling; with a layer, of n^-1
+   real(wp), parameter :: power_floor = 0.1_wp, adhesive_power_floor = 2.5_wp, layer_power_floor = 1.0_wp
    !> Normal force, largest pressure, area, energy of pressures and of tractions
    real(wp), parameter :: normal_floor = 0.15_wp, peak_floor = 0.07_wp, area_floor = 0.2_wp, energy_floor(2) = [0.07_wp, 0.2_wp]
    !> Part of the elements that sticks is taken as at least this: in full sliding directions of slip have errors, too
@@ -215,7 +215,8 @@ contains
          e = part_of(scale, merge(power_order, scale%order, scale%order <= first_order))*difference
          if (is_unseen(scale)) e = 0.0_wp
          floor = power_floor*sqrt(scale%adhesion)/scale%across**nint(scale%order)
-         if (scale%order < normal_order .and. scale%clean) floor = floor + adhesive_power_floor*scale%adhesion/scale%across**2
+         if (scale%order < normal_order .and. (scale%clean .or. .not. scale%steps)) floor = floor + scale%adhesion* &
+            & merge(adhesive_power_floor/scale%across**2, layer_power_floor/scale%across, scale%clean)
          floor = floor*max(scale%power, unit)/max(unit, tiny(unit))
          if (scale%jumps) e = unit*trusted(e/max(unit, tiny(unit)), floor, trust)
       case (error_law%energy)

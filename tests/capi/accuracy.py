@@ -45,6 +45,30 @@ def reached():
         same(int(cntc.getflags(number, 1, [CNTC["own_reached"]])[0]), 0, "nothing was asked for")
 
 
+def allowed():
+    """A simplified method by permission, without estimates of its own; not without"""
+    with ellipse(0.0, 60) as problem:
+        problem.set_creepages(5e-4, 2e-4, 0.0)
+        fine = problem.solve()
+    for allow, words in (("approximate", (20, 20)), ("nothing", None)):
+        with ellipse(0.0) as problem:
+            problem.set_creepages(5e-4, 2e-4, 0.0)
+            problem.set_solver(accuracy=0.06, allow=allow)
+            same(int(cntc.getflags(problem.number, 1, [CNTC["own_approximate"]])[0]), int(allow == "approximate"), "permission")
+            result = problem.solve()
+            close(result.fx / (0.3 * 30e3), fine.fx / (0.3 * 30e3), 0.06, "FX, " + allow)
+            check((result.pn.shape == (20, 20)) == bool(words), f"{allow}: {result.pn.shape} elements")
+            check(bool(result.errors) != bool(words), f"{allow}: errors {result.errors}")
+            same(int(cntc.getflags(problem.number, 1, [CNTC["own_reached"]])[0]), 1, "reached")
+    with contact.Problem() as problem:
+        try:
+            problem.set_solver(accuracy=0.06, allow="all")
+        except ValueError as error:
+            check("allow" in str(error), "another word")
+        else:
+            check(False, "another word is refused")
+
+
 def missed():
     """A value that is none, a case that cannot be done, and an accuracy that is out of reach"""
     for value in (0.5, -1e-3, 1e-7, float("nan")):
@@ -81,5 +105,6 @@ def missed():
 
 
 reached()
+allowed()
 missed()
 finish()

@@ -180,6 +180,38 @@ class Accuracy(Runs):
             (self.folder / "d.toml").write_text(text.replace("5e-3", word))
             self.assertIn("accuracy must be a number from 1e-6 to 0.1", self.run_program("3", "d.toml", status=1))
 
+    def test_allowed(self):
+        """Simplified methods by permission only: what was chosen, or why none, in the report, JSON, the readable format, explain"""
+        no_spin = rolling().replace("3e-4", "0.0") if "3e-4" in rolling() else rolling().replace("0.0003", "0.0")
+        allow = ("--accuracy=0.06", "--allow", "approximate")
+        full = self.solve("f.inp", no_spin, "--accuracy", "1e-3")[1]["patches"][0]
+        words, record = self.solve("a.inp", no_spin, *allow)
+        patch = record["patches"][0]
+        self.assertIn("simplified methods allowed: FaStrip on 20 x 20 elements", words)
+        self.assertIn("FaStrip", patch["effects"])
+        self.assertEqual((patch["accuracy"]["mx"], patch["accuracy"]["estimated"]), (20, 0.055))
+        self.assertLess(max(abs(patch["totals"][n] - full["totals"][n]) for n in ("fx_rel", "fy_rel")), 0.055)
+        self.assertNotIn("simplified", full["accuracy"])
+        for text, asked, why in ((no_spin, "0.05", "none, as errors without spin are up to 0.055"),
+                                 (rolling(motion=1), "0.06", "none, as errors in shifts are not known"),
+                                 (rolling(material=4, layer="1000 0.02 0 0 GG3 LAYTHK TAU_C0 K_TAU"), "0.06", "elastic half-spaces")):
+            words, record = self.solve("n.inp", text, "--accuracy", asked, *allow[1:])
+            self.assertIn(why, record["patches"][0]["accuracy"]["simplified"])
+            self.assertNotIn("FaStrip", record["patches"][0]["effects"])
+        self.assertIn("is not known; approximate is", self.run_program("--allow", "all", "2", "a", status=1))
+        told = self.run_program("explain", *allow, "a.inp")
+        self.assertIn("Simplified methods are allowed: FaStrip on 20 x 20", told)
+        self.assertIn("about 400 elements", told)
+        self.run_program("convert", "--force", "a.inp")
+        text = (self.folder / "a.toml").read_text()
+        (self.folder / "a.inp").unlink()
+        for word, found in (("approximate", True), ("nothing", False)):
+            keys = f'[case.iteration]\naccuracy = 0.06\nallow = "{word}"\n'
+            _, record = self.solve("t.toml", text.replace("[case.iteration]\n", keys))
+            self.assertEqual("simplified" in record["patches"][0]["accuracy"], found)
+        (self.folder / "t.toml").write_text(text.replace("[case.iteration]\n", '[case.iteration]\nallow = "all"\n'))
+        self.assertIn('allow must be "approximate" or "nothing"', self.run_program("2", "t.toml", status=1))
+
     def test_next_case(self):
         """A case that keeps the grid of one with an accuracy has the grid of the file, and asks for none where it says so"""
         words, _ = self.solve("a.inp", rolling() + rolling(), "--accuracy", "1e-2")
