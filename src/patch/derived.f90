@@ -112,9 +112,6 @@ contains
       result%px = state%now%px
       result%py = state%now%py
       result%pmax = maxval(result%pn)
-      result%ncon = count(result%division > element%exterior)
-      result%nadh = count(result%division == element%adhesion)
-      result%nslip = count(result%division == element%slip)
       result%fx = area*sum(result%px)
       result%fy = area*sum(result%py)
       scale = result%mu_scal*result%fn + tiny(scale)
@@ -125,14 +122,21 @@ contains
          result%fx_rel = result%fx/scale
          result%fy_rel = result%fy/scale
       end if
+      result%ncon = 0
+      result%nadh = 0
+      result%nslip = 0
       result%mx = 0.0_wp
       result%my = 0.0_wp
       result%mz = 0.0_wp
-      do iy = 1, problem%grid%my
-         do ix = 1, problem%grid%mx
+      do iy = box%iy0, box%iy1
+         do ix = box%ix0, box%ix1
             if (result%division(ix, iy) == element%exterior) cycle
+            result%ncon = result%ncon + 1
+            if (result%division(ix, iy) == element%adhesion) result%nadh = result%nadh + 1
+            if (result%division(ix, iy) == element%slip) result%nslip = result%nslip + 1
             result%mx = result%mx + area*result%pn(ix, iy)*problem%grid%y(iy)
             result%my = result%my - area*result%pn(ix, iy)*problem%grid%x(ix)
+            if (problem%motion == motion%none) cycle
             result%mz = result%mz + area*(result%py(ix, iy)*problem%grid%x(ix) - result%px(ix, iy)*problem%grid%y(iy))
          end do
       end do

@@ -13,7 +13,7 @@ module contact_wheelrail_flat_patch
    use contact_wheelrail_placement, only : wheel_rail_placement
    use contact_wheelrail_region, only : contact_region
    use contact_wheelrail_spec, only : search_spec
-   use contact_wheelrail_wheel_surface, only : wheel_row
+   use contact_wheelrail_wheel_surface, only : wheel_row, wheel_rows
    implicit none (type, external)
    private
 
@@ -166,6 +166,7 @@ contains
       integer, intent(out) :: strangers
       type(profile_curve) :: section
       type(frame) :: seen
+      type(wheel_rows) :: rows
       real(wp) :: x(grid%mx), n_wheel(grid%mx), start(2)
       real(wp) :: delta, s, n_rail
       logical :: found(grid%mx)
@@ -185,7 +186,7 @@ contains
       x = [(grid%x(ix), ix=1, grid%mx)]
       do iy = 1, grid%my
          s = grid%y(iy)
-         call wheel_row(wheel, placement%wheel_radius, seen, x, s, start, n_wheel, found)
+         call wheel_row(wheel, placement%wheel_radius, seen, x, s, start, n_wheel, found, rows)
          n_rail = rail_height(0.0_wp, s)
          do ix = 1, grid%mx
             if (placement%roller_radius > 0.0_wp) n_rail = rail_height(x(ix), s)

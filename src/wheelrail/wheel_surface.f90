@@ -9,7 +9,21 @@ module contact_wheelrail_wheel_surface
    implicit none (type, external)
    private
 
-   public :: wheel_height, wheel_row
+   public :: wheel_height, wheel_row, wheel_rows
+
+   !> Rows that are remembered
+   integer, parameter :: remembered = 3
+
+   !> Rows of points that were found last
+   type :: wheel_rows
+      private
+      integer :: known = 0
+      !> Place on the profile and height [mm], the last row first, shape (points, remembered)
+      real(wp), allocatable :: place(:, :), height(:, :)
+   contains
+      procedure, private :: estimate
+      procedure, private :: keep
+   end type wheel_rows
 
    !> Of a step of Newton's method, relative to the radius: what remains after it is of the order of its square
    real(wp), parameter :: tolerance = 1.0e-8_wp
@@ -21,8 +35,8 @@ contains
    !> Heights n of the wheel's surface over a row of points (x, s) of the plane
    !>
    !> Places and heights follow parabolas closely along the track: each point starts from the three before it, where possible
-   !> together with the next ones.
-   pure subroutine wheel_row(wheel, radius, seen, x, s, start, n, found)
+   !> together with the next ones. Across it they nearly do: where rows before are known all points start from these.
+   pure subroutine wheel_row(wheel, radius, seen, x, s, start, n, found, rows)
       !> Profile of a round wheel in its own coordinates
       type(profile_curve), intent(in) :: wheel
       !> See `wheel_height`
@@ -37,110 +51,225 @@ contains
       real(wp), intent(out) :: n(:)
       !> Does the line along n meet the wheel there?
       logical, intent(out) :: found(:)
-      !> Place and height of the last three points, the last one first
-      real(wp) :: recent(2, 3), estimate(2), point(3)
-      integer :: i, alone, known, piece
+      !> The rows before, over the same x and at even distances; on exit with this one
+      type(wheel_rows), intent(inout), optional :: rows
+      real(wp) :: place(size(x))
+      logical :: goes_on
+
+      goes_on = .false.
+      if (present(rows)) goes_on = rows%known > 0
+      if (goes_on) then
+         call rows%estimate(place, n)
+         call row_from_estimates(wheel, radius, seen, x, s, place, n, found)
+      else
+         call row_from_start(wheel, radius, seen, x, s, start, place, n, found)
+      end if
+      if (found(1)) start = [place(1), n(1)]
+      if (present(rows)) call rows%keep(place, n, all(found))
+   end subroutine wheel_row
+
+   !> Places and heights of the next row, from those before
+   pure subroutine estimate(self, place, height)
+      class(wheel_rows), intent(in) :: self
+      !> [mm], shape as in `keep`
+      real(wp), intent(out) :: place(:), height(:)
+
+      associate (p => self%place, h => self%height)
+         select case (self%known)
+         case (1)
+            place = p(:, 1)
+            height = h(:, 1)
+         case (2)
+            place = 2.0_wp*p(:, 1) - p(:, 2)
+            height = 2.0_wp*h(:, 1) - h(:, 2)
+         case default
+            place = 3.0_wp*(p(:, 1) - p(:, 2)) + p(:, 3)
+            height = 3.0_wp*(h(:, 1) - h(:, 2)) + h(:, 3)
+         end select
+      end associate
+   end subroutine estimate
+
+   !> Remember a row; one with points that were not found begins anew
+   pure subroutine keep(self, place, height, found)
+      class(wheel_rows), intent(inout) :: self
+      !> [mm], as many as points of a row
+      real(wp), intent(in) :: place(:), height(:)
+      !> Were all points found?
+      logical, intent(in) :: found
+
+      self%known = merge(min(self%known + 1, remembered), 0, found)
+      if (.not. found) return
+      if (.not. allocated(self%place)) allocate(self%place(size(place), remembered), self%height(size(place), remembered))
+      self%place(:, 3) = self%place(:, 2)
+      self%place(:, 2) = self%place(:, 1)
+      self%place(:, 1) = place
+      self%height(:, 3) = self%height(:, 2)
+      self%height(:, 2) = self%height(:, 1)
+      self%height(:, 1) = height
+   end subroutine keep
+
+   !> A row of which the neighbour of the first point is known at most
+   pure subroutine row_from_start(wheel, radius, seen, x, s, start, place, n, found)
+      !> See `wheel_row`
+      type(profile_curve), intent(in) :: wheel
+      real(wp), intent(in) :: radius
+      type(frame), intent(in) :: seen
+      real(wp), intent(in) :: x(:), s, start(2)
+      !> Place on the profile and height of each point [mm], where they are found
+      real(wp), intent(out) :: place(:), n(:)
+      logical, intent(out) :: found(:)
+      real(wp) :: after, bend(2), change(2)
+      integer :: alone, i, k, known, piece
       logical :: done
 
-      recent(:, 1) = start
       known = 0
       piece = 1
       alone = 0
       i = 1
       do while (i <= size(x))
-         if (known == 3 .and. i > alone .and. i + together - 1 <= size(x)) then
-            call meet_together(wheel, radius, seen, x(i:i + together - 1), s, piece, recent, n(i:i + together - 1), done)
-            if (done) then
-               found(i:i + together - 1) = .true.
-               i = i + together
-               cycle
+         if (known > 2) then
+            change = [place(i - 1) - place(i - 2), n(i - 1) - n(i - 2)]
+            bend = change - [place(i - 2) - place(i - 3), n(i - 2) - n(i - 3)]
+            if (i > alone .and. i + together - 1 <= size(x)) then
+               do k = 1, together
+                  after = 0.5_wp*k*(k + 1)
+                  place(i + k - 1) = place(i - 1) + k*change(1) + after*bend(1)
+                  n(i + k - 1) = n(i - 1) + k*change(2) + after*bend(2)
+               end do
+               associate (last => i + together - 1)
+                  call meet_together(wheel, radius, seen, x(i:last), s, piece, place(i:last), n(i:last), done)
+                  if (done) found(i:last) = .true.
+               end associate
+               if (done) then
+                  known = known + together
+                  i = i + together
+                  cycle
+               end if
+               alone = i + together - 1
             end if
-            alone = i + together - 1
-         end if
-         estimate = recent(:, 1)
-         if (known == 3) estimate = 3.0_wp*(recent(:, 1) - recent(:, 2)) + recent(:, 3)
-         point = seen%origin + seen%axes(:, 1)*x(i) + seen%axes(:, 2)*s
-         call meet_wheel(wheel, radius, point, seen%axes(:, 3), piece, estimate(1), estimate(2), found(i))
-         n(i) = estimate(2)
-         if (found(i)) then
-            if (i == 1) start = estimate
-            recent(:, 2:3) = recent(:, 1:2)
-            recent(:, 1) = estimate
-            known = min(known + 1, 3)
+            place(i) = place(i - 1) + change(1) + bend(1)
+            n(i) = n(i - 1) + change(2) + bend(2)
+         else if (known > 0) then
+            place(i) = place(i - 1)
+            n(i) = n(i - 1)
          else
-            recent(:, 1) = start
-            known = 0
+            place(i) = start(1)
+            n(i) = start(2)
+            if (i > 1) then
+               if (found(1)) place(i) = place(1)
+               if (found(1)) n(i) = n(1)
+            end if
          end if
+         call meet_wheel(wheel, radius, seen%origin + seen%axes(:, 1)*x(i) + seen%axes(:, 2)*s, seen%axes(:, 3), piece, place(i), &
+            & n(i), found(i))
+         known = merge(known + 1, 0, found(i))
          i = i + 1
       end do
-   end subroutine wheel_row
+   end subroutine row_from_start
 
-   !> Some points of a row at once, all on one piece of the profile: one step of Newton's method from a parabola
+   !> A row with estimates for all of its points
+   pure subroutine row_from_estimates(wheel, radius, seen, x, s, place, n, found)
+      !> See `wheel_row`
+      type(profile_curve), intent(in) :: wheel
+      real(wp), intent(in) :: radius
+      type(frame), intent(in) :: seen
+      real(wp), intent(in) :: x(:), s
+      !> Place on the profile and height of each point [mm], estimates on entry
+      real(wp), intent(inout) :: place(:), n(:)
+      logical, intent(out) :: found(:)
+      real(wp), dimension(together) :: some_x, some_place, some_n
+      integer :: i, k, last, piece
+      logical :: done
+
+      piece = 1
+      do i = 1, size(x), together
+         last = min(i + together - 1, size(x))
+         ! at the end of the row the last point stands for those that are missing
+         do k = 1, together
+            some_x(k) = x(min(i + k - 1, last))
+            some_place(k) = place(min(i + k - 1, last))
+            some_n(k) = n(min(i + k - 1, last))
+         end do
+         piece = next_piece(wheel%y%s, piece, place(i))
+         call meet_together(wheel, radius, seen, some_x, s, piece, some_place, some_n, done)
+         if (done) then
+            place(i:last) = some_place(:last - i + 1)
+            n(i:last) = some_n(:last - i + 1)
+            found(i:last) = .true.
+            cycle
+         end if
+         do k = i, last
+            call meet_wheel(wheel, radius, seen%origin + seen%axes(:, 1)*x(k) + seen%axes(:, 2)*s, seen%axes(:, 3), piece, &
+               & place(k), n(k), found(k))
+         end do
+      end do
+   end subroutine row_from_estimates
+
+   !> Some points of a row at once, all on one piece of the profile, by Newton's method
    !>
    !> Their equations do not wait for each other. Nothing is changed where one of the points needs more than this.
-   pure subroutine meet_together(wheel, radius, seen, x, s, piece, recent, n, done)
+   pure subroutine meet_together(wheel, radius, seen, x, s, piece, place, n, done)
       !> See `wheel_row`
       type(profile_curve), intent(in) :: wheel
       real(wp), intent(in) :: radius
       type(frame), intent(in) :: seen
       real(wp), intent(in) :: x(together), s
-      !> Piece of the profile of the last point
+      !> Piece of the profile that holds the estimates
       integer, intent(in) :: piece
-      !> Place and height of the last three points, the last one first
-      real(wp), intent(inout) :: recent(2, 3)
-      !> Height over each point [mm]
-      real(wp), intent(inout) :: n(together)
+      !> Place on the profile and height over each point [mm]: estimates on entry, solutions on exit
+      real(wp), intent(inout) :: place(together), n(together)
       !> Are all of them found?
       logical, intent(out) :: done
       !> Part of the radius that a point is away from the axle's plane at most, where it is not looked at by itself
       real(wp), parameter :: near = 0.5_wp
-      real(wp), dimension(together) :: place, height, rest, t, q1, q2, q3, y_s, z_s, r, depth, f1, f2, j12, j21, j22, det
+      integer, parameter :: most_steps = 4
+      real(wp), dimension(together) :: p, h, t, q1, q2, q3, y_s, z_s, r, depth, f1, f2, j21, j22, det
       real(wp) :: base(3), c(0:3, 2)
-      integer :: i, k
+      integer :: i, step
 
+      p = place
+      h = n
       associate (nodes => wheel%y%s, axis => seen%axes(:, 1), along => seen%axes(:, 3))
          base = seen%origin + seen%axes(:, 2)*s
          c(:, 1) = wheel%y%c(:, piece)
          c(:, 2) = wheel%z%c(:, piece)
-         do i = 1, together
-            place(i) = recent(1, 1) + i*(recent(1, 1) - recent(1, 2)) + 0.5_wp*i*(i + 1)*(recent(1, 1) - 2.0_wp*recent(1, 2) &
-               & + recent(1, 3))
-            height(i) = recent(2, 1) + i*(recent(2, 1) - recent(2, 2)) + 0.5_wp*i*(i + 1)*(recent(2, 1) - 2.0_wp*recent(2, 2) &
-               & + recent(2, 3))
-            t(i) = place(i) - nodes(piece)
-            q1(i) = base(1) + axis(1)*x(i) + along(1)*height(i)
-            q2(i) = base(2) + axis(2)*x(i) + along(2)*height(i)
-            q3(i) = base(3) + axis(3)*x(i) + along(3)*height(i)
-            r(i) = radius + c(0, 2) + t(i)*(c(1, 2) + t(i)*(c(2, 2) + t(i)*c(3, 2)))
+         do step = 1, most_steps
+            do i = 1, together
+               t(i) = p(i) - nodes(piece)
+               q1(i) = base(1) + axis(1)*x(i) + along(1)*h(i)
+               q2(i) = base(2) + axis(2)*x(i) + along(2)*h(i)
+               q3(i) = base(3) + axis(3)*x(i) + along(3)*h(i)
+               r(i) = radius + c(0, 2) + t(i)*(c(1, 2) + t(i)*(c(2, 2) + t(i)*c(3, 2)))
+            end do
+            done = all(p >= nodes(piece) .and. p <= nodes(piece + 1) .and. abs(q1) <= near*r)
+            if (.not. done) return
+            do i = 1, together
+               y_s(i) = c(1, 1) + t(i)*(2.0_wp*c(2, 1) + t(i)*3.0_wp*c(3, 1))
+               z_s(i) = c(1, 2) + t(i)*(2.0_wp*c(2, 2) + t(i)*3.0_wp*c(3, 2))
+               depth(i) = sqrt(r(i)**2 - q1(i)**2)
+               f1(i) = q2(i) - (c(0, 1) + t(i)*(c(1, 1) + t(i)*(c(2, 1) + t(i)*c(3, 1))))
+               f2(i) = q3(i) + radius - depth(i)
+               j21(i) = -r(i)*z_s(i)/depth(i)
+               j22(i) = along(3) + q1(i)*along(1)/depth(i)
+               det(i) = -y_s(i)*j22(i) - along(2)*j21(i)
+            end do
+            done = all(abs(det) > 0.0_wp)
+            if (.not. done) return
+            do i = 1, together
+               ! steps of place and height
+               t(i) = (f1(i)*j22(i) - along(2)*f2(i))/det(i)
+               f2(i) = (-y_s(i)*f2(i) - f1(i)*j21(i))/det(i)
+               p(i) = p(i) - t(i)
+               h(i) = h(i) - f2(i)
+            end do
+            done = all(abs(t) + abs(f2) <= tolerance*radius)
+            if (done) exit
          end do
-         done = all(place >= nodes(piece) .and. place <= nodes(piece + 1) .and. abs(q1) <= near*r)
-         if (.not. done) return
-         do i = 1, together
-            y_s(i) = c(1, 1) + t(i)*(2.0_wp*c(2, 1) + t(i)*3.0_wp*c(3, 1))
-            z_s(i) = c(1, 2) + t(i)*(2.0_wp*c(2, 2) + t(i)*3.0_wp*c(3, 2))
-            depth(i) = sqrt(r(i)**2 - q1(i)**2)
-            f1(i) = q2(i) - (c(0, 1) + t(i)*(c(1, 1) + t(i)*(c(2, 1) + t(i)*c(3, 1))))
-            f2(i) = q3(i) + radius - depth(i)
-            j12(i) = along(2)
-            j21(i) = -r(i)*z_s(i)/depth(i)
-            j22(i) = along(3) + q1(i)*along(1)/depth(i)
-            det(i) = -y_s(i)*j22(i) - j12(i)*j21(i)
-         end do
-         done = all(abs(det) > 0.0_wp)
-         if (.not. done) return
-         do i = 1, together
-            rest(i) = (f1(i)*j22(i) - j12(i)*f2(i))/det(i)
-            place(i) = place(i) - rest(i)
-            f2(i) = (-y_s(i)*f2(i) - f1(i)*j21(i))/det(i)
-            height(i) = height(i) - f2(i)
-         end do
-         done = all(abs(rest) + abs(f2) <= tolerance*radius .and. place >= nodes(piece) .and. place <= nodes(piece + 1))
+         done = done .and. all(p >= nodes(piece) .and. p <= nodes(piece + 1))
       end associate
       if (.not. done) return
-      n = height
-      do k = 1, size(recent, 2)
-         recent(:, k) = [place(together + 1 - k), height(together + 1 - k)]
-      end do
+      place = p
+      n = h
    end subroutine meet_together
 
    !> Height n of the wheel's surface over a point (x, s) of the plane
