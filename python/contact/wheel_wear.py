@@ -1,6 +1,8 @@
-"""Wear of a wheel over a distance, with its profile changing: contacts at many positions, depth per revolution, a new profile.
+"""Wear of a wheel over a distance, or of a rail by wheels, with its profile changing: contacts at many positions, depth per
+revolution or passage, a new profile.
 
-The profile is in the coordinates of Simpack files: y to the field side with the flange at negative y, z downwards, in mm.
+Profiles are in the coordinates of Simpack files: y to the field side, with the flange and the gauge face at negative y, z
+downwards, in mm.
 """
 from __future__ import annotations
 
@@ -32,23 +34,34 @@ _FIELDS = ("pn", "px", "py", "sx", "sy")
 
 @dataclass(frozen=True)
 class Profile:
-    """A wheel's profile.
+    """The profile of a wheel or a rail.
 
     Attributes
     ----------
     y, z
-        Points [mm], from the field side or from the flange, one behind the other along the surface.
+        Points [mm], from the field side or from the flange or gauge face, one behind the other along the surface.
+    is_rail
+        Of a rail, and not of a wheel?
     """
 
     y: Numbers
     z: Numbers
+    is_rail: bool = False
 
     @staticmethod
     def read(file: str | os.PathLike[str]) -> Profile:
-        """Read a file of Simpack, ``.prw``. Raises ContactError when it is none, OSError when it cannot be read."""
+        """Read a file of Simpack, ``.prw`` or ``.prr``.
+
+        Raises
+        ------
+        ContactError
+            When it is none.
+        OSError
+            When it cannot be read.
+        """
         path = Path(file)
-        if path.suffix.lower() != ".prw":
-            raise ContactError(f"{path}: only profiles of Simpack, .prw, can wear")
+        if path.suffix.lower() not in (".prw", ".prr"):
+            raise ContactError(f"{path}: only profiles of Simpack, .prw and .prr, can wear")
         text = path.read_text(encoding="utf-8", errors="replace")
         if "point.begin" not in text or "point.end" not in text:
             raise ContactError(f"{path} has no points between point.begin and point.end")
@@ -59,12 +72,13 @@ class Profile:
             raise ContactError(f"{path}: a point is no pair of numbers: {reason}") from reason
         if points.ndim != 2 or points.shape[0] < 4 or points.shape[1] != 2:
             raise ContactError(f"{path} has fewer than 4 points")
-        return Profile(points[:, 0], points[:, 1])
+        return Profile(points[:, 0], points[:, 1], path.suffix.lower() == ".prr")
 
     def write(self, file: str | os.PathLike[str], comment: str = "worn") -> None:
         """Write a file of Simpack, in mm."""
         rows = "".join(f"    {y:15.9f} {z:15.9f}\n" for y, z in zip(self.y, self.z))
-        Path(file).write_text("! Coordinates in mm\nheader.begin\n  version = 1\n  type    = 1\nheader.end\nspline.begin\n"
+        Path(file).write_text("! Coordinates in mm\nheader.begin\n  version = 1\n"
+                              f"  type    = {int(not self.is_rail)}\nheader.end\nspline.begin\n"
                               f"  comment     = '{comment}'\n  units.len.f = 1000.\n  inversion   = 0\n  point.begin\n{rows}"
                               "  point.end\nspline.end\n", encoding="utf-8")
 
@@ -85,7 +99,9 @@ class Profile:
         return np.asarray(np.interp(np.asarray(y, dtype=float), *_sorted(self.y[face], self.z[face])))
 
     def _face(self) -> NDArray[np.bool_]:
-        """Points from the tip of the flange to the field side: y grows there along the surface"""
+        """Points from the tip of the flange to the field side, all points of a rail: y grows there along the surface"""
+        if self.is_rail:
+            return np.ones(len(self.y), dtype=bool)
         tip = int(np.argmax(self.z))
         ahead = np.arange(len(self.y)) >= tip
         return ahead if self.y[-1] > self.y[0] else ~ahead | (np.arange(len(self.y)) == tip)
@@ -94,8 +110,9 @@ class Profile:
         """The profile with a depth [mm] taken off at each point, square to the surface."""
         along = np.gradient(np.column_stack([self.y, self.z]), self.lengths(), axis=0)
         along /= np.hypot(along[:, 0], along[:, 1])[:, None]
-        # outwards is downwards on the tread
-        return Profile(self.y + along[:, 1] * depth, self.z - along[:, 0] * depth)
+        # outwards is downwards on the tread of a wheel, upwards on a rail
+        inwards = -1.0 if self.is_rail else 1.0
+        return Profile(self.y + inwards * along[:, 1] * depth, self.z - inwards * along[:, 0] * depth, self.is_rail)
 
     def meshed(self, spacing: float) -> Profile:
         """The profile with points at equal distances along its surface, on a cubic spline through the old ones."""
@@ -103,7 +120,7 @@ class Profile:
         at = np.abs(self.lengths())
         places = np.linspace(0.0, at[-1], max(4, round(at[-1] / spacing) + 1))
         points = CubicSpline(at, np.column_stack([self.y, self.z]))(places)
-        return Profile(points[:, 0], points[:, 1])
+        return Profile(points[:, 0], points[:, 1], self.is_rail)
 
     def flange(self) -> tuple[float, float, float]:
         """Height Sh, thickness Sd and slope qR of the flange [mm], the tread datum at y = 0, the back 70 mm from it (EN 15313)."""
@@ -123,18 +140,19 @@ def _sorted(x: Numbers, y: Numbers) -> tuple[Numbers, Numbers]:
 
 @dataclass(frozen=True)
 class State:
-    """A wheel after a distance.
+    """A wheel after a distance, or a rail after passages.
 
     Attributes
     ----------
     distance
-        In km.
+        In km; of a rail millions of wheels.
     profile
         The worn one.
     depth
         What was worn off since the beginning, at the points of the profile [mm].
     rate
-        What is worn off now, at the points of the profile [mm/km]; of the last state that of the step before.
+        What is worn off now, at the points of the profile [mm/km], [mm] by a million of wheels; of the last state that of
+        the step before.
     area
         Worn area of the section [mm2].
     """
@@ -172,7 +190,7 @@ def smoothed(values: Numbers, spacing: float, width: float) -> Numbers:
 
 
 def depth_per_revolution(results: Any, law: Law, profile: Profile, weights: ArrayLike) -> Numbers:
-    """Mean depth that a revolution wears off a profile.
+    """Mean depth that a revolution wears off a wheel, or the passage of a wheel off a rail.
 
     Parameters
     ----------
@@ -181,7 +199,7 @@ def depth_per_revolution(results: Any, law: Law, profile: Profile, weights: Arra
     law
         Depth of a patch from its fields.
     profile
-        Of the wheel that the study had.
+        Of the wheel or the rail that the study had.
     weights
         Part of the distance that each case stands for, one for each case; their sum is 1.
 
@@ -196,6 +214,7 @@ def depth_per_revolution(results: Any, law: Law, profile: Profile, weights: Arra
     direction = 1.0 if profile.y[-1] > profile.y[0] else -1.0
     total = np.zeros_like(places)
     point = results["pn"].dims[0]
+    reference = "ycp_r" if profile.is_rail else "ycp_w"
     for case, weight in enumerate(np.asarray(weights, dtype=float)):
         one = results.isel({point: case})
         for patch in range(one.sizes["patch"]):
@@ -206,7 +225,7 @@ def depth_per_revolution(results: Any, law: Law, profile: Profile, weights: Arra
             depth = np.asarray(law(pn, px, py, sx, sy, float(found["dx"])), dtype=float)
             width = float(found["dy"])
             rows = float(found["y_first"]) + width * np.arange(len(depth))
-            centres = direction * (float(profile.length_at(float(found["ycp_w"]))) + rows)
+            centres = direction * (float(profile.length_at(float(found[reference]))) + rows)
             worn = np.concatenate([[0.0], np.cumsum(depth * width)])
             borders = centres[0] + direction * width * (np.arange(len(depth) + 1) - 0.5)
             if direction < 0.0:
@@ -256,19 +275,60 @@ def wear_of_wheel(base: Mapping[str, Any], journey: Journey, distance: float, la
     ContactError
         If a contact of the journey has no result, or the law gives a depth that is negative or no number.
     """
+    radius = float(base["wheel_dimensions"]["nomradw"])
+    yield from _wear(base, "wheel_profile", 1e6 / (2.0 * math.pi * radius), "km", journey, distance, law, Path(folder),
+                     base_folder, largest_step, spacing, width, workers, stop)
+
+
+def wear_of_rail(base: Mapping[str, Any], journey: Journey, wheels: float, law: Law, *, folder: str | os.PathLike[str],
+                 base_folder: str | os.PathLike[str], largest_step: float = 0.05, spacing: float = 0.25, width: float = 2.5,
+                 workers: int | None = None, stop: Callable[[], bool] = lambda: False) -> Iterator[State]:
+    """A rail that wheels wear.
+
+    Parameters
+    ----------
+    base
+        A case of wheel and rail, a right wheel, in the words of the readable format. Where ``gaught`` is positive the rail is
+        placed by its gauge point, the worn one too.
+    journey
+        Gives the wheels that pass in a step, as for :func:`wear_of_wheel`; weights are their parts.
+    wheels
+        How many pass, in millions.
+    law
+        Depth that a passage wears off the rail.
+    folder, base_folder, largest_step, spacing, width, workers, stop
+        As for :func:`wear_of_wheel`.
+
+    Yields
+    ------
+    The rail at the start and after each step; its ``distance`` is the number of wheels in millions.
+
+    Raises
+    ------
+    ContactError
+        As :func:`wear_of_wheel`.
+    """
+    yield from _wear(base, "rail_profile", 1e6, "million wheels", journey, wheels, law, Path(folder), base_folder, largest_step,
+                     spacing, width, workers, stop)
+
+
+def _wear(base: Mapping[str, Any], group: str, factor: float, unit: str, journey: Journey, distance: float, law: Law,
+          folder: Path, base_folder: str | os.PathLike[str], largest_step: float, spacing: float, width: float,
+          workers: int | None, stop: Callable[[], bool]) -> Iterator[State]:
+    """Steps of a wheel or a rail, the file of whose profile is in a group; the factor is passages in a unit of distance"""
     from .study import Study, table
-    home = Path(folder).resolve()
+    home = folder.resolve()
     home.mkdir(parents=True, exist_ok=True)
     case = copy.deepcopy(dict(base))
-    profile = Profile.read(Path(base_folder) / case["wheel_profile"]["file"]).meshed(spacing)
-    radius = float(case["wheel_dimensions"]["nomradw"])
+    profile = Profile.read(Path(base_folder) / case[group]["file"]).meshed(spacing)
+    stem, ending = ("rail", "prr") if profile.is_rail else ("wheel", "prw")
     done, area = 0.0, 0.0
     depth = np.zeros_like(profile.y)
     number = 0
     while True:
-        name = home / f"wheel_{number:04d}.prw"
-        profile.write(name, f"{done:.0f} km")
-        case["wheel_profile"] = {**case["wheel_profile"], "file": str(name)}
+        name = home / f"{stem}_{number:04d}.{ending}"
+        profile.write(name, f"{done:.6g} {unit}")
+        case[group] = {**case[group], "file": str(name)}
         cases, weights = journey(number, profile)
         shares = np.asarray(weights, dtype=float)
         shares = shares / shares.sum()
@@ -276,8 +336,8 @@ def wear_of_wheel(base: Mapping[str, Any], journey: Journey, distance: float, la
         results = study.run(workers, progress=False)
         failed = study.failures(results)
         if (results["status"].values == 2).any():
-            raise ContactError(f"after {done:.0f} km: {failed}")
-        per_km = depth_per_revolution(results, law, profile, shares) * 1e6 / (2.0 * math.pi * radius)
+            raise ContactError(f"after {done:.6g} {unit}: {failed}")
+        per_km = depth_per_revolution(results, law, profile, shares) * factor
         if not np.isfinite(per_km).all() or (per_km < 0.0).any():
             raise ContactError("the law of wear gives a depth that is negative or no number")
         rate = smoothed(per_km, spacing, width)

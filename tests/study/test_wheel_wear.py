@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from bases import EXAMPLES, rolling
 from contact import wear
-from contact.wheel_wear import Profile, depth_per_revolution, smoothed, wear_of_wheel
+from contact.wheel_wear import Profile, depth_per_revolution, smoothed, wear_of_rail, wear_of_wheel
 
 K_ARCHARD = 2e-3
 S1002 = EXAMPLES / "profiles/S1002.prw"
@@ -60,7 +60,20 @@ def test_profile_is_kept_by_file_and_mesh(tmp_path):
     assert float(thinner.height_at(0.0) - profile.height_at(0.0)) == pytest.approx(-0.1, abs=1e-3)
     assert thinner.y[np.abs(profile.y + 38.0).argmin()] < profile.y[np.abs(profile.y + 38.0).argmin()]
     with pytest.raises(contact.ContactError, match="Simpack"):
-        Profile.read(EXAMPLES / "profiles/60E1.prr")
+        Profile.read(EXAMPLES / "profiles/groove.txt")
+
+
+def test_profile_of_a_rail(tmp_path):
+    rail = Profile.read(EXAMPLES / "profiles/60E1.prr")
+    rail.meshed(0.25).write(tmp_path / "again.prr", "meshed")
+    again = Profile.read(tmp_path / "again.prr")
+    head = np.linspace(-30.0, 30.0, 200)
+    assert again.is_rail and not Profile.read(S1002).is_rail
+    np.testing.assert_allclose(again.height_at(head), rail.height_at(head), atol=2e-3)
+    # a depth that is the same everywhere lowers the head, and takes the gauge face away from the flange
+    thinner = rail.worn(np.full(len(rail.y), 0.1))
+    assert float(thinner.height_at(0.0) - rail.height_at(0.0)) == pytest.approx(0.1, abs=1e-3)
+    assert thinner.y[0] - rail.y[0] == pytest.approx(0.1, rel=0.01) and rail.y[-1] - thinner.y[-1] == pytest.approx(0.1, rel=0.01)
 
 
 def one_place(step, profile):
@@ -115,6 +128,45 @@ def test_a_journey(tmp_path):
     with pytest.raises(contact.ContactError, match="negative or no number"):
         list(wear_of_wheel(base(), one_place, 1.0, lambda *fields: -archard(*fields), folder=tmp_path / "wrong",
                            base_folder=EXAMPLES, workers=1))
+
+
+def test_a_rail_wears_where_its_contacts_are(tmp_path):
+    """The section that is missing is what was worn off, and the program reads the worn rail"""
+    wheels = 0.3
+    states = list(wear_of_rail(base(), one_place, wheels, archard, folder=tmp_path / "rail", base_folder=EXAMPLES, workers=1,
+                               largest_step=0.02))
+    first, last = states[0], states[-1]
+    assert last.distance == wheels and len(states) > 2 and last.area > 0.0
+    head = np.linspace(-34.0, 34.0, 4000)
+    gone = np.trapezoid(last.profile.height_at(head) - first.profile.height_at(head), head)
+    assert gone == pytest.approx(last.area, rel=0.02)
+    case = base()
+    case["rail_profile"]["file"] = str(max((tmp_path / "rail").glob("rail_*.prr")))
+    found = contact.Study(case, contact.study.table({"position.y_ws": [0.0]}), base_folder=EXAMPLES).run(workers=1)
+    assert (found.status == 0).all()
+
+
+def test_depth_on_a_rail_lies_where_pressures_are():
+    """A depth that is the sum of pressures has its centre where the lateral centre of the pressures is, on both bodies"""
+    names = ["pn", "px", "py", "sx", "sy"]
+    found = contact.Study(base(), contact.study.table({"position.y_ws": [-4.0]}), fields=names, base_folder=EXAMPLES).run(workers=1)
+    one = found.isel(row=0, patch=0)
+    loads = np.nan_to_num(one.pn.values).sum(axis=1)
+    middle = float((loads * (float(one.y_first) + float(one.dy) * np.arange(len(loads)))).sum() / loads.sum())
+    for file, place in (("60E1.prr", float(one.ycp_r)), ("S1002.prw", float(one.ycp_w))):
+        profile = Profile.read(EXAMPLES / "profiles" / file).meshed(0.1)
+        depth = depth_per_revolution(found, lambda pn, px, py, sx, sy, dx: pn.sum(axis=1), profile, [1.0])
+        widths = np.gradient(np.abs(profile.lengths()))
+        assert (depth * widths).sum() == pytest.approx(loads.sum() * float(one.dy), rel=1e-3)
+        at = (depth * widths * profile.lengths()).sum() / (depth * widths).sum()
+        assert at - float(profile.length_at(place)) == pytest.approx(middle, abs=0.06)
+
+
+def test_example_of_a_rail(tmp_path):
+    told = subprocess.run([sys.executable, str(EXAMPLES / "studies/rail_wear.py"), "--small", "--folder", str(tmp_path / "study")],
+                          capture_output=True, text=True, timeout=250, env={**os.environ, "OMP_NUM_THREADS": "1"})
+    assert told.returncode == 0, told.stderr
+    assert "5.00 million wheels" in told.stdout and Profile.read(tmp_path / "study/worn.prr").is_rail
 
 
 def test_example(tmp_path):
