@@ -229,7 +229,7 @@ contains
          lengths = [result%grid%mx*result%grid%dx, result%grid%my*result%grid%dy]
          if (is_near_enough(report%estimated, expected, report%asked)) exit
          if (report%levels > 1 .and. .not. result%status%is_solved()) exit
-         if (spec%motion == motion%steady_rolling) law%order = merge(law%order, 1.0_wp, acting == 2)
+         if (spec%motion == motion%steady_rolling) law%order = min(law%order, merge(law%order, 1.0_wp, acting == 2))
          call tighten(spec, result, report, level, tightened)
          call next_counts(result, report, law%order, fixed, next)
          call stay_below(most_elements(spec%limits), fixed, next)

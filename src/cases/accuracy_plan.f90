@@ -3,8 +3,8 @@
 !> Sizes are counted in elements across the contact. An error that goes as C n^-p asks for n = (C/error)^(1/p); C of the first
 !> grid is a typical value, later ones are what the estimate of the grid before says. See doc/theory/accuracy.md.
 module contact_cases_accuracy_plan
-   use contact_base_choices, only : estimate_choice, is_simplified, kernel_model, material_model, motion, pressure_model, &
-      & slip_source, time_link, variation
+   use contact_base_choices, only : estimate_choice, heat_source, is_simplified, kernel_model, material_model, motion, &
+      & pressure_model, slip_source, time_link, variation
    use contact_base_error, only : error_kind, error_type, fatal_error
    use contact_base_kinds, only : long, wp
    use contact_base_limits, only : case_limits
@@ -12,6 +12,7 @@ module contact_cases_accuracy_plan
    use contact_cases_grid_inputs, only : largest_grid
    use contact_cases_spec, only : case_spec
    use contact_elastic_material, only : combine, combined_material
+   use contact_friction_new_law, only : friction_model
    use contact_subsurface_points, only : point_selection
    implicit none (type, external)
    private
@@ -38,6 +39,8 @@ module contact_cases_accuracy_plan
    !> Forces in steady rolling by the first and by the second order, and all else; of tests/accuracy: upper quartiles of estimates
    type(accuracy_law), parameter :: first_order = accuracy_law(0.25_wp, 1.0_wp), second_order = accuracy_law(0.6_wp, 1.8_wp), &
       & normal_order = accuracy_law(0.25_wp, 2.0_wp)
+   !> Friction that follows temperatures which count the heat of an element twice; of examples/sliding_temperature
+   type(accuracy_law), parameter :: heated = accuracy_law(0.05_wp, 0.5_wp)
 
    !> Elements across of the first grid: least, and most. Fewer tell nothing of the error; a first grid of more may waste more time
    real(wp), parameter :: least_across = 11.0_wp, most_across = 90.0_wp, most_across_first_order = 45.0_wp
@@ -151,6 +154,11 @@ contains
       law = normal_order
       if (spec%motion /= motion%steady_rolling) return
       law = first_order
+      if (spec%has_heat .and. spec%heat%source == heat_source%established &
+         & .and. spec%friction_law == friction_model%temperature) then
+         law = heated
+         return
+      end if
       if (spec%kernel == kernel_model%piecewise_constant .and. any(spec%material_model == [material_model%elastic, &
          & material_model%viscoelastic]) .and. spec%pressure == pressure_model%full) law = second_order
    end function expected_law

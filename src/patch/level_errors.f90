@@ -2,9 +2,10 @@
 !>
 !> Orders, and what errors are not below: see doc/theory/errors.md.
 module contact_patch_level_errors
-   use contact_base_choices, only : motion
+   use contact_base_choices, only : heat_source, motion
    use contact_base_constants, only : excluded_threshold, nmm_per_joule, pi
    use contact_base_kinds, only : wp
+   use contact_friction_law, only : friction_driver
    use contact_grid_element_division, only : bounding_box, contact_box, element
    use contact_patch_coarse_level, only : coarsening
    use contact_patch_problem, only : patch_problem
@@ -14,6 +15,10 @@ module contact_patch_level_errors
    private
 
    public :: energies, error_of, error_of_peak, irregularity, peak_of, residual_share, scale_of, scale_type, scales
+
+   !> Of the largest of a field whose peak elements resolve; of temperatures that count the heat of an element twice at its
+   !> centre: its share falls with the root of the element
+   real(wp), parameter :: peak_order = 1.25_wp, counted_twice = 0.5_wp
 
    !> What is common to all totals of a patch
    type :: scale_type
@@ -40,14 +45,16 @@ module contact_patch_level_errors
       logical :: jumps = .false.
       !> Length of an element over that of relaxation of viscoelastic bodies, at most 1; 0: elastic
       real(wp) :: relaxation = 0.0_wp
+      !> Of the highest temperatures
+      real(wp) :: heat_order = peak_order
       !> Difference parameter K of unlike bodies [-]
       real(wp) :: coupling = 0.0_wp
       !> Parts of the elastic energy, of pressures and of tractions, and what the levels differ by in them [J]
       real(wp) :: energy(2) = 0.0_wp, energy_change(2) = 0.0_wp
    end type scale_type
 
-   !> Order of the normal problem, of the highest temperature, and of what jumps with single elements
-   real(wp), parameter :: normal_order = 2.0_wp, peak_order = 1.25_wp, jump_order = 1.0_wp
+   !> Order of the normal problem, and of what jumps with single elements
+   real(wp), parameter :: normal_order = 2.0_wp, jump_order = 1.0_wp
    !> Of frictional power with the first order: its error falls to 1/(1 + 1.65) with elements of a third; median of tests/accuracy
    real(wp), parameter :: power_order = 0.89_wp
    !> Of forces in steady rolling by both schemes; the second one shows this order from 15 to 45 elements on, with its jitter
@@ -130,6 +137,12 @@ contains
       scale%clean = (problem%motion /= motion%transient_rolling .or. order == 2) .and. .not. problem%model%layer > 0.0_wp
       ! tractions are singular at edges that are given
       if (problem%motion == motion%shift) scale%clean = .not. any(problem%h > excluded_threshold)
+      if (allocated(problem%thermal)) then
+         if (problem%thermal%source == heat_source%established) scale%heat_order = counted_twice
+         if (allocated(problem%friction)) then
+            if (problem%friction%driver() == friction_driver%temperature) scale%order = min(scale%order, scale%heat_order)
+         end if
+      end if
       scale%jumps = scale%clean .and. scale%order > first_order .and. .not. scale%steps
       if (allocated(problem%model%memory)) then
          associate (memory => problem%model%memory)
@@ -223,7 +236,7 @@ contains
          e = error_of_energy(scale) + (stopping + errors%window)*unit
          return
       case (error_law%peak)
-         e = difference/(coarsening**peak_order - 1.0_wp)
+         e = difference/(coarsening**scale%heat_order - 1.0_wp)
          floor = 0.0_wp
       case default
          e = difference/(coarsening**jump_order - 1.0_wp)

@@ -84,6 +84,47 @@ class Accuracy(Runs):
                 error = abs(patch["totals"]["fx_rel"] - limit)
                 self.assertGreater(patch["errors"]["fx_error"] / force, 0.3 * error)
 
+    def test_friction_that_follows_temperature(self):
+        """Established temperatures count the heat of an element twice: an error of order 1/2, and forces follow them
+
+        The limit is that of moving sources: 0.91866, and 223.4 degC of sliding without it, within 1e-4 and 0.1.
+        """
+        case = """3 MODULE
+            203100 PBTNFS
+            0{law}22020 VLDCMZE
+            3000111 HGIAOWR
+            999 200 30 1 1e-6 MAXGS MAXIN MAXNR MAXOUT EPS
+            70000 0.04 0 0 FN CKSI CETA CPHI
+            {friction}
+            0 {dx} 20000 CHI DQ VELOC
+            0.28 0.28 82000 82000 POISS GG
+            90 450 0.05 7.85e-6 BKTEMP HEATCP LAMBDA DENSITY
+            15 450 0.05 7.85e-6
+            1 IPOTCN
+            {n} {n} -12 -8 {dx} {dy} MX MY XL YL DX DY
+            1 1 IBASE IPLAN
+            0.001 0 0.0008 0 0 0 B
+            """
+        heated = "0.32 100 -0.107 200 FREF TREF DFHEAT DTHEAT\n0 1 MEMDST MEM_S0"
+        for n in (24, 48, 96):
+            sides = {"n": n, "dx": 20.0 / n, "dy": 16.0 / n}
+            with self.subTest(n):
+                _, record = self.solve("a.inp", case.format(law=6, friction=heated, **sides), "--errors")
+                patch = record["patches"][0]
+                error = 0.91866 - abs(patch["totals"]["fx_rel"])
+                self.assertTrue(0.3 < patch["errors"]["fx_rel_error"] / error < 3.0, (error, patch["errors"]))
+                _, record = self.solve("b.inp", case.format(law=0, friction="0.32 0.32 FSTAT FKIN", **sides), "--errors")
+                patch = record["patches"][0]
+                error = patch["totals"]["max_temp1"] - 223.4
+                self.assertTrue(0.3 < patch["errors"]["max_temp1_error"] / error < 3.0, (error, patch["errors"]))
+        text = case.format(law=6, friction=heated, n=40, dx=0.5, dy=0.4)
+        _, record = self.solve("c.inp", text, "--accuracy", "1e-3", "--limit-elements", "4000")
+        self.assertFalse(record["patches"][0]["accuracy"]["reached"])
+        _, record = self.solve("c.inp", text, "--accuracy", "1e-3", "--limit-elements", "4000", "--heat", "moving-source")
+        patch = record["patches"][0]
+        self.assertTrue(patch["accuracy"]["reached"])
+        self.assertLess(abs(abs(patch["totals"]["fx_rel"]) - 0.91866), 1e-3)
+
     def test_windows(self):
         """All forms of a window are refined within the same sides, and the result is that of a case with the chosen numbers"""
         geometry = "\n1 1 IBASE IPLAN\n0.005 0 0.0022 0 0 0 B\n"
@@ -194,7 +235,8 @@ class Accuracy(Runs):
         self.assertNotIn("simplified", full["accuracy"])
         for text, asked, why in ((no_spin, "0.05", "none, as errors without spin are up to 0.055"),
                                  (rolling(motion=1), "0.06", "none, as errors in shifts are not known"),
-                                 (rolling(material=4, layer="1000 0.02 0 0 GG3 LAYTHK TAU_C0 K_TAU"), "0.06", "elastic half-spaces")):
+                                 (rolling(material=4, layer="1000 0.02 0 0 GG3 LAYTHK TAU_C0 K_TAU"), "0.06",
+                                  "elastic half-spaces")):
             words, record = self.solve("n.inp", text, "--accuracy", asked, *allow[1:])
             self.assertIn(why, record["patches"][0]["accuracy"]["simplified"])
             self.assertNotIn("FaStrip", record["patches"][0]["effects"])
