@@ -1,6 +1,11 @@
-"""Time of the whole program on inputs as users write them, beside goals, the best of three runs: asked_inputs.py CONTACT SOURCE"""
+"""Time of the whole program on inputs as users write them, beside goals, the best of three runs: asked_inputs.py CONTACT SOURCE
+
+With --instructions smaller ones of the same kinds run under valgrind, which counts what no other job of the machine changes: each
+must stay below what it took when it was measured, with a margin for other compilers and libraries.
+"""
 import math
 import os
+import re
 import resource
 import shutil
 import subprocess
@@ -54,6 +59,42 @@ ROWS = [("normal problem, 3,000 elements", ball(68), 1, "ms", 8.0),
         ("wheel flat, KPEC, 0.4 mm, 196 positions", flat(196), 1, "s", 2.0)]
 
 
+#: What is run, and how many millions of instructions it took
+COUNTED = [("normal problem, 3,000 elements", ball(68), 88),
+           ("steady rolling with G = 5, 3,000 elements", ball(68, 3, 5, GD_STEADY, "5e-4 0 3e-4"), 231),
+           ("wheel on rail, KPEC, 0.2 mm, 5 places", wheel("1250100", 0.2, 5), 235),
+           ("wheel on rail, ANALYN, 0.2 mm, 5 places", wheel("1260100", 0.2, 5), 223),
+           ("wheel on rail, KPEC, 1.0 mm, 41 places", wheel("1250100", 1.0, 41), 185),
+           ("wheel flat, KPEC, 0.4 mm, 5 positions", flat(5), 704)]
+#: Part by which a count may be above the known one
+MARGIN = 0.15
+
+
+def instructions(contact, folder, text):
+    """Millions of instructions of a run, or None"""
+    with open(os.path.join(folder, "x.inp"), "w", encoding="utf-8") as file:
+        file.write(text)
+    command = ["valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null", contact, "--strict", "2", "x"]
+    done = subprocess.run(command, cwd=folder, capture_output=True, text=True, env=dict(os.environ, OMP_NUM_THREADS="1"))
+    told = re.search(r"refs: +([0-9,]+)", done.stderr)
+    return int(told.group(1).replace(",", ""))/1e6 if told and not done.returncode else None
+
+
+def judge_instructions(contact, folder):
+    """Print counts beside their limits; the exit status"""
+    if shutil.which("valgrind") is None:
+        print("SKIPPED: valgrind is not installed")
+        return 77
+    status = 0
+    print("| whole program, one thread | million instructions | when it was measured |\n|---|---|---|")
+    for name, text, known in COUNTED:
+        count = instructions(contact, folder, text)
+        good = count is not None and count <= (1 + MARGIN)*known
+        print(f"| {name} | {count and round(count)} | {known}{'' if good else ': TOO MANY'} |", flush=True)
+        status = status or int(not good)
+    return status
+
+
 def seconds(contact, folder, text):
     """Processor time of the best run, or what went wrong"""
     with open(os.path.join(folder, "x.inp"), "w", encoding="utf-8") as file:
@@ -77,9 +118,11 @@ def main():
     if not os.path.exists(contact):
         print("SKIPPED the whole program: there is no bin/contact")
         return 77
-    print("| whole program, one thread | time | goal |\n|---|---|---|")
     with tempfile.TemporaryDirectory() as folder:
         shutil.copytree(os.path.join(source, "examples", "profiles"), folder, dirs_exist_ok=True)
+        if sys.argv[3:] == ["--instructions"]:
+            return judge_instructions(contact, folder)
+        print("| whole program, one thread | time | goal |\n|---|---|---|")
         for name, text, cases, unit, goal in ROWS:
             best, complaint = seconds(contact, folder, text)
             if best is None:
