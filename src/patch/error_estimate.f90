@@ -11,9 +11,10 @@ module contact_patch_error_estimate
    use contact_base_error, only : error_kind, error_type
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
+   use contact_friction_law, only : friction_driver
    use contact_patch_coarse_level, only : coarsen_patch
-   use contact_patch_level_errors, only : energies, error_of, error_of_peak, irregularity, peak_of, residual_share, &
-      & scale_of, scale_type, scales
+   use contact_patch_level_errors, only : energies, error_of, error_of_peak, irregularity, mean_friction, peak_of, &
+      & residual_share, scale_of, scale_type, scales
    use contact_patch_problem, only : patch_problem, patch_state
    use contact_patch_quantities, only : error_law, total, total_list
    use contact_patch_result, only : patch_result
@@ -142,6 +143,10 @@ contains
       scale = scales(problem, order, result)
       scale%energy = energies(result)
       scale%energy_change = scale%energy - load**(5.0_wp/3.0_wp)*energies(level%result)
+      if (allocated(problem%thermal) .and. allocated(problem%friction)) then
+         if (problem%friction%driver() == friction_driver%temperature) &
+            & scale%warmed = abs(mean_friction(level%result)/mean_friction(result) - 1.0_wp)
+      end if
       result%errors%stopping(2) = max(result%errors%stopping(2), scale%gain*result%errors%stopping(1))
       do k = 1, fine%length
          difference = abs(fine%rows(k)%value - coarse%rows(k)%value)

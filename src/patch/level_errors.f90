@@ -5,7 +5,6 @@ module contact_patch_level_errors
    use contact_base_choices, only : heat_source, motion
    use contact_base_constants, only : excluded_threshold, nmm_per_joule, pi
    use contact_base_kinds, only : wp
-   use contact_friction_law, only : friction_driver
    use contact_grid_element_division, only : bounding_box, contact_box, element
    use contact_patch_coarse_level, only : coarsening
    use contact_patch_problem, only : patch_problem
@@ -14,7 +13,7 @@ module contact_patch_level_errors
    implicit none (type, external)
    private
 
-   public :: energies, error_of, error_of_peak, irregularity, peak_of, residual_share, scale_of, scale_type, scales
+   public :: energies, error_of, error_of_peak, irregularity, mean_friction, peak_of, residual_share, scale_of, scale_type, scales
 
    !> Of the largest of a field whose peak elements resolve; of temperatures that count the heat of an element twice at its
    !> centre: its share falls with the root of the element
@@ -47,6 +46,8 @@ module contact_patch_level_errors
       real(wp) :: relaxation = 0.0_wp
       !> Of the highest temperatures
       real(wp) :: heat_order = peak_order
+      !> Difference of the levels in the mean coefficient of friction, relative to it, where it follows temperatures [-]
+      real(wp) :: warmed = 0.0_wp
       !> Difference parameter K of unlike bodies [-]
       real(wp) :: coupling = 0.0_wp
       !> Parts of the elastic energy, of pressures and of tractions, and what the levels differ by in them [J]
@@ -100,6 +101,14 @@ module contact_patch_level_errors
 
 contains
 
+   !> Mean coefficient of friction, weighted with pressures [-]
+   pure real(wp) function mean_friction(result) result(mu)
+      !> Solved, in contact
+      type(patch_result), intent(in) :: result
+
+      mu = sum(result%mu*result%pn)/max(sum(result%pn), tiny(mu))
+   end function mean_friction
+
    !> What totals are compared with
    pure function scales(problem, order, result) result(scale)
       type(patch_problem), intent(in) :: problem
@@ -139,9 +148,6 @@ contains
       if (problem%motion == motion%shift) scale%clean = .not. any(problem%h > excluded_threshold)
       if (allocated(problem%thermal)) then
          if (problem%thermal%source == heat_source%established) scale%heat_order = counted_twice
-         if (allocated(problem%friction)) then
-            if (problem%friction%driver() == friction_driver%temperature) scale%order = min(scale%order, scale%heat_order)
-         end if
       end if
       scale%jumps = scale%clean .and. scale%order > first_order .and. .not. scale%steps
       if (allocated(problem%model%memory)) then
@@ -219,7 +225,7 @@ contains
       case (error_law%friction, error_law%creepage)
          part = part_of(scale, scale%order)
          if (is_unseen(scale)) part = 0.0_wp
-         e = part*difference
+         e = part*difference + by_heat(scale, part, difference, unit)
          if (row%law == error_law%friction) e = max(e, other_component*part*scale%friction*unit)
          floor = friction_floor(scale)
          if (scale%jumps) e = unit*trusted(e/max(unit, tiny(unit)), floor, trust)
@@ -227,6 +233,7 @@ contains
       case (error_law%power)
          e = part_of(scale, merge(power_order, scale%order, scale%order <= first_order))*difference
          if (is_unseen(scale)) e = 0.0_wp
+         e = e + by_heat(scale, part_of(scale, scale%order), difference, unit)
          floor = power_floor*sqrt(scale%adhesion)/scale%across**nint(scale%order)
          if (scale%order < normal_order .and. (scale%clean .or. .not. scale%steps)) floor = floor + scale%adhesion* &
             & merge(adhesive_power_floor/scale%across**2, layer_power_floor/scale%across, scale%clean)
@@ -255,6 +262,17 @@ contains
       part = 1.0_wp
       if (scale%clean) part = 1.0_wp/(coarsening**order - 1.0_wp)
    end function part_of
+
+   !> Error beyond that part of the difference of the levels, where friction follows temperatures whose errors have another order
+   pure real(wp) function by_heat(scale, part, difference, unit) result(e)
+      type(scale_type), intent(in) :: scale
+      !> That counts already
+      real(wp), intent(in) :: part
+      !> Between the levels, and what it is relative to
+      real(wp), intent(in) :: difference, unit
+
+      e = max(0.0_wp, 1.0_wp/(coarsening**scale%heat_order - 1.0_wp) - part)*min(difference, scale%warmed*unit)
+   end function by_heat
 
    !> Relative error of tangential forces of so many elements in general
    pure real(wp) function friction_floor(scale) result(floor)

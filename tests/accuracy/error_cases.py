@@ -48,7 +48,7 @@ def contact(random, kind):
          "spin": random.choice([0.0, 1.0]) * random.uniform(-1.0, 1.0) * full / math.sqrt(a * b)}
     b1, b3 = curvatures(a, b, shear / (1.0 - poisson), fn)
     c["geometry"] = f'form = "quadratic"\nplanform = "unrestricted"\nb = [{b1!r}, 0.0, {b3!r}, 0.0, 0.0, 0.0]\n'
-    CHANGES[kind](random, c, b1, b3, full)
+    (CHANGES | FURTHER)[kind](random, c, b1, b3, full)
     return c
 
 
@@ -133,9 +133,40 @@ def _fastsim(random, c, b1, b3, full):
     c.update(model="fastsim", material="")
 
 
+def _unlike(random, c, b1, b3, full):
+    """Bodies from alike to very unlike, friction from next to none to much, creepages around those that pressures drive."""
+    mu, ratio = math.exp(random.uniform(math.log(1e-3), math.log(0.6))), math.exp(random.uniform(0.1, math.log(10.0)))
+    p0 = 1.5 * c["fn"] / (math.pi * c["a"] * c["b"])
+    driven = 0.3 * p0 / c["gg"][0] * (1 - 1 / ratio)
+    angle, size = random.uniform(0, 2 * math.pi), driven * random.uniform(0, 1.5) + random.uniform(0, 1) * full * mu / c["mu"]
+    c.update(mu=mu, poiss=[0.3, 0.3], gg=[c["gg"][0], c["gg"][0] / ratio], maxout=20,
+             creep=(size * math.cos(angle), size * math.sin(angle)), spin=c["spin"] * random.choice([0.0, mu / c["mu"]]),
+             friction=f'law = "coulomb"\nvariation = "none"\nfstat = {mu!r}\nfkin = {mu!r}\n')
+
+
+def _extreme(random, c, b1, b3, full):
+    """From next to no creepage to sliding fast, and spin alone."""
+    size = full * math.exp(random.uniform(math.log(1e-3), math.log(20.0)))
+    angle = random.uniform(0, 2 * math.pi)
+    c["creep"] = random.choice([(0.0, 0.0), (size * math.cos(angle), size * math.sin(angle)), (size, 0.0), (0.0, size)])
+    c["spin"] = random.choice([-1, 1]) * full / math.sqrt(c["a"] * c["b"]) * math.exp(random.uniform(math.log(0.01), math.log(20.0)))
+
+
+def _warm(random, c, b1, b3, full):
+    """Friction that follows the temperature of the surface."""
+    _heat(random, c, b1, b3, full)
+    c["creep"] = tuple(10.0 * x for x in c["creep"])
+    if random.random() < 0.5:
+        c["extra"] += 'source = "established"\n'
+    c["friction"] = (f'law = "temperature"\nvariation = "none"\nfref = {c["mu"]!r}\ntref = 50.0\ndfheat = {-0.4 * c["mu"]!r}\n'
+                     f"dtheat = {random.uniform(50.0, 400.0)!r}\nmemdst = 0.0\nmem_s0 = 1.0\n")
+
+
 CHANGES = {"rolling": _plain, "normal": _normal, "shift": _shift, "forces": _forces, "dissimilar": _dissimilar,
            "profile": _profile, "falling": _falling, "viscoelastic": _viscoelastic, "layer": _layer, "heat": _heat,
            "transient": _transient, "reverse": _reverse}
+#: Kinds that are further out, not part of the tables
+FURTHER = {"unlike": _unlike, "extreme": _extreme, "warm": _warm}
 
 
 def text_of(c, n, offset, eps=1e-6, options=""):
