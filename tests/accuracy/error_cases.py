@@ -149,7 +149,8 @@ def _extreme(random, c, b1, b3, full):
     size = full * math.exp(random.uniform(math.log(1e-3), math.log(20.0)))
     angle = random.uniform(0, 2 * math.pi)
     c["creep"] = random.choice([(0.0, 0.0), (size * math.cos(angle), size * math.sin(angle)), (size, 0.0), (0.0, size)])
-    c["spin"] = random.choice([-1, 1]) * full / math.sqrt(c["a"] * c["b"]) * math.exp(random.uniform(math.log(0.01), math.log(20.0)))
+    spin = full / math.sqrt(c["a"] * c["b"]) * math.exp(random.uniform(math.log(0.01), math.log(20.0)))
+    c["spin"] = random.choice([-1, 1]) * spin
 
 
 def _warm(random, c, b1, b3, full):
