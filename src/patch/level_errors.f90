@@ -48,6 +48,8 @@ module contact_patch_level_errors
       real(wp) :: heat_order = peak_order
       !> Difference of the levels in the mean coefficient of friction, relative to it, where it follows temperatures [-]
       real(wp) :: warmed = 0.0_wp
+      !> How far a rough surface may rise between centres of elements, over the approach [-]
+      real(wp) :: roughness = 0.0_wp
       !> Difference parameter K of unlike bodies [-]
       real(wp) :: coupling = 0.0_wp
       !> Parts of the elastic energy, of pressures and of tractions, and what the levels differ by in them [J]
@@ -74,6 +76,9 @@ module contact_patch_level_errors
    !> A peak of pressures bends by 4 n^-2 of itself over an element of a contact of n; what it bends beyond this multiple is a peak
    !> that elements do not resolve, and off by this part of the bend; chosen with the hard cases of tests/stability
    real(wp), parameter :: smooth_bend = 12.0_wp, unresolved = 0.15_wp
+   !> Part of the alternation of a rough surface that peaks between centres of elements have; that of noise is the root of 15 of its
+   !> standard deviation; chosen with tests/stability/hard_wheels.py
+   real(wp), parameter :: roughness_share = 0.25_wp
    !> Errors of tangential forces and moment are at least this part of the largest of them
    real(wp), parameter :: other_component = 0.2_wp
    !> Where slip turns round without adhesion in between, elements do not see where: forces are off by this part of what an
@@ -133,6 +138,8 @@ contains
          & (nmm_per_joule*result%dt)
       scale%adhesion = max(least_adhesion, real(result%nadh, wp)/result%ncon)
       if (problem%model%coupled()) scale%coupling = abs(problem%model%material%ak)
+      scale%roughness = roughness_share*max(alternation(problem%h, result%division), &
+         & alternation(transpose(problem%h), transpose(result%division)))/max(abs(result%pen), tiny(extent))
       if (scale%force > 0.0_wp) then
          scale%reversal = result%grid%dx*result%grid%dy*turned_round(result, 0)/scale%force
          if (scale%coupling > 0.0_wp) scale%gain = reversal_gain*min(1.0_wp, scale%across*result%grid%dx*result%grid%dy &
@@ -188,6 +195,33 @@ contains
       end do
    end function turned_round
 
+   !> Noise of the undeformed distance along x, where contact has a part [mm]: root of the mean product of third differences of
+   !> neighbours, whose signs alternate; zero for what is smooth, as these have the same sign, and for waves of a few elements, as
+   !> those of next neighbours do not
+   pure real(wp) function alternation(h, division) result(noise)
+      !> [mm], and states of the elements; shape (mx, my)
+      real(wp), intent(in) :: h(:, :)
+      integer, intent(in) :: division(:, :)
+      !> Product of third differences of next neighbours over that of neighbours, for white noise
+      real(wp), parameter :: ratio = 0.4_wp
+      real(wp) :: third(3), alike(2)
+      integer :: ix, iy, n
+
+      n = 0
+      alike = 0.0_wp
+      do iy = 1, size(h, 2)
+         do ix = 2, size(h, 1) - 4
+            if (all(division(ix - 1:ix + 4, iy) < element%adhesion)) cycle
+            if (any(h(ix - 1:ix + 4, iy) > excluded_threshold)) cycle
+            third = h(ix + 2:ix + 4, iy) - 3.0_wp*(h(ix + 1:ix + 3, iy) - h(ix:ix + 2, iy)) - h(ix - 1:ix + 1, iy)
+            alike = alike + third(1)*[-third(2), third(3)/ratio]
+            n = n + 1
+         end do
+      end do
+      noise = 0.0_wp
+      if (n > 0) noise = sqrt(max(0.0_wp, minval(alike)/n))
+   end function alternation
+
    !> What the error of a total is relative to, in its unit
    pure real(wp) function scale_of(row, scale) result(unit)
       !> Of the finer level, with value and law
@@ -220,7 +254,7 @@ contains
       select case (row%law)
       case (error_law%normal)
          e = difference/(coarsening**normal_order - 1.0_wp)
-         floor = normal_floor/scale%across**2
+         floor = normal_floor/scale%across**2 + scale%roughness
          stopping = errors%stopping(1)
       case (error_law%friction, error_law%creepage)
          part = part_of(scale, scale%order)

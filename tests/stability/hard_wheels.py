@@ -1,0 +1,165 @@
+"""Hard wheels on rails with estimated errors: python3 hard_wheels.py [--count N] [--seed S] [--order N] [--list] [--check]
+
+Random cases of new, worn, hollow, rough, steep and nearly conformal profiles, from light to heavy, from the end of the tread to the
+flange, with one to three patches, are solved with --errors, and with elements a third as long. Printed is by group how many were
+solved, refused, or not converged and said so, and the effectivity of the errors of forces and height: the estimated error over the
+true one. The command fails where an estimate lies, with less than a tenth of the true error, or where a case ends without a word.
+CONTACT_PROGRAM names the program.
+"""
+import argparse
+import collections
+import json
+import math
+import os
+import random
+import subprocess
+import sys
+import tempfile
+
+import worn_profiles
+
+#: An estimate below this part of the true error lies
+LEAST = 0.1
+#: True errors that are no matter: relative to the friction bound, and to the approach
+SMALL = 1e-3
+MU = 0.3
+FINER = 3.0
+
+CASE = """ 1 MODULE
+ 1203100    C-P-B-T-N-F-S
+ 0022033    V-L-D-C-M-Z-E
+ 0001201    H-G-I-A-O-W-R
+ 999 100 30 1 1e-6
+ 0.30 0.30
+ 0.28 0.28 82000. 82000.
+ %.6g %.6g 1.0 90d 8.0 4.0
+ 14.0 0 1435.0 %g
+ %s
+ 0.0 0.0 0.0 0.0 0.0 0.0
+ 1360.0 -70.0 460.0
+ %s
+ 0.0 %.6g %.6g 0.0 %.6g 0.0
+ 20000. 0.0 0.0 0.0 0.0 %.6g
+
+"""
+
+
+def pairs():
+    """Lines of the input for the profiles of each group; writes their files to the present folder"""
+    found = dict(worn_profiles.write_profiles())
+    rail, wheel, simpack = worn_profiles.nominal()
+    simpack("deep.prw", 1, "deep", worn_profiles.worn_wheel(wheel, 4.0, 2.5))
+    simpack("flat.prr", 0, "flat", [(y, z + 2.5*worn_profiles.bell(y, 3.0, 22.0)) for y, z in rail])
+    found["deeply hollow"] = (found["new"][0], "'deep.prw' 0 1.0 0.0")
+    found["nearly conformal"] = (found["worn"][0], "'deep.prw' 0 1.0 0.0")
+    found["flat"] = ("'flat.prr' 0 1.0 0.0", found["new"][1])
+    return found
+
+
+def case(source, group):
+    """A random case: place, force and creepage of a wheel"""
+    def size(least, most):
+        return math.exp(source.uniform(math.log(least), math.log(most)))
+
+    # towards the flange, where patches split, or anywhere on the tread
+    y = source.uniform(3.0, 9.5) if source.random() < 0.5 else source.uniform(-16.0, 6.0)
+    return {"group": group, "y": y, "yaw": source.choice([-1, 1])*size(1e-4, 0.03), "cant": source.choice([0.0, 0.025, 0.05]),
+            "fz": size(500.0, 250000.0), "size": source.uniform(0.3, 0.9),
+            "pitch": -20000.0/460.0*(1.0 + source.choice([-1, 1])*size(5e-5, 5e-3))}
+
+
+def solve(program, name, cases, lines, factor, options):
+    """Records of all cases"""
+    with open(name + ".inp", "w") as file:
+        for c in cases:
+            size = c["size"]/factor
+            file.write(CASE % (size, size, c["cant"], *lines[c["group"]], c["y"], c["fz"], c["yaw"], c["pitch"]))
+        file.write(" 0 MODULE\n")
+    subprocess.run([program, *options, "--quiet", "--json", "--limit-time", "20", "2", name], capture_output=True, text=True,
+                   env=dict(os.environ, OMP_NUM_THREADS="1"))
+    with open(name + ".jsonl") as file:
+        records = [json.loads(line) for line in file]
+    return {r["case"]: r for r in records if r.get("case", 0) > 0}
+
+
+def value(record, group, name):
+    """A number of a record, NaN where there is none"""
+    number = record.get(group, {}).get(name, math.nan)
+    return number["value"] if isinstance(number, dict) else number
+
+
+def judge(coarse, fine):
+    """(effectivity, true error) by quantity; empty where estimates or patches cannot be compared"""
+    patches = coarse["patches"]
+    if "errors" not in coarse or not fine.get("converged") or len(fine.get("patches", [])) != len(patches):
+        return {}
+    bound = MU*sum(p["totals"]["fn"]["value"] for p in patches)
+    approach = max(p["totals"]["pen"]["value"] for p in patches)
+    found = {}
+    for name, scale in (("fx_tr", bound), ("fy_tr", bound), ("z_ws", approach)):
+        estimate = value(coarse, "errors", name + "_error")/scale
+        true = abs(value(coarse, "totals", name) - value(fine, "totals", name))/scale
+        if math.isfinite(estimate) and math.isfinite(true):
+            found[name] = (estimate, true)
+    return found
+
+
+def main():
+    """Campaign or test"""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--count", type=int, default=500)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--order", default="2")
+    parser.add_argument("--list", action="store_true", help="name the cases whose estimates lie")
+    parser.add_argument("--check", action="store_true", help="a small share")
+    asked = parser.parse_args()
+    if asked.check:
+        asked.count, asked.seed = 24, 3
+    program, folder = os.environ["CONTACT_PROGRAM"], os.getcwd()
+    with tempfile.TemporaryDirectory() as name:
+        os.chdir(name)
+        lines = pairs()
+        source = random.Random(asked.seed)
+        cases = [case(source, sorted(lines)[k % len(lines)]) for k in range(asked.count)]
+        options = ("--order", asked.order)
+        coarse = solve(program, "coarse", cases, lines, 1.0, ("--errors", *options))
+        fine = solve(program, "fine", cases, lines, FINER, options)
+        os.chdir(folder)
+    counts, ratios, lies, silent = collections.defaultdict(collections.Counter), collections.defaultdict(list), [], []
+    for number, c in enumerate(cases, 1):
+        record, count = coarse.get(number), counts[c["group"]]
+        count["cases"] += 1
+        if record is None or (not record.get("converged") and not record.get("reason") and not record.get("failure")):
+            silent.append((number, c))
+            continue
+        if not record["solved"] or not record["converged"]:
+            count["refused" if record.get("status") == "refused" else "not converged"] += 1
+            continue
+        count["patches"] = max(count["patches"], len(record["patches"]))
+        if not record["patches"]:
+            count["no contact"] += 1
+            continue
+        found = judge(record, fine.get(number, {}))
+        count["judged"] += bool(found)
+        for quantity, (estimate, true) in found.items():
+            ratios[c["group"]].append(estimate/max(true, 1e-9))
+            if true > SMALL and estimate < LEAST*true:
+                lies.append((number, c, quantity, estimate, true))
+    print("| profiles | cases | most patches | no contact | refused | not converged, said | judged | least | median | lies |\n"
+          "|---|---|---|---|---|---|---|---|---|---|")
+    for group, count in sorted(counts.items()):
+        ratio = sorted(ratios[group]) or [math.nan]
+        wrong = sum(lie[1]["group"] == group for lie in lies)
+        print(f"| {group} | {count['cases']} | {count['patches']} | {count['no contact']} | {count['refused']} | "
+              f"{count['not converged']} | {count['judged']} | {ratio[0]:.2g} | {ratio[len(ratio) // 2]:.2g} | {wrong} |")
+    for number, c, quantity, estimate, true in lies if asked.list else ():
+        print(f"case {number}, {c['group']}, y {c['y']:.2f}, yaw {c['yaw']:.4f}, Fz {c['fz']:.0f}, elements {c['size']:.2f}: "
+              f"{quantity} estimated {estimate:.1e}, true {true:.1e}")
+    if silent:
+        sys.exit(f"cases without a word: {silent}")
+    if lies:
+        sys.exit(f"{len(lies)} estimates lie")
+
+
+if __name__ == "__main__":
+    main()
