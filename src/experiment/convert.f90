@@ -4,6 +4,7 @@ module contact_experiment_convert
    use contact_base_error, only : add_context, error_kind, error_type, fatal_error
    use contact_base_kinds, only : wp
    use contact_base_output_file, only : output_file, remove_file
+   use contact_cases_spec, only : case_spec
    use contact_experiment_place, only : choose_input, experiment_place, input_suffix, locate_experiment, readable_suffix
    use contact_input_experiment_file, only : experiment_reader, input_case
    use contact_input_problems, only : problem_text, severity
@@ -42,7 +43,7 @@ contains
       character(len=:), allocatable :: temporary, suffix
       type(output_file), target :: file
       integer :: cases, checked
-      logical :: has_both, is_there, is_whole, to_readable
+      logical :: has_both, is_there, is_whole, names_files, to_readable
 
       place = locate_experiment(experiment, output_folder)
       call choose_input(place, has_both)
@@ -64,9 +65,9 @@ contains
       call open_result(file, temporary, output, error)
       if (allocated(error)) return
       if (to_readable) then
-         call write_readable(place%input, file, told, cases, error)
+         call write_readable(place%input, file, told, cases, names_files, error)
       else
-         call write_established(place%input, file, told, cases, error)
+         call write_established(place%input, file, told, cases, names_files, error)
       end if
       call file%close_file(is_whole)
       if (.not. (is_whole .or. allocated(error))) call fatal_error(error, "the file is not complete; is the disk full?", &
@@ -82,7 +83,27 @@ contains
             & output)
       end if
       if (allocated(error)) call remove_file(temporary)
+      if (.not. allocated(error) .and. output_folder /= "" .and. names_files) call told%add_line(" Files that " // output // &
+         & " names are sought below its own folder: copy them there, profiles and tables of coefficients")
    end subroutine convert_experiment
+
+   !> Does a case name a file relative to the folder of its input?
+   pure logical function has_relative_file(spec)
+      type(case_spec), intent(in) :: spec
+
+      has_relative_file = is_relative(spec%wheel_rail%rail_profile%name) .or. is_relative(spec%wheel_rail%wheel_profile%name) &
+         & .or. is_relative(spec%material%cfname)
+   end function has_relative_file
+
+   !> Is this a path that begins in some folder?
+   pure logical function is_relative(name)
+      character(len=:), allocatable, intent(in) :: name
+
+      is_relative = .false.
+      if (.not. allocated(name)) return
+      if (len_trim(name) == 0) return
+      is_relative = scan(name(1:1), "/\") == 0 .and. index(name, ":") /= 2
+   end function is_relative
 
    !> The next case; its problems are told, and errors among them end the conversion
    subroutine next_good_case(reader, this, told, error)
@@ -103,7 +124,7 @@ contains
    end subroutine next_good_case
 
    !> All cases of a file in the readable format
-   subroutine write_readable(input, file, told, cases, error)
+   subroutine write_readable(input, file, told, cases, names_files, error)
       character(len=*), intent(in) :: input
       !> An open file
       type(output_file), intent(inout), target :: file
@@ -111,6 +132,8 @@ contains
       type(text_buffer), intent(inout) :: told
       !> Number of cases
       integer, intent(out) :: cases
+      !> Does one of them name a file relative to its folder?
+      logical, intent(out) :: names_files
       type(error_type), allocatable, intent(out) :: error
       type(experiment_reader) :: reader
       type(toml_experiment_writer) :: writer
@@ -119,6 +142,7 @@ contains
       character(len=:), allocatable :: remarks, text
       integer :: first, last
 
+      names_files = .false.
       cases = 0
       call reader%open_file(input, error)
       do while (.not. allocated(error))
@@ -126,6 +150,7 @@ contains
          call next_good_case(reader, this, told, error)
          if (allocated(error)) return
          if (this%module_number == 0) exit
+         names_files = names_files .or. has_relative_file(this%spec)
          call find_remarks(reader, last + 1, this%first_line - 1, "%", "# ", remarks)
          cases = cases + 1
          call writer%add_case(this%module_number, this%reid, this%cpid, this%spec, remarks)
@@ -150,7 +175,7 @@ contains
    end subroutine write_readable
 
    !> All cases of a file in the established format
-   subroutine write_established(input, file, told, cases, error)
+   subroutine write_established(input, file, told, cases, names_files, error)
       character(len=*), intent(in) :: input
       !> An open file
       type(output_file), intent(inout), target :: file
@@ -158,12 +183,15 @@ contains
       type(text_buffer), intent(inout) :: told
       !> Number of cases
       integer, intent(out) :: cases
+      !> Does one of them name a file relative to its folder?
+      logical, intent(out) :: names_files
       type(error_type), allocatable, intent(out) :: error
       type(experiment_reader) :: reader
       type(input_case) :: this
       character(len=:), allocatable :: remarks
       logical :: begins_module, is_moving, is_second, has_errors, asks_accuracy, allows, has_wear
 
+      names_files = .false.
       cases = 0
       begins_module = .true.
       is_moving = .false.
@@ -177,6 +205,7 @@ contains
          call next_good_case(reader, this, told, error)
          if (allocated(error)) return
          if (this%module_number == 0) exit
+         names_files = names_files .or. has_relative_file(this%spec)
          cases = cases + 1
          call find_remarks(reader, 1, this%first_line - 1, "#", "% ", remarks)
          if (len(remarks) > 0) call file%line(remarks(:len(remarks) - 1))

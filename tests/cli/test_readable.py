@@ -79,6 +79,13 @@ class Readable(unittest.TestCase):
                 self.assertEqual(status, 0, errors)
                 self.assertEqual(figures((self.folder / other).with_suffix(".out")), right, other)
 
+    def test_converted_into_another_folder(self):
+        """Names of files are relative to an input; who converts it into another folder is told, where there are any"""
+        (self.folder / "other").mkdir()
+        for name, told in (("wheel_on_rail", True), ("cattaneo", False)):
+            said = self.run_program("convert", "--output-dir", str(self.folder / "other"), str(EXAMPLES / (name + ".inp")))
+            self.assertEqual("copy them there" in "".join(said[1:]), told, said)
+
     def test_a_case_by_hand(self):
         status, out, errors = self.check("# a ball\n" + HEAD + REST + "[[case]]\n[case.kinematics]\ncksi = 0.002\n")
         self.assertEqual((status, errors), (0, ""), out)
