@@ -434,12 +434,12 @@ contains
       real(wp), intent(out) :: n(:)
       !> Does the line along n meet the wheel there?
       logical, intent(out) :: found(:)
-      real(wp) :: start(2), recent(3)
+      real(wp) :: start(2), recent(3), place(size(x))
       integer :: i, known
 
       start = [bodies%wheel%s_at(seen%origin(2) + seen%axes(2, 1)*x(1) + seen%axes(2, 2)*s), 0.0_wp]
       if (.not. allocated(bodies%wheel_strip)) then
-         call wheel_row(bodies%wheel, bodies%placement%wheel_radius, seen, x, s, start, n, found)
+         call wheel_row(bodies%wheel, bodies%placement%wheel_radius, seen, x, s, start, place, n, found)
          return
       end if
       recent = 0.0_wp

@@ -13,7 +13,7 @@ module contact_wheelrail_flat_patch
    use contact_wheelrail_placement, only : wheel_rail_placement
    use contact_wheelrail_region, only : contact_region
    use contact_wheelrail_spec, only : search_spec
-   use contact_wheelrail_wheel_surface, only : wheel_row, wheel_rows
+   use contact_wheelrail_wheel_surface, only : remembered, wheel_row
    implicit none (type, external)
    private
 
@@ -166,11 +166,10 @@ contains
       integer, intent(out) :: strangers
       type(profile_curve) :: section
       type(frame) :: seen
-      type(wheel_rows) :: rows
-      real(wp) :: x(grid%mx), n_wheel(grid%mx), start(2)
+      real(wp) :: x(grid%mx), n_wheel(grid%mx), place(grid%mx), start(2), rows(grid%mx, 2, remembered)
       real(wp) :: delta, s, n_rail
       logical :: found(grid%mx)
-      integer :: ix, iy
+      integer :: ix, iy, known
 
       if (allocated(h)) then
          if (any(shape(h) /= [grid%mx, grid%my])) deallocate(h)
@@ -184,9 +183,11 @@ contains
       seen = placement%wheel%seen_from_here(plane)
       start = [wheel%s_at(seen%origin(2)), 0.0_wp]
       x = [(grid%x(ix), ix=1, grid%mx)]
+      known = 0
+      rows = 0.0_wp
       do iy = 1, grid%my
          s = grid%y(iy)
-         call wheel_row(wheel, placement%wheel_radius, seen, x, s, start, n_wheel, found, rows)
+         call wheel_row(wheel, placement%wheel_radius, seen, x, s, start, place, n_wheel, found, rows, known)
          n_rail = rail_height(0.0_wp, s)
          do ix = 1, grid%mx
             if (placement%roller_radius > 0.0_wp) n_rail = rail_height(x(ix), s)

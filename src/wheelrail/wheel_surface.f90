@@ -9,21 +9,10 @@ module contact_wheelrail_wheel_surface
    implicit none (type, external)
    private
 
-   public :: wheel_height, wheel_row, wheel_rows
+   public :: wheel_height, wheel_row
 
-   !> Rows that are remembered
-   integer, parameter :: remembered = 3
-
-   !> Rows of points that were found last
-   type :: wheel_rows
-      private
-      integer :: known = 0
-      !> Place on the profile and height [mm], the last row first, shape (points, remembered)
-      real(wp), allocatable :: place(:, :), height(:, :)
-   contains
-      procedure, private :: estimate
-      procedure, private :: keep
-   end type wheel_rows
+   !> Rows that are remembered at most
+   integer, parameter, public :: remembered = 3
 
    !> Of a step of Newton's method, relative to the radius: what remains after it is of the order of its square
    real(wp), parameter :: tolerance = 1.0e-8_wp
@@ -36,7 +25,7 @@ contains
    !>
    !> Places and heights follow parabolas closely along the track: each point starts from the three before it, where possible
    !> together with the next ones. Across it they nearly do: where rows before are known all points start from these.
-   pure subroutine wheel_row(wheel, radius, seen, x, s, start, n, found, rows)
+   pure subroutine wheel_row(wheel, radius, seen, x, s, start, place, n, found, rows, known)
       !> Profile of a round wheel in its own coordinates
       type(profile_curve), intent(in) :: wheel
       !> See `wheel_height`
@@ -47,35 +36,39 @@ contains
       real(wp), intent(in) :: x(:), s
       !> Place on the profile and height: estimates for the first point, on exit the solution there if it has one
       real(wp), intent(inout) :: start(2)
-      !> Height over each point [mm]
-      real(wp), intent(out) :: n(:)
+      !> Place on the profile, and height over each point [mm]
+      real(wp), intent(out) :: place(:), n(:)
       !> Does the line along n meet the wheel there?
       logical, intent(out) :: found(:)
-      !> The rows before, over the same x and at even distances; on exit with this one
-      type(wheel_rows), intent(inout), optional :: rows
-      real(wp) :: place(size(x))
+      !> Places and heights of the rows before [mm], the last one first, over the same x and at even distances: shape
+      !> (points, 2, remembered); on exit with this one
+      real(wp), intent(inout), optional :: rows(:, :, :)
+      !> How many of them there are, 0 for a first row; present together with them
+      integer, intent(inout), optional :: known
       logical :: goes_on
 
       goes_on = .false.
-      if (present(rows)) goes_on = rows%known > 0
+      if (present(known)) goes_on = known > 0
       if (goes_on) then
-         call rows%estimate(place, n)
+         call estimate(rows, known, place, n)
          call row_from_estimates(wheel, radius, seen, x, s, place, n, found)
       else
          call row_from_start(wheel, radius, seen, x, s, start, place, n, found)
       end if
       if (found(1)) start = [place(1), n(1)]
-      if (present(rows)) call rows%keep(place, n, all(found))
+      if (present(known)) call keep(place, n, all(found), rows, known)
    end subroutine wheel_row
 
    !> Places and heights of the next row, from those before
-   pure subroutine estimate(self, place, height)
-      class(wheel_rows), intent(in) :: self
-      !> [mm], shape as in `keep`
+   pure subroutine estimate(rows, known, place, height)
+      !> See `wheel_row`
+      real(wp), intent(in) :: rows(:, :, :)
+      integer, intent(in) :: known
+      !> [mm], one for each point
       real(wp), intent(out) :: place(:), height(:)
 
-      associate (p => self%place, h => self%height)
-         select case (self%known)
+      associate (p => rows(:, 1, :), h => rows(:, 2, :))
+         select case (known)
          case (1)
             place = p(:, 1)
             height = h(:, 1)
@@ -90,22 +83,29 @@ contains
    end subroutine estimate
 
    !> Remember a row; one with points that were not found begins anew
-   pure subroutine keep(self, place, height, found)
-      class(wheel_rows), intent(inout) :: self
-      !> [mm], as many as points of a row
+   pure subroutine keep(place, height, found, rows, known)
+      !> [mm], one for each point
       real(wp), intent(in) :: place(:), height(:)
       !> Were all points found?
       logical, intent(in) :: found
+      !> See `wheel_row`
+      real(wp), intent(inout) :: rows(:, :, :)
+      integer, intent(inout) :: known
+      integer :: i, j
 
-      self%known = merge(min(self%known + 1, remembered), 0, found)
+      known = merge(min(known + 1, remembered), 0, found)
       if (.not. found) return
-      if (.not. allocated(self%place)) allocate(self%place(size(place), remembered), self%height(size(place), remembered))
-      self%place(:, 3) = self%place(:, 2)
-      self%place(:, 2) = self%place(:, 1)
-      self%place(:, 1) = place
-      self%height(:, 3) = self%height(:, 2)
-      self%height(:, 2) = self%height(:, 1)
-      self%height(:, 1) = height
+      ! one by one: whole sections that may overlap are copied by way of the heap
+      do j = remembered, 2, -1
+         do i = 1, size(place)
+            rows(i, 1, j) = rows(i, 1, j - 1)
+            rows(i, 2, j) = rows(i, 2, j - 1)
+         end do
+      end do
+      do i = 1, size(place)
+         rows(i, 1, 1) = place(i)
+         rows(i, 2, 1) = height(i)
+      end do
    end subroutine keep
 
    !> A row of which the neighbour of the first point is known at most
