@@ -91,8 +91,10 @@ contains
    pure logical function has_relative_file(spec)
       type(case_spec), intent(in) :: spec
 
-      has_relative_file = is_relative(spec%wheel_rail%rail_profile%name) .or. is_relative(spec%wheel_rail%wheel_profile%name) &
-         & .or. is_relative(spec%material%cfname)
+      has_relative_file = is_relative(spec%material%cfname)
+      if (.not. allocated(spec%wheel_rail)) return
+      has_relative_file = has_relative_file .or. is_relative(spec%wheel_rail%rail_profile%name) &
+         & .or. is_relative(spec%wheel_rail%wheel_profile%name)
    end function has_relative_file
 
    !> Is this a path that begins in some folder?
