@@ -145,7 +145,7 @@ contains
       scale%energy_change = scale%energy - load**(5.0_wp/3.0_wp)*energies(level%result)
       if (allocated(problem%thermal) .and. allocated(problem%friction)) then
          if (problem%friction%driver() == friction_driver%temperature) &
-            & scale%warmed = abs(mean_friction(level%result)/mean_friction(result) - 1.0_wp)
+            & scale%warmed = abs(mean_friction(level%result) - mean_friction(result))/max(mean_friction(result), tiny(load))
       end if
       result%errors%stopping(2) = max(result%errors%stopping(2), scale%gain*result%errors%stopping(1))
       do k = 1, fine%length
