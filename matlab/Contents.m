@@ -18,6 +18,10 @@
 %   plot_update     - two profiles and their difference, magnified.
 %   plot_arrow      - an arrow in two or three dimensions.
 %   plot_cm         - the sign of a centre of mass.
+%   circ_arrow      - an arrow along a circle.
+%   plot_axes       - two axes of coordinates with their names.
+%   plot_axes3      - three axes of coordinates in space.
+%   cntc_boundbox   - the rectangle that holds the elements in contact.
 %   matlab_color    - colours of lines by their numbers.
 %
 % Wheel and rail profiles.
@@ -34,6 +38,10 @@
 %   make_2dspline   - surface of cubic splines, for profiles in slices.
 %   eval_2dspline   - points on it, at given u and v or given u and y.
 %   eval_2dspline_deriv - its first derivatives.
+%   eval_bspline_basisfnc - B-splines at points.
+%   make_ppform     - polynomials of the pieces of a curve of B-splines.
+%   solve_cubic_eq  - where one piece of a spline takes a value.
+%   make_reflec     - angles at which a surface mirrors a light.
 %   make_arclength  - positions of the points of a profile along it.
 %   modify_profile  - mirror, scale and order the points of a profile.
 %   resample_slices - corresponding points on the slices of a varying profile.

@@ -38,21 +38,10 @@ end % function eval_spline
 function [ s ] = position_of( spl, v )
 % The first root of y(s) = v
 
-   s = NaN;
-   h = diff(spl.s);
-   n = numel(h);
-   a = [spl.a0y(1:n)-v, spl.a1y(1:n), spl.a2y(1:n), spl.a3y(1:n)];
-   for i = 1 : n
-      % a cubic stays within the hull of its Bernstein coefficients
-      b = [a(i,1), a(i,1)+a(i,2)*h(i)/3, a(i,1)+2*a(i,2)*h(i)/3+a(i,3)*h(i)^2/3, a(i,:)*h(i).^(0:3)'];
-      if (min(b)<=0 && max(b)>=0)
-         d = roots(a(i,end:-1:1));
-         d = real(d(abs(imag(d))<=1e-9*max(1,abs(d))));
-         d = d(d>=-1e-9*h(i) & d<=(1+1e-9)*h(i));
-         if (~isempty(d))
-            s = spl.s(i) + min(max(min(d), 0), h(i));
-            return
-         end
+   for i = 1 : numel(spl.s)-1
+      [s, found] = solve_cubic_eq([spl.a0y(i) spl.a1y(i) spl.a2y(i) spl.a3y(i)], spl.s([i i+1]), v);
+      if (found)
+         return
       end
    end
 

@@ -9,30 +9,39 @@ function [ spl ] = make_spline( s, y, z, lambda, wgt, ikinks, iaccel, use_bsplin
 %            the integral of the squared second derivative along s as small as possible, for y and z alike
 %   wgt      weights of the points (default 1)
 %   ikinks   numbers of points at which the direction may jump (default none)
+%   iaccel   numbers of points at which the curvature may jump (default none). It does with use_deriv = 3 or with knots apart from the
+%            points; else the smoothest curve has no such jumps
+%   use_bspline   1: the curve is made of B-splines; 0 (default): only where iaccel, ds_bspl or use_deriv = 3 ask for it
+%   ds_bspl  distance of their knots, about; [] (default): a knot at each point
+%   use_deriv     2 (default): the second derivative is smoothed; 3: the third
+%   use_repl      outer knots: 1 (default): those at the ends four times; 0: three more at the first and last distance. The curve
+%                 is the same
 %   idebug   for scripts that give it; nothing is printed
 %
-% Natural ends, also at kinks. Jumps of the curvature (iaccel), B-splines (use_bspline, ds_bspl, use_repl) and the third derivative
-% (use_deriv = 3) are not built and are refused.
+% Natural ends, also at kinks. B-splines with a knot at each point give the same curve. Where knots are closer than points, and lambda
+% is 0, the smoothest curve through them is taken.
 %
-%   spl      struct with s, y, z of the points on the spline, ikinks, and for each piece, with d = s - s(i):
-%            y = a0y(i) + a1y(i) d + a2y(i) d^2 + a3y(i) d^3, the same with a0z ... a3z; also as
-%            ay0 ... az3, as other scripts have them
+%   spl      struct with s, y, z of points on the spline (those given, or the knots), ikinks, iaccel, and for each piece, with
+%            d = s - s(i): y = a0y(i) + a1y(i) d + a2y(i) d^2 + a3y(i) d^3, the same with a0z ... a3z; also as
+%            ay0 ... az3, as other scripts have them. Of B-splines also tj: knots; cy, cz: coefficients
 %
-% See also: eval_spline, smooth_profile, read_profile.
+% See also: eval_spline, smooth_profile, make_ppform, read_profile.
 
    if (nargin<3), z = []; end
    if (nargin<4 || isempty(lambda)), lambda = 0; end
    if (nargin<5), wgt = []; end
    if (nargin<6), ikinks = []; end
-   refused = {'iaccel', 7; 'use_bspline', 8; 'ds_bspl', 9};
-   for i = 1 : size(refused,1)
-      if (nargin>=refused{i,2} && ~isempty(eval(refused{i,1})) && any(eval(refused{i,1})>0))
-         error('make_spline: %s is not built; splines are smoothed in their curvature, with kinks.', refused{i,1});
-      end
+   if (nargin<7), iaccel = []; end
+   if (nargin<8 || isempty(use_bspline)), use_bspline = 0; end
+   if (nargin<9), ds_bspl = []; end
+   if (nargin<10 || isempty(use_deriv)), use_deriv = 2; end
+   if (nargin<11 || isempty(use_repl)), use_repl = 1; end
+   if (~any(use_deriv==[2 3]))
+      error('make_spline: use_deriv must be 2 or 3.');
+   elseif (~isempty(ds_bspl) && ~(isscalar(ds_bspl) && isfinite(ds_bspl)))
+      error('make_spline: ds_bspl must be a distance.');
    end
-   if (nargin>=10 && ~isempty(use_deriv) && use_deriv~=2)
-      error('make_spline: use_deriv = %d is not built; the second derivative is smoothed.', use_deriv);
-   end
+   ds_bspl(ds_bspl<=0) = [];
    y = y(:);
    z = z(:);
    n = numel(y);
@@ -57,15 +66,28 @@ function [ spl ] = make_spline( s, y, z, lambda, wgt, ikinks, iaccel, use_bsplin
       error('make_spline: wgt must have a positive number for each of the %d points.', n);
    end
    ikinks = unique(ikinks(ikinks>1 & ikinks<n));
-   spl = struct('s',s, 'y',y, 'z',z, 'ikinks',ikinks(:)');
-   for name = 'yz'
-      if (isempty(spl.(name)))
-         continue
+   iaccel = setdiff(iaccel(iaccel>1 & iaccel<n), ikinks);
+   if (use_bspline>0 || ~isempty(iaccel) || ~isempty(ds_bspl) || use_deriv==3)
+      spl = fit_bspline(s, y, z, lambda, wgt, ikinks(:), iaccel(:), ds_bspl, use_deriv, use_repl>0);
+   else
+      spl = struct('s',s, 'y',y, 'z',z);
+      for name = 'yz'
+         if (isempty(spl.(name)))
+            continue
+         end
+         [spl.(name), a] = pieces(s, spl.(name), lambda, wgt, [1; ikinks(:); n]);
+         for k = 0 : 3
+            spl.(sprintf('a%s%d', name, k)) = a(:,k+1);
+         end
       end
-      [spl.(name), a] = pieces(s, spl.(name), lambda, wgt, [1; ikinks(:); n]);
+   end
+   spl.ikinks = ikinks(:)';
+   spl.iaccel = iaccel(:)';
+   for name = 'yz'
       for k = 0 : 3
-         spl.(sprintf('a%d%s', k, name)) = a(:,k+1);
-         spl.(sprintf('a%s%d', name, k)) = a(:,k+1);
+         if (isfield(spl, sprintf('a%s%d', name, k)))
+            spl.(sprintf('a%d%s', k, name)) = spl.(sprintf('a%s%d', name, k));
+         end
       end
    end
 

@@ -8,10 +8,10 @@ function [ p, spl ] = smooth_profile( p, l_filt, lambda, ds_sampl, ikinks, iacce
 %   lambda    weight of smoothness itself, see MAKE_SPLINE [mm^3]; default 0: a spline through all points
 %   ds_sampl  distance of the new points along the profile [mm]; [] (default): the places of the points of p
 %   ikinks    numbers of points with a kink; -1 (default): those where the direction turns by more than 30 degrees; []: none
+%   iaccel    numbers of points at which the curvature may jump; [] or -1 (default): none, they are not searched for
 %   use_wgt   1 (default): each point counts with the length of profile that belongs to it; 0: all points alike
+%   use_bspline, ds_bspl   see MAKE_SPLINE
 %   idebug    for scripts that give it; nothing is printed
-%
-% Jumps of the curvature (iaccel > 0) and B-splines (use_bspline) are not built and are refused; iaccel = -1 means none.
 %
 %   p         as p, with the new points and ProfileS;  spl  struct of MAKE_SPLINE
 %
@@ -25,13 +25,10 @@ function [ p, spl ] = smooth_profile( p, l_filt, lambda, ds_sampl, ikinks, iacce
    if (nargin<4), ds_sampl = []; end
    if (nargin<5), ikinks = -1; end
    if (nargin<7 || isempty(use_wgt)), use_wgt = 1; end
-   if (nargin>=6 && ~isempty(iaccel) && any(iaccel>0))
-      error('smooth_profile: iaccel is not built; splines are smoothed in their curvature, with kinks.');
-   elseif (nargin>=8 && ~isempty(use_bspline) && use_bspline>0)
-      error('smooth_profile: use_bspline is not built.');
-   elseif (nargin>=9 && ~isempty(ds_bspl) && ds_bspl>0)
-      error('smooth_profile: ds_bspl is not built.');
-   elseif (~isempty(l_filt) && l_filt>0 && ~isempty(lambda) && lambda>0)
+   if (nargin<6 || isequal(iaccel, -1)), iaccel = []; end
+   if (nargin<8), use_bspline = []; end
+   if (nargin<9), ds_bspl = []; end
+   if (~isempty(l_filt) && l_filt>0 && ~isempty(lambda) && lambda>0)
       error('smooth_profile: give either l_filt or lambda.');
    end
    yz = profile_points(p, 'smooth_profile');
@@ -58,16 +55,12 @@ function [ p, spl ] = smooth_profile( p, l_filt, lambda, ds_sampl, ikinks, iacce
          lambda = lambda / mean(ds);
       end
    end
-   spl = make_spline(s, yz(:,1), yz(:,2), lambda, wgt, ikinks);
-   y = spl.y;
-   z = spl.z;
+   spl = make_spline(s, yz(:,1), yz(:,2), lambda, wgt, ikinks, iaccel, use_bspline, ds_bspl);
+   at = s;
    if (~isempty(ds_sampl) && ds_sampl>0)
       at = unique([(s(1) : ds_sampl : s(end))'; s(end)]);
-      [~, i] = histc(at, [s(1:end-1); Inf]);
-      d = at - s(i);
-      y = spl.a0y(i) + d.*(spl.a1y(i) + d.*(spl.a2y(i) + d.*spl.a3y(i)));
-      z = spl.a0z(i) + d.*(spl.a1z(i) + d.*(spl.a2z(i) + d.*spl.a3z(i)));
    end
+   [~, y, z] = eval_spline(spl, at);
    if (isstruct(p))
       p.ProfileY = y;
       p.ProfileZ = z;

@@ -187,7 +187,7 @@ end % function draw_arrows
 %------------------------------------------------------------------------------------------------------
 
 function draw_outlines( sol, opt, ix, iy, xc, yc )
-% Lines around contact, slip and plasticity
+% Lines around contact, slip and plasticity, in front of surfaces seen from above and from below
 
    masks = element_masks(sol);
    width = opt.eldivwid;
@@ -197,7 +197,9 @@ function draw_outlines( sol, opt, ix, iy, xc, yc )
    for i = [2 3 1]
       [x, y] = mask_outline(masks{i}(iy,ix), xc, yc);
       if (~isempty(x))
-         plot(x, y, '-', 'color',opt.eldivcol(i,:), 'linewidth',width);
+         for z = [-1 1]
+            plot3(x, y, z + 0*x, '-', 'color',opt.eldivcol(i,:), 'linewidth',width);
+         end
       end
    end
    axis([xc(1) xc(end) yc(1) yc(end)]);

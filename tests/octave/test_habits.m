@@ -144,8 +144,63 @@ q = smooth_profile([x, corner], 10, [], [], []);
 check(abs(q(101,2)) > 0.1, 'without it the corner is rounded');
 q = smooth_profile(read_profile(fullfile(folder,'60E1.prr')), [], 0, 0.25);
 check(all(abs(diff(q.ProfileS(2:end-1)) - 0.25) < 5e-3), 'new points at equal steps');
-check_error(@() make_spline(x, x, [], 0, [], [], 3), 'iaccel is not built');
-check_error(@() smooth_profile([x x], 5, [], [], [], [], [], 1), 'use_bspline is not built');
+check_error(@() make_spline(x, x, [], 0, [], [], [], 1, 1, 4), 'use_deriv must be 2 or 3');
+
+% --- B-splines: the same curve as by the equations of the smoothing spline, with and without kinks
+place = [0; 10*mod((1:40)'*0.61803398875, 1); 10];
+place = sort(place);
+weight = 1 + 0.5*sin(7*place);
+fine = linspace(0, 10, 777)';
+for kinks = {[], [15 30]}
+   for lambda = [1e-3 1]
+      ours = make_spline(place, sin(place), cos(2*place), lambda, weight, kinks{1});
+      by_b = make_spline(place, sin(place), cos(2*place), lambda, weight, kinks{1}, [], 1);
+      [~, yy, zz] = eval_spline(ours, fine);
+      [~, yb, zb] = eval_spline(by_b, fine);
+      check_near([yb zb], [yy zz], 1e-8, 'B-splines with a knot at each point');
+      [~, b, ~, c] = eval_spline_deriv(by_b, fine);
+      [~, yy, ~, zz] = eval_spline_deriv(ours, fine);
+      check_near([b c], [yy zz], 1e-6, 'their second derivatives');
+   end
+end
+more = make_spline(place, sin(place), [], 1, weight, [15 30], [], 1, [], 2, 0);
+check(all(diff(more.tj(1:4))>0) && all(by_b.tj(1:4)==0), 'use_repl: outer knots');
+check_near(more.y, by_b.y, 1e-10, 'do not change the curve');
+wide = make_spline(x, sin(x/10), [], 0, [], [], [], 1, 5);
+check(numel(wide.s)==21 && numel(wide.cy)==numel(wide.tj)-4, 'ds_bspl: knots');
+[~, yy] = eval_spline(wide, x);
+check_near(yy, sin(x/10), 2e-4, 'a curve of few knots');
+cubic = x.^2/50 - x;
+third = make_spline(x, cubic + 0.1*wave, [], 1e9, [], [], [], 0, [], 3);
+check(max(abs(diff(third.y, 3))) < 1e-6 && max(abs(third.y - cubic)) < 0.05, 'use_deriv = 3: a parabola stays');
+jump = max(0, x-50).^2/100;
+free = make_spline(x, jump, [], 10, [], [], 101, 0, [], 3);
+tied = make_spline(x, jump, [], 10, [], [], [], 0, [], 3);
+[~, yf] = eval_spline(free, [49.9; 50.1]);
+[~, yt] = eval_spline(tied, [49.9; 50.1]);
+check_near(yf, [0; 1e-4], 1e-6, 'iaccel: the curvature jumps from 0 to 1/50');
+check(max(abs(yt - [0; 1e-4])) > 1e-4, 'without it the jump is smoothed');
+[q, spl] = smooth_profile([x, jump], [], 10, 0.25, [], 101, 0, 1, 2);
+check(size(q,1)==1+ceil(spl.s(end)/0.25) && isfield(spl, 'tj') && isequal(spl.iaccel, 101), 'the same arguments of smooth_profile');
+% basis functions: a partition of one, exact for straight lines; polynomials of pieces; roots
+t = [0 0 0 0 1 2.5 2.5 4 7 7 7 7];
+at = [0; 0.3; 1; 2.5; 3.9; 7];
+[b1, b2, b3, b4] = eval_bspline_basisfnc(t, at);
+check(isequal([size(b1,2) size(b2,2) size(b3,2) size(b4,2)], 11:-1:8) && isequal(sum(b1,2), ones(6,1)), 'sizes of all orders');
+check_near([sum(b3,2) sum(b4,2)], ones(6,2), 1e-14, 'a partition of one');
+greville = (t(2:9) + t(3:10) + t(4:11))/3;
+check_near(b4*greville', at, 1e-14, 'a straight line');
+check_near(eval_bspline_basisfnc([0 1 2], [-1; 0.5; 3], 1), [0 0; 1 0; 0 0], 0, 'nothing beyond the knots');
+poly = make_ppform(struct('s',unique(t)', 'tj',t, 'cy',[0 0 0 1 2 -1 3 0]', 'cz',[]));
+for i = 1 : 4
+   d = (0.1:0.2:0.9)' * (poly.s(i+1)-poly.s(i));
+   [~, ~, ~, b] = eval_bspline_basisfnc(t, poly.s(i)+d);
+   check_near(poly.ay0(i) + d.*(poly.ay1(i) + d.*(poly.ay2(i) + d.*poly.ay3(i))), b*poly.cy, 1e-13, 'polynomials of the pieces');
+end
+[u, found] = solve_cubic_eq([0 0 0 1], [3 5], 1, 0, 1, 1, 1);
+check(found==1 && abs(u-4)<1e-12, 'root of a piece, from its beginning on');
+[u, found] = solve_cubic_eq([0 1 0 0], [3 5], 7);
+check(found==0 && isnan(u), 'there is none');
 check_error(@() make_spline(x, x(2:end), [], 0), 'same number of points');
 
 % --- colours
@@ -200,6 +255,17 @@ t = make_2dspline((0:5)', v, ones(6,1)*v, ((0:5)==2)'*ones(1,9));
 check_near(z, [1 4 1 0]/6, 1e-12, 'control points: one sixth, four sixths');
 [~, ~, ~, z] = eval_2dspline(t, 9, 0.2);
 check(isnan(z), 'beside the surface');
+% mirrored light: a plane, and a cylinder whose normal turns
+plane = make_2dspline(u, v, uu, vv, 0*uu, [], 0);
+[x, y, z, theta] = make_reflec(plane, [0 0 1], [0 90], u, v);
+check_near([x y z], [uu vv 0*uu], 1e-12, 'points of the surface');
+check_near(theta, 0*uu, 1e-6, 'light and eye above a plane');
+[~, ~, ~, theta] = make_reflec(plane, [90 45], [0 90], u, v);
+check_near(theta, 45+0*uu, 1e-10, 'azimuth and elevation');
+angles = linspace(0, 1, 60);
+tube = make_2dspline(u, angles, u*ones(1,60), ones(6,1)*sin(angles), ones(6,1)*cos(angles), [], 0);
+[~, ~, ~, theta] = make_reflec(tube, [0 0 1], [0 0 1], 3, angles);
+check_near(theta, 2*angles*180/pi, 1e-3, 'twice the angle of the normal');
 check_error(@() make_2dspline(u(1:3), v, vv(1:3,:), vv(1:3,:)), '4 values');
 check_error(@() make_2dspline(u, v, [], vv, NaN*vv, [], 0), 'lack points');
 for i = 1 : 5

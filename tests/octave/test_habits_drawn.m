@@ -141,3 +141,52 @@ every = worn;
 every.ProfileY = worn.ProfileY(1:2:end);
 every.ProfileZ = worn.ProfileZ(1:2:end);
 check_near(plot_update(prr, every, 500), most, 1e-5, 'profiles with other points');
+
+% a flat: pressures in rail coordinates and the outline of another case over them, from which scripts delete the lines of slip
+run_example('cattaneo');
+slips = loadcase('cattaneo', 2);
+slips.x_offset = 1;   slips.y_offset = -1;
+opt = plot3d;   opt.field = 'pn';   opt.view = 'rail';   opt.addeldiv = 0;   opt.addplot = 1;   opt.zrange = [0 2500];
+figure(10);   clf;
+plot3d(slips, opt);
+opt.field = 'eldiv_contour';
+plot3d(slips, opt);
+c = get(gca, 'children');
+check(numel(c)==5 && isequal(get(c(1),'color'), opt.eldivcol(1,:)) && isequal(get(c(3),'color'), opt.eldivcol(2,:)), ...
+      'two lines each around contact and slip, the last ones around contact');
+delete(c(3:4));
+check(numel(get(gca, 'children'))==3 && ~isempty(findobj(gca, 'type','surface')), 'lines of slip deleted');
+bbox = cntc_boundbox(slips);
+check_near(bbox, [min(slips.x(any(slips.eldiv>0,1)))-slips.dx/2, max(slips.x(any(slips.eldiv>0,1)))+slips.dx/2, ...
+                  min(slips.y(any(slips.eldiv>0,2)))-slips.dy/2, max(slips.y(any(slips.eldiv>0,2)))+slips.dy/2], 1e-12, 'rectangle');
+check_near(cntc_boundbox(slips, [-9 0 0 8]), [-9 bbox(2) bbox(3) 8], 1e-12, 'made larger');
+
+% arrows along circles, axes
+figure(11);   clf;
+h = circ_arrow([1;2], 3, 0, 90, 5, 0.7, 0.8);
+x = get(h(1), 'xdata');   y = get(h(1), 'ydata');
+check_near([x(1) y(1) x(end) y(end)], [4 2 1 5], 1e-12, 'tail and tip');
+check_near(hypot(x-1, y-2), 3+0*x, 1e-12, 'a circle between them');
+x = get(h(2), 'xdata');   y = get(h(2), 'ydata');
+check_near([x(2) y(2)], [1 5], 1e-12, 'the head is at the tip');
+check(numel(x)==3 && min(x([1 3]))>1, 'and points along the circle');
+h = circ_arrow([0 0], -1, 0, 90);
+y = get(h(1), 'ydata');
+check_near(y(end), -1, 1e-12, 'a negative radius: the other way round');
+h = circ_arrow([0 0 5], [1 2], 0, 90, 'k', 1, 1, [0 0 1; 1 0 0; 0 1 0]);
+check_near([get(h(1),'xdata')(end) get(h(1),'ydata')(end) get(h(1),'zdata')(end)], [0 0 7], 1e-12, 'an ellipse in another plane');
+h = plot_axes([0,0], 150, -90, 1, ['$z_{tr}$';'$x_{tr}$';'        '], 'k', [], [], [], [], 0, 1.2);
+set(h([1,2,4,5,7,8,11:14]), 'linewidth',1);
+check_near([get(h(1),'ydata')(2) get(h(4),'xdata')(2)], [-150 150], 1e-10, 'z points down, x to the right');
+check(strcmp(get(h(3),'string'), '$z_{tr}$') && strcmp(get(h(6),'string'), '$x_{tr}$'), 'names');
+h = plot_axes([0 0], 1, 0, -1, 'yzx', 2, 8, [], 10, [], [], [], 1);
+check_near(get(h(4),'ydata')(2), -1, 1e-12, 'seen from behind');
+check(numel(h)==10 && isequal(get(h(6),'string'), 'z'), 'without the sense of rotation');
+set(gca, 'ydir','reverse');
+h = plot_axes([0 0], 1, 0, -1);
+check_near(get(h(4),'ydata')(2), 1, 1e-12, 'in a reversed picture');
+h = plot_axes3([1 2 3], 2, [90 0 0], 'xyz', 'b');
+check_near([get(h(4),'xdata')(2) get(h(4),'ydata')(2) get(h(4),'zdata')(2)], [1 2 5], 1e-12, 'roll turns y into z');
+h = plot_axes3([0 0 0], 1, [0 0 1; 1 0 0; 0 1 0], {'a','b','c'}, 1, [], [], [], [], [], 0, 0);
+check_near([get(h(7),'xdata')(2) get(h(7),'ydata')(2) get(h(7),'zdata')(2)], [1 0 0], 1e-12, 'a matrix');
+check(strcmp(get(h(9),'string'), 'c') && numel(h)==10, 'its names');
