@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 """Runs the blocks of pages that claim to run, and compares what they show
 
-Usage: run_blocks.py PAGE.md ... ; each page has a scratch folder of its own, with the profiles of the examples in it. A comment
-above a block says what it is:
+Usage: run_blocks.py PAGE.md|FOLDER ... ; a folder stands for those of its pages that have such blocks, without those that compile
+programs by pkg-config. Each page has a scratch folder of its own, with the profiles of the examples in it. A comment above a block
+says what it is:
 
     <!-- file: NAME -->     the block is put into a file
     <!-- run -->            a block of sh or python is run; blocks of python of one page share their variables
-    <!-- draw -->           the same of python where matplotlib and xarray are there
+    <!-- draw -->           the same of python where matplotlib, xarray and h5netcdf are there
     <!-- octave -->         a block for Octave is run where that is there, with the folder matlab on its path
     <!-- shows -->          lines of the block stand in this order in what the last run printed
     <!-- shows: NAME -->    or in a file that it wrote
@@ -113,7 +114,8 @@ class Page:
             if kind == "file":
                 pathlib.Path(name).write_text(text + "\n")
             elif kind != "shows":
-                left_out = (kind == "draw" and not has("matplotlib", "xarray")) or (kind == "octave" and not self.octave(text))
+                drawn = kind != "draw" or has("matplotlib", "xarray", "h5netcdf")
+                left_out = not drawn or (kind == "octave" and not self.octave(text))
                 if kind != "octave" and not left_out:
                     self.run(language, text)
             elif not left_out:
@@ -136,6 +138,19 @@ def installed(folder):
     os.environ["LD_LIBRARY_PATH"] = str(package.parents[1])
 
 
+def compiles(page):
+    """Does a block of a page need the installed library?"""
+    return any("pkg-config" in block[3] for block in BLOCK.findall(page.read_text()))
+
+
+def pages_of(name):
+    """A page, or the pages of a folder that have blocks to run"""
+    path = (TOP / name).resolve()
+    if not path.is_dir():
+        return [path]
+    return [page for page in sorted(path.glob("*.md")) if BLOCK.search(page.read_text()) and not compiles(page)]
+
+
 def main():
     """All pages that are named; how many blocks each has"""
     program = os.environ.get("CONTACT_PROGRAM")
@@ -147,18 +162,17 @@ def main():
     if not has("numpy", "h5py"):
         print("skipped: Python has no numpy or no h5py")
         sys.exit(77)
-    for name in sys.argv[1:]:
-        path = (pathlib.Path(name) if pathlib.Path(name).is_absolute() else TOP / name).resolve()
+    for path in (page for name in sys.argv[1:] for page in pages_of(name)):
         with tempfile.TemporaryDirectory() as folder:
             shutil.copytree(TOP / "examples/profiles", pathlib.Path(folder) / "profiles")
             (pathlib.Path(folder) / "examples").symlink_to(TOP / "examples")
             os.chdir(folder)
-            if "pkg-config" in path.read_text():
+            if compiles(path):
                 installed(pathlib.Path(folder))
             page = Page(path, folder)
             page.follow()
             os.chdir(TOP)
-        print(f"{name}: {page.count} blocks")
+        print(f"{path.relative_to(TOP)}: {page.count} blocks")
         if not page.count:
             page.fail("nothing to run")
 

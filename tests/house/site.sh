@@ -1,0 +1,19 @@
+#!/bin/sh
+# The site of the manual: doc/build.sh makes it without a network and without a warning, and no link in it leads to nothing.
+# Exit status 77: its tools are not installed (doc/build.sh installs them into build/site-tools).
+set -eu
+top=${CONTACT_SOURCE}
+here=$(cd "$(dirname "$0")" && pwd)
+python=${CONTACT_SITE_PYTHON:-$top/build/site-tools/bin/python3}
+if ! "$python" -c "import sphinx, myst_parser, furo, latex2mathml, nbclient, ipykernel, h5py, matplotlib, xarray, scipy" 2>/dev/null; then
+  echo "SKIPPED: the tools of the site are not installed (sh doc/build.sh installs them)"
+  exit 77
+fi
+# a network of its own has the loopback interface alone, which notebooks need
+if unshare -n sh -c "ip link set lo up" 2>/dev/null; then
+  unshare -n sh -c "ip link set lo up && exec sh '$top/doc/build.sh' '$PWD/site'"
+else
+  echo "No network namespace: a network may be there"
+  sh "$top/doc/build.sh" "$PWD/site"
+fi
+exec "$python" "$here/site_links.py" "$PWD/site" "$top/doc"
