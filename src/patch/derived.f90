@@ -6,6 +6,7 @@ module contact_patch_derived
    use contact_base_solve_report, only : solve_report
    use contact_grid_element_division, only : bounding_box, contact_box, element
    use contact_normal_conjugate_gradient, only : approach_scale
+   use contact_patch_peak, only : largest_pressure
    use contact_patch_problem, only : carried, patch_problem, patch_state
    use contact_patch_result, only : patch_result
    use contact_patch_workspace, only : patch_workspace, pressure_displacement, prepare_window
@@ -111,7 +112,7 @@ contains
       result%pn = state%now%pn
       result%px = state%now%px
       result%py = state%now%py
-      result%pmax = maxval(result%pn)
+      result%pmax = largest_pressure(result%pn, problem%settings%order)
       result%fx = area*sum(result%px)
       result%fy = area*sum(result%py)
       scale = result%mu_scal*result%fn + tiny(scale)

@@ -13,8 +13,9 @@ module contact_patch_error_estimate
    use contact_base_log, only : log_type
    use contact_friction_law, only : friction_driver
    use contact_patch_coarse_level, only : coarsen_patch
-   use contact_patch_level_errors, only : energies, error_of, error_of_peak, irregularity, mean_friction, peak_of, &
-      & residual_share, scale_of, scale_type, scales
+   use contact_patch_level_errors, only : energies, error_of, error_of_peak, irregularity, mean_friction, residual_share, &
+      & scale_of, scale_type, scales
+   use contact_patch_peak, only : peak_of
    use contact_patch_problem, only : patch_problem, patch_state
    use contact_patch_quantities, only : error_law, total, total_list
    use contact_patch_result, only : patch_result

@@ -7,13 +7,14 @@ module contact_patch_level_errors
    use contact_base_kinds, only : wp
    use contact_grid_element_division, only : bounding_box, contact_box, element
    use contact_patch_coarse_level, only : coarsening
+   use contact_patch_peak, only : peak_of
    use contact_patch_problem, only : patch_problem
    use contact_patch_quantities, only : error_law, total
    use contact_patch_result, only : error_estimate, patch_result
    implicit none (type, external)
    private
 
-   public :: energies, error_of, error_of_peak, irregularity, mean_friction, peak_of, residual_share, scale_of, scale_type, scales
+   public :: energies, error_of, error_of_peak, irregularity, mean_friction, residual_share, scale_of, scale_type, scales
 
    !> Of the largest of a field whose peak elements resolve; of temperatures that count the heat of an element twice at its
    !> centre: its share falls with the root of the element
@@ -376,7 +377,7 @@ contains
       energy(2) = result%elastic_energy - energy(1)
    end function energies
 
-   !> Error of the largest pressure: it is taken at a centre of an element, below the peak, and pressures have an error of their own
+   !> Error of the largest pressure: pressures have an error, and order 1 takes it at a centre of an element, below the peak
    pure real(wp) function error_of_peak(result, scale, coarse_peak) result(e)
       !> Solved, with the parts of the error
       type(patch_result), intent(in) :: result
@@ -395,18 +396,6 @@ contains
       e = max(e, floor, unresolved*(largest_bend(result%pn)/result%pmax - smooth_bend/scale%across**2))
       e = (e + result%errors%stopping(1) + result%errors%window)*result%pmax
    end function error_of_peak
-
-   !> Peak of the parabolas through the largest value and its neighbours
-   pure real(wp) function peak_of(field) result(peak)
-      !> Shape (mx, my)
-      real(wp), intent(in) :: field(:, :)
-      integer :: at(2)
-
-      at = maxloc(field)
-      peak = field(at(1), at(2))
-      if (at(1) > 1 .and. at(1) < size(field, 1)) peak = peak + rise(field(at(1) - 1:at(1) + 1, at(2)))
-      if (at(2) > 1 .and. at(2) < size(field, 2)) peak = peak + rise(field(at(1), at(2) - 1:at(2) + 1))
-   end function peak_of
 
    !> How much the largest value is above the mean of its neighbours, twice, in the direction where that is more
    pure real(wp) function largest_bend(field) result(bend)
@@ -429,15 +418,4 @@ contains
       if (i > 1) sum_beside = line(i - 1)
       if (i < size(line)) sum_beside = sum_beside + line(i + 1)
    end function beside_of
-
-   !> How far the parabola through three values rises above the one in the middle
-   pure real(wp) function rise(value)
-      !> The largest in the middle
-      real(wp), intent(in) :: value(3)
-      real(wp) :: bend
-
-      bend = 2.0_wp*value(2) - value(1) - value(3)
-      rise = 0.0_wp
-      if (bend > 0.0_wp) rise = (value(3) - value(1))**2/(8.0_wp*bend)
-   end function rise
 end module contact_patch_level_errors

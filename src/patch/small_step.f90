@@ -2,6 +2,7 @@
 module contact_patch_small_step
    use contact_base_kinds, only : wp
    use contact_grid_element_division, only : element
+   use contact_patch_peak, only : largest_pressure
    use contact_patch_problem, only : patch_problem, patch_state
    use contact_patch_result, only : patch_result
    implicit none (type, external)
@@ -62,7 +63,7 @@ contains
       result%fn = area*sum(result%pn)
       result%fx = area*sum(result%px)
       result%fy = area*sum(result%py)
-      result%pmax = maxval(result%pn)
+      result%pmax = largest_pressure(result%pn, problem%settings%order)
       state%now%pn = result%pn
       state%now%px = result%px
       state%now%py = result%py

@@ -1,8 +1,9 @@
 !> Hertz's solutions against the solver under grid refinement, and Love's single element
 program test_normal_convergence
+   use, intrinsic :: iso_fortran_env, only : output_unit
    use contact_base_constants, only : pi
    use contact_base_kinds, only : wp
-   use contact_test_case_builder, only : ellipse_case, grid_case, hertz_case, line_case, observed, test_case
+   use contact_test_case_builder, only : ellipse_case, grid_case, hertz_case, line_case, observed, random_numbers, test_case
    use contact_test_harness, only : test_suite
    implicit none (type, external)
 
@@ -18,6 +19,7 @@ program test_normal_convergence
    call ellipse(suite, 3.0_wp)
    call ellipse(suite, 0.2_wp)
    call cylinder(suite)
+   call shifted_grids(suite)
    call single_element(suite)
    call suite%finish()
 
@@ -112,6 +114,39 @@ contains
       call observed(suite, "cylinder, pressures (L1)", h, e_field, 1.5_wp, 0.3_wp, 4.0e-4_wp)
       call case%release()
    end subroutine cylinder
+
+   !> The largest pressure of order 2 hardly depends on where the grid lies, and its error falls as n^-2
+   subroutine shifted_grids(suite)
+      type(test_suite), intent(inout) :: suite
+      real(wp), parameter :: radius = 50.0_wp, aa = 1.0_wp, fn = 4.0_wp/3.0_wp*modulus*aa**3/radius, peak = 1.5_wp*fn/(pi*aa**2)
+      integer, parameter :: across(*) = [10, 20, 40], offsets = 16
+      real(wp) :: error(offsets, 2), deviation(2), h(size(across)), mean(size(across)), shift(2)
+      type(test_case) :: case
+      type(random_numbers) :: random
+      integer :: k, i, order
+
+      do k = 1, size(across)
+         h(k) = 2.0_wp*aa/across(k)
+         do i = 1, offsets
+            shift = [random%uniform(-0.5_wp, 0.5_wp), random%uniform(-0.5_wp, 0.5_wp)]
+            do order = 1, 2
+               case%spec = grid_case(0.5_wp/radius, 0.5_wp/radius, fn, across(k) + 3, across(k) + 3, h(k), h(k))
+               case%spec%grid%xl = case%spec%grid%xl + shift(1)*h(k)
+               case%spec%grid%yl = case%spec%grid%yl + shift(2)*h(k)
+               case%spec%iteration%order = order
+               call case%run(suite, "shifted grid")
+               error(i, order) = case%result%pmax/peak - 1.0_wp
+            end do
+            call suite%check(error(i, 2) >= error(i, 1), "a peak is not below the largest pressure of an element")
+         end do
+         deviation = sqrt(sum((error - spread(sum(error, 1)/offsets, 1, offsets))**2, 1)/offsets)
+         write(output_unit, "(a, i0, a, 2es9.1)") "largest pressure, ", across(k), " elements: deviation by order", deviation
+         call suite%check(deviation(2) < deviation(1)/3.0_wp, "the largest pressure of order 2 hardly depends on the offset")
+         mean(k) = sum(error(:, 2))/offsets
+      end do
+      call observed(suite, "sphere, peak between centres", h, mean, 2.0_wp, 0.3_wp, 2.0e-4_wp)
+      call case%release()
+   end subroutine shifted_grids
 
    !> Love (1929): displacement in the centre of a uniformly loaded rectangle
    subroutine single_element(suite)
