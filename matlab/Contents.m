@@ -77,6 +77,7 @@
 %
 % The library: settings of basic contact.
 %
+%   cntc_setinterfaciallayer    - set a layer between the bodies, by an older name; elastic constants stay.
 %   cntc_setreferencevelocity   - set the rolling velocity (basic contact).
 %   cntc_sethertzcontact        - set a Hertzian geometry and its grid (basic contact).
 %   cntc_setpenetration         - prescribe the approach of the bodies (basic contact); sets N = 0.
@@ -87,6 +88,8 @@
 %
 % The library: settings of wheel and rail.
 %
+%   cntc_settrackdimensions_new - an older name of cntc_settrackdimensions.
+%   cntc_settrackdimensions_old - set the track by an older order of values.
 %   cntc_setverticalforce       - prescribe the vertical force of wheel on rail; sets N = 1.
 %   cntc_setprofileinputfname   - set the profile of wheel or rail by the name of a file.
 %   cntc_setprofileinputvalues  - set the profile of wheel or rail by its points.

@@ -11,6 +11,8 @@ function [ slcs ] = read_slices( fname, mirror_y, mirror_z, scale_yz, idebug )
 %          prof       cell array with the struct of READ_PROFILE for each slice
 %          u_intpol, u_method  1: interpolation between slices, 2: approximation
 %          s_feat     nslc x nfeat array of positions of features along the slices [mm], negative where absent
+%          slc_ib     numbers of the first and the last feature that each slice has; slc_file, and s or th, are Fname and u
+%                     as other scripts call them
 %          kink, accel   numbers of parts with kinks and accelerations to the next part
 %
 % Names inside the file are relative to its own folder.
@@ -91,6 +93,20 @@ function [ slcs ] = read_slices( fname, mirror_y, mirror_z, scale_yz, idebug )
       slcs.s_feat = read_features(lines, next, slcs.u, nfeat, u_scale, fname);
    end
    slcs.u = u_scale * (u_offset + slcs.u);
+   % names of other scripts
+   slcs.slc_file = fname;
+   if (is_wheel)
+      slcs.th = slcs.u;
+   else
+      slcs.s = slcs.u;
+   end
+   slcs.slc_ib = zeros(nslc, 2);
+   for i = 1 : nslc
+      there = find(slcs.s_feat(i,:)>=0);
+      if (~isempty(there))
+         slcs.slc_ib(i,:) = there([1 end]);
+      end
+   end
    if (any(diff(slcs.u)<=1e-3))
       error('read_slices: positions of slices in "%s" must increase by more than 0.001 mm or rad.', fname);
    end

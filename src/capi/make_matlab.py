@@ -14,6 +14,8 @@ IDEBUG = ("idebug", "1: tell error codes; 2: also remarks; 0: silent (default: t
 #: Functions of matlab/ that belong to no routine, by the title of the section of Contents.m where they stand first
 FURTHER = {"Begin and end": ["cntc_buildmex", "cntc_initlibrary", "cntc_managelicense", "cntc_getmagicnumbers",
                              "cntc_closelibrary"], "Settings of both modules": ["cntc_setmaterialproperties"],
+           "Settings of basic contact": ["cntc_setinterfaciallayer"],
+           "Settings of wheel and rail": ["cntc_settrackdimensions_new", "cntc_settrackdimensions_old"],
            "Results": ["cntc_getcpresults"]}
 
 

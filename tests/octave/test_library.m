@@ -148,6 +148,35 @@ cntc_setextrarigidslip(2, 3, zeros(5,7), zeros(5,7));
 cntc_settimestep(2, 3, 0.1);
 check(isempty(lastwarn()) || isempty(strfind(lastwarn(),'cntc_')), ['no complaint so far: ' lastwarn()]);
 
+% older names
+cntc_setmaterialproperties(2, 3, 82000, 0.28, 70000, 0.3);
+cntc_setinterfaciallayer(2, 3, 4, [8200 1.25 150 10]);
+p = cntc_getparameters(2, 3, 2);
+check_near([p.gg1 p.gg2 p.poiss1 p.poiss2 p.gg3 p.laythk p.tau_c0 p.k_tau], [82000 70000 0.28 0.3 8200 1.25 150 10], 1e-9, ...
+           'a layer keeps the elastic constants');
+cntc_setinterfaciallayer(2, 3, 0, []);
+check_error(@() cntc_setinterfaciallayer(2, 3, 3, [1 1]), 'method 3 with 2 values');
+cntc_initialize(4, 1);
+check_error(@() cntc_setinterfaciallayer(4, [], 4, [8200 1.25 0 0]), 'use cntc_setmaterialparameters');
+rail = fullfile(here, 'examples', 'profiles', '60E1.prr');
+places = zeros(3, 6);
+for form = 1 : 3
+   cntc_setprofileinputfname(4, rail, [0 0 0], [1 0]);
+   switch (form)
+      case 1
+         cntc_settrackdimensions(4, 3, [14 0 1435 0.025 0, 1 0.2 0.001 0 0 0]);
+      case 2
+         cntc_settrackdimensions_new(4, 3, [14 0 1435 0.025 0, 1 0.2 0.001 0 0 0]);
+      case 3
+         cntc_settrackdimensions_old(4, 3, [1435 14 0.025 0, 1 0.2 0.001 0 0 0]);
+   end
+   places(form,:) = cntc_getprofilevalues(4, 3, 0)(:)';
+end
+check_near(places(2:3,:), places([1 1],:), 1e-12, 'one track by three names');
+check_error(@() cntc_settrackdimensions_old(4, 1, [14 0 1435 0.025 0]), 'ztrack = 1 with 5 values');
+cntc_finalize(4);
+check(isempty(lastwarn()) || isempty(strfind(lastwarn(),'cntc_')), ['no complaint of older names: ' lastwarn()]);
+
 % --- what goes wrong is told
 check_error(@() cntc_getpenetration(2, -1), 'icp must be the number');
 check_error(@() cntc_setflags(2, 1, [1 2], 1), '2 params and 1 values');
