@@ -9,15 +9,18 @@ module contact_cli_versions
 
    !> The one place of the version number; CMake reads it from this line
    character(len=*), parameter :: contact_version = "0.1.0"
+   !> Library of Fourier transforms and its licence; CMake says which
+   character(len=*), parameter :: transforms = CONTACT_TRANSFORMS
 
 contains
 
-   !> Answer to `contact --version`: program, compiler and linked HDF5, one line each
+   !> Answer to `contact --version`: program, compiler, linked HDF5 and transforms, one line each
    subroutine write_versions(unit)
       !> Open for formatted output
       integer, intent(in) :: unit
 
-      write(unit, "(A)") "contact " // contact_version, "compiled by " // compiler_version(), "HDF5 " // trim(hdf5_version())
+      write(unit, "(A)") "contact " // contact_version, "compiled by " // compiler_version(), "HDF5 " // trim(hdf5_version()), &
+         & "transforms by " // transforms
    end subroutine write_versions
 
    !> Number of the HDF5 library this program is linked with, as the library itself says it

@@ -79,6 +79,7 @@ class Words(Cli):
         run = self.run_program("--version")
         self.succeeds(run)
         self.assertRegex(run.stdout, r"\Acontact \d+\.\d+\.\d+\n")
+        self.assertRegex(run.stdout, r"\ntransforms by (FFTW 3 \(GPL\)|pocketfft \(BSD\)|MKL)\n\Z")
 
     def test_licence_mode(self):
         run = self.run_program("1")
