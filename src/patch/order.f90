@@ -1,8 +1,8 @@
 !> The order of discretisation that a patch is solved with, and what that needs
 !>
 !> The second order is for rolling, steady or in steps of one element along x, with the default solver, where pressures are a
-!> solution on half-spaces: they tell where the edge of contact lies. Elsewhere the established scheme acts, and the report says
-!> why.
+!> solution on half-spaces, or semi-ellipses by formula: they tell where the edge of contact lies. Elsewhere
+!> the established scheme acts, and the report says why.
 module contact_patch_order
    use contact_base_choices, only : is_classical, kernel_model, motion, pressure_model
    use contact_base_kinds, only : wp
@@ -52,7 +52,7 @@ contains
          reason = "simplified theory"
       else if (problem%general_step .or. (problem%classical .and. is_classical(problem%solver))) then
          reason = "order 2 is for the default solver"
-      else if (problem%pressure /= pressure_model%full .or. allocated(problem%given_pressure)) then
+      else if (.not. problem%solves_for_pressure() .and. .not. is_root(problem)) then
          reason = "pressures by formula"
       else if (problem%model%sheet > 0.0_wp) then
          reason = "elastic sheet"
@@ -66,6 +66,14 @@ contains
          reason = "coefficients of curved or tabulated surfaces"
       end if
    end function obstacle
+
+   !> Are pressures semi-ellipses in each row by formula?
+   pure logical function is_root(problem)
+      type(patch_problem), intent(in) :: problem
+
+      is_root = allocated(problem%given_pressure) &
+         & .and. any(problem%pressure == [pressure_model%elliptical, pressure_model%sdec])
+   end function is_root
 
    !> Does a step of transient rolling take particles from element to element?
    pure logical function is_one_element(problem)
@@ -119,7 +127,7 @@ contains
          end if
          if (.not. allocated(t%second)) allocate(t%second)
          workspace%box_pn = state%now%pn(box%ix0:box%ix1, box%iy0:box%iy1)
-         call find_edge_terms(t%contact, workspace%box_pn, t%dx, t%dy, t%direction, problem%model%material%nu, &
+         call find_edge_terms(t%contact, workspace%box_pn, is_root(problem), t%dx, t%dy, t%direction, problem%model%material%nu, &
             & problem%model%material%gg, workspace%box%diagonal(2), t%second, pass > turning_passes)
       end associate
    end subroutine set_second_order

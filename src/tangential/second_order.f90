@@ -49,6 +49,8 @@ module contact_tangential_second_order
    !> Place of the edge that the ratio of pressures is first judged with, and passes that improve it [elements]; chosen
    real(wp), parameter :: first_place = 0.33_wp
    integer, parameter :: passes = 3
+   !> Place of the edge in the mean, where nothing tells it [elements]
+   real(wp), parameter :: usual_place = 0.5_wp
    !> Bounds of what pressures that are no roots of a distance would give: of the term, of the place and of the other end; chosen
    real(wp), parameter :: least_term = -0.4_wp, least_place = -0.1_wp, least_rest = 0.3_wp
    !> Edges in the outermost rows are steeper than the difference to their one neighbour by this factor: a root, sampled; measured
@@ -65,11 +67,14 @@ module contact_tangential_second_order
 contains
 
    !> Find the leading elements of all rows, where the edge of contact lies by the pressures, and the terms that move it there
-   subroutine find_edge_terms(contact, pn, dx, dy, direction, nu, gg, diagonal, second, keeps_turns)
+   subroutine find_edge_terms(contact, pn, is_root, dx, dy, direction, nu, gg, diagonal, second, keeps_turns)
       !> Elements in contact, shape (mx, my)
       logical, intent(in) :: contact(:, :)
-      !> Their pressures [N/mm2], a solution of the contact conditions with piecewise constant pressures, shape (mx, my)
+      !> Their pressures [N/mm2], shape (mx, my)
       real(wp), intent(in) :: pn(:, :)
+      !> Are pressures a semi-ellipse in each row, at the centres of elements, and not a solution of the contact conditions with
+      !> piecewise constant pressures?
+      logical, intent(in) :: is_root
       !> Sides of the elements [mm]; a step is one element
       real(wp), intent(in) :: dx, dy
       !> Rolling towards increasing (+1) or decreasing (-1) x
@@ -110,7 +115,11 @@ contains
             n = n + 1
             at(:, n) = [ix, iy]
             share(n) = 0.0_wp
-            if (abs(ix - last) > 1) share(n) = edge_share(pn(ix, iy), pn(ix - direction, iy), abs(ix - last))
+            if (is_root) then
+               share(n) = root_share(pn(ix:last + direction:-direction, iy))
+            else if (abs(ix - last) > 1) then
+               share(n) = edge_share(pn(ix, iy), pn(ix - direction, iy), abs(ix - last))
+            end if
             place(n) = direction*ix + d0 - share(n)/(1.0_wp + share(n))
             ix = last
          end do
@@ -199,6 +208,26 @@ contains
          place = max(d0 - share/(1.0_wp + share), least_place)
       end do
    end function edge_share
+
+   !> The same from a semi-ellipse at the centres of elements: its square is a parabola, whose zero is the edge
+   pure real(wp) function root_share(pn) result(share)
+      !> Pressures of a stretch, from its leading element on [N/mm2]
+      real(wp), intent(in) :: pn(:)
+      real(wp) :: bend, width, place
+
+      place = usual_place
+      if (size(pn) >= 3) then
+         bend = pn(2)**2 - 0.5_wp*(pn(1)**2 + pn(3)**2)
+         if (bend > 0.0_wp) then
+            ! the square at the first centre is bend*place*(place + width), and width is that between both ends as seen from there
+            width = (pn(2)**2 - pn(1)**2)/bend + 1.0_wp
+            place = 0.5_wp*(sqrt(width**2 + 4.0_wp*pn(1)**2/bend) - width)
+            ! the contact ends with the grid
+            if (place > 1.0_wp) place = usual_place
+         end if
+      end if
+      share = (d0 - place)/(1.0_wp - d0 + place)
+   end function root_share
 
    !> Slope of the edge, elements along x per row: mean of the differences to the nearest edges of both neighbouring rows
    pure real(wp) function edge_slope(place, first, iy, here) result(slope)
