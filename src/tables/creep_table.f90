@@ -8,11 +8,16 @@
 !> where KX, KY, KP are about C11/3, C22/3, C23 of Kalker's linear theory: u1 of 1 is where the creep curve of Vermeulen and
 !> Johnson, 1 - (1 - u1)**3, ends. All creepages up to infinite ones fit into
 !>
-!>     x = u1/(r + s),  y = u2/(r + s),  z = u3/(1 + |u3|),   r = (u1**4 + u2**4)**(1/4),  s = sqrt(1 + u3**2):
+!>     v1 = u1/sqrt(1 + (k1 u3)**2),  v2 = u2/sqrt(1 + (k2 u3)**2),   k1 = KX/(sqrt(g) KP),  k2 = sqrt(g) KY/KP,
+!>     x = v1/(1 + r),  y = v2/(1 + r),  z = u3/(1 + |u3|),   r = (v1**4 + v2**4)**(1/4):
 !>
-!> in which that curve begins without a quadratic term. r without end is sliding without spin, z = 1 spin without end, where
-!> sliding depends on u1/u3 and u2/u3, which x and y keep. Strips of a contact leave adhesion at u3 of about 1 (Kalker's strip
-!> theory), where forces bend sharply: near a plane of constant z.
+!> in which that curve begins without a quadratic term. r without end is sliding without spin, z = 1 spin without end. There
+!> sliding turns round the point where (v2, v1) are its coordinates along and across, relative to the semi-axes; where it leaves
+!> the contact, forces bend: at x and y of 1/2. Strips of a contact leave adhesion at u3 of about 1 (Kalker's strip theory),
+!> where forces bend sharply: near a plane of constant z.
+!>
+!> Creepages and moment of half ellipses are taken about the middle of their pressures: there sliding without spin has no
+!> moment, and forces of fast sliding are even functions of 1/r, as they are in ellipses.
 !>
 !> f is a spline for u1 >= 0 and u3 >= 0. The rest follows from two symmetries: all creepages and forces change sign together;
 !> and the mirror image y -> -y turns over eta, phi, Fy, Mz and the offset of half ellipses.
@@ -85,7 +90,7 @@ contains
       integer, intent(out) :: status
       !> Derivatives of each force (first index) by each creepage; absent: they cost nothing
       real(wp), intent(out), optional :: slopes(3, 3)
-      real(wp) :: bb, c, offset, factor(3), u(3), f(3), df(3, 3), unit(3), sizes(4), sign_x, sign_s
+      real(wp) :: bb, c, arm, offset, scale(3), factor(3), turn(2), u(3), f(3), df(3, 3), unit(3), sizes(4), sign_x, sign_s
       logical :: is_beyond
       integer :: j
 
@@ -99,9 +104,13 @@ contains
       bb = 0.5_wp*(bneg + bpos)
       c = sqrt(aa*bb)
       offset = (bpos - bneg)/(bpos + bneg)
-      factor = scaled_creepages(aa/bb)*(gg*aa*bb/(mu*fn))
+      ! from the middle of both extents to that of the pressures, each half of which has its own at 3/8 of its extent
+      arm = (bneg - bpos)/8.0_wp
+      scale = scaled_creepages(aa/bb)
+      turn = [scale(1)*bb, scale(2)*aa]/(c*scale(3))
+      factor = scale*(gg*aa*bb/(mu*fn))
       factor(3) = factor(3)*c
-      u = min(max(factor*creep, -endless), endless)
+      u = min(max(factor*[creep(1) - arm*creep(3), creep(2:3)], -endless), endless)
       ! into the part that the table has
       sign_x = sign(1.0_wp, u(1))
       sign_s = sign(1.0_wp, u(3))
@@ -111,20 +120,23 @@ contains
       if (is_beyond) u(3) = most_spin(table)
       unit = mu*fn*[sign_x, sign_s, sign_s*c]
       if (present(slopes)) then
-         call evaluate(table, log(aa/bb), sign_x*sign_s*offset, u, f, status, df)
+         call evaluate(table, log(aa/bb), sign_x*sign_s*offset, u, turn, f, status, df)
          if (is_beyond) df(:, 3) = 0.0_wp
          call keep_below_friction(table%band, f, df)
       else
-         call evaluate(table, log(aa/bb), sign_x*sign_s*offset, u, f, status)
+         call evaluate(table, log(aa/bb), sign_x*sign_s*offset, u, turn, f, status)
          call keep_below_friction(table%band, f)
       end if
       if (is_beyond) status = answer%outside
       force = unit*f
+      force(3) = force(3) - arm*force(1)
       if (.not. present(slopes)) return
       factor = factor*[sign_x, sign_s, sign_s]
       do j = 1, 3
          slopes(:, j) = unit*df(:, j)*factor(j)
       end do
+      slopes(:, 3) = slopes(:, 3) - arm*slopes(:, 1)
+      slopes(3, :) = slopes(3, :) - arm*slopes(1, :)
    end subroutine find_creep_force
 
    !> Largest scaled spin of a table [-], huge where it has all
@@ -151,16 +163,18 @@ contains
    end function scaled_creepages
 
    !> The spline, and its derivatives by the scaled creepages
-   pure subroutine evaluate(table, shape, offset, u, f, status, df)
+   pure subroutine evaluate(table, shape, offset, u, turn, f, status, df)
       type(creep_table), intent(in) :: table
       !> log(g), offset, scaled creepages of which the first and third are not negative
       real(wp), intent(in) :: shape, offset, u(3)
+      !> k1 and k2, how u1 and u2 are measured against spin
+      real(wp), intent(in) :: turn(2)
       !> Values
       real(wp), intent(out) :: f(3)
       integer, intent(inout) :: status
       !> Derivatives of each value (first index) by each scaled creepage
       real(wp), intent(out), optional :: df(3, 3)
-      real(wp) :: r, r1, r2, s, whole, largest, place(3), inner(3, 3)
+      real(wp) :: r, r1, r2, whole, largest, s(2), v(2), place(3), inner(3, 3)
       real(wp), dimension(values_per_node) :: value, by_x, by_y, by_z
       real(wp), dimension(order, 5) :: basis, slope
       real(wp) :: near(stretch, order, order)
@@ -168,19 +182,20 @@ contains
 
       if (shape < table%shape%low - edge .or. shape > table%shape%high + edge) status = answer%outside
       if (abs(offset) > table%offset%high + edge) status = answer%outside
-      largest = max(u(1), abs(u(2)))
+      s = sqrt(1.0_wp + (turn*u(3))**2)
+      v = u(:2)/s
+      largest = max(v(1), abs(v(2)))
       r = 0.0_wp
       r1 = 0.0_wp
       r2 = 0.0_wp
       if (largest > 0.0_wp) then
-         r = sqrt(sqrt((u(1)/largest)**4 + (u(2)/largest)**4))
-         r1 = (u(1)/largest/r)**3
-         r2 = (u(2)/largest/r)**3
+         r = sqrt(sqrt((v(1)/largest)**4 + (v(2)/largest)**4))
+         r1 = (v(1)/largest/r)**3
+         r2 = (v(2)/largest/r)**3
          r = r*largest
       end if
-      s = sqrt(1.0_wp + u(3)**2)
-      whole = r + s
-      place = [u(1)/whole, u(2)/whole, u(3)/(1.0_wp + u(3))]
+      whole = 1.0_wp + r
+      place = [v(1)/whole, v(2)/whole, u(3)/(1.0_wp + u(3))]
       call find_basis(table%shape, shape, first(1), basis(:, 1), slope(:, 1))
       call find_basis(table%offset, offset, first(2), basis(:, 2), slope(:, 2))
       call find_basis(table%x, place(1), first(3), basis(:, 3), slope(:, 3))
@@ -194,10 +209,12 @@ contains
       end if
       call sum_slopes(near, basis(:, 3:5), slope(:, 3:5), value, by_x, by_y, by_z)
       f = value(:3)
-      ! derivatives of the place (first index) by u
+      ! derivatives of the place (first index) by v1, v2 and u3, then by u
       inner = reshape([(1.0_wp - place(1)*r1)/whole, -place(2)*r1/whole, 0.0_wp, -place(1)*r2/whole, &
-         & (1.0_wp - place(2)*r2)/whole, 0.0_wp, -place(1)*(u(3)/s)/whole, -place(2)*(u(3)/s)/whole, &
-         & 1.0_wp/(1.0_wp + u(3))**2], [3, 3])
+         & (1.0_wp - place(2)*r2)/whole, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp/(1.0_wp + u(3))**2], [3, 3])
+      inner(:, 3) = inner(:, 3) - matmul(inner(:, :2), v*(turn/s)**2)*u(3)
+      inner(:, 1) = inner(:, 1)/s(1)
+      inner(:, 2) = inner(:, 2)/s(2)
       df = matmul(reshape([by_x(:3), by_y(:3), by_z(:3)], [3, 3]), inner)
    end subroutine evaluate
 
@@ -302,6 +319,7 @@ contains
       real(wp), intent(inout) :: f(3)
       !> Absent where nobody wants them
       real(wp), intent(inout), optional :: df(3, 3)
+      real(wp), parameter :: rounding = 4.0_wp*epsilon(1.0_wp)
       real(wp) :: size_, ratio, change, grows(3)
       integer :: j
 
@@ -322,8 +340,8 @@ contains
          end do
       end if
       f(:2) = ratio*f(:2)
-      ! rounding
+      ! rounding, here and where it is multiplied by the bound
       size_ = norm2(f(:2))
-      if (size_ > 1.0_wp) f(:2) = f(:2)*((1.0_wp - epsilon(size_))/size_)
+      if (size_ > 1.0_wp - rounding) f(:2) = f(:2)*((1.0_wp - rounding)/size_)
    end subroutine keep_below_friction
 end module contact_tables_creep_table

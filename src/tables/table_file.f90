@@ -15,7 +15,7 @@ module contact_tables_table_file
    public :: read_table
 
    !> First bytes of a file, and how its end is made
-   character(len=*), parameter :: magic = "CONTACT table 1" // new_line("a")
+   character(len=*), parameter :: magic = "CONTACT table 2" // new_line("a")
    integer, parameter :: digits = 64
    !> Bytes before the knots; whole numbers and real ones in them
    integer, parameter :: head_bytes = 128, wholes = 8, reals = 9
@@ -70,7 +70,7 @@ contains
       if (len(text) < head_bytes + digits) then
          reason = "it is too short to be a table"
       else if (text(:len(magic)) /= magic) then
-         reason = "it does not begin as a table of this version, 'CONTACT table 1'"
+         reason = "it does not begin as a table of this version, 'CONTACT table 2'"
       else
          length = transfer(text(49:56), length)
          if (length /= len(text)) then

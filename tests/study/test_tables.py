@@ -7,7 +7,7 @@ import contact
 import numpy as np
 import pytest
 from contact.table import Plan, Table, build
-from contact.table._results import Results, creepages
+from contact.table._results import Results, arms, creepages
 
 FN, MU, GG = 70e3, 0.3, 82e3
 LIMIT = MU * FN
@@ -170,8 +170,23 @@ def test_half_ellipses(tmp_path):
         points = np.array([[0.0, 0.2, 0.2, 0.1, 0.3]])
         given = creepages(points) * LIMIT / (GG * 25.0) * [1.0, 1.0, 0.2]
         own = Results(0.28, 9, True, 1).at(points)[0]
+        # about the middle of both extents
+        own[2] -= arms(points)[0] * own[0]
         np.testing.assert_allclose(table.force(FN, MU, GG, 5.0, 5.0, *given[0], offset=0.2) / (LIMIT * np.array([1, 1, 5.0])), own,
                                    atol=0.12)
+        # sliding without spin acts in the middle of the pressures, 3/8 of each extent from the widest row
+        middle = 0.5 * (4.0 - 6.0) + 3.0 / 8.0 * (6.0**2 - 4.0**2) / (6.0 + 4.0)
+        forces = table.force(FN, MU, GG, 5.0, 5.0, 1e5, 0.0, 0.0, offset=0.2)
+        np.testing.assert_allclose(forces / LIMIT, [-1.0, 0.0, middle], atol=0.06)
+        # derivatives are those of differences, with the moment about the middle of both extents
+        given = np.array([[0.002], [-0.001], [0.0003]]) * np.linspace(0.1, 3.0, 20)
+        _, slopes = table.derivatives(FN, MU, GG, 5.0, 5.0, *given, offset=0.2)
+        for k, unit in enumerate((1e-3, 1e-3, 2e-4)):
+            step = np.zeros((3, 1))
+            step[k] = 1e-6 * unit
+            high, low = (table.force(FN, MU, GG, 5.0, 5.0, *(given + sign * step), offset=0.2) for sign in (1, -1))
+            gap = (high - low) / (2e-6 * unit) - slopes[:, :, k]
+            assert np.abs(gap * unit / (LIMIT * np.array([1, 1, 5.0]))).max() < 1e-4
 
 
 def test_command(file, tmp_path):

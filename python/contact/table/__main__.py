@@ -22,7 +22,7 @@ def main() -> int:
     parser.add_argument("--spin", type=float, default=float("inf"), help="largest spin as G a b c KP |phi|/(mu Fn), "
                         "c = sqrt(a b), KP about Kalker's C23; default: all")
     parser.add_argument("--poisson", type=float, default=0.28, help="Poisson ratio of both bodies; default %(default)s")
-    parser.add_argument("--elements", type=int, default=19, help="elements a side of the contacts; default %(default)s")
+    parser.add_argument("--elements", type=int, default=0, help="elements a side of the contacts; default: as the tolerance needs")
     parser.add_argument("--points", type=int, default=10000, help="random points of the check; default %(default)s")
     parser.add_argument("--most-cases", type=int, default=3_000_000, help="solutions after which it is given up; "
                         "default %(default)s")

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from ..errors import ContactError
 from ._file import write
 from ._look_up import Facts, Numbers, Table
-from ._results import Results, scales
+from ._results import Results, arms, creepages
 
 #: Axes of a table and of its points, in their order
 AXES = ("shape", "offset", "x", "y", "z")
@@ -23,8 +23,12 @@ _LEARN, _WORST = 1500, 150
 _AIM = 0.85
 #: An interval is divided when it alone errs by more than this part of the tolerance
 _SHARE = 0.5
+#: Largest ratio of the lengths of neighbouring intervals, with room for rounding
+_GRADE = 2.01
 #: Points at which results are compared with those of three times as many elements
 _COMPARED = 150
+#: Elements a side for a tolerance of 1 %
+_ELEMENTS = 21
 #: Nodes along z at first, closer where strips leave adhesion
 _FIRST_Z = (0.0, 0.15, 0.3, 0.4, 0.5, 0.6, 0.7, 0.85, 1.0)
 
@@ -46,7 +50,8 @@ class Plan:
     spin
         Largest spin, as ``G a b c KP abs(phi) / (mu Fn)`` with ``c = sqrt(a b)`` and KP of about Kalker's C23 [-]; infinite: all.
     elements
-        Elements a side of the contacts that are solved.
+        Elements a side of the contacts that are solved, where they are round and have little spin; more along the longer side, and
+        with much spin. 0: as many as the tolerance needs.
     points
         Random points at which errors are looked for in the end.
     most_cases
@@ -60,7 +65,7 @@ class Plan:
     offset: float = 0.0
     poisson: float = 0.28
     spin: float = np.inf
-    elements: int = 19
+    elements: int = 0
     points: int = 10000
     most_cases: int = 3_000_000
     seed: int = 1
@@ -78,7 +83,7 @@ class Plan:
                            (0.0 <= self.offset <= 0.9, "the offset has to be between 0 and 0.9"),
                            (0.0 <= self.poisson <= 0.5, "the Poisson ratio has to be between 0 and 0.5"),
                            (self.spin >= 0.01, "the spin has to be 0.01 at least"),
-                           (7 <= self.elements <= 99, "there have to be 7 to 99 elements a side"),
+                           (self.elements == 0 or 7 <= self.elements <= 99, "there have to be 7 to 99 elements a side"),
                            (self.points >= 100, "there have to be 100 points of the check at least")):
             if not good:
                 raise ContactError(what)
@@ -113,12 +118,18 @@ def build(file: str | os.PathLike[str], plan: Plan | None = None, *, workers: in
     return _Builder(asked, workers or os.cpu_count() or 1, tell).build(Path(file))
 
 
+def enough_elements(tolerance: float) -> int:
+    """Elements a side whose own error is small beside the tolerance: it falls a little faster than their size."""
+    return int(np.clip(round(_ELEMENTS * (0.01 / tolerance)**(1.0 / 3.0)), 9, 99))
+
+
 class _Builder:
     """Nodes and what is known at them"""
 
     def __init__(self, plan: Plan, workers: int, tell: Callable[[str], None]) -> None:
         self._plan, self._tell = plan, tell
-        self._results = Results(plan.poisson, plan.elements, plan.offset > 0.0, workers)
+        self._elements = plan.elements or enough_elements(plan.tolerance)
+        self._results = Results(plan.poisson, self._elements, plan.offset > 0.0, workers)
         self._random = np.random.default_rng(plan.seed)
         count = max(4, round(1.0 + 1.5 * np.log(plan.ratio[1] / plan.ratio[0])))
         self._nodes: list[Numbers] = [
@@ -173,12 +184,13 @@ class _Builder:
                 known, true = np.concatenate([known, points]), np.concatenate([true, self._results.at(points)])
                 is_first = True
                 while True:
-                    self._write(trial, Facts(plan.offset > 0.0, plan.elements, 2, plan.poisson, plan.ratio, plan.offset,
+                    self._write(trial, Facts(plan.offset > 0.0, self._elements, 2, plan.poisson, plan.ratio, plan.offset,
                                              plan.spin, plan.tolerance, (0.0, 0.0), 0, (0.0, 0.0), 0))
                     errors = self._errors(trial, known, true)
                     worst = float(errors.max())
+                    where = ", ".join(f"{value:.3f}" for value in known[errors.argmax()])
                     self._tell(f"{self._results.cases} solutions, {' x '.join(str(len(nodes)) for nodes in self._nodes)} nodes, "
-                               f"largest error {100 * worst:.3g} %")
+                               f"largest error {100 * worst:.3g} % at {', '.join(AXES)} = {where}")
                     if worst <= _AIM * plan.tolerance:
                         break
                     is_first = False
@@ -193,8 +205,8 @@ class _Builder:
                     break
                 known, true = np.concatenate([known, points]), np.concatenate([true, values])
             points = self._points(_COMPARED)
-            fine, usual = self._results.at(points, 3 * plan.elements), self._results.at(points)
-            self._write(trial, Facts(plan.offset > 0.0, plan.elements, 1 if plan.offset > 0.0 else 2, plan.poisson, plan.ratio,
+            fine, usual = self._results.at(points, 3 * self._elements), self._results.at(points)
+            self._write(trial, Facts(plan.offset > 0.0, self._elements, 2, plan.poisson, plan.ratio,
                                      plan.offset, plan.spin, plan.tolerance, (force, moment), plan.points,
                                      _largest(fine - usual), 0))
             whole = trial.read_bytes()
@@ -210,23 +222,26 @@ class _Builder:
 
     def _look_up(self, trial: Path, points: Numbers) -> Numbers:
         """What the table gives, in the units of the results"""
-        ratio, spin = np.exp(points[:, 0]), np.minimum(points[:, 4], 1.0 - 1e-9)
-        radius = np.sqrt(np.hypot(points[:, 2]**2, points[:, 3]**2))
-        spin = spin / (1.0 - spin)
-        planar = points[:, 2:4] / np.maximum(1.0 - radius, 1e-9)[:, None] * np.sqrt(1.0 + spin**2)[:, None]
-        creepage = np.column_stack([planar, spin]) / scales(ratio)
+        ratio = np.exp(points[:, 0])
+        creepage = creepages(points, 1e-9)
         with Table(trial) as table:
             return table.force(1.0, 1.0, 1.0, np.sqrt(ratio), 1.0 / np.sqrt(ratio), creepage[:, 0], creepage[:, 1], creepage[:, 2],
                                points[:, 1], outside=True)
 
     def _errors(self, trial: Path, points: Numbers, true: Numbers) -> Numbers:
         """Error at each point: the larger one of the forces and of the moment"""
-        gap = self._look_up(trial, points) - true
+        gap = self._gap(trial, points, true)
         return np.asarray(np.maximum(np.hypot(gap[:, 0], gap[:, 1]), np.abs(gap[:, 2])))
 
     def _parts(self, trial: Path, points: Numbers, true: Numbers) -> tuple[float, float]:
         """Largest errors of forces and of the moment"""
-        return _largest(self._look_up(trial, points) - true)
+        return _largest(self._gap(trial, points, true))
+
+    def _gap(self, trial: Path, points: Numbers, true: Numbers) -> Numbers:
+        """What the table gives, less what is true; the moment about the middle of both extents, as callers see it"""
+        gap = self._look_up(trial, points) - true
+        gap[:, 2] += arms(points) * true[:, 0]
+        return gap
 
     def _refine(self, trial: Path, known: Numbers, errors: Numbers) -> None:
         """Divide the intervals that err most, found by moving along one axis only from nodes near the worst points"""
@@ -253,12 +268,27 @@ class _Builder:
             chosen = np.flatnonzero(score >= max(limit, 0.25 * largest)) if largest > 0.0 else np.arange(0)
             if len(nodes) < 2 or not len(chosen):
                 continue
-            if AXES[axis] in ("offset", "y"):
-                # mirror images
-                chosen = np.union1d(chosen, len(nodes) - 2 - chosen)
-            self._insert(axis, 0.5 * (nodes[chosen] + nodes[chosen + 1]))
+            is_even = AXES[axis] in ("offset", "y")
+            self._insert(axis, _divided(nodes, chosen, is_even))
         if largest == 0.0:
             self._insert(4, 0.5 * (self._nodes[4][1:] + self._nodes[4][:-1]))
+
+
+def _divided(nodes: Numbers, chosen: NDArray[np.intp], is_even: bool) -> Numbers:
+    """Middles of intervals that are divided: the chosen ones, their mirror images on an axis that has them, and others beside which
+    intervals would become too short: splines over nodes at such distances overshoot"""
+    whole = nodes
+    new: Numbers = np.zeros(0)
+    while len(chosen):
+        if is_even:
+            chosen = np.union1d(chosen, len(whole) - 2 - chosen)
+        middles = 0.5 * (whole[chosen] + whole[chosen + 1])
+        new = np.concatenate([new, middles])
+        whole = np.sort(np.concatenate([whole, middles]))
+        widths = np.diff(whole)
+        least = np.minimum(np.append(np.inf, widths[:-1]), np.append(widths[1:], np.inf))
+        chosen = np.flatnonzero(widths > _GRADE * least)
+    return np.sort(new)
 
 
 def _largest(gap: Numbers) -> tuple[float, float]:

@@ -10,7 +10,7 @@ import numpy as np
 from ._look_up import Facts, Numbers
 
 #: First bytes of a file, and bytes before the knots
-_MAGIC, _HEAD = b"CONTACT table 1\n", 128
+_MAGIC, _HEAD = b"CONTACT table 2\n", 128
 #: Signs of Fx, Fy, Mz at the mirror image of x, and of y, z and all signs; the offset turns over with both
 _X_SIGNS, _Z_SIGNS = np.array([-1.0, 1.0, 1.0]), np.array([1.0, -1.0, -1.0])
 

@@ -18,8 +18,10 @@ _SIZE, _FORCE, _MU, _RIGIDITY = 5.0, 10.0, 0.3, 82000.0
 _PORTION = 1000
 #: Size of the grid relative to the contact
 _WINDOW = 1.05
-#: r + s and u3 that stand for infinite ones: 1 - sqrt(x**4 + y**4)**(1/2) and 1 - z are not less
+#: Distances from infinite creepage and spin: 1 - (x**4 + y**4)**(1/4) and 1 - z are not less
 _NEAREST = 1e-4
+#: From this z on there are more elements a side, by this factor; chosen by comparison with finer grids
+_MUCH_SPIN, _MORE = 0.85, 1.5
 #: KX, KY, KP by powers of a/b, as in src/tables/creep_table.f90
 _SCALES = ([1.0964, 0.325, -0.004], [0.8005, 0.4393, -0.0067], [0.4147, 1.0184, 0.0565, -0.0013])
 
@@ -29,19 +31,40 @@ def scales(ratio: Numbers) -> Numbers:
     return np.column_stack([np.polynomial.polynomial.polyval(ratio, factors) for factors in _SCALES])
 
 
-def creepages(points: Numbers) -> Numbers:
+def arms(points: Numbers) -> Numbers:
+    """Distance along y from the middle of both extents to that of the pressures, relative to sqrt(a b)."""
+    return np.asarray(-0.25 * points[:, 1] * np.exp(-0.5 * points[:, 0]))
+
+
+def creepages(points: Numbers, nearest: float = _NEAREST) -> Numbers:
     """Creepages of points (log(a/b), offset, x, y, z), in units of mu Fn / (G a b), spin times sqrt(a b).
 
-    The sides at infinity are replaced by what is near them.
+    Points are about the middle of the pressures, creepages about that of both extents. The sides at infinity are replaced by what
+    is so near them.
     """
     ratio = np.exp(points[:, 0])
-    radius = np.sqrt(np.hypot(points[:, 2]**2, points[:, 3]**2))
-    z = np.minimum(points[:, 4], 1.0 - _NEAREST)
+    scale = scales(ratio)
+    turn = scale[:, :2] / scale[:, 2:] * np.column_stack([1.0 / np.sqrt(ratio), np.sqrt(ratio)])
+    z = np.minimum(points[:, 4], 1.0 - nearest)
     spin = z / (1.0 - z)
-    kept = np.minimum(radius, 1.0 - _NEAREST)
-    planar = points[:, 2:4] * np.where(radius > 0.0, kept / np.maximum(radius, _NEAREST**2), 0.0)[:, None]
-    planar = planar / (1.0 - kept)[:, None] * np.sqrt(1.0 + spin**2)[:, None]
-    return np.column_stack([planar, spin]) / scales(ratio)
+    radius = np.sqrt(np.hypot(points[:, 2]**2, points[:, 3]**2))
+    kept = np.minimum(radius, 1.0 - nearest)
+    planar = points[:, 2:4] * np.where(radius > 0.0, kept / np.maximum(radius, nearest**2) / (1.0 - kept), 0.0)[:, None]
+    planar = planar * np.sqrt(1.0 + (turn * spin[:, None])**2)
+    found = np.column_stack([planar, spin]) / scale
+    found[:, 0] += arms(points) * found[:, 2]
+    return found
+
+
+def sides(points: Numbers, elements: int) -> NDArray[np.int_]:
+    """Elements along and across for points, shape (n, 2).
+
+    A contact has more along its longer side. With large spin, sliding turns round within a few elements: there are more of them.
+    """
+    wide = np.exp(0.5 * np.abs(points[:, 0]))
+    more = elements * np.where(points[:, 4] > _MUCH_SPIN, _MORE, 1.0)
+    both = np.column_stack([np.where(points[:, 0] > 0.0, wide, 1.0), np.where(points[:, 0] < 0.0, wide, 1.0)]) * more[:, None]
+    return np.asarray(np.rint(both), dtype=np.int_)
 
 
 class Results:
@@ -52,7 +75,7 @@ class Results:
     poisson
         Poisson ratio of both bodies [-].
     elements
-        Elements a side of ellipses; half ellipses have those of the solution and half as many, and the difference is added.
+        Elements a side of a round contact with little spin, see :func:`sides`.
     has_offset
         Two half ellipses with elliptical pressures, and not ellipses, whose pressures are solved for?
     workers
@@ -65,6 +88,8 @@ class Results:
 
     def at(self, points: Numbers, elements: int | None = None) -> Numbers:
         """Fx, Fy relative to mu Fn and Mz to mu Fn sqrt(a b) at points (log(a/b), offset, x, y, z), shape (n, 3).
+
+        The moment is about the middle of the pressures.
 
         Points beyond x**4 + y**4 = 1 have values that continue those within it: there sliding is of one direction, forces are even
         functions of the distance to it, and the moment an odd one.
@@ -85,36 +110,34 @@ class Results:
         bb = _SIZE / np.sqrt(ratio)
         sizes = [_SIZE * np.sqrt(ratio), bb * (1.0 - offset), bb * (1.0 + offset)] if self.has_offset else \
             [_SIZE * np.sqrt(ratio), bb]
-        given = np.column_stack([given, *sizes])[order]
+        given = np.column_stack([given, *sizes])
         self.cases += len(given)
         solved = np.empty((len(points), 3))
-        solved[order] = self._all(given, elements)
-        if self.has_offset:
-            # the error of the first order falls with the size of elements
-            coarse = np.empty((len(points), 3))
-            coarse[order] = self._all(given, elements // 2 + 1)
-            share = elements / (elements - elements // 2 - 1)
-            solved = coarse + share * (solved - coarse)
+        grids, which = np.unique(sides(points, elements)[order], axis=0, return_inverse=True)
+        parts = [order[which.ravel() == k] for k in range(len(grids))]
+        tasks = [(grid, part[first:first + _PORTION]) for grid, part in zip(grids, parts)
+                 for first in range(0, len(part), _PORTION)]
+        # the longest ones first, so that all threads are busy to the end
+        tasks.sort(key=lambda one: -float(np.prod(one[0])) * len(one[1]))
+        with ThreadPoolExecutor(self.workers) as pool:
+            waiting: list[Future[Numbers]] = [pool.submit(_portion, *self._text(grid), given[part]) for grid, part in tasks]
+            for (_, part), one in zip(tasks, waiting):
+                solved[part] = one.result()
+        solved[:, 2] += arms(points) * solved[:, 0]
         return solved
 
-    def _all(self, given: Numbers, elements: int) -> Numbers:
-        """All cases, in threads"""
+    def _text(self, grid: NDArray[np.int_]) -> tuple[str, list[str]]:
+        """The case that is solved, and what varies"""
         keys = ["aa", "bneg", "bpos"] if self.has_offset else ["aa", "bb"]
         case = {"module": "contact", "motion": "steady_rolling", "normal": "force",
                 "kinematics": {"fn": _FORCE, "cksi": 0.0, "ceta": 0.0, "cphi": 0.0}, "friction": {"fstat": _MU, "fkin": _MU},
                 "material": {"poiss": [self.poisson] * 2, "gg": [_RIGIDITY] * 2}, "rolling": {"veloc": 1000.0, "dq": 1.0},
-                "grid": {"form": "half_ellipses" if self.has_offset else "hertz_axes", "mx": elements, "my": elements,
-                         **dict.fromkeys(keys, _SIZE), "scale": _WINDOW}}
+                "grid": {"form": "half_ellipses" if self.has_offset else "hertz_axes", "mx": int(grid[0]), "my": int(grid[1]),
+                         **dict.fromkeys(keys, _SIZE), "scale": _WINDOW}, "iteration": {"order": 2}}
         if self.has_offset:
             case["pressure"] = "sdec"
-        else:
-            case["iteration"] = {"order": 2}
         names = {f"kinematics.{key}": 0.0 for key in ("cksi", "ceta", "cphi")} | {f"grid.{key}": _SIZE for key in keys}
-        text, paths = Scene(case).varied_text({}, names)
-        parts = [given[first:first + _PORTION] for first in range(0, len(given), _PORTION)]
-        with ThreadPoolExecutor(self.workers) as pool:
-            waiting: list[Future[Numbers]] = [pool.submit(_portion, text, paths, part) for part in parts]
-            return np.concatenate([one.result() for one in waiting]) if parts else np.zeros((0, 3))
+        return Scene(case).varied_text({}, names)
 
 
 def _portion(text: str, names: list[str], given: Numbers) -> Numbers:

@@ -87,7 +87,7 @@ contains
    subroutine places(suite)
       type(test_suite), intent(inout) :: suite
       type(creep_table) :: table
-      real(wp) :: creep(3), force(3), slopes(3, 3), u(3), factor(3), expected(3), c, q, step(3), one(3), two(3)
+      real(wp) :: creep(3), force(3), slopes(3, 3), u(3), v(2), factor(3), expected(3), c, q, step(3), one(3), two(3)
       integer :: j, status
 
       call make_table(table, -0.5_wp)
@@ -97,7 +97,9 @@ contains
       q = gg*aa*bb/(mu*fn)
       factor = q*scaled_creepages(aa/bb)*[1.0_wp, 1.0_wp, c]
       u = factor*creep
-      expected(:2) = u(:2)/((u(1)**4 + u(2)**4)**0.25_wp + sqrt(1.0_wp + u(3)**2))
+      ! sliding turns round (-eta/phi, xi/phi): where that is the end of a semi-axis, u1 or u2 over u3
+      v = u(:2)/sqrt(1.0_wp + (factor(:2)*[bb, aa]/factor(3)*u(3))**2)
+      expected(:2) = v/((v(1)**4 + v(2)**4)**0.25_wp + 1.0_wp)
       expected(3) = u(3)/(1.0_wp + u(3))
       expected = -0.5_wp*mu*fn*[1.0_wp, 1.0_wp, c]*expected
       call suite%equal(status, answer%inside, "within the table")
@@ -237,7 +239,7 @@ contains
       do k = 1, size(table%coefficients), values_per_node
          body = body // transfer(table%coefficients(k:k + 2), repeat(" ", 12))
       end do
-      content = "CONTACT table 1" // new_line("a") // transfer([1_int32, 4_int32, 1_int32, 6_int32, 6_int32, 4_int32, 9_int32, &
+      content = "CONTACT table 2" // new_line("a") // transfer([1_int32, 4_int32, 1_int32, 6_int32, 6_int32, 4_int32, 9_int32, &
          & 2_int32], repeat(" ", 32)) // transfer(int(128 + len(body) + 64, int64), repeat(" ", 8)) // bytes_of([0.28_wp, 0.01_wp, &
          & 0.0_wp, 0.0_wp, 0.0_wp, 0.01_wp, 0.0_wp, 0.0_wp, 0.0_wp]) // body
       content = content // sha256(content)
