@@ -9,6 +9,7 @@ import subprocess
 import sys
 import threading
 import time
+from pathlib import Path
 
 import contact
 import numpy as np
@@ -27,9 +28,9 @@ class Cluster:
         self.scheduler = self.start("scheduler", "--host", "127.0.0.1", "--port", "0", "--no-dashboard")
         self.address = re.search(r"tcp://127\.0\.0\.1:\d+", self.line_with(self.scheduler, "Scheduler at")).group()
 
-    def start(self, kind, *words):
+    def start(self, kind, *words, **more):
         """A process of Dask"""
-        environment = {**os.environ, "DASK_DISTRIBUTED__WORKER__MEMORY__TERMINATE": "0.95",
+        environment = {**os.environ, **more, "DASK_DISTRIBUTED__WORKER__MEMORY__TERMINATE": "0.95",
                        "DASK_DISTRIBUTED__SCHEDULER__ALLOWED_FAILURES": "10"}
         process = subprocess.Popen([sys.executable, "-m", "distributed.cli.dask_" + kind, *words], cwd=self.folder,
                                    env=environment, stderr=subprocess.PIPE, stdout=subprocess.DEVNULL, text=True)
@@ -44,10 +45,10 @@ class Cluster:
                 return line
         raise AssertionError(f"the process ended without saying {words}")
 
-    def worker(self, *more):
+    def worker(self, *more, **variables):
         """One more worker"""
         process = self.start("worker", self.address, "--no-nanny", "--nthreads", "1", "--no-dashboard", "--host", "127.0.0.1",
-                             *more)
+                             *more, **variables)
         self.line_with(process, "Registered to")
         return process
 
@@ -184,6 +185,34 @@ def test_whatever_happens_to_workers(cluster, tmp_path, monkeypatch):
     keys = store.keys()
     store.close()
     assert len(np.unique(keys, axis=0)) == len(keys) == found.status.size
+
+
+def test_workers_of_another_build_are_refused(cluster, tmp_path):
+    """By name: those that are there, before anything is computed; one that comes later, by its first task"""
+    library = Path(os.environ["CONTACT_LIBRARY"])
+    other = tmp_path / "other" / library.name
+    other.parent.mkdir()
+    # the same library with something behind its end
+    other.write_bytes(library.read_bytes() + b"x")
+    study = contact.Study(rolling(7), {"kinematics.cksi": contact.study.span(-0.01, 0.01, 200)}, folder=tmp_path / "s")
+    first = cluster.worker()
+    study.run(scheduler=cluster.address, stop=lambda: True)
+    cluster.worker(CONTACT_LIBRARY=str(other))
+    with pytest.raises(contact.ContactError, match=r"of another build than the study.*tcp://127.0.0.1:\d+ \(version .*library"):
+        study.run(scheduler=cluster.address)
+
+    cluster.processes[-1].kill()
+    acts = []
+
+    def act(words):
+        """The right worker is gone as soon as a wrong one is there"""
+        if not acts:
+            acts.append(cluster.worker(CONTACT_LIBRARY=str(other)))
+            first.kill()
+
+    with pytest.raises(contact.ContactError, match=r"the worker \S+, process \d+, is of another build"):
+        study.run(scheduler=cluster.address, points_per_task=2, progress=act)
+    assert study.explain().there < 200
 
 
 def test_no_scheduler_is_told():

@@ -10,7 +10,8 @@ import pytest
 import xarray
 from bases import EXAMPLES, rolling
 from contact import _library
-from contact.study import _engine, _study, sample, save, span
+from contact.study import _dataset, _engine, _study, sample, save, span
+from contact.study._parts import numbers_of, places
 from contact.study._scene import Scene
 from contact.study._store import FILE, Store
 
@@ -191,6 +192,75 @@ def test_files_of_results(tmp_path):
     assert row.fx.item() == found.fx.sel(cksi=0.0, cphi=0.0004)[2] and row.fn.item() == row.fn_result.item()
     with pytest.raises(contact.ContactError, match=r"\.nc, \.zarr or \.parquet"):
         save(found, tmp_path / "a.xls")
+
+
+def test_rows_of_long_tables_are_numbered_on(tmp_path, monkeypatch):
+    monkeypatch.setattr(_dataset, "_CHUNK", 3)
+    found = contact.Study(rolling(7), sample({"kinematics.fn": (1e4, 9e4)}, 8)).run()
+    save(found, tmp_path / "a.parquet")
+    frame = pandas.read_parquet(tmp_path / "a.parquet")
+    assert frame["sample"].tolist() == list(range(8)) and frame.fn.tolist() == found.fn.values.tolist()
+
+
+@pytest.mark.parametrize("base, vary, case, fields", [
+    (rolling(), [{"kinematics.cksi": [0.001, float("nan"), 0.003], "grid.mx": [7, 9], "pressure": ["full", "elliptical"]},
+                 {"kinematics.fn": "= 1e4 + 1e7 * cksi"}], None, ["pn", "sx"]),
+    (rolling(), [sample({"friction.coefficient": (0.1, 0.5), "kinematics.fn": (1e4, 9e4)}, 40)], None, []),
+    (rolling(), None, None, ["pn"]),
+    (EXAMPLES / "cattaneo.toml", {"friction.coefficient": [0.2, -1.0, 0.4]}, None, ["px"]),
+    (PAIR, PLACES, 1, ["pn"])])
+@pytest.mark.parametrize("memory", [1, 1 << 27])
+def test_files_by_parts_are_those_of_the_whole(tmp_path, base, vary, case, fields, memory):
+    """Whatever the parts: single points, or all at once; refused cases, several sizes of grids, steps, wheel and rail"""
+    study = contact.Study(base, vary, case=case, fields=fields, where="coefficient < 0.45" if case is None and not fields else None,
+                          derive={"ratio": "fx / fn"} if case is None else None, folder=tmp_path / "s")
+    study.compute(workers=2)
+    found = study.results()
+    tally = study.write(tmp_path / "a.nc", tmp_path / "a.zarr", tmp_path / "a.parquet", memory=memory)
+    assert tally.table() == study.failures(found) and str(tally).startswith(f"{found.status.size} cases: ")
+    with xarray.open_dataset(tmp_path / "a.nc") as back, xarray.open_zarr(tmp_path / "a.zarr", consolidated=False) as other:
+        for one in (back.load(), other.load()):
+            assert sorted(one.variables) == sorted(found.variables) and one.attrs == found.attrs
+            for name in found.variables:
+                if name in ("reason", "reasons"):
+                    continue
+                np.testing.assert_array_equal(one[name].values, found[name].values, err_msg=name)
+                assert one[name].dims == found[name].dims
+                assert {key: np.asarray(value).tolist() for key, value in one[name].attrs.items()} == {
+                    key: np.asarray(value).tolist() for key, value in found[name].attrs.items()}
+            np.testing.assert_array_equal(one.reasons.values[one.reason.values], found.reasons.values[found.reason.values])
+    save(found, tmp_path / "b.parquet")
+    # reasons are numbered as they are met
+    one, other = (pandas.read_parquet(tmp_path / name).drop(columns="reason") for name in ("a.parquet", "b.parquet"))
+    order = [name for name in other.columns if name in found.coords]
+    pandas.testing.assert_frame_equal(*(frame.sort_values(order, ignore_index=True) if order else frame
+                                        for frame in (one[other.columns], other)))
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["a.nc", "a.parquet", "a.zarr", "b.parquet", "s"]
+
+
+def test_parts_cover_the_whole():
+    for shape in ((), (1,), (7,), (3, 4, 5), (2, 1, 9)):
+        whole = np.arange(int(np.prod(shape))).reshape(shape)
+        for most in (1, 2, 5, 13, 1000):
+            seen = []
+            for place in places(shape, most):
+                part = np.arange(whole.size)[numbers_of(shape, place)]
+                np.testing.assert_array_equal(whole[place].ravel(), part)
+                assert 1 <= len(part) <= max(1, most)
+                seen.extend(part)
+            assert seen == list(range(whole.size))
+
+
+def test_parts_need_formulae_and_a_folder(tmp_path):
+    study = contact.Study(rolling(), SLIPS, derive={"most": lambda data: data.fx.max()}, folder=tmp_path / "s")
+    study.compute(workers=1)
+    with pytest.raises(contact.ContactError, match="most is derived by a function"):
+        study.write(tmp_path / "a.nc")
+    assert str(study.write()).startswith("6 cases: 6 solved")
+    with pytest.raises(contact.ContactError, match="needs a folder"):
+        contact.Study(rolling(), SLIPS).compute()
+    with pytest.raises(contact.ContactError, match=r"\.nc, \.zarr or \.parquet"):
+        contact.Study(rolling(), SLIPS, folder=tmp_path / "s").write(tmp_path / "a.xls")
 
 
 def test_a_process_that_dies_costs_its_case_only(monkeypatch):

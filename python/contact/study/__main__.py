@@ -36,7 +36,6 @@ def main() -> int:
 
 def _do(asked: argparse.Namespace) -> int:
     """What was asked for"""
-    from ._dataset import save
     from ._file import StudyFile
     found = StudyFile(asked.file, asked.folder)
     study = found.study
@@ -52,20 +51,17 @@ def _do(asked: argparse.Namespace) -> int:
 
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, end_soon)
-    data = study.run(asked.workers, engine=asked.engine, scheduler=asked.scheduler, progress=False if asked.quiet else None,
-                     stop=lambda: bool(caught))
+    study.compute(asked.workers, engine=asked.engine, scheduler=asked.scheduler, progress=False if asked.quiet else None,
+                  stop=lambda: bool(caught))
     if caught:
         print(f"contact study: ended by a signal; what was computed is in {study.folder}, and the same command goes on",
               file=sys.stderr)
         return 128 + caught[0]
     files = list(asked.results or found.results)
-    for file in files:
-        save(data, file)
-    failed = study.failures(data)
+    tally = study.write(*files)
+    failed = tally.table()
     if not asked.quiet:
-        status = data["status"].values
-        print(f"{status.size} cases: {int((status == 0).sum())} solved, {int((status == 1).sum())} not converged, "
-              f"{int((status == 2).sum())} refused, {int((status == -1).sum())} left out")
+        print(tally)
         for file in files:
             print(f"{file} is written")
         if failed:

@@ -2,6 +2,8 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +13,7 @@ from numpy.typing import NDArray
 
 from .._signatures import VERSION
 from ..errors import ContactError
+from ._batch import Column
 from ._scene import Scene
 from ._space import Space, Values
 from ._store import Keys, Places, Store
@@ -24,22 +27,101 @@ _Table = dict[str, tuple[NDArray[Any], dict[str, str], bool]]
 _CHUNK = 1 << 18
 
 
-def assemble(store: Store, keys: Keys, chosen: NDArray[np.bool_], space: Space, columns: dict[str, Values], scene: Scene,
-             totals: list[str] | None, fields: tuple[str, ...]) -> xarray.Dataset:
-    """The dataset of a study, from what is in its store."""
+@dataclass(frozen=True)
+class Wanted:
+    """What of its points a dataset is to have.
+
+    Attributes
+    ----------
+    scene
+        Base of the study.
+    totals
+        Names of totals; None: all.
+    fields
+        Names of element fields.
+    """
+
+    scene: Scene
+    totals: list[str] | None
+    fields: tuple[str, ...]
+
+
+@dataclass
+class Survey:
+    """What results of a whole study have, so that all its parts have it.
+
+    Attributes
+    ----------
+    patches
+        Most patches of a case.
+    columns
+        Totals with their attributes, whether they are of wheel and rail together, and whether they have a dimension of patches.
+    elements
+        Most rows and columns of the grids of fields.
+    units
+        Of fields.
+    batch
+        The batch of the store in which each point is, -1 for none.
+    sentences
+        Why cases were not solved, and their numbers; grows with the parts.
+    """
+
+    patches: int
+    columns: dict[str, tuple[dict[str, str], bool, bool]]
+    elements: tuple[int, int]
+    units: dict[str, str]
+    batch: NDArray[np.int64]
+    sentences: dict[str, int]
+
+
+def survey(store: Store, keys: Keys, wanted: Wanted) -> Survey:
+    """Look through a store, batch by batch."""
+    _, first, inverse = np.unique(keys, axis=0, return_index=True, return_inverse=True)
+    places = Places(keys[first])
+    batch = np.full(len(first), -1, dtype=np.int64)
+    found = Survey(1, {}, (0, 0), {}, batch, {"": 0})
+    for number in store.numbers():
+        done = store.batch(number)
+        at = places.of(done.keys)
+        batch[at[at >= 0]] = number
+        if not (at >= 0).any():
+            continue
+        if wanted.scene.is_wheel_rail and len(done.places):
+            found.patches = max(found.patches, int(done.places[:, 2].max()))
+        for column in done.columns:
+            if wanted.totals is None or column.name in wanted.totals:
+                found.columns.setdefault(column.name, (_attributes(column), column.of_pair, _has_patches(done)))
+        for name, values in done.arrays.items():
+            if name.partition(",")[0] in wanted.fields:
+                found.elements = (max(found.elements[0], values.shape[0]), max(found.elements[1], values.shape[1]))
+        found.units.update(done.units)
+    found.batch = batch[inverse.ravel()]
+    return found
+
+
+def assemble(store: Store, keys: Keys, chosen: NDArray[np.bool_], space: Space, columns: dict[str, Values], wanted: Wanted,
+             whole: Survey | None = None) -> xarray.Dataset:
+    """The dataset of a study, from what is in its store; as a part of a whole with the variables and sizes of that."""
+    scene, totals, fields = wanted.scene, wanted.totals, wanted.fields
     steps = scene.steps
     _, first, inverse = np.unique(keys, axis=0, return_index=True, return_inverse=True)
     inverse = inverse.ravel()
     places = Places(keys[first])
-    most = _most_patches(store, places) if scene.is_wheel_rail else 1
+    numbers = store.numbers() if whole is None else [int(number) for number in np.unique(whole.batch) if number >= 0]
+    most = whole.patches if whole is not None else _most_patches(store, places) if scene.is_wheel_rail else 1
     status = np.full((len(first), steps), -2, dtype=np.int8)
     missed = np.zeros((len(first), steps), dtype=np.int8)
     reason = np.zeros((len(first), steps), dtype=np.int32)
-    sentences: dict[str, int] = {"": 0}
+    sentences: dict[str, int] = {"": 0} if whole is None else whole.sentences
     found: _Table = {}
+    if whole is not None:
+        for name, (attributes, of_pair, has_patches) in whole.columns.items():
+            size = (len(first), steps, most) if has_patches and not of_pair else (len(first), steps)
+            found[name] = (np.full(size, np.nan), attributes, of_pair)
     kept: dict[str, dict[tuple[int, int], Any]] = {name: {} for name in fields}
-    units: dict[str, str] = {}
-    for done in store.batches():
+    units: dict[str, str] = {} if whole is None else dict(whole.units)
+    for number in numbers:
+        done = store.batch(number)
         at = places.of(done.keys)
         use = np.flatnonzero(at >= 0)
         status[at[use]], missed[at[use]] = done.states[use, :, 0], done.states[use, :, 1]
@@ -81,13 +163,11 @@ def assemble(store: Store, keys: Keys, chosen: NDArray[np.bool_], space: Space, 
         "flag_meanings": "none normal tangential outer force time"})
     data["reason"] = (dims + step_dims, reason_of.reshape(shape + step_shape), {"long_name": "place in reasons"})
     data["reasons"] = (("sentence",), np.array(list(sentences), dtype=object), {"long_name": "why cases were not solved"})
-    _add_fields(data, kept, units, inverse, dims, shape, most, scene.is_wheel_rail)
-    coordinates = _coordinates(space, columns)
-    if scene.is_wheel_rail:
-        coordinates["patch"] = ("patch", np.arange(1, most + 1))
-    if steps > 1:
-        coordinates["step"] = ("step", np.arange(1, steps + 1))
-    return xarray.Dataset(data, coordinates, {"title": "study of rolling contact", "source": f"CONTACT {VERSION}"})
+    of_fields: dict[str, Any] = {}
+    _add_fields(of_fields, kept, units, inverse, dims, shape, most, scene.is_wheel_rail,
+                whole.elements if whole is not None else None)
+    data.update({f"{name}_result" if name in taken else name: values for name, values in of_fields.items()})
+    return coordinates_of(space, columns, scene, most).assign(data)
 
 
 def _known(chosen: NDArray[np.bool_], inverse: NDArray[np.intp], count: int) -> NDArray[np.bool_]:
@@ -100,7 +180,8 @@ def _known(chosen: NDArray[np.bool_], inverse: NDArray[np.intp], count: int) -> 
 def _most_patches(store: Store, places: Places) -> int:
     """Most patches of a case"""
     most = 1
-    for done in store.batches():
+    for number in store.numbers():
+        done = store.batch(number)
         if len(done.places) and (places.of(done.keys) >= 0).any():
             most = max(most, int(done.places[:, 2].max()))
     return most
@@ -119,10 +200,14 @@ def _take_columns(done: Done, at: NDArray[np.int64], found: _Table, totals: list
                 continue
             if column.name not in found:
                 wide = size[:2] if of_pair or not _has_patches(done) else size
-                attributes = {"units": _units(column.unit), "long_name": column.meaning}
-                found[column.name] = (np.full(wide, np.nan), attributes, of_pair)
+                found[column.name] = (np.full(wide, np.nan), _attributes(column), of_pair)
             values = found[column.name][0]
             values[target[:values.ndim]] = done.values[rows, place]
+
+
+def _attributes(column: Column) -> dict[str, str]:
+    """Unit and meaning of a total"""
+    return {"units": _units(column.unit), "long_name": column.meaning}
 
 
 def _has_patches(done: Done) -> bool:
@@ -135,8 +220,8 @@ def _units(unit: str) -> str:
     return {"-": "1", "": "1"}.get(unit, unit)
 
 
-def _coordinates(space: Space, columns: dict[str, Values]) -> dict[str, Any]:
-    """Values of what varies, along its dimension"""
+def coordinates_of(space: Space, columns: dict[str, Values], scene: Scene, most: int) -> xarray.Dataset:
+    """A dataset of what varies, patches and steps, without results."""
     found: dict[str, Any] = {}
     for axis in space.axes:
         for path, values in axis.columns.items():
@@ -148,16 +233,23 @@ def _coordinates(space: Space, columns: dict[str, Values]) -> dict[str, Any]:
         values = columns[path]
         shown = values if values.dtype == np.float64 else np.array([str(value) for value in values], dtype=object)
         found[space.short[path]] = (dims, shown.reshape(space.shape), {"long_name": path})
-    return found
+    if scene.is_wheel_rail:
+        found["patch"] = ("patch", np.arange(1, most + 1))
+    if scene.steps > 1:
+        found["step"] = ("step", np.arange(1, scene.steps + 1))
+    return xarray.Dataset({}, found, {"title": "study of rolling contact", "source": f"CONTACT {VERSION}"})
 
 
 def _add_fields(data: dict[str, Any], kept: dict[str, dict[tuple[int, int], Any]], units: dict[str, str],
-                inverse: NDArray[np.intp], dims: tuple[str, ...], shape: tuple[int, ...], most: int, has_patches: bool) -> None:
+                inverse: NDArray[np.intp], dims: tuple[str, ...], shape: tuple[int, ...], most: int, has_patches: bool,
+                elements: tuple[int, int] | None) -> None:
     """Element fields, smaller grids with NaN behind them, and the frames of their grids"""
     arrays = [values for name in kept for values, _ in kept[name].values()]
-    if not arrays:
+    if elements is None:
+        elements = (max((values.shape[0] for values in arrays), default=0), max((values.shape[1] for values in arrays), default=0))
+    my, mx = elements
+    if mx == 0:
         return
-    my, mx = (max(values.shape[k] for values in arrays) for k in (0, 1))
     count = int(inverse.max()) + 1
     frames = np.full((count, most, 4), np.nan)
     end = (most,) if has_patches else ()
@@ -194,7 +286,7 @@ def save(data: xarray.Dataset, file: str | os.PathLike[str]) -> None:
     for name, values in data.variables.items():
         if values.dtype == object or values.ndim == 0:
             continue
-        chunks = _chunks(values.shape)
+        chunks = chunks_of(values.shape)
         if path.suffix == ".nc":
             encoding[str(name)] = {"chunksizes": chunks, "zlib": True, "complevel": 1}
         else:
@@ -207,7 +299,7 @@ def save(data: xarray.Dataset, file: str | os.PathLike[str]) -> None:
     os.replace(beside, path)
 
 
-def _chunks(shape: tuple[int, ...]) -> tuple[int, ...]:
+def chunks_of(shape: tuple[int, ...]) -> tuple[int, ...]:
     """Sides of a chunk: whole in the last dimensions, as far as it goes"""
     sides, left = [], _CHUNK
     for length in reversed(shape):
@@ -217,11 +309,15 @@ def _chunks(shape: tuple[int, ...]) -> tuple[int, ...]:
     return tuple(reversed(sides))
 
 
-def _save_table(data: xarray.Dataset, path: Path) -> None:
-    """Totals as a table, a portion of the first dimension at a time"""
+def frames_of(data: xarray.Dataset, starts: Mapping[str, int] | None = None) -> Iterator[Any]:
+    """Totals as tables of pyarrow, a portion of the first dimension at a time; a row for each case and patch.
+
+    Dimensions without values are numbered, from 0 or from where a part of a whole starts.
+    """
     import pyarrow
-    import pyarrow.parquet
     dims = data["status"].dims
+    data = data.assign_coords({name: np.arange(data.sizes[name]) + (starts or {}).get(str(name), 0)
+                               for name in dims if name not in data.coords})
     names = [str(name) for name, values in data.data_vars.items() if set(values.dims) <= {*dims, "patch"}
              and values.dtype != object]
     table = data[names]
@@ -231,11 +327,17 @@ def _save_table(data: xarray.Dataset, path: Path) -> None:
         rows = max(1, table["status"].size // longest) * table.sizes.get("patch", 1)
         step = max(1, _CHUNK // rows)
         portions = [table.isel({dims[0]: slice(first, first + step)}) for first in range(0, longest, step)]
-    beside = path.with_name(path.name + ".new")
-    writer = None
     for portion in portions:
         frame = portion.to_dataframe().reset_index() if dims else portion.expand_dims("case").to_dataframe().reset_index()
-        content = pyarrow.Table.from_pandas(frame, preserve_index=False)
+        yield pyarrow.Table.from_pandas(frame, preserve_index=False)
+
+
+def _save_table(data: xarray.Dataset, path: Path) -> None:
+    """Totals as a table"""
+    import pyarrow.parquet
+    beside = path.with_name(path.name + ".new")
+    writer = None
+    for content in frames_of(data):
         if writer is None:
             writer = pyarrow.parquet.ParquetWriter(beside, content.schema)
         writer.write_table(content)

@@ -8,10 +8,12 @@ from multiprocessing import get_context
 from typing import Any, Callable
 
 from ..errors import ContactError
-from ._task import Done, Task, refused, solve_task
+from ._task import Done, Task, build, refused, solve_task
 
 #: Tasks that wait for each worker, so that none is idle
 _AHEAD = 2
+#: How long workers may take to tell what they are [s]
+_PATIENCE = 10.0
 #: How often a task may end with its worker, alone, before it is given up; how often Dask tries one that fails
 _LIVES, _RETRIES = 2, 4
 
@@ -68,6 +70,7 @@ class Engine:
         stop
             Shall no further task be begun?
         """
+        self._check_builds()
         executor = self._start()
         pending: dict[Future[Done], tuple[Task, int]] = {}
         # what ended with its worker, most often beside the task that is to blame
@@ -116,6 +119,22 @@ class Engine:
             for future in pending:
                 future.cancel()
             executor.shutdown(wait=self._client is None)
+
+    def _check_builds(self) -> None:
+        """Refuse workers of a cluster that compute with something else; those that come later refuse their tasks themselves"""
+        if self._client is None:
+            return
+        import distributed
+        try:
+            # as client.run, which has no limit
+            told = self._client.sync(self._client._run, build, on_error="return", callback_timeout=_PATIENCE)
+        except distributed.TimeoutError:
+            # one of them stands still
+            return
+        others = [f"{address} ({found})" for address, found in sorted(told.items()) if found != build()]
+        if others:
+            raise ContactError(f"workers of the cluster are of another build than the study ({build()}), install the same there: "
+                               + ", ".join(others))
 
     def close(self) -> None:
         """Leave the cluster."""

@@ -3,7 +3,6 @@ from __future__ import annotations
 
 import os
 import sqlite3
-from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -70,12 +69,14 @@ class Store:
                  for row in self._base.execute("SELECT keys FROM batches ORDER BY number")]
         return np.concatenate(parts) if parts else np.zeros((0, 2), dtype=np.uint64)
 
-    def batches(self) -> Iterator[Done]:
-        """All results, batch by batch."""
-        numbers = [row[0] for row in self._base.execute("SELECT number FROM batches ORDER BY number")]
-        for number in numbers:
-            keys, data = self._base.execute("SELECT keys, data FROM batches WHERE number = ?", (number,)).fetchone()
-            yield Done.from_bytes(keys, data)
+    def numbers(self) -> list[int]:
+        """Numbers of all batches."""
+        return [row[0] for row in self._base.execute("SELECT number FROM batches ORDER BY number")]
+
+    def batch(self, number: int) -> Done:
+        """Results of a batch."""
+        keys, data = self._base.execute("SELECT keys, data FROM batches WHERE number = ?", (number,)).fetchone()
+        return Done.from_bytes(keys, data)
 
     def size(self) -> int:
         """Bytes that the results take."""

@@ -1,6 +1,7 @@
 """Studies: many cases from one description."""
 from __future__ import annotations
 
+import contextlib
 import hashlib
 import json
 import os
@@ -18,7 +19,7 @@ from numpy.typing import NDArray
 from .._library import fingerprint
 from .._signatures import VERSION
 from ..errors import ContactError
-from . import _dataset, _failures
+from . import _dataset, _failures, _parts
 from ._engine import Engine
 from ._expression import evaluate
 from ._progress import Progress, Wanted, duration
@@ -34,6 +35,8 @@ Derived = Union[str, Callable[[xarray.Dataset], Any]]
 _TASK_SECONDS, _MOST_POINTS = 0.5, 4096
 #: Points that are solved to learn what a case costs
 _TRIALS = 4
+#: Memory of a part of the results [bytes]
+_PART_BYTES = 1 << 27
 #: Points whose inputs are written as bytes at a time
 _PORTION = 1 << 16
 
@@ -231,6 +234,21 @@ class Study:
         -------
         The results, see doc/user/studies.md. A case that was refused or did not converge is part of them, with its reason.
         """
+        with self._computed(workers, engine, scheduler, progress, points_per_task, stop) as store:
+            return self._results(store, self.keys())
+
+    def compute(self, workers: int | None = None, *, engine: str = "threads", scheduler: Any = None, progress: Wanted = None,
+                points_per_task: int | None = None, stop: Callable[[], bool] = lambda: False) -> None:
+        """As :meth:`run`, without results in memory: they stay in the folder, for :meth:`write` and :meth:`results`."""
+        if self.folder is None:
+            raise ContactError("a study that is computed without results in memory needs a folder")
+        with self._computed(workers, engine, scheduler, progress, points_per_task, stop):
+            pass
+
+    @contextlib.contextmanager
+    def _computed(self, workers: int | None, engine: str, scheduler: Any, progress: Wanted, points_per_task: int | None,
+                  stop: Callable[[], bool]) -> Iterator[Store]:
+        """The store with what was not there yet"""
         keys = self.keys()
         store = Store(self.folder)
         doers = Engine(workers, engine, scheduler)
@@ -250,7 +268,7 @@ class Study:
                     shown.add(len(done.keys), int((done.states[:, :, 0] != 0).any(axis=1).sum()))
             finally:
                 shown.close()
-            return self._results(store, keys)
+            yield store
         finally:
             doers.close()
             store.close()
@@ -263,9 +281,42 @@ class Study:
         finally:
             store.close()
 
+    def write(self, *files: str | os.PathLike[str], memory: int = _PART_BYTES) -> _failures.Tally:
+        """Write what is there into files, without computing anything, and without the whole of it in memory.
+
+        Parameters
+        ----------
+        files
+            ``.nc`` for netCDF, ``.zarr`` for Zarr, both in chunks, ``.parquet`` for the totals as a table; none: cases are counted
+            only. Derived quantities have to be formulae: a function would see a part of the results.
+        memory
+            What a part of the results may take, about [bytes].
+
+        Returns
+        -------
+        How cases ended: in words by ``str``, and ``table()`` tells the kinds of those that were not solved.
+        """
+        functions = [name for name, rule in self._derive.items() if callable(rule)]
+        if functions and files:
+            raise ContactError(f"{', '.join(functions)} is derived by a function, which needs all results at once: "
+                               "give a formula, or save what results() gives")
+        store = Store(self.folder)
+        try:
+            return _parts.write_parts(list(files), store, self.keys(), self._chosen, self._space, self._columns, self._wanted(),
+                                      self._derived if files else lambda part: part, memory)
+        finally:
+            store.close()
+
+    def _wanted(self) -> _dataset.Wanted:
+        """What results are to have"""
+        return _dataset.Wanted(self._scene, self._totals, self._fields)
+
     def _results(self, store: Store, keys: Keys) -> xarray.Dataset:
         """The dataset of what is in the store"""
-        data = _dataset.assemble(store, keys, self._chosen, self._space, self._columns, self._scene, self._totals, self._fields)
+        return self._derived(_dataset.assemble(store, keys, self._chosen, self._space, self._columns, self._wanted()))
+
+    def _derived(self, data: xarray.Dataset) -> xarray.Dataset:
+        """Results with what follows from them"""
         for name, rule in self._derive.items():
             names: dict[str, Any] = {str(key): data[key] for key in list(data.variables)}
             values = rule(data) if callable(rule) else evaluate(rule, names)

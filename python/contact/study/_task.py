@@ -3,6 +3,8 @@ from __future__ import annotations
 
 import io
 import json
+import os
+import platform
 import threading
 import time
 from dataclasses import dataclass, field
@@ -11,6 +13,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from .._library import fingerprint
+from .._signatures import VERSION
 from ..errors import ContactError
 from ._batch import Batch, Column, Numbers
 
@@ -18,6 +22,11 @@ from ._batch import Batch, Column, Numbers
 MOST_PATCHES = 12
 
 _own = threading.local()
+
+
+def build() -> str:
+    """What this process computes with: the version, and the hash of the library."""
+    return f"version {VERSION}, library {fingerprint()[:12]}"
 
 
 @dataclass
@@ -42,6 +51,8 @@ class Task:
         Element fields to be kept.
     seconds
         What each case may take [s], 0 without limit.
+    build
+        Of the process that made the task; a worker with another one refuses it.
     """
 
     keys: NDArray[np.uint64]
@@ -53,6 +64,7 @@ class Task:
     is_wheel_rail: bool
     fields: tuple[str, ...] = ()
     seconds: float = 0.0
+    build: str = field(default_factory=build)
 
     def __len__(self) -> int:
         return len(self.keys)
@@ -67,7 +79,7 @@ class Task:
         texts = self.texts if self.names else self.texts[points]
         given = self.given[points] if self.names else self.given
         return Task(self.keys[points], texts, self.names, given, self.folder, self.steps, self.is_wheel_rail, self.fields,
-                    self.seconds)
+                    self.seconds, self.build)
 
 
 @dataclass
@@ -134,6 +146,9 @@ def refused(task: Task, reason: str) -> Done:
 
 def solve_task(task: Task) -> Done:
     """Do a task. The library keeps what it can between the tasks of a thread."""
+    if task.build != build():
+        raise ContactError(f"the worker {platform.node()}, process {os.getpid()}, is of another build ({build()}) than the study "
+                           f"({task.build}): install the same there")
     started = time.perf_counter()
     batches = _own.__dict__.setdefault("batches", {})
     if task.seconds not in batches:
