@@ -11,9 +11,9 @@
 namespace {
 
 #ifdef CONTACT_HAS_AVX2
-const bool has_avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+bool has_avx2() { return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"); }
 #else
-const bool has_avx2 = false;
+bool has_avx2() { return false; }
 namespace no_avx2 {
 plan_tables *new_tables(transform_kind, size_t) { return nullptr; }
 void run(const batch &, const double *, double *) {}
@@ -22,7 +22,7 @@ namespace avx2 = no_avx2;
 #endif
 
 void run(const batch &b, const double *in, double *out) {
-  if (has_avx2)
+  if (has_avx2())
     avx2::run(b, in, out);
   else
     portable::run(b, in, out);
@@ -36,7 +36,7 @@ struct plan {
 
 void add(plan &p, transform_kind what, bool forward, int n, int many, int in_stride, int in_distance, int out_stride, int out_distance) {
   const size_t length = static_cast<size_t>(n);
-  p.tables.emplace_back(has_avx2 ? avx2::new_tables(what, length) : portable::new_tables(what, length));
+  p.tables.emplace_back(has_avx2() ? avx2::new_tables(what, length) : portable::new_tables(what, length));
   p.steps.push_back({what, forward, length, static_cast<size_t>(many), in_stride, in_distance, out_stride, out_distance,
                      p.tables.back().get()});
 }

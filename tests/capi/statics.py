@@ -38,8 +38,8 @@ KNOWN = {
     ".gomp_critical_user_contact_printing": "lock of the .out file of the library",
     ".gomp_critical_user_contact_fft_planner": "lock of FFTW's planner",
 }
-# Tables of types that compiled code reads and nothing writes
-CONSTANT = re.compile(r"_MOD___(vtab|def_init)_")
+# Tables of types that compiled code reads and nothing writes; in C++, addresses that are set when the code is loaded
+CONSTANT = re.compile(r"_MOD___(vtab|def_init)_|^DW\.ref\.")
 # Sections that are writable while the program runs; .data.rel.ro is not
 WRITABLE = re.compile(r"\.(t?data|t?bss)(?!\.rel\.ro)(\.|$)|\*COM\*$")
 
