@@ -3,9 +3,9 @@
 !> Times are rough, to tell seconds from hours. They were measured for a ball on a plane, half of the potential contact
 !> area in contact, EPS 1e-5, grids of 20 x 20 to 400 x 400 elements, at commit f1ba010 on one core of a server of 2022.
 !> Stresses below the surface count for memory only. Accuracies that are asked for were measured with random contacts and wheels
-!> of tests/accuracy at commit e5cd3e8, the first of its size in a process, which makes plans of transforms, on a like machine.
+!> by tests/accuracy/cost.py, the first of its size in a process, which makes plans of transforms, on a like machine.
 module contact_cases_estimate
-   use contact_base_choices, only : force_control, motion, normal_control, solver_choice
+   use contact_base_choices, only : force_control, material_model, motion, normal_control, solver_choice
    use contact_base_kinds, only : long, wp
    use contact_base_memory, only : bytes_per_element
    use contact_cases_accuracy_plan, only : expected_across, expected_law, most_elements
@@ -45,13 +45,15 @@ module contact_cases_estimate
    !> Times NPOT_MAX that are refused where elements are not enlarged; see check_size of contact_wheelrail_patch_inputs
    integer(long), parameter :: hopeless = 10_long
    !> All grids of a case with an accuracy, per element of the usual last one [s]: pressures; with tractions of shifts; of rolling;
-   !> of a wheel, whose height is sought. Elements of that grid over those of the first one, since some contacts need a second
-   real(wp), parameter :: accurate_pressures = 2.5e-6_wp, accurate_shift = 4.5e-6_wp, accurate_rolling = 6.5e-6_wp, &
-      & accurate_wheel = 1.2e-5_wp, accurate_case = 1.0e-3_wp, more_elements = 1.4_wp
+   !> of a wheel, whose height is sought. Each case, and files of profiles [s]. Elements of that grid over those of the first one,
+   !> since some contacts need a second
+   real(wp), parameter :: accurate_pressures = 3.0e-6_wp, accurate_shift = 6.0e-6_wp, accurate_rolling = 6.5e-6_wp, &
+      & accurate_wheel = 1.4e-5_wp, accurate_case = 2.0e-3_wp, accurate_profiles = 4.0e-3_wp, more_elements = 1.4_wp
    !> Simplified methods that were allowed, per element [s]: one march; and marches that find creepages for forces
    real(wp), parameter :: simplified = 1.5e-7_wp, marches = 20.0_wp
-   !> Factors: turns of pressures and tractions; elements of profiles, which are bumpy or touch in two places
-   real(wp), parameter :: accurate_turns = 1.3_wp, bumpy = 2.5_wp
+   !> Factors: turns of pressures and tractions; bodies that remember; trials for prescribed forces; elements of profiles, which are
+   !> bumpy or touch in two places, and of bodies that remember
+   real(wp), parameter :: accurate_turns = 1.5_wp, remembering = 3.0_wp, accurate_trials = 1.4_wp, uneven = 2.5_wp
    !> Part of a window along each side that contact takes
    real(wp), parameter :: usual_share = 0.75_wp
    !> Typical radius of curvature in wheel-rail contact [mm], and the side of the grid relative to the contact
@@ -122,6 +124,7 @@ contains
       type(potential_contact) :: grid
       type(approximate_method) :: chosen
       real(wp) :: n, most, rate
+      logical :: remembers
 
       if (spec%iteration%allows_approximate) call choose_method(spec, chosen)
       if (chosen%found) then
@@ -133,7 +136,8 @@ contains
          return
       end if
       n = (expected_across(expected_law(spec), spec%iteration%accuracy)/usual_share)**2*more_elements
-      if (spec%grid%needs_geometry() .and. spec%geometry%form == distance_form%profile) n = bumpy*n
+      remembers = spec%material_model == material_model%viscoelastic .and. spec%motion /= motion%none
+      if (remembers .or. (spec%grid%needs_geometry() .and. spec%geometry%form == distance_form%profile)) n = uneven*n
       most = most_elements(spec%limits)
       if (allocated(spec%wheel_rail)) most = min(most, real(spec%iteration%npot_max, wp))
       cost%at_most = n > most
@@ -147,7 +151,11 @@ contains
       if (spec%motion == motion%steady_rolling) rate = accurate_rolling
       if (allocated(spec%wheel_rail)) rate = accurate_wheel
       if (is_dissimilar(spec)) rate = accurate_turns*rate
+      if (remembers) rate = remembering*rate
+      if (spec%force /= force_control%creepages .and. spec%motion /= motion%none .and. .not. allocated(spec%wheel_rail)) &
+         & rate = accurate_trials*rate
       cost%seconds = accurate_case + rate*n
+      if (allocated(spec%wheel_rail)) cost%seconds = cost%seconds + accurate_profiles
    end subroutine estimate_accurate
 
    !> Does the outer iteration turn?

@@ -1,7 +1,8 @@
 #!/bin/sh
-# What accuracy costs: sh tests/performance/accuracy.sh
+# What accuracy costs: sh tests/performance/accuracy.sh [--goals]
 #
-# Builds, measures for a few minutes, and writes doc/validation/accuracy.md and accuracy.svg.
+# Builds, measures for some minutes, and writes doc/validation/accuracy.md and accuracy.svg; with --goals the last part of
+# accuracy.md only, random contacts beside the goals.
 # BENCH_BUILD names a build folder that is up to date, to be used instead.
 set -u
 top=$(cd "$(dirname "$0")/../.." && pwd) || exit 1
@@ -14,10 +15,20 @@ if [ -z "$programs" ]; then
 fi
 OMP_NUM_THREADS=1
 export OMP_NUM_THREADS
-mkdir -p "$top/doc/validation"
+folder=$top/doc/validation
+mkdir -p "$folder"
 lines=$(mktemp) || exit 1
 trap 'rm -f "$lines"' EXIT
 say "Measuring"
-"$programs/tests/performance_accuracy" >"$lines" || fail "The measurement failed."
-python3 "$top/tests/performance/accuracy.py" "$top/doc/validation" <"$lines" || exit 1
-say "Written: doc/validation/accuracy.md, doc/validation/accuracy.svg"
+case ${1:-} in
+  '')
+    "$programs/tests/performance_accuracy" >"$lines" || fail "The measurement failed."
+    python3 "$top/tests/performance/accuracy.py" "$folder" <"$lines" || exit 1
+    ;;
+  --goals) ;;
+  *) fail "usage: sh tests/performance/accuracy.sh [--goals]" ;;
+esac
+sed '/^## Goals$/,$d' "$folder/accuracy.md" >"$lines"
+python3 "$top/tests/performance/goals.py" "$programs/tests/performance_goals" >>"$lines" || fail "The measurement of goals failed."
+cp "$lines" "$folder/accuracy.md"
+say "Written: doc/validation/accuracy.md"
