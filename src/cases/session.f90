@@ -4,6 +4,7 @@ module contact_cases_session
    use contact_base_error, only : error_kind, error_type, fatal_error
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
+   use contact_cases_accuracy_series, only : accuracy_series
    use contact_cases_border_warning, only : warn_of_border
    use contact_cases_effects, only : name_effects
    use contact_cases_patch_setup, only : set_problem
@@ -37,6 +38,8 @@ module contact_cases_session
       type(potential_contact) :: advised
       !> Curvatures of the Hertzian contact whose grid was chosen for an accuracy [1/mm]; 0 for none
       real(wp) :: curvatures(2) = 0.0_wp
+      !> The cases that the next one may continue, where they have an accuracy
+      type(accuracy_series) :: series
    end type contact_session
 
 contains

@@ -85,10 +85,11 @@ contains
       call choose_axis(fine%grid%my, box%iy0, box%iy1, y)
       continues = has_history(fine) .and. link /= time_link%initiate
       if (continues .and. coarse_state%started) then
-         associate (before => coarse_state%now%grid)
-            call keep_lattice(nint((fine%grid%xl - before%xl)/fine%grid%dx), x)
-            call keep_lattice(nint((fine%grid%yl - before%yl)/fine%grid%dy), y)
-         end associate
+         if (link == time_link%repeat_step .and. coarse_state%before%grid%mx > 0) then
+            call keep_former(fine, coarse_state%before, x, y)
+         else
+            call keep_former(fine, coarse_state%now, x, y)
+         end if
       end if
       ! rows of one element width each: the side of elements along the rolling direction is the step
       if (fine%general_step .and. x%factor /= y%factor) then
@@ -125,18 +126,42 @@ contains
       has_history = problem%motion == motion%shift .or. problem%motion == motion%transient_rolling
    end function has_history
 
-   !> Put coarse elements on the lattice of the case before
-   pure subroutine keep_lattice(shift, axis)
+   !> Put coarse elements on the lattice of the case before, and over the contact that it had
+   pure subroutine keep_former(fine, former, x, y)
+      !> The present problem
+      type(patch_problem), intent(in) :: fine
+      !> Coarse level of the case before
+      type(traction_fields), intent(in) :: former
+      type(coarse_axis), intent(inout) :: x, y
+      type(bounding_box) :: box
+
+      box = contact_box(former%division)
+      call keep_lattice(nint((fine%grid%xl - former%grid%xl)/fine%grid%dx), box%ix0, box%ix1, x)
+      call keep_lattice(nint((fine%grid%yl - former%grid%yl)/fine%grid%dy), box%iy0, box%iy1, y)
+   end subroutine keep_former
+
+   !> The same in one direction
+   pure subroutine keep_lattice(shift, low, high, axis)
       !> Number of fine elements that the first one of this window lies behind the beginning of the former coarse window
       integer, intent(in) :: shift
+      !> First and last one of the former coarse elements in contact; high < low for none
+      integer, intent(in) :: low, high
       type(coarse_axis), intent(inout) :: axis
-      integer :: wrong
+      integer :: start, missing
 
       if (axis%factor == 1) return
-      wrong = modulo(axis%first + shift - (1 + beside), axis%factor)
-      if (wrong == 0) return
-      axis%first = axis%first - wrong
-      axis%count = axis%count + 1
+      ! fine element at the centre of the first one of the former coarse elements
+      start = 1 + beside - shift
+      missing = modulo(axis%first - start, axis%factor)
+      if (missing > 0) then
+         axis%first = axis%first - missing
+         axis%count = axis%count + 1
+      end if
+      if (high < low) return
+      missing = max(0, (axis%first - start)/axis%factor - (low - 1))
+      axis%first = axis%first - missing*axis%factor
+      axis%count = axis%count + missing
+      axis%count = max(axis%count, high - (axis%first - start)/axis%factor)
    end subroutine keep_lattice
 
    !> Coarse elements over the contact, and one more at each end where the window goes on

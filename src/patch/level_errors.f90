@@ -14,7 +14,8 @@ module contact_patch_level_errors
    implicit none (type, external)
    private
 
-   public :: energies, error_of, error_of_peak, irregularity, mean_friction, residual_share, scale_of, scale_type, scales
+   public :: coupled_friction_floor, energies, error_of, error_of_peak, irregularity, mean_friction, residual_share, scale_of, &
+      & scale_type, scales
 
    !> Of the largest of a field whose peak elements resolve; of temperatures that count the heat of an element twice at its
    !> centre: its share falls with the root of the element

@@ -18,7 +18,7 @@ from error_cases import CHANGES, contact, text_of, wheel, wheel_text
 from errors import last_cases, patch_of, run, scale_of
 
 #: Kinds of contacts whose grid can be chosen
-KINDS = tuple(k for k in CHANGES if k != "transient")
+KINDS = (*(k for k in CHANGES if k != "transient"), "shifts")
 #: Fixed grids that are tried: elements along each side
 FIXED = (12, 14, 17, 20, 24, 28, 34, 40, 48, 56, 68, 80, 96, 112, 136, 160)
 #: The same of wheels: factors of the elements of a case, which have 0.3 to 0.7 mm
@@ -72,16 +72,19 @@ def judge_contacts(program, asked, folder):
     """Rows (contact, accuracy, error, what was told, doubt of the reference), seconds by accuracy, grids (n, errors, seconds)."""
     source = random.Random(asked.seed)
     contacts = [contact(source, asked.kinds[k % len(asked.kinds)]) for k in range(asked.count)]
-    reference = [run(program, folder, f"reference{n}", contact_texts(contacts, source, n, 1e-7), False, ("--order", "2"))
-                 for n in (asked.reference, 2 * asked.reference)]
-    exact = [exact_totals(c, [r.get(k, {}) for r in reference]) for k, c in enumerate(contacts, 1)]
+    reference = []
+    for n in (asked.reference, 2 * asked.reference):
+        records = run(program, folder, f"reference{n}", contact_texts(contacts, source, n, 1e-7), False, ("--order", "2"))
+        reference.append([records.get(number, {}) for number in last_cases(contacts)])
+    exact = [exact_totals(c, pair) for c, pair in zip(contacts, zip(*reference))]
     rows, seconds, fixed = [], {}, []
     for tolerance in asked.asked:
         records, seconds[tolerance] = timed(program, folder, "asked", contact_texts(contacts, source, 40, 1e-5), False,
                                             ("--accuracy", str(tolerance)))
-        for k, (c, error) in enumerate(zip(contacts, contact_errors(contacts, records, exact)), 1):
-            told = records.get(k, {}).get("patches", [{}])[0].get("accuracy", {})
-            rows.append((c, tolerance, error, told, exact[k - 1][1] if exact[k - 1] else math.inf))
+        errors = contact_errors(contacts, records, exact)
+        for c, number, error, fine in zip(contacts, last_cases(contacts), errors, exact):
+            told = records.get(number, {}).get("patches", [{}])[0].get("accuracy", {})
+            rows.append((c, tolerance, error, told, fine[1] if fine else math.inf))
     for n in FIXED if asked.fixed else ():
         records, time = timed(program, folder, "fixed", contact_texts(contacts, source, n, 1e-5), False, ("--order", "2"))
         fixed.append((n, contact_errors(contacts, records, exact), time))

@@ -163,11 +163,20 @@ def _warm(random, c, b1, b3, full):
                      f"dtheat = {random.uniform(50.0, 400.0)!r}\nmemdst = 0.0\nmem_s0 = 1.0\n")
 
 
+def _shifts(random, c, b1, b3, full):
+    """Four shifts, each from where the one before ended, in other directions and with other loads."""
+    _shift(random, c, b1, b3, full)
+    c["steps"] = 4
+    size = math.hypot(*c["creep"])
+    c["changes"] = {step: {"fn": c["fn"] * random.uniform(0.6, 1.2), "cksi": size * random.uniform(-1.0, 1.0),
+                           "ceta": size * random.uniform(-1.0, 1.0)} for step in range(1, c["steps"])}
+
+
 CHANGES = {"rolling": _plain, "normal": _normal, "shift": _shift, "forces": _forces, "dissimilar": _dissimilar,
            "profile": _profile, "falling": _falling, "viscoelastic": _viscoelastic, "layer": _layer, "heat": _heat,
            "transient": _transient, "reverse": _reverse}
 #: Kinds that are further out, not part of the tables
-FURTHER = {"unlike": _unlike, "extreme": _extreme, "warm": _warm}
+FURTHER = {"unlike": _unlike, "extreme": _extreme, "warm": _warm, "shifts": _shifts}
 
 
 def text_of(c, n, offset, eps=1e-6, options=""):
@@ -184,6 +193,8 @@ def text_of(c, n, offset, eps=1e-6, options=""):
                   f'tangential = "{c["tangential"]}"', f'material_model = "{c["model"]}"', "output_level = 0", options,
                   f'sequence = "{"continue_all" if step else "initiate"}"', f'estimate = "{"previous" if step else "fresh"}"']
         if step:
+            if step in c.get("changes", {}):
+                lines += ["[case.kinematics]", *(f"{name} = {value!r}" for name, value in c["changes"][step].items())]
             continue
         load = f"fn = {c['fn']!r}" if c["normal"] == "force" else f"pen = {c['pen']!r}"
         xi, eta = c["creep"]

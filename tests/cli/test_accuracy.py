@@ -6,6 +6,7 @@ The environment tells CONTACT_PROGRAM and CONTACT_SOURCE.
 import json
 import os
 import pathlib
+import random
 import re
 import sys
 import unittest
@@ -15,7 +16,7 @@ SOURCE = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "accuracy"))
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 
-from error_cases import wheel_text
+from error_cases import contact, text_of, wheel_text
 from test_order import Runs, rolling
 
 WHEEL = {"dx": 0.4, "mu": 0.3, "cant": 0.025, "y": 0.0, "yaw": 0.0, "fz": 60000.0, "vs": 20000.0, "vpitch": -43.5}
@@ -192,6 +193,58 @@ class Accuracy(Runs):
         oblique = rolling().replace("0 0.5 30000 CHI", "1.57 0.5 30000 CHI")
         (self.folder / "oblique.inp").write_text(oblique + " 0 MODULE\n")
         self.assertIn("not along x", self.run_program("--accuracy", "1e-3", "2", "oblique", status=1))
+
+    def solve_all(self, name, text, *options):
+        """The patch of each case"""
+        self.solve(name, text, *options)
+        lines = (self.folder / (name.split(".")[0] + ".jsonl")).read_text().splitlines()
+        return [r["patches"][0] for r in (plain(json.loads(line)) for line in lines) if r.get("patches")]
+
+    def test_series(self):
+        """Shifts that continue one another: what the last one needs, those before it get; the result is that of the same cases
+        on the chosen elements, and as exact as asked against finer ones"""
+        c = contact(random.Random(4), "shifts")
+        fine = self.solve_all("fine.toml", text_of(c, 120, (0.3, 0.1)))[-1]["totals"]
+        for first, last in ((1e-2, 1e-2), (5e-2, 1e-3)):
+            with self.subTest(asked=last):
+                text = text_of(c, 30, (0.2, 0.4)).replace("[case.iteration]\n", f"[case.iteration]\naccuracy = {first}\n")
+                patches = self.solve_all("a.toml", text + f"[case.iteration]\naccuracy = {last}\n")
+                told, totals = [p["accuracy"] for p in patches], patches[-1]["totals"]
+                self.assertTrue(all(t["reached"] for t in told))
+                bound = totals["mu_scal"] * totals["fn"]
+                error = max(abs(totals[name] - fine[name]) for name in ("fx", "fy")) / bound
+                self.assertLess(max(error, abs(totals["pen"] / fine["pen"] - 1.0)), last)
+                self.assertEqual(told[-1]["mx"] > told[0]["mx"], first > last)
+                text = text_of(c, 30, (0.2, 0.4), told[-1]["eps"])
+                for name in ("mx", "my", "dx", "dy"):
+                    text = re.sub(rf"^{name} = .*$", f"{name} = {told[-1][name]!r}", text, flags=re.MULTILINE)
+                again = self.solve_all("b.toml", text)[-1]["totals"]
+                self.assertLess(max(abs(totals[n] - again[n]) for n in ("fx", "fy")), 3.0 * told[-1]["eps"] * bound)
+        # a load that falls leaves contact behind, which the coarse level has to hold
+        c["changes"] = {step: {"fn": c["fn"] / 2**step} for step in range(1, c["steps"])}
+        for n in (20, 31):
+            for patch in self.solve_all("d.toml", text_of(c, n, (0.2, 0.4)), "--errors"):
+                self.assertIn("fx_error", patch["errors"], patch["errors"].get("reason"))
+        # a step that is repeated goes on from the case before the one that it repeats
+        head, *cases = text_of(c, 30, (0.2, 0.4)).split("[[case]]")[1:]
+        twice = [*cases[:2], cases[1].replace("continue_all", "repeat_step"), cases[2]]
+        once, again = (self.solve_all("c.toml", "[[case]]" + "[[case]]".join([head, *rest]), "--accuracy", "1e-3")[-1]["totals"]
+                       for rest in (cases, twice))
+        self.assertLess(max(abs(once[n] - again[n]) for n in ("fx", "fy")), 3e-4 * once["mu_scal"] * once["fn"])
+
+    def test_series_refused(self):
+        """Cases that cannot go on with the elements of those before"""
+        c = contact(random.Random(4), "shifts")
+        text = text_of(c, 30, (0.2, 0.4))
+        without = text.replace("[case.iteration]\n", "[case.iteration]\naccuracy = 0\n")
+        window = re.search(r"\[case.grid\].*?(?=\[case.geometry)", text, re.DOTALL).group()
+        corner, side = (float(re.search(rf"^{name} = (.*)$", window, re.MULTILINE).group(1)) for name in ("xl", "dx"))
+        moved = text + re.sub("xl = .*", f"xl = {corner + side!r}", window)
+        for name, words, why in (("without", without + "[case.iteration]\naccuracy = 1e-2\n", "continues one without an accuracy"),
+                                 ("moved", moved, "a window that moves")):
+            (self.folder / f"{name}.toml").write_text(words)
+            options = () if name == "without" else ("--accuracy", "1e-2")
+            self.assertIn(why, self.run_program(*options, "2", name, status=1))
 
     def test_resume(self):
         """The accuracy is one of the options that a run was made with"""

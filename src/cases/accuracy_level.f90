@@ -1,0 +1,138 @@
+!> One grid of an accuracy that was asked for: the case on it, behind those that it continues
+module contact_cases_accuracy_level
+   use contact_base_choices, only : estimate_choice, grid_form, motion, time_link
+   use contact_base_error, only : error_type
+   use contact_base_kinds, only : wp
+   use contact_base_limits, only : wall_clock
+   use contact_base_log, only : log_type
+   use contact_cases_accuracy_grid, only : first_counts, set_elements, stay_below
+   use contact_cases_accuracy_plan, only : accuracy_law, first_across, most_elements, prepare_level, solver_tolerance
+   use contact_cases_accuracy_series, only : has_history
+   use contact_cases_session, only : contact_session, solve_case
+   use contact_cases_spec, only : case_spec, grid_spec, part_source
+   use contact_patch_result, only : patch_result
+   implicit none (type, external)
+   private
+
+   public :: first_grid, keeps_axes, level_grid, solve_level, take_curvatures
+
+   !> A grid, and what cases are solved with on it
+   type :: level_grid
+      !> Elements along x and y, and sides of the window [mm], 0 where these follow from Hertz's solution
+      integer :: counts(2) = 0
+      real(wp) :: lengths(2) = 0.0_wp
+      !> Tolerance of the solvers
+      real(wp) :: eps = 0.0_wp
+   end type level_grid
+
+contains
+
+   !> Are there semi-axes that belong to the load of a case before? The curvatures that followed from them are kept
+   pure logical function keeps_axes(spec)
+      type(case_spec), intent(in) :: spec
+
+      keeps_axes = any(spec%grid%form == [grid_form%hertz_axes, grid_form%hertz_line]) .and. .not. spec%has_new_geometry()
+   end function keeps_axes
+
+   !> Curvatures in place of semi-axes
+   pure subroutine take_curvatures(curvatures, grid)
+      !> Of x**2 and y**2 [1/mm]
+      real(wp), intent(in) :: curvatures(2)
+      !> Around semi-axes; gets another form
+      type(grid_spec), intent(inout) :: grid
+
+      grid%a1 = curvatures(1)
+      grid%b1 = curvatures(2)
+      grid%form = merge(grid_form%hertz_line_curvature, grid_form%hertz_curvatures, grid%is_line_contact())
+   end subroutine take_curvatures
+
+   !> The grid that a search begins with
+   subroutine first_grid(session, spec, law, fixed, grid)
+      !> With the grid of the cases that this one continues
+      type(contact_session), intent(in) :: session
+      type(case_spec), intent(in) :: spec
+      !> Expected error
+      type(accuracy_law), intent(in) :: law
+      !> Numbers of elements that stay, 0 for others
+      integer, intent(in) :: fixed(2)
+      !> Not finer than limits allow
+      type(level_grid), intent(out) :: grid
+
+      grid%eps = solver_tolerance(spec%iteration%accuracy)
+      if (has_history(spec)) then
+         grid%counts = session%series%counts
+         grid%lengths = session%series%lengths
+         grid%eps = min(grid%eps, session%series%eps)
+      else
+         call first_counts(spec%grid, first_across(law, spec%iteration%accuracy), grid%lengths, grid%counts)
+         where (fixed > 0) grid%counts = fixed
+      end if
+      call stay_below(most_elements(spec%limits), fixed, grid%counts)
+   end subroutine first_grid
+
+   !> Solve a case on one grid, behind those that it continues
+   subroutine solve_level(session, spec, grid, log, result, is_solved, seconds, error, folder)
+      type(contact_session), intent(inout) :: session
+      !> As it was asked for
+      type(case_spec), intent(in) :: spec
+      !> Elements, window and tolerance
+      type(level_grid), intent(in) :: grid
+      type(log_type), intent(inout) :: log
+      type(patch_result), intent(inout) :: result
+      !> Did all iterations converge, also those of the cases before?
+      logical, intent(out) :: is_solved
+      !> What it took
+      real(wp), intent(out) :: seconds
+      type(error_type), allocatable, intent(out) :: error
+      !> Folder to which names of files are relative; default the current one
+      character(len=*), intent(in), optional :: folder
+      type(case_spec) :: before
+      real(wp) :: began
+      integer :: k
+
+      began = wall_clock()
+      seconds = 0.0_wp
+      is_solved = .true.
+      if (.not. session%series%is_at(spec, grid%counts, grid%lengths, grid%eps)) then
+         do k = 1, session%series%before(spec)
+            before = session%series%steps(k)
+            before%limits = spec%limits
+            call solve_step(session, before, grid, log, result, is_solved, error, folder)
+            if (allocated(error)) return
+         end do
+      end if
+      call solve_step(session, spec, grid, log, result, is_solved, error, folder)
+      seconds = wall_clock() - began
+   end subroutine solve_level
+
+   !> Solve one case on one grid
+   subroutine solve_step(session, spec, grid, log, result, is_solved, error, folder)
+      type(contact_session), intent(inout) :: session
+      !> As it was asked for
+      type(case_spec), intent(in) :: spec
+      type(level_grid), intent(in) :: grid
+      type(log_type), intent(inout) :: log
+      type(patch_result), intent(inout) :: result
+      !> Stays true where iterations converge
+      logical, intent(inout) :: is_solved
+      type(error_type), allocatable, intent(out) :: error
+      character(len=*), intent(in), optional :: folder
+      type(case_spec) :: level
+
+      level = spec
+      call prepare_level(grid%eps, level)
+      if (has_history(spec)) then
+         level%link = spec%link
+         if (spec%link == time_link%repeat_step) level%link = session%series%steps(session%series%used)%link
+         if (level%link /= time_link%initiate) level%estimate = estimate_choice%previous
+      end if
+      level%parts%grid = part_source%given
+      level%parts%geometry = part_source%given
+      if (keeps_axes(spec)) call take_curvatures(session%curvatures, level%grid)
+      call set_elements(level%grid, grid%counts, grid%lengths)
+      if (grid%lengths(1) > 0.0_wp .and. spec%motion == motion%steady_rolling) level%rolling%dq = grid%lengths(1)/grid%counts(1)
+      call log%note()
+      call solve_case(session, level, log, result, error, folder)
+      if (.not. allocated(error)) is_solved = is_solved .and. result%status%is_solved()
+   end subroutine solve_step
+end module contact_cases_accuracy_level

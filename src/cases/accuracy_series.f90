@@ -1,0 +1,153 @@
+!> Cases that continue one another, each to an accuracy that was asked for
+!>
+!> Tractions of the case before stand on the elements of that case. So all cases of a series have the same elements; where one of
+!> them needs finer ones, those before it are solved once more. See doc/theory/accuracy.md.
+module contact_cases_accuracy_series
+   use contact_base_choices, only : motion, time_link
+   use contact_base_error, only : error_kind, error_type, fatal_error
+   use contact_base_kinds, only : wp
+   use contact_cases_accuracy_grid, only : set_elements, sides_of_window
+   use contact_cases_spec, only : case_spec, grid_spec
+   implicit none (type, external)
+   private
+
+   public :: accuracy_series, has_history
+
+   !> The cases of a series, as they were asked for, and the grid that all of them stand on
+   type :: accuracy_series
+      !> The first `used` ones are filled
+      type(case_spec), allocatable :: steps(:)
+      integer :: used = 0
+      !> Elements along x and y of the solution that the session holds, 0: it holds none of this series
+      integer :: counts(2) = 0
+      !> Sides of the window [mm], and tolerance of the solvers
+      real(wp) :: lengths(2) = 0.0_wp, eps = 0.0_wp
+   contains
+      !> Forget all cases
+      procedure :: clear
+      !> Take in a case that is solved, behind those that it continues
+      procedure :: take
+      !> Number of the cases before one that continues the series
+      procedure :: before
+      !> Does the session hold the solution that a case continues, on this grid?
+      procedure :: is_at
+      !> Refuse a case that the series cannot be continued with, by name
+      procedure :: refuse
+   end type accuracy_series
+
+contains
+
+   !> Does what is solved depend on the case before?
+   pure logical function has_history(spec)
+      type(case_spec), intent(in) :: spec
+
+      has_history = spec%motion == motion%shift .and. spec%link /= time_link%initiate
+   end function has_history
+
+   pure subroutine clear(self)
+      class(accuracy_series), intent(inout) :: self
+
+      self%used = 0
+      self%counts = 0
+   end subroutine clear
+
+   subroutine take(self, spec, counts, lengths, eps)
+      class(accuracy_series), intent(inout) :: self
+      !> As it was asked for
+      type(case_spec), intent(in) :: spec
+      !> Elements along x and y
+      integer, intent(in) :: counts(2)
+      !> Sides of the window [mm]
+      real(wp), intent(in) :: lengths(2)
+      !> Tolerance
+      real(wp), intent(in) :: eps
+      type(case_spec), allocatable :: longer(:)
+      integer :: k, link
+
+      k = self%before(spec) + 1
+      link = time_link%initiate
+      if (has_history(spec)) link = spec%link
+      ! a repeated step takes the place of the one before
+      if (link == time_link%repeat_step) link = self%steps(k)%link
+      if (.not. allocated(self%steps)) allocate(self%steps(8))
+      if (k > size(self%steps)) then
+         allocate(longer(2*k))
+         longer(:k - 1) = self%steps
+         call move_alloc(longer, self%steps)
+      end if
+      self%steps(k) = spec
+      self%steps(k)%link = link
+      self%used = k
+      self%counts = counts
+      self%lengths = lengths
+      self%eps = eps
+   end subroutine take
+
+   pure integer function before(self, spec)
+      class(accuracy_series), intent(in) :: self
+      type(case_spec), intent(in) :: spec
+
+      before = 0
+      if (.not. has_history(spec)) return
+      before = self%used
+      if (spec%link == time_link%repeat_step) before = max(0, self%used - 1)
+   end function before
+
+   pure logical function is_at(self, spec, counts, lengths, eps)
+      class(accuracy_series), intent(in) :: self
+      type(case_spec), intent(in) :: spec
+      !> Elements along x and y
+      integer, intent(in) :: counts(2)
+      !> Sides of the window [mm]
+      real(wp), intent(in) :: lengths(2)
+      !> Tolerance
+      real(wp), intent(in) :: eps
+
+      ! a repeated step goes on from where the one before went on from
+      is_at = .not. has_history(spec) .or. (spec%link /= time_link%repeat_step .and. all(self%counts == counts) &
+         & .and. self%eps <= eps .and. all(is_same(self%lengths, lengths)))
+   end function is_at
+
+   subroutine refuse(self, spec, error)
+      class(accuracy_series), intent(in) :: self
+      type(case_spec), intent(in) :: spec
+      !> Allocated when it does not go
+      type(error_type), allocatable, intent(out) :: error
+      character(len=:), allocatable :: why
+
+      if (.not. has_history(spec)) return
+      why = ""
+      if (.not. spec%grid%needs_geometry()) then
+         why = "a window that follows from the load, in cases that continue one another: a corner and sides do"
+      else if (self%used == 0) then
+         why = "a case that continues one without an accuracy, or one without a solution"
+      else if (.not. is_same_window(self%steps(1)%grid, spec%grid)) then
+         why = "a window that moves from case to case"
+      end if
+      if (why /= "") call fatal_error(error, "an accuracy was asked for, but the grid cannot be chosen with " // why, &
+         & error_kind%unsupported)
+   end subroutine refuse
+
+   !> Do two cases describe the same window?
+   pure logical function is_same_window(first, other) result(same)
+      type(grid_spec), intent(in) :: first, other
+      type(grid_spec) :: a, b
+
+      same = first%form == other%form .and. all(is_same(sides_of_window(first), sides_of_window(other)))
+      if (.not. same) return
+      a = first
+      b = other
+      call set_elements(a, [1, 1], sides_of_window(first))
+      call set_elements(b, [1, 1], sides_of_window(first))
+      same = all(is_same([a%xl, a%yl, a%xc1, a%yc1], [b%xl, b%yl, b%xc1, b%yc1]))
+   end function is_same_window
+
+   !> Are two numbers the same within round-off?
+   elemental logical function is_same(a, b)
+      real(wp), intent(in) :: a, b
+      !> Relative; sums and products of numbers of the input
+      real(wp), parameter :: slack = 1.0e-9_wp
+
+      is_same = abs(a - b) <= slack*max(abs(a), abs(b))
+   end function is_same
+end module contact_cases_accuracy_series
