@@ -7,6 +7,7 @@ goal. With --check a few contacts on small grids must have errors that belong to
 """
 import argparse
 import math
+import os
 import random
 import statistics
 import subprocess
@@ -55,7 +56,8 @@ def measure(program, contacts, source, places, grids):
     for motion, n, eps in grids:
         text.append(f"{motion} {n} {eps:g}")
         text += [f"{source.random()!r} {source.random()!r}" for _ in range(places)]
-    done = subprocess.run([program], input="\n".join(text) + "\n", capture_output=True, text=True)
+    done = subprocess.run([program], input="\n".join(text) + "\n", capture_output=True, text=True,
+                          env=dict(os.environ, OMP_NUM_THREADS="1"))
     if done.returncode:
         sys.exit(done.stderr)
     samples = {}
