@@ -9,6 +9,7 @@ module contact_cases_session
    use contact_cases_effects, only : name_effects
    use contact_cases_patch_setup, only : set_problem
    use contact_cases_spec, only : case_spec
+   use contact_cases_stress_errors, only : estimate_stress_errors
    use contact_cases_subsurface, only : subsurface_stresses, warn_of_steps
    use contact_grid_element_division, only : element
    use contact_grid_potential_contact, only : fit_field, potential_contact
@@ -111,6 +112,8 @@ contains
       call warn_of_few_elements(result, "DY", log)
       call name_effects(spec, session%problem, result)
       if (allocated(result%errors)) deallocate(result%errors)
+      ! the totals whose errors are estimated next are not those of the stresses of another case
+      if (allocated(result%subsurface)) deallocate(result%subsurface)
       if (spec%estimates_errors) then
          if (.not. allocated(session%coarse)) allocate(session%coarse)
          call estimate_errors(session%problem, session%state, spec%link, max(1, result%tangential%order), session%coarse, &
@@ -119,10 +122,11 @@ contains
       else if (allocated(session%coarse)) then
          session%coarse%state%started = .false.
       end if
-      if (allocated(result%subsurface)) deallocate(result%subsurface)
       if (.not. spec%has_stress) return
       call subsurface_stresses(spec, result, error)
-      if (.not. allocated(error)) call warn_of_steps(result, log)
+      if (allocated(error)) return
+      call warn_of_steps(result, log)
+      if (spec%estimates_errors) call estimate_stress_errors(spec, session%coarse%result, result)
    end subroutine solve_in_folder
 
    !> Depths of a passage add up along rows of elements

@@ -15,6 +15,7 @@ module contact_cases_wheel_rail_session
    use contact_cases_session, only : refuse_nonsense
    use contact_cases_rules, only : refuse_broken_rules
    use contact_cases_spec, only : case_spec
+   use contact_cases_stress_errors, only : estimate_stress_errors
    use contact_cases_subsurface, only : subsurface_stresses, warn_of_steps
    use contact_elastic_model, only : influence_table
    use contact_grid_potential_contact, only : potential_contact
@@ -106,6 +107,8 @@ contains
             if (spec%has_stress) &
                & call subsurface_stresses(spec, contact, error, spec%wheel_rail%left)
             if (.not. allocated(error)) call warn_of_steps(contact, log)
+            if (allocated(session%memory%slot(k)%coarse) .and. .not. allocated(error)) &
+               & call estimate_stress_errors(spec, session%memory%slot(k)%coarse%result, contact, spec%wheel_rail%left)
             call name_effects(spec, session%memory%slot(k)%problem, contact)
          end associate
          if (allocated(error)) return

@@ -12,8 +12,9 @@ module contact_patch_error_estimate
    use contact_base_kinds, only : wp
    use contact_base_log, only : log_type
    use contact_friction_law, only : friction_driver
+   use contact_patch_balances, only : balances_power, error_of_normal_energy, motion_power, normal_energy
    use contact_patch_coarse_level, only : coarsen_patch
-   use contact_patch_level_errors, only : energies, error_of, error_of_peak, irregularity, mean_friction, residual_share, &
+   use contact_patch_level_errors, only : error_of, error_of_peak, irregularity, mean_friction, residual_share, &
       & scale_of, scale_type, scales
    use contact_patch_peak, only : peak_of
    use contact_patch_problem, only : patch_problem, patch_state
@@ -142,8 +143,19 @@ contains
          end associate
       end if
       scale = scales(problem, order, result)
-      scale%energy = energies(result)
-      scale%energy_change = scale%energy - load**(5.0_wp/3.0_wp)*energies(level%result)
+      scale%energy(1) = normal_energy(result)
+      scale%energy(2) = result%elastic_energy - scale%energy(1)
+      scale%energy_change(1) = scale%energy(1) - load**(5.0_wp/3.0_wp)*normal_energy(level%result)
+      scale%energy_change(2) = scale%energy(2) &
+         & - load**(5.0_wp/3.0_wp)*(level%result%elastic_energy - normal_energy(level%result))
+      if (.not. present(approach_change)) &
+         & call error_of_normal_energy(problem, result, level%result, scale%normal_energy, scale%has_normal_energy)
+      scale%balances = balances_power(problem)
+      if (scale%balances) then
+         scale%motion_change = motion_power(problem, result)
+         scale%surplus = result%friction_power - scale%motion_change
+         scale%motion_change = scale%motion_change - load*motion_power(level%problem, level%result)
+      end if
       if (allocated(problem%thermal) .and. allocated(problem%friction)) then
          if (problem%friction%driver() == friction_driver%temperature) &
             & scale%warmed = abs(mean_friction(level%result) - mean_friction(result))/max(mean_friction(result), tiny(load))

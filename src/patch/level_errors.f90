@@ -5,6 +5,7 @@ module contact_patch_level_errors
    use contact_base_choices, only : heat_source, motion
    use contact_base_constants, only : excluded_threshold, nmm_per_joule, pi
    use contact_base_kinds, only : wp
+   use contact_friction_law, only : friction_driver
    use contact_grid_element_division, only : bounding_box, contact_box, element
    use contact_patch_coarse_level, only : coarsening
    use contact_patch_peak, only : peak_of
@@ -14,8 +15,8 @@ module contact_patch_level_errors
    implicit none (type, external)
    private
 
-   public :: coupled_friction_floor, energies, error_of, error_of_peak, irregularity, mean_friction, residual_share, scale_of, &
-      & scale_type, scales
+   public :: coupled_friction_floor, error_of, error_of_peak, irregularity, mean_friction, residual_share, scale_of, scale_type, &
+      & scales
 
    !> Of the largest of a field whose peak elements resolve; of temperatures that count the heat of an element twice at its
    !> centre: its share falls with the root of the element
@@ -54,8 +55,18 @@ module contact_patch_level_errors
       real(wp) :: roughness = 0.0_wp
       !> Difference parameter K of unlike bodies [-]
       real(wp) :: coupling = 0.0_wp
+      !> Elements along each side of a square of as many as in the box around the contact
+      real(wp) :: mean_across = 1.0_wp
+      !> Root of the mean square of the deviations of the coefficient of friction, over its mean, where it follows slip [-]
+      real(wp) :: falling = 0.0_wp
+      !> Power that the motion gives and friction does not take, and what the levels differ by in that of the motion [W]; is it so?
+      real(wp) :: surplus = 0.0_wp, motion_change = 0.0_wp
+      logical :: balances = .false.
       !> Parts of the elastic energy, of pressures and of tractions, and what the levels differ by in them [J]
       real(wp) :: energy(2) = 0.0_wp, energy_change(2) = 0.0_wp
+      !> Error of the part of pressures with its sign [J]; is it known?
+      real(wp) :: normal_energy = 0.0_wp
+      logical :: has_normal_energy = .false.
    end type scale_type
 
    !> Order of the normal problem, and of what jumps with single elements
@@ -91,13 +102,21 @@ module contact_patch_level_errors
    real(wp), parameter :: reversal_gain = 130.0_wp, narrow = 0.05_wp
    !> Errors in general, of n elements across: factor of n^-order, by order; of random contacts of tests/accuracy. Forces of steady
    !> rolling; of shifts; of transient rolling
-   real(wp), parameter :: rolling_floor(2) = [0.05_wp, 0.24_wp], shift_floor = 0.15_wp, step_floor = 0.25_wp
+   real(wp), parameter :: rolling_floor(2) = [0.05_wp, 0.24_wp], shift_floor = 0.08_wp, step_floor = 0.25_wp
    !> Power: factor of n^-order of the power of full sliding; and of n^-2 and adhesion in steady rolling; with a layer, of n^-1
    real(wp), parameter :: power_floor = 0.1_wp, adhesive_power_floor = 2.5_wp, layer_power_floor = 1.0_wp
    !> Normal force, largest pressure, area, energy of pressures and of tractions
    real(wp), parameter :: normal_floor = 0.15_wp, peak_floor = 0.07_wp, area_floor = 0.2_wp, energy_floor(2) = [0.07_wp, 0.2_wp]
+   !> Elastic energy where the error of the part of pressures is known with its sign: what is not known, factors of n^-2 of that
+   !> part and of n^-order of that of tractions, and part of the error of that by the levels; of random contacts of tests/accuracy
+   real(wp), parameter :: unknown_energy(2) = [0.02_wp, 0.1_wp], unknown_share = 0.3_wp
+   !> What levels tell of the power of the motion: part that has their sign, and part that has not
+   real(wp), parameter :: signed = 0.5_wp, unsigned = 0.8_wp
+   !> Forces by the second order where friction falls with slip: factor of its relative deviations times n^-2
+   real(wp), parameter :: falling_floor = 6.0_wp
    !> Part of the elements that sticks is taken as at least this: in full sliding directions of slip have errors, too
-   real(wp), parameter :: least_adhesion = 0.02_wp
+   !> In steps of transient rolling more so, as directions follow from the step before
+   real(wp), parameter :: least_adhesion = 0.02_wp, least_in_steps = 0.25_wp
    !> What differences of levels tell above the errors in general counts with this power: two samples of an error that jumps with
    !> the offset of the grid, against the usual one of so many elements. Of forces and power by the second order, and of the peak
    real(wp), parameter :: trust = 0.8_wp, peak_trust = 0.75_wp
@@ -116,6 +135,16 @@ contains
       mu = sum(result%mu*result%pn)/max(sum(result%pn), tiny(mu))
    end function mean_friction
 
+   !> Root of the mean square of its deviations, weighted with pressures, over the mean [-]
+   pure real(wp) function deviation_of_friction(result) result(deviation)
+      !> Solved, in contact
+      type(patch_result), intent(in) :: result
+      real(wp) :: mean
+
+      mean = mean_friction(result)
+      deviation = sqrt(sum((result%mu - mean)**2*result%pn)/max(sum(result%pn), tiny(mean)))/max(mean, tiny(mean))
+   end function deviation_of_friction
+
    !> What totals are compared with
    pure function scales(problem, order, result) result(scale)
       type(patch_problem), intent(in) :: problem
@@ -131,8 +160,14 @@ contains
       across = [box%ix1 - box%ix0 + 1, box%iy1 - box%iy0 + 1]
       scale%across = minval(across)
       extent = across*[result%grid%dx, result%grid%dy]
-      if (result%grid%my < 3 .and. extent(2) > plane*extent(1)) scale%across = across(1)
-      if (result%grid%mx < 3 .and. extent(1) > plane*extent(2)) scale%across = across(2)
+      scale%mean_across = sqrt(real(product(across), wp))
+      if (result%grid%my < 3 .and. extent(2) > plane*extent(1)) then
+         scale%across = across(1)
+         scale%mean_across = scale%across
+      else if (result%grid%mx < 3 .and. extent(1) > plane*extent(2)) then
+         scale%across = across(2)
+         scale%mean_across = scale%across
+      end if
       scale%force = result%grid%dx*result%grid%dy*sum(result%mu*result%pn)
       scale%moment = scale%force*sqrt(result%contact_area()/pi)
       scale%creep = max(abs(result%cksi), abs(result%ceta))
@@ -151,12 +186,16 @@ contains
       if (problem%motion == motion%steady_rolling) scale%order = merge(second_order, first_order, order == 2)
       scale%steps = problem%motion == motion%transient_rolling
       if (scale%steps) scale%order = merge(second_order, first_order, order == 2)
+      if (scale%steps .and. scale%order <= first_order) scale%adhesion = max(scale%adhesion, least_in_steps)
       ! a step in time is longer than some elements and shorter than others; a layer adds a length of its own
       scale%clean = (problem%motion /= motion%transient_rolling .or. order == 2) .and. .not. problem%model%layer > 0.0_wp
       ! tractions are singular at edges that are given
       if (problem%motion == motion%shift) scale%clean = .not. any(problem%h > excluded_threshold)
       if (allocated(problem%thermal)) then
          if (problem%thermal%source == heat_source%established) scale%heat_order = counted_twice
+      end if
+      if (allocated(problem%friction)) then
+         if (problem%friction%driver() == friction_driver%slip_speed) scale%falling = deviation_of_friction(result)
       end if
       scale%jumps = scale%clean .and. scale%order > first_order .and. .not. scale%steps
       if (allocated(problem%model%memory)) then
@@ -269,12 +308,17 @@ contains
       case (error_law%power)
          e = part_of(scale, merge(power_order, scale%order, scale%order <= first_order))*difference
          if (is_unseen(scale)) e = 0.0_wp
+         if (scale%balances) e = error_of_power(scale, unit)
          e = e + by_heat(scale, part_of(scale, scale%order), difference, unit)
          floor = power_floor*sqrt(scale%adhesion)/scale%across**nint(scale%order)
          if (scale%order < normal_order .and. (scale%clean .or. .not. scale%steps)) floor = floor + scale%adhesion* &
             & merge(adhesive_power_floor/scale%across**2, layer_power_floor/scale%across, scale%clean)
          floor = floor*max(scale%power, unit)/max(unit, tiny(unit))
-         if (scale%jumps) e = unit*trusted(e/max(unit, tiny(unit)), floor, trust)
+         if (scale%balances) then
+            floor = 0.0_wp
+         else if (scale%jumps) then
+            e = unit*trusted(e/max(unit, tiny(unit)), floor, trust)
+         end if
       case (error_law%energy)
          e = error_of_energy(scale) + (stopping + errors%window)*unit
          return
@@ -315,12 +359,13 @@ contains
       type(scale_type), intent(in) :: scale
 
       if (scale%order <= first_order) then
-         floor = merge(step_floor, rolling_floor(1), scale%steps)/scale%across
+         floor = merge(step_floor, rolling_floor(1), scale%steps)/scale%mean_across
       else
-         floor = merge(rolling_floor(2), shift_floor, scale%order < normal_order)/scale%across**2
+         floor = merge(rolling_floor(2), shift_floor, scale%order < normal_order)/scale%mean_across**2
       end if
       ! elements that do not resolve the relaxation have the first order
-      floor = sqrt(scale%adhesion)*max(floor, rolling_floor(1)*scale%relaxation/scale%across)
+      floor = sqrt(scale%adhesion)*max(floor, rolling_floor(1)*scale%relaxation/scale%mean_across)
+      if (scale%order > first_order) floor = floor + falling_floor*scale%falling/scale%mean_across**2
       if (is_unseen(scale)) floor = floor*scale%irregular
       if (scale%order < normal_order) floor = max(floor, coupled_friction_floor*scale%coupling/scale%across)
    end function friction_floor
@@ -356,27 +401,36 @@ contains
       if (told > floor .and. floor > 0.0_wp) e = floor*(told/floor)**power
    end function trusted
 
+   !> Error of frictional power in steady rolling without that of solvers and window [W]: what friction does not take of the power
+   !> of the motion, with its sign, and the error of that power
+   pure real(wp) function error_of_power(scale, unit) result(e)
+      type(scale_type), intent(in) :: scale
+      !> Frictional power, positive [W]
+      real(wp), intent(in) :: unit
+      real(wp) :: floor, told
+
+      floor = friction_floor(scale)*max(scale%power, unit)
+      told = part_of(scale, scale%order)*abs(scale%motion_change)
+      if (scale%jumps) told = trusted(told, floor, trust)
+      e = hypot(scale%surplus - sign(signed*told, scale%motion_change), max(floor, unsigned*told))
+   end function error_of_power
+
    !> Error of the elastic energy without that of solvers and window [J]: those of its parts, whose signs differ from case to case
    pure real(wp) function error_of_energy(scale) result(e)
       type(scale_type), intent(in) :: scale
-      real(wp) :: parts(2)
+      real(wp) :: parts(2), floor(2)
 
-      parts = abs([scale%energy_change(1)/(coarsening**normal_order - 1.0_wp), part_of(scale, scale%order)*scale%energy_change(2)])
+      parts = -[scale%energy_change(1)/(coarsening**normal_order - 1.0_wp), part_of(scale, scale%order)*scale%energy_change(2)]
       if (is_unseen(scale)) parts(2) = 0.0_wp
+      floor = abs(scale%energy)*[scale%across**(-2), sqrt(scale%adhesion)*scale%across**(-scale%order)]
+      if (scale%has_normal_energy .and. scale%across >= resolved) then
+         e = hypot(scale%normal_energy + parts(2), dot_product(unknown_energy, floor) + unknown_share*abs(parts(2)))
+         return
+      end if
       e = hypot(parts(1), parts(2))
-      if (scale%clean .and. parts(2) > 0.0_wp) e = max(opposite*e, abs(parts(1) - parts(2)))
-      e = max(e, energy_floor(1)*abs(scale%energy(1))/scale%across**2 &
-         & + energy_floor(2)*sqrt(scale%adhesion)*abs(scale%energy(2))/scale%across**scale%order)
+      if (scale%clean .and. abs(parts(2)) > 0.0_wp) e = max(opposite*e, abs(abs(parts(1)) - abs(parts(2))))
+      e = max(e, dot_product(energy_floor, floor))
    end function error_of_energy
-
-   !> Parts of the elastic energy [J]: of pressures, and of tractions
-   pure function energies(result) result(energy)
-      type(patch_result), intent(in) :: result
-      real(wp) :: energy(2)
-
-      energy(1) = result%grid%dx*result%grid%dy/(2.0_wp*nmm_per_joule)*sum(result%pn*result%un)
-      energy(2) = result%elastic_energy - energy(1)
-   end function energies
 
    !> Error of the largest pressure: pressures have an error, and order 1 takes it at a centre of an element, below the peak
    pure real(wp) function error_of_peak(result, scale, coarse_peak) result(e)

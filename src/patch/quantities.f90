@@ -40,6 +40,8 @@ module contact_patch_quantities
       integer :: area = 6
       !> Energy of all tractions; relative to its own value
       integer :: energy = 7
+      !> Largest stress below the surface, see contact_cases_stress_errors; relative to its own value
+      integer :: stress = 8
    end type error_law_list
    !> How the error of a total comes about, see contact_patch_error_estimate
    type(error_law_list), parameter :: error_law = error_law_list()

@@ -223,6 +223,7 @@ contains
       call list%count("nslip", "slipping elements", self%nslip)
       if (allocated(self%tau_c)) call list%count("nplast", "yielding elements", self%nplast)
       if (allocated(self%wear)) call add_wear(self, self%wear, list)
+      if (allocated(self%subsurface) .and. (allocated(self%wear) .or. allocated(self%errors))) call add_stresses(self, list)
    end subroutine totals
 
    !> Totals of wear and fatigue
@@ -231,8 +232,6 @@ contains
       type(patch_result), intent(in) :: contact
       type(wear_result), intent(in) :: wear
       type(total_list), intent(inout) :: list
-      real(wp) :: highest(2)
-      integer :: k
 
       if (is_rolling(contact%motion)) then
          call list%add("t_gamma", "N", "forces times creepages, moment times spin: energy per distance rolled", wear%t_gamma)
@@ -253,14 +252,25 @@ contains
             call list%add("fatigue_index", "-", "surface fatigue index, above 0: fatigue of the surface is expected", wear%fatigue)
          end if
       end if
-      if (.not. allocated(contact%subsurface)) return
+   end subroutine add_wear
+
+   !> Largest stresses at the points below the surface, of all blocks
+   pure subroutine add_stresses(contact, list)
+      !> Solved, with stresses
+      type(patch_result), intent(in) :: contact
+      type(total_list), intent(inout) :: list
+      real(wp) :: highest(2)
+      integer :: k
+
       highest = 0.0_wp
       do k = 1, size(contact%subsurface)
          highest = max(highest, [maxval(contact%subsurface(k)%sigvm), maxval(contact%subsurface(k)%sigtr)])
       end do
-      call list%add("max_mises", "N/mm2", "largest von Mises stress at the points below the surface", highest(1))
-      call list%add("max_tresca", "N/mm2", "largest Tresca stress at the points below the surface", highest(2))
-   end subroutine add_wear
+      call list%add("max_mises", "N/mm2", "largest von Mises stress at the points below the surface", highest(1), &
+         & law=error_law%stress)
+      call list%add("max_tresca", "N/mm2", "largest Tresca stress at the points below the surface", highest(2), &
+         & law=error_law%stress)
+   end subroutine add_stresses
 
    !> Highest temperature in contact; anywhere without contact [degC]
    pure real(wp) function highest_in_contact(contact, temperature) result(highest)

@@ -179,6 +179,13 @@ CHANGES = {"rolling": _plain, "normal": _normal, "shift": _shift, "forces": _for
 FURTHER = {"unlike": _unlike, "extreme": _extreme, "warm": _warm, "shifts": _shifts}
 
 
+def stress_points(c):
+    """Points below the surface, about where stresses are largest."""
+    depth, x, y = min(c["a"], c["b"]), c["a"] / 3.0, c["b"] / 3.0
+    return ["[case.stress_output]", "matfil_s = 0", "output_s = 0", "[[case.stress_points]]", 'points = "free"',
+            f"x = {[-x, 0.0, x]}", f"y = {[-y, 0.0, y]}", f"z = {[0.4 * depth, 0.6 * depth, 0.9 * depth]}"]
+
+
 def text_of(c, n, offset, eps=1e-6, options=""):
     """The cases of a contact on n elements along each side; the grid is shifted by parts of an element."""
     length_x, length_y = 2 * c["margin"] * c["a"], 2 * c["margin"] * c["b"]
@@ -192,6 +199,8 @@ def text_of(c, n, offset, eps=1e-6, options=""):
                   f'motion = "{c["motion"]}"', f'normal = "{c["normal"]}"',
                   f'tangential = "{c["tangential"]}"', f'material_model = "{c["model"]}"', "output_level = 0", options,
                   f'sequence = "{"continue_all" if step else "initiate"}"', f'estimate = "{"previous" if step else "fresh"}"']
+        if c.get("stresses"):
+            lines += stress_points(c)
         if step:
             if step in c.get("changes", {}):
                 lines += ["[case.kinematics]", *(f"{name} = {value!r}" for name, value in c["changes"][step].items())]

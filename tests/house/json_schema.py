@@ -68,13 +68,15 @@ def schema():
     solver, _ = members("describe_solution")
     solver.update(members("describe_report", PROBLEMS)[0])
     patch_totals = {**listed("patch/result.f90", "totals"), **listed("wheelrail/result.f90", "patch_totals")}
+    stresses = listed("patch/result.f90", "add_stresses")
     accuracy = group(*members("describe_accuracy"), "with --accuracy")
     border, coarse = members("describe_border"), members("describe_resolution")
     run, run_always = members("describe_run")
     patch = group({"patch": {"description": "number of the patch in its case", **KINDS["count"]},
                    "effects": {"description": "effects that acted", **KINDS["text"]},
-                   "totals": group({**patch_totals, **listed("patch/result.f90", "add_wear")}, ["fn", "pen"]),
-                   "errors": errors(patch_totals), "accuracy": accuracy,
+                   "totals": group({**patch_totals, **listed("patch/result.f90", "add_wear"), **stresses},
+                                   ["fn", "pen"]),
+                   "errors": errors({**patch_totals, **stresses}), "accuracy": accuracy,
                    "border": group(border[0], border[0], "where contact is cut off"),
                    "coarse": group(coarse[0], coarse[0], "how few elements wide contact is"), "solver": group(solver)},
                   ["patch", "totals", "solver"])

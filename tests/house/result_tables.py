@@ -15,8 +15,7 @@ START, END = "<!-- results: made by tests/house/result_tables.py --write -->", "
 #: What a condition of the sources means to a reader
 WHEN = {"is_rolling": "rolling", "motion_choice%shift": "shift", "%damping": "damping", "%temp1": "temperatures",
         "%tau_c": "yield limit", "%shift .or.": "steps (T = 1, 2)", ".not. allocated(self%curve)": "conformal contact",
-        "%has_archard": "Archard's coefficient", "%has_yield": "yield stress", "%ncon > 0": "contact",
-        ".not. allocated(contact%subsurface)": "points below the surface"}
+        "%has_archard": "Archard's coefficient", "%has_yield": "yield stress", "%ncon > 0": "contact"}
 SIGNS = {"along": "body", "across": "body and side", "side": "side"}
 
 
@@ -79,6 +78,8 @@ def tables():
             + "\nand in module 1\n\n" + head + rows(totals("wheelrail/result.f90", "patch_totals"))
             + "\nand where wear and fatigue are asked for, by the table `wear`\n\n" + head
             + rows(totals("patch/result.f90", "add_wear"))
+            + "\nand with points below the surface, where wear and fatigue or estimated errors are asked for\n\n" + head
+            + rows(totals("patch/result.f90", "add_stresses"))
             + "\nTotals of wheel and rail:\n\n" + head + rows(totals("wheelrail/result.f90", "wheel_rail_totals"))
             + "\nElement fields; the number is that of `cntc_getfielddata`, CNTC_fld_NAME:\n\n"
             + "| name | unit | meaning | changes with | number | in VTK files |\n|---|---|---|---|---|---|\n" + rows(fields()))
