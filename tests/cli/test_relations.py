@@ -122,11 +122,13 @@ def stiffer(c, k=2.0):
 
 
 class Relations(unittest.TestCase):
+    OPTIONS = ["--classical"]
+
     def solve(self, cases):
         with tempfile.TemporaryDirectory() as folder:
             with open(os.path.join(folder, "x.inp"), "w", encoding="utf-8") as file:
                 file.write("".join(map(two_cases, cases)) + "0\n")
-            run = subprocess.run([PROGRAM, "--quiet", "--json", "--classical", "2", "x"], cwd=folder, stdin=subprocess.DEVNULL,
+            run = subprocess.run([PROGRAM, "--quiet", "--json", *self.OPTIONS, "2", "x"], cwd=folder, stdin=subprocess.DEVNULL,
                                  capture_output=True, text=True, timeout=120)
             self.assertEqual(run.returncode, 0, run.stderr)
             with open(os.path.join(folder, "x.jsonl"), encoding="utf-8") as file:
@@ -297,6 +299,11 @@ class Relations(unittest.TestCase):
 
     def test_moduli(self):
         self.compare(stiffer, None, power_of_modulus=1, tolerance=1e-11)
+
+
+class SecondOrder(Relations):
+    """The same with the second order, where there is one"""
+    OPTIONS = ["--classical", "--order", "2"]
 
 
 if __name__ == "__main__":
