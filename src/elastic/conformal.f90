@@ -184,7 +184,7 @@ contains
             do iy = 1, self%my
                self%field(:, iy) = self%weight(iy, w)*p(:, iy, j)
             end do
-            call self%plan%forward(self%field, self%source(:, :, w, from(j)), 1)
+            call self%plan%forward(self%field, self%source(:, :, w, from(j)))
             self%transforms = self%transforms + 1
          end do
       end do
@@ -217,7 +217,7 @@ contains
                   self%response(:, k, w, to(i)) = self%difference(k)*self%response(:, k, w, to(i))
                end do
             end if
-            call self%plan%backward(self%response(:, :, w, to(i)), self%field, 1)
+            call self%plan%backward(self%response(:, :, w, to(i)), self%field)
             self%transforms = self%transforms + 1
             do iy = 1, self%my
                u(:, iy, i) = u(:, iy, i) + self%weight(iy, w)*self%field(:, iy)

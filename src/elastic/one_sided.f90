@@ -94,9 +94,9 @@ contains
       real(wp), contiguous, intent(inout) :: u(:, :)
 
       call need_spectra(self)
-      call self%plan%forward(p, self%s1, 1)
+      call self%plan%forward(p, self%s1)
       self%s1 = self%kernel(:, :, 1)*self%s1
-      call self%plan%backward(self%s1, u, 1)
+      call self%plan%backward(self%s1, u)
       self%products = self%products + 1
       self%transforms = self%transforms + 2
    end subroutine normal
@@ -109,8 +109,8 @@ contains
       logical, intent(in) :: change
 
       call need_spectra(self)
-      call self%plan%forward(p(:, :, 1), self%s1, 1)
-      call self%plan%forward(p(:, :, 2), self%s2, 1)
+      call self%plan%forward(p(:, :, 1), self%s1)
+      call self%plan%forward(p(:, :, 2), self%s2)
       self%mixed = self%kernel(:, :, 2)*self%s1 + self%kernel(:, :, 4)*self%s2
       self%s2 = self%kernel(:, :, 4)*self%s1 + self%kernel(:, :, 3)*self%s2
       call back(self, self%mixed, u(:, :, 1), change)
@@ -132,7 +132,7 @@ contains
             spectrum(:, l) = self%difference(l)*spectrum(:, l)
          end do
       end if
-      call self%plan%backward(spectrum, u, 1)
+      call self%plan%backward(spectrum, u)
    end subroutine back
 
    subroutine normal_by_tangential(self, p, u)
@@ -141,10 +141,10 @@ contains
       real(wp), contiguous, intent(inout) :: u(:, :)
 
       call need_spectra(self)
-      call self%plan%forward(p(:, :, 1), self%s1, 1)
-      call self%plan%forward(p(:, :, 2), self%s2, 1)
+      call self%plan%forward(p(:, :, 1), self%s1)
+      call self%plan%forward(p(:, :, 2), self%s2)
       self%s1 = -(self%kernel(:, :, 5)*self%s1 + self%kernel(:, :, 6)*self%s2)
-      call self%plan%backward(self%s1, u, 1)
+      call self%plan%backward(self%s1, u)
       self%products = self%products + 1
       self%transforms = self%transforms + 3
    end subroutine normal_by_tangential
@@ -157,7 +157,7 @@ contains
       logical, intent(in) :: change
 
       call need_spectra(self)
-      call self%plan%forward(p, self%sn, 1)
+      call self%plan%forward(p, self%sn)
       self%s1 = self%kernel(:, :, 5)*self%sn
       self%s2 = self%kernel(:, :, 6)*self%sn
       call back(self, self%s1, u(:, :, 1), change)

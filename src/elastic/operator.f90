@@ -17,7 +17,7 @@ module contact_elastic_operator
    use contact_elastic_coefficients, only : fill_coefficients
    use contact_elastic_compliance, only : compliance
    use contact_elastic_model, only : elastic_model
-   use contact_elastic_spectra, only : invert_block, make_spectrum, multiply_paired, scale_spectrum, spectrum_floor, take_mean
+   use contact_elastic_spectra, only : invert_block, make_spectrum, multiply_paired, spectrum_floor, take_mean
    use contact_fft_paired, only : paired_plan
    use contact_fft_plan, only : fast_size, fft_plan, largest_fast_size
    implicit none (type, external)
@@ -28,6 +28,8 @@ module contact_elastic_operator
    !> Holds plans, spectra and scratch; its table reaches to offsets of half the padded window
    type, extends(compliance) :: elastic_operator
       type(fft_plan) :: plan
+      !> Approximate inverses on a shorter period
+      type(fft_plan), private :: normal_inverse_plan, inverse_plan
       !> Both fields at once on small windows, for products and for inverses
       type(paired_plan), private :: pair, inverse_pair
       !> Is the window small? Children that use the spectra xx and yy by themselves say no
@@ -122,20 +124,29 @@ contains
    subroutine need_normal(self)
       class(elastic_operator), intent(inout) :: self
       real(wp) :: scale, smallest
+      integer :: px, py
 
       if (self%has_normal) return
-      associate (t => self%table, px => self%plan%px, py => self%plan%py)
-         call make_spectrum(t%nx, t%ny, t%nn, .false., .false., px, py, self%nn)
-         scale = 1.0_wp/(real(px, wp)*real(py, wp))
+      px = min(self%plan%px, fast_size(padded_a_little(self%mx)))
+      py = min(self%plan%py, fast_size(padded_a_little(self%my)))
+      call self%normal_inverse_plan%prepare(self%mx, self%my, px, py)
+      associate (t => self%table)
+         call make_spectrum(t%nx, t%ny, t%nn, .false., .false., self%plan%px, self%plan%py, self%nn)
+         call make_spectrum(t%nx, t%ny, t%nn, .false., .false., px, py, self%inn)
       end associate
-      if (allocated(self%inn)) then
-         if (any(shape(self%inn) /= shape(self%nn))) deallocate(self%inn)
-      end if
-      if (.not. allocated(self%inn)) allocate(self%inn, mold=self%nn)
-      smallest = spectrum_floor*maxval(abs(self%nn))/scale
-      self%inn = scale/max(self%nn/scale, smallest)
+      scale = 1.0_wp/(real(px, wp)*real(py, wp))
+      smallest = spectrum_floor*maxval(abs(self%inn))/scale
+      self%inn = scale/max(self%inn/scale, smallest)
       self%has_normal = .true.
    end subroutine need_normal
+
+   !> Elements of a period that serves an approximate inverse: a quarter of the window more than it has
+   pure integer function padded_a_little(n) result(period)
+      !> Elements of the window
+      integer, intent(in) :: n
+
+      period = n + (n + 3)/4
+   end function padded_a_little
 
    !> Spectra for the tangential problem, on first use
    subroutine need_tangential(self)
@@ -144,7 +155,7 @@ contains
 
       if (self%has_tangential) return
       py = self%plan%py
-      if (self%small) py = min(py, fast_size(self%my + (self%my + 3)/4))
+      if (self%my > 1) py = min(py, fast_size(padded_a_little(self%my)))
       call tangential_spectra(self, self%plan%py, self%xx, self%yy, self%xy)
       if (py == self%plan%py) then
          self%ixx = self%xx
@@ -159,6 +170,8 @@ contains
          call self%inverse_pair%prepare(self%mx, self%my, self%plan%px, py)
          call take_mean(self%xx, self%yy)
          call take_mean(self%ixx, self%iyy)
+      else
+         call self%inverse_plan%prepare(self%mx, self%my, self%plan%px, py)
       end if
       self%has_tangential = .true.
    end subroutine need_tangential
@@ -204,9 +217,7 @@ contains
       real(wp), contiguous, intent(inout) :: u(:, :)
 
       call need_normal(self)
-      call self%plan%forward(p, self%s1, 1)
-      call scale_spectrum(self%nn, self%s1)
-      call self%plan%backward(self%s1, u, 1)
+      call self%plan%convolve(self%nn, p, u)
       self%products = self%products + 1
       self%transforms = self%transforms + 2
    end subroutine normal
@@ -219,9 +230,7 @@ contains
       real(wp), contiguous, intent(inout) :: z(:, :)
 
       call need_normal(self)
-      call self%plan%forward(r, self%s1, 1)
-      call scale_spectrum(self%inn, self%s1)
-      call self%plan%backward(self%s1, z, 1)
+      call self%normal_inverse_plan%convolve(self%inn, r, z)
       self%transforms = self%transforms + 2
    end subroutine normal_inverse
 
@@ -238,7 +247,7 @@ contains
          call multiply_paired(self%xx, self%yy, self%xy, self%pair%spectrum)
          call self%pair%backward(u)
       else
-         call single_product(self, self%xx, self%yy, self%xy, p, u)
+         call self%plan%convolve_pair(self%xx, self%yy, self%xy, p, u)
       end if
       self%transforms = self%transforms + 4
       self%products = self%products + 1
@@ -255,7 +264,7 @@ contains
          call multiply_paired(self%xx, self%yy, self%xy, self%pair%spectrum)
          call self%pair%backward(u)
       else
-         call single_product(self, self%xx, self%yy, self%xy, p, u, self%difference)
+         call self%plan%convolve_pair(self%xx, self%yy, self%xy, p, u, self%difference)
       end if
       self%transforms = self%transforms + 4
       self%products = self%products + 1
@@ -291,57 +300,10 @@ contains
          call multiply_paired(self%ixx, self%iyy, self%ixy, self%inverse_pair%spectrum, factor)
          call self%inverse_pair%backward(z)
       else
-         call single_product(self, self%ixx, self%iyy, self%ixy, r, z, factor)
+         call self%inverse_plan%convolve_pair(self%ixx, self%iyy, self%ixy, r, z, factor)
       end if
       self%transforms = self%transforms + 4
    end subroutine inverse_of_pair
-
-   !> Product with a symmetric 2 by 2 block of real spectra, times a factor per column
-   subroutine single_product(self, axx, ayy, axy, p, u, factor)
-      class(elastic_operator), intent(inout) :: self
-      real(wp), contiguous, intent(in) :: axx(:, :), ayy(:, :), axy(:, :)
-      real(wp), contiguous, intent(in) :: p(:, :, :)
-      real(wp), contiguous, intent(inout) :: u(:, :, :)
-      complex(wp), contiguous, intent(in), optional :: factor(:)
-      integer :: k, l
-      complex(wp) :: a, b, turn
-      logical :: large
-
-      ! two transforms side by side; small windows are done before threads are awake
-      large = size(axx) > 20000
-      if (large) then
-         !$omp parallel sections
-         !$omp section
-         call self%plan%forward(p(:, :, 1), self%s1, 1)
-         !$omp section
-         call self%plan%forward(p(:, :, 2), self%s2, 2)
-         !$omp end parallel sections
-      else
-         call self%plan%forward(p(:, :, 1), self%s1)
-         call self%plan%forward(p(:, :, 2), self%s2)
-      end if
-      do l = 1, self%plan%kx
-         turn = 1.0_wp
-         if (present(factor)) turn = factor(l)
-         do k = 1, self%plan%py
-            a = turn*self%s1(k, l)
-            b = turn*self%s2(k, l)
-            self%s1(k, l) = axx(k, l)*a + axy(k, l)*b
-            self%s2(k, l) = axy(k, l)*a + ayy(k, l)*b
-         end do
-      end do
-      if (large) then
-         !$omp parallel sections
-         !$omp section
-         call self%plan%backward(self%s1, u(:, :, 1), 1)
-         !$omp section
-         call self%plan%backward(self%s2, u(:, :, 2), 2)
-         !$omp end parallel sections
-      else
-         call self%plan%backward(self%s1, u(:, :, 1))
-         call self%plan%backward(self%s2, u(:, :, 2))
-      end if
-   end subroutine single_product
 
    subroutine normal_by_tangential(self, p, u)
       class(elastic_operator), intent(inout) :: self
@@ -352,11 +314,11 @@ contains
       complex(wp), parameter :: i = (0.0_wp, 1.0_wp)
 
       call need_coupling(self)
-      call self%plan%forward(p(:, :, 1), self%s1, 1)
-      call self%plan%forward(p(:, :, 2), self%s2, 2)
+      call self%plan%forward(p(:, :, 1), self%s1)
+      call self%plan%forward(p(:, :, 2), self%s2)
       ! c_nx = -c_xn, c_ny = -c_yn
       self%s1 = -i*(self%xn*self%s1 + self%yn*self%s2)
-      call self%plan%backward(self%s1, u, 1)
+      call self%plan%backward(self%s1, u)
       self%products = self%products + 1
       self%transforms = self%transforms + 3
    end subroutine normal_by_tangential
@@ -370,11 +332,11 @@ contains
       complex(wp), parameter :: i = (0.0_wp, 1.0_wp)
 
       call need_coupling(self)
-      call self%plan%forward(p, self%s1, 1)
+      call self%plan%forward(p, self%s1)
       self%s2 = i*self%yn*self%s1
       self%s1 = i*self%xn*self%s1
-      call self%plan%backward(self%s1, u(:, :, 1), 1)
-      call self%plan%backward(self%s2, u(:, :, 2), 2)
+      call self%plan%backward(self%s1, u(:, :, 1))
+      call self%plan%backward(self%s2, u(:, :, 2))
       self%products = self%products + 1
       self%transforms = self%transforms + 3
    end subroutine tangential_by_normal
@@ -387,13 +349,13 @@ contains
       integer :: l
 
       call need_coupling(self)
-      call self%plan%forward(p, self%s1, 1)
+      call self%plan%forward(p, self%s1)
       do l = 1, self%plan%kx
          self%s2(:, l) = i*self%difference(l)*self%yn(:, l)*self%s1(:, l)
          self%s1(:, l) = i*self%difference(l)*self%xn(:, l)*self%s1(:, l)
       end do
-      call self%plan%backward(self%s1, u(:, :, 1), 1)
-      call self%plan%backward(self%s2, u(:, :, 2), 2)
+      call self%plan%backward(self%s1, u(:, :, 1))
+      call self%plan%backward(self%s2, u(:, :, 2))
       self%products = self%products + 1
       self%transforms = self%transforms + 3
    end subroutine steady_by_normal
@@ -403,6 +365,8 @@ contains
       call self%plan%release()
       call self%pair%release()
       call self%inverse_pair%release()
+      call self%normal_inverse_plan%release()
+      call self%inverse_plan%release()
       self%mx = 0
    end subroutine release
 

@@ -105,18 +105,18 @@ contains
       !> Displacement differences [mm], shape (mx, my)
       real(wp), contiguous, intent(inout) :: ux(:, :), uy(:, :)
 
-      call self%plan%forward(px, self%sx, 1)
-      call self%plan%forward(py, self%sy, 2)
+      call self%plan%forward(px, self%sx)
+      call self%plan%forward(py, self%sy)
       self%s = self%xx*self%sx + self%xy*self%sy
       self%sy = self%xy*self%sx + self%yy*self%sy
       self%transforms = self%transforms + 4
       if (self%model%coupled()) then
-         call self%plan%forward(pn, self%sn, 1)
+         call self%plan%forward(pn, self%sn)
          self%s = self%s + self%xn*self%sn
          self%sy = self%sy + self%yn*self%sn
          self%transforms = self%transforms + 1
       end if
-      call self%plan%backward(self%s, ux, 1)
-      call self%plan%backward(self%sy, uy, 2)
+      call self%plan%backward(self%s, ux)
+      call self%plan%backward(self%sy, uy)
    end subroutine tangential
 end module contact_elastic_previous

@@ -8,7 +8,7 @@ module contact_elastic_spectra
    implicit none (type, external)
    private
 
-   public :: invert_block, make_spectrum, multiply_paired, scale_spectrum, spectrum_floor, take_mean
+   public :: invert_block, make_spectrum, multiply_paired, spectrum_floor, take_mean
 
    !> Floor of spectra that are divided by, relative to their maximum: a complete period has a positive spectrum, the floor
    !> guards against rounding where elements are of extreme shapes
@@ -188,16 +188,4 @@ contains
          x(k)%im = turn%re*xi + turn%im*xr
       end do
    end subroutine turn_column
-
-   subroutine scale_spectrum(factor, spectrum)
-      !> Real spectrum of a kernel, shape (py, px/2 + 1)
-      real(wp), contiguous, intent(in) :: factor(:, :)
-      !> Spectrum of a field, which becomes that of its product with the kernel; of the same shape
-      complex(wp), contiguous, intent(inout) :: spectrum(:, :)
-      integer :: l
-
-      do l = 1, size(factor, 2)
-         spectrum(:, l) = factor(:, l)*spectrum(:, l)
-      end do
-   end subroutine scale_spectrum
 end module contact_elastic_spectra

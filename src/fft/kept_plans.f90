@@ -12,15 +12,16 @@ module contact_fft_kept_plans
    public :: plan_kind, plan_set
 
    type :: plan_kind_list
-      !> Real transforms of one field, complex ones of two fields, and a whole period of a kernel
-      integer :: single = 1, paired = 2, kernel = 3
+      !> Lines of one length, and two fields on a window
+      integer :: lines = 1, paired = 2
    end type plan_kind_list
    !> What the plans of a size are for
    type(plan_kind_list), parameter :: plan_kind = plan_kind_list()
 
-   !> Rows forward, rows backward, columns forward, columns backward; what a kind of transform does not need is null
+   !> Rows forward, rows backward, columns forward, columns backward; lines forward and backward only, the others are null
    integer, parameter :: plans_per_size = 4
    integer, parameter, public :: row_forward = 1, row_backward = 2, column_forward = 3, column_backward = 4
+   integer, parameter, public :: line_forward = 1, line_backward = 2
 
    !> Plans of one size
    type :: plan_set
@@ -36,7 +37,7 @@ module contact_fft_kept_plans
       procedure :: release
    end type plan_set
 
-   !> Sizes that are kept, and elements of a padded window at most: plans of large ones take memory
+   !> Sizes that are kept, and elements of a padded window or of a line at most: plans of large ones take memory
    integer, parameter :: most = 256, largest = 65536
 
    type :: kept_type
@@ -54,7 +55,7 @@ contains
       class(plan_set), intent(inout) :: self
       !> Member of plan_kind
       integer, intent(in) :: kind
-      !> Rows of the window, and size of the padded window
+      !> Rows of the window, and size of the padded window; lines at once, their length, and 1
       integer, intent(in) :: my, px, py
       integer :: k
 
@@ -73,7 +74,7 @@ contains
       class(plan_set), intent(inout) :: self
       !> Member of plan_kind
       integer, intent(in) :: kind
-      !> Rows of the window, and size of the padded window
+      !> Rows of the window, and size of the padded window; lines at once, their length, and 1
       integer, intent(in) :: my, px, py
 
       if (n_kept == most .or. px*py > largest) return

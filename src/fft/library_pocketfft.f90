@@ -4,8 +4,12 @@ module contact_fft_library
    implicit none (type, external)
    private
 
-   public :: plan_complex, plan_forward, plan_backward, plan_plane, forwards, backwards
-   public :: execute_complex, execute_forward, execute_backward, destroy
+   public :: backwards, destroy, execute_complex, fast_lengths, forwards, lanes, plan_complex
+
+   !> Lines that are worth transforming together: as many as fit into a register
+   integer, parameter :: lanes = 4
+   !> Even lengths that are transformed quickly; above them every product of small primes is
+   integer, parameter :: fast_lengths(*) = [2, 4, 6, 8, 10, 12, 14, 16, 20, 32, 40, 48, 56, 64, 72, 80, 96, 112, 128]
 
    !> Directions of complex transforms
    integer, parameter :: forwards = -1, backwards = 1
@@ -21,41 +25,6 @@ module contact_fft_library
          complex(c_double_complex), intent(inout) :: from(*), to(*)
       end function plan_complex
 
-      type(c_ptr) function plan_forward(n, many, from, stride, distance, to, to_stride, to_distance) &
-         & bind(c, name="contact_pocketfft_forward")
-         import :: c_double, c_double_complex, c_int, c_ptr
-         implicit none (type, external)
-         !> Length and number of the transforms, steps inside of one and between two in either array, and the direction
-         integer(c_int), value :: n, many, stride, distance, to_stride, to_distance
-         !> Values to be transformed; those that go back may be lost
-         real(c_double), intent(inout) :: from(*)
-         !> Gets the transformed values
-         complex(c_double_complex), intent(inout) :: to(*)
-      end function plan_forward
-
-      type(c_ptr) function plan_backward(n, many, from, stride, distance, to, to_stride, to_distance) &
-         & bind(c, name="contact_pocketfft_backward")
-         import :: c_double, c_double_complex, c_int, c_ptr
-         implicit none (type, external)
-         !> Length and number of the transforms, steps inside of one and between two in either array, and the direction
-         integer(c_int), value :: n, many, stride, distance, to_stride, to_distance
-         !> Values to be transformed; those that go back may be lost
-         complex(c_double_complex), intent(inout) :: from(*)
-         !> Gets the transformed values
-         real(c_double), intent(inout) :: to(*)
-      end function plan_backward
-
-      type(c_ptr) function plan_plane(rows, columns, from, to) bind(c, name="contact_pocketfft_plane")
-         import :: c_double, c_double_complex, c_int, c_ptr
-         implicit none (type, external)
-         !> Number of rows, and their length
-         integer(c_int), value :: rows, columns
-         !> Values to be transformed; those that go back may be lost
-         real(c_double), intent(inout) :: from(*)
-         !> Gets the transformed values
-         complex(c_double_complex), intent(inout) :: to(*)
-      end function plan_plane
-
       subroutine execute_complex(plan, from, to) bind(c, name="contact_pocketfft_run_complex")
          import :: c_double_complex, c_ptr
          implicit none (type, external)
@@ -66,28 +35,6 @@ module contact_fft_library
          !> Gets the transformed values
          complex(c_double_complex), intent(inout) :: to(*)
       end subroutine execute_complex
-
-      subroutine execute_forward(plan, from, to) bind(c, name="contact_pocketfft_run_forward")
-         import :: c_double, c_double_complex, c_ptr
-         implicit none (type, external)
-         !> A plan of the same kind
-         type(c_ptr), value :: plan
-         !> Values to be transformed; those that go back may be lost
-         real(c_double), intent(inout) :: from(*)
-         !> Gets the transformed values
-         complex(c_double_complex), intent(inout) :: to(*)
-      end subroutine execute_forward
-
-      subroutine execute_backward(plan, from, to) bind(c, name="contact_pocketfft_run_backward")
-         import :: c_double, c_double_complex, c_ptr
-         implicit none (type, external)
-         !> A plan of the same kind
-         type(c_ptr), value :: plan
-         !> Values to be transformed; those that go back may be lost
-         complex(c_double_complex), intent(inout) :: from(*)
-         !> Gets the transformed values
-         real(c_double), intent(inout) :: to(*)
-      end subroutine execute_backward
 
       subroutine delete_plan(plan) bind(c, name="contact_pocketfft_destroy")
          import :: c_ptr

@@ -1,25 +1,26 @@
-!> Zero-padded real transforms of a rectangular window
+!> Zero-padded real transforms of a rectangular window, and convolutions by them
 !>
-!> Rows that are known to be zero are not transformed, and rows of the result that
-!> nobody asks for are not transformed back; that leaves about three quarters of the work of
-!> a plain two-dimensional transform of the padded window. Spectra are stored transposed,
-!> shape (py, kx), so that the second pass runs along contiguous memory: one column after the other into a
-!> buffer and back, which is faster than transforms in place, and asks for no memory.
+!> Two rows are transformed at once, as the parts of complex ones: FFTW has vector code for complex transforms only. Rows that
+!> are known to be zero are not transformed, and rows of the result that nobody asks for are not transformed back. A convolution
+!> goes through the spectrum column by column: there, times the kernel, and back, so that no whole spectrum is ever in memory.
+!> Every row and every column is a transform by itself, so that results do not depend on the number of threads.
 module contact_fft_plan
    use, intrinsic :: iso_c_binding, only : c_associated
    use contact_base_kinds, only : wp
-   use contact_fft_library, only : backwards, execute_backward, execute_complex, execute_forward, forwards, &
-      & plan_backward, plan_complex, plan_forward, plan_plane
-   use contact_fft_kept_plans, only : column_backward, column_forward, plan_kind, plan_set, row_backward, row_forward
+   use contact_fft_kept_plans, only : line_backward, line_forward, plan_kind, plan_set
+   use contact_fft_library, only : backwards, execute_complex, fast_lengths, forwards, lanes, plan_complex
+   use contact_fft_lines, only : copy, multiply_block, multiply_one, multiply_two, put_together, take_apart, turn_both, &
+      & turn_two
+   !$ use omp_lib, only : omp_get_max_threads
    implicit none (type, external)
    private
 
    public :: fft_plan, kernel_spectrum, good_size, fast_size, largest_fast_size
 
-   !> Even lengths below 129 for which FFTW has short code, measured with estimated plans. A length of 32 takes
-   !> less time than 22, 24 or 28, and 64 less than 54
-   integer, parameter :: fast_sizes(*) = [2, 4, 6, 8, 10, 12, 14, 16, 20, 32, 40, 48, 56, 64, 72, 80, 96, 112, 128]
-   integer, parameter :: largest_fast_size = fast_sizes(size(fast_sizes))
+   !> Windows whose padded sides are not longer are small
+   integer, parameter :: largest_fast_size = 128
+   !> Padded windows of more elements are shared among threads; smaller ones are done before threads are awake
+   integer, parameter :: worth_threads = 40000
 
    !> Plans and buffers for one window size; not to be copied
    !>
@@ -30,18 +31,24 @@ module contact_fft_plan
       integer :: mx = 0, my = 0, px = 0, py = 0
       !> Number of frequencies kept in x: px/2 + 1
       integer :: kx = 0
-      !> Rows of the window, padded in x, one set for each of two concurrent transforms, shape (px, my, 2)
-      real(wp), allocatable, private :: rows(:, :, :)
-      !> A transformed column of the spectrum, one for each of two concurrent transforms, shape (py, 2)
-      complex(wp), allocatable, private :: column(:, :)
-      type(plan_set), private :: plans
+      !> Rows of one field or two after their transform, room for (my, 2, kx)
+      complex(wp), allocatable, private :: half(:)
+      !> Pairs of rows, padded, their transforms, and back again, shape (px, lanes, 3, threads)
+      complex(wp), allocatable, private :: row(:, :, :, :)
+      !> Columns, padded, those of two fields transformed, and back again, shape (py, lanes, 4, threads)
+      complex(wp), allocatable, private :: column(:, :, :, :)
+      type(plan_set), private :: rows, columns
    contains
       !> Make plans for a window; keeps them when the size is the same
       procedure :: prepare => prepare_plan
       !> Transform a window, zero-padded
       procedure :: forward => transform_forward
-      !> Transform back, unscaled, and cut out the window; destroys the spectrum
+      !> Transform back, unscaled, and cut out the window; keeps the spectrum
       procedure :: backward => transform_backward
+      !> Product with a kernel whose spectrum is real
+      procedure :: convolve
+      !> Product of two fields with a symmetric 2 by 2 block of them
+      procedure :: convolve_pair
       !> Free the plans
       procedure :: release => release_plan
    end type fft_plan
@@ -75,117 +82,370 @@ contains
       !> Number of points that are needed, with those of the padding
       integer, intent(in) :: n
 
-      fast_size = good_size(n)
-      if (n > 1 .and. n <= largest_fast_size) fast_size = minval(fast_sizes, fast_sizes >= n)
+      if (n > fast_lengths(size(fast_lengths)) .or. n <= 1) then
+         fast_size = good_size(n)
+      else
+         fast_size = minval(fast_lengths, fast_lengths >= n)
+      end if
    end function fast_size
 
    subroutine prepare_plan(self, mx, my, px, py)
       class(fft_plan), intent(inout) :: self
       !> Window and padded window; px even or 1, px >= mx, py >= my
       integer, intent(in) :: mx, my, px, py
-      complex(wp), allocatable :: spectrum(:, :)
 
       if (self%mx == mx .and. self%my == my .and. self%px == px .and. self%py == py &
-         & .and. c_associated(self%plans%plan(row_forward))) return
+         & .and. c_associated(self%rows%plan(line_forward))) return
       call self%release()
       self%mx = mx
       self%my = my
       self%px = px
       self%py = py
       self%kx = px/2 + 1
-      allocate(self%rows(px, my, 2), source=0.0_wp)
-      allocate(self%column(py, 2), source=(0.0_wp, 0.0_wp))
-      ! the planner of FFTW is not thread-safe; estimated plans make results reproducible
-      !$omp critical (contact_fft_planner)
-      call self%plans%take(plan_kind%single, my, px, py)
-      if (.not. self%plans%is_kept) then
-         allocate(spectrum(py, self%kx), source=(0.0_wp, 0.0_wp))
-         self%plans%plan = [plan_forward(px, my, self%rows, 1, px, spectrum, py, 1), &
-            & plan_backward(px, my, spectrum, py, 1, self%rows, 1, px), &
-            & plan_complex(py, 1, spectrum, 1, py, self%column, 1, py, forwards), &
-            & plan_complex(py, 1, spectrum, 1, py, self%column, 1, py, backwards)]
-         call self%plans%keep(plan_kind%single, my, px, py)
-      end if
-      !$omp end critical (contact_fft_planner)
+      allocate(self%half(2*my*self%kx))
+      call fit_buffers(self, 1)
+      call take_lines(self%rows, self%row(:, :, 1, 1), self%row(:, :, 2, 1))
+      call take_lines(self%columns, self%column(:, :, 1, 1), self%column(:, :, 2, 1))
    end subroutine prepare_plan
 
-   subroutine transform_forward(self, field, spectrum, channel)
+   !> Buffers for some threads, whose padding stays zero for ever
+   subroutine fit_buffers(self, threads)
+      type(fft_plan), intent(inout) :: self
+      integer, intent(in) :: threads
+
+      if (allocated(self%row)) then
+         if (size(self%row, 4) >= threads) return
+         deallocate(self%row, self%column)
+      end if
+      allocate(self%row(self%px, min(lanes, (self%my + 1)/2), 3, threads), source=(0.0_wp, 0.0_wp))
+      allocate(self%column(self%py, min(lanes, self%kx), 4, threads), source=(0.0_wp, 0.0_wp))
+   end subroutine fit_buffers
+
+   !> Plans for lines, from one buffer to another of the same shape
+   subroutine take_lines(plans, from, to)
+      type(plan_set), intent(inout) :: plans
+      complex(wp), contiguous, intent(inout) :: from(:, :), to(:, :)
+      integer :: n, many
+
+      n = size(from, 1)
+      many = size(from, 2)
+      ! the planner of FFTW is not thread-safe; estimated plans make results reproducible
+      !$omp critical (contact_fft_planner)
+      call plans%take(plan_kind%lines, many, n, 1)
+      if (.not. plans%is_kept) then
+         plans%plan(line_forward) = plan_complex(n, many, from, 1, n, to, 1, n, forwards)
+         plans%plan(line_backward) = plan_complex(n, many, from, 1, n, to, 1, n, backwards)
+         call plans%keep(plan_kind%lines, many, n, 1)
+      end if
+      !$omp end critical (contact_fft_planner)
+   end subroutine take_lines
+
+   subroutine transform_forward(self, field, spectrum)
       class(fft_plan), intent(inout) :: self
       !> Window, shape (mx, my)
       real(wp), contiguous, intent(in) :: field(:, :)
       !> Spectrum, shape (py, kx)
       complex(wp), contiguous, intent(inout) :: spectrum(:, :)
-      !> 1 or 2: set of buffers; transforms that run at the same time need different ones. Default 1
-      integer, intent(in), optional :: channel
-      integer :: iy, k, c
+      integer :: k, l, n
 
-      c = 1
-      if (present(channel)) c = channel
-      do iy = 1, self%my
-         self%rows(1:self%mx, iy, c) = field(:, iy)
-         self%rows(self%mx + 1:, iy, c) = 0.0_wp
-      end do
-      call execute_forward(self%plans%plan(row_forward), self%rows(:, :, c), spectrum)
-      if (self%py == 1) return
-      do k = 1, self%kx
-         spectrum(self%my + 1:, k) = (0.0_wp, 0.0_wp)
-         call execute_complex(self%plans%plan(column_forward), spectrum(:, k), self%column(:, c))
-         spectrum(:, k) = self%column(:, c)
+      if (self%py == 1) then
+         call rows_forward(self, 1, 1, 1, 1, field, spectrum)
+         return
+      end if
+      call rows_forward(self, 1, 1, self%my, self%my, field, self%half)
+      n = size(self%column, 2)
+      do k = 1, self%kx, n
+         call columns_forward(self, 1, k, 1, 1, self%half)
+         do l = k, min(k + n - 1, self%kx)
+            spectrum(:, l) = self%column(:, l - k + 1, 2, 1)
+         end do
       end do
    end subroutine transform_forward
 
-   subroutine transform_backward(self, spectrum, field, channel)
+   subroutine transform_backward(self, spectrum, field)
       class(fft_plan), intent(inout) :: self
-      !> Spectrum, shape (py, kx); destroyed
-      complex(wp), contiguous, intent(inout) :: spectrum(:, :)
+      !> Spectrum, shape (py, kx)
+      complex(wp), contiguous, intent(in) :: spectrum(:, :)
       !> Window, shape (mx, my)
       real(wp), contiguous, intent(inout) :: field(:, :)
-      !> 1 or 2: set of buffers. Default 1
-      integer, intent(in), optional :: channel
-      integer :: iy, k, c
+      integer :: k, l, n
 
-      c = 1
-      if (present(channel)) c = channel
-      if (self%py > 1) then
-         do k = 1, self%kx
-            call execute_complex(self%plans%plan(column_backward), spectrum(:, k), self%column(:, c))
-            spectrum(:self%my, k) = self%column(:self%my, c)
-         end do
+      if (self%py == 1) then
+         call rows_backward(self, 1, 1, 1, 1, spectrum, field)
+         return
       end if
-      call execute_backward(self%plans%plan(row_backward), spectrum, self%rows(:, :, c))
-      do iy = 1, self%my
-         field(:, iy) = self%rows(1:self%mx, iy, c)
+      n = size(self%column, 2)
+      do k = 1, self%kx, n
+         do l = k, min(k + n - 1, self%kx)
+            self%column(:, l - k + 1, 2, 1) = spectrum(:, l)
+         end do
+         call columns_backward(self, 1, k, 1, 1, self%half)
       end do
+      call rows_backward(self, 1, 1, self%my, self%my, self%half, field)
    end subroutine transform_backward
+
+   subroutine convolve(self, kernel, field, product)
+      class(fft_plan), intent(inout) :: self
+      !> Spectrum of the kernel, scaled for the back transform, shape (py, kx)
+      real(wp), contiguous, intent(in) :: kernel(:, :)
+      !> Field, shape (mx, my)
+      real(wp), contiguous, intent(in) :: field(:, :)
+      !> Its product with the kernel, of the same shape
+      real(wp), contiguous, intent(inout) :: product(:, :)
+
+      call make_product(self, 1, field, product, kernel)
+   end subroutine convolve
+
+   subroutine convolve_pair(self, xx, yy, xy, fields, products, factor)
+      class(fft_plan), intent(inout) :: self
+      !> Spectra of the block, scaled for the back transform, shape (py, kx)
+      real(wp), contiguous, intent(in) :: xx(:, :), yy(:, :), xy(:, :)
+      !> Two fields, shape (mx, my, 2)
+      real(wp), contiguous, intent(in) :: fields(:, :, :)
+      !> Their product with the block, of the same shape
+      real(wp), contiguous, intent(inout) :: products(:, :, :)
+      !> One more factor per column of the spectrum, shape (kx); absent: 1
+      complex(wp), contiguous, intent(in), optional :: factor(:)
+
+      if (self%py == 1) then
+         call multiply_lines(self, fields, products, xx, yy, xy, factor)
+      else
+         call make_product(self, 2, fields, products, xx, yy, xy, factor)
+      end if
+   end subroutine convolve_pair
+
+   !> Rows forward, columns, rows back: in each of the three a part of the lines falls to each thread
+   subroutine make_product(self, n, fields, products, xx, yy, xy, factor)
+      type(fft_plan), intent(inout) :: self
+      !> Number of fields, 1 or 2
+      integer, intent(in) :: n
+      !> Rows of all fields
+      real(wp), intent(in) :: fields(self%mx, n*self%my)
+      real(wp), intent(inout) :: products(self%mx, n*self%my)
+      real(wp), contiguous, intent(in) :: xx(:, :)
+      !> Given for two fields
+      real(wp), contiguous, intent(in), optional :: yy(:, :), xy(:, :)
+      complex(wp), contiguous, intent(in), optional :: factor(:)
+      integer :: stage, t, threads
+
+      threads = 1
+      !$ if (self%px*self%py > worth_threads) threads = omp_get_max_threads()
+      call fit_buffers(self, threads)
+      do stage = 1, 3
+         if (threads == 1) then
+            call share_of_stage(self, stage, 1, 1, n, fields, products, xx, yy, xy, factor)
+         else
+            !$omp parallel do num_threads(threads) schedule(static, 1)
+            do t = 1, threads
+               call share_of_stage(self, stage, t, threads, n, fields, products, xx, yy, xy, factor)
+            end do
+            !$omp end parallel do
+         end if
+      end do
+   end subroutine make_product
+
+   !> What falls to one of some threads
+   subroutine share_of_stage(self, stage, t, threads, n, fields, products, xx, yy, xy, factor)
+      type(fft_plan), intent(inout) :: self
+      !> 1: rows forward, 2: columns, 3: rows back
+      integer, intent(in) :: stage
+      integer, intent(in) :: t, threads, n
+      real(wp), intent(in) :: fields(self%mx, n*self%my)
+      real(wp), intent(inout) :: products(self%mx, n*self%my)
+      real(wp), contiguous, intent(in) :: xx(:, :)
+      real(wp), contiguous, intent(in), optional :: yy(:, :), xy(:, :)
+      complex(wp), contiguous, intent(in), optional :: factor(:)
+      integer :: first, last
+
+      if (stage == 2) then
+         call find_share(self%kx, size(self%column, 2), t, threads, first, last)
+         if (self%py > 1) then
+            call multiply_columns(self, t, first, last, n, xx, yy, xy, factor)
+         else if (t == 1) then
+            call multiply_one(self%kx, xx, self%half)
+         end if
+         return
+      end if
+      call find_share(n*self%my, 2*size(self%row, 2), t, threads, first, last)
+      if (stage == 1) call rows_forward(self, t, first, last, n*self%my, fields, self%half)
+      if (stage == 3) call rows_backward(self, t, first, last, n*self%my, self%half, products)
+   end subroutine share_of_stage
+
+   !> Lines of a thread: whole blocks, which are transformed together
+   pure subroutine find_share(lines, block_size, t, threads, first, last)
+      integer, intent(in) :: lines, block_size, t, threads
+      integer, intent(out) :: first, last
+      integer :: blocks
+
+      blocks = (lines + block_size - 1)/block_size
+      first = 1 + block_size*((t - 1)*blocks/threads)
+      last = min(lines, block_size*(t*blocks/threads))
+   end subroutine find_share
+
+   !> Columns first to last: transform, multiply, transform back
+   subroutine multiply_columns(self, t, first, last, n, xx, yy, xy, factor)
+      type(fft_plan), intent(inout) :: self
+      integer, intent(in) :: t, first, last, n
+      real(wp), contiguous, intent(in) :: xx(:, :)
+      real(wp), contiguous, intent(in), optional :: yy(:, :), xy(:, :)
+      complex(wp), contiguous, intent(in), optional :: factor(:)
+      integer :: f, k, l
+
+      do k = first, last, size(self%column, 2)
+         do f = 1, n
+            call columns_forward(self, t, k, f, n, self%half)
+         end do
+         do l = k, min(k + size(self%column, 2) - 1, last)
+            associate (a => self%column(:, l - k + 1, 2, t), b => self%column(:, l - k + 1, 3, t))
+               if (n == 1) then
+                  call multiply_one(self%py, xx(:, l), a)
+               else
+                  call multiply_block(self%py, xx(:, l), yy(:, l), xy(:, l), a, b)
+                  if (present(factor)) call turn_both(self%py, factor(l), a, b)
+               end if
+            end associate
+         end do
+         do f = 1, n
+            call columns_backward(self, t, k, f, n, self%half)
+         end do
+      end do
+   end subroutine multiply_columns
+
+   !> Product of two fields on a window of one row: their transform need not be taken apart
+   subroutine multiply_lines(self, fields, products, xx, yy, xy, factor)
+      type(fft_plan), intent(inout) :: self
+      real(wp), intent(in) :: fields(self%mx, 2)
+      real(wp), intent(inout) :: products(self%mx, 2)
+      real(wp), contiguous, intent(in) :: xx(:, :), yy(:, :), xy(:, :)
+      complex(wp), contiguous, intent(in), optional :: factor(:)
+      integer :: ix
+
+      associate (row => self%row(:, 1, 1, 1), done => self%row(:, 1, 2, 1), back => self%row(:, 1, 3, 1))
+         do ix = 1, self%mx
+            row(ix) = cmplx(fields(ix, 1), fields(ix, 2), wp)
+         end do
+         call execute_complex(self%rows%plan(line_forward), row, done)
+         call multiply_two(self%px, xx, yy, xy, done)
+         if (present(factor)) call turn_two(self%px, factor, done)
+         call execute_complex(self%rows%plan(line_backward), done, back)
+         do ix = 1, self%mx
+            products(ix, 1) = back(ix)%re
+            products(ix, 2) = back(ix)%im
+         end do
+      end associate
+   end subroutine multiply_lines
+
+   !> Transform rows first to last, two at once
+   subroutine rows_forward(self, t, first, last, rows, field, half)
+      type(fft_plan), intent(inout) :: self
+      !> Thread
+      integer, intent(in) :: t
+      !> The first one is odd; number of all rows
+      integer, intent(in) :: first, last, rows
+      real(wp), intent(in) :: field(self%mx, rows)
+      !> Rows after their transform
+      complex(wp), intent(inout) :: half(rows, self%kx)
+      integer :: iy, jy, ix, l
+
+      associate (row => self%row(:, :, 1, t))
+         do iy = first, last, 2*size(row, 2)
+            do l = 1, size(row, 2)
+               jy = iy + 2*(l - 1)
+               if (jy < rows) then
+                  do ix = 1, self%mx
+                     row(ix, l) = cmplx(0.5_wp*field(ix, jy), 0.5_wp*field(ix, jy + 1), wp)
+                  end do
+               else
+                  ! an odd last row is alone
+                  row(:self%mx, l) = 0.0_wp
+                  if (jy == rows) row(:self%mx, l)%re = 0.5_wp*field(:, jy)
+               end if
+            end do
+            call execute_complex(self%rows%plan(line_forward), row, self%row(:, :, 2, t))
+            do l = 1, size(row, 2)
+               jy = iy + 2*(l - 1)
+               if (jy <= rows) call take_apart(self%px, self%row(:, l, 2, t), rows, jy, half)
+            end do
+         end do
+      end associate
+   end subroutine rows_forward
+
+   !> Transform rows first to last back, two at once
+   subroutine rows_backward(self, t, first, last, rows, half, field)
+      type(fft_plan), intent(inout) :: self
+      integer, intent(in) :: t, first, last, rows
+      complex(wp), intent(in) :: half(rows, self%kx)
+      real(wp), intent(inout) :: field(self%mx, rows)
+      integer :: iy, jy, ix, l
+
+      associate (row => self%row(:, :, 3, t))
+         do iy = first, last, 2*size(row, 2)
+            do l = 1, size(row, 2)
+               jy = iy + 2*(l - 1)
+               if (jy <= rows) call put_together(self%px, rows, jy, half, self%row(:, l, 2, t))
+            end do
+            call execute_complex(self%rows%plan(line_backward), self%row(:, :, 2, t), row)
+            do l = 1, size(row, 2)
+               jy = iy + 2*(l - 1)
+               if (jy > rows) exit
+               do ix = 1, self%mx
+                  field(ix, jy) = row(ix, l)%re
+               end do
+               if (jy == rows) exit
+               do ix = 1, self%mx
+                  field(ix, jy + 1) = row(ix, l)%im
+               end do
+            end do
+         end do
+      end associate
+   end subroutine rows_backward
+
+   !> Transform the columns of a block that begins with k, of field f among n
+   subroutine columns_forward(self, t, k, f, n, half)
+      type(fft_plan), intent(inout) :: self
+      integer, intent(in) :: t, k, f, n
+      complex(wp), intent(in) :: half(self%my, n, self%kx)
+      integer :: l
+
+      do l = k, min(k + size(self%column, 2) - 1, self%kx)
+         call copy(self%my, half(:, f, l), self%column(:, l - k + 1, 1, t))
+      end do
+      call execute_complex(self%columns%plan(line_forward), self%column(:, :, 1, t), self%column(:, :, 1 + f, t))
+   end subroutine columns_forward
+
+   !> Transform them back
+   subroutine columns_backward(self, t, k, f, n, half)
+      type(fft_plan), intent(inout) :: self
+      integer, intent(in) :: t, k, f, n
+      complex(wp), intent(inout) :: half(self%my, n, self%kx)
+      integer :: l
+
+      call execute_complex(self%columns%plan(line_backward), self%column(:, :, 1 + f, t), self%column(:, :, 4, t))
+      do l = k, min(k + size(self%column, 2) - 1, self%kx)
+         call copy(self%my, self%column(:, l - k + 1, 4, t), half(:, f, l))
+      end do
+   end subroutine columns_backward
 
    !> Spectrum of a full period of real values
    subroutine kernel_spectrum(period, spectrum)
-      !> One period, shape (px, py); destroyed
-      real(wp), contiguous, intent(inout) :: period(:, :)
+      !> One period, shape (px, py)
+      real(wp), contiguous, intent(in) :: period(:, :)
       !> Spectrum, shape (py, px/2 + 1)
       complex(wp), contiguous, intent(inout) :: spectrum(:, :)
-      type(plan_set) :: plans
-      complex(wp), allocatable :: by_rows(:, :)
+      type(fft_plan) :: plan
 
-      allocate(by_rows(size(spectrum, 2), size(period, 2)))
-      !$omp critical (contact_fft_planner)
-      call plans%take(plan_kind%kernel, 0, size(period, 1), size(period, 2))
-      if (.not. plans%is_kept) then
-         plans%plan(row_forward) = plan_plane(size(period, 2), size(period, 1), period, by_rows)
-         call plans%keep(plan_kind%kernel, 0, size(period, 1), size(period, 2))
-      end if
-      !$omp end critical (contact_fft_planner)
-      call execute_forward(plans%plan(row_forward), period, by_rows)
-      spectrum = transpose(by_rows)
-      call plans%release()
+      call plan%prepare(size(period, 1), size(period, 2), size(period, 1), size(period, 2))
+      call plan%forward(period, spectrum)
+      call plan%release()
    end subroutine kernel_spectrum
 
    subroutine release_plan(self)
       class(fft_plan), intent(inout) :: self
 
-      call self%plans%release()
+      call self%rows%release()
+      call self%columns%release()
       self%mx = 0
-      if (allocated(self%rows)) deallocate(self%rows, self%column)
+      if (allocated(self%half)) deallocate(self%half, self%row, self%column)
    end subroutine release_plan
 
 end module contact_fft_plan

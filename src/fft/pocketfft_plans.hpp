@@ -2,16 +2,13 @@
 #pragma once
 #include <cstddef>
 
-enum class transform_kind { complex, forward, backward };
-
 // Tables of a length, different ones for each set of instructions
 struct plan_tables {
   virtual ~plan_tables() = default;
 };
 
-// Some transforms of one length. Strides and distances count elements, which are real or complex
+// Some transforms of one length. Strides and distances count complex elements
 struct batch {
-  transform_kind what;
   bool forward;
   size_t n, many;
   std::ptrdiff_t in_stride, in_distance, out_stride, out_distance;
@@ -20,12 +17,12 @@ struct batch {
 
 // One for each set of instructions
 namespace portable {
-plan_tables *new_tables(transform_kind what, size_t n);
+plan_tables *new_tables(size_t n);
 void run(const batch &b, const double *in, double *out);
 }
 #ifdef CONTACT_HAS_AVX2
 namespace avx2 {
-plan_tables *new_tables(transform_kind what, size_t n);
+plan_tables *new_tables(size_t n);
 void run(const batch &b, const double *in, double *out);
 }
 #endif

@@ -100,7 +100,7 @@ contains
                end do
             end if
          end if
-         call whole_period%forward(period, self%spectrum, 1)
+         call whole_period%forward(period, self%spectrum)
       end subroutine row_spectrum
    end subroutine prepare
 
@@ -146,7 +146,7 @@ contains
       if (.not. loaded) return
       do k = 1, 2
          self%field(:, 1) = load(:, k)
-         call self%plan%forward(self%field, self%spectrum, 1)
+         call self%plan%forward(self%field, self%spectrum)
          self%load_re(:, k, iy) = real(self%spectrum(1, :))
          self%load_im(:, k, iy) = aimag(self%spectrum(1, :))
       end do
@@ -178,7 +178,7 @@ contains
       end do
       do k = 1, 2
          self%spectrum(1, :) = cmplx(self%sum_re(:, k), self%sum_im(:, k), wp)
-         call self%plan%backward(self%spectrum, self%field, 1)
+         call self%plan%backward(self%spectrum, self%field)
          u(:, k) = self%field(2:, 1)
       end do
       self%rows = self%rows + 1
